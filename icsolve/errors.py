@@ -1,0 +1,73 @@
+"""What can go wrong, in the user's words: files that can't be read, scenes that have no answer."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class IcsolveError(Exception):
+    """Any refusal of icsolve."""
+
+
+class Problem(NamedTuple):
+    """One thing wrong with a file: line and column from 1."""
+
+    path: str
+    line: int
+    column: int
+    message: str
+
+    def __str__(self) -> str:
+        return f"{self.path}:{self.line}:{self.column}: {self.message}"
+
+
+class CaseError(IcsolveError):
+    """A file that can't be read as a case; ``problems`` has all that is wrong with it."""
+
+    def __init__(self, problems: list[Problem]) -> None:
+        self.problems = sorted(problems, key=lambda p: (p.line, p.column))
+        super().__init__("\n".join(str(p) for p in self.problems))
+
+    @property
+    def path(self) -> str:
+        """The file."""
+        return self.problems[0].path
+
+    @property
+    def line(self) -> int:
+        """Line of the first problem, from 1."""
+        return self.problems[0].line
+
+    @property
+    def column(self) -> int:
+        """Column of the first problem, from 1."""
+        return self.problems[0].column
+
+
+class SceneError(IcsolveError):
+    """A case that was read but has no answer: ``status`` is a stable word, ``message`` a sentence."""
+
+    def __init__(self, status: str, message: str) -> None:
+        self.status = status
+        self.message = message
+        super().__init__(message)
+
+
+class Status:
+    """The words that a result's ``status`` can be; the README explains each."""
+
+    OK = "ok"
+    UNDERDETERMINED = "underdetermined"  # the figure leaves points free
+    INCONSISTENT = "inconsistent"  # the figure's data contradict each other
+    CANNOT_ASSEMBLE = "cannot-assemble"
+    AMBIGUOUS = "ambiguous"  # assembles in several ways and nothing picks one
+    LOOSE = "loose-link"
+    STRUCTURE = "structure"
+    MOBILITY = "mobility"  # freedoms do not match the unknowns
+    DEAD_CENTRE = "dead-centre"
+    CHANGE_POINT = "change-point"
+    NO_VALUE = "no-value"  # the unknown does no work, the known loads do
+    ANY_VALUE = "any-value"  # the unknown does no work, nor do the known loads
+    CONTRADICTORY = "contradictory-centres"
+    NEAR_SINGULAR = "near-singular"
+    UNSUPPORTED = "unsupported"
