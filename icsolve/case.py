@@ -38,6 +38,9 @@ class Units(NamedTuple):
     torque: str = "N*m"
     torque_per_force_length: float = 1.0
     """How many ``torque`` units make one ``force * length``."""
+    force_per_newton: float = 1.0
+    """How many ``force`` units make one newton: a mass in kg times gravity in m/s^2, in ``force``."""
+    length_per_metre: float = 1.0
 
 
 class Coordinates(NamedTuple):
@@ -390,5 +393,6 @@ class Case:
     motion: tuple[Motion, ...] = ()
     expect: tuple[Expected, ...] = ()
     carries: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    gravity: Number = Number(9.80665, 0.0, "gravity", "9.80665")
+    gravity: Number = Number(9.81, 0.005, "gravity", "9.81")
+    """m/s^2, along -y"""
     marks: dict[str, Mark] = field(default_factory=dict)

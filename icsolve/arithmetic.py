@@ -1,0 +1,59 @@
+"""What a kernel needs of a number type beyond + - * /: so one text runs on floats, arrays and others.
+
+Another number type (arrays in a sweep, numbers on a tape, mpmath in tests) brings an object with
+the same methods as `Floats`.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Protocol
+
+from icsolve.case import Number
+
+Scalar = Any
+"""A float, an array of them, or any number type with + - * /."""
+
+
+def turn_of(degrees: float) -> tuple[float, float]:
+    """Cosine and sine of an angle in degrees; exact at multiples of 90.
+
+    The angle is reduced exactly (``fmod``) to within 45 degrees of an axis before it meets pi.
+    """
+    reduced = math.fmod(degrees, 360.0)
+    quarter = round(reduced / 90.0)
+    rest = math.radians(reduced - 90.0 * quarter)
+    c, s = math.cos(rest), math.sin(rest)
+    return ((c, s), (-s, c), (-c, -s), (s, -c))[quarter % 4]
+
+
+class Arithmetic(Protocol):
+    """Where the numbers of a case come from, and the functions that are not operators."""
+
+    def given(self, number: Number) -> Scalar:
+        """A number of the case in case units."""
+
+    def turn(self, number: Number) -> tuple[Scalar, Scalar]:
+        """Cosine and sine of an angle of the case (degrees)."""
+
+    def sqrt(self, value: Scalar) -> Scalar:
+        """Square root; the value is never negative by more than rounding."""
+
+
+class Floats:
+    """Plain floats: one scene."""
+
+    def given(self, number: Number) -> float:
+        """The nearest double."""
+        return number.value
+
+    def turn(self, number: Number) -> tuple[float, float]:
+        """Cosine and sine, exact at multiples of 90 degrees."""
+        return turn_of(number.value)
+
+    def sqrt(self, value: float) -> float:
+        """Square root, of rounding noise below zero: zero."""
+        return math.sqrt(value) if value > 0.0 else 0.0
+
+
+FLOATS = Floats()
