@@ -1,0 +1,62 @@
+"""icsolve: instant centres, and the force or torque that holds a planar mechanism in equilibrium.
+
+``load`` a case, ``solve`` it, read the ``Answer``. Nothing is imported before it is asked for, so
+that ``import icsolve`` costs next to nothing.
+"""
+
+from __future__ import annotations
+
+import sys
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from icsolve.answer import Answer as Answer
+    from icsolve.case import Case as Case
+    from icsolve.errors import CaseError as CaseError
+    from icsolve.errors import SceneError as SceneError
+    from icsolve.read import load as load
+    from icsolve.solve import solve as solve
+
+__version__ = "0.1.0"
+__all__ = ["Answer", "Case", "CaseError", "SceneError", "__version__", "load", "solve"]
+
+_ROOMS = {
+    "Answer": "answer",
+    "Case": "case",
+    "CaseError": "errors",
+    "SceneError": "errors",
+    "load": "read",
+    "solve": "solve",
+}
+
+
+class _Package(ModuleType):
+    """The package as a module that keeps ``icsolve.solve`` the function.
+
+    Python sets a submodule as an attribute of its package once it is imported; the room
+    ``icsolve.solve`` would hide the function of that name.
+    """
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name == "solve" and isinstance(value, ModuleType):
+            value = value.solve
+        super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package
+
+
+def __getattr__(name: str) -> Any:
+    """The public names, each from its room on first use."""
+    if name not in _ROOMS:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from importlib import import_module
+
+    value = getattr(import_module(f"{__name__}.{_ROOMS[name]}"), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
