@@ -1,0 +1,236 @@
+"""Published values against found ones: one row for each value under ``expect``."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from icsolve.answer import Answer, Centre
+from icsolve.case import (
+    ArmIs,
+    Case,
+    CentreIs,
+    DistanceIs,
+    Expected,
+    FrictionRadiusIs,
+    Like,
+    LoadIs,
+    Number,
+    Pair,
+    RateIs,
+    RatioIs,
+    ReactionIs,
+    SpeedIs,
+    Torque,
+)
+from icsolve.result import pair_name
+
+AGREES = "agrees"
+DISAGREES = "disagrees"
+ERRATUM = "erratum"
+NOT_EXAMINED = "not examined"
+
+_SLACK = 1e-12
+"""Relative room for rounding where a found value lies exactly half a unit away."""
+
+
+class Row(NamedTuple):
+    """One published value beside the found one, and what the comparison says."""
+
+    key: str
+    published: str
+    found: str
+    verdict: str
+    text: str = ""
+
+
+class Wanted(NamedTuple):
+    """What a case's published values ask of the solver, beyond its unknowns."""
+
+    all_centres: bool
+    rates: bool
+
+
+class _MissingError(Exception):
+    """The answer has no such value; ``verdict`` is what the row says then."""
+
+    def __init__(self, why: str, verdict: str = DISAGREES) -> None:
+        super().__init__(why)
+        self.verdict = verdict
+
+
+def wanted(case: Case) -> Wanted:
+    """What must be solved for, so that every published value can be compared."""
+    targets = [expected.target for expected in case.expect]
+    return Wanted(
+        all_centres=any(isinstance(t, CentreIs | DistanceIs) for t in targets),
+        rates=any(isinstance(t, RatioIs | RateIs | SpeedIs) for t in targets),
+    )
+
+
+def compare(answer: Answer) -> list[Row]:
+    """Every published value of the answer's case, in the order of the file."""
+    return [_row(answer, expected) for expected in answer.case.expect]
+
+
+def _row(answer: Answer, expected: Expected) -> Row:
+    published = _published(expected)
+    try:
+        values = _found(answer, expected)
+    except _MissingError as missing:
+        return Row(expected.key, published, "", missing.verdict, str(missing))
+    found = _shown(values, expected)
+    agrees = _agrees(values, expected)
+    if expected.erratum is None:
+        return Row(expected.key, published, found, AGREES if agrees else DISAGREES)
+    if agrees:
+        return Row(expected.key, published, found, DISAGREES, "marked as an erratum, but the value agrees")
+    return Row(expected.key, published, found, ERRATUM, expected.erratum)
+
+
+def _published(expected: Expected) -> str:
+    if expected.toward is not None:
+        return f"toward {expected.toward.digits}"
+    numbers = ", ".join(number.digits for number in expected.value)
+    text = f"[{numbers}]" if len(expected.value) > 1 else numbers
+    return f"{text} {expected.sense}" if expected.sense else text
+
+
+def _shown(values: tuple[float, ...], expected: Expected) -> str:
+    if expected.toward is not None:
+        return f"toward {_digits(values[0])}"
+    if len(values) > 1:
+        return f"[{', '.join(_digits(value) for value in values)}]"
+    if expected.sense in {"ccw", "cw"}:
+        return f"{_digits(abs(values[0]))} {'cw' if values[0] < 0.0 else 'ccw'}"
+    return _digits(values[0])
+
+
+def _digits(value: float) -> str:
+    return format(value + 0.0, ".8g")
+
+
+def _agrees(values: tuple[float, ...], expected: Expected) -> bool:
+    if expected.toward is not None:
+        off = math.remainder(values[0] - expected.toward.value, 180.0)
+        return abs(off) <= _width(expected, expected.toward, abs(expected.toward.value))
+    size = max(abs(number.value) for number in expected.value)
+    sign = -1.0 if expected.sense == "cw" else 1.0
+    return all(
+        abs(value - sign * number.value) <= _width(expected, number, size)
+        for value, number in zip(values, expected.value, strict=True)
+    )
+
+
+def _width(expected: Expected, number: Number, size: float) -> float:
+    """How far the found value may lie from the published one.
+
+    A fraction is taken of ``size``: of the number itself, of a place the larger coordinate.
+    """
+    if expected.within is None:
+        width = number.half
+    else:
+        width = expected.within * (size if expected.relative else 1.0)
+    return width + _SLACK * max(size, width)
+
+
+def _found(answer: Answer, expected: Expected) -> tuple[float, ...]:
+    """The value that the published one is about; signed ccw where that has a sense in words."""
+    match expected.target:
+        case LoadIs(load):
+            return (_load(answer, load, expected.sense),)
+        case CentreIs(pair):
+            return _place(answer, pair, "at" if expected.toward is None else "toward")
+        case DistanceIs(a, b):
+            return (math.dist(_end(answer, a), _end(answer, b)),)
+        case RatioIs(over, under):
+            return (_ratio(answer, over, under),)
+        case RateIs(link):
+            return (_rate(answer, link),)
+        case SpeedIs(point, link):
+            return (_speed(answer, point, link),)
+        case ReactionIs() | ArmIs():
+            raise _MissingError("reactions are not solved for yet", NOT_EXAMINED)
+        case FrictionRadiusIs():
+            raise _MissingError("friction is not solved for yet", NOT_EXAMINED)
+
+
+def _load(answer: Answer, name: str, sense: str | None) -> float:
+    value = _load_value(answer, name)
+    load = _named_load(answer.case, name)
+    if sense in {"ccw", "cw"} and isinstance(load, Torque) and load.turns == "cw":
+        return -value
+    return value
+
+
+def _load_value(answer: Answer, name: str) -> float:
+    """A load's number as solved for, as given, or as another load has it."""
+    if name in answer.answers:
+        return answer.answers[name].value
+    value = getattr(_named_load(answer.case, name), "value", None)
+    if isinstance(value, Number):
+        return value.value
+    if isinstance(value, Like):
+        times = 1.0 if value.times is None else value.times.value
+        return times * _load_value(answer, value.load)
+    raise _MissingError(f"{name} was not solved for")
+
+
+def _named_load(case: Case, name: str) -> object:
+    return next((load for load in case.loads if load.name == name), None)
+
+
+def _centre(answer: Answer, pair: Pair) -> Centre:
+    centre = answer.centres.get(pair) or answer.centres.get((pair[1], pair[0]))
+    if centre is None:
+        raise _MissingError(f"the centre {pair_name(answer.case, pair)} was not found")
+    return centre
+
+
+def _place(answer: Answer, pair: Pair, kind: str) -> tuple[float, ...]:
+    centre = _centre(answer, pair)
+    if centre.kind == kind:
+        return centre.place
+    raise _MissingError(f"the centre {pair_name(answer.case, pair)} {_otherwise(centre)}")
+
+
+def _otherwise(centre: Centre) -> str:
+    """Where a centre is that is not where it was looked for."""
+    if centre.kind == "at":
+        return f"is at [{_digits(centre.place[0])}, {_digits(centre.place[1])}]"
+    if centre.kind == "toward":
+        return f"is at infinity, toward {_digits(centre.place[0])}: no distance and no place compare with it"
+    return f"is {centre.kind}: {centre.why}"
+
+
+def _end(answer: Answer, end: Pair | str) -> tuple[float, ...]:
+    if not isinstance(end, str):
+        return _place(answer, end, "at")
+    if end not in answer.points:
+        raise _MissingError(f"the point {end} was not found")
+    return answer.points[end]
+
+
+def _rate(answer: Answer, link: str) -> float:
+    rate = (answer.rates or {}).get(link)
+    if rate is None:
+        raise _MissingError(f"the rate of link {link} was not found")
+    if isinstance(rate, str):
+        raise _MissingError(f"the rate of link {link} is undetermined: {rate}")
+    return rate
+
+
+def _ratio(answer: Answer, over: str, under: str) -> float:
+    rate = _rate(answer, under)
+    if rate == 0.0:
+        raise _MissingError(f"link {under} does not turn: w{over}/w{under} has no value")
+    return _rate(answer, over) / rate
+
+
+def _speed(answer: Answer, point: str, link: str) -> float:
+    velocity = (answer.velocities or {}).get((point, link))
+    if velocity is None:
+        raise _MissingError(f"the velocity of {point} on link {link} was not found")
+    if isinstance(velocity, str):
+        raise _MissingError(f"the velocity of {point} on link {link} is undetermined: {velocity}")
+    return math.hypot(*velocity)

@@ -1,0 +1,184 @@
+"""An answer as text for people: the unknown with its unit and its sense in words, and why."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+
+from icsolve.answer import Answer, Centre, Found, Term
+from icsolve.case import Case, Pair, Torque
+from icsolve.result import pair_name, shown_points
+
+Format = Callable[[float], str]
+"""A number with the digits that were asked for."""
+
+_WORDS = {"ccw": "counterclockwise", "cw": "clockwise"}
+
+
+def answer_text(answer: Answer, digits: int = 6) -> str:
+    """The answer in lines, each section apart by an empty line; numbers to ``digits`` digits."""
+    show = _formatter(digits)
+    case = answer.case
+    sections = [
+        _title(case),
+        _unknowns(answer, show),
+        _centres(answer, show),
+        _power(answer, show),
+        _rates(answer, show),
+        _velocities(answer, show),
+        _sentences("Notes", answer.notes),
+        _sentences("Not examined", answer.skipped),
+    ]
+    return "\n\n".join("\n".join(lines) for lines in sections if lines)
+
+
+def _formatter(digits: int) -> Format:
+    return lambda value: format(value + 0.0, f".{digits}g")
+
+
+def _title(case: Case) -> list[str]:
+    lines = [case.title or case.name]
+    if case.source:
+        lines.append(f"Source: {case.source}")
+    if case.reconstructed:
+        lines.append(f"RECONSTRUCTED: {case.reconstructed}")
+    return lines
+
+
+def _unknowns(answer: Answer, show: Format) -> list[str]:
+    lines = [_unknown(answer.case, name, found, show) for name, found in answer.answers.items()]
+    if answer.advantage is not None:
+        lines.append(f"Ratio {_ratio_name(answer)} = {show(answer.advantage)} (mechanical advantage)")
+    return lines
+
+
+def _ratio_name(answer: Answer) -> str:
+    """The unknown over the known load, by name."""
+    known = [term.load for term in answer.terms if not term.unknown]
+    return "/".join([*answer.answers, *known]) if len(known) == 1 else "unknown/known"
+
+
+def _unknown(case: Case, name: str, found: Found, show: Format) -> str:
+    """One line: size, unit and sense; the signed value where the sign is not plus."""
+    line = f"{name} = {show(abs(found.value))} {found.unit}".rstrip()
+    if found.sense:
+        line += f", {_sense(found.sense)}"
+    if found.value < 0.0:
+        line += f"   ({name} = {show(found.value)}, {_positive(case, name)})"
+    return line
+
+
+def _sense(sense: str) -> str:
+    return _WORDS.get(sense, sense)
+
+
+def _positive(case: Case, name: str) -> str:
+    """What a plus sign means for the load of that name."""
+    load = next((load for load in case.loads if load.name == name), None)
+    if isinstance(load, Torque):
+        return f"positive {_WORDS[load.turns]}"
+    return "positive along its line as the case gives it"
+
+
+def _centres(answer: Answer, show: Format) -> list[str]:
+    if not answer.centres:
+        return []
+    case = answer.case
+    names = [f"I{pair_name(case, pair)}" for pair in answer.centres]
+    places = [_place(answer, centre, show) for centre in answer.centres.values()]
+    hows = [_how(case, centre) for centre in answer.centres.values()]
+    return ["Instant centres", *_table(names, places, hows)]
+
+
+def _place(answer: Answer, centre: Centre, show: Format) -> str:
+    if centre.kind == "at":
+        x, y = (_coordinate(answer, value, show) for value in centre.place)
+        return f"({x}, {y})"
+    if centre.kind == "toward":
+        return f"at infinity, toward {show(centre.place[0])} deg"
+    return f"{centre.kind}: {centre.why}"
+
+
+def _coordinate(answer: Answer, value: float, show: Format) -> str:
+    """A coordinate; rounding noise beside the size of the figure is shown as 0."""
+    size = max((abs(c) for place in answer.points.values() for c in place), default=0.0)
+    return "0" if abs(value) < 1e-13 * size else show(value)
+
+
+def _how(case: Case, centre: Centre) -> str:
+    """How a centre was found, in words."""
+    if centre.lines:
+        return "on " + " and ".join(_line(case, line) for line in centre.lines)
+    return {"inspection": "a joint", "given": "given by the case"}.get(centre.by, centre.by)
+
+
+def _line(case: Case, line: tuple[Pair, ...]) -> str:
+    if len(line) == 1:
+        return f"the normal of joint {pair_name(case, line[0])}"
+    return "line " + " ".join(f"I{pair_name(case, pair)}" for pair in line)
+
+
+def _power(answer: Answer, show: Format) -> list[str]:
+    if not answer.terms:
+        return []
+    rows = [_term(term, show) for term in answer.terms]
+    total = " + ".join(term.load for term in answer.terms)
+    columns: list[list[str]] = [list(column) for column in zip(*rows, strict=True)]
+    return [f"Power: the terms of {total} add up to zero", *_table(*columns)]
+
+
+def _term(term: Term, show: Format) -> tuple[str, str, str]:
+    product = f"{show(term.value)} {term.unit} x {show(term.factor)}".replace("  ", " ")
+    return (term.load, f"{product} = {show(term.power)}", term.words)
+
+
+def _rates(answer: Answer, show: Format) -> list[str]:
+    if answer.rates is None:
+        return []
+    unit = "Angular velocities, rad/s" if _has_speed(answer.case) else "Angular velocities, scaled"
+    rows = [(f"w{link}", _rate(rate, show)) for link, rate in answer.rates.items()]
+    return [unit, *_table([name for name, _ in rows], [value for _, value in rows])]
+
+
+def _has_speed(case: Case) -> bool:
+    return any(motion.speed is not None for motion in case.motion)
+
+
+def _rate(rate: float | str, show: Format) -> str:
+    if isinstance(rate, str):
+        return f"undetermined: {rate}"
+    if rate == 0.0:
+        return "0"
+    return f"{show(abs(rate))} {'ccw' if rate > 0.0 else 'cw'}"
+
+
+def _velocities(answer: Answer, show: Format) -> list[str]:
+    if not answer.velocities:
+        return []
+    named = {key: v for key, v in answer.velocities.items() if not key[0].startswith("@")}
+    names = [f"{point} on {link}" for point, link in named]
+    values = [v if isinstance(v, str) else f"({show(v[0])}, {show(v[1])})" for v in named.values()]
+    unit = f"{answer.case.units.length}/s" if _has_speed(answer.case) else "scaled"
+    return [f"Velocities, {unit}", *_table(names, values)]
+
+
+def points_text(answer: Answer, digits: int = 6) -> str:
+    """The named points of the figure, a line each."""
+    show = _formatter(digits)
+    points = shown_points(answer)
+    places = [", ".join(_coordinate(answer, c, show) for c in place) for place in points.values()]
+    return "\n".join(["Points", *_table(list(points), [f"({place})" for place in places])])
+
+
+def _sentences(title: str, sentences: Iterable[str]) -> list[str]:
+    lines = [f"  {sentence}" for sentence in sentences]
+    return [title, *lines] if lines else []
+
+
+def _table(*columns: list[str]) -> list[str]:
+    """Columns side by side, each as wide as its widest entry."""
+    widths = [max(len(entry) for entry in column) for column in columns]
+    rows = zip(*columns, strict=True)
+    return [
+        "  " + "  ".join(entry.ljust(width) for entry, width in zip(row, widths, strict=True)).rstrip()
+        for row in rows
+    ]
