@@ -1,0 +1,273 @@
+"""Conservation of power: the loads' wrenches on the twists give the unknown loads, a term a load.
+
+In equilibrium the power of all loads is zero for every motion that the joints allow. Each load is a
+number times a unit wrench; its factor for a motion is the pairing of that wrench with the relative
+twist of the bodies between which it acts.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from icsolve.arithmetic import Arithmetic, Scalar
+from icsolve.case import Case, Force, ForceVector, Heading, Like, Load, Slope, Spring, Torque, Toward, Weight
+from icsolve.eliminate import null_space
+from icsolve.figure.frame import Frame
+from icsolve.plane import Point, Triple, force_wrench, pairing
+
+Points = Mapping[str, Point]
+
+
+class Wrench(NamedTuple):
+    """A load per unit of its number: ``gain * unit`` acts on ``link``, the opposite on ``against``.
+
+    ``unit`` is a wrench in the normalised frame (a force of length 1, or a couple of 1);
+    ``gain`` brings the load's own unit to force units (torques: to force times normalised length).
+    ``root`` names the load whose number it takes, ``ratio`` times as large.
+    """
+
+    load: Load
+    against: str
+    unit: Triple
+    gain: Scalar
+    root: str
+    ratio: Scalar
+
+
+def wrenches(case: Case, frame: Frame, points: Points, arithmetic: Arithmetic) -> tuple[Wrench, ...]:
+    """The unit wrenches of all loads of a case."""
+    by_name = {load.name: load for load in case.loads}
+    result = []
+    for load in case.loads:
+        root, ratio = _root(load, by_name, arithmetic)
+        unit, gain = _unit_wrench(load, case, frame, points, arithmetic)
+        against = getattr(load, "against", None) or case.ground
+        result.append(Wrench(load, against, unit, gain, root, ratio))
+    return tuple(result)
+
+
+def points_of(load: Load) -> tuple[str, ...]:
+    """The points that a load's wrench needs."""
+    if isinstance(load, Torque):
+        return ()
+    if isinstance(load, Spring):
+        return (load.at, load.to)
+    if isinstance(load, Force) and isinstance(load.heading, Toward):
+        return (load.at, load.heading.point)
+    return (load.at,)
+
+
+def _root(load: Load, by_name: Mapping[str, Load], arithmetic: Arithmetic) -> tuple[str, Scalar]:
+    ratio: Scalar = 1.0
+    while not isinstance(load, ForceVector) and isinstance(load.value, Like):
+        if load.value.times is not None:
+            ratio = ratio * arithmetic.given(load.value.times)
+        load = by_name[load.value.load]
+    return load.name, ratio
+
+
+def _unit_wrench(
+    load: Load, case: Case, frame: Frame, points: Points, arithmetic: Arithmetic
+) -> tuple[Triple, Scalar]:
+    match load:
+        case Torque():
+            sign = -1.0 if load.turns == "cw" else 1.0
+            return (0.0, 0.0, sign), frame.scale / case.units.torque_per_force_length
+        case Weight():
+            gain: Scalar = 1.0
+            if load.mass:
+                gain = arithmetic.given(case.gravity) * case.units.force_per_newton
+            return force_wrench((0.0, -1.0), points[load.at]), gain
+        case Spring():
+            toward, length = _between(points[load.at], points[load.to], arithmetic)
+            stretch = length / frame.scale - arithmetic.given(load.free)
+            return force_wrench(toward, points[load.at]), stretch
+        case ForceVector():
+            size = max(abs(load.x.value), abs(load.y.value)) or 1.0
+            x, y = arithmetic.given(load.x) / size, arithmetic.given(load.y) / size
+            return force_wrench((x, y), points[load.at]), size
+        case Force():
+            heading = direction(load.heading, points[load.at], points, arithmetic)
+            return force_wrench(heading, points[load.at]), 1.0
+    raise TypeError(type(load).__name__)
+
+
+def direction(heading: Heading, at: Point, points: Points, arithmetic: Arithmetic) -> Point:
+    """Unit vector of a heading for a force at a point."""
+    if isinstance(heading, Toward):
+        x, y = _between(at, points[heading.point], arithmetic)[0]
+        return (-x, -y) if heading.away else (x, y)
+    if isinstance(heading, Slope):
+        run, rise = arithmetic.given(heading.run), arithmetic.given(heading.rise)
+        return _between((0.0, 0.0), (run, rise), arithmetic)[0]
+    return arithmetic.turn(heading)
+
+
+def _between(a: Point, b: Point, arithmetic: Arithmetic) -> tuple[Point, Scalar]:
+    """Unit vector from a to b, and the distance."""
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    length = arithmetic.sqrt(dx * dx + dy * dy)
+    return (dx / length, dy / length), length
+
+
+class Balance(NamedTuple):
+    """Factors of every load for every motion, and what balances.
+
+    ``factors[m][n]`` is the power of load n per unit in motion m; ``sizes[m][n]`` the sum of the
+    absolute values of the products that it was summed from, against which a zero is judged.
+    """
+
+    wrenches: tuple[Wrench, ...]
+    factors: tuple[tuple[Scalar, ...], ...]
+    sizes: tuple[tuple[float, ...], ...]
+
+
+def balance(all_wrenches: Sequence[Wrench], twists: Mapping[str, Sequence[Triple]], motions: int) -> Balance:
+    """Factors of the loads on the twists of their links; ``twists[link][m]`` relative to the frame."""
+    factors, sizes = [], []
+    for m in range(motions):
+        row, scale = [], []
+        for w in all_wrenches:
+            on, off = twists[w.load.link][m], twists[w.against][m]
+            relative = (on[0] - off[0], on[1] - off[1], on[2] - off[2])
+            row.append(w.gain * pairing(w.unit, relative))
+            scale.append(_size(w, on, off))
+        factors.append(tuple(row))
+        sizes.append(tuple(scale))
+    return Balance(tuple(all_wrenches), tuple(factors), tuple(sizes))
+
+
+def _size(w: Wrench, on: Triple, off: Triple) -> float:
+    total: float = sum(abs(u) * (abs(a) + abs(b)) for u, a, b in zip(w.unit, on, off, strict=True))
+    return abs(w.gain) * total
+
+
+class Solution(NamedTuple):
+    """Values of the unknown loads by name, or why there are none.
+
+    ``verdict`` is ``balanced``; ``no value`` / ``any value`` (an unknown does no work; the known
+    loads do, do not), ``too few unknowns`` or ``too many unknowns``. ``idle`` names the motions in
+    which no load does work.
+    """
+
+    verdict: str
+    values: dict[str, Scalar]
+    idle: tuple[int, ...] = ()
+    culprit: str = ""
+
+
+WORKLESS = 2e-14
+"""A factor below this fraction of the products that it is summed from does no work (rounding)."""
+
+
+def solve_balance(b: Balance, arithmetic: Arithmetic) -> Solution:
+    """The unknown loads from the sums of power of all motions."""
+    roots = [w.load.name for w in b.wrenches if is_unknown(w.load)]
+    scale = force_scale(b)
+    rows, idle = [], []
+    for m, factors in enumerate(b.factors):
+        row = _row(b, m, factors, roots, scale, arithmetic)
+        rows.append(row)
+        if all(value == 0.0 for value in row):
+            idle.append(m)
+    return _solved(rows, roots, tuple(idle), scale)
+
+
+def is_unknown(load: Load) -> bool:
+    """Whether a load's own number is to find."""
+    return not isinstance(load, ForceVector) and load.value is None
+
+
+def force_scale(b: Balance) -> float:
+    """A power of two that brings the largest known load near 1, so that nothing overflows."""
+    largest = 0.0
+    for w in b.wrenches:
+        value = known_value(w, b)
+        if value is not None:
+            largest = max(largest, abs(value) * abs(w.gain))
+    return math.ldexp(1.0, -math.frexp(largest)[1]) if 0.0 < largest < math.inf else 1.0
+
+
+def known_value(w: Wrench, b: Balance) -> float | None:
+    """The number of a load in its own unit; None where it hangs on an unknown."""
+    root = next(other.load for other in b.wrenches if other.load.name == w.root)
+    if isinstance(root, ForceVector):
+        return 1.0
+    if root.value is None or isinstance(root.value, Like):
+        return None
+    return root.value.value
+
+
+def _row(
+    b: Balance, m: int, factors: Sequence[Scalar], roots: list[str], scale: float, arithmetic: Arithmetic
+) -> list[Scalar]:
+    """Factor of each unknown in motion m, then the (scaled) power of the known loads."""
+    sums: dict[str, Scalar] = dict.fromkeys([*roots, ""], 0.0)
+    sizes: dict[str, float] = dict.fromkeys([*roots, ""], 0.0)
+    for w, factor, size in zip(b.wrenches, factors, b.sizes[m], strict=True):
+        if w.root in roots:
+            key, amount = w.root, w.ratio
+        else:
+            key, amount = "", _amount(w, b, arithmetic) * scale * w.ratio
+        sums[key] = sums[key] + amount * factor
+        sizes[key] += abs(amount) * size
+    return [0.0 if abs(sums[key]) <= WORKLESS * sizes[key] else sums[key] for key in (*roots, "")]
+
+
+def _amount(w: Wrench, b: Balance, arithmetic: Arithmetic) -> Scalar:
+    root = next(other.load for other in b.wrenches if other.load.name == w.root)
+    if isinstance(root, ForceVector):
+        return 1.0
+    assert root.value is not None and not isinstance(root.value, Like)
+    return arithmetic.given(root.value)
+
+
+def _solved(rows: list[list[Scalar]], roots: list[str], idle: tuple[int, ...], scale: float) -> Solution:
+    working = [row for m, row in enumerate(rows) if m not in idle]
+    if len(working) == 1 and len(roots) == 1:
+        factor, known = working[0]
+        if factor == 0.0:
+            return Solution("no value", {}, idle, roots[0])
+        return Solution("balanced", {roots[0]: -known / factor / scale}, idle)
+    return _solved_many(_equilibrated(working), roots, idle, scale)
+
+
+def _equilibrated(rows: list[list[Scalar]]) -> list[list[Scalar]]:
+    sizes = [max(abs(value) for value in row) for row in rows]
+    return [[value / size for value in row] for row, size in zip(rows, sizes, strict=True)]
+
+
+def _solved_many(
+    rows: list[list[Scalar]], roots: list[str], idle: tuple[int, ...], scale: float
+) -> Solution:
+    count = len(roots)
+    free = null_space([row[:count] for row in rows], count, 1e-13)
+    whole = null_space(rows, count + 1, 1e-13)
+    if whole.rank > free.rank:
+        verdict = "no value" if free.rank < count and len(rows) <= count else "too few unknowns"
+        return Solution(verdict, {}, idle, _workless(rows, roots))
+    if free.rank < count:
+        verdict = "too many unknowns" if count > len(rows) + len(idle) else "any value"
+        return Solution(verdict, {}, idle, _workless(rows, roots))
+    if not whole.basis or not roots:
+        return Solution("balanced", dict.fromkeys(roots, 0.0), idle)
+    vector = whole.basis[0]
+    values = {root: vector[k] / vector[-1] / scale for k, root in enumerate(roots)}
+    return Solution("balanced", values, idle)
+
+
+def _workless(rows: list[list[Scalar]], roots: list[str]) -> str:
+    """The first unknown that does no work in any motion."""
+    for k, root in enumerate(roots):
+        if all(row[k] == 0.0 for row in rows):
+            return root
+    return roots[0] if roots else ""
+
+
+def heading_degrees(w: Wrench) -> float:
+    """Direction of the unit force of a wrench, degrees in [0, 360)."""
+    return math.degrees(math.atan2(-w.unit[0], w.unit[1])) % 360.0
+
+

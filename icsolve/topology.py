@@ -1,0 +1,138 @@
+"""Which links move as one body, and the bonds between bodies: what a plan is made from.
+
+A bond is one joint between two bodies, with the relative freedoms (1 or 2) that it leaves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from icsolve.case import Belt, Case, Contact, Gears, Joint, KnownCentre, Pin, Roll, Slide, Slot, Weld
+from icsolve.errors import SceneError, Status
+
+FREEDOMS: dict[type, int] = {Pin: 1, Slide: 1, Roll: 1, KnownCentre: 1, Slot: 2, Contact: 2, Gears: 2, Belt: 2}
+"""Relative freedoms that a joint leaves to its two links (a mesh is one constraint)."""
+
+
+class Bond(NamedTuple):
+    """A joint between the bodies a and b; ``links`` are the links it joins."""
+
+    a: int
+    b: int
+    freedom: int
+    joint: Joint
+    links: tuple[str, str]
+    pivots: tuple[str, str] = ("", "")
+    """of gears and belts: the points at which the two links are pinned to their carrier"""
+
+    @property
+    def constraints(self) -> int:
+        """Independent constraints that the joint imposes."""
+        return 3 - self.freedom
+
+    def other(self, body: int) -> int:
+        """The body at the other end."""
+        return self.b if body == self.a else self.a
+
+
+class Topology(NamedTuple):
+    """Bodies are numbered in order of their first link; ``members`` has the links of each."""
+
+    body_of: dict[str, int]
+    members: tuple[tuple[str, ...], ...]
+    bonds: tuple[Bond, ...]
+    at: tuple[tuple[int, ...], ...]
+    """for each body the indices of its bonds"""
+    ground: int
+
+    @property
+    def freedoms_by_count(self) -> int:
+        """Mobility by counting: three a moving body less the constraints (Gruebler)."""
+        return 3 * (len(self.members) - 1) - sum(bond.constraints for bond in self.bonds)
+
+
+def topology(case: Case) -> Topology:
+    """Bodies and bonds of a case.
+
+    Raises SceneError where gears or a belt have no common carrier.
+    """
+    body_of, members = _bodies(case)
+    pins = _pinned_at(case, body_of)
+    bonds = tuple(_bonds(case, body_of, pins))
+    at: list[list[int]] = [[] for _ in members]
+    for k, bond in enumerate(bonds):
+        at[bond.a].append(k)
+        at[bond.b].append(k)
+    return Topology(body_of, members, bonds, tuple(map(tuple, at)), body_of[case.ground])
+
+
+def _bodies(case: Case) -> tuple[dict[str, int], tuple[tuple[str, ...], ...]]:
+    leader = {link: link for link in (*case.links, case.ground)}
+
+    def find(link: str) -> str:
+        while leader[link] != link:
+            link = leader[link]
+        return link
+
+    for joint in case.joints:
+        if isinstance(joint, Weld):
+            leader[find(joint.links[1])] = find(joint.links[0])
+    members: dict[str, list[str]] = {}
+    for link in leader:
+        members.setdefault(find(link), []).append(link)
+    body_of = {link: k for k, group in enumerate(members.values()) for link in group}
+    return body_of, tuple(tuple(group) for group in members.values())
+
+
+def _pinned_at(case: Case, body_of: dict[str, int]) -> dict[str, list[int]]:
+    """The bodies that turn about each point: one pin, or several with the same point."""
+    at: dict[str, list[int]] = {}
+    for joint in case.joints:
+        if isinstance(joint, Pin):
+            at.setdefault(joint.at, []).extend(body_of[link] for link in joint.links)
+    return at
+
+
+def _bonds(case: Case, body_of: dict[str, int], pins: dict[str, list[int]]) -> Iterable[Bond]:
+    for joint in case.joints:
+        for links in pairs_of(joint):
+            a, b = body_of[links[0]], body_of[links[1]]
+            if isinstance(joint, Weld) or a == b:
+                continue
+            pivots = ("", "")
+            if isinstance(joint, Gears | Belt):
+                pivots = _pivots(joint, body_of, pins)
+            yield Bond(a, b, FREEDOMS[type(joint)], joint, links, pivots)
+
+
+def pairs_of(joint: Joint) -> list[tuple[str, str]]:
+    """The pairs of links that a joint joins; a pin of several is carried by the first."""
+    first, *others = joint.links
+    return [(first, other) for other in others]
+
+
+def _pivots(joint: Gears | Belt, body_of: dict[str, int], pins: dict[str, list[int]]) -> tuple[str, str]:
+    a, b = (body_of[link] for link in joint.links)
+    wanted = body_of[joint.carrier] if joint.carrier else None
+    found: dict[tuple[str, str], int] = {}
+    for p, on_p in pins.items():
+        for q, on_q in pins.items():
+            if p != q and a in on_p and b in on_q:
+                for carrier in set(on_p) & set(on_q) - {a, b}:
+                    if wanted in (None, carrier):
+                        found.setdefault((p, q), carrier)
+    if len(found) == 1:
+        return next(iter(found))
+    kind = "gears" if isinstance(joint, Gears) else "belt"
+    names = f"{kind} {joint.links[0]} and {joint.links[1]}"
+    if not found:
+        raise SceneError(
+            Status.UNSUPPORTED,
+            f"the {names} have no common carrier: pin both, each at a point of its own, to one link "
+            "(the frame or an arm) and they can turn about those pins.",
+        )
+    ways = " or ".join(sorted(f"{p}-{q}" for p, q in found))
+    raise SceneError(
+        Status.AMBIGUOUS, f"the {names} could turn about several pairs of pins ({ways}): give `carrier:` the link."
+    )

@@ -1,0 +1,177 @@
+"""A plan on a figure: the twist of every planned body, from one virtual input, without division.
+
+Each group gives a factor D that multiplies all that was known before it, so a dead centre of the
+virtual input (D = 0) is a value like any other: the bodies before the group then stand still.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from icsolve.arithmetic import Scalar
+from icsolve.eliminate import null_space
+from icsolve.loops import ORIGIN, Bases, loop_rows, span, twists_on
+from icsolve.plan import Group, Plan
+from icsolve.plane import Triple, blend, cross, dyad_twists, monad_twist, shift, subtract, times
+from icsolve.topology import Topology
+
+
+LONG = 4
+"""Plans with more groups are rescaled by powers of two on the way: determinants multiply up."""
+
+
+class Closure(NamedTuple):
+    """How a group closed: ``factor`` is D, ``numerators`` the rates times D."""
+
+    group: Group
+    factor: Scalar
+    numerators: tuple[Scalar, ...]
+
+
+class Run(NamedTuple):
+    """Twists relative to the entry's first body, all to one scale, and how each group closed."""
+
+    twists: dict[int, Triple]
+    closures: tuple[Closure, ...]
+
+
+class _Pool:
+    """Known twists, each at the level (number of groups) to which its scale belongs."""
+
+    def __init__(self) -> None:
+        self.twists: dict[int, Triple] = {}
+        self.levels: dict[int, int] = {}
+        self.factors: list[Scalar] = []
+
+    def put(self, body: int, twist: Triple, level: int) -> None:
+        self.twists[body] = twist
+        self.levels[body] = level
+
+    def now(self, body: int) -> Triple:
+        """The twist at the present level."""
+        twist = self.twists[body]
+        for factor in self.factors[self.levels[body] :]:
+            twist = times(factor, twist)
+        self.put(body, twist, len(self.factors))
+        return twist
+
+    def all_now(self) -> dict[int, Triple]:
+        """Every twist at the present level, in linear time."""
+        suffix: list[Scalar] = [1.0]
+        for factor in reversed(self.factors):
+            suffix.append(suffix[-1] * factor)
+        last = len(self.factors)
+        return {
+            body: twist if self.levels[body] == last else times(suffix[last - self.levels[body]], twist)
+            for body, twist in self.twists.items()
+        }
+
+
+def run(plan: Plan, top: Topology, bases: Bases) -> Run:
+    """Twists of the planned bodies; ``bases`` has the basis twists of every bond in the plan."""
+    pool = _Pool()
+    entry = top.bonds[plan.entry]
+    pool.put(entry.a, ORIGIN, 0)
+    pool.put(entry.b, bases[plan.entry][0], 0)
+    closures = []
+    for group in plan.groups:
+        closure, found = _close(group, top, bases, pool)
+        if len(plan.groups) > LONG:
+            closure, found = _rescaled(closure, found)
+        closures.append(closure)
+        pool.factors.append(closure.factor)
+        for body, twist in found.items():
+            pool.put(body, twist, len(pool.factors))
+    return Run(pool.all_now(), tuple(closures))
+
+
+def _rescaled(closure: Closure, found: dict[int, Triple]) -> tuple[Closure, dict[int, Triple]]:
+    largest = max(_size(value) for value in (closure.factor, *closure.numerators))
+    scale = math.ldexp(1.0, -math.frexp(largest)[1]) if 0.0 < largest < math.inf else 1.0
+    numerators = tuple(scale * value for value in closure.numerators)
+    scaled = {body: times(scale, twist) for body, twist in found.items()}
+    return Closure(closure.group, scale * closure.factor, numerators), scaled
+
+
+def _size(value: Scalar) -> float:
+    """Largest absolute value: of a float, a number on a tape, an array."""
+    size = abs(value)
+    return float(size if isinstance(size, float) else size.max())
+
+
+def _close(group: Group, top: Topology, bases: Bases, pool: _Pool) -> tuple[Closure, dict[int, Triple]]:
+    shape = sorted(top.bonds[k].freedom for k in group.bonds)
+    if len(group.bodies) == 1 and shape == [1, 2]:
+        return _monad(group, top, bases, pool)
+    if shape == [1, 1, 1] and _is_dyad(group, top):
+        return _dyad(group, top, bases, pool)
+    return _eliminated(group, top, bases, pool)
+
+
+def _monad(group: Group, top: Topology, bases: Bases, pool: _Pool) -> tuple[Closure, dict[int, Triple]]:
+    (body,) = group.bodies
+    one, two = sorted(group.bonds, key=lambda k: top.bonds[k].freedom)
+    ta, tc = pool.now(top.bonds[one].other(body)), pool.now(top.bonds[two].other(body))
+    basis, line = bases[one][0], bases[two]
+    o = _origin(basis, line[0])
+    here = shift(basis, o)
+    join = cross(shift(line[0], o), shift(line[1], o))
+    d, s = monad_twist(here, join, shift(subtract(tc, ta), o))
+    return Closure(group, d, (s,)), {body: blend(d, ta, s, basis)}
+
+
+def _dyad(group: Group, top: Topology, bases: Bases, pool: _Pool) -> tuple[Closure, dict[int, Triple]]:
+    u, v = group.bodies
+    outer_u, inner, outer_v = _dyad_bonds(group, top)
+    ta, tc = pool.now(top.bonds[outer_u].other(u)), pool.now(top.bonds[outer_v].other(v))
+    b1, b3, b2 = bases[outer_u][0], bases[inner][0], bases[outer_v][0]
+    o = _origin(b1, b3, b2)
+    r = shift(subtract(tc, ta), o)
+    d, s1, s2 = dyad_twists(shift(b1, o), shift(b3, o), shift(b2, o), r)
+    found = {u: blend(d, ta, s1, b1), v: blend(d, tc, s2, b2)}
+    return Closure(group, d, (s1, s2)), found
+
+
+def _is_dyad(group: Group, top: Topology) -> bool:
+    """Two bodies, joined once, each held once."""
+    if len(group.bodies) != 2:
+        return False
+    inner = [k for k in group.bonds if {top.bonds[k].a, top.bonds[k].b} == set(group.bodies)]
+    return len(inner) == 1 and all(len(set(top.at[body]) & set(group.bonds)) == 2 for body in group.bodies)
+
+
+def _dyad_bonds(group: Group, top: Topology) -> tuple[int, int, int]:
+    u, v = group.bodies
+    inner = next(k for k in group.bonds if {top.bonds[k].a, top.bonds[k].b} == {u, v})
+    outer_u = next(k for k in group.bonds if k != inner and u in (top.bonds[k].a, top.bonds[k].b))
+    outer_v = next(k for k in group.bonds if k not in (inner, outer_u))
+    return outer_u, inner, outer_v
+
+
+def _origin(*bases: Triple) -> tuple[Scalar, Scalar]:
+    """A pin of the group: seen from there, nothing of a long chain is lost to its distance."""
+    for x, y, w in bases:
+        if type(w) is float and w == 1.0:
+            return (x, y)
+    return (0.0, 0.0)
+
+
+def _eliminated(group: Group, top: Topology, bases: Bases, pool: _Pool) -> tuple[Closure, dict[int, Triple]]:
+    ends = {body for k in group.bonds for body in (top.bonds[k].a, top.bonds[k].b)}
+    roots = {body: pool.now(body) for body in sorted(ends - set(group.bodies))}
+    tree = span(top, group.bonds, roots, bases)
+    found = null_space(loop_rows(top, tree, bases, roots), tree.columns + 1)
+    if len(found.basis) != 1:
+        return Closure(group, 0.0, (0.0,)), {body: ORIGIN for body in group.bodies}
+    rates = found.basis[0]
+    twists = twists_on(tree, rates, roots)
+    return Closure(group, rates[-1], tuple(rates[:-1])), {body: twists[body] for body in group.bodies}
+
+
+def relative_to(twists: dict[int, Triple], body: int) -> dict[int, Triple]:
+    """The same twists as seen from another body."""
+    base = twists[body]
+    return {k: subtract(t, base) for k, t in twists.items()}
+
+
