@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 from icsolve.answer import Answer, Centre, Found, Term
-from icsolve.case import Case, Pair, Torque
+from icsolve.case import Case, Coordinates, Pair, Torque
 from icsolve.result import pair_name, shown_points
 
 Format = Callable[[float], str]
@@ -21,6 +21,7 @@ def answer_text(answer: Answer, digits: int = 6) -> str:
     sections = [
         _title(case),
         _unknowns(answer, show),
+        _points(answer, show),
         _centres(answer, show),
         _power(answer, show),
         _rates(answer, show),
@@ -161,12 +162,15 @@ def _velocities(answer: Answer, show: Format) -> list[str]:
     return [f"Velocities, {unit}", *_table(names, values)]
 
 
-def points_text(answer: Answer, digits: int = 6) -> str:
-    """The named points of the figure, a line each."""
-    show = _formatter(digits)
-    points = shown_points(answer)
+def _points(answer: Answer, show: Format) -> list[str]:
+    """The points that the figure's data, and not their coordinates, determine."""
+    coordinates = {n: data for n, data in answer.case.points.items() if isinstance(data, Coordinates)}
+    given = {name for name, data in coordinates.items() if None not in data}
+    points = {name: place for name, place in shown_points(answer).items() if name not in given}
+    if not points:
+        return []
     places = [", ".join(_coordinate(answer, c, show) for c in place) for place in points.values()]
-    return "\n".join(["Points", *_table(list(points), [f"({place})" for place in places])])
+    return [f"Points found, {answer.case.units.length}", *_table(list(points), [f"({p})" for p in places])]
 
 
 def _sentences(title: str, sentences: Iterable[str]) -> list[str]:

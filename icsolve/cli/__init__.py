@@ -1,0 +1,64 @@
+"""The command line: the only room that prints or exits."""
+
+from __future__ import annotations
+
+import os
+import sys
+from typing import NoReturn
+
+INTERRUPTED = 130
+CLOSED_PIPE = 141
+BUG = 3
+
+
+def main(arguments: list[str] | None = None) -> NoReturn:
+    """Run the command line on ``arguments`` (default: those of the process) and exit.
+
+    Exit status: 0 done; 1 a case has no answer, or a published value disagrees; 2 a file or an option
+    can't be read; 3 a fault of icsolve itself; 130 interrupted; 141 the reader of the output went away.
+    """
+    _plain_streams()
+    try:
+        code = _run(arguments)
+        sys.stdout.flush()
+    except BrokenPipeError:
+        _silence_stdout()
+        code = CLOSED_PIPE
+    sys.exit(code)
+
+
+def _run(arguments: list[str] | None) -> int:
+    import click
+
+    from icsolve.cli.commands import icsolve
+    from icsolve.cli.faults import bug_report
+
+    try:
+        return int(icsolve.main(arguments, prog_name="icsolve", standalone_mode=False) or 0)
+    except click.ClickException as error:
+        error.show()
+        return error.exit_code
+    except (click.Abort, KeyboardInterrupt):
+        click.echo("icsolve: interrupted", err=True)
+        return INTERRUPTED
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        click.echo(f"icsolve: {error}", err=True)
+        return 2
+    except Exception as error:
+        click.echo(bug_report("", error), err=True)
+        return BUG
+
+
+def _plain_streams() -> None:
+    """The same bytes on every system: UTF-8, newline as it is, and no name that can't be printed."""
+    for stream in (sys.stdout, sys.stderr):
+        reconfigure = getattr(stream, "reconfigure", None)
+        if reconfigure is not None:
+            reconfigure(encoding="utf-8", errors="backslashreplace", newline="\n")
+
+
+def _silence_stdout() -> None:
+    """Nothing more to a closed pipe, not even what the interpreter flushes at its end."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

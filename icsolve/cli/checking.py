@@ -1,0 +1,90 @@
+"""`icsolve check` and `icsolve validate`."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import click
+
+from icsolve.check import AGREES, DISAGREES, ERRATUM, NOT_EXAMINED, Row, compare, wanted
+from icsolve.cli.run import DONE, NO_ANSWER, complain, for_each, on_stderr
+from icsolve.cli.solving import print_json
+
+if TYPE_CHECKING:
+    from icsolve.case import Case
+    from icsolve.errors import SceneError
+
+
+def check_cases(cases: tuple[str, ...], as_json: bool, settings: Mapping[str, str]) -> int:
+    """Compare the published values of every case; returns the exit status."""
+    tally: Counter[str] = Counter()
+    files = 0
+
+    def work(case: Case, path: str) -> int:
+        nonlocal files
+        files += 1
+        rows = _rows(case)
+        tally.update(row.verdict for row in rows)
+        _print_rows(case, path, rows, as_json)
+        return NO_ANSWER if any(row.verdict == DISAGREES for row in rows) else DONE
+
+    def refuse(case: Case, path: str, error: SceneError) -> None:
+        nonlocal files
+        files += 1
+        tally["without an answer"] += 1
+        on_stderr(case, path, error)
+
+    code = for_each(cases, work, refuse, settings)
+    complain(_summary(files, tally))
+    return code
+
+
+def _rows(case: Case) -> list[Row]:
+    from icsolve.solve import solve
+
+    want = wanted(case)
+    return compare(solve(case, all_centres=want.all_centres, rates=want.rates, examine=True))
+
+
+def _print_rows(case: Case, path: str, rows: list[Row], as_json: bool) -> None:
+    if as_json:
+        values = [row._asdict() for row in rows]
+        print_json({"schema": "icsolve/check/1", "case": case.name, "values": values})
+        return
+    for row in rows:
+        click.echo(f"{path}: {_line(row)}")
+    if not rows:
+        click.echo(f"{path}: solved; no published value to compare")
+
+
+def _line(row: Row) -> str:
+    verdict = {ERRATUM: "is an erratum"}.get(row.verdict, row.verdict)
+    found = f", found {row.found}" if row.found else ""
+    why = f" ({row.text})" if row.text else ""
+    return f"{row.key} {verdict}: published {row.published}{found}{why}"
+
+
+def _summary(files: int, tally: Counter[str]) -> str:
+    words = {AGREES: "agree", DISAGREES: "disagree", ERRATUM: "errata", NOT_EXAMINED: NOT_EXAMINED}
+    counts = [f"{tally[verdict]} {word}" for verdict, word in words.items() if tally[verdict]]
+    if tally["without an answer"]:
+        counts.append(f"{tally['without an answer']} without an answer")
+    return f"{files} {'case' if files == 1 else 'cases'}: {', '.join(counts) or 'no values'}"
+
+
+def validate_cases(cases: tuple[str, ...], settings: Mapping[str, str]) -> int:
+    """Examine every case whole; returns the exit status."""
+    return for_each(cases, _validate, settings=settings)
+
+
+def _validate(case: Case, path: str) -> int:
+    from icsolve.solve import solve
+
+    answer = solve(case, examine=True)
+    mobility = "" if answer.mobility is None else f", mobility {answer.mobility}"
+    click.echo(f"{path}: valid: {len(case.links)} links, {len(case.joints)} joints{mobility}")
+    for sentence in (*answer.notes, *answer.skipped):
+        click.echo(f"  {sentence}")
+    return DONE

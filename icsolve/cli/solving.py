@@ -1,0 +1,84 @@
+"""`icsolve solve`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import click
+
+from icsolve.cli.run import DONE, Refuse, Work, for_each, on_stderr
+
+if TYPE_CHECKING:
+    from icsolve.answer import Answer
+    from icsolve.case import Case
+    from icsolve.errors import SceneError
+
+
+class Options(NamedTuple):
+    """What `icsolve solve` was asked for beside the unknowns."""
+
+    as_json: bool
+    all_centres: bool
+    rates: bool
+    report: bool
+    digits: int
+
+
+def solve_cases(cases: tuple[str, ...], options: Options, settings: Mapping[str, str]) -> int:
+    """Solve and print every case; returns the exit status."""
+    work = _as_json(options) if options.as_json else _as_text(options)
+    return for_each(cases, work, _refuse_json if options.as_json else on_stderr, settings)
+
+
+def print_json(entry: Mapping[str, Any]) -> None:
+    """One object on one line; a number that JSON can't hold would be a fault."""
+    import json
+
+    click.echo(json.dumps(entry, allow_nan=False))
+
+
+def _solve(case: Case, options: Options) -> Answer:
+    from icsolve.solve import solve
+
+    return solve(case, all_centres=options.all_centres, rates=options.rates, examine=options.report)
+
+
+def _as_json(options: Options) -> Work:
+    def work(case: Case, path: str) -> int:
+        answer = _solve(case, options)
+        entry = answer.to_dict()
+        if options.report:
+            from icsolve.report import report
+
+            entry["report"] = report(answer).to_dict()
+        print_json(entry)
+        return DONE
+
+    return work
+
+
+def _as_text(options: Options) -> Work:
+    shown = 0
+
+    def work(case: Case, path: str) -> int:
+        from icsolve.text import answer_text
+
+        nonlocal shown
+        answer = _solve(case, options)
+        sections = [answer_text(answer, options.digits)]
+        if options.report:
+            from icsolve.report import report
+
+            sections.append(report(answer).text(options.digits))
+        click.echo(("\n" if shown else "") + "\n\n".join(sections))
+        shown += 1
+        return DONE
+
+    return work
+
+
+def _refuse_json(case: Case, path: str, error: SceneError) -> None:
+    from icsolve.result import refusal_dict
+
+    print_json(refusal_dict(case.name, error.status, error.message))

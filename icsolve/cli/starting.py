@@ -1,0 +1,42 @@
+"""`icsolve new`."""
+
+from __future__ import annotations
+
+import click
+
+from icsolve.cli.run import DONE, UNREADABLE, complain
+from icsolve.templates import kinds, nearest, template
+
+
+def list_kinds() -> int:
+    """Print every kind with its first line."""
+    for kind in kinds():
+        click.echo(f"{kind:<16} {template(kind).splitlines()[0].lstrip('# ')}")
+    return DONE
+
+
+def write_template(kind: str, output: str | None) -> int:
+    """Print or write the case of a kind; never over a file that is there."""
+    if kind not in kinds():
+        suggestion = nearest(kind)
+        hint = f"; did you mean {suggestion}?" if suggestion else ""
+        complain(f"icsolve new: there is no kind {kind!r}{hint} `icsolve new` lists the kinds")
+        return UNREADABLE
+    if output is None or output == "-":
+        click.echo(template(kind), nl=False)
+        return DONE
+    return _write(template(kind), output)
+
+
+def _write(text: str, path: str) -> int:
+    try:
+        with open(path, "x", encoding="utf-8", newline="\n") as file:
+            file.write(text)
+    except FileExistsError:
+        complain(f"icsolve new: {path} is there already, and is left as it is; choose another name")
+        return UNREADABLE
+    except OSError as error:
+        complain(f"icsolve new: {path} can't be written: {error.strerror}")
+        return UNREADABLE
+    click.echo(f"wrote {path}; `icsolve {path}` solves it", err=True)
+    return DONE
