@@ -103,11 +103,11 @@ def limits_in_slider_crank(crank: Crank) -> tuple[float, ...]:
 
 
 def stroke_of(crank: Crank) -> tuple[float, float] | None:
-    """The slider's ends along its path from the foot of the crank's pivot; None if the crank does not turn fully.
+    """Where the slider turns back, along its path from the foot of the crank's pivot.
 
-    It turns back where crank and rod lie in line, folded and stretched out.
+    There crank and rod lie in line, folded and stretched out. None if the crank does not turn fully.
     """
-    r, rod, e, turned = crank
+    r, rod, e, _ = crank
     if r + abs(e) > rod * (1.0 + _EVEN):
         return None
     folded, stretched = (math.sqrt(max(sum_ * sum_ - e * e, 0.0)) for sum_ in (rod - r, rod + r))

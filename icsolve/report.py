@@ -94,7 +94,8 @@ def _show(value: float, digits: int) -> str:
 
 def _loop_text(loop: Loop, digits: int, unit: str) -> Iterator[str]:
     lengths = ", ".join(_show(length, digits) for length in loop.lengths)
-    yield f"  {loop.name} of links {' '.join(loop.links)} ({' '.join(loop.points)}; {lengths} {unit}): {loop.kind}"
+    names = f"{' '.join(loop.links)} ({' '.join(loop.points)}; {lengths} {unit})"
+    yield f"  {loop.name} of links {names}: {loop.kind}"
     for each in loop.inputs:
         now, least, greatest = (_show(angle, digits) for angle in each.transmission)
         yield (
@@ -220,7 +221,7 @@ def _slider_cranks(answer: Answer) -> Iterator[Loop]:
         block, guide = (body[link] for link in slide.links)
         if guide == ground != block:
             for bodies, points in _chains(pivots, ground, 3):
-                if bodies[-1] == block:
+                if bodies[-1] == block and _has_extent(answer, points):
                     yield _slider_crank(answer, slide, bodies, points)
 
 
@@ -232,10 +233,16 @@ def _slider_crank(answer: Answer, slide: Slide, links: tuple[str, ...], points: 
     crank = Crank(math.dist(a, b), math.dist(b, c), offset, _direction(a, b) - path)
     lengths = (crank.radius, crank.rod, abs(offset))
     limits = _turned(limits_in_slider_crank(crank), path)
-    kind = f"link {links[1]} turns fully" if not limits else f"link {links[1]} does not turn fully"
+    kind = f"link {links[1]} {'does not turn' if limits else 'turns'} fully"
     name = "in-line slider-crank" if abs(offset) <= 1e-9 * sum(lengths) else "offset slider-crank"
     inputs = (Input(links[1], points[2], transmission_in_slider_crank(crank), limits),)
     return Loop(name, links, points, lengths, kind, inputs, _stroke(crank, a, b, c, (ux, uy)))
+
+
+def _has_extent(answer: Answer, points: tuple[str, ...]) -> bool:
+    """Whether the crank and the rod have a length."""
+    a, b, c = (answer.points[point] for point in points)
+    return a != b != c
 
 
 def _path(answer: Answer, slide: Slide) -> float:

@@ -10,8 +10,8 @@ def bug_report(path: str, error: Exception) -> str:
     where = f"{path}: " if path else ""
     said = " ".join(str(error).split())[:200]
     line = (
-        f"{where}icsolve failed on this ({type(error).__name__}: {said}). This is a fault of icsolve, not yours:"
-        " please report it with the file. ICSOLVE_DEBUG=1 shows where it happened."
+        f"{where}icsolve failed on this ({type(error).__name__}: {said}). This is a fault of icsolve,"
+        " not yours: please report it with the file. ICSOLVE_DEBUG=1 shows where it happened."
     )
     if not os.environ.get("ICSOLVE_DEBUG"):
         return line

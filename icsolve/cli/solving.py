@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from icsolve.cli.run import DONE, Refuse, Work, for_each, on_stderr
+from icsolve.cli.run import DONE, Work, for_each, on_stderr
 
 if TYPE_CHECKING:
     from icsolve.answer import Answer

@@ -1,0 +1,156 @@
+"""Published values against found ones: digits, widths, senses, errata, and what can't be compared.
+
+Tolerances are those of the format: a bare value agrees when the found one rounds to the digits given.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from icsolve.answer import Answer, Centre, Found
+from icsolve.case import (
+    CentreIs,
+    DistanceIs,
+    Force,
+    FrictionRadiusIs,
+    Like,
+    LoadIs,
+    RateIs,
+    RatioIs,
+    ReactionIs,
+    SpeedIs,
+    Target,
+    Torque,
+    Weight,
+)
+from icsolve.check import Row, compare, wanted
+from made import four_bar_answer, four_bar_case, number, published
+
+T12 = LoadIs("T12")
+
+
+def row(target: Target, *values: str, answer: dict[str, Any] | None = None, **more: Any) -> Row:
+    """The row of one published value against the hand-made four-bar answer."""
+    case = (answer or {}).pop("case", None) or four_bar_case()
+    expected = published("key", target, *values, **more)
+    full: Answer = four_bar_answer(four_bar_case(loads=case.loads, expect=(expected,)), **(answer or {}))
+    (only,) = compare(full)
+    return only
+
+
+@pytest.mark.parametrize("digits", ["29.672", "29.67", "29.7", "30", "29.67219"])
+def test_a_bare_value_agrees_when_the_found_one_rounds_to_its_digits(digits: str) -> None:
+    assert row(T12, digits).verdict == "agrees"
+
+
+@pytest.mark.parametrize("digits", ["29.671", "29.68", "29.6", "29", "-29.67", "29.67220"])
+def test_a_bare_value_disagrees_when_the_found_one_rounds_to_other_digits(digits: str) -> None:
+    assert row(T12, digits).verdict == "disagrees"
+
+
+def test_exactly_half_a_unit_away_still_agrees() -> None:
+    found = {"answers": {"T12": Found(0.15, "lbf*in", "ccw")}}
+    assert row(T12, "0.1", answer=dict(found)).verdict == "agrees"
+    assert row(T12, "0.2", answer=dict(found)).verdict == "agrees"
+
+
+def test_within_takes_a_width_or_a_fraction() -> None:
+    assert row(T12, "29.0", within=0.7).verdict == "agrees"
+    assert row(T12, "29.0", within=0.6).verdict == "disagrees"
+    assert row(T12, "29.0", within=0.024, relative=True).verdict == "agrees"
+    assert row(T12, "29.0", within=0.023, relative=True).verdict == "disagrees"
+
+
+def test_a_sense_in_words_is_part_of_the_published_value() -> None:
+    assert row(T12, "29.67", sense="ccw").verdict == "agrees"
+    clockwise = row(T12, "29.67", sense="cw")
+    assert (clockwise.verdict, clockwise.found) == ("disagrees", "29.67219 ccw")
+
+
+def test_the_sense_counts_from_counterclockwise_even_where_the_load_turns_clockwise() -> None:
+    loads = (Torque("T12", "2", None, turns="cw"),)
+    answer = {"case": four_bar_case(loads=loads), "answers": {"T12": Found(26.8815, "lbf*in", "cw")}}
+    assert row(T12, "26.88", sense="cw", answer=dict(answer)).verdict == "agrees"
+    assert row(T12, "26.88", answer=dict(answer)).verdict == "agrees"
+    assert row(T12, "26.88", sense="ccw", answer=dict(answer)).verdict == "disagrees"
+
+
+def test_an_erratum_is_expected_not_to_agree() -> None:
+    wrong = row(T12, "356.1", erratum="lbf*ft taken for lbf*in")
+    assert (wrong.verdict, wrong.text) == ("erratum", "lbf*ft taken for lbf*in")
+    right = row(T12, "29.67", erratum="thought to be wrong")
+    assert (right.verdict, right.text) == ("disagrees", "marked as an erratum, but the value agrees")
+
+
+def test_a_known_load_and_one_like_another_are_compared_with_what_they_stand_for() -> None:
+    loads = (
+        Torque("T12", "2", None),
+        Weight("W", "3", "C", number("30")),
+        Force("Q", "4", "E", Like("T12", number("-2")), number("0")),
+    )
+    answer = {"case": four_bar_case(loads=loads)}
+    assert row(LoadIs("W"), "30", answer=dict(answer)).verdict == "agrees"
+    assert row(LoadIs("Q"), "-59.34", answer=dict(answer)).verdict == "agrees"
+
+
+def test_every_coordinate_of_a_centre_is_compared() -> None:
+    centre = CentreIs(("2", "4"))
+    assert row(centre, "-1.5139", "0").verdict == "agrees"
+    assert row(centre, "-1.5139", "0.0001").verdict == "disagrees"
+    assert row(CentreIs(("4", "2")), "-1.514", "0.000").verdict == "agrees"
+    assert row(centre, "-1.5", "0", within=0.01, relative=True).verdict == "agrees"
+
+
+def test_directions_of_centres_at_infinity_are_modulo_180() -> None:
+    far = {"centres": {("1", "4"): Centre(("1", "4"), "toward", (179.999,))}}
+    toward = CentreIs(("1", "4"))
+    assert row(toward, toward=number("0.00"), answer=dict(far)).verdict == "agrees"
+    assert row(toward, toward=number("-180.00"), answer=dict(far)).verdict == "agrees"
+    assert row(toward, toward=number("90"), answer=dict(far)).verdict == "disagrees"
+
+
+def test_distances_run_between_centres_and_points() -> None:
+    assert row(DistanceIs(("2", "4"), "A"), "1.5139").verdict == "agrees"
+    assert row(DistanceIs(("2", "4"), "D"), "4.4583").verdict == "agrees"
+    assert row(DistanceIs(("1", "2"), ("2", "4")), "1.5138").verdict == "disagrees"
+
+
+def test_no_distance_to_a_centre_at_infinity() -> None:
+    far = {"centres": {("1", "4"): Centre(("1", "4"), "toward", (90.0,))}}
+    said = row(DistanceIs(("1", "4"), "A"), "3.1", answer=far)
+    assert said.verdict == "disagrees"
+    assert "1-4 is at infinity, toward 90" in said.text
+
+
+def test_an_undefined_centre_and_one_that_was_not_found_say_so() -> None:
+    undefined = {"centres": {("3", "6"): Centre(("3", "6"), "undefined", why="3 and 6 move as one")}}
+    assert "3 and 6 move as one" in row(CentreIs(("3", "6")), "1", "2", answer=undefined).text
+    assert row(CentreIs(("1", "3")), "1", "2").text == "the centre 1-3 was not found"
+
+
+def test_rates_ratios_and_speeds() -> None:
+    motion = {
+        "rates": {"1": 0.0, "2": -77.36, "4": 19.34},
+        "velocities": {("C", "4"): (-45.0, 60.0)},
+    }
+    assert row(RateIs("2"), "77.36", sense="cw", answer=dict(motion)).verdict == "agrees"
+    assert row(RateIs("2"), "77.36", answer=dict(motion)).verdict == "disagrees"
+    assert row(RatioIs("4", "2"), "-0.25", answer=dict(motion)).verdict == "agrees"
+    assert row(SpeedIs("C", "4"), "75", answer=dict(motion)).verdict == "agrees"
+    assert "does not turn" in row(RatioIs("4", "1"), "1", answer=dict(motion)).text
+
+
+def test_what_is_not_solved_for_is_not_examined() -> None:
+    assert row(ReactionIs("3", "4"), "909").verdict == "not examined"
+    assert row(FrictionRadiusIs("B"), "0.196").verdict == "not examined"
+
+
+def test_only_what_the_published_values_need_is_asked_of_the_solver() -> None:
+    def needs(target: Target) -> tuple[bool, bool]:
+        return tuple(wanted(four_bar_case(expect=(published("key", target, "1"),))))  # type: ignore[return-value]
+
+    assert needs(T12) == (False, False)
+    assert needs(DistanceIs(("2", "4"), "A")) == (True, False)
+    assert needs(RatioIs("4", "2")) == (False, True)

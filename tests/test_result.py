@@ -1,0 +1,142 @@
+"""The JSON object of the format, and the same answer as text."""
+
+from __future__ import annotations
+
+import json
+
+from icsolve.answer import Centre, Found
+from icsolve.case import Coordinates, Motion, Torque
+from icsolve.result import pair_name, refusal_dict, to_dict
+from icsolve.text import answer_text
+from made import four_bar_answer, four_bar_case, number
+
+
+def test_the_object_has_the_keys_of_the_format() -> None:
+    shown = four_bar_answer(rates={"2": 1.0}, velocities={("E", "4"): (0.1, -0.2)}).to_dict()
+    assert shown["schema"] == "icsolve/solve/1"
+    assert (shown["case"], shown["status"]) == ("13_08", "ok")
+    assert shown["answers"]["T12"] == {
+        "value": 29.67219,
+        "unit": "lbf*in",
+        "sense": "ccw",
+        "error": 2.1e-14,
+    }
+    assert shown["centres"]["2-4"]["at"] == [-1.5139, 1e-17]
+    assert shown["centres"]["2-4"]["lines"] == [["2-3", "3-4"], ["1-2", "1-4"]]
+    assert shown["rates"] == {"2": 1.0}
+    assert shown["velocities"] == {"E on 4": [0.1, -0.2]}
+    assert shown["points"]["C"] == [2.2, 2.60424]
+    assert shown["errors"] == {"centres": {"2-4": 3e-16}}
+
+
+def test_rates_and_velocities_are_there_only_where_asked() -> None:
+    assert not {"rates", "velocities"} & set(to_dict(four_bar_answer()))
+
+
+def test_negative_zeros_become_zeros() -> None:
+    answer = four_bar_answer(
+        answers={"T12": Found(-0.0, "lbf*in", "")}, rates={"3": -0.0}, velocities={("C", "4"): (-0.0, -0.0)}
+    )
+    assert "-0.0" not in json.dumps(to_dict(answer))
+    text = answer_text(answer)
+    assert "T12 = 0 lbf*in" in text
+    assert "C on 4  (0, 0)" in text
+    assert "w3  0" in text
+
+
+def test_centres_that_have_no_place_say_what_they_are() -> None:
+    centres = {
+        ("1", "5"): Centre(("1", "5"), "toward", (90.0,), "construction"),
+        ("3", "6"): Centre(("3", "6"), "undefined", why="3 and 6 move as one"),
+        ("2", "6"): Centre(("2", "6"), "undetermined", why="6 spins freely"),
+    }
+    shown = to_dict(four_bar_answer(centres=centres, rates={"6": "6 spins freely"}))
+    assert shown["centres"]["1-5"] == {"toward": 90.0, "by": "construction"}
+    assert shown["centres"]["3-6"] == {"undefined": "3 and 6 move as one"}
+    assert shown["centres"]["2-6"] == {"undetermined": "6 spins freely"}
+    assert shown["rates"]["6"] == {"undetermined": "6 spins freely"}
+
+
+def test_an_answer_without_a_proven_bound_says_why() -> None:
+    found = Found(1.0, "N", "at 0 deg", None, "no bound is proven yet")
+    entry = to_dict(four_bar_answer(answers={"P": found}))["answers"]["P"]
+    assert (entry["error"], entry["why"]) == (None, "no bound is proven yet")
+
+
+def test_pairs_are_named_numbers_ascending_then_words_in_order_of_first_mention() -> None:
+    case = four_bar_case(links=("rod", "1", "crank", "10", "2"))
+    assert pair_name(case, ("10", "2")) == "2-10"
+    assert pair_name(case, ("crank", "rod")) == "rod-crank"
+    assert pair_name(case, ("crank", "10")) == "10-crank"
+
+
+def test_hidden_points_stay_hidden() -> None:
+    answer = four_bar_answer(points={"@P": (1.0, 2.0)}, velocities={("@P", "4"): (1.0, 2.0)})
+    shown = to_dict(answer)
+    assert shown["points"] == shown["velocities"] == {}
+
+
+def test_a_reconstruction_is_labelled_wherever_it_is_shown() -> None:
+    answer = four_bar_answer(four_bar_case(reconstructed="the figure is lost"))
+    assert to_dict(answer)["reconstructed"] == "the figure is lost"
+    assert "RECONSTRUCTED: the figure is lost" in answer_text(answer)
+
+
+def test_a_refusal_has_status_and_message() -> None:
+    assert refusal_dict("press", "dead-centre", "2 can't drive.") == {
+        "schema": "icsolve/solve/1",
+        "case": "press",
+        "status": "dead-centre",
+        "message": "2 can't drive.",
+    }
+
+
+def test_text_gives_the_unknown_with_unit_and_sense_in_words() -> None:
+    text = answer_text(four_bar_answer())
+    assert "T12 = 29.6722 lbf*in, counterclockwise" in text
+    assert "Ratio T12/P = 0.296722" in text
+    assert "T12 = 29.67 lbf*in" in answer_text(four_bar_answer(), digits=4)
+
+
+def test_text_gives_the_size_with_the_sense_and_explains_a_minus_sign() -> None:
+    answer = four_bar_answer(answers={"T12": Found(-26.8815, "lbf*in", "cw")})
+    clockwise = answer_text(answer)
+    assert "T12 = 26.8815 lbf*in, clockwise   (T12 = -26.8815, positive counterclockwise)" in clockwise
+    turned = four_bar_case(loads=(Torque("T12", "2", None, turns="cw"),))
+    counter = answer_text(four_bar_answer(turned, answers={"T12": Found(-26.8815, "lbf*in", "ccw")}))
+    assert "T12 = 26.8815 lbf*in, counterclockwise   (T12 = -26.8815, positive clockwise)" in counter
+
+
+def test_text_shows_how_each_centre_was_found_and_no_rounding_noise() -> None:
+    text = answer_text(four_bar_answer())
+    assert "I2-4  (-1.5139, 0)  on line I2-3 I3-4 and line I1-2 I1-4" in text
+    assert "I1-2  (0, 0)        a joint" in text
+
+
+def test_text_has_one_line_for_each_term_of_power() -> None:
+    lines = answer_text(four_bar_answer()).splitlines()
+    assert "  P    100 lbf x -0.296722 = -29.6722  velocity of E on 4 along P" in lines
+    assert "  T12  29.6722 lbf*in x 1 = 29.6722    turning of 2" in lines
+
+
+def test_text_of_rates_says_whether_they_are_scaled() -> None:
+    answer = four_bar_answer(rates={"2": 1.0, "4": -0.34}, velocities={("E", "4"): (0.1, -0.2)})
+    assert "Angular velocities, scaled" in answer_text(answer)
+    assert "  w4  0.34 cw" in answer_text(answer)
+    timed = four_bar_case(motion=(Motion("2", number("12")),))
+    assert "Angular velocities, rad/s" in answer_text(four_bar_answer(timed, rates={"2": 12.0}))
+
+
+def test_text_shows_the_points_that_the_figure_determines() -> None:
+    case = four_bar_case()
+    points = {name: data for name, data in case.points.items() if name not in "CE"}
+    half_known = {**points, "E": Coordinates(None, number("0.87382"))}
+    text = answer_text(four_bar_answer(four_bar_case(points=half_known)))
+    assert "Points found, in\n  C  (2.2, 2.60424)\n  E  (3.4489, 0.87382)" in text
+    assert "Points found" not in answer_text(four_bar_answer())
+
+
+def test_notes_and_what_was_not_examined_are_shown() -> None:
+    answer = four_bar_answer(notes=("CD set C; BC fits within 0.01 in.",), skipped=("point H",))
+    assert "Notes\n  CD set C; BC fits within 0.01 in." in answer_text(answer)
+    assert "Not examined\n  point H" in answer_text(answer)
