@@ -220,6 +220,8 @@ class Force(NamedTuple):
     value: Magnitude
     heading: Heading
     against: str | None = None
+    turns_with: str | None = None
+    """In a sweep the heading turns with this link; None: it stays absolute."""
 
 
 class ForceVector(NamedTuple):
@@ -231,6 +233,7 @@ class ForceVector(NamedTuple):
     x: Number
     y: Number
     against: str | None = None
+    turns_with: str | None = None
 
 
 class Torque(NamedTuple):

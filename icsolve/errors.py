@@ -44,6 +44,10 @@ class CaseError(IcsolveError):
         return self.problems[0].column
 
 
+class NotACase(CaseError):
+    """A YAML file without ``icsolve:`` at its top: a folder passes such files over."""
+
+
 class SceneError(IcsolveError):
     """A case that was read but has no answer: ``status`` is a stable word, ``message`` a sentence."""
 

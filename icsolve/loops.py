@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from icsolve.arithmetic import Scalar
-from icsolve.eliminate import NullSpace, null_space
+from icsolve.eliminate import ZERO, NullSpace, null_space
 from icsolve.joints import transmitted
 from icsolve.plane import Triple, add, blend, pairing, subtract
 from icsolve.topology import Topology
@@ -96,17 +96,17 @@ def twists_on(tree: Tree, rates: Sequence[Scalar], roots: Mapping[int, Triple]) 
     return twists
 
 
-class Motions(NamedTuple):
+class LoopMotions(NamedTuple):
     """All motions of a scene: for each body one twist per freedom, relative to the frame."""
 
     twists: dict[int, tuple[Triple, ...]]
     found: NullSpace
 
 
-def all_motions(top: Topology, bases: Bases, zero: float) -> Motions:
-    """Null space of the loop equations of the whole scene, from the frame."""
-    tree = span(top, range(len(top.bonds)), (top.ground,), bases)
+def all_motions(top: Topology, bases: Bases, zero: float = ZERO) -> LoopMotions:
+    """Null space of the loop equations of the bonds in ``bases``, from the frame."""
+    tree = span(top, sorted(bases), (top.ground,), bases)
     rows = [row[:-1] for row in loop_rows(top, tree, bases, {top.ground: ORIGIN})]
     found = null_space(rows, tree.columns, zero)
     motions = [twists_on(tree, (*rates, 0.0), {top.ground: ORIGIN}) for rates in found.basis]
-    return Motions({body: tuple(m[body] for m in motions) for body in tree.branches}, found)
+    return LoopMotions({body: tuple(m[body] for m in motions) for body in tree.branches}, found)

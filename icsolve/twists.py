@@ -10,7 +10,7 @@ import math
 from typing import NamedTuple
 
 from icsolve.arithmetic import Scalar
-from icsolve.eliminate import null_space
+from icsolve.eliminate import ROUNDING, null_space
 from icsolve.loops import ORIGIN, Bases, loop_rows, span, twists_on
 from icsolve.plan import Group, Plan
 from icsolve.plane import Triple, blend, cross, dyad_twists, monad_twist, shift, subtract, times
@@ -22,11 +22,16 @@ LONG = 4
 
 
 class Closure(NamedTuple):
-    """How a group closed: ``factor`` is D, ``numerators`` the rates times D."""
+    """How a group closed: ``factor`` is D, ``numerators`` the rates times D.
+
+    ``columns`` are the triples whose determinants these are, the relative twist of the known bodies
+    last (empty for a group that was eliminated).
+    """
 
     group: Group
     factor: Scalar
     numerators: tuple[Scalar, ...]
+    columns: tuple[Triple, ...] = ()
 
 
 class Run(NamedTuple):
@@ -90,8 +95,9 @@ def _rescaled(closure: Closure, found: dict[int, Triple]) -> tuple[Closure, dict
     largest = max(_size(value) for value in (closure.factor, *closure.numerators))
     scale = math.ldexp(1.0, -math.frexp(largest)[1]) if 0.0 < largest < math.inf else 1.0
     numerators = tuple(scale * value for value in closure.numerators)
+    columns = tuple(times(scale, column) for column in closure.columns[:1]) + closure.columns[1:]
     scaled = {body: times(scale, twist) for body, twist in found.items()}
-    return Closure(closure.group, scale * closure.factor, numerators), scaled
+    return Closure(closure.group, scale * closure.factor, numerators, columns), scaled
 
 
 def _size(value: Scalar) -> float:
@@ -117,8 +123,9 @@ def _monad(group: Group, top: Topology, bases: Bases, pool: _Pool) -> tuple[Clos
     o = _origin(basis, line[0])
     here = shift(basis, o)
     join = cross(shift(line[0], o), shift(line[1], o))
-    d, s = monad_twist(here, join, shift(subtract(tc, ta), o))
-    return Closure(group, d, (s,)), {body: blend(d, ta, s, basis)}
+    r = shift(subtract(tc, ta), o)
+    d, s = monad_twist(here, join, r)
+    return Closure(group, d, (s,), (join, here, r)), {body: blend(d, ta, s, basis)}
 
 
 def _dyad(group: Group, top: Topology, bases: Bases, pool: _Pool) -> tuple[Closure, dict[int, Triple]]:
@@ -128,9 +135,10 @@ def _dyad(group: Group, top: Topology, bases: Bases, pool: _Pool) -> tuple[Closu
     b1, b3, b2 = bases[outer_u][0], bases[inner][0], bases[outer_v][0]
     o = _origin(b1, b3, b2)
     r = shift(subtract(tc, ta), o)
-    d, s1, s2 = dyad_twists(shift(b1, o), shift(b3, o), shift(b2, o), r)
+    columns = (shift(b1, o), shift(b3, o), shift(b2, o), r)
+    d, s1, s2 = dyad_twists(*columns)
     found = {u: blend(d, ta, s1, b1), v: blend(d, tc, s2, b2)}
-    return Closure(group, d, (s1, s2)), found
+    return Closure(group, d, (s1, s2), columns), found
 
 
 def _is_dyad(group: Group, top: Topology) -> bool:
@@ -169,9 +177,39 @@ def _eliminated(group: Group, top: Topology, bases: Bases, pool: _Pool) -> tuple
     return Closure(group, rates[-1], tuple(rates[:-1])), {body: twists[body] for body in group.bodies}
 
 
-def relative_to(twists: dict[int, Triple], body: int) -> dict[int, Triple]:
-    """The same twists as seen from another body."""
-    base = twists[body]
-    return {k: subtract(t, base) for k, t in twists.items()}
+SINGULAR = 64 * ROUNDING
+"""A determinant below this fraction of the products that it is summed from is zero."""
 
 
+def is_singular(closure: Closure) -> bool:
+    """Whether D and all rates vanish: the group leaves a freedom of its own (a change point)."""
+    if not closure.columns:
+        return bool(closure.factor == 0.0 and all(n == 0.0 for n in closure.numerators))
+    return is_dead(closure) and all(
+        abs(n) <= SINGULAR * size for n, size in zip(closure.numerators, _rate_sizes(closure), strict=True)
+    )
+
+
+def is_dead(closure: Closure) -> bool:
+    """Whether D vanishes: what drives the group from before stands still."""
+    if not closure.columns:
+        return bool(abs(closure.factor) <= SINGULAR * max(map(abs, closure.numerators)))
+    *bases, _ = closure.columns
+    return bool(abs(closure.factor) <= SINGULAR * _products(*bases))
+
+
+def _rate_sizes(closure: Closure) -> tuple[float, ...]:
+    if len(closure.columns) == 3:
+        join, _, r = closure.columns
+        return (_products(join, r),)
+    b1, b3, b2, r = closure.columns
+    return (_products(r, b3, b2), _products(b1, b3, r))
+
+
+def _products(*columns: Triple) -> float:
+    """Sum of the absolute values of the products in a scalar product, or in a determinant."""
+    (a, b, c), (d, e, f), *last = (tuple(map(abs, column)) for column in columns)
+    if not last:
+        return float(a * d + b * e + c * f)
+    ((g, h, i),) = last
+    return float(a * (e * i + f * h) + b * (f * g + d * i) + c * (d * h + e * g))

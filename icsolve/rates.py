@@ -1,0 +1,232 @@
+"""Which of the motions is meant, and how fast: link rates, velocities, and relative twists.
+
+The motions form a space with one coefficient per freedom. What the case says of speeds fixes some
+combinations of them; what stays open is named as undetermined, never guessed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
+
+from icsolve.case import Case
+from icsolve.case import Motion as Given
+from icsolve.eliminate import null_space
+from icsolve.errors import SceneError, Status
+from icsolve.figure.frame import Frame
+from icsolve.plane import Point, Triple, velocity
+
+Twists = Mapping[str, Sequence[Triple]]
+STILL = 2e-14
+"""A rate below this fraction of what it is summed from is rest (rounding)."""
+
+OPEN = "a freedom that no given motion fixes moves it."
+
+
+class Speed(NamedTuple):
+    """The motions that are meant: ``particular / divisor`` plus any combination of ``open``
+    (coefficients of the motions)."""
+
+    particular: tuple[float, ...]
+    open: tuple[tuple[float, ...], ...]
+    divisor: float = 1.0
+
+    def of(self, values: Sequence[float], scale: float) -> float | None:
+        """A quantity that has ``values[m]`` in motion m; None where it is undetermined.
+
+        ``scale`` is the size of ``values`` before cancellation; below `STILL` of it the value is zero.
+        """
+        if any(abs(_dot(direction, values)) > 1e-9 * scale for direction in self.open):
+            return None
+        value = _dot(self.particular, values)
+        size = scale * max(map(abs, self.particular), default=0.0)
+        return 0.0 if abs(value) <= STILL * size else value / self.divisor
+
+
+def _dot(a: Sequence[float], b: Sequence[float]) -> float:
+    return sum(x * y for x, y in zip(a, b, strict=True))
+
+
+def speed_of(case: Case, twists: Twists, frame: Frame, points: Mapping[str, Point]) -> Speed:
+    """The motion that the case asks for, or the normalised one of the format.
+
+    Raises SceneError where the given motion cannot be: a dead centre, or motions that contradict.
+    """
+    motions = len(next(iter(twists.values())))
+    if motions == 1 and len(case.motion) <= 1:
+        return _single(case, twists, frame, points)
+    rows = [_row(given, case, twists, frame, points) for given in case.motion]
+    if not rows:
+        rows = [_normal_row(case, twists, frame)]
+    return _combined(rows, motions)
+
+
+def _single(case: Case, twists: Twists, frame: Frame, points: Mapping[str, Point]) -> Speed:
+    if case.motion:
+        values, target = _row(case.motion[0], case, twists, frame, points)
+    else:
+        values, target = _normal_row(case, twists, frame)
+    return Speed((target,), (), values[0])
+
+
+Row = tuple[tuple[float, ...], float]
+"""What a condition takes from each motion, and what their sum is to be."""
+
+
+def _combined(rows: list[Row], motions: int) -> Speed:
+    matrix = [[*values, -target] for values, target in rows]
+    sizes = [max(map(abs, row)) or 1.0 for row in matrix]
+    found = null_space([[v / s for v in row] for row, s in zip(matrix, sizes, strict=True)], motions + 1, 1e-12)
+    with_target = [vector for vector in found.basis if abs(vector[-1]) > 1e-9]
+    if not with_target:
+        raise SceneError(Status.MOBILITY, "the motions given contradict each other: no motion has all of them.")
+    first = with_target[0]
+    particular = tuple(v / first[-1] for v in first[:-1])
+    rest = [v for v in found.basis if v is not first]
+    open_ = tuple(tuple(v[k] - v[-1] * particular[k] for k in range(motions)) for v in rest)
+    return Speed(particular, open_)
+
+
+def _row(given: Given, case: Case, twists: Twists, frame: Frame, points: Mapping[str, Point]) -> Row:
+    """The condition that a given motion puts on the coefficients."""
+    link = twists[given.link]
+    if given.point is not None:
+        return _point_row(given, link, case, frame, points[given.point])
+    rates = tuple(t[2] for t in link)
+    if all(_rests(t) or abs(t[2]) <= STILL * _extent(t) for t in link):
+        raise SceneError(Status.DEAD_CENTRE, _cannot_turn(given.link, link, case))
+    sign = -1.0 if given.turns == "cw" else 1.0
+    return rates, sign * (given.speed.value if given.speed is not None else 1.0)
+
+
+def _cannot_turn(name: str, link: Sequence[Triple], case: Case) -> str:
+    if all(_rests(t) for t in link):
+        return (
+            f"link {name} cannot drive in this position (dead centre): when the mechanism moves, link {name} "
+            "stands still. Give the motion of another link, or another position."
+        )
+    return f"link {name} does not turn, it only slides: give `motion` as the speed of one of its points, or of another link."
+
+
+def _point_row(given: Given, link: Sequence[Triple], case: Case, frame: Frame, p: Point) -> Row:
+    velocities = [velocity(t, p) for t in link]
+    sizes = [math.hypot(*v) for v in velocities]
+    assert given.speed is not None
+    target = given.speed.value * frame.scale
+    if max(sizes) <= STILL * max(max(map(abs, t)) for t in link):
+        raise SceneError(
+            Status.DEAD_CENTRE,
+            f"point {given.point} of link {given.link} is at rest in this position when the mechanism moves: "
+            "it cannot be given a speed. Give the motion of another point or link.",
+        )
+    if given.angle is None:
+        v = velocities[sizes.index(max(sizes))]
+        along = (v[0] / max(sizes), v[1] / max(sizes))
+        along = along if along[0] > 0 or (along[0] == 0 and along[1] > 0) else (-along[0], -along[1])
+    else:
+        radians = math.radians(given.angle.value)
+        along = (math.cos(radians), math.sin(radians))
+        if len(link) == 1:
+            _check_direction(given, velocities[0], along)
+            sign = 1.0 if velocities[0][0] * along[0] + velocities[0][1] * along[1] > 0 else -1.0
+            return (sign * sizes[0],), target
+    return tuple(v[0] * along[0] + v[1] * along[1] for v in velocities), target
+
+
+def _check_direction(given: Given, v: Point, along: Point) -> None:
+    sine = abs(v[0] * along[1] - v[1] * along[0]) / math.hypot(*v)
+    if sine > math.sin(math.radians(1.0)):
+        own = math.degrees(math.atan2(v[1], v[0])) % 180.0
+        assert given.angle is not None
+        raise SceneError(
+            Status.INCONSISTENT,
+            f"point {given.point} of link {given.link} can only move at {own:.4g} or {own + 180.0:.4g} deg in this "
+            f"position, not at {given.angle.value:g} deg: correct the angle of `motion`, or leave it out.",
+        )
+
+
+def _extent(t: Triple) -> float:
+    return max(abs(t[0]), abs(t[1]), abs(t[2]))
+
+
+def _rests(t: Triple) -> bool:
+    return t == (0.0, 0.0, 0.0)
+
+
+def joint_order(case: Case) -> list[str]:
+    """Links in the order in which the joints name them."""
+    return list(dict.fromkeys(link for joint in case.joints for link in joint.links))
+
+
+def _normal_row(case: Case, twists: Twists, frame: Frame) -> Row:
+    """The first link that turns does so at +1; where none turns, unit speed of the first that moves."""
+    largest = max((_extent(t) for link in twists.values() for t in link), default=0.0)
+    for link in joint_order(case):
+        rates = tuple(t[2] for t in twists.get(link, ()))
+        if any(abs(rate) > STILL * largest for rate in rates):
+            return rates, 1.0
+    for link in joint_order(case):
+        speeds = [(t[1], -t[0]) for t in twists.get(link, ())]
+        fast = max(speeds, key=lambda v: math.hypot(*v), default=(0.0, 0.0))
+        size = math.hypot(*fast)
+        if size > STILL * largest:
+            x, y = fast[0] / size, fast[1] / size
+            along = (x, y) if x > STILL or (abs(x) <= STILL and y > 0) else (-x, -y)
+            return tuple(v[0] * along[0] + v[1] * along[1] for v in speeds), frame.scale
+    raise SceneError(Status.STRUCTURE, "no link of the mechanism moves in this position.")
+
+
+def link_rates(case: Case, twists: Twists, speed: Speed) -> dict[str, float | str]:
+    """Angular velocity of every link; a sentence where it is undetermined."""
+    rates: dict[str, float | str] = {}
+    for link in case.links:
+        motions = twists[link]
+        scale = max((_extent(t) for t in motions), default=0.0)
+        value = speed.of([t[2] for t in motions], scale)
+        rates[link] = f"the speed of link {link} is left open: {OPEN}" if value is None else value + 0.0
+    return rates
+
+
+def point_velocities(
+    case: Case, twists: Twists, speed: Speed, frame: Frame, points: Mapping[str, Point]
+) -> dict[tuple[str, str], tuple[float, float] | str]:
+    """Velocity (case length a second) of every point on the links that carry it."""
+    result: dict[tuple[str, str], tuple[float, float] | str] = {}
+    for link in case.links:
+        for name in _carried(case, link, points):
+            result[(name, link)] = _velocity(link, name, twists[link], speed, frame, points[name])
+    return result
+
+
+def _carried(case: Case, link: str, points: Mapping[str, Point]) -> Iterable[str]:
+    return [name for name in case.carries.get(link, ()) if name in points and not name.startswith("@")]
+
+
+def _velocity(
+    link: str, name: str, motions: Sequence[Triple], speed: Speed, frame: Frame, p: Point
+) -> tuple[float, float] | str:
+    scale = max((_extent(t) for t in motions), default=0.0)
+    both = []
+    for axis in (0, 1):
+        value = speed.of([velocity(t, p)[axis] for t in motions], scale)
+        if value is None:
+            return f"the velocity of {name} on link {link} is left open: {OPEN}"
+        both.append(value / frame.scale + 0.0)
+    return (both[0], both[1])
+
+
+def meant(twists: Twists, speed: Speed, link: str) -> tuple[Triple, ...]:
+    """The twists of a link in the motions that are meant: one per open direction, the particular first."""
+    motions = twists[link]
+    directions = (speed.particular, *speed.open)
+    return tuple(
+        (
+            _dot(c, [t[0] for t in motions]),
+            _dot(c, [t[1] for t in motions]),
+            _dot(c, [t[2] for t in motions]),
+        )
+        for c in directions
+    )
+
+

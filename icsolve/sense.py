@@ -1,0 +1,36 @@
+"""The sense of a load in words, and its unit."""
+
+from __future__ import annotations
+
+from icsolve.case import Case, Force, Load, Spring, Torque, Toward, Weight
+from icsolve.power import Wrench, heading_degrees
+
+
+def sense_of(w: Wrench, value: float) -> str:
+    """Sense of a load with this value: ``ccw``, ``at 210 deg``, ``toward A``, ``pull``; '' for zero."""
+    if value == 0.0:
+        return ""
+    match w.load:
+        case Torque():
+            return "ccw" if (value > 0) == (w.load.turns == "ccw") else "cw"
+        case Spring():
+            return "pull" if value * float(w.gain) > 0 else "push"
+        case Force(heading=Toward() as heading):
+            if w.load.against is not None:
+                return "pull" if (value > 0) != heading.away else "push"
+            if (value > 0) != heading.away:
+                return f"toward {heading.point}"
+    degrees = heading_degrees(w) if value > 0 else (heading_degrees(w) + 180.0) % 360.0
+    return f"at {round(degrees, 6) % 360.0:.6g} deg"
+
+
+def unit_of(load: Load, case: Case) -> str:
+    """Unit in which a load's number is given and printed."""
+    match load:
+        case Torque():
+            return case.units.torque
+        case Weight(mass=True):
+            return "kg"
+        case Spring():
+            return f"{case.units.force}/{case.units.length}"
+    return case.units.force

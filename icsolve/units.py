@@ -1,0 +1,313 @@
+"""Quantities: units by name, their dimensions, and conversion that rounds once.
+
+A unit is an exact ratio of integers to the SI unit of its dimension, times a power of pi (degrees,
+revolutions). A numeral is converted by one division of integers, which Python rounds correctly, so
+``30 mm`` in a case in metres is the double nearest to 0.03. Factors: NIST SP 811, appendix B
+(international foot and pound, standard gravity, horsepower of 550 ft*lbf/s).
+"""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+Dimension = tuple[int, int, int, int]
+"""Powers of length, mass, time and angle."""
+
+DIMENSIONS: dict[str, Dimension] = {
+    "number": (0, 0, 0, 0),
+    "length": (1, 0, 0, 0),
+    "mass": (0, 1, 0, 0),
+    "time": (0, 0, 1, 0),
+    "angle": (0, 0, 0, 1),
+    "force": (1, 1, -2, 0),
+    "torque": (2, 1, -2, 0),
+    "stiffness": (0, 1, -2, 0),
+    "speed": (1, 0, -1, 0),
+    "angular speed": (0, 0, -1, 1),
+    "acceleration": (1, 0, -2, 0),
+    "power": (2, 1, -3, 0),
+    "pitch": (-1, 0, 0, 0),
+}
+
+_PI = (314159265358979323846264338327950288419716939937510582097494, 10**59)
+_LONGEST = 80
+"""Characters of a unit's text; no quantity of mechanics needs more."""
+
+
+class UnitError(ValueError):
+    """Text that is not a unit or a quantity; the message says what to write."""
+
+
+class Unit(NamedTuple):
+    """``num / den * pi**pi`` SI units of dimension ``dims``."""
+
+    num: int
+    den: int
+    pi: int
+    dims: Dimension
+
+
+class Numeral(NamedTuple):
+    """A decimal numeral ``mantissa * 10**exponent``; ``digits`` as written."""
+
+    digits: str
+    mantissa: int
+    exponent: int
+
+
+_POUND = (44482216152605, 10**13)  # lbf in N
+_TABLE: tuple[tuple[str, int, int, int, str], ...] = (
+    ("m metre metres meter meters", 1, 1, 0, "length"),
+    ("mm millimetre millimetres millimeter millimeters", 1, 1000, 0, "length"),
+    ("cm centimetre centimetres centimeter centimeters", 1, 100, 0, "length"),
+    ("km kilometre kilometres kilometer kilometers", 1000, 1, 0, "length"),
+    ("in inch inches", 127, 5000, 0, "length"),
+    ("ft foot feet", 381, 1250, 0, "length"),
+    ("yd yard yards", 1143, 1250, 0, "length"),
+    ("N newton newtons Newton Newtons", 1, 1, 0, "force"),
+    ("kN kilonewton kilonewtons", 1000, 1, 0, "force"),
+    ("MN meganewton meganewtons", 10**6, 1, 0, "force"),
+    ("lbf lb lbs lbsf pound pounds", *_POUND, 0, "force"),
+    ("kip kips", _POUND[0] * 1000, _POUND[1], 0, "force"),
+    ("ozf oz ounce ounces", _POUND[0], _POUND[1] * 16, 0, "force"),
+    ("kgf", 980665, 10**5, 0, "force"),
+    ("tonf", _POUND[0] * 2000, _POUND[1], 0, "force"),
+    ("kg kilogram kilograms", 1, 1, 0, "mass"),
+    ("g gram grams", 1, 1000, 0, "mass"),
+    ("t tonne tonnes", 1000, 1, 0, "mass"),
+    ("lbm", 45359237, 10**8, 0, "mass"),
+    ("slug slugs", _POUND[0] * 1250, _POUND[1] * 381, 0, "mass"),
+    ("rad radian radians", 1, 1, 0, "angle"),
+    ("deg ° degree degrees", 1, 180, 1, "angle"),
+    ("rev revolution revolutions r turn turns", 2, 1, 1, "angle"),
+    ("s sec secs second seconds", 1, 1, 0, "time"),
+    ("min mins minute minutes", 60, 1, 0, "time"),
+    ("h hr hrs hour hours", 3600, 1, 0, "time"),
+    ("W watt watts Watt Watts", 1, 1, 0, "power"),
+    ("kW kilowatt kilowatts", 1000, 1, 0, "power"),
+    ("hp horsepower", 550 * _POUND[0] * 381, _POUND[1] * 1250, 0, "power"),
+    ("rpm", 1, 30, 1, "angular speed"),
+)
+_EITHER_CASE = frozenset(
+    "in inch inches ft foot feet yd lbf lb lbs lbm kip kips ozf oz kgf tonf slug slugs rad deg rev rpm hp".split()
+)
+"""Names without a prefix that case could change: ``RPM``, ``LBF``, ``In`` are what they seem."""
+
+
+def _names() -> dict[str, Unit]:
+    """Every name and spelling of a single unit, and the torques that people write as one word."""
+    found = {}
+    for names, num, den, pi, kind in _TABLE:
+        unit = Unit(num, den, pi, DIMENSIONS[kind])
+        for name in names.split():
+            found[name] = unit
+    for forces, lengths in (("N kN MN", "m cm mm"), ("lb lbf lbs kip", "in ft"), ("in ft", "lb lbf lbs kip")):
+        for first in forces.split():
+            for second in lengths.split():
+                found[first + second] = times(found[first], found[second])
+    return found
+
+
+def times(a: Unit, b: Unit, power: int = 1) -> Unit:
+    """The unit ``a * b**power``, power 1 or -1."""
+    num, den = (b.num, b.den) if power > 0 else (b.den, b.num)
+    dims = tuple(p + power * q for p, q in zip(a.dims, b.dims, strict=True))
+    return Unit(a.num * num, a.den * den, a.pi + power * b.pi, dims)  # type: ignore[arg-type]
+
+
+ONE = Unit(1, 1, 0, DIMENSIONS["number"])
+UNITS = _names()
+LISTED = {name for names, *_ in _TABLE for name in names.split()[:1]} | {"lb"}
+"""The names by which a result shows a unit; other spellings are shown as the one they stand for."""
+
+_SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+_PRODUCT = frozenset("*·⋅∙•×.- ")
+_cache: dict[str, Unit] = {}
+
+
+def parse_unit(text: str) -> Unit:
+    """The unit that ``text`` names: words, products and quotients of words.
+
+    Raises
+    ------
+    UnitError
+        An unknown word, or text that is no product or quotient of words.
+    """
+    text = text.strip()
+    unit = UNITS.get(text) or _cache.get(text)
+    if unit is None:
+        if len(text) > _LONGEST:
+            raise UnitError("the unit's text is too long")
+        unit, rest = _product(text, text)
+        if rest:
+            raise UnitError(f"'{text}' is not a unit: nothing fits before '{rest}'")
+        _cache[text] = unit
+    return unit
+
+
+def _product(text: str, whole: str) -> tuple[Unit, str]:
+    """Factors with their signs of operation, left to right, up to ``)`` or the end; and what is left."""
+    unit, text = (ONE, text.lstrip()) if text.lstrip().startswith("/") else _factor(text, whole)
+    while text and not text.startswith(")"):
+        power, text = _operator(text, whole)
+        factor, text = _factor(text, whole)
+        unit = times(unit, factor, power)
+    return unit, text
+
+
+def _operator(text: str, whole: str) -> tuple[int, str]:
+    """1 for a product, -1 for a quotient; and the text after it."""
+    rest = text.lstrip()
+    spaced = len(rest) < len(text)
+    if rest.startswith("/"):
+        return -1, rest[1:]
+    if rest.startswith("per ") and spaced:
+        return -1, rest[4:]
+    if rest.startswith("**"):
+        raise UnitError(f"'{whole}' is not a unit: a power follows its word directly, as in 's^2'")
+    if rest and rest[0] in _PRODUCT:
+        return 1, rest[1:]
+    if spaced or rest.startswith("("):
+        return 1, rest
+    raise UnitError(f"'{whole}' is not a unit: '{rest[0]}' is out of place")
+
+
+def _factor(text: str, whole: str) -> tuple[Unit, str]:
+    """One word, bracket or the 1 of ``1/s``, raised to its power; and the text after it."""
+    text = text.lstrip()
+    if text.startswith("("):
+        unit, rest = _product(text[1:], whole)
+        if not rest.startswith(")"):
+            raise UnitError(f"'{whole}' is not a unit: a bracket is not closed")
+        rest = rest[1:]
+    elif text.startswith("1") and text[1:].lstrip().startswith("/"):
+        return ONE, text[1:]
+    else:
+        end = next((i for i, c in enumerate(text) if not (c.isalpha() or c == "°")), len(text))
+        unit, rest = word(text[:end], whole), text[end:]
+    power, rest = _power(rest, whole)
+    return _raised(unit, power), rest
+
+
+def _power(text: str, whole: str) -> tuple[int, str]:
+    """The power at the start of the text (``^2``, ``**2``, ``²``, ``2``; 1 where none stands); and the rest."""
+    mark = 2 if text.startswith("**") else 1 if text.startswith("^") else 0
+    body = text[mark:].translate(_SUPERSCRIPTS)
+    signed = (mark or text[:1] == "⁻") and body[:1] in ("-", "+")
+    end = 1 if signed else 0
+    while end < len(body) and body[end] in "0123456789":
+        end += 1
+    digits = body[:end]
+    if not digits and not mark:
+        return 1, text
+    if len(digits.lstrip("-+")) != 1:
+        raise UnitError(f"'{whole}' is not a unit: a power is one digit, as in 's^2'")
+    return int(digits), text[mark + end :]
+
+
+def _raised(unit: Unit, power: int) -> Unit:
+    result = ONE
+    for _ in range(abs(power)):
+        result = times(result, unit, 1 if power > 0 else -1)
+    return result
+
+
+def word(name: str, whole: str) -> Unit:
+    """One unit by its name or spelling."""
+    unit = UNITS.get(name)
+    if unit is None and name.lower() in _EITHER_CASE:
+        unit = UNITS[name.lower()]
+    if unit is None:
+        raise UnitError(_unknown(name, whole))
+    return unit
+
+
+_MEANT = {
+    "ton": "'tonf' (2000 lbf) or 't' (1000 kg)",
+    "tons": "'tonf' (2000 lbf) or 't' (1000 kg)",
+    "lbm's": "'lbm'",
+    "K": "'kip' or 'kN'",
+    "k": "'kip' or 'kN'",
+}
+
+
+def _unknown(name: str, whole: str) -> str:
+    if not name:
+        return f"'{whole}' is not a unit"
+    meant = _MEANT.get(name)
+    if meant is None:
+        from difflib import get_close_matches
+
+        by_case = [u for u in UNITS if u.lower() == name.lower()]
+        near = by_case or get_close_matches(name, list(UNITS), 1, 0.6)
+        meant = f"'{near[0]}'" if near else ""
+    return f"there is no unit '{name}'" + (f"; did you mean {meant}?" if meant else "")
+
+
+_NUMERAL = re.compile(r"([-+−]?)(?:(\d+)(?:\.(\d*))?|\.(\d+))(?:[eE]([-+−]?\d+))?", re.ASCII)
+_MOST_DIGITS = 320
+
+
+def split_quantity(text: str) -> tuple[Numeral, str] | None:
+    """The numeral at the start of a text and the unit after it; None where no numeral stands.
+
+    Raises
+    ------
+    UnitError
+        A numeral of too many digits.
+    """
+    found = _NUMERAL.match(text)
+    if found is None:
+        return None
+    sign, whole, part, bare, power = found.groups()
+    digits = found.group().replace("−", "-")
+    decimals = bare or part or ""
+    if len(digits) > _MOST_DIGITS or (power and len(power) > 5):
+        raise UnitError("the numeral is too long: a number has at most 17 digits that count")
+    exponent = int(power.replace("−", "-")) if power else 0
+    mantissa = int((whole or "") + decimals)
+    numeral = Numeral(digits, -mantissa if sign in ("-", "−") and sign else mantissa, exponent - len(decimals))
+    return numeral, text[found.end() :].strip()
+
+
+def ratio(unit: Unit, target: Unit) -> tuple[int, int]:
+    """How many ``target`` make one ``unit``, as a ratio of integers (pi to 60 digits)."""
+    num, den = unit.num * target.den, unit.den * target.num
+    power = unit.pi - target.pi
+    top, bottom = _PI if power > 0 else _PI[::-1]
+    return num * top ** abs(power), den * bottom ** abs(power)
+
+
+def factor(unit: Unit, target: Unit) -> float:
+    """How many ``target`` make one ``unit``, rounded once."""
+    num, den = ratio(unit, target)
+    return num / den
+
+
+def converted(numeral: Numeral, unit: Unit, target: Unit) -> float:
+    """The numeral, in ``unit``, as the nearest double in ``target``.
+
+    Raises
+    ------
+    OverflowError
+        The value is beyond a double.
+    """
+    num, den = ratio(unit, target)
+    scale = 10 ** abs(numeral.exponent)
+    if numeral.exponent >= 0:
+        return numeral.mantissa * num * scale / den
+    return numeral.mantissa * num / (den * scale)
+
+
+def canonical(name: str) -> str:
+    """The listed name of a single unit: ``inches`` gives ``in``; ``lb`` stays."""
+    if name in LISTED:
+        return name
+    unit = word(name, name)
+    return next(names.split()[0] for names, *_ in _TABLE if UNITS[names.split()[0]] == unit)
+
+
+def kind_of(dims: Dimension) -> str | None:
+    """The name of a dimension, None where it has none."""
+    return next((kind for kind, value in DIMENSIONS.items() if value == dims), None)
