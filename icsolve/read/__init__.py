@@ -1,0 +1,103 @@
+"""YAML text to a Case; every refusal has its line and column, and one run finds them all."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping as Named
+
+from icsolve.case import Case
+from icsolve.errors import CaseError, NotACase
+from icsolve.read.build import SECTIONS, build, check_version
+from icsolve.read.document import Mapping, Node, parse
+from icsolve.read.problems import Problems, Stop
+from icsolve.read.settings import apply
+from icsolve.read.source import checked, text_of
+
+Settings = Named[str, str | float]
+"""Values by path: ``{"angles.AB": "30", "loads.P": "500 lbf"}``."""
+
+
+def load(path_or_text: str | os.PathLike[str], settings: Settings | None = None) -> Case:
+    """A case from a file, or from a text: one with a line break or with ``icsolve:`` in it.
+
+    Raises
+    ------
+    CaseError
+        With all that is wrong, each with its line and column. ``NotACase`` where there is no ``icsolve:``.
+    """
+    if isinstance(path_or_text, str) and ("\n" in path_or_text or "icsolve:" in path_or_text):
+        return read_text(path_or_text, settings=settings)
+    return read_file(path_or_text, settings)
+
+
+def read_file(path: str | os.PathLike[str], settings: Settings | None = None) -> Case:
+    """The case of a file; its name is the file's, without endings.
+
+    Raises
+    ------
+    CaseError
+        Also for a file that is missing, a folder, a binary, or not UTF-8.
+    """
+    shown = os.fspath(path)
+    problems = Problems(shown)
+    try:
+        text = text_of(path, problems)
+    except Stop:
+        raise CaseError(problems.found) from None
+    return read_text(text, shown, settings)
+
+
+def read_text(text: str, path: str = "<text>", settings: Settings | None = None) -> Case:
+    """The case of a text; ``path`` stands in its messages.
+
+    Raises
+    ------
+    CaseError
+        As ``load``.
+    """
+    problems = Problems(path)
+    root, case = None, None
+    try:
+        text = checked(text, problems)
+        root = _root(parse(text, problems), problems)
+        if "icsolve" not in root.items and not {"joints", "points"} & set(root.items):
+            check_version(root, problems)
+            raise Stop
+        apply(root, settings or {}, problems)
+        case = build(root, problems, _name(path))
+    except Stop:
+        pass
+    if case is None or problems.found:
+        raise _error(root, text, problems)
+    return case
+
+
+def _root(node: Node | None, problems: Problems) -> Mapping:
+    """The top of a document as a mapping."""
+    if type(node) is Mapping:
+        return node
+    if node is None:
+        raise problems.stop((1, 1), "there is nothing in it; a case starts with 'icsolve: 1'")
+    raise problems.stop(node.mark, "this is not an icsolve case, which starts with 'icsolve: 1' and has a key a section")
+
+
+def _error(root: Mapping | None, text: str, problems: Problems) -> CaseError:
+    """A case that is wrong, or no case at all."""
+    ours = "icsolve" in root.items if root is not None else claims(text)
+    return (CaseError if ours else NotACase)(problems.found)
+
+
+def claims(text: str) -> bool:
+    """Whether a text that is not YAML was meant as a case: ``icsolve:`` starts one of its lines."""
+    return any(line.lstrip("{ \"'").startswith("icsolve") for line in text.splitlines())
+
+
+def _name(path: str) -> str:
+    """``press`` of ``press.yaml`` and of ``dir/press.icsolve.yaml``."""
+    if path.startswith("<") and path.endswith(">"):
+        return "case"
+    stem, _ = os.path.splitext(os.path.basename(path))
+    return stem.removesuffix(".icsolve") or "case"
+
+
+__all__ = ["SECTIONS", "Settings", "claims", "load", "read_file", "read_text"]

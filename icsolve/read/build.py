@@ -1,0 +1,237 @@
+"""The sections of a file, in the order in which each needs what others name, to a Case."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from icsolve.case import (
+    Case,
+    Centroid,
+    Coordinates,
+    Corner,
+    Direction,
+    Expected,
+    Joint,
+    Length,
+    Load,
+    Motion,
+    Number,
+    Pin,
+    Slide,
+    Slot,
+    Spring,
+    Torque,
+    Units,
+    Weld,
+)
+from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
+from icsolve.read.expect import read_expect
+from icsolve.read.geometry import check_given, read_angles, read_carried, read_lengths, read_near, read_points
+from icsolve.read.joints import mention_links, read_joints
+from icsolve.read.loads import read_loads
+from icsolve.read.motion import read_motion
+from icsolve.read.problems import Problems, shown, suggestion
+from icsolve.read.quantities import measures, number
+from icsolve.read.reading import Reading
+
+SECTIONS = (
+    "icsolve",
+    "title",
+    "source",
+    "reconstructed",
+    "units",
+    "ground",
+    "gravity",
+    "points",
+    "lengths",
+    "angles",
+    "near",
+    "links",
+    "joints",
+    "loads",
+    "motion",
+    "expect",
+)
+_FORMS = {
+    "points": "as in {A: [0, 0]}",
+    "lengths": "as in {AB: 1}",
+    "angles": "as in {AB: 60}",
+    "near": "as in {C: [3.5, 2.4]}",
+    "links": "as in {3: [G, H]}",
+    "loads": "as in {P: {force: 100, link: 4, at: E, angle: 180}}",
+    "expect": "as in {T12: 29.67 ccw}",
+}
+
+
+class _Parts(NamedTuple):
+    """The sections as values."""
+
+    joints: tuple[Joint, ...]
+    loads: tuple[Load, ...]
+    points: dict[str, Coordinates | Centroid]
+    links: dict[str, tuple[str, ...]]
+    near: dict[str, tuple[float, float]]
+    motion: tuple[Motion, ...]
+    lengths: tuple[Length, ...]
+    angles: tuple[Direction | Corner, ...]
+    expect: tuple[Expected, ...]
+
+
+def build(root: Mapping, problems: Problems, name: str) -> Case:
+    """The case of a tree; whether it may be used, the problems tell."""
+    check_version(root, problems)
+    units, targets, shown_units = measures(root.items.get("units"), problems)
+    reading = Reading(problems, targets, shown_units)
+    reading.marks.update(root.keys)
+    reading.check_keys(root, SECTIONS, "a case")
+    mention_links(reading, root.items.get("joints"))
+    ground = _ground(reading, root)
+    parts = _parts(reading, root)
+    check_given(reading)
+    texts = {key: reading.text(root.items[key], key) for key in ("title", "source", "reconstructed") if key in root.items}
+    return _case(name, problems.path, units, ground, reading, parts, texts, _gravity(reading, root))
+
+
+def _parts(reading: Reading, root: Mapping) -> _Parts:
+    """Joints, loads and points first: their names tell how a key such as AB is read."""
+    joints = _joints(reading, root)
+    loads = read_loads(reading, _section(reading, root, "loads"))
+    points = read_points(reading, _section(reading, root, "points"))
+    links = read_carried(reading, _section(reading, root, "links"))
+    near = read_near(reading, _section(reading, root, "near"))
+    motion = read_motion(reading, root.items["motion"]) if _stands(root, "motion") else ()
+    known = reading.given | set(reading.used) | _hyphened(root)
+    lengths = read_lengths(reading, _section(reading, root, "lengths"), known)
+    angles = read_angles(reading, _section(reading, root, "angles"), known)
+    everything = reading.given | set(reading.used)
+    expect = read_expect(reading, _section(reading, root, "expect"), everything)
+    return _Parts(joints, loads, {**points, **reading.hidden}, links, near, motion, lengths, angles, expect)
+
+
+def check_version(root: Mapping, problems: Problems) -> None:
+    """``icsolve: 1`` is the version that this program reads."""
+    node = root.items.get("icsolve")
+    if node is None:
+        likely = suggestion("icsolve", root.items)
+        problems.refuse(root.mark, f"this is not an icsolve case: it has no 'icsolve: 1' at its top{likely}")
+    elif type(node) is not Scalar or node.text != "1":
+        said = f"version {shown(node.text)}" if type(node) is Scalar and node.text else "this version"
+        problems.refuse(node.mark, f"{said} of the format is not known; this program reads 'icsolve: 1'")
+
+
+def _stands(root: Mapping, key: str) -> bool:
+    return key in root.items and not is_null(root.items[key])
+
+
+def _section(reading: Reading, root: Mapping, key: str) -> Mapping:
+    """A section; empty where it is left out, holds nothing, or can't be read."""
+    found = reading.mapping(root.items[key], f"'{key}'", _FORMS[key]) if _stands(root, key) else None
+    return found if found is not None else Mapping({}, {}, (1, 1))
+
+
+def _joints(reading: Reading, root: Mapping) -> tuple[Joint, ...]:
+    node = root.items.get("joints")
+    if type(node) is Sequence and node.items:
+        return read_joints(reading, node)
+    if node is None or is_null(node) or type(node) is Sequence:
+        mark = root.keys.get("joints", root.mark)
+        reading.refuse(mark, "the case has no joints; write a list of them, as in joints: [{pin: [1, 2], at: A}]")
+    else:
+        reading.refuse(node.mark, "'joints' should be a list, each item as in - {pin: [1, 2], at: B}")
+    return ()
+
+
+def _ground(reading: Reading, root: Mapping) -> str:
+    """The frame; a joint must have it."""
+    node = root.items.get("ground")
+    if node is not None:
+        return reading.link(node, "'ground'") or "1"
+    if reading.links and "1" not in reading.links:
+        mark = root.keys["joints"]
+        reading.refuse(mark, "no joint has link 1, the frame; if another link is the frame, name it with 'ground:'")
+    return "1"
+
+
+def _gravity(reading: Reading, root: Mapping) -> Number | None:
+    node = root.items.get("gravity")
+    value = number(reading, node, "acceleration", "gravity") if node is not None else None
+    if value is not None and node is not None and value.value < 0.0:
+        reading.refuse(node.mark, "gravity is given by its size, along -y; it should not be negative")
+    return value
+
+
+def _hyphened(root: Mapping) -> set[str]:
+    """Points that keys with hyphens name."""
+    sections: list[Node | None] = [root.items.get("lengths"), root.items.get("angles")]
+    keys = [key for node in sections if type(node) is Mapping for key in node.items if "-" in key]
+    return {name for key in keys for name in key.split("-")}
+
+
+def _case(
+    name: str,
+    path: str,
+    units: Units,
+    ground: str,
+    reading: Reading,
+    parts: _Parts,
+    texts: dict[str, str],
+    gravity: Number | None,
+) -> Case:
+    links = tuple(reading.links or ())
+    return Case(
+        name=name,
+        path=path,
+        title=texts.get("title", ""),
+        source=texts.get("source", ""),
+        reconstructed=texts.get("reconstructed", ""),
+        units=units,
+        ground=ground,
+        links=links,
+        points=parts.points,
+        lengths=parts.lengths,
+        angles=parts.angles,
+        near=parts.near,
+        joints=parts.joints,
+        loads=parts.loads,
+        motion=parts.motion,
+        expect=parts.expect,
+        carries=carried(links, ground, parts.joints, parts.loads, parts.links, parts.motion),
+        gravity=gravity or Case.gravity,
+        marks=reading.marks,
+    )
+
+
+def carried(
+    links: tuple[str, ...],
+    ground: str,
+    joints: tuple[Joint, ...],
+    loads: tuple[Load, ...],
+    further: dict[str, tuple[str, ...]],
+    motion: tuple[Motion, ...],
+) -> dict[str, tuple[str, ...]]:
+    """The points that each link carries, in order of mention: of joints, loads, ``links:``, motion."""
+    found: dict[str, dict[str, None]] = {link: {} for link in links}
+    placed = [pair for joint in joints for pair in _on_joint(joint)]
+    placed += [pair for load in loads for pair in _on_load(load, ground)]
+    placed += [(link, point) for link, points in further.items() for point in points]
+    placed += [(given.link, given.point) for given in motion if given.point]
+    for link, point in placed:
+        found.setdefault(link, {})[point] = None
+    return {link: tuple(points) for link, points in found.items()}
+
+
+def _on_joint(joint: Joint) -> list[tuple[str, str]]:
+    if isinstance(joint, Pin) or (isinstance(joint, Weld) and joint.at):
+        return [(link, joint.at or "") for link in joint.links]
+    if isinstance(joint, Slide | Slot):
+        guide = joint.guide
+        named = [*(guide.ends or ()), *([guide.through] if guide.through else [])]
+        return [(joint.links[0], joint.at), *[(joint.links[1], point) for point in named]]
+    return []
+
+
+def _on_load(load: Load, ground: str) -> list[tuple[str, str]]:
+    if isinstance(load, Torque):
+        return []
+    ends = [(load.link, load.at)]
+    return [*ends, (load.against or ground, load.to)] if isinstance(load, Spring) else ends

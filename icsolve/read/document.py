@@ -1,0 +1,189 @@
+"""YAML text to a light tree of text, lists and mappings, each with its line and column.
+
+Only PyYAML's event parser is used: it builds no typed values (which turn ``3:4`` into 184 and raise
+what is not a YAMLError) and does not recurse. Anchors, aliases and tags are refused, as is what is
+too deep, too large, or given twice.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import yaml
+from yaml.events import (
+    AliasEvent,
+    DocumentStartEvent,
+    Event,
+    MappingEndEvent,
+    MappingStartEvent,
+    ScalarEvent,
+    SequenceEndEvent,
+    SequenceStartEvent,
+    StreamEndEvent,
+)
+
+from icsolve.case import Mark
+from icsolve.read.problems import Problems, Stop
+from icsolve.read.syntax import explained, missing_space
+
+LOADER: type = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+"""libyaml's parser; the pure one where libyaml is missing."""
+
+DEEPEST = 50
+MOST_NODES = 100_000
+
+
+class Scalar(NamedTuple):
+    """A text; ``plain`` where it stands without quotes."""
+
+    text: str
+    plain: bool
+    mark: Mark
+
+
+class Sequence(NamedTuple):
+    """A list."""
+
+    items: list[Node]
+    mark: Mark
+
+
+class Mapping(NamedTuple):
+    """Keys (raw text) to values, in the order of the file; ``keys`` has the place of each key."""
+
+    items: dict[str, Node]
+    keys: dict[str, Mark]
+    mark: Mark
+
+
+Node = Scalar | Sequence | Mapping
+
+
+def is_null(node: Node) -> bool:
+    """Whether nothing is given: an empty value, ``null`` or ``~``."""
+    return type(node) is Scalar and node.plain and node.text in ("", "~", "null")
+
+
+def parse(text: str, problems: Problems) -> Node | None:
+    """The tree of a text of one document; None for an empty one.
+
+    Raises
+    ------
+    Stop
+        The text is not YAML, or is of a kind that no case needs; the problem is noted.
+    """
+    parser = LOADER(text)
+    try:
+        return _Tree(problems).grow(parser)
+    except yaml.MarkedYAMLError as error:
+        mark, message = explained(error, text)
+        raise problems.stop(mark, message) from None
+    except (yaml.YAMLError, ValueError) as error:
+        raise problems.stop((1, 1), f"this is not YAML text: {error}") from None
+    finally:
+        parser.dispose()
+
+
+class _Tree:
+    """Takes events one by one; ``stack`` has the open lists and mappings, ``pending`` the key of each."""
+
+    def __init__(self, problems: Problems) -> None:
+        self.problems = problems
+        self.root: Node | None = None
+        self.stack: list[Sequence | Mapping] = []
+        self.pending: list[tuple[str, Mark] | None] = []
+        self.nodes = 0
+        self.documents = 0
+
+    def grow(self, parser: yaml.SafeLoader) -> Node | None:
+        """Read all events."""
+        get = parser.get_event
+        while True:
+            event = get()
+            kind = event.__class__
+            if kind is ScalarEvent:
+                self._scalar(event)
+            elif kind is MappingStartEvent or kind is SequenceStartEvent:
+                self._open(event, kind is MappingStartEvent)
+            elif kind is MappingEndEvent or kind is SequenceEndEvent:
+                self.stack.pop()
+                self.pending.pop()
+            elif kind is AliasEvent:
+                raise self._refuse(event, f"'*{event.anchor}': aliases are not used in a case; write the value out")
+            elif kind is DocumentStartEvent:
+                self._document(event)
+            elif kind is StreamEndEvent:
+                return self.root
+
+    def _document(self, event: Event) -> None:
+        self.documents += 1
+        if self.documents > 1:
+            raise self._refuse(event, "a second document starts here; a case is one document, so give it its own file")
+
+    def _refuse(self, event: Event, message: str) -> Stop:
+        return self.problems.stop(_mark(event), message)
+
+    def _scalar(self, event: Event) -> None:
+        mark = _mark(event)
+        self._examine(event, mark)
+        plain = event.style is None
+        pending = self.pending
+        if pending and pending[-1] is None and type(self.stack[-1]) is Mapping:
+            pending[-1] = (event.value, mark)
+        else:
+            self._place(Scalar(event.value, plain, mark))
+
+    def _open(self, event: Event, mapping: bool) -> None:
+        mark = _mark(event)
+        self._examine(event, mark)
+        node: Sequence | Mapping = Mapping({}, {}, mark) if mapping else Sequence([], mark)
+        self._place(node)
+        if len(self.stack) >= DEEPEST:
+            raise self.problems.stop(mark, f"more than {DEEPEST} lists and mappings within each other; a case needs five")
+        self.stack.append(node)
+        self.pending.append(None)
+
+    def _examine(self, event: Event, mark: Mark) -> None:
+        """Anchors, tags and sheer number."""
+        self.nodes += 1
+        if self.nodes > MOST_NODES:
+            raise self.problems.stop(mark, f"more than {MOST_NODES} values; this is too large for a case")
+        if event.anchor is not None:
+            self.problems.refuse(mark, f"'&{event.anchor}': anchors are not used in a case; write the value out")
+        if event.tag is not None:
+            self.problems.refuse(mark, f"the tag '{event.tag[:40]}': tags are not used in a case; take it away")
+
+    def _place(self, node: Node) -> None:
+        """Put a node where it belongs: in the list or mapping that is open, or at the root."""
+        if not self.stack:
+            self.root = node
+            return
+        top = self.stack[-1]
+        if type(top) is Sequence:
+            top.items.append(node)
+            return
+        assert type(top) is Mapping
+        key = self.pending[-1]
+        self.pending[-1] = None
+        if key is None:
+            raise self.problems.stop(node.mark, "a list or mapping stands where a key should; a key is a word")
+        self._enter(top, key, node)
+
+    def _enter(self, mapping: Mapping, key: tuple[str, Mark], node: Node) -> None:
+        name, mark = key
+        first = mapping.keys.get(name)
+        if first is not None:
+            self.problems.refuse(mark, f"'{name}' is given twice, the first time in line {first[0]}, column {first[1]}")
+            return
+        if type(node) is Scalar and node.text == "" and node.plain and missing_space(name):
+            self.problems.refuse(mark, f"'{name}': write a space after the colon")
+            name = name.partition(":")[0]
+            if name in mapping.keys:
+                return
+        mapping.keys[name] = mark
+        mapping.items[name] = node
+
+
+def _mark(event: Event) -> Mark:
+    mark = event.start_mark
+    return mark.line + 1, mark.column + 1

@@ -1,0 +1,158 @@
+"""The figure: points, lengths, angles, near, and what links carry besides."""
+
+from __future__ import annotations
+
+from icsolve.case import Centroid, Coordinates, Corner, Direction, Length
+from icsolve.read.document import Mapping, Node, Scalar, Sequence
+from icsolve.read.names import Names, point_key
+from icsolve.read.problems import shown
+from icsolve.read.quantities import number
+from icsolve.read.reading import Reading
+
+
+def read_points(reading: Reading, section: Mapping) -> dict[str, Coordinates | Centroid]:
+    """Coordinates and centroids by point."""
+    points: dict[str, Coordinates | Centroid] = {}
+    for key, node in section.items.items():
+        name = reading.name(Scalar(key, True, section.keys[key]), "a point")
+        if name is None:
+            continue
+        reading.given.add(name)
+        reading.marks[f"points.{name}"] = section.keys[key]
+        value = _centroid(reading, name, node) if type(node) is Mapping else _coordinates(reading, name, node)
+        if value is not None:
+            points[name] = value
+    return points
+
+
+def _coordinates(reading: Reading, name: str, node: Node) -> Coordinates | None:
+    if type(node) is not Sequence or len(node.items) != 2:
+        count = f"has {len(node.items)} numbers; it" if type(node) is Sequence else ""
+        message = f"point {name} {count} should have two coordinates, as in [3, 0.5] or [unknown, 0.5]"
+        reading.refuse(node.mark, message.replace("  ", " "))
+        return None
+    open_ones = [type(item) is Scalar and item.text == "unknown" for item in node.items]
+    if all(open_ones):
+        reading.refuse(node.mark, f"both coordinates of {name} are unknown; leave the point out of 'points'")
+        return None
+    values = [
+        None if is_open else number(reading, item, "length", f"points.{name}.{axis}")
+        for item, is_open, axis in zip(node.items, open_ones, "xy", strict=True)
+    ]
+    missing = sum(value is None for value in values) - sum(open_ones)
+    return None if missing else Coordinates(*values)
+
+
+def _centroid(reading: Reading, name: str, node: Mapping) -> Centroid | None:
+    reading.check_keys(node, ("centroid",), f"point {name}")
+    value = node.items.get("centroid")
+    if value is None:
+        return None
+    items = reading.names(value, f"the centroid of {name}", "{centroid: [C, F, G]}")
+    if items is None:
+        return None
+    of = tuple(item.text for item in items)
+    for item in items:
+        reading.used.setdefault(item.text, item.mark)
+    if len(of) < 2 or len(set(of)) < len(of) or name in of:
+        reading.refuse(value.mark, f"the centroid of {name} is taken of two or more other points, each named once")
+        return None
+    return Centroid(of)
+
+
+def read_lengths(reading: Reading, section: Mapping, known: set[str]) -> tuple[Length, ...]:
+    """Distances between two points."""
+    found = []
+    for key, names in _keyed(reading, section, "lengths", (2,), known):
+        node = section.items[key]
+        value = number(reading, node, "length", f"lengths.{key}")
+        if value is not None and value.value < 0.0:
+            reading.refuse(node.mark, f"the length {key} should not be negative")
+        elif value is not None:
+            found.append(Length(names[0], names[1], value))
+    return tuple(found)
+
+
+def read_angles(reading: Reading, section: Mapping, known: set[str]) -> tuple[Direction | Corner, ...]:
+    """Directions of pairs and angles at the middle of triples."""
+    found: list[Direction | Corner] = []
+    for key, names in _keyed(reading, section, "angles", (2, 3), known):
+        value = number(reading, section.items[key], "angle", f"angles.{key}")
+        if value is not None and len(names) == 2:
+            found.append(Direction(names[0], names[1], value))
+        elif value is not None:
+            found.append(Corner(names[0], names[1], names[2], value))
+    return tuple(found)
+
+
+def _keyed(
+    reading: Reading, section: Mapping, what: str, sizes: tuple[int, ...], known: set[str]
+) -> list[tuple[str, Names]]:
+    """The keys that name points, each once: ``AB``, ``A-B`` and, of a length, ``BA`` are the same."""
+    found: list[tuple[str, Names]] = []
+    first: dict[Names, str] = {}
+    for key, mark in section.keys.items():
+        names = point_key(key, sizes, known)
+        if isinstance(names, str):
+            reading.refuse(mark, names)
+            continue
+        reading.given.update(names)
+        same = tuple(sorted(names)) if what == "lengths" else names
+        if same in first:
+            line, column = section.keys[first[same]]
+            said = f"'{key}' is given twice, the first time as '{first[same]}' in line {line}, column {column}"
+            reading.refuse(mark, said)
+            continue
+        first[same] = key
+        found.append((key, names))
+    return found
+
+
+def read_near(reading: Reading, section: Mapping) -> dict[str, tuple[float, float]]:
+    """Roughly where points lie."""
+    found: dict[str, tuple[float, float]] = {}
+    for key, node in section.items.items():
+        name = reading.point(Scalar(key, True, section.keys[key]), "a point")
+        if name is None:
+            continue
+        if type(node) is not Sequence or len(node.items) != 2:
+            reading.refuse(node.mark, f"near {name} should be two coordinates, as in [3.5, 2.4]")
+            continue
+        x, y = (
+            number(reading, item, "length", f"near.{name}.{axis}") for item, axis in zip(node.items, "xy", strict=True)
+        )
+        if x is not None and y is not None:
+            found[name] = (x.value, y.value)
+    return found
+
+
+def read_carried(reading: Reading, section: Mapping) -> dict[str, tuple[str, ...]]:
+    """Further points of links, as ``links:`` names them."""
+    found: dict[str, tuple[str, ...]] = {}
+    for key, node in section.items.items():
+        link = reading.link(Scalar(key, True, section.keys[key]), "a link")
+        items = reading.names(node, f"the points of link {shown(key)}", "{3: [G, H]}")
+        for item in items or ():
+            reading.used.setdefault(item.text, item.mark)
+        if link is not None and items is not None:
+            reading.marks[f"links.{link}"] = section.keys[key]
+            found[link] = tuple(item.text for item in items)
+    return found
+
+
+def check_given(reading: Reading) -> None:
+    """Every point that is needed must be given by something."""
+    guided = {name for name in reading.on_guides if reading.on_guides.count(name) > 1}
+    given = reading.given | guided
+    for name, mark in reading.used.items():
+        if name not in given and not name.startswith("@"):
+            reading.refuse(mark, _never_given(name, given))
+
+
+def _never_given(name: str, given: set[str]) -> str:
+    from icsolve.read.problems import suggestion
+
+    likely = suggestion(name, sorted(given)) if len(name) > 1 else ""
+    return f"point {name} is named here, but nothing gives it: no coordinates, length, angle or guide{likely}"
+
+

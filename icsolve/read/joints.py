@@ -1,0 +1,303 @@
+"""Joints: which two links, of what kind, where."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+
+from icsolve.case import (
+    Belt,
+    Contact,
+    Friction,
+    Gears,
+    Guide,
+    Joint,
+    KnownCentre,
+    Number,
+    Pin,
+    Roll,
+    Slide,
+    Slot,
+    Weld,
+)
+from icsolve.read.document import Mapping, Node, Scalar, Sequence
+from icsolve.read.entry import Entry
+from icsolve.read.names import is_name
+from icsolve.read.problems import shown, suggestion
+from icsolve.read.reading import RESERVED, Reading
+
+Pair = tuple[str, str]
+
+
+def mention_links(reading: Reading, section: Node | None) -> None:
+    """The links of all joints, faulty ones too, in order of first mention: other sections know them."""
+    if type(section) is not Sequence:
+        return
+    reading.links = {}
+    for item in section.items:
+        for name in _named(item):
+            if is_name(name.text):
+                reading.links.setdefault(name.text, name.mark)
+
+
+def _named(item: Node) -> list[Scalar]:
+    """The items of a joint's list of links, whatever the kind is called."""
+    if type(item) is not Mapping:
+        return []
+    kinds = [key for key in item.items if key in KINDS] or list(item.items)[:1]
+    return [
+        name
+        for key in kinds
+        if type(value := item.items[key]) is Sequence
+        for name in value.items
+        if type(name) is Scalar
+    ]
+
+
+def read_joints(reading: Reading, section: Sequence) -> tuple[Joint, ...]:
+    """The joints that could be read."""
+    shared = Counter(_at(item) for item in section.items)
+    found = []
+    for index, item in enumerate(section.items):
+        reading.marks[f"joints[{index}]"] = item.mark
+        node = reading.mapping(item, "a joint", "as in {pin: [1, 2], at: B}")
+        joint = _joint(reading, node, shared) if node is not None else None
+        if joint is not None:
+            found.append(joint)
+    return tuple(found)
+
+
+def _at(item: Node) -> str:
+    """The name at which a joint stands, '' where there is none."""
+    node = item.items.get("at") if type(item) is Mapping else None
+    return node.text if type(node) is Scalar else ""
+
+
+def _joint(reading: Reading, node: Mapping, shared: Counter[str]) -> Joint | None:
+    kind = _kind(reading, node)
+    if kind is None:
+        return None
+    links = _links(reading, kind, node.items[kind])
+    pair = "-".join(links) if links else "?"
+    at = _at(node)
+    where = f"joints.{at}" if shared[at] == 1 and at else f"joints.{pair}@{at}" if at else f"joints.{pair}"
+    reading.marks[where] = node.mark
+    keys, build = KINDS[kind]
+    entry = Entry(reading, node, where, f"the {kind} of {' and '.join(links)}" if links else f"a {kind}")
+    entry.only(kind, *keys)
+    return build(entry, links or ("?", "?"), bool(links))
+
+
+def _kind(reading: Reading, node: Mapping) -> str | None:
+    kinds = [key for key in node.items if key in KINDS]
+    if len(kinds) == 1:
+        return kinds[0]
+    if len(kinds) > 1:
+        reading.refuse(node.keys[kinds[1]], f"a joint is of one kind; this one is '{kinds[0]}' and '{kinds[1]}'")
+        return None
+    parts = {key for keys, _ in KINDS.values() for key in keys}
+    for key in node.items:
+        if key in RESERVED:
+            reading.unknown_key(key, node.keys[key], (), "a joint")
+            return None
+    strange = [key for key in node.items if key not in parts]
+    first = strange[0] if strange else None
+    likely = suggestion(first, KINDS) if first else ""
+    mark = node.keys[first] if first else node.mark
+    said = f"there is no joint kind {shown(first)}{likely}" if first else "this joint has no kind"
+    reading.refuse(mark, f"{said}; the kinds are {', '.join(KINDS)}")
+    return None
+
+
+def _links(reading: Reading, kind: str, node: Node) -> tuple[str, ...] | None:
+    """The names of a joint's links: two, of a pin two or more, all different."""
+    items = reading.names(node, f"the links of a {kind}", f"{{{kind}: [1, 2]}}")
+    if items is None:
+        return None
+    links = tuple(item.text for item in items)
+    if len(set(links)) < len(links):
+        reading.refuse(node.mark, f"a {kind} joins different links; {_twice(links)} is named twice")
+    elif len(links) < 2:
+        reading.refuse(node.mark, f"a {kind} joins two links; only {links[0] if links else 'none'} is named")
+    elif len(links) > 2 and kind != "pin":
+        reading.refuse(node.mark, f"a {kind} joins two links; {len(links)} are named")
+    else:
+        return links
+    return None
+
+
+def _twice(links: tuple[str, ...]) -> str:
+    return next(link for link in links if links.count(link) > 1)
+
+
+def _friction(entry: Entry, extra: str = "") -> Friction | None:
+    """``mu``, with the pin's ``radius`` or the block's ``length``."""
+    mu = entry.number("mu", "number", "not negative")
+    size = entry.number(extra, "length", "positive") if extra else None
+    if mu is None:
+        return None
+    return Friction(mu, radius=size if extra == "radius" else None, length=size if extra == "length" else None)
+
+
+def _pin(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
+    at = _needed_point(entry, "the point about which its links turn")
+    friction = _friction(entry, "radius")
+    if entry.has("mu") and not entry.has("radius"):
+        entry.refuse(entry.mark("mu"), f"friction of {entry.what} needs 'radius', the pin's own")
+    return Pin(links, at, friction) if at and whole else None
+
+
+def _needed_point(entry: Entry, meaning: str) -> str | None:
+    return entry.point("at") if entry.need("at", meaning) is not None else None
+
+
+def _slide(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
+    at = _needed_point(entry, "the point of the block")
+    guide = _guide(entry, at)
+    friction = _friction(entry, "length")
+    return Slide(_two(links), at, guide, friction) if at and guide and whole else None
+
+
+def _slot(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
+    at = _needed_point(entry, "the pin's point")
+    guide = _guide(entry, at)
+    friction = _friction(entry)
+    return Slot(_two(links), at, guide, friction) if at and guide and whole else None
+
+
+def _two(links: tuple[str, ...]) -> Pair:
+    return links[0], links[1]
+
+
+def _guide(entry: Entry, at: str | None) -> Guide | None:
+    """The guide line; its joint's own point is then given by it."""
+    if at:
+        entry.reading.given.add(at)
+    along = entry.need("along", "a direction in degrees, or two points of the guide as in [A, G]")
+    through = entry.point("through")
+    if along is None or (entry.has("through") and through is None):
+        return None
+    if type(along) is not Sequence:
+        angle = entry.number("along", "angle")
+        named = [through] if through else []
+        guide = Guide(angle, None, through) if angle is not None else None
+    else:
+        ends = _ends(entry, along)
+        named = [*(ends or ()), *([through] if through else [])]
+        guide = Guide(None, ends, through) if ends else None
+    entry.reading.on_guides.extend(named)
+    return guide
+
+
+def _ends(entry: Entry, node: Sequence) -> Pair | None:
+    items = entry.reading.names(node, f"'along' of {entry.what}", "[A, G]")
+    if items is None:
+        return None
+    for item in items:
+        entry.reading.used.setdefault(item.text, item.mark)
+    if len(items) == 2 and items[0].text != items[1].text:
+        return items[0].text, items[1].text
+    entry.refuse(node.mark, f"'along' of {entry.what} should be a direction or two different points")
+    return None
+
+
+def _roll(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
+    at = _needed_point(entry, "the point of contact")
+    radii = _radii(entry) if entry.has("radii") else None
+    if radii and radii[0].value == 0.0 and radii[1].value == 0.0:
+        entry.refuse(entry.mark("radii"), f"both radii of {entry.what} are 0; one of the two is round")
+    return Roll(_two(links), at, radii) if at and whole else None
+
+
+def _radii(entry: Entry) -> tuple[Number, Number] | None:
+    return entry.pair("radii", "length", ("0", "1"), "two radii, as in [1.5, 3]")
+
+
+def _gears(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
+    teeth = _teeth(entry)
+    carrier = _carrier(entry, links)
+    entry.one_of(("diametral pitch", "module"))
+    angle = entry.number("pressure angle", "angle", "positive")
+    if angle is not None and angle.value >= 90.0:
+        entry.refuse(entry.mark("pressure angle"), f"the pressure angle of {entry.what} should be less than 90")
+    pitch = entry.number("diametral pitch", "pitch", "positive")
+    module = entry.number("module", "length", "positive")
+    return Gears(_two(links), teeth, carrier, angle, pitch, module) if teeth and whole else None
+
+
+def _teeth(entry: Entry) -> tuple[Number, Number] | None:
+    meaning = "the two numbers of teeth, as in [31, 57], or [31, -92] where 92 are internal"
+    if entry.need("teeth", meaning) is None:
+        return None
+    teeth = entry.pair("teeth", "number", ("0", "1"), meaning)
+    if teeth is None:
+        return None
+    counts = [number.value for number in teeth]
+    if any(count == 0.0 or count != int(count) for count in counts):
+        entry.refuse(entry.mark("teeth"), f"the teeth of {entry.what} should be whole numbers other than 0")
+    elif max(counts) < 0.0:
+        entry.refuse(entry.mark("teeth"), f"only one gear of {entry.what} can be internal (negative)")
+    elif min(counts) < 0.0 and abs(min(counts)) <= max(counts):
+        entry.refuse(entry.mark("teeth"), f"the internal gear of {entry.what} needs more teeth than the one inside it")
+    else:
+        return teeth
+    return None
+
+
+def _carrier(entry: Entry, links: tuple[str, ...]) -> str | None:
+    carrier = entry.link("carrier")
+    if carrier in links:
+        entry.refuse(entry.mark("carrier"), f"the carrier of {entry.what} is a third link that carries their pins")
+    return carrier
+
+
+def _belt(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
+    carrier = _carrier(entry, links)
+    crossed = entry.word("crossed", ("true", "false")) == "true"
+    if entry.need("radii", "the two radii, as in [3, 5]") is None:
+        return None
+    radii = _radii(entry)
+    if radii and min(radius.value for radius in radii) <= 0.0:
+        entry.refuse(entry.mark("radii"), f"the radii of {entry.what} should be greater than zero")
+    return Belt(_two(links), radii, crossed, carrier) if radii and whole else None
+
+
+def _contact(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
+    at = _needed_point(entry, "the point of contact")
+    into = f" from {links[0]} into {links[1]}" if whole else ""
+    entry.need("normal", f"the direction of the common normal in degrees{into}")
+    normal = entry.number("normal", "angle")
+    friction = _friction(entry)
+    return Contact(_two(links), at, normal, friction) if at and normal is not None and whole else None
+
+
+def _centre(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
+    both = entry.one_of(("at", "toward"))
+    if both is None:
+        entry.need("at", "its place, or 'toward', its direction where it is at infinity")
+    if both == "toward":
+        toward = entry.number("toward", "angle")
+        return KnownCentre(_two(links), None, toward) if toward is not None and whole else None
+    at = entry.place("at", f"@{'-'.join(links)}", "its place") if both else None
+    return KnownCentre(_two(links), at) if at and whole else None
+
+
+def _weld(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
+    at = entry.point("at")
+    return Weld(_two(links), at) if whole else None
+
+
+Builder = Callable[[Entry, tuple[str, ...], bool], Joint | None]
+
+KINDS: dict[str, tuple[tuple[str, ...], Builder]] = {
+    "pin": (("at", "mu", "radius"), _pin),
+    "slide": (("at", "along", "through", "mu", "length"), _slide),
+    "slot": (("at", "along", "through", "mu"), _slot),
+    "roll": (("at", "radii"), _roll),
+    "gears": (("teeth", "carrier", "pressure angle", "diametral pitch", "module"), _gears),
+    "belt": (("radii", "carrier", "crossed"), _belt),
+    "contact": (("at", "normal", "mu"), _contact),
+    "centre": (("at", "toward"), _centre),
+    "weld": (("at",), _weld),
+}
+"""Each kind's keys besides its links, and what reads it."""

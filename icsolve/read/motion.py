@@ -1,0 +1,56 @@
+"""Motion: the speed of a link or of a point, or the sense in which a link turns."""
+
+from __future__ import annotations
+
+from icsolve.case import Motion
+from icsolve.read.document import Mapping, Node, Sequence
+from icsolve.read.entry import Entry
+from icsolve.read.reading import Reading
+
+KEYS = ("link", "speed", "turns", "point", "angle")
+_FORM = "as in {link: 2, speed: 12 rad/s} or {link: 2, turns: cw}"
+
+
+def read_motion(reading: Reading, section: Node) -> tuple[Motion, ...]:
+    """One motion or a list of them."""
+    if type(section) is not Sequence:
+        single = _motion(reading, section, "motion")
+        return (single,) if single is not None else ()
+    found = [_motion(reading, node, f"motion.{index}") for index, node in enumerate(section.items)]
+    return tuple(motion for motion in found if motion is not None)
+
+
+def _motion(reading: Reading, node: Node, path: str) -> Motion | None:
+    mapping = reading.mapping(node, "motion", _FORM)
+    if mapping is None:
+        return None
+    reading.marks[path] = mapping.mark
+    entry = Entry(reading, mapping, path, "motion")
+    entry.only(*KEYS)
+    link = entry.link("link", "the link that moves")
+    return _of_point(entry, link) if entry.has("point") else _of_link(entry, link, mapping)
+
+
+def _of_link(entry: Entry, link: str | None, mapping: Mapping) -> Motion | None:
+    if entry.has("angle"):
+        entry.refuse(entry.mark("angle"), "a link's motion has no 'angle'; with 'point' it is that of the velocity")
+        return None
+    if not entry.has("speed") and not entry.has("turns"):
+        entry.refuse(mapping.mark, "motion of a link needs 'speed', 'turns: ccw' or 'turns: cw'")
+        return None
+    speed = entry.number("speed", "angular speed")
+    turns = entry.word("turns", ("ccw", "cw"))
+    good = (speed is not None) == entry.has("speed") and (turns is not None) == entry.has("turns")
+    return Motion(link, speed, turns) if link and good else None
+
+
+def _of_point(entry: Entry, link: str | None) -> Motion | None:
+    if entry.has("turns"):
+        entry.refuse(entry.mark("turns"), "a point's motion has 'speed' and 'angle', not 'turns'")
+        return None
+    point = entry.point("point")
+    entry.need("speed", "the point's speed")
+    entry.need("angle", "the direction of its velocity in degrees")
+    speed, angle = entry.number("speed", "speed"), entry.number("angle", "angle")
+    good = link and point and speed is not None and angle is not None
+    return Motion(link, speed, None, point, angle) if good and link else None

@@ -1,0 +1,201 @@
+"""A value of the tree to a number in case units."""
+
+from __future__ import annotations
+
+from icsolve.case import Number, Units
+from icsolve.read.document import Mapping, Node, Scalar, is_null
+from icsolve.read.problems import Problems, shown, suggestion
+from icsolve.read.reading import Reading
+from icsolve.units import (
+    DIMENSIONS,
+    ONE,
+    Numeral,
+    Unit,
+    UnitError,
+    canonical,
+    converted,
+    factor,
+    kind_of,
+    parse_unit,
+    split_quantity,
+    times,
+)
+
+SMALLEST, LARGEST = 1e-100, 1e100
+"""Magnitudes between which a number stays, so that products of a few never overflow."""
+
+_A = {
+    "number": "a bare number",
+    "angle": "an angle",
+    "angular speed": "an angular speed",
+    "acceleration": "an acceleration",
+    "stiffness": "a stiffness (force per length)",
+    "pitch": "a number per length",
+}
+
+
+def number(reading: Reading, node: Node, dimension: str, path: str) -> Number | None:
+    """The number at ``path`` in case units of its dimension; None, with the reason noted."""
+    if type(node) is not Scalar:
+        reading.refuse(node.mark, f"{_a(dimension)} should stand here, not a list or mapping")
+        return None
+    reading.marks[path] = node.mark
+    return quantity(reading, node, node.text.strip(), dimension, path)
+
+
+def quantity(reading: Reading, node: Scalar, text: str, dimension: str, path: str) -> Number | None:
+    """As ``number``, of a text that may be a part of the node's."""
+    try:
+        parts = split_quantity(text)
+        if parts is None:
+            reading.refuse(node.mark, _no_number(node, text, dimension))
+            return None
+        return _checked(reading, node, _valued(reading, parts, text, dimension, path))
+    except UnitError as error:
+        reading.refuse(node.mark, f"{shown(text)}: {error}")
+    except OverflowError:
+        reading.refuse(node.mark, f"{shown(text)} is too large")
+    return None
+
+
+def _valued(reading: Reading, parts: tuple[Numeral, str], text: str, dimension: str, path: str) -> Number:
+    """The numeral in the case's unit; one division, or none where the unit is the case's own."""
+    numeral, rest = parts
+    places = float(f"5e{numeral.exponent - 1}")
+    if not rest:
+        if dimension == "mass":
+            raise UnitError("a mass carries its unit: kg, g, t, lbm or slug")
+        return Number(float(numeral.digits), places, path, numeral.digits)
+    target = reading.targets[dimension]
+    unit = _fitting(reading, rest, dimension)
+    scale = factor(unit, target)
+    return Number(converted(numeral, unit, target), places * scale, path, numeral.digits, scale)
+
+
+def _fitting(reading: Reading, text: str, dimension: str) -> Unit:
+    """The unit, of the wanted dimension."""
+    if text[0] == "," and text[1:2].isdigit():
+        raise UnitError("write a decimal point, not a comma")
+    if text[0] in "_'’" and text[1:2].isdigit():
+        raise UnitError("write the digits of a number without separators")
+    unit = parse_unit(text)
+    if unit.dims != DIMENSIONS[dimension]:
+        raise UnitError(_wrong(reading, text, unit, dimension))
+    return unit
+
+
+def _wrong(reading: Reading, text: str, unit: Unit, dimension: str) -> str:
+    given = kind_of(unit.dims)
+    if dimension == "number":
+        return f"a bare number is wanted here, without the unit '{text}'"
+    said = f"'{text}' is {_a(given)}" if given else f"'{text}' is no unit of {_a(dimension)}"
+    wanted = f"{said}, but {_a(dimension)} is wanted here, such as '{example(reading, dimension)}'"
+    if dimension == "mass" and given == "force":
+        return f"{wanted}; '{text}' is a force in statics: write 'lbm' for a mass in pounds, or 'weight' for a force"
+    if dimension == "force" and given == "mass":
+        return f"{wanted}; for the weight of a mass write 'mass' in place of the force, or use 'kgf' or 'lbf'"
+    return wanted
+
+
+def example(reading: Reading, dimension: str) -> str:
+    """The unit in which a bare number of the dimension stands."""
+    return reading.shown_units[dimension]
+
+
+def _a(dimension: str | None) -> str:
+    return _A.get(dimension or "", f"a {dimension}")
+
+
+def _checked(reading: Reading, node: Scalar, value: Number) -> Number | None:
+    size = abs(value.value)
+    zero = value.value == 0.0 and not value.digits.lower().partition("e")[0].strip("+-0.")
+    if zero or SMALLEST <= size <= LARGEST:
+        return value
+    extreme = "large" if size > LARGEST else "small"
+    reading.refuse(node.mark, f"{shown(node.text.strip())} is too {extreme} for a mechanism")
+    return None
+
+
+def _no_number(node: Scalar, text: str, dimension: str) -> str:
+    wanted = _a(dimension)
+    if is_null(node):
+        return f"{wanted} should stand here, but there is no value"
+    if text.lower().lstrip("+-") in (".inf", ".nan", "inf", "nan", "infinity"):
+        return f"'{text}' is not a number that a mechanism can have"
+    if text == "unknown":
+        return f"'unknown' cannot stand here; {wanted} is wanted"
+    return f"{wanted} should stand here, but {shown(text)} does not start with a number"
+
+
+def measures(node: Node | None, problems: Problems) -> tuple[Units, dict[str, Unit], dict[str, str]]:
+    """The ``units`` section: unit names, the unit of each dimension, and the name of each for messages."""
+    names = {"length": "m", "force": "N"}
+    if type(node) is Mapping:
+        for key, value in node.items.items():
+            _unit_of_case(names, key, value, node, problems)
+    elif node is not None and not is_null(node):
+        problems.refuse(node.mark, "units should be a mapping, as in {length: in, force: lbf}")
+    length, force = parse_unit(names["length"]), parse_unit(names["force"])
+    product = times(force, length)
+    torque_name = names.get("torque", f"{names['force']}*{names['length']}")
+    torque = parse_unit(torque_name)
+    units = Units(
+        names["length"],
+        names["force"],
+        torque_name,
+        factor(product, torque),
+        factor(parse_unit("N"), force),
+        factor(parse_unit("m"), length),
+    )
+    return units, _targets(length, force, torque), _shown(units)
+
+
+def _unit_of_case(names: dict[str, str], key: str, node: Node, section: Mapping, problems: Problems) -> None:
+    wanted = ("length", "force", "torque")
+    if key not in wanted:
+        problems.refuse(section.keys[key], f"units has no key {shown(key)}{suggestion(key, wanted)}")
+        return
+    text = node.text.strip() if type(node) is Scalar else ""
+    try:
+        unit = parse_unit(text)
+        if unit.dims != DIMENSIONS[key]:
+            given = kind_of(unit.dims)
+            raise UnitError(f"'{text}' is {_a(given) if given else 'another kind of unit'}, not {_a(key)}")
+        names[key] = "*".join(text.replace("·", " ").replace("*", " ").split()) if key == "torque" else canonical(text)
+    except UnitError as error:
+        problems.refuse(node.mark, str(error) if text else f"a unit of {key} should stand here, such as 'm' or 'N'")
+
+
+def _targets(length: Unit, force: Unit, torque: Unit) -> dict[str, Unit]:
+    """The unit of each dimension in which a case's numbers are kept."""
+    second = parse_unit("s")
+    return {
+        "number": ONE,
+        "length": length,
+        "mass": parse_unit("kg"),
+        "time": second,
+        "angle": parse_unit("deg"),
+        "force": force,
+        "torque": torque,
+        "stiffness": times(force, length, -1),
+        "speed": times(length, second, -1),
+        "angular speed": parse_unit("rad/s"),
+        "acceleration": parse_unit("m/s^2"),
+        "pitch": times(ONE, length, -1),
+    }
+
+
+def _shown(units: Units) -> dict[str, str]:
+    return {
+        "length": units.length,
+        "mass": "kg",
+        "time": "s",
+        "angle": "deg",
+        "force": units.force,
+        "torque": units.torque,
+        "stiffness": f"{units.force}/{units.length}",
+        "speed": f"{units.length}/s",
+        "angular speed": "rad/s",
+        "acceleration": "m/s^2",
+        "pitch": f"1/{units.length}",
+    }

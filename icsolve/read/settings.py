@@ -1,0 +1,152 @@
+"""One number of a case replaced before it is read: ``angles.AB`` = 30."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping as Named
+
+from icsolve.case import Mark
+from icsolve.read.document import Mapping, Node, Scalar, Sequence
+from icsolve.read.names import atoms
+from icsolve.read.problems import Problems, shown, suggestion
+
+_LOADS = ("force", "torque", "weight", "mass", "spring")
+_KINDS = ("pin", "slide", "slot", "roll", "gears", "belt", "contact", "centre", "weld")
+_FORM = "a path is like angles.AB, lengths.AB, points.D.x, loads.P, loads.P.angle or joints.B.mu"
+
+
+def apply(root: Mapping, settings: Named[str, str | float], problems: Problems) -> None:
+    """Put each value at its path in the tree; a path that the case does not have is refused."""
+    for path, value in settings.items():
+        text = value if isinstance(value, str) else repr(float(value))
+        wrong = _set(root, path, text)
+        if wrong:
+            section = root.keys.get(path.partition(".")[0])
+            problems.refuse(section or (1, 1), f"cannot set {shown(path)}: {wrong}")
+
+
+def _set(root: Mapping, path: str, text: str) -> str:
+    """What is wrong with the path; '' where the value is set."""
+    section, *steps = path.split(".")
+    if section == "gravity" and not steps:
+        return _put(root, "gravity", text)
+    if section not in ("points", "lengths", "angles", "near", "loads", "joints", "motion"):
+        return _FORM
+    node = root.items.get(section)
+    if node is None:
+        return f"the case has no '{section}'"
+    if section == "motion":
+        return _of_motion(node, steps, text)
+    if not steps:
+        return _FORM
+    if section == "joints":
+        return _of_joint(node, steps, text)
+    if type(node) is not Mapping:
+        return f"'{section}' is not a mapping"
+    return _of_named(node, section, steps, text)
+
+
+def _put(mapping: Mapping, key: str, text: str) -> str:
+    """Replace or add a value; a list or mapping is not replaced by one number."""
+    mark: Mark = mapping.keys.get(key, mapping.mark)
+    old = mapping.items.get(key)
+    if type(old) is Sequence:
+        return "there is a list there, not one number"
+    mapping.keys.setdefault(key, mark)
+    mapping.items[key] = Scalar(text, True, old.mark if old is not None else mark)
+    return ""
+
+
+def _of_named(section: Mapping, name: str, steps: list[str], text: str) -> str:
+    key = _key(section, name, steps[0])
+    if key is None:
+        return _missing(section, name, steps[0])
+    node = section.items[key]
+    if name in ("points", "near"):
+        return _axis(node, steps[1:], text)
+    if name == "loads":
+        return _of_load(node, steps[1:], text)
+    return _put(section, key, text) if len(steps) == 1 else _FORM
+
+
+def _missing(section: Mapping, name: str, key: str) -> str:
+    turned = _same(section, tuple(reversed(_parts(key)))) if name == "angles" else None
+    if turned is not None:
+        return f"the case gives the angle {turned}, which is not {key}; set angles.{turned}"
+    return f"the case has no {key} under '{name}'{suggestion(key, section.items)}"
+
+
+def _key(section: Mapping, name: str, key: str) -> str | None:
+    """The key as the file writes it: ``A-B`` for ``AB``, and of a length also ``BA``."""
+    if key in section.items or name not in ("lengths", "angles"):
+        return key if key in section.items else None
+    parts = _parts(key)
+    found = _same(section, parts)
+    return found or (_same(section, tuple(reversed(parts))) if name == "lengths" else None)
+
+
+def _parts(key: str) -> tuple[str, ...]:
+    return tuple(key.split("-")) if "-" in key else atoms(key)
+
+
+def _same(section: Mapping, parts: tuple[str, ...]) -> str | None:
+    return next((key for key in section.items if _parts(key) == parts), None)
+
+
+def _axis(node: Node, steps: list[str], text: str) -> str:
+    if type(node) is not Sequence or len(node.items) != 2:
+        return "it is not given by two coordinates"
+    if steps not in (["x"], ["y"]):
+        return "a coordinate is set as points.D.x or points.D.y"
+    index = "xy".index(steps[0])
+    node.items[index] = Scalar(text, True, node.items[index].mark)
+    return ""
+
+
+def _of_load(node: Node, steps: list[str], text: str) -> str:
+    if type(node) is not Mapping:
+        return "the load is not a mapping"
+    kind = next((key for key in _LOADS if key in node.items), None)
+    if kind is None:
+        return "the load has no number"
+    value = node.items[kind]
+    if not steps:
+        return "the load is given by components; set its x or y" if type(value) is Sequence else _put(node, kind, text)
+    if type(value) is Sequence and steps in (["x"], ["y"]):
+        return _axis(value, steps, text)
+    if steps[0] in ("at", "slope", "to") and steps[0] in node.items and len(steps) == 2:
+        return _axis(node.items[steps[0]], steps[1:], text)
+    return _put(node, steps[0], text) if len(steps) == 1 and steps[0] not in _LOADS else _FORM
+
+
+def _of_motion(node: Node, steps: list[str], text: str) -> str:
+    if type(node) is Sequence and len(steps) == 2 and steps[0].isascii() and steps[0].isdigit():
+        index = int(steps[0][:6])
+        if index < len(node.items):
+            node, steps = node.items[index], steps[1:]
+    if type(node) is Mapping and len(steps) == 1:
+        return _put(node, steps[0], text)
+    return "a motion is set as motion.speed, or of several as motion.0.speed"
+
+
+def _of_joint(node: Node, steps: list[str], text: str) -> str:
+    joints = [item for item in node.items if type(item) is Mapping] if type(node) is Sequence else []
+    found = [joint for joint in joints if steps[0] in _labels(joint)]
+    if len(steps) != 2:
+        return "a number of a joint is set as joints.B.mu, with the point at which the joint stands"
+    if not found:
+        return f"no joint stands at {steps[0]}{suggestion(steps[0], [k for j in joints for k in _labels(j)])}"
+    if len(found) > 1:
+        names = " or ".join(f"joints.{label}.{steps[1]}" for label in (_labels(joint)[-1] for joint in found))
+        return f"{len(found)} joints stand at {steps[0]}; write {names}"
+    return _put(found[0], steps[1], text)
+
+
+def _labels(joint: Mapping) -> list[str]:
+    """By what a joint can be called: its point, its links, both."""
+    at = joint.items.get("at")
+    kind = next((key for key in _KINDS if key in joint.items), "")
+    links = joint.items.get(kind)
+    names = [item.text for item in links.items if type(item) is Scalar] if type(links) is Sequence else []
+    pair = "-".join(names)
+    point = [at.text] if type(at) is Scalar else []
+    return [*point, pair, *[f"{pair}@{name}" for name in point]]

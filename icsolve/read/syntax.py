@@ -1,0 +1,60 @@
+"""What YAML's own errors mean, in the words of someone who wrote the file by hand."""
+
+from __future__ import annotations
+
+import yaml
+
+from icsolve.case import Mark
+
+_LOOKBACK = 5
+"""Lines before YAML's complaint among which its cause is sought."""
+
+
+def explained(error: yaml.MarkedYAMLError, text: str) -> tuple[Mark, str]:
+    """Place and wording of a syntax error."""
+    mark = error.problem_mark or error.context_mark
+    place = (mark.line + 1, mark.column + 1) if mark else (1, 1)
+    lines = text.splitlines()
+    line = lines[place[0] - 1] if place[0] <= len(lines) else ""
+    return _known(error, place, lines, line) or (place, f"this is not YAML: {_plain(error)}")
+
+
+def _known(error: yaml.MarkedYAMLError, place: Mark, lines: list[str], line: str) -> tuple[Mark, str] | None:
+    """Causes that are met often."""
+    problem = error.problem or ""
+    here = line[place[1] - 1 : place[1]]
+    if "\t" in line[: len(line) - len(line.lstrip())] or here == "\t":
+        column = line.index("\t") + 1
+        return (place[0], column), "a tab stands here; YAML is indented with spaces only"
+    if here and here in "@`%&*!|>":
+        return place, f"a value cannot start with '{here}'; put the text in quotes"
+    if "mapping values are not allowed" in problem or "could not find expected ':'" in problem:
+        cause = _unspaced_line(place[0], lines)
+        if cause:
+            return cause, "write a space after the colon"
+    if "'[' or" in problem or "or ']'" in problem or "or '}'" in problem:
+        opened = error.context_mark
+        where = f" (opened in line {opened.line + 1}, column {opened.column + 1})" if opened else ""
+        return place, f"a bracket{where} is not closed, or a comma is missing before this"
+    return None
+
+
+def _unspaced_line(number: int, lines: list[str]) -> Mark | None:
+    """The nearest line, from line ``number`` up, whose colon has no space after it."""
+    for at in range(min(number, len(lines)), max(number - _LOOKBACK, 0), -1):
+        line = lines[at - 1]
+        key = line.strip().removeprefix("- ").split(" ")[0]
+        if missing_space(key):
+            return at, line.index(":") + 1
+    return None
+
+
+def missing_space(key: str) -> bool:
+    """Whether a key looks like ``x:1``: a colon with something right after it."""
+    before, colon, after = key.partition(":")
+    return bool(colon and after and before) and not after.startswith("//")
+
+
+def _plain(error: yaml.MarkedYAMLError) -> str:
+    parts = [part for part in (error.context, error.problem) if part]
+    return ", ".join(parts) or "it cannot be parsed"

@@ -1,0 +1,128 @@
+"""What a key of ``expect`` names: a load, a centre, a distance, a rate, a speed, a reaction, an arm."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from icsolve.case import (
+    ArmIs,
+    CentreIs,
+    DistanceIs,
+    FrictionRadiusIs,
+    LoadIs,
+    Pair,
+    RateIs,
+    RatioIs,
+    ReactionIs,
+    SpeedIs,
+    Target,
+)
+from icsolve.read.names import LONGEST_KEY, is_name, pairs
+from icsolve.read.problems import shown, suggestion
+from icsolve.read.reading import Reading
+
+
+def target_of(reading: Reading, key: str, points: set[str]) -> Target | str:
+    """The target of a key, or what is wrong with the key. A load's name wins over other readings."""
+    if key in reading.kinds:
+        return LoadIs(key)
+    if len(key) > LONGEST_KEY:
+        return "this key is too long"
+    found = list(dict.fromkeys(_readings(reading, key, points)))
+    if len(found) == 1:
+        return found[0]
+    if found:
+        return f"{shown(key)} can be read in {len(found)} ways; write the links with hyphens, as in F3-14 or I3-14"
+    return _unknown(reading, key)
+
+
+def _unknown(reading: Reading, key: str) -> str:
+    likely = suggestion(key, reading.kinds)
+    forms = "a load, a centre (I24), a distance (I12-I26), w4/w2, w2, 'v C on 8', F34, M34, 'h F32 A' or 'rf B'"
+    return f"{shown(key)} is not a name of something in this case{likely}; it can be {forms}, of its own links and points"
+
+
+def _readings(reading: Reading, key: str, points: set[str]) -> Iterator[Target]:
+    words = key.split()
+    if len(words) > 1:
+        yield from _in_words(reading, words, points)
+        return
+    yield from _rates(reading, key)
+    yield from _centres(reading, key)
+    yield from _distances(reading, key, points)
+    yield from _reactions(reading, key, points)
+
+
+def _in_words(reading: Reading, words: list[str], points: set[str]) -> Iterator[Target]:
+    """``v C on 8``, ``h F32 A``, ``rf B``."""
+    if len(words) == 4 and words[0] == "v" and words[2] == "on":
+        if words[1] in points and reading.knows_link(words[3]):
+            yield SpeedIs(words[1], words[3])
+    elif len(words) == 3 and words[0] == "h" and words[1].startswith("F") and words[2] in points:
+        for by, on in pairs(words[1][1:], reading.knows_link):
+            yield ArmIs(by, on, words[2])
+    elif len(words) == 2 and words[0] == "rf" and words[1] in points:
+        yield FrictionRadiusIs(words[1])
+
+
+def _rates(reading: Reading, key: str) -> Iterator[Target]:
+    over, slash, under = key.partition("/")
+    if over[:1] == "w" and is_name(over[1:] or "-") and reading.knows_link(over[1:]):
+        if not slash:
+            yield RateIs(over[1:])
+        elif under[:1] == "w" and reading.knows_link(under[1:]):
+            yield RatioIs(over[1:], under[1:])
+
+
+def _centres(reading: Reading, key: str) -> Iterator[CentreIs]:
+    """``I24``, ``I2-4``, and the bare pair."""
+    if key.startswith("I"):
+        yield from (CentreIs(pair) for pair in _different(pairs(key[1:], reading.knows_link)))
+    yield from (CentreIs(pair) for pair in _different(pairs(key, reading.knows_link)))
+
+
+def _different(found: list[Pair]) -> list[Pair]:
+    return [pair for pair in found if pair[0] != pair[1]]
+
+
+def _distances(reading: Reading, key: str, points: set[str]) -> Iterator[Target]:
+    """Cut at each hyphen: a centre or a point on both sides, a centre on one at least."""
+    for at, character in enumerate(key):
+        if character == "-":
+            for a in _ends(reading, key[:at], points):
+                for b in _ends(reading, key[at + 1 :], points):
+                    if a != b:
+                        yield DistanceIs(a, b)
+
+
+def _ends(reading: Reading, text: str, points: set[str]) -> list[Pair | str]:
+    found: list[Pair | str] = [text] if text in points else []
+    if text.startswith("I"):
+        found += _different(pairs(text[1:], reading.knows_link))
+    return found
+
+
+def _reactions(reading: Reading, key: str, points: set[str]) -> Iterator[Target]:
+    """``F34``, ``F34x``, ``F3-14``, ``F3-4@B``, ``M34``; a part stands after the links or the place."""
+    if key[:1] not in ("F", "M"):
+        return
+    links, mark, place = key[1:].partition("@")
+    for text, part in _parts(key[0], links):
+        if not mark:
+            yield from _reaction(reading, text, part, None)
+        elif place in points:
+            yield from _reaction(reading, text, part, place)
+        elif not part and place[-1:] in ("x", "y") and place[:-1] in points and key[0] == "F":
+            yield from _reaction(reading, text, place[-1], place[:-1])
+
+
+def _parts(letter: str, links: str) -> list[tuple[str, str]]:
+    if letter == "M":
+        return [(links, "moment")]
+    ends = links[-1:] in ("x", "y")
+    return [(links, ""), (links[:-1], links[-1])] if ends else [(links, "")]
+
+
+def _reaction(reading: Reading, text: str, part: str, at: str | None) -> Iterator[ReactionIs]:
+    for by, on in _different(pairs(text, reading.knows_link)):
+        yield ReactionIs(by, on, part, at)
