@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from icsolve import motion, power, rates, sentences
+from icsolve import motion, power, sentences, speeds
 from icsolve.answer import Answer, Centre, Found, Term
 from icsolve.arithmetic import FLOATS
 from icsolve.case import Case, Pair
@@ -75,7 +75,7 @@ def solve(case: Case, *, all_centres: bool = False, rates: bool = False, examine
     refuse_friction(case)
     scene = set_scene(case, want)
     balance, solution = balanced(scene)
-    speed = rates.speed_of(case, scene.motions.twists, scene.figure.frame, scene.figure.points)
+    speed = speeds.speed_of(case, scene.motions.twists, scene.figure.frame, scene.figure.points)
     return answer(scene, want, balance, solution, speed)
 
 
@@ -190,7 +190,7 @@ def no_work(scene: Scene, balance: power.Balance, solution: power.Solution) -> S
 
 
 def answer(
-    scene: Scene, want: Want, balance: power.Balance, solution: power.Solution, speed: rates.Speed
+    scene: Scene, want: Want, balance: power.Balance, solution: power.Solution, speed: speeds.Speed
 ) -> Answer:
     """The answer as frozen values."""
     case, figure, motions = scene.case, scene.figure, scene.motions
@@ -201,10 +201,10 @@ def answer(
         for w in balance.wrenches
         if w.root in solution.values
     }
-    link_rates = rates.link_rates(case, motions.twists, speed) if want.rates else None
+    link_rates = speeds.link_rates(case, motions.twists, speed) if want.rates else None
     velocities = None
     if want.rates:
-        velocities = rates.point_velocities(case, motions.twists, speed, figure.frame, figure.points)
+        velocities = speeds.point_velocities(case, motions.twists, speed, figure.frame, figure.points)
     return Answer(
         case=case,
         answers=found,
@@ -232,7 +232,7 @@ def load_values(balance: power.Balance, solution: power.Solution) -> dict[str, f
 
 
 def power_terms(
-    scene: Scene, balance: power.Balance, values: dict[str, float], speed: rates.Speed
+    scene: Scene, balance: power.Balance, values: dict[str, float], speed: speeds.Speed
 ) -> Iterable[Term]:
     """One term a load, for the motion that is printed."""
     unknown = {w.load.name for w in balance.wrenches if power.known_value(w, balance) is None}
@@ -241,8 +241,8 @@ def power_terms(
         row = [balance.factors[m][n] for m in range(scene.motions.mobility)]
         scale = max(balance.sizes[m][n] for m in range(scene.motions.mobility))
         factor = (speed.of(row, scale) or 0.0) / scene.figure.frame.scale
-        where = f"{name} on link {w.load.link}" + (f" at {w.load.at}" if hasattr(w.load, "at") else "")
-        where = where.split(" at @")[0]
+        at = getattr(w.load, "at", "@")
+        where = f"{name} on link {w.load.link}" + ("" if at.startswith("@") else f" at {at}")
         if w.against != case.ground:
             where += f" against link {w.against}"
         unit = unit_of(w.load, case) if name in values else ""
@@ -258,11 +258,11 @@ def advantage(balance: power.Balance, values: dict[str, float], solution: power.
     return values[found[0]] / values[known[0]]
 
 
-def centres(scene: Scene, want: Want, speed: rates.Speed) -> dict[Pair, Centre]:
+def centres(scene: Scene, want: Want, speed: speeds.Speed) -> dict[Pair, Centre]:
     """The centres that are asked for: all, or those of the loaded links."""
     case, motions = scene.case, scene.motions
     given = bool(case.motion)
-    twists = {link: rates.meant(motions.twists, speed, link) if given else ts for link, ts in motions.twists.items()}
+    twists = {link: speeds.meant(motions.twists, speed, link) if given else ts for link, ts in motions.twists.items()}
     finder = CentreFinder(case, scene.top, twists, scene.figure.frame, scene.figure.points, FLOATS)
     slack = 2e-3 if motions.notes else 0.0
     return finder.find(wanted_pairs(case, want), slack)
