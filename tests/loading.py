@@ -1,0 +1,68 @@
+"""Random loads on a scene, with one unknown, far from a dead centre by the reference's own check."""
+
+from __future__ import annotations
+
+from random import Random
+from typing import Any
+
+import reference
+import transcribe
+import witness
+from mechanisms import Generator, heading, spot
+from transcribe import Scene
+
+
+def random_load(rng: Random, base: Scene, link: str, number: Any) -> dict[str, Any]:
+    """A load of any kind on a link, with a number or `unknown`."""
+    links = [n for n in transcribe.case(base).links if n != link]
+    other = {"against": rng.choice(links)} if rng.random() < 0.25 else {}
+    names = list(base["points"])
+    at: Any = spot(rng) if not names or rng.random() < 0.3 else rng.choice(names)
+    toward = (
+        {rng.choice(["toward", "away"]): rng.choice([n for n in names if n != at])} if len(names) > 2 else {}
+    )
+    directed: dict[str, Any] = rng.choice(
+        [{"angle": heading(rng)}, {"slope": [rng.randrange(-5, 6), 3]}, toward or {"angle": 30.0}]
+    )
+    kinds: list[dict[str, Any]] = [
+        {"force": number, "link": link, "at": at} | directed | other,
+        {"torque": number, "link": link} | ({"turns": "cw"} if rng.random() < 0.3 else {}) | other,
+        {"weight": number, "link": link, "at": at},
+    ]
+    if len(names) > 2:
+        ends = rng.sample(names, 2)
+        kinds.append({"spring": number, "free": 0.125, "link": link, "at": ends[0], "to": ends[1]} | other)
+    if number != "unknown":
+        kinds.append({"force": [number, round(rng.uniform(-50, 50), 2)], "link": link, "at": at} | other)
+        kinds.append({"mass": f"{abs(number)} kg", "link": link, "at": at})
+    return rng.choice(kinds)
+
+
+def loaded(rng: Random, base: Scene) -> Scene:
+    """The scene with one to three known loads, and one unknown on a link of its own choice."""
+    links = [n for n in transcribe.case(base).links if n != "1"]
+    known = rng.choices(links, k=rng.randrange(1, 4))
+    loads = {
+        f"P{k}": random_load(rng, base, n, round(rng.uniform(5, 200), 2)) for k, n in enumerate(known, 1)
+    }
+    return base | {"loads": loads | {"U": random_load(rng, base, rng.choice(links), "unknown")}}
+
+
+def sound(trial: Scene) -> bool:
+    """One motion, well away from another mobility; an unknown and known loads that do work in it."""
+    case = transcribe.case(trial)
+    points = reference.points_of(case)
+    if reference.clearance(case, points) < 1e-3:
+        return False
+    found = reference.motions(case, points)
+    return len(found.basis) == 1 and witness.firmness(found) > 1e-2
+
+
+def drawn(seed: int, generator: Generator) -> Scene:
+    """The first sound scene, with loads, that a generator makes from a seed."""
+    rng = Random(f"{generator.__name__} {seed}")
+    for _ in range(2000):
+        trial = loaded(rng, generator(rng))
+        if sound(trial):
+            return trial
+    raise AssertionError(f"no sound scene of {generator} from seed {seed}")
