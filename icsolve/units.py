@@ -90,7 +90,7 @@ _TABLE: tuple[tuple[str, int, int, int, str], ...] = (
     ("rpm", 1, 30, 1, "angular speed"),
 )
 _EITHER_CASE = frozenset(
-    "in inch inches ft foot feet yd lbf lb lbs lbm kip kips ozf oz kgf tonf slug slugs rad deg rev rpm hp".split()
+    "in inch inches ft foot feet yd lbf lb lbs lbm kip kips ozf oz kgf tonf slug slugs deg rev rpm hp".split()
 )
 """Names without a prefix that case could change: ``RPM``, ``LBF``, ``In`` are what they seem."""
 
@@ -191,7 +191,7 @@ def _factor(text: str, whole: str) -> tuple[Unit, str]:
 
 
 def _power(text: str, whole: str) -> tuple[int, str]:
-    """The power at the start of the text (``^2``, ``**2``, ``²``, ``2``; 1 where none stands); and the rest."""
+    """The power at the start of the text (``^2``, ``**2``, ``²``, ``2``; else 1); and the rest."""
     mark = 2 if text.startswith("**") else 1 if text.startswith("^") else 0
     body = text[mark:].translate(_SUPERSCRIPTS)
     signed = (mark or text[:1] == "⁻") and body[:1] in ("-", "+")
@@ -266,9 +266,8 @@ def split_quantity(text: str) -> tuple[Numeral, str] | None:
     if len(digits) > _MOST_DIGITS or (power and len(power) > 5):
         raise UnitError("the numeral is too long: a number has at most 17 digits that count")
     exponent = int(power.replace("−", "-")) if power else 0
-    mantissa = int((whole or "") + decimals)
-    numeral = Numeral(digits, -mantissa if sign in ("-", "−") and sign else mantissa, exponent - len(decimals))
-    return numeral, text[found.end() :].strip()
+    mantissa = int((whole or "") + decimals) * (-1 if sign in ("-", "−") else 1)
+    return Numeral(digits, mantissa, exponent - len(decimals)), text[found.end() :].strip()
 
 
 def ratio(unit: Unit, target: Unit) -> tuple[int, int]:
@@ -276,7 +275,9 @@ def ratio(unit: Unit, target: Unit) -> tuple[int, int]:
     num, den = unit.num * target.den, unit.den * target.num
     power = unit.pi - target.pi
     top, bottom = _PI if power > 0 else _PI[::-1]
-    return num * top ** abs(power), den * bottom ** abs(power)
+    for _ in range(abs(power)):
+        num, den = num * top, den * bottom
+    return num, den
 
 
 def factor(unit: Unit, target: Unit) -> float:
@@ -294,7 +295,7 @@ def converted(numeral: Numeral, unit: Unit, target: Unit) -> float:
         The value is beyond a double.
     """
     num, den = ratio(unit, target)
-    scale = 10 ** abs(numeral.exponent)
+    scale: int = 10 ** abs(numeral.exponent)
     if numeral.exponent >= 0:
         return numeral.mantissa * num * scale / den
     return numeral.mantissa * num / (den * scale)

@@ -78,7 +78,7 @@ def _root(node: Node | None, problems: Problems) -> Mapping:
         return node
     if node is None:
         raise problems.stop((1, 1), "there is nothing in it; a case starts with 'icsolve: 1'")
-    raise problems.stop(node.mark, "this is not an icsolve case, which starts with 'icsolve: 1' and has a key a section")
+    raise problems.stop(node.mark, "this is not an icsolve case, which starts with 'icsolve: 1'")
 
 
 def _error(root: Mapping | None, text: str, problems: Problems) -> CaseError:

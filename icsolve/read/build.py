@@ -52,6 +52,7 @@ SECTIONS = (
     "motion",
     "expect",
 )
+TEXTS = ("title", "source", "reconstructed")
 _FORMS = {
     "points": "as in {A: [0, 0]}",
     "lengths": "as in {AB: 1}",
@@ -88,7 +89,7 @@ def build(root: Mapping, problems: Problems, name: str) -> Case:
     ground = _ground(reading, root)
     parts = _parts(reading, root)
     check_given(reading)
-    texts = {key: reading.text(root.items[key], key) for key in ("title", "source", "reconstructed") if key in root.items}
+    texts = {key: reading.text(root.items[key], key) for key in TEXTS if key in root.items}
     return _case(name, problems.path, units, ground, reading, parts, texts, _gravity(reading, root))
 
 
@@ -135,7 +136,7 @@ def _joints(reading: Reading, root: Mapping) -> tuple[Joint, ...]:
         return read_joints(reading, node)
     if node is None or is_null(node) or type(node) is Sequence:
         mark = root.keys.get("joints", root.mark)
-        reading.refuse(mark, "the case has no joints; write a list of them, as in joints: [{pin: [1, 2], at: A}]")
+        reading.refuse(mark, "the case has no joints; list them, as in joints: [{pin: [1, 2], at: A}]")
     else:
         reading.refuse(node.mark, "'joints' should be a list, each item as in - {pin: [1, 2], at: B}")
     return ()
@@ -147,8 +148,8 @@ def _ground(reading: Reading, root: Mapping) -> str:
     if node is not None:
         return reading.link(node, "'ground'") or "1"
     if reading.links and "1" not in reading.links:
-        mark = root.keys["joints"]
-        reading.refuse(mark, "no joint has link 1, the frame; if another link is the frame, name it with 'ground:'")
+        message = "no joint has link 1, the frame; if another link is the frame, name it with 'ground:'"
+        reading.refuse(root.keys["joints"], message)
     return "1"
 
 

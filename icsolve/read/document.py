@@ -7,13 +7,12 @@ too deep, too large, or given twice.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import yaml
 from yaml.events import (
     AliasEvent,
     DocumentStartEvent,
-    Event,
     MappingEndEvent,
     MappingStartEvent,
     ScalarEvent,
@@ -26,7 +25,7 @@ from icsolve.case import Mark
 from icsolve.read.problems import Problems, Stop
 from icsolve.read.syntax import explained, missing_space
 
-LOADER: type = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 """libyaml's parser; the pure one where libyaml is missing."""
 
 DEEPEST = 50
@@ -95,7 +94,7 @@ class _Tree:
         self.nodes = 0
         self.documents = 0
 
-    def grow(self, parser: yaml.SafeLoader) -> Node | None:
+    def grow(self, parser: Any) -> Node | None:
         """Read all events."""
         get = parser.get_event
         while True:
@@ -109,21 +108,21 @@ class _Tree:
                 self.stack.pop()
                 self.pending.pop()
             elif kind is AliasEvent:
-                raise self._refuse(event, f"'*{event.anchor}': aliases are not used in a case; write the value out")
+                raise self._refuse(event, f"'*{event.anchor}': a case has no aliases; write the value out")
             elif kind is DocumentStartEvent:
                 self._document(event)
             elif kind is StreamEndEvent:
                 return self.root
 
-    def _document(self, event: Event) -> None:
+    def _document(self, event: Any) -> None:
         self.documents += 1
         if self.documents > 1:
-            raise self._refuse(event, "a second document starts here; a case is one document, so give it its own file")
+            raise self._refuse(event, "a second document starts here; give each case its own file")
 
-    def _refuse(self, event: Event, message: str) -> Stop:
+    def _refuse(self, event: Any, message: str) -> Stop:
         return self.problems.stop(_mark(event), message)
 
-    def _scalar(self, event: Event) -> None:
+    def _scalar(self, event: Any) -> None:
         mark = _mark(event)
         self._examine(event, mark)
         plain = event.style is None
@@ -133,25 +132,25 @@ class _Tree:
         else:
             self._place(Scalar(event.value, plain, mark))
 
-    def _open(self, event: Event, mapping: bool) -> None:
+    def _open(self, event: Any, mapping: bool) -> None:
         mark = _mark(event)
         self._examine(event, mark)
         node: Sequence | Mapping = Mapping({}, {}, mark) if mapping else Sequence([], mark)
         self._place(node)
         if len(self.stack) >= DEEPEST:
-            raise self.problems.stop(mark, f"more than {DEEPEST} lists and mappings within each other; a case needs five")
+            raise self.problems.stop(mark, f"more than {DEEPEST} brackets or lists within each other")
         self.stack.append(node)
         self.pending.append(None)
 
-    def _examine(self, event: Event, mark: Mark) -> None:
+    def _examine(self, event: Any, mark: Mark) -> None:
         """Anchors, tags and sheer number."""
         self.nodes += 1
         if self.nodes > MOST_NODES:
             raise self.problems.stop(mark, f"more than {MOST_NODES} values; this is too large for a case")
         if event.anchor is not None:
-            self.problems.refuse(mark, f"'&{event.anchor}': anchors are not used in a case; write the value out")
+            self.problems.refuse(mark, f"'&{event.anchor}': a case has no anchors; write the value out")
         if event.tag is not None:
-            self.problems.refuse(mark, f"the tag '{event.tag[:40]}': tags are not used in a case; take it away")
+            self.problems.refuse(mark, f"the tag '{event.tag[:40]}': a case has no tags; take it away")
 
     def _place(self, node: Node) -> None:
         """Put a node where it belongs: in the list or mapping that is open, or at the root."""
@@ -166,14 +165,15 @@ class _Tree:
         key = self.pending[-1]
         self.pending[-1] = None
         if key is None:
-            raise self.problems.stop(node.mark, "a list or mapping stands where a key should; a key is a word")
+            raise self.problems.stop(node.mark, "a list or mapping stands where a key should")
         self._enter(top, key, node)
 
     def _enter(self, mapping: Mapping, key: tuple[str, Mark], node: Node) -> None:
         name, mark = key
         first = mapping.keys.get(name)
         if first is not None:
-            self.problems.refuse(mark, f"'{name}' is given twice, the first time in line {first[0]}, column {first[1]}")
+            place = f"line {first[0]}, column {first[1]}"
+            self.problems.refuse(mark, f"'{name}' is given twice, the first time in {place}")
             return
         if type(node) is Scalar and node.text == "" and node.plain and missing_space(name):
             self.problems.refuse(mark, f"'{name}': write a space after the colon")
@@ -184,6 +184,6 @@ class _Tree:
         mapping.items[name] = node
 
 
-def _mark(event: Event) -> Mark:
-    mark = event.start_mark
-    return mark.line + 1, mark.column + 1
+def _mark(event: Any) -> Mark:
+    start = event.start_mark
+    return start.line + 1, start.column + 1

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 from icsolve.case import Coordinates, Mark, Number
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
@@ -10,10 +10,9 @@ from icsolve.read.problems import shown, suggestion
 from icsolve.read.quantities import number
 from icsolve.read.reading import Reading
 
-_BOUNDS = {
+_BOUNDS: dict[str, tuple[Callable[[float], bool], str]] = {
     "positive": (lambda v: v > 0.0, "should be greater than zero"),
     "not negative": (lambda v: v >= 0.0, "should not be negative"),
-    "not zero": (lambda v: v != 0.0, "should not be zero"),
 }
 
 
@@ -60,7 +59,9 @@ class Entry:
     def number(self, key: str, dimension: str, bound: str = "", path: str = "") -> Number | None:
         """A number if the key stands there, within its bound."""
         node = self.node.items.get(key)
-        return self.value(node, dimension, path or f"{self.path}.{key}", key, bound) if node is not None else None
+        if node is None:
+            return None
+        return self.value(node, dimension, path or f"{self.path}.{key}", key, bound)
 
     def value(self, node: Node, dimension: str, path: str, key: str, bound: str = "") -> Number | None:
         """The number of a node, within its bound."""
@@ -70,8 +71,8 @@ class Entry:
         self.refuse(node.mark, f"the {key} {found.digits} of {self.what} {_BOUNDS[bound][1]}")
         return None
 
-    def pair(self, key: str, dimension: str, names: tuple[str, str], meaning: str) -> tuple[Number, Number] | None:
-        """A list of two numbers, at paths ``key.name``."""
+    def pair(self, key: str, dimension: str, names: str, meaning: str) -> tuple[Number, Number] | None:
+        """A list of two numbers, at paths ``key.x`` and ``key.y`` for names ``xy``."""
         node = self.node.items.get(key)
         if type(node) is not Sequence or len(node.items) != 2:
             mark = node.mark if node is not None else self.node.mark
@@ -93,7 +94,7 @@ class Entry:
         node = self.need(key, meaning)
         if type(node) is not Sequence:
             return self.point(key) if node is not None else None
-        pair = self.pair(key, "length", ("x", "y"), "a point, or two coordinates [x, y]")
+        pair = self.pair(key, "length", "xy", "a point, or two coordinates [x, y]")
         if pair is None:
             return None
         self.reading.hidden[hidden] = Coordinates(*pair)

@@ -78,8 +78,9 @@ def _expected(reading: Reading, key: str, target: Target, node: Node) -> Expecte
     if which is None:
         entry.need("value", "the published one")
         return None
-    value = _toward(entry, target) if which == "toward" else _value(reading, node.items["value"], target, entry.path)
-    within = _within(entry, _dimension(reading, target) if which == "value" else "angle")
+    toward = which == "toward"
+    value = _toward(entry, target) if toward else _value(reading, node.items["value"], target, entry.path)
+    within = _within(entry, "angle" if toward else _dimension(reading, target))
     erratum = reading.text(node.items["erratum"], f"the erratum of {key}") if entry.has("erratum") else None
     if value is None or within is None:
         return None
@@ -89,7 +90,7 @@ def _expected(reading: Reading, key: str, target: Target, node: Node) -> Expecte
 
 def _toward(entry: Entry, target: Target) -> _Value | None:
     if not isinstance(target, CentreIs):
-        entry.refuse(entry.mark("toward"), f"{entry.what} is not a centre; only a centre at infinity lies 'toward'")
+        entry.refuse(entry.mark("toward"), f"{entry.what} is not a centre; only a centre can lie 'toward'")
         return None
     toward = entry.number("toward", "angle")
     return _Value(toward=toward) if toward is not None else None
@@ -134,7 +135,7 @@ def _value(reading: Reading, node: Node, target: Target, path: str) -> _Value | 
 
 def _place(reading: Reading, node: Node, path: str) -> _Value | None:
     if type(node) is not Sequence or len(node.items) != 2:
-        reading.refuse(node.mark, "a centre is published as [x, y], or as {toward: 90} where it is at infinity")
+        reading.refuse(node.mark, "a centre is published as [x, y], or as {toward: 90} at infinity")
         return None
     values = [
         number(reading, item, "length", f"{path}.{axis}") for item, axis in zip(node.items, "xy", strict=True)
@@ -188,5 +189,3 @@ def _dimension(reading: Reading, target: Target) -> str:
         return "length"
     assert isinstance(target, RatioIs)
     return "number"
-
-

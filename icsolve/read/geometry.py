@@ -55,7 +55,7 @@ def _centroid(reading: Reading, name: str, node: Mapping) -> Centroid | None:
     for item in items:
         reading.used.setdefault(item.text, item.mark)
     if len(of) < 2 or len(set(of)) < len(of) or name in of:
-        reading.refuse(value.mark, f"the centroid of {name} is taken of two or more other points, each named once")
+        reading.refuse(value.mark, f"the centroid of {name} is that of two or more other points")
         return None
     return Centroid(of)
 
@@ -100,8 +100,8 @@ def _keyed(
         same = tuple(sorted(names)) if what == "lengths" else names
         if same in first:
             line, column = section.keys[first[same]]
-            said = f"'{key}' is given twice, the first time as '{first[same]}' in line {line}, column {column}"
-            reading.refuse(mark, said)
+            place = f"line {line}, column {column}"
+            reading.refuse(mark, f"'{key}' is given twice, the first time as '{first[same]}' in {place}")
             continue
         first[same] = key
         found.append((key, names))
@@ -118,9 +118,8 @@ def read_near(reading: Reading, section: Mapping) -> dict[str, tuple[float, floa
         if type(node) is not Sequence or len(node.items) != 2:
             reading.refuse(node.mark, f"near {name} should be two coordinates, as in [3.5, 2.4]")
             continue
-        x, y = (
-            number(reading, item, "length", f"near.{name}.{axis}") for item, axis in zip(node.items, "xy", strict=True)
-        )
+        x = number(reading, node.items[0], "length", f"near.{name}.x")
+        y = number(reading, node.items[1], "length", f"near.{name}.y")
         if x is not None and y is not None:
             found[name] = (x.value, y.value)
     return found
@@ -154,5 +153,3 @@ def _never_given(name: str, given: set[str]) -> str:
 
     likely = suggestion(name, sorted(given)) if len(name) > 1 else ""
     return f"point {name} is named here, but nothing gives it: no coordinates, length, angle or guide{likely}"
-
-

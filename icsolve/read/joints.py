@@ -93,7 +93,8 @@ def _kind(reading: Reading, node: Mapping) -> str | None:
     if len(kinds) == 1:
         return kinds[0]
     if len(kinds) > 1:
-        reading.refuse(node.keys[kinds[1]], f"a joint is of one kind; this one is '{kinds[0]}' and '{kinds[1]}'")
+        said = f"this one is '{kinds[0]}' and '{kinds[1]}'"
+        reading.refuse(node.keys[kinds[1]], f"a joint is of one kind; {said}")
         return None
     parts = {key for keys, _ in KINDS.values() for key in keys}
     for key in node.items:
@@ -136,7 +137,7 @@ def _friction(entry: Entry, extra: str = "") -> Friction | None:
     size = entry.number(extra, "length", "positive") if extra else None
     if mu is None:
         return None
-    return Friction(mu, radius=size if extra == "radius" else None, length=size if extra == "length" else None)
+    return Friction(mu, radius=size) if extra == "radius" else Friction(mu, length=size)
 
 
 def _pin(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
@@ -210,7 +211,7 @@ def _roll(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
 
 
 def _radii(entry: Entry) -> tuple[Number, Number] | None:
-    return entry.pair("radii", "length", ("0", "1"), "two radii, as in [1.5, 3]")
+    return entry.pair("radii", "length", "01", "two radii, as in [1.5, 3]")
 
 
 def _gears(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
@@ -219,7 +220,7 @@ def _gears(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
     entry.one_of(("diametral pitch", "module"))
     angle = entry.number("pressure angle", "angle", "positive")
     if angle is not None and angle.value >= 90.0:
-        entry.refuse(entry.mark("pressure angle"), f"the pressure angle of {entry.what} should be less than 90")
+        entry.refuse(entry.mark("pressure angle"), "a pressure angle is less than 90 degrees")
     pitch = entry.number("diametral pitch", "pitch", "positive")
     module = entry.number("module", "length", "positive")
     return Gears(_two(links), teeth, carrier, angle, pitch, module) if teeth and whole else None
@@ -229,7 +230,7 @@ def _teeth(entry: Entry) -> tuple[Number, Number] | None:
     meaning = "the two numbers of teeth, as in [31, 57], or [31, -92] where 92 are internal"
     if entry.need("teeth", meaning) is None:
         return None
-    teeth = entry.pair("teeth", "number", ("0", "1"), meaning)
+    teeth = entry.pair("teeth", "number", "01", meaning)
     if teeth is None:
         return None
     counts = [number.value for number in teeth]
@@ -238,7 +239,7 @@ def _teeth(entry: Entry) -> tuple[Number, Number] | None:
     elif max(counts) < 0.0:
         entry.refuse(entry.mark("teeth"), f"only one gear of {entry.what} can be internal (negative)")
     elif min(counts) < 0.0 and abs(min(counts)) <= max(counts):
-        entry.refuse(entry.mark("teeth"), f"the internal gear of {entry.what} needs more teeth than the one inside it")
+        entry.refuse(entry.mark("teeth"), "an internal gear has more teeth than the one inside it")
     else:
         return teeth
     return None
@@ -247,7 +248,7 @@ def _teeth(entry: Entry) -> tuple[Number, Number] | None:
 def _carrier(entry: Entry, links: tuple[str, ...]) -> str | None:
     carrier = entry.link("carrier")
     if carrier in links:
-        entry.refuse(entry.mark("carrier"), f"the carrier of {entry.what} is a third link that carries their pins")
+        entry.refuse(entry.mark("carrier"), f"the carrier of {entry.what} is a third link")
     return carrier
 
 

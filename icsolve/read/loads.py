@@ -2,7 +2,20 @@
 
 from __future__ import annotations
 
-from icsolve.case import Force, ForceVector, Heading, Like, Load, Magnitude, Mark, Slope, Spring, Torque, Toward, Weight
+from icsolve.case import (
+    Force,
+    ForceVector,
+    Heading,
+    Like,
+    Load,
+    Magnitude,
+    Mark,
+    Slope,
+    Spring,
+    Torque,
+    Toward,
+    Weight,
+)
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.entry import Entry
 from icsolve.read.names import is_name, why_no_name
@@ -16,8 +29,8 @@ HEADINGS = ("angle", "toward", "away", "slope")
 KEYS = {
     "force": ("link", "at", *HEADINGS, "against", "turns_with"),
     "torque": ("link", "turns", "against"),
-    "weight": ("link", "at", "against"),
-    "mass": ("link", "at", "against"),
+    "weight": ("link", "at"),
+    "mass": ("link", "at"),
     "spring": ("free", "link", "at", "against", "to"),
 }
 """What each kind of load takes besides its number."""
@@ -88,7 +101,8 @@ def _check_keys(entry: Entry, kind: str) -> None:
         if key in allowed:
             continue
         if key in others:
-            entry.refuse(mark, f"{entry.what} is a {kind}, which has no '{key}'; it takes {', '.join(KEYS[kind])}")
+            takes = ", ".join(KEYS[kind])
+            entry.refuse(mark, f"{entry.what} is a {kind}, which has no '{key}'; it takes {takes}")
         else:
             entry.reading.unknown_key(key, mark, allowed, entry.what)
 
@@ -131,7 +145,7 @@ def _check_likes(reading: Reading, likes: Likes) -> None:
         elif kind and others and DIMENSION[kind] != DIMENSION[others]:
             reading.refuse(mark, f"load {name} is a {kind} and cannot be like {other}, a {others}")
         elif _leads_back(name, likes):
-            reading.refuse(mark, f"load {name} is like {other}, which leads back to {name}; one of them needs a number")
+            reading.refuse(mark, f"load {name} is like {other}, which leads back to {name}")
 
 
 def _leads_back(name: str, likes: Likes) -> bool:
@@ -180,7 +194,7 @@ def _vector(
     heading = entry.one_of(HEADINGS)
     if heading is not None:
         entry.refuse(entry.mark(heading), f"{entry.what} is given by components, so it takes no '{heading}'")
-    parts = entry.pair("force", "force", ("x", "y"), "a number, 'unknown', or two components [Fx, Fy]")
+    parts = entry.pair("force", "force", "xy", "a number, 'unknown', or two components [Fx, Fy]")
     if parts is None:
         return None
     x, y = (part._replace(path=f"{entry.path}.{axis}") for part, axis in zip(parts, "xy", strict=True))
@@ -210,7 +224,7 @@ def _text(entry: Entry, key: str) -> str:
 
 
 def _slope(entry: Entry) -> Slope | None:
-    pair = entry.pair("slope", "number", ("x", "y"), "a run and a rise, as in [-3, 4]")
+    pair = entry.pair("slope", "number", "xy", "a run and a rise, as in [-3, 4]")
     if pair and pair[0].value == 0.0 and pair[1].value == 0.0:
         entry.refuse(entry.mark("slope"), f"the slope [0, 0] of {entry.what} has no direction")
         return None
@@ -227,10 +241,10 @@ def _torque(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
 
 
 def _weight(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
-    link, against, good = _bearer(entry)
+    link = entry.link("link", "the link that it acts on")
     at = entry.place("at", f"@{name}", "its point, or [x, y]")
     read, value = _magnitude(entry, name, kind, likes, "not negative" if kind == "mass" else "")
-    return Weight(name, link, at, value, kind == "mass", against) if good and read and link and at else None
+    return Weight(name, link, at, value, kind == "mass") if read and link and at else None
 
 
 def _spring(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
@@ -249,5 +263,3 @@ def _spring(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
 
 
 BUILD = {"force": _force, "torque": _torque, "weight": _weight, "mass": _weight, "spring": _spring}
-
-

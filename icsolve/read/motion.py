@@ -33,7 +33,7 @@ def _motion(reading: Reading, node: Node, path: str) -> Motion | None:
 
 def _of_link(entry: Entry, link: str | None, mapping: Mapping) -> Motion | None:
     if entry.has("angle"):
-        entry.refuse(entry.mark("angle"), "a link's motion has no 'angle'; with 'point' it is that of the velocity")
+        entry.refuse(entry.mark("angle"), "a link's motion has no 'angle'; a point's motion has")
         return None
     if not entry.has("speed") and not entry.has("turns"):
         entry.refuse(mapping.mark, "motion of a link needs 'speed', 'turns: ccw' or 'turns: cw'")

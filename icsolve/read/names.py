@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterator
+from itertools import pairwise
 
 Names = tuple[str, ...]
 
@@ -71,21 +72,26 @@ def point_key(key: str, sizes: tuple[int, ...], known: Collection[str]) -> Names
 def _unhyphened(key: str, sizes: tuple[int, ...], known: Collection[str], wanted: str) -> Names | str:
     plain = atoms(key)
     other = [
-        names for size in sizes for names in splits(key, size) if names != plain and all(n in known for n in names)
+        names
+        for size in sizes
+        for names in splits(key, size)
+        if names != plain and all(name in known for name in names)
     ]
     if len(plain) in sizes:
         if not other:
             return _distinct(plain)
         if all(name in known for name in plain):
-            return f"'{key}' can be read as {' or as '.join(map('-'.join, [plain, *other]))}; write it with hyphens"
+            ways = " or as ".join(map("-".join, [plain, *other]))
+            return f"'{key}' can be read as {ways}; write it with hyphens"
     if other:
-        return f"'{key}': with names longer than one character write hyphens: {' or '.join(map('-'.join, other))}"
+        ways = " or ".join(map("-".join, other))
+        return f"'{key}': with names longer than one character write hyphens: {ways}"
     return f"'{key}' should name {wanted}: of one character each, as in AB, or with hyphens, as in O2-A"
 
 
 def _distinct(names: Names) -> Names | str:
     """Neighbours in a key must differ; the two arms of an angle may be one and the same."""
-    if any(a == b for a, b in zip(names, names[1:], strict=False)):
+    if any(a == b for a, b in pairwise(names)):
         return f"'{'-'.join(names)}' names the same point twice"
     return names
 

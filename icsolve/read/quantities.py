@@ -91,9 +91,9 @@ def _wrong(reading: Reading, text: str, unit: Unit, dimension: str) -> str:
     said = f"'{text}' is {_a(given)}" if given else f"'{text}' is no unit of {_a(dimension)}"
     wanted = f"{said}, but {_a(dimension)} is wanted here, such as '{example(reading, dimension)}'"
     if dimension == "mass" and given == "force":
-        return f"{wanted}; '{text}' is a force in statics: write 'lbm' for a mass in pounds, or 'weight' for a force"
+        return f"{wanted}; write 'lbm' for a mass in pounds, or 'weight' in place of 'mass' for a force"
     if dimension == "force" and given == "mass":
-        return f"{wanted}; for the weight of a mass write 'mass' in place of the force, or use 'kgf' or 'lbf'"
+        return f"{wanted}; for a weight given by its mass write 'mass' in place of the force"
     return wanted
 
 
@@ -161,9 +161,14 @@ def _unit_of_case(names: dict[str, str], key: str, node: Node, section: Mapping,
         if unit.dims != DIMENSIONS[key]:
             given = kind_of(unit.dims)
             raise UnitError(f"'{text}' is {_a(given) if given else 'another kind of unit'}, not {_a(key)}")
-        names[key] = "*".join(text.replace("·", " ").replace("*", " ").split()) if key == "torque" else canonical(text)
+        names[key] = _product_name(text) if key == "torque" else canonical(text)
     except UnitError as error:
-        problems.refuse(node.mark, str(error) if text else f"a unit of {key} should stand here, such as 'm' or 'N'")
+        problems.refuse(node.mark, str(error) if text else f"a unit of {key} should stand here")
+
+
+def _product_name(text: str) -> str:
+    """A product as it is shown: ``N·m`` and ``N m`` as ``N*m``."""
+    return "*".join(text.replace("·", " ").replace("*", " ").split())
 
 
 def _targets(length: Unit, force: Unit, torque: Unit) -> dict[str, Unit]:

@@ -57,7 +57,8 @@ class Reading:
         if is_null(node):
             self.refuse(node.mark, f"{what} has no value; write {form}")
         elif type(node) is Scalar and missing_space(node.text.split(" ")[0]):
-            self.refuse(node.mark, f"{what} is read as one text, {shown(node.text)}; write a space after each colon")
+            said = f"{what} is read as one text, {shown(node.text)}"
+            self.refuse(node.mark, f"{said}; write a space after each colon")
         else:
             self.refuse(node.mark, f"{what} should be a mapping, {form}")
         return None

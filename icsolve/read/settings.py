@@ -110,7 +110,7 @@ def _of_load(node: Node, steps: list[str], text: str) -> str:
         return "the load has no number"
     value = node.items[kind]
     if not steps:
-        return "the load is given by components; set its x or y" if type(value) is Sequence else _put(node, kind, text)
+        return _put(node, kind, text)
     if type(value) is Sequence and steps in (["x"], ["y"]):
         return _axis(value, steps, text)
     if steps[0] in ("at", "slope", "to") and steps[0] in node.items and len(steps) == 2:

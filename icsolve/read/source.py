@@ -30,7 +30,7 @@ def text_of(path: str | os.PathLike[str], problems: Problems) -> str:
     except (OSError, ValueError) as error:
         raise problems.stop((1, 1), _unreadable(error)) from None
     if len(data) > LARGEST:
-        raise problems.stop((1, 1), f"the file is larger than {LARGEST // 1_000_000} MB, too large for a case")
+        raise problems.stop((1, 1), f"the file is larger than {LARGEST // 10**6} MB, too large for a case")
     return _decoded(data, problems)
 
 
@@ -73,7 +73,8 @@ def checked(text: str, problems: Problems) -> str:
     found = re.search(_FOREIGN, text)
     if found:
         mark = _place(text, found.start())
-        raise problems.stop(mark, f"the character U+{ord(found.group()):04X} has no place in a text; delete it")
+        character = f"U+{ord(found.group()):04X}"
+        raise problems.stop(mark, f"the character {character} has no place in a text; delete it")
     return text
 
 

@@ -32,14 +32,14 @@ def target_of(reading: Reading, key: str, points: set[str]) -> Target | str:
     if len(found) == 1:
         return found[0]
     if found:
-        return f"{shown(key)} can be read in {len(found)} ways; write the links with hyphens, as in F3-14 or I3-14"
+        return f"{shown(key)} can be read in {len(found)} ways; write the links with hyphens, as in I3-14"
     return _unknown(reading, key)
 
 
 def _unknown(reading: Reading, key: str) -> str:
     likely = suggestion(key, reading.kinds)
-    forms = "a load, a centre (I24), a distance (I12-I26), w4/w2, w2, 'v C on 8', F34, M34, 'h F32 A' or 'rf B'"
-    return f"{shown(key)} is not a name of something in this case{likely}; it can be {forms}, of its own links and points"
+    forms = "a load, I24, I12-I26, I24-A, w4/w2, w2, 'v C on 8', F34, M34, 'h F32 A' or 'rf B'"
+    return f"{shown(key)} names nothing in this case{likely}; a key can be {forms}"
 
 
 def _readings(reading: Reading, key: str, points: set[str]) -> Iterator[Target]:
