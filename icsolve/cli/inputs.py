@@ -4,84 +4,55 @@ from __future__ import annotations
 
 import glob
 import os
-import re
 import sys
 from collections.abc import Iterator
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
-from icsolve.errors import CaseError, Problem
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from icsolve.case import Case
 
 STDIN = "<stdin>"
-LARGEST = 1 << 20
-"""Bytes that are read of a file: more is no case, and is refused by the reader as too large."""
-
-_MARKED = re.compile(rb"(?:(?:^|[\n\r])(?:\xef\xbb\xbf)?|[{,]\s*)[\"']?icsolve[\"']?\s*:")
-"""How a case says that it is one: a key of the top level, in block or in flow style."""
+_LARGEST = 1 << 23
+"""Bytes that are read of a stream; the reader refuses far fewer as too large for a case."""
 
 
 class Source(NamedTuple):
-    """One file: its name as the user gave or would write it, and its first bytes."""
+    """One file: its name as the user gave or would write it, and the folder in which it was found."""
 
     path: str
-    data: bytes
+    folder: str | None = None
+
+    def read(self, settings: Mapping[str, str] | None) -> Case:
+        """The case; raises `CaseError`, and `NotACase` where it does not say ``icsolve:``."""
+        from icsolve.read import read_file, read_text
+
+        if self.path == STDIN:
+            text = sys.stdin.buffer.read(_LARGEST).decode("utf-8-sig", "surrogateescape")
+            return read_text(text, STDIN, settings)
+        return read_file(self.path, settings)
+
+    def may_be_a_case(self) -> bool:
+        """Whether the word ``icsolve`` stands in it (or it can't be opened, which the reader explains)."""
+        try:
+            with open(self.path, "rb") as file:
+                return b"icsolve" in file.read(_LARGEST).replace(b"\0", b"")
+        except OSError:
+            return True
 
 
-class PassedOver(NamedTuple):
-    """YAML files of a folder that do not say ``icsolve:``, and how many do."""
-
-    folder: str
-    skipped: int
-    cases: int
-
-
-Item = Source | PassedOver | CaseError
-
-
-def sources(argument: str) -> Iterator[Item]:
-    """What one argument means, file by file; what can't be opened comes as the error to show."""
+def sources(argument: str) -> Iterator[Source]:
+    """The files that one argument means; of a folder its YAML files and those of the folders in it."""
     if argument == "-":
-        yield Source(STDIN, sys.stdin.buffer.read(LARGEST + 1))
+        yield Source(STDIN)
     elif os.path.isdir(argument):
-        yield from _folder(argument)
+        yield from (Source(path, argument) for path in _yaml_files(argument))
     elif os.path.lexists(argument) or not glob.has_magic(argument):
-        yield _file(argument)
+        yield Source(argument)
     else:
-        yield from _glob(argument)
-
-
-def _file(path: str) -> Source | CaseError:
-    try:
-        with open(path, "rb") as file:
-            return Source(path, file.read(LARGEST + 1))
-    except FileNotFoundError:
-        return _unreadable(path, "there is no such file (nor such a command: `icsolve --help` lists them)")
-    except (OSError, ValueError) as error:
-        return _unreadable(path, f"the file can't be opened: {getattr(error, 'strerror', error)}")
-
-
-def _unreadable(path: str, why: str) -> CaseError:
-    return CaseError([Problem(path, 1, 1, why)])
-
-
-def _glob(pattern: str) -> Iterator[Item]:
-    paths = sorted(glob.glob(pattern, recursive=True))
-    if not paths:
-        yield _unreadable(pattern, "no file matches this pattern")
-    for path in paths:
-        yield from sources(path)
-
-
-def _folder(folder: str) -> Iterator[Item]:
-    """The cases of a folder and of those in it, by name, and how many YAML files are none."""
-    cases = skipped = 0
-    for path in _yaml_files(folder):
-        source = _file(path)
-        if isinstance(source, CaseError) or _MARKED.search(source.data.replace(b"\0", b"")):
-            cases += 1
-            yield source
-        else:
-            skipped += 1
-    yield PassedOver(folder, skipped, cases)
+        for path in sorted(glob.glob(argument, recursive=True)):
+            yield from sources(path)
 
 
 def _yaml_files(folder: str) -> Iterator[str]:

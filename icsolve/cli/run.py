@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from typing import TYPE_CHECKING
 
@@ -9,8 +10,8 @@ import click
 
 from icsolve.cli import BUG
 from icsolve.cli.faults import bug_report
-from icsolve.cli.inputs import PassedOver, Source, sources
-from icsolve.errors import CaseError, SceneError
+from icsolve.cli.inputs import Source, sources
+from icsolve.errors import CaseError, NotACase, SceneError
 
 if TYPE_CHECKING:
     from icsolve.case import Case
@@ -43,36 +44,43 @@ def for_each(
 ) -> int:
     """Work on every file that the arguments mean; one that fails leaves the others alone."""
     worst = DONE
+    passed: Counter[str] = Counter()
     for argument in arguments:
-        for item in sources(argument):
-            worst = max(worst, _outcome(item, work, refuse, settings))
+        found = False
+        for source in sources(argument):
+            found = True
+            worst = max(worst, _outcome(source, work, refuse, settings, passed))
+        if not found:
+            complain(f"{argument}:1:1: there is no YAML file here")
+            worst = max(worst, UNREADABLE)
+    for folder, count in passed.items():
+        files = "1 YAML file" if count == 1 else f"{count} YAML files"
+        complain(f"{folder}: {files} without `icsolve:` passed over")
     return worst
 
 
 def _outcome(
-    item: Source | PassedOver | CaseError, work: Work, refuse: Refuse, settings: Mapping[str, str] | None
+    source: Source, work: Work, refuse: Refuse, settings: Mapping[str, str] | None, passed: Counter[str]
 ) -> int:
-    if isinstance(item, PassedOver):
-        return _passed_over(item)
-    if isinstance(item, CaseError):
-        complain(str(item))
-        return UNREADABLE
     try:
-        return _one(item, work, refuse, settings)
+        return _one(source, work, refuse, settings, passed)
     except CaseError as error:
         complain(str(error))
         return UNREADABLE
     except OSError:
         raise
     except Exception as error:
-        complain(bug_report(item.path, error))
+        complain(bug_report(source.path, error))
         return BUG
 
 
-def _one(source: Source, work: Work, refuse: Refuse, settings: Mapping[str, str] | None) -> int:
-    from icsolve.read import read_text
-
-    case = read_text(source.data, source.path, settings)
+def _one(
+    source: Source, work: Work, refuse: Refuse, settings: Mapping[str, str] | None, passed: Counter[str]
+) -> int:
+    case = _case(source, settings)
+    if case is None:
+        passed[source.folder or ""] += 1
+        return DONE
     try:
         return work(case, source.path)
     except SceneError as error:
@@ -80,14 +88,13 @@ def _one(source: Source, work: Work, refuse: Refuse, settings: Mapping[str, str]
         return NO_ANSWER
 
 
-def _passed_over(item: PassedOver) -> int:
-    if item.skipped:
-        complain(f"{item.folder}: {_count(item.skipped, 'YAML file')} without `icsolve:` passed over")
-    if item.cases:
-        return DONE
-    complain(f"{item.folder}:1:1: there is no case in this folder")
-    return UNREADABLE
-
-
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}" + ("" if number == 1 else "s")
+def _case(source: Source, settings: Mapping[str, str] | None) -> Case | None:
+    """The case of a file; None for a file of a folder that is none."""
+    if source.folder is None:
+        return source.read(settings)
+    if not source.may_be_a_case():
+        return None
+    try:
+        return source.read(settings)
+    except NotACase:
+        return None

@@ -1,0 +1,360 @@
+"""The command line as a user meets it: verbs, files, streams, exit statuses, and never a traceback."""
+
+from __future__ import annotations
+
+import io
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import pytest
+
+from icsolve.cli import main
+from icsolve.templates import kinds, template
+
+PRESS = template("four-bar")
+DEAD = """\
+icsolve: 1
+title: Slider-crank at its dead centre
+points: {A: [0, 0], C: [unknown, 0]}
+lengths: {AB: 1, BC: 3}
+angles: {AB: 0}
+near: {C: [4, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {slide: [4, 1], at: C, along: 0}
+loads:
+  T12: {torque: 10, link: 2}
+  P: {force: unknown, link: 4, at: C, angle: 180}
+"""
+LEVER = """\
+icsolve: 1
+points: {A: [0, 0], B: [2, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+loads:
+  P: {force: 100, link: 2, at: B, angle: -90}
+  T: {torque: unknown, link: 2}
+"""
+
+
+class Ran(NamedTuple):
+    """What a call left behind."""
+
+    code: int
+    out: str
+    err: str
+
+    def objects(self) -> list[dict[str, Any]]:
+        return [json.loads(line) for line in self.out.splitlines()]
+
+
+class Shell:
+    """Calls of the command line in a folder of its own."""
+
+    def __init__(self, capsys: pytest.CaptureFixture[str]) -> None:
+        self.capsys = capsys
+
+    def __call__(self, *arguments: str) -> Ran:
+        with pytest.raises(SystemExit) as left:
+            main(list(arguments))
+        captured = self.capsys.readouterr()
+        assert "Traceback" not in captured.err
+        assert isinstance(left.value.code, int)
+        return Ran(left.value.code, captured.out, captured.err)
+
+
+@pytest.fixture
+def icsolve(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Shell:
+    monkeypatch.chdir(tmp_path)
+    Path("press.yaml").write_text(PRESS)
+    Path("dead.yaml").write_text(DEAD)
+    Path("lever.yaml").write_text(LEVER)
+    Path("broken.yaml").write_text("icsolve: 1\njoints:\n  - {pin: [1, 2], att: A}\n")
+    return Shell(capsys)
+
+
+def test_solve_prints_the_unknown_with_its_unit_and_sense_in_words(icsolve: Shell) -> None:
+    ran = icsolve("solve", "lever.yaml")
+    assert (ran.code, ran.err) == (0, "")
+    assert "T = 200 N*m, counterclockwise" in ran.out
+
+
+def test_a_file_alone_means_solve(icsolve: Shell) -> None:
+    assert icsolve("press.yaml") == icsolve("solve", "press.yaml")
+    assert icsolve("--json", "press.yaml") == icsolve("solve", "--json", "press.yaml")
+
+
+def test_icsolve_alone_gives_short_help_with_two_examples(icsolve: Shell) -> None:
+    ran = icsolve()
+    assert ran.code == 0
+    assert "icsolve press.yaml" in ran.out
+    assert "icsolve new four-bar" in ran.out
+    assert icsolve("--help").out == ran.out
+
+
+def test_json_is_one_object_a_file_one_a_line(icsolve: Shell) -> None:
+    first, second = icsolve("solve", "--json", "press.yaml", "lever.yaml").objects()
+    assert first["schema"] == second["schema"] == "icsolve/solve/1"
+    assert (first["case"], second["case"]) == ("press", "lever")
+    assert second["answers"]["T"]["value"] == pytest.approx(200.0, rel=1e-14)
+    assert second["answers"]["T"]["sense"] == "ccw"
+
+
+def test_rates_and_all_centres_come_on_request(icsolve: Shell) -> None:
+    (plain,) = icsolve("press.yaml", "--json").objects()
+    (full,) = icsolve("press.yaml", "--json", "--rates", "--all-centres").objects()
+    assert "rates" not in plain
+    assert "velocities" not in plain
+    assert set(full["rates"]) == {"1", "2", "3", "4"}
+    assert set(full["centres"]) == {"1-2", "1-3", "1-4", "2-3", "2-4", "3-4"}
+    assert full["answers"] == plain["answers"]
+
+
+def test_a_scene_without_an_answer_is_refused_with_its_status(icsolve: Shell) -> None:
+    ran = icsolve("dead.yaml")
+    assert (ran.code, ran.out) == (1, "")
+    assert ran.err.startswith("dead.yaml: dead-centre: ")
+    ran = icsolve("dead.yaml", "--json")
+    (entry,) = ran.objects()
+    assert ran.code == 1
+    assert set(entry) == {"schema", "case", "status", "message"}
+    assert (entry["case"], entry["status"]) == ("dead", "dead-centre")
+
+
+def test_a_file_that_cannot_be_read_leaves_the_others_alone(icsolve: Shell) -> None:
+    ran = icsolve("solve", "broken.yaml", "missing.yaml", "dead.yaml", "lever.yaml")
+    assert ran.code == 2
+    assert "T = 200 N*m" in ran.out
+    assert "broken.yaml:3:18: " in ran.err
+    assert "missing.yaml:1:1: there is no such file" in ran.err
+    assert "dead.yaml: dead-centre" in ran.err
+
+
+def test_a_folder_is_searched_and_other_yaml_is_passed_over_and_counted(icsolve: Shell) -> None:
+    Path("cases/deep").mkdir(parents=True)
+    Path("cases/.hidden").mkdir()
+    Path("cases/b.yaml").write_text(LEVER)
+    Path("cases/deep/a.yml").write_text(LEVER)
+    Path("cases/.hidden/c.yaml").write_text(LEVER)
+    Path("cases/other.yaml").write_text("version: 2\n")
+    Path("cases/mentions.yaml").write_text("tools: [icsolve]\n")
+    Path("cases/broken_other.yaml").write_text("a: [1,\n")
+    ran = icsolve("solve", "cases", "--json")
+    assert ran.code == 0
+    assert [entry["case"] for entry in ran.objects()] == ["b", "a"]
+    assert ran.err == "cases: 3 YAML files without `icsolve:` passed over\n"
+
+
+def test_a_folder_without_any_yaml_says_so(icsolve: Shell) -> None:
+    Path("empty").mkdir()
+    ran = icsolve("empty")
+    assert (ran.code, ran.err) == (2, "empty:1:1: there is no YAML file here\n")
+
+
+def test_globs_are_expanded_where_the_shell_did_not(icsolve: Shell) -> None:
+    ran = icsolve("solve", "--json", "[lp]*.yaml")
+    assert [entry["case"] for entry in ran.objects()] == ["lever", "press"]
+    assert icsolve("solve", "no*.yaml").code == 2
+
+
+def test_a_file_whose_name_looks_like_a_glob_is_a_file(icsolve: Shell) -> None:
+    Path("a[1].yaml").write_text(LEVER)
+    assert icsolve("solve", "a[1].yaml").code == 0
+
+
+def test_standard_input_is_a_file_too(icsolve: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(LEVER.encode())))
+    assert "T = 200 N*m" in icsolve("solve", "-").out
+
+
+def test_set_changes_a_number_before_solving(icsolve: Shell) -> None:
+    ran = icsolve("lever.yaml", "--json", "--set", "loads.P=50", "--set", "points.B.x=3")
+    (entry,) = ran.objects()
+    assert entry["answers"]["T"]["value"] == pytest.approx(150.0, rel=1e-14)
+
+
+@pytest.mark.parametrize("setting", ["angles.AB", "=30", "angles.AB=", "angles.XY=30", "loads.P=fifty"])
+def test_a_setting_that_means_nothing_is_refused(icsolve: Shell, setting: str) -> None:
+    ran = icsolve("press.yaml", "--set", setting)
+    assert (ran.code, ran.out) == (2, "")
+    assert ran.err.strip()
+
+
+def test_digits_of_the_text(icsolve: Shell) -> None:
+    assert "T12 = 43.1 lbf*in" in icsolve("press.yaml", "--digits", "3").out
+    assert icsolve("press.yaml", "--digits", "0").code == 2
+
+
+def test_report_adds_the_kind_of_mechanism(icsolve: Shell) -> None:
+    ran = icsolve("press.yaml", "--report")
+    assert "Grashof crank-rocker: link 2 turns fully, link 4 rocks" in ran.out
+    (entry,) = icsolve("press.yaml", "--report", "--json").objects()
+    assert entry["report"]["loops"][0]["points"] == ["A", "B", "C", "D"]
+
+
+def test_check_says_a_line_a_value(icsolve: Shell) -> None:
+    Path("known.yaml").write_text(
+        LEVER + 'expect:\n  T: 200 ccw\n  I12: [0, 0]\n  w2: {value: 2, erratum: "turns at 1"}\n'
+    )
+    ran = icsolve("check", "known.yaml", "lever.yaml")
+    assert ran.code == 0
+    assert ran.out.splitlines() == [
+        "known.yaml: T agrees: published 200 ccw, found 200 ccw",
+        "known.yaml: I12 agrees: published [0, 0], found [0, 0]",
+        "known.yaml: w2 is an erratum: published 2, found 1 (turns at 1)",
+        "lever.yaml: solved; no published value to compare",
+    ]
+    assert ran.err == "2 cases: 2 agree, 1 errata\n"
+
+
+def test_check_fails_where_a_value_disagrees_and_where_there_is_no_answer(icsolve: Shell) -> None:
+    Path("wrong.yaml").write_text(LEVER + "expect:\n  T: 201\n")
+    ran = icsolve("check", "wrong.yaml")
+    assert ran.code == 1
+    assert "T disagrees: published 201, found 200" in ran.out
+    assert icsolve("check", "dead.yaml").code == 1
+
+
+def test_check_as_json(icsolve: Shell) -> None:
+    Path("known.yaml").write_text(LEVER + "expect:\n  T: 200\n")
+    (entry,) = icsolve("check", "--json", "known.yaml").objects()
+    assert entry["schema"] == "icsolve/check/1"
+    assert entry["values"][0]["verdict"] == "agrees"
+
+
+def test_validate_examines_the_whole_case(icsolve: Shell) -> None:
+    ran = icsolve("validate", "press.yaml")
+    assert (ran.code, ran.out.splitlines()[0]) == (0, "press.yaml: valid: 4 links, 4 joints, mobility 1")
+    assert icsolve("validate", "broken.yaml").code == 2
+    assert icsolve("validate", "dead.yaml").code == 1
+
+
+def test_new_lists_its_kinds(icsolve: Shell) -> None:
+    lines = icsolve("new").out.splitlines()
+    assert len(lines) == len(kinds())
+    assert any(line.startswith("slider-crank") and "piston" in line for line in lines)
+
+
+@pytest.mark.parametrize("kind", kinds())
+def test_every_template_solves_whole(icsolve: Shell, kind: str) -> None:
+    assert icsolve("new", kind, "-o", "mine.yaml").code == 0
+    assert Path("mine.yaml").read_text() == icsolve("new", kind).out
+    ran = icsolve("mine.yaml", "--json", "--all-centres", "--rates", "--report")
+    (entry,) = ran.objects()
+    assert (ran.code, entry["status"]) == (0, "ok")
+    assert icsolve("validate", "mine.yaml").code == 0
+    assert icsolve("check", "mine.yaml").code == 0
+
+
+def test_new_never_writes_over_a_file(icsolve: Shell) -> None:
+    ran = icsolve("new", "four-bar", "-o", "lever.yaml")
+    assert ran.code == 2
+    assert "is there already" in ran.err
+    assert Path("lever.yaml").read_text() == LEVER
+    assert icsolve("new", "four-bar", "-o", "no/such/folder.yaml").code == 2
+
+
+def test_an_unknown_kind_suggests_one(icsolve: Shell) -> None:
+    ran = icsolve("new", "slidercrank")
+    assert ran.code == 2
+    assert "did you mean slider-crank?" in ran.err
+
+
+def test_schema_is_a_draft_07_schema(icsolve: Shell) -> None:
+    schema = json.loads(icsolve("schema").out)
+    assert schema["$schema"].startswith("http://json-schema.org/draft-07/schema")
+
+
+@pytest.mark.parametrize("arguments", [["solve"], ["solve", "--nonsense", "press.yaml"], ["check"]])
+def test_bad_usage_is_exit_2_with_a_hint(icsolve: Shell, arguments: list[str]) -> None:
+    ran = icsolve(*arguments)
+    assert (ran.code, ran.out) == (2, "")
+    assert "Usage: icsolve" in ran.err
+
+
+@pytest.mark.parametrize("verb", ["solve", "check", "validate", "new", "schema"])
+def test_every_verb_has_help(icsolve: Shell, verb: str) -> None:
+    ran = icsolve(verb, "-h")
+    assert ran.code == 0
+    assert f"Usage: icsolve {verb}" in ran.out
+
+
+def test_version(icsolve: Shell) -> None:
+    from icsolve import __version__
+
+    assert icsolve("--version").out == f"icsolve {__version__}\n"
+
+
+def test_a_fault_of_icsolve_is_one_line_and_the_other_files_are_solved(
+    icsolve: Shell, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    solved = __import__("icsolve").solve
+
+    def faulty(case: Any, **options: Any) -> Any:
+        if case.name == "press":
+            raise ZeroDivisionError("float division by zero")
+        return solved(case, **options)
+
+    monkeypatch.setattr(sys.modules["icsolve.solve"], "solve", faulty)
+    ran = icsolve("solve", "press.yaml", "lever.yaml")
+    assert ran.code == 3
+    assert "T = 200 N*m" in ran.out
+    assert ran.err.count("\n") == 1
+    assert "please report it" in ran.err
+
+
+def test_an_interrupt_ends_with_130(icsolve: Shell, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("icsolve.cli.run.sources", interrupted)
+    ran = icsolve("press.yaml")
+    assert (ran.code, ran.err) == (130, "icsolve: interrupted\n")
+
+
+def _process(*arguments: str, **environment: str) -> subprocess.CompletedProcess[bytes]:
+    return subprocess.run(
+        [sys.executable, "-m", "icsolve", *arguments],
+        env={**os.environ, **environment},
+        capture_output=True,
+        check=False,
+    )
+
+
+def test_the_same_bytes_every_run_whatever_the_terminal(icsolve: Shell) -> None:
+    call = ("solve", "press.yaml", "lever.yaml", "--all-centres", "--rates", "--report")
+    first = _process(*call, PYTHONHASHSEED="1", NO_COLOR="1", LC_ALL="C")
+    second = _process(*call, PYTHONHASHSEED="2", TERM="dumb", FORCE_COLOR="1", PYTHONIOENCODING="ascii")
+    assert first.returncode == 0
+    assert first.stdout == second.stdout
+    assert b"\x1b" not in first.stdout
+
+
+def test_a_closed_pipe_is_quiet(icsolve: Shell) -> None:
+    for number in range(50):
+        Path(f"many{number}.yaml").write_text(PRESS)
+    process = subprocess.Popen(
+        [sys.executable, "-m", "icsolve", "solve", "--all-centres", "many*.yaml"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+    )
+    assert process.stdout is not None
+    assert process.stderr is not None
+    process.stdout.read(1)
+    process.stdout.close()
+    assert process.stderr.read() == b""
+    process.stderr.close()
+    assert process.wait() == 141
+
+
+def test_names_that_no_encoding_knows_are_shown_all_the_same(icsolve: Shell) -> None:
+    ran = icsolve("solve", os.fsdecode(b"caf\xe9.yaml"), "lever.yaml")
+    assert ran.code == 2
+    assert "no such file" in ran.err
+    assert "T = 200" in ran.out
