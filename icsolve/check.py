@@ -6,6 +6,7 @@ import math
 from typing import NamedTuple
 
 from icsolve.answer import Answer, Centre
+from icsolve.bearing import bearing, same_way, turned_at_most
 from icsolve.case import (
     ArmIs,
     Case,
@@ -14,6 +15,7 @@ from icsolve.case import (
     Expected,
     FrictionRadiusIs,
     Like,
+    Load,
     LoadIs,
     Number,
     Pair,
@@ -29,6 +31,8 @@ AGREES = "agrees"
 DISAGREES = "disagrees"
 ERRATUM = "erratum"
 NOT_EXAMINED = "not examined"
+
+_OPPOSITE = {"ccw": "cw", "cw": "ccw"}
 
 _SLACK = 1e-12
 """Relative room for rounding where a found value lies exactly half a unit away."""
@@ -101,8 +105,10 @@ def _shown(values: tuple[float, ...], expected: Expected) -> str:
         return f"toward {_digits(values[0])}"
     if len(values) > 1:
         return f"[{', '.join(_digits(value) for value in values)}]"
-    if expected.sense in {"ccw", "cw"}:
-        return f"{_digits(abs(values[0]))} {'cw' if values[0] < 0.0 else 'ccw'}"
+    if expected.sense in _OPPOSITE:
+        return f"{_digits(abs(values[0]))} {_OPPOSITE[expected.sense] if values[0] < 0.0 else expected.sense}"
+    if expected.sense and values[0] < 0.0:
+        return f"{_digits(-values[0])} the other way"
     return _digits(values[0])
 
 
@@ -115,9 +121,8 @@ def _agrees(values: tuple[float, ...], expected: Expected) -> bool:
         off = math.remainder(values[0] - expected.toward.value, 180.0)
         return abs(off) <= _width(expected, expected.toward, abs(expected.toward.value))
     size = max(abs(number.value) for number in expected.value)
-    sign = -1.0 if expected.sense == "cw" else 1.0
     return all(
-        abs(value - sign * number.value) <= _width(expected, number, size)
+        abs(value - number.value) <= _width(expected, number, size)
         for value, number in zip(values, expected.value, strict=True)
     )
 
@@ -135,7 +140,7 @@ def _width(expected: Expected, number: Number, size: float) -> float:
 
 
 def _found(answer: Answer, expected: Expected) -> tuple[float, ...]:
-    """The value that the published one is about; signed ccw where that has a sense in words."""
+    """The value that the published one is about; positive in the published sense where that is in words."""
     match expected.target:
         case LoadIs(load):
             return (_load(answer, load, expected.sense),)
@@ -146,9 +151,9 @@ def _found(answer: Answer, expected: Expected) -> tuple[float, ...]:
         case RatioIs(over, under):
             return (_ratio(answer, over, under),)
         case RateIs(link):
-            return (_rate(answer, link),)
+            return (_turned(_rate(answer, link), expected.sense),)
         case SpeedIs(point, link):
-            return (_speed(answer, point, link),)
+            return (_speed(answer, point, link, expected.sense),)
         case ReactionIs() | ArmIs():
             raise _MissingError("reactions are not solved for yet", NOT_EXAMINED)
         case FrictionRadiusIs():
@@ -158,9 +163,19 @@ def _found(answer: Answer, expected: Expected) -> tuple[float, ...]:
 def _load(answer: Answer, name: str, sense: str | None) -> float:
     value = _load_value(answer, name)
     load = _named_load(answer.case, name)
-    if sense in {"ccw", "cw"} and isinstance(load, Torque) and load.turns == "cw":
-        return -value
-    return value
+    if sense is None or load is None:
+        return value
+    if isinstance(load, Torque):
+        return _turned(value if load.turns == "ccw" else -value, sense)
+    found = answer.answers.get(name)
+    if found is None or not found.sense:
+        return value
+    return abs(value) if same_way(sense, found.sense, load, answer.points) else -abs(value)
+
+
+def _turned(value: float, sense: str | None) -> float:
+    """A value that is positive ccw, as positive in the sense."""
+    return -value if sense == "cw" else value
 
 
 def _load_value(answer: Answer, name: str) -> float:
@@ -176,7 +191,7 @@ def _load_value(answer: Answer, name: str) -> float:
     raise _MissingError(f"{name} was not solved for")
 
 
-def _named_load(case: Case, name: str) -> object:
+def _named_load(case: Case, name: str) -> Load | None:
     return next((load for load in case.loads if load.name == name), None)
 
 
@@ -227,10 +242,16 @@ def _ratio(answer: Answer, over: str, under: str) -> float:
     return _rate(answer, over) / rate
 
 
-def _speed(answer: Answer, point: str, link: str) -> float:
+def _speed(answer: Answer, point: str, link: str, sense: str | None) -> float:
+    """Magnitude of a velocity; negative where it does not go the published way."""
     velocity = (answer.velocities or {}).get((point, link))
     if velocity is None:
         raise _MissingError(f"the velocity of {point} on link {link} was not found")
     if isinstance(velocity, str):
         raise _MissingError(f"the velocity of {point} on link {link} is undetermined: {velocity}")
-    return math.hypot(*velocity)
+    size = math.hypot(*velocity)
+    way = None if sense is None or size == 0.0 else bearing(sense, None, answer.points)
+    if sense is None or way is None:
+        return size
+    own = math.degrees(math.atan2(velocity[1], velocity[0]))
+    return size if turned_at_most(way, own, sense) else -size

@@ -23,6 +23,7 @@ from icsolve.case import (
     SpeedIs,
     Target,
     Torque,
+    Toward,
     Weight,
 )
 from icsolve.check import Row, compare, wanted
@@ -75,6 +76,36 @@ def test_the_sense_counts_from_counterclockwise_even_where_the_load_turns_clockw
     assert row(T12, "26.88", sense="cw", answer=dict(answer)).verdict == "agrees"
     assert row(T12, "26.88", answer=dict(answer)).verdict == "agrees"
     assert row(T12, "26.88", sense="ccw", answer=dict(answer)).verdict == "disagrees"
+
+
+@pytest.mark.parametrize(
+    ("sense", "verdict"),
+    [
+        ("right", "agrees"),
+        ("left", "disagrees"),
+        ("up", "disagrees"),
+        ("at 10 deg", "agrees"),
+        ("at 12 deg", "disagrees"),
+        ("at 190 deg", "disagrees"),
+        ("toward E", "agrees"),
+        ("toward C", "disagrees"),
+    ],
+)
+def test_a_force_goes_the_published_way(sense: str, verdict: str) -> None:
+    # D to E of 13.8 goes at 60.0 degrees; a force at D found at 10.4 or, for the point, at 60 degrees
+    loads = (Force("F", "4", "D", None, number("10.4")),)
+    own = "at 60.2 deg" if sense.startswith("toward") else "at 10.4 deg"
+    answer = {"case": four_bar_case(loads=loads), "answers": {"F": Found(458.2, "lbf", own)}}
+    assert row(LoadIs("F"), "458", sense=sense, answer=answer).verdict == verdict
+
+
+@pytest.mark.parametrize(("sense", "verdict"), [("pull", "agrees"), ("push", "disagrees")])
+def test_a_pull_is_a_force_toward_the_other_end(sense: str, verdict: str) -> None:
+    loads = (Force("F", "4", "E", None, Toward("A"), against="2"),)
+    answer = {"case": four_bar_case(loads=loads), "answers": {"F": Found(12.0, "lbf", "pull")}}
+    assert row(LoadIs("F"), "12", sense=sense, answer=dict(answer)).verdict == verdict
+    toward_a = "left" if sense == "pull" else "right"
+    assert row(LoadIs("F"), "12", sense=toward_a, answer=dict(answer)).verdict == verdict
 
 
 def test_an_erratum_is_expected_not_to_agree() -> None:
@@ -139,6 +170,8 @@ def test_rates_ratios_and_speeds() -> None:
     assert row(RateIs("2"), "77.36", answer=dict(motion)).verdict == "disagrees"
     assert row(RatioIs("4", "2"), "-0.25", answer=dict(motion)).verdict == "agrees"
     assert row(SpeedIs("C", "4"), "75", answer=dict(motion)).verdict == "agrees"
+    assert row(SpeedIs("C", "4"), "75", sense="up", answer=dict(motion)).verdict == "agrees"
+    assert row(SpeedIs("C", "4"), "75", sense="right", answer=dict(motion)).verdict == "disagrees"
     assert "does not turn" in row(RatioIs("4", "1"), "1", answer=dict(motion)).text
 
 
