@@ -39,6 +39,13 @@ class Arithmetic(Protocol):
     def sqrt(self, value: Scalar) -> Scalar:
         """Square root; the value is never negative by more than rounding."""
 
+    def vanishes(self, value: Scalar, size: float) -> bool:
+        """Whether a value is zero but for rounding; ``size`` is that of the products it is summed from."""
+
+
+ROUNDING_NOISE = 2e-14
+"""Rounding of a few hundred operations, as a fraction; numbers on a tape know their own."""
+
 
 class Floats:
     """Plain floats: one scene."""
@@ -54,6 +61,10 @@ class Floats:
     def sqrt(self, value: float) -> float:
         """Square root, of rounding noise below zero: zero."""
         return math.sqrt(value) if value > 0.0 else 0.0
+
+    def vanishes(self, value: float, size: float) -> bool:
+        """Zero where it is below a fraction of its products that rounding explains."""
+        return abs(value) <= ROUNDING_NOISE * size
 
 
 FLOATS = Floats()

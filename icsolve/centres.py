@@ -15,10 +15,10 @@ from icsolve.case import Belt, Case, Gears, KnownCentre, Pair
 from icsolve.eliminate import ROUNDING
 from icsolve.errors import SceneError, Status
 from icsolve.figure.frame import Frame
-from icsolve.joints import Points, freedoms, pitch_point
+from icsolve.joints import Points, freedoms, joint_freedoms, joint_points, pitch_point
 from icsolve.kennedy import BodyPair, Kennedy, Known, ordered, sine_between, unit
 from icsolve.plane import Triple, cross, subtract
-from icsolve.topology import Topology
+from icsolve.topology import FREEDOMS, Topology
 
 LinkTwists = Mapping[str, Sequence[Triple]]
 ONE = 1e-13
@@ -118,8 +118,9 @@ class CentreFinder:
     ) -> Centre:
         i, j = (self.top.body_of[link] for link in pair)
         bodies = ordered(i, j)
-        if bodies in primaries and i != j:
-            point, by = primaries[bodies]
+        own = self._own(pair)
+        if own is not None or (bodies in primaries and bodies in moving):
+            point, by = own or primaries[bodies]
             return self._placed(pair, Known(point, ROUNDING, by))
         if i == j or (bodies not in moving and self._relative(*bodies) == REST):
             return Centre(pair, "undefined", why=f"{pair[0]} and {pair[1]} move as one")
@@ -130,6 +131,15 @@ class CentreFinder:
         if known.error > TRUSTED:
             known = Known(unit(moving[bodies]), ROUNDING, "loop equations")
         return self._placed(pair, known)
+
+    def _own(self, pair: Pair) -> tuple[Triple, str] | None:
+        """The centre of the joint between two links, which stands even where they do not move."""
+        for joint in self.case.joints:
+            if pair[0] in joint.links and pair[1] in joint.links and FREEDOMS.get(type(joint)) == 1:
+                if all(point in self.points for point in joint_points(joint)):
+                    by = "given" if isinstance(joint, KnownCentre) else "inspection"
+                    return joint_freedoms(joint, self.points, self.arithmetic)[0], by
+        return None
 
     def _placed(self, pair: Pair, known: Known) -> Centre:
         x, y, w = known.point

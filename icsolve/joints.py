@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from icsolve.arithmetic import Arithmetic
-from icsolve.case import Belt, Contact, Gears, Guide, KnownCentre, Pin, Roll, Slide, Slot
+from icsolve.case import Belt, Contact, Gears, Guide, Joint, KnownCentre, Pin, Roll, Slide, Slot
 from icsolve.plane import Point, Triple, normal_twist, pin_twist, slide_twist
 from icsolve.topology import Bond
 
@@ -18,7 +18,13 @@ Points = Mapping[str, Point]
 
 def freedoms(bond: Bond, points: Points, arithmetic: Arithmetic) -> tuple[Triple, ...]:
     """Basis twists (normalised frame) that the bond leaves to its two bodies."""
-    joint = bond.joint
+    if isinstance(bond.joint, Gears | Belt):
+        return _mesh(bond, points, arithmetic)
+    return joint_freedoms(bond.joint, points, arithmetic)
+
+
+def joint_freedoms(joint: Joint, points: Points, arithmetic: Arithmetic) -> tuple[Triple, ...]:
+    """Basis twists of a joint that needs no pivots of its own links."""
     match joint:
         case Pin() | Roll():
             return (pin_twist(points[joint.at]),)
@@ -31,26 +37,26 @@ def freedoms(bond: Bond, points: Points, arithmetic: Arithmetic) -> tuple[Triple
             return (pin_twist(points[joint.at]), normal_twist(arithmetic.turn(joint.normal)))
         case KnownCentre():
             return (_known_centre(joint, points, arithmetic),)
-        case Gears() | Belt():
-            return _mesh(bond, points, arithmetic)
-    raise TypeError(f"{type(joint).__name__} is no bond")
+    raise TypeError(f"{type(joint).__name__} leaves no freedom of its own")
 
 
 def points_of(bond: Bond) -> tuple[str, ...]:
     """The points whose places the basis twists need."""
-    joint = bond.joint
+    return bond.pivots if isinstance(bond.joint, Gears | Belt) else joint_points(bond.joint)
+
+
+def joint_points(joint: Joint) -> tuple[str, ...]:
+    """The points whose places the basis twists of a joint need, without pivots."""
     match joint:
         case Slide():
             return joint.guide.ends or ()
         case Slot():
             return (joint.at, *(joint.guide.ends or ()))
-        case Gears() | Belt():
-            return bond.pivots
         case KnownCentre():
             return (joint.at,) if joint.at else ()
         case Pin() | Roll() | Contact():
             return (joint.at,)
-    raise TypeError(f"{type(joint).__name__} is no bond")
+    return ()
 
 
 def guide_direction(guide: Guide, points: Points, arithmetic: Arithmetic) -> Point:

@@ -158,10 +158,6 @@ class Solution(NamedTuple):
     culprit: str = ""
 
 
-WORKLESS = 2e-14
-"""A factor below this fraction of the products that it is summed from does no work (rounding)."""
-
-
 def solve_balance(b: Balance, arithmetic: Arithmetic) -> Solution:
     """The unknown loads from the sums of power of all motions."""
     roots = [w.load.name for w in b.wrenches if is_unknown(w.load)]
@@ -213,7 +209,7 @@ def _row(
             key, amount = "", _amount(w, b, arithmetic) * scale * w.ratio
         sums[key] = sums[key] + amount * factor
         sizes[key] += abs(amount) * size
-    return [0.0 if abs(sums[key]) <= WORKLESS * sizes[key] else sums[key] for key in (*roots, "")]
+    return [0.0 if arithmetic.vanishes(sums[key], sizes[key]) else sums[key] for key in (*roots, "")]
 
 
 def _amount(w: Wrench, b: Balance, arithmetic: Arithmetic) -> Scalar:

@@ -97,6 +97,8 @@ class Entry:
         pair = self.pair(key, "length", "xy", "a point, or two coordinates [x, y]")
         if pair is None:
             return None
+        while hidden in self.reading.hidden:
+            hidden += "'"
         self.reading.hidden[hidden] = Coordinates(*pair)
         self.reading.marks[f"points.{hidden}"] = node.mark
         return hidden

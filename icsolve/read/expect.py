@@ -55,7 +55,9 @@ class _Value(NamedTuple):
 
 def read_expect(reading: Reading, section: Mapping, points: set[str]) -> tuple[Expected, ...]:
     """The published values that could be read."""
-    found = []
+    found: list[Expected] = []
+    if reading.links is None:  # the joints can't be read: no key could be understood
+        return ()
     for key, node in section.items.items():
         reading.marks[f"expect.{key}"] = section.keys[key]
         target = target_of(reading, key, points)
@@ -82,6 +84,8 @@ def _expected(reading: Reading, key: str, target: Target, node: Node) -> Expecte
     value = _toward(entry, target) if toward else _value(reading, node.items["value"], target, entry.path)
     within = _within(entry, "angle" if toward else _dimension(reading, target))
     erratum = reading.text(node.items["erratum"], f"the erratum of {key}") if entry.has("erratum") else None
+    if erratum == "":
+        entry.refuse(entry.mark("erratum"), f"the erratum of {key} should say what is wrong with the value")
     if value is None or within is None:
         return None
     width, relative = within

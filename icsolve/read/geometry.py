@@ -130,6 +130,8 @@ def read_carried(reading: Reading, section: Mapping) -> dict[str, tuple[str, ...
     found: dict[str, tuple[str, ...]] = {}
     for key, node in section.items.items():
         link = reading.link(Scalar(key, True, section.keys[key]), "a link")
+        if type(node) is Mapping:
+            reading.check_keys(node, (), f"link {shown(key)}")
         items = reading.names(node, f"the points of link {shown(key)}", "{3: [G, H]}")
         for item in items or ():
             reading.used.setdefault(item.text, item.mark)

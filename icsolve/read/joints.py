@@ -205,8 +205,8 @@ def _ends(entry: Entry, node: Sequence) -> Pair | None:
 def _roll(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
     at = _needed_point(entry, "the point of contact")
     radii = _radii(entry) if entry.has("radii") else None
-    if radii and radii[0].value == 0.0 and radii[1].value == 0.0:
-        entry.refuse(entry.mark("radii"), f"both radii of {entry.what} are 0; one of the two is round")
+    if radii and max(radius.value for radius in radii) <= 0.0:
+        entry.refuse(entry.mark("radii"), f"one of the radii of {entry.what} should be greater than zero")
     return Roll(_two(links), at, radii) if at and whole else None
 
 
@@ -254,7 +254,7 @@ def _carrier(entry: Entry, links: tuple[str, ...]) -> str | None:
 
 def _belt(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
     carrier = _carrier(entry, links)
-    crossed = entry.word("crossed", ("true", "false")) == "true"
+    crossed = (entry.word("crossed", ("true", "false", "True", "False")) or "").lower() == "true"
     if entry.need("radii", "the two radii, as in [3, 5]") is None:
         return None
     radii = _radii(entry)

@@ -52,9 +52,18 @@ def _decoded(data: bytes, problems: Problems) -> str:
         return data.decode(encoding)
     except UnicodeDecodeError as error:
         before = data[: error.start].decode(encoding, "replace")
-        byte = data[error.start]
-        message = f"the byte 0x{byte:02X} is not UTF-8 text; save the file in the encoding UTF-8"
-        raise problems.stop(_place(before, len(before)), message) from None
+        raise problems.stop(_place(before, len(before)), _not_utf8(data[error.start])) from None
+
+
+def _not_utf8(byte: int) -> str:
+    return f"the byte 0x{byte:02X} is not UTF-8 text; save the file in the encoding UTF-8"
+
+
+def _foreign(code: int) -> str:
+    """What a character is that YAML does not allow; a stream's undecoded bytes are U+DC80 to U+DCFF."""
+    if 0xDC80 <= code <= 0xDCFF:
+        return _not_utf8(code - 0xDC00)
+    return f"the character U+{code:04X} has no place in a text; delete it"
 
 
 def checked(text: str, problems: Problems) -> str:
@@ -73,8 +82,7 @@ def checked(text: str, problems: Problems) -> str:
     found = re.search(_FOREIGN, text)
     if found:
         mark = _place(text, found.start())
-        character = f"U+{ord(found.group()):04X}"
-        raise problems.stop(mark, f"the character {character} has no place in a text; delete it")
+        raise problems.stop(mark, _foreign(ord(found.group())))
     return text
 
 

@@ -28,7 +28,7 @@ def target_of(reading: Reading, key: str, points: set[str]) -> Target | str:
         return LoadIs(key)
     if len(key) > LONGEST_KEY:
         return "this key is too long"
-    found = list(dict.fromkeys(_readings(reading, key, points)))
+    found = list(dict.fromkeys(_readings(reading, key, points))) or _between_points(key, points)
     if len(found) == 1:
         return found[0]
     if found:
@@ -87,12 +87,17 @@ def _different(found: list[Pair]) -> list[Pair]:
 
 def _distances(reading: Reading, key: str, points: set[str]) -> Iterator[Target]:
     """Cut at each hyphen: a centre or a point on both sides, a centre on one at least."""
-    for at, character in enumerate(key):
-        if character == "-":
-            for a in _ends(reading, key[:at], points):
-                for b in _ends(reading, key[at + 1 :], points):
-                    if a != b:
-                        yield DistanceIs(a, b)
+    for at in [i for i, character in enumerate(key) if character == "-"]:
+        for a in _ends(reading, key[:at], points):
+            for b in _ends(reading, key[at + 1 :], points):
+                if a != b and not (isinstance(a, str) and isinstance(b, str)):
+                    yield DistanceIs(a, b)
+
+
+def _between_points(key: str, points: set[str]) -> list[Target]:
+    """``A-B`` where it means nothing else."""
+    a, _, b = key.partition("-")
+    return [DistanceIs(a, b)] if a in points and b in points and a != b else []
 
 
 def _ends(reading: Reading, text: str, points: set[str]) -> list[Pair | str]:

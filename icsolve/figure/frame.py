@@ -1,0 +1,114 @@
+"""The normalised frame: an origin among the given points, and a power of two."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from icsolve.case import Case, Coordinates, Number
+from icsolve.errors import SceneError, Status
+
+SMALLEST_RESOLUTION = 1e-3
+"""Coarsest step between neighbouring doubles that still draws a figure, over the figure's size."""
+
+
+class Frame(NamedTuple):
+    """Normalised coordinates are (p - o) * scale.
+
+    The origin is a given point, so that differences of given coordinates are exact where they
+    matter (Sterbenz); ``scale`` is a power of two, so that scaling rounds nothing.
+    """
+
+    ox: float
+    oy: float
+    scale: float
+
+
+def case_point(frame: Frame, xy: tuple[float, float]) -> tuple[float, float]:
+    """A normalised point in case units; a zero is positive."""
+    return xy[0] / frame.scale + frame.ox + 0.0, xy[1] / frame.scale + frame.oy + 0.0
+
+
+def normalised(frame: Frame, xy: tuple[float, float]) -> tuple[float, float]:
+    """A point in case units (a float pair, as in ``near``), normalised."""
+    return (xy[0] - frame.ox) * frame.scale, (xy[1] - frame.oy) * frame.scale
+
+
+def frame_of(case: Case) -> Frame:
+    """The frame of a case's figure; refuses coordinates that cannot resolve the size.
+
+    The same for every part of the figure that is asked for. The largest length or distance from
+    the origin becomes 1/2 to 1.
+
+    Raises
+    ------
+    SceneError
+        ``near-singular``: neighbouring doubles are farther apart than a thousandth of the
+        figure, or two points that are written differently are the same doubles.
+    """
+    xs: list[Number] = []
+    ys: list[Number] = []
+    for place in case.points.values():
+        if type(place) is Coordinates:
+            if place.x is not None:
+                xs.append(place.x)
+            if place.y is not None:
+                ys.append(place.y)
+    ox, oy = _origin(case, xs, ys)
+    reach = max((abs(x.value - ox) for x in xs), default=0.0)
+    rise = max((abs(y.value - oy) for y in ys), default=0.0)
+    size = max(reach, rise, max((abs(length.value.value) for length in case.lengths), default=0.0))
+    _resolved(case, xs, ys, size)
+    exponent = min(max(math.frexp(size)[1], -1023), 1024) if size > 0.0 else 0
+    return Frame(ox, oy, math.ldexp(1.0, -exponent))
+
+
+def _origin(case: Case, xs: list[Number], ys: list[Number]) -> tuple[float, float]:
+    """The first pin whose coordinates are given, else the first given coordinates."""
+    for joint in case.joints:
+        place = case.points.get(getattr(joint, "at", None) or "")
+        if type(place) is Coordinates and place.x is not None and place.y is not None:
+            return place.x.value, place.y.value
+    return (xs[0].value if xs else 0.0), (ys[0].value if ys else 0.0)
+
+
+def _resolved(case: Case, xs: list[Number], ys: list[Number], size: float) -> None:
+    """Refuse a figure that its coordinates cannot draw."""
+    farthest = max((abs(n.value) for n in (*xs, *ys)), default=0.0)
+    if not math.isfinite(size) or not math.isfinite(farthest):
+        raise SceneError(Status.NEAR_SINGULAR, "the coordinates are too large to be told apart")
+    if size > 0.0 and math.ulp(farthest) > SMALLEST_RESOLUTION * size:
+        raise SceneError(
+            Status.NEAR_SINGULAR,
+            f"the coordinates cannot resolve the figure: near {farthest:.6g} neighbouring numbers are "
+            f"{math.ulp(farthest):.3g} apart, and the figure's size is {size:.6g}; "
+            "give coordinates from an origin in or near the figure",
+        )
+    _apart(case)
+
+
+def _apart(case: Case) -> None:
+    """Refuse two points that are written differently and became one by rounding."""
+    seen: dict[tuple[float, float], tuple[str, Number, Number]] = {}
+    for name, place in case.points.items():
+        if type(place) is not Coordinates or place.x is None or place.y is None:
+            continue
+        other, x, y = seen.setdefault((place.x.value, place.y.value), (name, place.x, place.y))
+        if other != name and not (_same(x, place.x) and _same(y, place.y)):
+            raise SceneError(
+                Status.NEAR_SINGULAR,
+                f"the coordinates of {other} and {name} are different numbers, but too far from the origin "
+                "to be told apart; give coordinates from an origin in or near the figure",
+            )
+
+
+def _same(a: Number, b: Number) -> bool:
+    """Whether two numerals with one double are one number (``1`` and ``1.0`` are)."""
+    if a.digits == b.digits or a.factor != b.factor:
+        return True
+    from decimal import Decimal, InvalidOperation
+
+    try:
+        return Decimal(a.digits) == Decimal(b.digits)
+    except InvalidOperation:
+        return True

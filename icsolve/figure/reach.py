@@ -1,0 +1,209 @@
+"""Within reach: the loci that a point's data put it on, and the best step that they make."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from itertools import combinations
+from typing import TYPE_CHECKING, NamedTuple
+
+from icsolve.figure.board import Apart, Heading
+from icsolve.figure.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, X, Y, Datum
+from icsolve.figure.loci import Arc, Axis, Circle, Line, Locus, Shifted
+from icsolve.figure.steps import Mean, Meet, Polar, Step, Transfer
+
+if TYPE_CHECKING:
+    from icsolve.figure.sheet import Sheet
+
+Cost = tuple[int, int, int]
+"""Authority of the data (the lowest wins): the worst datum, the sum, and the number of ways."""
+
+EXACT, BY_LENGTH, BY_ANGLE, BY_ARC = 0, 100, 200, 300
+"""What data cost: coordinates and guides, lengths, angles, angles seen from the point itself."""
+
+
+class Reach(NamedTuple):
+    """A locus of a point, at the cost of its data."""
+
+    cost: int
+    locus: Locus
+
+
+def best_step(sheet: Sheet, point: str) -> tuple[Cost, Step] | None:
+    """The step of greatest authority that places a point, if there is one."""
+    found: list[tuple[Cost, Step]] = [*_means(sheet, point), *_transfers(sheet, point)]
+    reaches = sorted(reaches_of(sheet, point), key=lambda reach: reach.cost)
+    for one, two in combinations(reaches, 2):
+        step = _meet(sheet, point, one.locus, two.locus)
+        if step is not None:
+            ways = 1 if isinstance(step, Meet) and step.sign else 0
+            found.append(((max(one.cost, two.cost), one.cost + two.cost, ways), step))
+    return min(found, key=lambda pair: pair[0], default=None)
+
+
+def reaches_of(sheet: Sheet, point: str, after: tuple[str, ...] = ()) -> Iterator[Reach]:
+    """The loci of a point on a sheet; ``after`` are points that already lean on it."""
+    for datum in sheet.drawing.index.of.get(point, ()):
+        if sheet.number == 0 or datum.kind in (LENGTH, CORNER, LINE):
+            yield from KINDS[datum.kind](sheet, datum, point)
+    yield from _rays(sheet, point)
+    yield from _lent(sheet, point)
+    yield from _shifted(sheet, point, after)
+
+
+def _circle(sheet: Sheet, datum: Datum, point: str) -> Iterator[Reach]:
+    a, b = datum.points
+    centre = b if a == point else a
+    if centre in sheet.placed:
+        yield Reach(BY_LENGTH, Circle(sheet.key(centre), datum))
+
+
+def _seen(sheet: Sheet, datum: Datum, point: str) -> Iterator[Reach]:
+    """The vertex of a corner whose arms' ends are in place."""
+    a, at, b = datum.points
+    if point != at or a not in sheet.placed or b not in sheet.placed or (at, a) in sheet.headings:
+        return
+    ends = sheet.key(a), sheet.key(b)
+    if datum in sheet.drawing.index.flat:
+        yield Reach(BY_ARC, Line(ends[0], Heading(Apart(*ends)), False))
+    else:
+        yield Reach(BY_ARC, Arc(*ends, datum))
+
+
+def _guided(sheet: Sheet, datum: Datum, point: str) -> Iterator[Reach]:
+    """A guide by its angle: its two points lie along it."""
+    at, through = datum.points
+    other = through if point == at else at
+    if other in sheet.placed:
+        yield Reach(EXACT, Line(sheet.key(other), Heading(datum), False))
+
+
+def _lined(sheet: Sheet, datum: Datum, point: str) -> Iterator[Reach]:
+    """A guide by two of its points: at to through is parallel to e1 to e2."""
+    at, through, e1, e2 = datum.points
+    if point in (at, through) and point not in (e1, e2):
+        pairs = [(through if point == at else at, e1, e2)]
+    elif point in (e1, e2) and point not in (at, through):
+        pairs = [(e2 if point == e1 else e1, at, through)]
+    else:
+        others = list(dict.fromkeys(p for p in datum.points if p != point))
+        pairs = [(others[0], others[0], others[1])] if len(others) == 2 else []
+    for base, a, b in pairs:
+        heading = sheet.headings.get((a, b))
+        if heading is None and a in sheet.placed and b in sheet.placed:
+            heading = Heading(Apart(sheet.key(a), sheet.key(b)))
+        if heading is not None and base in sheet.placed:
+            yield Reach(EXACT, Line(sheet.key(base), heading, False))
+
+
+def _axis(sheet: Sheet, datum: Datum, point: str) -> Iterator[Reach]:
+    yield Reach(EXACT, Axis(datum))
+
+
+def _nothing(sheet: Sheet, datum: Datum, point: str) -> Iterator[Reach]:
+    yield from ()
+
+
+KINDS: dict[str, Callable[[Sheet, Datum, str], Iterator[Reach]]] = {
+    X: _axis, Y: _axis, MEAN: _nothing, GUIDE: _guided, LINE: _lined,
+    LENGTH: _circle, RAY: _nothing, CORNER: _seen,
+}  # fmt: skip
+
+
+def _rays(sheet: Sheet, point: str) -> Iterator[Reach]:
+    """Rays from points in place along known directions, given or made by corners."""
+    others: dict[str, None] = {}
+    for datum in sheet.drawing.index.of.get(point, ()):
+        if datum.kind == RAY:
+            others.update(dict.fromkeys(datum.points))
+        elif datum.kind == CORNER:
+            at = datum.points[1]
+            others.update(dict.fromkeys(datum.points[::2] if point == at else (at,)))
+    for other in others:
+        heading = sheet.headings.get((other, point))
+        if other in sheet.placed and heading is not None:
+            yield Reach(BY_ANGLE + len(heading.turns), Line(sheet.key(other), heading, True))
+
+
+def _lent(sheet: Sheet, point: str) -> Iterator[Reach]:
+    """Circles whose radii other sheets lend."""
+    lengths = {
+        other for datum in sheet.drawing.index.of.get(point, ()) if datum.kind == LENGTH for other in datum.points
+    }
+    for lender in sheet.drawing.holding.get(point, ()):
+        shared = _shared(sheet, lender)
+        if lender.number != 0 and len(shared) > 1:
+            continue
+        for other in shared:
+            if other not in lengths:
+                cost = max(BY_LENGTH, lender.placed[point][0], lender.placed[other][0])
+                span = Apart(lender.key(other), lender.key(point))
+                lengths.add(other)
+                yield Reach(cost, Circle(sheet.key(other), span))
+
+
+def _shared(sheet: Sheet, lender: Sheet) -> list[str]:
+    """The points in place on both sheets."""
+    small, large = sorted((sheet, lender), key=lambda s: len(s.placed))
+    return [point for point in small.placed if point in large.placed]
+
+
+def _shifted(sheet: Sheet, point: str, after: tuple[str, ...]) -> Iterator[Reach]:
+    """The loci of points at known vectors from this one, none of them in place yet."""
+    for datum in sheet.drawing.index.of.get(point, ()):
+        if datum.kind != LENGTH:
+            continue
+        a, b = datum.points
+        other = b if a == point else a
+        heading = sheet.headings.get((point, other))
+        if heading is None or other in sheet.placed or other in after:
+            continue
+        for reach in reaches_of(sheet, other, (*after, point)):
+            yield Reach(max(reach.cost, BY_ANGLE) + 10, Shifted(reach.locus, datum, heading))
+
+
+def _means(sheet: Sheet, point: str) -> Iterator[tuple[Cost, Step]]:
+    for datum in sheet.drawing.index.of.get(point, ()):
+        if datum.kind != MEAN:
+            continue
+        whole, *of = datum.points
+        others = [sheet.key(p) for p in of if p != point]
+        if not all(p in sheet.placed for p in datum.points if p != point):
+            continue
+        if point == whole and point not in of:
+            yield (EXACT, EXACT, 0), Mean(sheet.key(point), datum, tuple(others))
+        elif point != whole:
+            parts = len(of) - len(others)
+            yield (EXACT, EXACT, 0), Mean(sheet.key(point), datum, tuple(others), sheet.key(whole), parts)
+
+
+def _transfers(sheet: Sheet, point: str) -> Iterator[tuple[Cost, Step]]:
+    """A point of a shape that two of its points hold on this sheet."""
+    for lender in sheet.drawing.holding.get(point, ()):
+        if lender.number == 0 or lender is sheet:
+            continue
+        shared = _shared(sheet, lender)[:2]
+        if len(shared) == 2:
+            pose = (sheet.key(shared[0]), sheet.key(shared[1]))
+            shape = (lender.key(shared[0]), lender.key(shared[1]), lender.key(point))
+            cost = lender.placed[point]
+            free = lender.number in sheet.committed
+            yield (EXACT, EXACT, 0) if free else (cost[0], cost[1] + 1, cost[2]), Transfer(
+                sheet.key(point), pose, shape
+            )
+
+
+def _meet(sheet: Sheet, point: str, one: Locus, two: Locus) -> Step | None:
+    """The step that two loci make; None where they are one locus or are known not to determine a point."""
+    if frozenset((one, two)) in sheet.drawing.banned:
+        return None
+    line, other = (two, one) if one.round and not two.round else (one, two)
+    if isinstance(line, Line) and isinstance(other, Circle):
+        if line.ray and line.through == other.centre:
+            return Polar(sheet.key(point), line.through, other.radius, line.heading)
+    elif isinstance(one, Circle) and isinstance(two, Circle) and one.centre == two.centre:
+        return None
+    elif isinstance(line, Line) and isinstance(other, Line):
+        h, k = line.heading, other.heading
+        if h.root == k.root and h.turns == k.turns:
+            return None
+    return Meet(sheet.key(point), line, other, 1 if other.round else 0)
