@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 from icsolve.answer import Centre
 from icsolve.arithmetic import Arithmetic
-from icsolve.case import Belt, Case, Gears, KnownCentre, Pair
+from icsolve.case import Belt, Case, Gears, KnownCentre, Pair, Weld
 from icsolve.eliminate import ROUNDING
 from icsolve.errors import SceneError, Status
 from icsolve.figure.frame import Frame
@@ -133,7 +133,10 @@ class CentreFinder:
         return self._placed(pair, known)
 
     def _own(self, pair: Pair) -> tuple[Triple, str] | None:
-        """The centre of the joint between two links, which stands even where they do not move."""
+        """The centre of the joint between two links, which stands even where they do not move (a weld
+        has none)."""
+        if any(isinstance(joint, Weld) and set(joint.links) == set(pair) for joint in self.case.joints):
+            return None
         for joint in self.case.joints:
             if pair[0] in joint.links and pair[1] in joint.links and FREEDOMS.get(type(joint)) == 1:
                 if all(point in self.points for point in joint_points(joint)):

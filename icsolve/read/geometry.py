@@ -14,7 +14,7 @@ def read_points(reading: Reading, section: Mapping) -> dict[str, Coordinates | C
     """Coordinates and centroids by point."""
     points: dict[str, Coordinates | Centroid] = {}
     for key, node in section.items.items():
-        name = reading.name(Scalar(key, True, section.keys[key]), "a point")
+        name = reading.name(Scalar(key, False, section.keys[key]), "a point")
         if name is None:
             continue
         reading.given.add(name)
@@ -112,7 +112,7 @@ def read_near(reading: Reading, section: Mapping) -> dict[str, tuple[float, floa
     """Roughly where points lie."""
     found: dict[str, tuple[float, float]] = {}
     for key, node in section.items.items():
-        name = reading.point(Scalar(key, True, section.keys[key]), "a point")
+        name = reading.point(Scalar(key, False, section.keys[key]), "a point")
         if name is None:
             continue
         if type(node) is not Sequence or len(node.items) != 2:
@@ -129,7 +129,7 @@ def read_carried(reading: Reading, section: Mapping) -> dict[str, tuple[str, ...
     """Further points of links, as ``links:`` names them."""
     found: dict[str, tuple[str, ...]] = {}
     for key, node in section.items.items():
-        link = reading.link(Scalar(key, True, section.keys[key]), "a link")
+        link = reading.link(Scalar(key, False, section.keys[key]), "a link")
         if type(node) is Mapping:
             reading.check_keys(node, (), f"link {shown(key)}")
         items = reading.names(node, f"the points of link {shown(key)}", "{3: [G, H]}")

@@ -67,7 +67,7 @@ class Reading:
         """The node's text as a name."""
         if type(node) is not Scalar:
             self.refuse(node.mark, f"{what} should be one name")
-        elif node.text == "":
+        elif is_null(node) or not node.text:
             self.refuse(node.mark, f"{what} has no value")
         elif not is_name(node.text):
             self.refuse(node.mark, f"{shown(node.text)} is not a name: {why_no_name(node.text)}")

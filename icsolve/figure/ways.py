@@ -1,0 +1,215 @@
+"""The ways in which a construction assembles: every branch that the data leave open, in order.
+
+A depth-first walk over the steps. A step with two places takes the one that `near` picks, keeps both
+where nothing picks, and drops those that the data rule out; ways that get to the end are kept.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from typing import NamedTuple
+
+from icsolve.errors import Status
+from icsolve.figure.board import Board, Key, Point
+from icsolve.figure.data import Datum
+from icsolve.figure.frame import normalised
+from icsolve.figure.loci import Crossing
+from icsolve.figure.misfit import TOO_CLOSE, misfit
+from icsolve.figure.order import Order
+from icsolve.figure.refusals import Miss, behind, clash, concentric, merged, parallel, too_far
+from icsolve.figure.steps import Meet, Step
+from icsolve.figure.words import plain
+
+U = 2.0**-53
+TOUCHING = 16.0 * U
+"""Gaps below this many roundings of the lengths that made them are zero: the circles touch."""
+PARALLEL = 1e-14
+"""Sine of the smallest angle at which two lines still meet."""
+COARSE = 0.02
+"""Misfit at which a way is given up before its end; the finer test comes with the whole figure."""
+EVEN = 0.99
+"""Two ways whose distances from `near` have at least this ratio are equally near."""
+MOST_WAYS = 256
+
+
+class Way(NamedTuple):
+    """One way of assembling: the steps as they were settled, and the points."""
+
+    steps: tuple[Step, ...]
+    points: dict[Key, Point]
+
+
+class Walk(NamedTuple):
+    """All ways found; the misses on the paths that `near` chose, deepest last; whether it gave up."""
+
+    ways: list[Way]
+    misses: list[tuple[int, Miss]]
+    gave_up: bool
+
+
+class Fork(NamedTuple):
+    """Where the walk can go on otherwise: only if no way was found since, where ``spare``."""
+
+    depth: int
+    options: list[Step]
+    spare: bool
+    found: int
+
+
+class Walker:
+    """The walk over the steps of an order on one board."""
+
+    def __init__(self, order: Order, board: Board) -> None:
+        self.order, self.board = order, board
+        self.near = {p: normalised(board.frame, xy) for p, xy in board.case.near.items()}
+        self.checks = _due(order)
+        self.steps = list(order.steps)
+        self.budget = 20_000 + 20 * len(self.steps)
+        self.misses: list[tuple[int, Miss]] = []
+        self.spared = 0
+
+    def walk(self) -> Walk:
+        """Every way, or the misses of the ways that failed."""
+        ways: list[Way] = []
+        forks: list[Fork] = []
+        depth, count = 0, len(self.steps)
+        while self.budget > 0 and len(ways) < MOST_WAYS:
+            if depth < count:
+                depth = self._advance(depth, forks, len(ways))
+            if depth == count:
+                ways.append(Way(tuple(self.steps), dict(self.board.points)))
+                depth = -1
+            if depth < 0:
+                depth = self._back(forks, len(ways))
+                if depth < 0:
+                    return Walk(ways, self.misses, False)
+        return Walk(ways, self.misses, True)
+
+    def _advance(self, depth: int, forks: list[Fork], found: int) -> int:
+        """Run one step; the next depth, or -1 where nothing fits."""
+        self.budget -= 1
+        options = list(self._options(depth, self.order.steps[depth]))
+        if not options:
+            return -1
+        if len(options) > 1:
+            forks.append(Fork(depth, options[1:], self._picked(options), found))
+        return self._settle(depth, options[0])
+
+    def _back(self, forks: list[Fork], found: int) -> int:
+        """Take the last fork that is still of use; -1 where there is none."""
+        while forks:
+            fork = forks.pop()
+            if fork.spare and found > fork.found:
+                continue
+            self.spared += fork.spare
+            if len(fork.options) > 1:
+                forks.append(fork._replace(options=fork.options[1:]))
+            return self._settle(fork.depth, fork.options[0])
+        return -1
+
+    def _settle(self, depth: int, step: Step) -> int:
+        self.steps[depth] = step
+        if isinstance(step, Meet):
+            step.put(self.board, step.cross(self.board))
+        else:
+            step.place(self.board)
+        return depth + 1
+
+    def _options(self, depth: int, step: Step) -> Iterator[Step]:
+        """The step as it can be settled here: the nearest first."""
+        try:
+            settled = self._crossings(depth, step) if isinstance(step, Meet) else [step]
+            for option in settled:
+                self._settle(depth, option)
+                miss = self._ahead(option) or self._clash(depth)
+                if miss is None:
+                    yield option
+                else:
+                    self._miss(depth, miss)
+        except ZeroDivisionError:
+            self._miss(depth, self._degenerate(step))
+
+    def _crossings(self, depth: int, step: Meet) -> list[Step]:
+        found = step.cross(self.board)
+        miss = self._apart(step, found)
+        if miss is not None:
+            self._miss(depth, miss)
+            return []
+        if found.half is None:
+            return [step]
+        if any(abs(m) <= TOUCHING * found.scale for m in found.margins):
+            return [step._replace(sign=0)]
+        return [step._replace(sign=sign) for sign in self._by_near(step.target, found)]
+
+    def _apart(self, step: Meet, found: Crossing) -> Miss | None:
+        if not step.second.round:
+            return parallel(step, self.board) if abs(found.scale) <= PARALLEL else None
+        touching = TOUCHING * found.scale
+        if min(found.margins) < -touching:
+            return too_far(step, self.board, found)
+        if step.first.round and max(abs(m) for m in found.margins[1:]) <= touching:
+            return concentric(step, self.board)
+        return None
+
+    def _by_near(self, target: Key, found: Crossing) -> tuple[int, int]:
+        near = self.near.get(target) if isinstance(target, str) else None
+        if near is None or found.half is None:
+            return (1, -1)
+        (x, y), (hx, hy) = found.middle, found.half
+        return (1, -1) if (near[0] - x) * hx + (near[1] - y) * hy >= 0.0 else (-1, 1)
+
+    def _picked(self, options: list[Step]) -> bool:
+        """Whether `near` picks the first of two places of a point."""
+        target = options[0].targets[0]
+        near = self.near.get(target) if isinstance(target, str) else None
+        if near is None:
+            return False
+        distances = []
+        for option in options[:2]:
+            self._settle(0, option)
+            distances.append(math.dist(near, self.board.points[target]))
+        return distances[0] < EVEN * distances[1]
+
+    def _ahead(self, step: Step) -> Miss | None:
+        if not isinstance(step, Meet):
+            return None
+        worst = min(step.ahead(self.board), default=1.0)
+        return None if worst > TOO_CLOSE else behind(step, self.board, worst)
+
+    def _clash(self, depth: int) -> Miss | None:
+        for datum in self.checks.get(depth, ()):
+            off, ahead = misfit(self.board, datum)
+            reach = 1.0 + max(abs(c) for p in datum.points for c in self.board.points[p])
+            if not ahead or abs(off) > COARSE * reach:
+                return clash(self.board, datum, off, ahead)
+        return None
+
+    def _degenerate(self, step: Step) -> Miss:
+        if isinstance(step, Meet) and step.first.round:
+            return concentric(step, self.board)
+        if isinstance(step, Meet) and not step.second.round:
+            return parallel(step, self.board)
+        return merged(plain(step.targets[0]), step.name)
+
+    def _miss(self, depth: int, miss: Miss) -> None:
+        """Keep the misses of the ways that `near` chose."""
+        if self.spared == 0:
+            self.misses.append((depth, miss))
+
+
+def _due(order: Order) -> dict[int, list[Datum]]:
+    """The data to compare after each step: those whose last point it places."""
+    depth = {key: i for i, step in enumerate(order.steps) for key in step.targets}
+    due: dict[int, list[Datum]] = {}
+    for datum in order.index.data:
+        if all(p in depth for p in datum.points):
+            due.setdefault(max(depth[p] for p in datum.points), []).append(datum)
+    return due
+
+
+def refusal(walk: Walk) -> Miss:
+    """The miss to report of a figure that does not assemble: the deepest, of these the smallest."""
+    if not walk.misses:
+        return Miss(Status.AMBIGUOUS, "the figure has too many open branches to try; give near: for its points")
+    return min(walk.misses, key=lambda at: (-at[0], at[1].amount))[1]
