@@ -30,6 +30,8 @@ class Heading(NamedTuple):
 
     def reverse(self) -> Heading:
         """The opposite direction."""
+        if type(self.root) is Apart:
+            return Heading(Apart(self.root.b, self.root.a), self.flip, self.turns)
         return Heading(self.root, not self.flip, self.turns)
 
     def turned(self, corner: Datum, sense: int) -> Heading:

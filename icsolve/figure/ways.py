@@ -110,18 +110,21 @@ class Walker:
 
     def _settle(self, depth: int, step: Step) -> int:
         self.steps[depth] = step
+        self._put(step)
+        return depth + 1
+
+    def _put(self, step: Step) -> None:
         if isinstance(step, Meet):
             step.put(self.board, step.cross(self.board))
         else:
             step.place(self.board)
-        return depth + 1
 
     def _options(self, depth: int, step: Step) -> Iterator[Step]:
         """The step as it can be settled here: the nearest first."""
         try:
             settled = self._crossings(depth, step) if isinstance(step, Meet) else [step]
             for option in settled:
-                self._settle(depth, option)
+                self._put(option)
                 miss = self._ahead(option) or self._clash(depth)
                 if miss is None:
                     yield option
@@ -167,7 +170,7 @@ class Walker:
             return False
         distances = []
         for option in options[:2]:
-            self._settle(0, option)
+            self._put(option)
             distances.append(math.dist(near, self.board.points[target]))
         return distances[0] < EVEN * distances[1]
 

@@ -1,0 +1,14 @@
+"""The figure: lengths, angles, guides and coordinates of a case become points in one position.
+
+`solve_figure` constructs the points that are wanted and settles the branches; `place` runs the same
+construction again with another arithmetic (arrays, numbers on a tape, more digits).
+"""
+
+from __future__ import annotations
+
+from icsolve.figure.board import Key, Point
+from icsolve.figure.frame import Frame, case_point
+from icsolve.figure.solution import Figure, Placement, place, solve_figure
+from icsolve.figure.steps import Step
+
+__all__ = ["Figure", "Frame", "Key", "Placement", "Point", "Step", "case_point", "place", "solve_figure"]

@@ -1,0 +1,146 @@
+"""Data that the construction did not need: compared with the figure, and said so.
+
+A datum may be off by half a unit of the last decimal written, its own and those of the numbers that
+it is compared with, and by 0.2 % of the figure's size, whichever is less.
+"""
+
+from __future__ import annotations
+
+from icsolve.arithmetic import FLOATS, Scalar, turn_of
+from icsolve.case import Number
+from icsolve.figure.board import Board, Key
+from icsolve.figure.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, number_of
+from icsolve.figure.misfit import misfit
+from icsolve.figure.refusals import Miss, clash, measure
+from icsolve.figure.steps import Given, Step
+from icsolve.figure.words import joined, listed, plain
+
+ROUNDING = 1e-10
+"""Misfit, over the figure's size, that is rounding in the sums and not in the data."""
+OF_SIZE = 0.002
+MOST_WORK = 50_000
+"""Steps that the propagation of half units may run again; beyond, only the size decides."""
+
+
+class Nudged:
+    """Floats with one number moved by half a unit of its last decimal."""
+
+    def __init__(self, path: str) -> None:
+        self.path = path
+
+    def _value(self, number: Number) -> float:
+        return number.value + number.half if number.path == self.path else number.value
+
+    def given(self, number: Number) -> float:
+        """The number, moved if it is the one."""
+        return self._value(number)
+
+    def turn(self, number: Number) -> tuple[float, float]:
+        """Cosine and sine, moved if it is the one."""
+        return turn_of(self._value(number))
+
+    def sqrt(self, value: Scalar) -> Scalar:
+        """As for floats."""
+        return FLOATS.sqrt(value)
+
+
+def size_of(board: Board, points: tuple[str, ...]) -> float:
+    """The greater side of the box about the points, normalised."""
+    at = [board.points[p] for p in points]
+    if not at:
+        return 0.0
+    xs, ys = [p[0] for p in at], [p[1] for p in at]
+    return float(max(max(xs) - min(xs), max(ys) - min(ys)))
+
+
+def compare(board: Board, steps: tuple[Step, ...], data: list[Datum], size: float) -> tuple[Miss | None, dict[Datum, float]]:
+    """The first datum that the points contradict, and how far off each of the others is."""
+    offs: dict[Datum, float] = {}
+    for datum in data:
+        off, ahead = misfit(board, datum)
+        if not ahead:
+            return clash(board, datum, off, ahead), offs
+        offs[datum] = abs(off)
+        if abs(off) <= ROUNDING * size:
+            continue
+        if abs(off) > OF_SIZE * size or abs(off) > _allowance(board, steps, datum, off, OF_SIZE * size):
+            return clash(board, datum, off, ahead), offs
+    return None, offs
+
+
+def _allowance(board: Board, steps: tuple[Step, ...], datum: Datum, off: float, limit: float) -> float:
+    """Sum over the numbers involved of what half a unit of each does to the misfit."""
+    cone = _cone(steps, datum)
+    numbers = _numbers(board, cone, datum)
+    if len(numbers) * len(cone) > MOST_WORK:
+        return limit
+    total = 0.0
+    for number in numbers:
+        moved = Board(board.case, board.frame, Nudged(number.path))
+        try:
+            for step in cone:
+                step.place(moved)
+            total += abs(misfit(moved, datum).off - off)
+        except ZeroDivisionError:
+            return limit
+    return total
+
+
+def _cone(steps: tuple[Step, ...], datum: Datum) -> list[Step]:
+    """The steps on which a datum's points hang, with only those coordinates that they need."""
+    needed: set[Key] = set(datum.points)
+    cone: list[Step] = []
+    for step in reversed(steps):
+        targets = tuple(key for key in step.targets if key in needed)
+        if targets:
+            needed.update(step.needs())
+            cone.append(Given(targets) if isinstance(step, Given) else step)
+    return cone[::-1]
+
+
+def _numbers(board: Board, cone: list[Step], datum: Datum) -> list[Number]:
+    """The distinct numbers that a datum and its points come from."""
+    case = board.case
+    numbers: dict[str, Number] = {}
+    for each in (datum, *(d for step in cone for d in step.data())):
+        if each.kind not in (MEAN, LINE):
+            number = number_of(case, each)
+            numbers[number.path] = number
+    for step in cone:
+        if isinstance(step, Given):
+            for key in step.targets:
+                place = case.points[plain(key)] if plain(key) in case.points else case.points[key]  # type: ignore[index]
+                for number in (place.x, place.y):  # type: ignore[union-attr]
+                    numbers[number.path] = number
+    return list(numbers.values())
+
+
+def notes_of(board: Board, offs: dict[Datum, float], used: frozenset[Datum], given: bool, size: float) -> list[str]:
+    """Which data set the points and which were only compared, where there were more than needed."""
+    spare = {
+        datum: off
+        for datum, off in offs.items()
+        if datum not in used and (off > ROUNDING * size or datum.kind not in (GUIDE, LINE))
+    }
+    if not spare:
+        return []
+    setters = ["the coordinates"] if given else []
+    for kinds, one, many in (((LENGTH,), "length", "lengths"), ((RAY, CORNER), "angle", "angles")):
+        names = sorted(joined(*d.points) for d in used if d.kind in kinds)
+        if names:
+            setters.append(f"{one if len(names) == 1 else many} {', '.join(names)}")
+    only = "; ".join(f"{_said(board, datum)} {_off(board, off, size)}" for datum, off in spare.items())
+    by = f"set by {listed(setters)}" if setters else "set by the other data"
+    return [f"more data than the figure needs: the points are {by}; only compared: {only}"]
+
+
+def _said(board: Board, datum: Datum) -> str:
+    from icsolve.figure.words import datum_words
+
+    if datum.kind in (MEAN, LINE, GUIDE):
+        return datum_words(datum)
+    return f"{datum_words(datum)} = {number_of(board.case, datum).value:.6g}"
+
+
+def _off(board: Board, off: float, size: float) -> str:
+    return "(agrees)" if off <= ROUNDING * size else f"(off by {measure(board, off)})"

@@ -1,0 +1,99 @@
+"""From a case to the points of its figure."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from typing import NamedTuple
+
+from icsolve.arithmetic import FLOATS, Arithmetic, Scalar
+from icsolve.case import Case, Coordinates
+from icsolve.errors import SceneError, Status
+from icsolve.figure.board import Board, Point
+from icsolve.figure.data import Datum, data_of, names_of
+from icsolve.figure.frame import Frame, frame_of
+from icsolve.figure.steps import Given, Step
+from icsolve.figure.words import plain
+
+MOST_RETRIES = 20
+
+
+class Figure(NamedTuple):
+    """The points of one position, and the construction that found them.
+
+    ``points`` are in the normalised frame; ``steps`` ran in this order, with the branches that
+    they settled on; ``notes`` are sentences for the reader; ``skipped`` names the points that
+    nothing asked for.
+    """
+
+    frame: Frame
+    points: dict[str, Point]
+    steps: tuple[Step, ...]
+    notes: tuple[str, ...] = ()
+    skipped: tuple[str, ...] = ()
+
+
+class Placement(NamedTuple):
+    """Points of the same construction in another arithmetic.
+
+    ``margins`` has, for each step that may fail, what must not be negative (normalised): gaps
+    of circles, distances along rays. Callers with arrays test them outside.
+    """
+
+    points: dict[str, Point]
+    margins: tuple[tuple[Scalar, ...], ...]
+
+
+def place(figure: Figure, case: Case, arithmetic: Arithmetic = FLOATS) -> Placement:
+    """Run a figure's construction again, on the numbers of a case of the same shape.
+
+    The same steps with the same branches, without a test on any value.
+    """
+    board = Board(case, figure.frame, arithmetic)
+    for step in figure.steps:
+        step.place(board)
+    return Placement({p: at for p, at in board.points.items() if isinstance(p, str)}, tuple(board.margins))
+
+
+def solve_figure(case: Case, wanted: Collection[str] | None = None) -> Figure:
+    """The figure of a case: the wanted points (None: every point), and those that they need.
+
+    Raises
+    ------
+    SceneError
+        ``underdetermined``, ``inconsistent``, ``cannot-assemble``, ``ambiguous``,
+        ``near-singular``; the message says where, by how much, and what would mend it.
+    """
+    frame = frame_of(case)
+    names = names_of(case)
+    goal = list(names if wanted is None else dict.fromkeys(wanted))
+    if all(_is_given(case, p) for p in goal):
+        return _drawn(case, frame, goal, names)
+    from icsolve.figure.construct import construct
+
+    return construct(case, frame, goal, names)
+
+
+def _is_given(case: Case, point: str) -> bool:
+    place = case.points.get(point)
+    return type(place) is Coordinates and place.x is not None and place.y is not None
+
+
+def _drawn(case: Case, frame: Frame, goal: list[str], names: list[str]) -> Figure:
+    """The figure where every point is given: nothing to construct, the other data are compared."""
+    board = Board(case, frame, FLOATS)
+    steps: tuple[Step, ...] = (Given(tuple(goal)),)
+    steps[0].place(board)
+    data = [d for d in data_of(case) if all(p in board.points for p in d.points)]
+    notes = _compared(board, steps, data, tuple(goal)) if data else ()
+    points = {p: board.points[p] for p in goal}
+    return Figure(frame, points, steps, notes, tuple(plain(p) for p in names if p not in points))
+
+
+def _compared(board: Board, steps: tuple[Step, ...], data: list[Datum], goal: tuple[str, ...]) -> tuple[str, ...]:
+    from icsolve.figure.compare import compare, notes_of, size_of
+
+    size = size_of(board, goal)
+    miss, offs = compare(board, steps, data, size)
+    if miss is not None:
+        raise SceneError(Status.INCONSISTENT, miss.message)
+    return tuple(notes_of(board, offs, frozenset(), True, size))
