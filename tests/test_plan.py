@@ -1,0 +1,77 @@
+"""The plan holds only the steps that the wanted answer needs: its steps are counted, never timed."""
+
+from __future__ import annotations
+
+from random import Random
+
+import mechanisms
+import pytest
+import transcribe
+from chains import BUTTERFLY, FLIER
+
+from icsolve.plan import Plan, make_plan
+from icsolve.topology import Topology, topology
+
+
+def chain_of_four_bars(loops: int) -> Topology:
+    """Cranks 2, 4, 6 ... on the frame, couplers 3, 5, 7 ... between them."""
+    cranks = [str(2 * k + 2) for k in range(loops + 1)]
+    joints = [{"pin": ["1", crank], "at": f"O{crank}"} for crank in cranks]
+    for left, right in zip(cranks, cranks[1:], strict=False):
+        coupler = str(int(left) + 1)
+        joints.append({"pin": [left, coupler], "at": f"P{left}"})
+        joints.append({"pin": [coupler, right], "at": f"Q{right}"})
+    points = {joint["at"]: [k, k % 3] for k, joint in enumerate(joints)}
+    return topology(transcribe.case({"points": points, "joints": joints, "loads": {}}))
+
+
+def plan_for(top: Topology, *links: str) -> Plan:
+    plan = make_plan(top, frozenset(top.body_of[link] for link in links))
+    assert plan is not None
+    return plan
+
+
+@pytest.mark.parametrize(("first", "last", "dyads"), [(2, 4, 1), (2, 22, 10), (8, 14, 3), (20, 22, 1)])
+def test_a_load_only_plan_on_ten_four_bars_grows_with_the_links_between_the_loads(
+    first: int, last: int, dyads: int
+) -> None:
+    plan = plan_for(chain_of_four_bars(10), "1", str(first), str(last))
+    assert plan.closed
+    assert [len(group.bodies) for group in plan.groups] == [2] * dyads
+    assert len(plan.bodies) == 2 + 2 * dyads
+
+
+def test_two_loads_on_one_link_need_no_group_at_all() -> None:
+    plan = plan_for(chain_of_four_bars(10), "1", "6")
+    assert plan.groups == ()
+
+
+def test_all_links_of_ten_four_bars_need_one_dyad_a_loop() -> None:
+    top = chain_of_four_bars(10)
+    plan = plan_for(top, *top.body_of)
+    assert [len(group.bodies) for group in plan.groups] == [2] * 10
+
+
+@pytest.mark.parametrize(("edges", "largest"), [(BUTTERFLY, 6), (FLIER, 4)])
+def test_the_smallest_group_that_stalls_is_solved_as_one(edges: str, largest: int) -> None:
+    """Double butterfly: no dyad from any input. Single flier: a group of four at best."""
+    top = topology(transcribe.case(mechanisms.pinned(Random(1), edges) | {"loads": {}}))
+    plan = plan_for(top, *top.body_of)
+    assert plan.closed
+    assert max(len(group.bodies) for group in plan.groups) == largest
+
+
+def test_a_redundant_constraint_leaves_the_plan_open() -> None:
+    """Three parallel cranks count to a structure: no group order, the loop equations decide by rank."""
+    joints = [
+        {"pin": ["1", "2"], "at": "A"},
+        {"pin": ["1", "4"], "at": "D"},
+        {"pin": ["1", "5"], "at": "E"},
+        {"pin": ["2", "3"], "at": "B"},
+        {"pin": ["3", "4"], "at": "C"},
+        {"pin": ["3", "5"], "at": "F"},
+    ]
+    points = {"A": [0, 0], "B": [1, 2], "C": [5, 2], "D": [4, 0], "E": [9, 0], "F": [10, 2]}
+    plan = plan_for(topology(transcribe.case({"points": points, "joints": joints, "loads": {}})), "2", "1")
+    assert not plan.closed
+    assert plan.groups == ()
