@@ -125,7 +125,7 @@ class _Tree:
     def _scalar(self, event: Any) -> None:
         mark = _mark(event)
         self._examine(event, mark)
-        plain = event.style is None
+        plain = not event.style  # None of the pure parser, empty of libyaml
         pending = self.pending
         if pending and pending[-1] is None and type(self.stack[-1]) is Mapping:
             pending[-1] = (event.value, mark)

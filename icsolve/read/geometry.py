@@ -47,6 +47,7 @@ def _centroid(reading: Reading, name: str, node: Mapping) -> Centroid | None:
     reading.check_keys(node, ("centroid",), f"point {name}")
     value = node.items.get("centroid")
     if value is None:
+        reading.refuse(node.mark, f"point {name} should be [x, y] or {{centroid: [C, F, G]}}")
         return None
     items = reading.names(value, f"the centroid of {name}", "{centroid: [C, F, G]}")
     if items is None:

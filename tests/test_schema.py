@@ -1,0 +1,139 @@
+"""The schema and the reader agree: on every valid case, and on cases with something broken in their shape."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from corpus import ALL
+from draft07 import valid
+from trees import document, tree, typed
+
+from icsolve.errors import CaseError
+from icsolve.read import load
+from icsolve.read.document import Mapping, Node, Scalar, Sequence
+from icsolve.schema import schema
+
+SCHEMA = schema()
+CASES = sorted((Path(__file__).parent.parent / "cases").rglob("*.yaml"))
+TEMPLATES = sorted((Path(__file__).parent.parent / "icsolve" / "templates").glob("*.yaml"))
+NAMED = {"points", "lengths", "angles", "near", "links", "loads", "expect"}
+
+
+def reads(text: str) -> bool:
+    """Whether the reader takes a text."""
+    try:
+        load(text)
+    except CaseError:
+        return False
+    return True
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_a_case_that_reads_fits_the_schema(name: str) -> None:
+    assert reads(ALL[name])
+    assert valid(typed(tree(ALL[name])), SCHEMA)
+
+
+@pytest.mark.parametrize("path", [*CASES, *TEMPLATES], ids=lambda path: path.stem)
+def test_shipped_cases_read_and_fit_the_schema(path: Path) -> None:
+    assert load(path).joints
+    assert valid(typed(tree(path.read_text(encoding="utf-8"))), SCHEMA)
+
+
+def test_it_is_a_schema_of_the_draft_that_editors_know() -> None:
+    assert SCHEMA["$schema"] == "http://json-schema.org/draft-07/schema#"
+    assert not valid(5, SCHEMA)
+    assert not valid({}, SCHEMA)
+
+
+def places(node: Node, path: tuple[str | int, ...] = ()) -> Iterator[tuple[Node, tuple[str | int, ...]]]:
+    """Every list and mapping of a tree, with the keys that lead to it."""
+    if isinstance(node, Scalar):
+        return
+    yield node, path
+    if isinstance(node, Mapping):
+        for key, value in node.items.items():
+            yield from places(value, (*path, key))
+    else:
+        for index, value in enumerate(node.items):
+            yield from places(value, (*path, index))
+
+
+def is_named(path: tuple[str | int, ...]) -> bool:
+    """Whether a mapping is a section whose keys are names."""
+    return len(path) == 1 and path[0] in NAMED
+
+
+def broken(text: str) -> Iterator[tuple[str, Mapping]]:
+    """The case with one thing wrong in its shape: a strange key, a lost key, a list for a number."""
+    for _, path in places(tree(text)):
+        root = tree(text)
+        node = next(found for found, at in places(root) if at == path)
+        if isinstance(node, Mapping):
+            if not is_named(path):
+                node.items["zzz"] = Scalar("1", True, (1, 1))
+                yield f"zzz in {path}", root
+            for key in list(node.items):
+                root, node = fresh(text, path)
+                assert isinstance(node, Mapping)
+                node.items[key] = Sequence([Sequence([], (1, 1))], (1, 1))
+                yield f"[[]] for {key} in {path}", root
+        elif path != ("joints",) and path != ("motion",):
+            node.items.append(Mapping({"zzz": Scalar("1", True, (1, 1))}, {"zzz": (1, 1)}, (1, 1)))
+            yield f"a mapping in {path}", root
+
+
+def fresh(text: str, path: tuple[str | int, ...]) -> tuple[Mapping, Node]:
+    """The tree again, and its node at a path."""
+    root = tree(text)
+    return root, next(found for found, at in places(root) if at == path)
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_both_refuse_a_broken_shape(name: str) -> None:
+    for what, root in broken(ALL[name]):
+        assert not valid(typed(root), SCHEMA), f"the schema takes {what}"
+        assert not reads(document(root)), f"the reader takes {what}"
+
+
+def lost(text: str) -> Iterator[tuple[str, Mapping]]:
+    """The case without one key."""
+    for node, path in places(tree(text)):
+        if isinstance(node, Mapping) and not is_named(path):
+            for key in node.items:
+                root, place = fresh(text, path)
+                assert isinstance(place, Mapping)
+                del place.items[key]
+                yield f"{key} of {path}", root
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_a_lost_key_that_the_schema_misses_is_refused_by_the_reader(name: str) -> None:
+    for what, root in lost(ALL[name]):
+        if not valid(typed(root), SCHEMA):
+            assert not reads(document(root)), f"the schema alone refuses the case without {what}"
+
+
+WORDS = ["unknown", "0", "-1", "1e3", "A", "3 kg", "cw", "true", "[1, 2]", "[A, B]", "{like: T}", "", "1,5", "N*m"]
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_what_the_schema_refuses_the_reader_refuses(name: str) -> None:
+    """Values put at random in place of others (seeded)."""
+    dice = random.Random(name)
+    refused = 0
+    for _ in range(400):
+        root = tree(ALL[name])
+        node = dice.choice([found for found, _ in places(root)])
+        value = tree(f"v: {dice.choice(WORDS)}").items["v"]
+        if isinstance(node, Mapping):
+            node.items[dice.choice(list(node.items))] = value
+        elif node.items:
+            node.items[dice.randrange(len(node.items))] = value
+        if not valid(typed(root), SCHEMA):
+            refused += 1
+            assert not reads(document(root)), document(root)
+    assert refused > 50
