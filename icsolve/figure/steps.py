@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple, Protocol
 
-from icsolve.figure.board import Board, Heading, Key, Span
+from icsolve.figure.board import Board, Heading, Key, Span, data_in, ends_of
 from icsolve.figure.data import Datum
-from icsolve.figure.loci import Crossing, Locus, crossing, is_ray
+from icsolve.figure.loci import Crossing, Locus, crossing, is_ray, is_round
 from icsolve.figure.words import heading_words, locus_words, plain, span_words
 
 
@@ -44,7 +44,7 @@ class Given(NamedTuple):
     def place(self, board: Board) -> None:
         """Put the points."""
         for key in self.targets:
-            board.points[key] = board.coordinates(plain(key))
+            board.points[key] = board.coordinates(key if isinstance(key, str) else key[1])
 
     def data(self) -> tuple[Datum, ...]:
         """None but the coordinates."""
@@ -135,12 +135,11 @@ class Polar(NamedTuple):
 
     def data(self) -> tuple[Datum, ...]:
         """Length and directions."""
-        return (*((self.span,) if type(self.span) is Datum else ()), *self.heading.data())
+        return (*data_in(self.span), *self.heading.data())
 
     def needs(self) -> tuple[Key, ...]:
         """What it starts from."""
-        spanned = () if type(self.span) is Datum else (self.span.a, self.span.b)
-        return (self.base, *spanned, *self.heading.needs())
+        return (self.base, *ends_of(self.span), *self.heading.needs())
 
 
 class Meet(NamedTuple):
@@ -165,8 +164,8 @@ class Meet(NamedTuple):
         """What the step does."""
         words = f"{plain(self.target)}: where {locus_words(self.first)} meets {locus_words(self.second)}"
         if self.sign == 0:
-            return f"{words} (touching)" if self.second.round else words
-        side = ("left", "right") if self.first.round else ("farther", "nearer")
+            return f"{words} (touching)" if is_round(self.second) else words
+        side = ("left", "right") if is_round(self.first) else ("farther", "nearer")
         return f"{words} ({side[self.sign < 0]})"
 
     def cross(self, board: Board) -> Crossing:
@@ -230,11 +229,11 @@ class Base(NamedTuple):
 
     def data(self) -> tuple[Datum, ...]:
         """The length."""
-        return (self.span,) if type(self.span) is Datum else ()
+        return data_in(self.span)
 
     def needs(self) -> tuple[Key, ...]:
         """What the length comes from."""
-        return () if type(self.span) is Datum else (self.span.a, self.span.b)
+        return ends_of(self.span)
 
 
 class Transfer(NamedTuple):
