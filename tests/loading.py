@@ -27,7 +27,7 @@ def random_load(rng: Random, base: Scene, link: str, number: Any) -> dict[str, A
     kinds: list[dict[str, Any]] = [
         {"force": number, "link": link, "at": at} | directed | other,
         {"torque": number, "link": link} | ({"turns": "cw"} if rng.random() < 0.3 else {}) | other,
-        {"weight": number, "link": link, "at": at},
+        {rng.choice(["weight", "mass"]) if number == "unknown" else "weight": number, "link": link, "at": at},
     ]
     if len(names) > 2:
         ends = rng.sample(names, 2)
@@ -45,7 +45,21 @@ def loaded(rng: Random, base: Scene) -> Scene:
     loads = {
         f"P{k}": random_load(rng, base, n, round(rng.uniform(5, 200), 2)) for k, n in enumerate(known, 1)
     }
-    return base | {"loads": loads | {"U": random_load(rng, base, rng.choice(links), "unknown")}}
+    loads["U"] = random_load(rng, base, rng.choice(links), "unknown")
+    if rng.random() < 0.2:
+        loads |= alike(rng, rng.choice(list(loads)), loads, links)
+    return base | {"loads": loads}
+
+
+def alike(rng: Random, name: str, loads: dict[str, Any], links: list[str]) -> dict[str, Any]:
+    """A load `L` as large as another, or a multiple of it."""
+    kind = next(iter(loads[name]))
+    number = {"like": name} | rng.choice([{}, {"times": -0.5}])
+    if kind == "torque":
+        return {"L": {"torque": number, "link": rng.choice(links)}}
+    if kind in ("force", "weight") and not isinstance(loads[name][kind], list):
+        return {"L": {"force": number, "link": rng.choice(links), "at": spot(rng), "angle": heading(rng)}}
+    return {}
 
 
 def sound(trial: Scene) -> bool:

@@ -21,6 +21,8 @@ def text(scene: Scene) -> str:
     """A case file: one line for each joint, point and load."""
     lines = ["icsolve: 1"]
     for key, value in scene.items():
+        if not value:
+            continue
         if isinstance(value, dict) and key in ("points", "loads", "near"):
             lines += [f"{key}:", *(f"  {name}: {_flow(entry)}" for name, entry in value.items())]
         elif isinstance(value, list) and key == "joints":

@@ -17,6 +17,9 @@ Entry = dict[str, Any]
 Place = list[float]
 
 
+GRAVITY = 9.81
+
+
 class Effect(NamedTuple):
     """What becomes of results: factors of unknown loads by kind, places, directions (degrees), links."""
 
@@ -78,7 +81,7 @@ def heavy_to_forces(scene: Scene) -> Scene:
         if kind in ("weight", "mass"):
             value = load.pop(kind)
             if isinstance(value, str) and value.endswith("kg"):
-                value = float(value.removesuffix(" kg")) * 9.81
+                value = float(value.removesuffix(" kg")) * GRAVITY
             new["loads"][name] = {"force": value} | load | {"angle": -90.0}
     return new
 
@@ -93,9 +96,8 @@ def rigid_motion(scene: Scene, degrees: float, shift: Place) -> tuple[Scene, Eff
     def direction(angle: float) -> float:
         return angle + degrees
 
-    return _moved(heavy_to_forces(scene), place, direction), NO_EFFECT._replace(
-        place=place, direction=direction
-    )
+    effect = NO_EFFECT._replace(place=place, direction=direction, factor={"mass": GRAVITY})
+    return _moved(heavy_to_forces(scene), place, direction), effect
 
 
 def mirror(scene: Scene) -> tuple[Scene, Effect]:

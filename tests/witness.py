@@ -31,18 +31,41 @@ def centre(found: Motions, i: str, j: str) -> Twist | str:
 
 
 def _own(found: Motions, i: str, j: str) -> Twist | None:
-    """The centre of the joint of two links, which stands even where they have no relative motion."""
-    num = found.digits.num
+    """The centre of the joint of two links, which stands even where they have no relative motion.
+
+    A link that is welded to another has that one's joints too.
+    """
+    one, other = _welded(found.case, i), _welded(found.case, j)
     for joint in found.case.joints:
-        if not {i, j} <= set(joint.links):
+        held = set(joint.links)
+        if isinstance(joint, c.Weld) or one & other or not (held & one and held & other):
             continue
-        if isinstance(joint, c.Slide):
-            ux, uy = along(joint.guide, found.points, found.digits)
-            return (-uy, ux, num(0))
-        if isinstance(joint, c.KnownCentre) and joint.toward is not None:
-            return (*found.digits.turn(joint.toward.value), num(0))
-        if isinstance(joint, c.Pin | c.Roll | c.KnownCentre) and joint.at is not None:
-            return (*found.frame.place(found.points[joint.at], num), num(1))
+        own = _centre_of(joint, found)
+        if own is not None:
+            return own
+    return None
+
+
+def _welded(case: c.Case, link: str) -> set[str]:
+    """A link, and those that are welded to it."""
+    body = {link}
+    for _ in case.links:
+        for joint in case.joints:
+            if isinstance(joint, c.Weld) and body & set(joint.links):
+                body |= set(joint.links)
+    return body
+
+
+def _centre_of(joint: c.Joint, found: Motions) -> Twist | None:
+    """The relative centre that a joint fixes by itself."""
+    num = found.digits.num
+    if isinstance(joint, c.Slide):
+        ux, uy = along(joint.guide, found.points, found.digits)
+        return (-uy, ux, num(0))
+    if isinstance(joint, c.KnownCentre) and joint.toward is not None:
+        return (*found.digits.turn(joint.toward.value), num(0))
+    if isinstance(joint, c.Pin | c.Roll | c.KnownCentre) and joint.at is not None:
+        return (*found.frame.place(found.points[joint.at], num), num(1))
     return None
 
 
