@@ -16,7 +16,7 @@ def smallest_group(top: Topology, known: Collection[int]) -> tuple[int, ...]:
     """The bodies of the smallest group, in order; empty where nothing is determined."""
     owner = _matching(top, known)
     needs = _needs(top, known, owner)
-    counts = {body: 0 for body in needs}
+    counts = dict.fromkeys(needs, 0)
     for body in owner.values():
         counts[body] += 1
     loose = [body for body in needs if counts[body] < 3]

@@ -3,7 +3,6 @@ the loop equations of the whole scene. What is singular, redundant or rigid is s
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import NamedTuple
 
 from icsolve.arithmetic import Arithmetic
@@ -14,8 +13,8 @@ from icsolve.joints import Points, freedoms, points_of
 from icsolve.loops import Bases, LoopMotions, all_motions
 from icsolve.plan import Plan
 from icsolve.plane import Triple, subtract
-from icsolve.topology import Topology
 from icsolve.sentences import contradiction, near_structure, structure
+from icsolve.topology import Topology
 from icsolve.twists import Closure, is_singular, run
 
 
@@ -32,6 +31,8 @@ class Motions(NamedTuple):
     redundant: int
     closures: tuple[Closure, ...]
     notes: tuple[str, ...]
+    slack: float = 0.0
+    """by how much given centres and rolling contacts miss each other, of the figure's size"""
 
 
 def needed_bonds(plan: Plan | None, top: Topology) -> tuple[int, ...]:
@@ -70,12 +71,14 @@ def by_loops(case: Case, top: Topology, points: Points, arithmetic: Arithmetic, 
     bases = {k: freedoms(bond, points, arithmetic) for k, bond in enumerate(top.bonds)}
     motions = all_motions(top, bases)
     notes: tuple[str, ...] = ()
-    if not motions.found.basis:
+    exact = bool(motions.found.basis)
+    if not exact:
         motions, notes = _almost(case, top, bases, motions, frame)
     mobility = len(motions.found.basis)
     redundant = max(mobility - top.freedoms_by_count, 0)
     twists = {link: motions.twists[body] for body, links in enumerate(top.members) for link in links}
-    return Motions(twists, bases, mobility, redundant, (), notes)
+    slack = 0.0 if exact else motions.found.dropped
+    return Motions(twists, bases, mobility, redundant, (), notes, slack)
 
 
 AGREE = 2e-3

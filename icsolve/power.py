@@ -43,9 +43,13 @@ def wrenches(case: Case, frame: Frame, points: Points, arithmetic: Arithmetic) -
     for load in case.loads:
         root, ratio = _root(load, by_name, arithmetic)
         unit, gain = _unit_wrench(load, case, frame, points, arithmetic)
-        against = getattr(load, "against", None) or case.ground
-        result.append(Wrench(load, against, unit, gain, root, ratio))
+        result.append(Wrench(load, reacting(case, load), unit, gain, root, ratio))
     return tuple(result)
+
+
+def reacting(case: Case, load: Load) -> str:
+    """The link that takes the opposite of a load: the one it is against, or the frame."""
+    return getattr(load, "against", None) or case.ground
 
 
 def points_of(load: Load) -> tuple[str, ...]:

@@ -69,7 +69,7 @@ class Report(NamedTuple):
         """The report in lines for people, numbers to ``digits`` digits."""
         lines = ["Report", f"  mobility {self.mobility}"]
         if self.advantage is not None:
-            lines.append(f"  mechanical advantage {_show(self.advantage, digits)}")
+            lines.append(f"  mechanical advantage (unknown / known) {_show(self.advantage, digits)}")
         for loop in self.loops:
             lines.extend(_loop_text(loop, digits, self.unit))
         if not self.loops:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 
 from icsolve.case import Case, KnownCentre
 from icsolve.figure.frame import Frame
 from icsolve.loops import Bases, all_motions
-from icsolve.plane import Triple, subtract
+from icsolve.plane import subtract
 from icsolve.topology import Bond, Topology
 from icsolve.twists import Closure
 
@@ -122,7 +122,7 @@ def wrong_count(mobility: int, unknowns: int, idle: int) -> str:
     )
 
 
-def change_point(mobility: int, count: int, twists: Mapping[str, tuple[Triple, ...]]) -> str:
+def change_point(mobility: int, count: int) -> str:
     """Momentarily more freedoms than the joints leave elsewhere."""
     return (
         f"change point: in this position the mechanism has {plural(mobility, 'degree')} of freedom where counting leaves "

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 
 from icsolve.answer import Answer, Centre, Found, Term
-from icsolve.case import Case, Coordinates, Pair, Torque
+from icsolve.case import Case, Coordinates, Pair, Torque, Units
 from icsolve.result import pair_name, shown_points
 
 Format = Callable[[float], str]
@@ -47,15 +47,16 @@ def _title(case: Case) -> list[str]:
 
 def _unknowns(answer: Answer, show: Format) -> list[str]:
     lines = [_unknown(answer.case, name, found, show) for name, found in answer.answers.items()]
-    if answer.advantage is not None:
-        lines.append(f"Ratio {_ratio_name(answer)} = {show(answer.advantage)} (mechanical advantage)")
-    return lines
+    return lines if answer.advantage is None else [*lines, _advantage(answer, answer.advantage, show)]
 
 
-def _ratio_name(answer: Answer) -> str:
-    """The unknown over the known load, by name."""
-    known = [term.load for term in answer.terms if not term.unknown]
-    return "/".join([*answer.answers, *known]) if len(known) == 1 else "unknown/known"
+def _advantage(answer: Answer, advantage: float, show: Format) -> str:
+    """The unknown over the known load, by name; a mechanical advantage where both are of one kind."""
+    units = {term.load: term.unit for term in answer.terms}
+    names = [*answer.answers, *(term.load for term in answer.terms if term.load not in answer.answers)]
+    above, below = (units.get(name, "") for name in (names[0], names[-1]))
+    unit = "" if above == below else f" {above} per {below}"
+    return f"{'/'.join(names)} = {show(advantage)}{unit}" + (" (mechanical advantage)" if not unit else "")
 
 
 def _unknown(case: Case, name: str, found: Found, show: Format) -> str:
@@ -121,15 +122,21 @@ def _line(case: Case, line: tuple[Pair, ...]) -> str:
 def _power(answer: Answer, show: Format) -> list[str]:
     if not answer.terms:
         return []
-    rows = [_term(term, show) for term in answer.terms]
-    total = " + ".join(term.load for term in answer.terms)
+    rows = [_term(answer.case.units, term, show) for term in answer.terms]
     columns: list[list[str]] = [list(column) for column in zip(*rows, strict=True)]
-    return [f"Power: the terms of {total} add up to zero", *_table(*columns)]
+    return [f"Power in {answer.case.units.torque}/s: the terms add up to zero", *_table(*columns)]
 
 
-def _term(term: Term, show: Format) -> tuple[str, str, str]:
-    product = f"{show(term.value)} {term.unit} x {show(term.factor)}".replace("  ", " ")
-    return (term.load, f"{product} = {show(term.power)}", term.words)
+def _term(units: Units, term: Term, show: Format) -> tuple[str, str, str]:
+    """A load times its velocity is its power, in torque units a second."""
+    power, factor = (number * units.torque_per_force_length for number in (term.power, term.factor))
+    velocity = f"{show(factor)} per {term.unit}"
+    if term.unit == units.torque:
+        velocity = f"{show(factor)} rad/s"
+    elif term.unit == units.force:
+        velocity = f"{show(term.factor)} {units.length}/s"
+    product = f"{show(term.value)} {term.unit} x {velocity} = {show(power)}"
+    return (term.load, product, term.words.removeprefix(f"{term.load} "))
 
 
 def _rates(answer: Answer, show: Format) -> list[str]:

@@ -16,7 +16,6 @@ from icsolve.plan import Group, Plan
 from icsolve.plane import Triple, blend, cross, dyad_twists, monad_twist, shift, subtract, times
 from icsolve.topology import Topology
 
-
 LONG = 4
 """Plans with more groups are rescaled by powers of two on the way: determinants multiply up."""
 
@@ -171,7 +170,7 @@ def _eliminated(group: Group, top: Topology, bases: Bases, pool: _Pool) -> tuple
     tree = span(top, group.bonds, roots, bases)
     found = null_space(loop_rows(top, tree, bases, roots), tree.columns + 1)
     if len(found.basis) != 1:
-        return Closure(group, 0.0, (0.0,)), {body: ORIGIN for body in group.bodies}
+        return Closure(group, 0.0, (0.0,)), dict.fromkeys(group.bodies, ORIGIN)
     rates = found.basis[0]
     twists = twists_on(tree, rates, roots)
     return Closure(group, rates[-1], tuple(rates[:-1])), {body: twists[body] for body in group.bodies}
