@@ -76,8 +76,8 @@ def four_bar_answer(case: Case | None = None, **changes: Any) -> Answer:
             "E": (3.4489, 0.87382),
         },
         "terms": (
-            Term("P", "4", 100.0, "lbf", -0.2967219, -29.67219, False, "velocity of E on 4 along P"),
-            Term("T12", "2", 29.67219, "lbf*in", 1.0, 29.67219, True, "turning of 2"),
+            Term("P", "4", 100.0, "lbf", -0.2967219, -29.67219, False, "P on link 4 at E"),
+            Term("T12", "2", 29.67219, "lbf*in", 1.0, 29.67219, True, "T12 on link 2"),
         ),
         "advantage": 0.2967219,
         "mobility": 1,

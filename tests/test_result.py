@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import json
 
-from icsolve.answer import Centre, Found
-from icsolve.case import Coordinates, Motion, Torque
+from icsolve.answer import Centre, Found, Term
+from icsolve.case import Coordinates, Motion, Torque, Units
 from icsolve.result import pair_name, refusal_dict, to_dict
 from icsolve.text import answer_text
 from made import four_bar_answer, four_bar_case, number
@@ -94,7 +94,7 @@ def test_a_refusal_has_status_and_message() -> None:
 def test_text_gives_the_unknown_with_unit_and_sense_in_words() -> None:
     text = answer_text(four_bar_answer())
     assert "T12 = 29.6722 lbf*in, counterclockwise" in text
-    assert "Ratio T12/P = 0.296722" in text
+    assert "T12/P = 0.296722 lbf*in per lbf" in text
     assert "T12 = 29.67 lbf*in" in answer_text(four_bar_answer(), digits=4)
 
 
@@ -113,10 +113,38 @@ def test_text_shows_how_each_centre_was_found_and_no_rounding_noise() -> None:
     assert "I1-2  (0, 0)        a joint" in text
 
 
+def words(text: str) -> list[str]:
+    """Lines without their columns' widths."""
+    return [" ".join(line.split()) for line in text.splitlines()]
+
+
 def test_text_has_one_line_for_each_term_of_power() -> None:
-    lines = answer_text(four_bar_answer()).splitlines()
-    assert "  P    100 lbf x -0.296722 = -29.6722  velocity of E on 4 along P" in lines
-    assert "  T12  29.6722 lbf*in x 1 = 29.6722    turning of 2" in lines
+    lines = words(answer_text(four_bar_answer()))
+    assert "Power in lbf*in/s: the terms add up to zero" in lines
+    assert "P 100 lbf x -0.296722 in/s = -29.6722 on link 4 at E" in lines
+    assert "T12 29.6722 lbf*in x 1 rad/s = 29.6722 on link 2" in lines
+
+
+def test_power_is_shown_in_the_unit_of_torque() -> None:
+    case = four_bar_case(units=Units("mm", "N", "N*m", 0.001))
+    terms = (
+        Term("W", "3", 2.0, "kg", -98.1, -196.2, False, "W on link 3 at C"),
+        Term("F", "4", 250.0, "N", 30.0, 7500.0, False, "F on link 4 at E"),
+        Term("T", "2", -7.3038, "N*m", 1000.0, -7303.8, True, "T on link 2"),
+    )
+    lines = words(answer_text(four_bar_answer(case, terms=terms, advantage=None)))
+    assert "W 2 kg x -0.0981 per kg = -0.1962 on link 3 at C" in lines
+    assert "F 250 N x 30 mm/s = 7.5 on link 4 at E" in lines
+    assert "T -7.3038 N*m x 1 rad/s = -7.3038 on link 2" in lines
+
+
+def test_equal_kinds_have_a_mechanical_advantage() -> None:
+    terms = (
+        Term("P", "2", 100.0, "N", 40.0, 4000.0, False, "P on link 2 at H"),
+        Term("Q", "3", 4000.0, "N", -1.0, -4000.0, True, "Q on link 3 at J"),
+    )
+    answer = four_bar_answer(answers={"Q": Found(4000.0, "N", "push")}, terms=terms, advantage=40.0)
+    assert "Q/P = 40 (mechanical advantage)" in answer_text(answer)
 
 
 def test_text_of_rates_says_whether_they_are_scaled() -> None:

@@ -10,11 +10,13 @@ import pytest
 
 from icsolve.templates import kinds, template
 
+ROOT = Path(__file__).parent.parent
+
 
 def imported(*arguments: str) -> set[str]:
     """The modules that a call of Python imports, by -X importtime."""
     ran = subprocess.run(
-        [sys.executable, "-X", "importtime", *arguments], capture_output=True, text=True, check=True
+        [sys.executable, "-X", "importtime", *arguments], cwd=ROOT, capture_output=True, text=True, check=True
     )
     lines = [line for line in ran.stderr.splitlines() if line.startswith("import time:")]
     return {line.rpartition("|")[2].strip() for line in lines}

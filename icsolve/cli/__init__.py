@@ -33,8 +33,15 @@ def _run(arguments: list[str] | None) -> int:
     from icsolve.cli.commands import icsolve
     from icsolve.cli.faults import bug_report
 
+    if os.environ.get("_ICSOLVE_COMPLETE"):
+        icsolve.main(prog_name="icsolve")
     try:
-        return int(icsolve.main(arguments, prog_name="icsolve", standalone_mode=False) or 0)
+        with icsolve.make_context(
+            "icsolve", list(sys.argv[1:] if arguments is None else arguments)
+        ) as context:
+            return int(icsolve.invoke(context) or 0)
+    except click.exceptions.Exit as left:
+        return left.exit_code
     except click.ClickException as error:
         error.show()
         return error.exit_code

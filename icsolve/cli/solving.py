@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from icsolve.answer import Answer
     from icsolve.case import Case
     from icsolve.errors import SceneError
+    from icsolve.report import Report
 
 
 class Options(NamedTuple):
@@ -41,7 +42,15 @@ def print_json(entry: Mapping[str, Any]) -> None:
 def _solve(case: Case, options: Options) -> Answer:
     from icsolve.solve import solve
 
-    return solve(case, all_centres=options.all_centres, rates=options.rates, examine=options.report)
+    return solve(case, all_centres=options.all_centres, rates=options.rates)
+
+
+def _report(case: Case) -> Report:
+    """The report; it needs every point of the figure, where the answer needs only its own."""
+    from icsolve.report import report
+    from icsolve.solve import solve
+
+    return report(solve(case, examine=True))
 
 
 def _as_json(options: Options) -> Work:
@@ -49,9 +58,7 @@ def _as_json(options: Options) -> Work:
         answer = _solve(case, options)
         entry = answer.to_dict()
         if options.report:
-            from icsolve.report import report
-
-            entry["report"] = report(answer).to_dict()
+            entry["report"] = _report(case).to_dict()
         print_json(entry)
         return DONE
 
@@ -68,9 +75,7 @@ def _as_text(options: Options) -> Work:
         answer = _solve(case, options)
         sections = [answer_text(answer, options.digits)]
         if options.report:
-            from icsolve.report import report
-
-            sections.append(report(answer).text(options.digits))
+            sections.append(_report(case).text(options.digits))
         click.echo(("\n" if shown else "") + "\n\n".join(sections))
         shown += 1
         return DONE

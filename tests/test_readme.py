@@ -1,0 +1,169 @@
+"""Every example of the README is run, and every form in its tables is read.
+
+Console blocks are sessions: a line with `$` is run, and what stands below is its whole output. Files are the
+YAML blocks whose first line is a comment with their name. Python blocks are doctests.
+"""
+
+from __future__ import annotations
+
+import doctest
+import re
+import shlex
+from pathlib import Path
+from typing import NamedTuple
+
+import pytest
+
+import icsolve
+from icsolve.cli import main
+from icsolve.cli.commands import icsolve as commands
+from icsolve.errors import Status
+from icsolve.read.build import SECTIONS
+from icsolve.templates import kinds
+
+README = (Path(__file__).parent.parent / "README.md").read_text(encoding="utf-8")
+BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```$", README, re.DOTALL | re.MULTILINE)
+
+
+class Session(NamedTuple):
+    """A command and the output that the README promises."""
+
+    command: str
+    output: str
+
+
+def sessions() -> list[Session]:
+    return [
+        Session(command.strip(), output)
+        for kind, text in BLOCKS
+        if kind == "console"
+        for command, output in re.findall(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", text, re.MULTILINE)
+    ]
+
+
+@pytest.fixture
+def files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with the README's files."""
+    monkeypatch.chdir(tmp_path)
+    for kind, text in BLOCKS:
+        if kind == "yaml":
+            name = re.match(r"# (\S+\.yaml)\n", text)
+            assert name, "a YAML block starts with the name of its file"
+            (tmp_path / name[1]).write_text(text, encoding="utf-8")
+    return tmp_path
+
+
+@pytest.mark.parametrize("session", sessions(), ids=lambda session: session.command)
+def test_every_session_prints_what_the_readme_shows(
+    session: Session, files: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    program, *arguments = shlex.split(session.command)
+    assert program == "icsolve"
+    with pytest.raises(SystemExit) as left:
+        main(arguments)
+    shown = capsys.readouterr()
+    assert left.value.code == 0
+    assert shown.out + shown.err == session.output
+
+
+def test_the_python_session_says_what_the_readme_shows(files: Path) -> None:
+    texts = [text for kind, text in BLOCKS if kind == "python"]
+    test = doctest.DocTestParser().get_doctest("\n".join(texts), {}, "README", "README.md", 0)
+    assert test.examples
+    assert doctest.DocTestRunner(verbose=False).run(test).failed == 0
+
+
+def test_the_picture_shows_the_answer_of_its_file(files: Path) -> None:
+    picture = README.partition("```\n")[2].partition("```")[0]
+    value = icsolve.solve(icsolve.load("press.yaml")).answers["T12"].value
+    assert f"T12 = {value:.3g} lbf*in, counterclockwise" in picture
+
+
+def section(title: str) -> str:
+    return re.split(r"\n#+ ", README.partition(f"# {title}\n")[2])[0]
+
+
+def forms(title: str) -> list[str]:
+    """The inline examples of a section that are mappings."""
+    return re.findall(r"`(\{[^`]*\})`", section(title))
+
+
+LETTERS = "ABCDEFGHP"
+POINTS = "".join(f"  {letter}: [{n}, {n * n % 7}]\n" for n, letter in enumerate(LETTERS))
+CHAIN = "".join(f"  - {{pin: [{n}, {n + 1}], at: {LETTERS[n]}}}\n" for n in range(1, 8))
+SCAFFOLD = f"icsolve: 1\npoints:\n{POINTS}joints:\n{CHAIN}"
+
+
+@pytest.mark.parametrize("form", forms("Joints"))
+def test_every_form_of_a_joint_is_read(form: str) -> None:
+    case = icsolve.load(f"{SCAFFOLD}  - {form}\n")
+    assert len(case.joints) == 8
+
+
+@pytest.mark.parametrize("form", forms("Loads"))
+def test_every_form_of_a_load_is_read(form: str) -> None:
+    load = f"{{torque: {form}, link: 2}}" if "like" in form else form
+    case = icsolve.load(f"{SCAFFOLD}loads:\n  M2: {{torque: 5, link: 3}}\n  Q: {load}\n")
+    assert case.loads[1].name == "Q"
+
+
+@pytest.mark.parametrize("form", forms("Motion"))
+def test_every_form_of_a_motion_is_read(form: str) -> None:
+    assert icsolve.load(f"{SCAFFOLD}motion: {form}\n").motion
+
+
+@pytest.mark.parametrize("form", forms("Expect"))
+def test_every_form_of_a_width_is_read(form: str) -> None:
+    assert icsolve.load(f"{SCAFFOLD}expect:\n  w4/w2: {form}\n").expect
+
+
+@pytest.mark.parametrize(
+    "entry", re.findall(r"`(\S[^`]*: [^`]*)`", section("Expect").partition("| `{value")[0])
+)
+def test_every_key_of_expect_is_read(entry: str) -> None:
+    loads = "loads:\n  T12: {torque: unknown, link: 2}\n"
+    assert len(icsolve.load(f"{SCAFFOLD}{loads}expect:\n  {entry}\n").expect) == 1
+
+
+@pytest.mark.parametrize(
+    "entry", re.findall(r"^\| `((?:points|lengths|angles|near|links): \{.*?\})`", README, re.M)
+)
+def test_every_entry_of_the_figure_is_read(entry: str) -> None:
+    name, key, value = re.fullmatch(r"(\w+): \{(\w+): (.*)\}", entry).groups()  # type: ignore[union-attr]
+    others = "".join(line for line in POINTS.splitlines(True) if (name, key) != ("points", line.strip()[0]))
+    points = f"{others}  {key}: {value}\n" if name == "points" else f"{POINTS}{entry}\n"
+    case = icsolve.load(f"icsolve: 1\npoints:\n{points}joints:\n{CHAIN}")
+    assert {"points": case.points, "near": case.near, "links": case.carries}.get(
+        name, case.lengths + case.angles
+    )
+
+
+def test_every_status_stands_in_the_readme() -> None:
+    stated = set(re.findall(r"^\| `([a-z-]+)` \|", section("Statuses"), re.MULTILINE))
+    assert stated == {value for name, value in vars(Status).items() if name.isupper()}
+
+
+def test_every_command_and_option_stands_in_the_readme() -> None:
+    text = section("Commands")
+    for name, command in commands.commands.items():
+        assert f"`icsolve {name}" in text
+        for parameter in command.params:
+            long = [option for option in parameter.opts if option.startswith("--")]
+            assert not long or any(f"`{option}" in text for option in long) or "--output" in long
+
+
+def test_every_section_stands_in_the_readme() -> None:
+    table = section("The case file")
+    assert [name for name in SECTIONS if f"`{name}" not in table] == []
+
+
+def test_the_kinds_that_the_readme_names_exist() -> None:
+    assert {"four-bar", "slider-crank"} <= set(kinds())
+
+
+def test_exactly_two_commands_get_a_stranger_going() -> None:
+    block = README.partition("<!-- two commands -->")[2].partition("<!-- /two commands -->")[0]
+    commands_given = [line for line in block.splitlines() if line and not line.startswith("```")]
+    assert len(commands_given) == 2
+    assert commands_given[0].endswith("icsolve check cases/")
+    assert commands_given[1].endswith("pytest")
