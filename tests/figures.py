@@ -25,6 +25,10 @@ def bodies(scene: Scene) -> dict[str, list[str]]:
             carried[str(link)].append(joint["at"])
     for link, points in scene.get("links", {}).items():
         carried[str(link)] += [p for p in points if p not in carried[str(link)]]
+    for joint in scene["joints"]:
+        if "weld" in joint:  # two names of one body
+            i, j = map(str, joint["weld"])
+            carried[i] = carried[j] = list(dict.fromkeys([*carried[i], *carried[j]]))
     return carried
 
 

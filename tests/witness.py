@@ -31,19 +31,11 @@ def centre(found: Motions, i: str, j: str) -> Twist | str:
 
 
 def _own(found: Motions, i: str, j: str) -> Twist | None:
-    """The centre of the joint of two links, which stands even where they have no relative motion.
-
-    A link that is welded to another has that one's joints too.
-    """
-    one, other = _welded(found.case, i), _welded(found.case, j)
-    for joint in found.case.joints:
-        held = set(joint.links)
-        if isinstance(joint, c.Weld) or one & other or not (held & one and held & other):
-            continue
-        own = _centre_of(joint, found)
-        if own is not None:
-            return own
-    return None
+    """The centre of the joint of two links, which stands even where they have no relative motion."""
+    if j in _welded(found.case, i):
+        return None
+    joints = (joint for joint in found.case.joints if {i, j} <= set(joint.links))
+    return next((own for own in (_centre_of(joint, found) for joint in joints) if own is not None), None)
 
 
 def _welded(case: c.Case, link: str) -> set[str]:
