@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from icsolve.arithmetic import Arithmetic, Scalar
@@ -52,14 +53,25 @@ Span = Datum | Apart
 """Where a length comes from: a length of the case, or two points that are in place."""
 
 
+def data_in(span: Span) -> tuple[Datum, ...]:
+    """The data that a length is."""
+    return (span,) if isinstance(span, Datum) else ()
+
+
+def ends_of(span: Span) -> tuple[Key, ...]:
+    """The points that a length is taken from."""
+    return () if isinstance(span, Datum) else (span.a, span.b)
+
+
 class Board:
     """Points in normalised coordinates, and how to measure on them.
 
     ``margins`` collects, for each step by its place in the construction, what must not be
-    negative for it to assemble: gaps of circles, distances along rays (normalised).
+    negative for it to assemble: gaps of circles, distances along rays (normalised). Groups that
+    Newton's method solves start from ``starts`` where it has them, and take ``rounds`` steps.
     """
 
-    __slots__ = ("arithmetic", "case", "frame", "margins", "points")
+    __slots__ = ("arithmetic", "case", "frame", "margins", "points", "rounds", "starts")
 
     def __init__(self, case: Case, frame: Frame, arithmetic: Arithmetic) -> None:
         self.case = case
@@ -67,6 +79,8 @@ class Board:
         self.arithmetic = arithmetic
         self.points: dict[Key, Point] = {}
         self.margins: list[tuple[Scalar, ...]] = []
+        self.starts: Mapping[str, Point] = {}
+        self.rounds = 1
 
     def length(self, span: Span) -> Scalar:
         """A length, normalised."""

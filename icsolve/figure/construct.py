@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
-
 from icsolve.arithmetic import FLOATS
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
@@ -53,7 +51,7 @@ def _assemble(case: Case, frame: Frame, order: Order) -> Figure | Miss:
     for way in walk.ways:
         board.points = way.points
         size = size_of(board, order.points)
-        data = [d for d in order.index.data if all(p in way.points for p in d.points)]
+        data = [d for d in order.facts.data if all(p in way.points for p in d.points)]
         miss, offs = compare(board, way.steps, data, size)
         if miss is None:
             fits.append((way, offs, size))

@@ -20,24 +20,24 @@ class Datum(NamedTuple):
     ``kind`` and ``points``: ``x`` and ``y`` (p) a coordinate of a point whose other one is
     unknown; ``mean`` (p, of...) a centroid; ``guide`` (at, through) a guide line by its angle;
     ``line`` (at, through, e1, e2) a guide line by two points; ``length`` (a, b); ``ray`` (a, b)
-    a direction; ``corner`` (a, at, b). ``index`` is its place in the case.
+    a direction; ``corner`` (a, at, b). ``ref`` is its place in the case.
     """
 
     kind: str
-    index: int | str
+    ref: int | str
     points: tuple[str, ...]
 
 
 def number_of(case: Case, datum: Datum) -> Number:
     """The number that the case writes for a datum (not for ``mean`` and ``line``, which have none)."""
-    kind, index = datum.kind, datum.index
+    kind, ref = datum.kind, datum.ref
     if kind == LENGTH:
-        return case.lengths[index].value  # type: ignore[index]
+        return case.lengths[ref].value  # type: ignore[index]
     if kind in (RAY, CORNER):
-        return case.angles[index].value  # type: ignore[index]
+        return case.angles[ref].value  # type: ignore[index]
     if kind == GUIDE:
-        return case.joints[index].guide.angle  # type: ignore[index, union-attr, return-value]
-    place = case.points[index]  # type: ignore[index]
+        return case.joints[ref].guide.angle  # type: ignore[index, union-attr, return-value]
+    place = case.points[ref]  # type: ignore[index]
     return place.x if kind == X else place.y  # type: ignore[union-attr, return-value]
 
 
@@ -98,7 +98,7 @@ def names_of(case: Case) -> list[str]:
     return list(names)
 
 
-class Index(NamedTuple):
+class Facts(NamedTuple):
     """The data of a figure, looked up by point.
 
     ``of`` has the data that bear on each point. ``arms`` has for each arm (vertex, point) of a
@@ -112,9 +112,9 @@ class Index(NamedTuple):
     flat: frozenset[Datum]
 
 
-def index_of(case: Case) -> Index:
-    """Look-up tables over the data of a case."""
-    data = tuple(data_of(case))
+def facts_of(case: Case, only: tuple[Datum, ...] | None = None) -> Facts:
+    """Look-up tables over the data of a case, or over some of them."""
+    data = tuple(data_of(case)) if only is None else only
     of: dict[str, list[Datum]] = {}
     arms: dict[tuple[str, str], list[tuple[Datum, str, int]]] = {}
     for datum in data:
@@ -125,4 +125,4 @@ def index_of(case: Case) -> Index:
             arms.setdefault((at, a), []).append((datum, b, 1))
             arms.setdefault((at, b), []).append((datum, a, -1))
     flat = frozenset(d for d in data if d.kind == CORNER and number_of(case, d).value % 180.0 == 0.0)
-    return Index(data, of, arms, flat)
+    return Facts(data, of, arms, flat)

@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from icsolve.arithmetic import Arithmetic, Scalar
-from icsolve.figure.board import Board, Heading, Key, Point, Span
+from icsolve.figure.board import Board, Heading, Key, Point, Span, data_in, ends_of
 from icsolve.figure.data import X, Datum
 
 
@@ -80,7 +80,6 @@ class Circle(NamedTuple):
 
     centre: Key
     radius: Span
-    round = True
 
     def values(self, board: Board) -> Values:
         """Centre and radius."""
@@ -88,12 +87,11 @@ class Circle(NamedTuple):
 
     def data(self) -> tuple[Datum, ...]:
         """The data that it comes from."""
-        return (self.radius,) if type(self.radius) is Datum else ()
+        return data_in(self.radius)
 
     def needs(self) -> tuple[Key, ...]:
         """The points that it comes from."""
-        spanned = () if type(self.radius) is Datum else (self.radius.a, self.radius.b)
-        return (self.centre, *spanned)
+        return (self.centre, *ends_of(self.radius))
 
 
 class Arc(NamedTuple):
@@ -102,7 +100,6 @@ class Arc(NamedTuple):
     a: Key
     b: Key
     corner: Datum
-    round = True
 
     def values(self, board: Board) -> Values:
         """Centre and radius: the centre stands off the chord's middle by half the chord times cot."""
@@ -128,7 +125,6 @@ class Line(NamedTuple):
     through: Key
     heading: Heading
     ray: bool
-    round = False
 
     def values(self, board: Board) -> Values:
         """Point and unit direction."""
@@ -147,7 +143,6 @@ class Axis(NamedTuple):
     """The line of a known x or a known y."""
 
     datum: Datum
-    round = False
 
     def values(self, board: Board) -> Values:
         """Point and unit direction: toward +y for a known x, toward +x for a known y."""
@@ -170,11 +165,6 @@ class Shifted(NamedTuple):
     span: Span
     heading: Heading
 
-    @property
-    def round(self) -> bool:
-        """Whether it is a circle."""
-        return self.base.round
-
     def values(self, board: Board) -> Values:
         """Those of the base, moved back along the vector."""
         x, y, *rest = self.base.values(board)
@@ -184,16 +174,21 @@ class Shifted(NamedTuple):
 
     def data(self) -> tuple[Datum, ...]:
         """The data of the base and of the vector."""
-        span = (self.span,) if type(self.span) is Datum else ()
-        return (*self.base.data(), *span, *self.heading.data())
+        return (*self.base.data(), *data_in(self.span), *self.heading.data())
 
     def needs(self) -> tuple[Key, ...]:
         """The points that it comes from."""
-        spanned = () if type(self.span) is Datum else (self.span.a, self.span.b)
-        return (*self.base.needs(), *spanned, *self.heading.needs())
+        return (*self.base.needs(), *ends_of(self.span), *self.heading.needs())
 
 
 Locus = Circle | Arc | Line | Axis | Shifted
+
+
+def is_round(locus: Locus) -> bool:
+    """Whether it is a circle, not a line."""
+    while type(locus) is Shifted:
+        locus = locus.base
+    return type(locus) is Circle or type(locus) is Arc
 
 
 def is_ray(locus: Locus) -> bool:
@@ -206,7 +201,7 @@ def is_ray(locus: Locus) -> bool:
 def crossing(first: Locus, second: Locus, board: Board, tangent: bool = False) -> Crossing:
     """Where two loci meet; a line comes first if there is one."""
     p, q = first.values(board), second.values(board)
-    if not second.round:
+    if not is_round(second):
         return meet_lines(p, q)
-    meet = meet_circles if first.round else meet_line_circle
+    meet = meet_circles if is_round(first) else meet_line_circle
     return meet(p, q, board.arithmetic, tangent)

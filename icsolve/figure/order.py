@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from icsolve.case import Case
 from icsolve.figure.board import Key
-from icsolve.figure.data import LENGTH, MEAN, Datum, Index, given_points, index_of
+from icsolve.figure.data import LENGTH, Datum, Facts, given_points, facts_of
 from icsolve.figure.sheet import Drawing, Sheet
 from icsolve.figure.steps import Base, Given, Step
 
@@ -22,7 +22,7 @@ class Order(NamedTuple):
 
     steps: tuple[Step, ...]
     points: tuple[str, ...]
-    index: Index
+    facts: Facts
 
     def used(self) -> frozenset[Datum]:
         """The data of which the construction is made."""
@@ -45,18 +45,18 @@ def order_of(
     SceneError
         ``underdetermined``, ``ambiguous`` (a group without ``near``).
     """
-    drawing = Drawing(index_of(case), banned)
+    drawing = Drawing(facts_of(case), banned)
     ground, wanted = drawing.ground, set(goal)
     ground.begin(given_points(case))
     ground.run(wanted)
     while not wanted <= ground.placed.keys():
-        if not _grow(drawing) and not _group(drawing, case, wanted, best_effort):
+        if not grow(drawing) and not _group(drawing, case, wanted, best_effort):
             break
         ground.run(wanted)
     return _pruned(drawing, wanted & ground.placed.keys() if best_effort else wanted)
 
 
-def _grow(drawing: Drawing) -> bool:
+def grow(drawing: Drawing) -> bool:
     """Draw the shapes of loose links until no sheet gains a point; whether the ground may go on."""
     ground = drawing.ground
     before = len(drawing.steps)
@@ -76,7 +76,7 @@ def _grow(drawing: Drawing) -> bool:
 
 def _start(drawing: Drawing) -> None:
     """A loose sheet for every length that no sheet holds."""
-    for datum in drawing.index.data:
+    for datum in drawing.facts.data:
         if datum.kind != LENGTH:
             continue
         a, b = datum.points
@@ -116,4 +116,4 @@ def _pruned(drawing: Drawing, wanted: set[str]) -> Order:
             kept.append(Given(targets) if isinstance(step, Given) else step)
     kept.reverse()
     points = [key for step in kept for key in step.targets if isinstance(key, str)]
-    return Order(tuple(kept), tuple(points), drawing.index)
+    return Order(tuple(kept), tuple(points), drawing.facts)

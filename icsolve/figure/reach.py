@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from icsolve.figure.board import Apart, Heading
 from icsolve.figure.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, X, Y, Datum
-from icsolve.figure.loci import Arc, Axis, Circle, Line, Locus, Shifted
+from icsolve.figure.loci import Arc, Axis, Circle, Line, Locus, Shifted, is_round
 from icsolve.figure.steps import Mean, Meet, Polar, Step, Transfer
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ def best_step(sheet: Sheet, point: str) -> tuple[Cost, Step] | None:
 
 def reaches_of(sheet: Sheet, point: str, after: tuple[str, ...] = ()) -> Iterator[Reach]:
     """The loci of a point on a sheet; ``after`` are points that already lean on it."""
-    for datum in sheet.drawing.index.of.get(point, ()):
+    for datum in sheet.drawing.facts.of.get(point, ()):
         if sheet.number == 0 or datum.kind in (LENGTH, CORNER, LINE):
             yield from KINDS[datum.kind](sheet, datum, point)
     yield from _rays(sheet, point)
@@ -63,7 +63,7 @@ def _seen(sheet: Sheet, datum: Datum, point: str) -> Iterator[Reach]:
     if point != at or a not in sheet.placed or b not in sheet.placed or (at, a) in sheet.headings:
         return
     ends = sheet.key(a), sheet.key(b)
-    if datum in sheet.drawing.index.flat:
+    if datum in sheet.drawing.facts.flat:
         yield Reach(BY_ARC, Line(ends[0], Heading(Apart(*ends)), False))
     else:
         yield Reach(BY_ARC, Arc(*ends, datum))
@@ -112,7 +112,7 @@ KINDS: dict[str, Callable[[Sheet, Datum, str], Iterator[Reach]]] = {
 def _rays(sheet: Sheet, point: str) -> Iterator[Reach]:
     """Rays from points in place along known directions, given or made by corners."""
     others: dict[str, None] = {}
-    for datum in sheet.drawing.index.of.get(point, ()):
+    for datum in sheet.drawing.facts.of.get(point, ()):
         if datum.kind == RAY:
             others.update(dict.fromkeys(datum.points))
         elif datum.kind == CORNER:
@@ -126,9 +126,8 @@ def _rays(sheet: Sheet, point: str) -> Iterator[Reach]:
 
 def _lent(sheet: Sheet, point: str) -> Iterator[Reach]:
     """Circles whose radii other sheets lend."""
-    lengths = {
-        other for datum in sheet.drawing.index.of.get(point, ()) if datum.kind == LENGTH for other in datum.points
-    }
+    data = sheet.drawing.facts.of.get(point, ())
+    lengths = {other for datum in data if datum.kind == LENGTH for other in datum.points}
     for lender in sheet.drawing.holding.get(point, ()):
         shared = _shared(sheet, lender)
         if lender.number != 0 and len(shared) > 1:
@@ -149,7 +148,7 @@ def _shared(sheet: Sheet, lender: Sheet) -> list[str]:
 
 def _shifted(sheet: Sheet, point: str, after: tuple[str, ...]) -> Iterator[Reach]:
     """The loci of points at known vectors from this one, none of them in place yet."""
-    for datum in sheet.drawing.index.of.get(point, ()):
+    for datum in sheet.drawing.facts.of.get(point, ()):
         if datum.kind != LENGTH:
             continue
         a, b = datum.points
@@ -162,7 +161,7 @@ def _shifted(sheet: Sheet, point: str, after: tuple[str, ...]) -> Iterator[Reach
 
 
 def _means(sheet: Sheet, point: str) -> Iterator[tuple[Cost, Step]]:
-    for datum in sheet.drawing.index.of.get(point, ()):
+    for datum in sheet.drawing.facts.of.get(point, ()):
         if datum.kind != MEAN:
             continue
         whole, *of = datum.points
@@ -196,7 +195,7 @@ def _meet(sheet: Sheet, point: str, one: Locus, two: Locus) -> Step | None:
     """The step that two loci make; None where they are one locus or are known not to determine a point."""
     if frozenset((one, two)) in sheet.drawing.banned:
         return None
-    line, other = (two, one) if one.round and not two.round else (one, two)
+    line, other = (two, one) if is_round(one) and not is_round(two) else (one, two)
     if isinstance(line, Line) and isinstance(other, Circle):
         if line.ray and line.through == other.centre:
             return Polar(sheet.key(point), line.through, other.radius, line.heading)
@@ -206,4 +205,4 @@ def _meet(sheet: Sheet, point: str, one: Locus, two: Locus) -> Step | None:
         h, k = line.heading, other.heading
         if h.root == k.root and h.turns == k.turns:
             return None
-    return Meet(sheet.key(point), line, other, 1 if other.round else 0)
+    return Meet(sheet.key(point), line, other, 1 if is_round(other) else 0)

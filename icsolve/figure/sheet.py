@@ -12,7 +12,7 @@ import heapq
 from collections.abc import Iterable
 
 from icsolve.figure.board import Apart, Heading, Key
-from icsolve.figure.data import LENGTH, LINE, MEAN, RAY, Index
+from icsolve.figure.data import LENGTH, LINE, MEAN, RAY, Facts
 from icsolve.figure.loci import Circle, Line
 from icsolve.figure.reach import Cost, best_step
 from icsolve.figure.steps import Given, Meet, Polar, Step, Transfer
@@ -25,10 +25,10 @@ class Drawing:
     determine a point (parallel lines, concentric circles).
     """
 
-    __slots__ = ("banned", "count", "holding", "index", "sheets", "steps")
+    __slots__ = ("banned", "count", "holding", "facts", "sheets", "steps")
 
-    def __init__(self, index: Index, banned: frozenset[frozenset[object]]) -> None:
-        self.index = index
+    def __init__(self, facts: Facts, banned: frozenset[frozenset[object]]) -> None:
+        self.facts = facts
         self.banned = banned
         self.holding: dict[str, list[Sheet]] = {}
         self.steps: list[Step] = []
@@ -75,10 +75,11 @@ class Sheet:
         """Start the ground's sheet from the given points and directions."""
         if points:
             self.put(Given(tuple(points)), points, (0, 0, 0))
-        for datum in self.drawing.index.data:
+        for datum in self.drawing.facts.data:
             if datum.kind == RAY:
-                self.learn(*datum.points, Heading(datum))
-        for point in self.drawing.index.of:
+                a, b = datum.points
+                self.learn(a, b, Heading(datum))
+        for point in self.drawing.facts.of:
             self.mark(point)
 
     def put(self, step: Step, points: Iterable[str], cost: Cost) -> None:
@@ -96,7 +97,7 @@ class Sheet:
 
     def reach_from(self, point: str) -> None:
         """Mark what a point in place may help to place."""
-        for datum in self.drawing.index.of.get(point, ()):
+        for datum in self.drawing.facts.of.get(point, ()):
             for other in datum.points:
                 self.mark(other)
         for sheet in self.drawing.holding.get(point, ()):
@@ -112,7 +113,7 @@ class Sheet:
             if p in self.placed or p in self.dirty:
                 continue
             self.dirty[p] = None
-            for datum in self.drawing.index.of.get(p, ()):
+            for datum in self.drawing.facts.of.get(p, ()):
                 if datum.kind == LENGTH:
                     a, b = datum.points
                     if (a, b) in self.headings:
@@ -120,7 +121,7 @@ class Sheet:
 
     def learn(self, a: str, b: str, heading: Heading) -> None:
         """Note a direction, and those that corners make of it."""
-        arms, stack = self.drawing.index.arms, [(a, b, heading)]
+        arms, stack = self.drawing.facts.arms, [(a, b, heading)]
         while stack:
             a, b, heading = stack.pop()
             if (a, b) in self.headings:
@@ -155,7 +156,7 @@ class Sheet:
 
     def _renew(self, point: str) -> None:
         self.mark(point)
-        for datum in self.drawing.index.of.get(point, ()):
+        for datum in self.drawing.facts.of.get(point, ()):
             if datum.kind == LINE:
                 for other in datum.points:
                     self.mark(other)
@@ -175,7 +176,7 @@ class Sheet:
         A direction that the data gave stays where it placed the point; elsewhere the points
         outrank it.
         """
-        for datum in self.drawing.index.of.get(point, ()):
+        for datum in self.drawing.facts.of.get(point, ()):
             if datum.kind in (LENGTH, MEAN):
                 continue
             for other in datum.points:

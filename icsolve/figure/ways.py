@@ -14,11 +14,11 @@ from icsolve.errors import Status
 from icsolve.figure.board import Board, Key, Point
 from icsolve.figure.data import Datum
 from icsolve.figure.frame import normalised
-from icsolve.figure.loci import Crossing
+from icsolve.figure.loci import Crossing, is_round
 from icsolve.figure.misfit import TOO_CLOSE, misfit
 from icsolve.figure.order import Order
 from icsolve.figure.refusals import Miss, behind, clash, concentric, merged, parallel, too_far
-from icsolve.figure.steps import Meet, Step
+from icsolve.figure.steps import Base, Given, Mean, Meet, Polar, Step, Transfer
 from icsolve.figure.words import plain
 
 U = 2.0**-53
@@ -122,8 +122,7 @@ class Walker:
     def _options(self, depth: int, step: Step) -> Iterator[Step]:
         """The step as it can be settled here: the nearest first."""
         try:
-            settled = self._crossings(depth, step) if isinstance(step, Meet) else [step]
-            for option in settled:
+            for option in self._settled(depth, step):
                 self._put(option)
                 miss = self._ahead(option) or self._clash(depth)
                 if miss is None:
@@ -132,6 +131,16 @@ class Walker:
                     self._miss(depth, miss)
         except ZeroDivisionError:
             self._miss(depth, self._degenerate(step))
+
+    def _settled(self, depth: int, step: Step) -> list[Step]:
+        """The step with each of the branches that it has here."""
+        if isinstance(step, Meet):
+            return [*self._crossings(depth, step)]
+        if not isinstance(step, Given | Polar | Mean | Base | Transfer):
+            from icsolve.figure.newton import solutions
+
+            return [*solutions(step, self.board, self.near, lambda miss: self._miss(depth, miss))]
+        return [step]
 
     def _crossings(self, depth: int, step: Meet) -> list[Step]:
         found = step.cross(self.board)
@@ -146,12 +155,12 @@ class Walker:
         return [step._replace(sign=sign) for sign in self._by_near(step.target, found)]
 
     def _apart(self, step: Meet, found: Crossing) -> Miss | None:
-        if not step.second.round:
+        if not is_round(step.second):
             return parallel(step, self.board) if abs(found.scale) <= PARALLEL else None
         touching = TOUCHING * found.scale
         if min(found.margins) < -touching:
             return too_far(step, self.board, found)
-        if step.first.round and max(abs(m) for m in found.margins[1:]) <= touching:
+        if is_round(step.first) and max(abs(m) for m in found.margins[1:]) <= touching:
             return concentric(step, self.board)
         return None
 
@@ -164,14 +173,14 @@ class Walker:
 
     def _picked(self, options: list[Step]) -> bool:
         """Whether `near` picks the first of two places of a point."""
-        target = options[0].targets[0]
-        near = self.near.get(target) if isinstance(target, str) else None
-        if near is None:
+        held = [t for t in options[0].targets if isinstance(t, str) and t in self.near]
+        if not held:
             return False
         distances = []
         for option in options[:2]:
             self._put(option)
-            distances.append(math.dist(near, self.board.points[target]))
+            off = (math.dist(self.near[t], self.board.points[t]) for t in held)
+            distances.append(math.hypot(*off))
         return distances[0] < EVEN * distances[1]
 
     def _ahead(self, step: Step) -> Miss | None:
@@ -189,9 +198,9 @@ class Walker:
         return None
 
     def _degenerate(self, step: Step) -> Miss:
-        if isinstance(step, Meet) and step.first.round:
+        if isinstance(step, Meet) and is_round(step.first):
             return concentric(step, self.board)
-        if isinstance(step, Meet) and not step.second.round:
+        if isinstance(step, Meet) and not is_round(step.second):
             return parallel(step, self.board)
         return merged(plain(step.targets[0]), step.name)
 
@@ -205,7 +214,7 @@ def _due(order: Order) -> dict[int, list[Datum]]:
     """The data to compare after each step: those whose last point it places."""
     depth = {key: i for i, step in enumerate(order.steps) for key in step.targets}
     due: dict[int, list[Datum]] = {}
-    for datum in order.index.data:
+    for datum in order.facts.data:
         if all(p in depth for p in datum.points):
             due.setdefault(max(depth[p] for p in datum.points), []).append(datum)
     return due
@@ -214,5 +223,5 @@ def _due(order: Order) -> dict[int, list[Datum]]:
 def refusal(walk: Walk) -> Miss:
     """The miss to report of a figure that does not assemble: the deepest, of these the smallest."""
     if not walk.misses:
-        return Miss(Status.AMBIGUOUS, "the figure has too many open branches to try; give near: for its points")
+        return Miss(Status.AMBIGUOUS, "the figure has too many open branches to try; give near: for more points")
     return min(walk.misses, key=lambda at: (-at[0], at[1].amount))[1]

@@ -1,0 +1,201 @@
+"""Newton's method for a group of points: many starts, every solution found once, the nearest first.
+
+Starts come from the construction that holds one point where `near` puts it (and about there), with all of
+its branches, and from points spread evenly about the group. Each solution is polished to full precision.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from itertools import islice, product
+
+from icsolve.errors import Status
+from icsolve.figure.board import Board
+from icsolve.figure.data import facts_of
+from icsolve.figure.equations import Unknown, pivots, solved
+from icsolve.figure.group import Group
+from icsolve.figure.order import grow
+from icsolve.figure.refusals import Miss, measure
+from icsolve.figure.sheet import Drawing
+from icsolve.figure.steps import Given, Meet, Step
+from icsolve.figure.words import datum_words, listed, plain
+
+Spot = tuple[float, float]
+Start = dict[str, Spot]
+
+MOST_STEPS = 50
+LONGEST_STEP = 0.4
+"""Longest move of a coordinate in one step (normalised)."""
+CLOSED = 1e-9
+"""Residual (normalised) below which a start has arrived, before polishing."""
+FLAT = 1e-11
+"""Smallest over largest pivot of a solution that stands alone."""
+MOST_BRANCHES = 64
+SPREAD = 24
+
+
+def solutions(
+    group: Group, board: Board, near: Mapping[str, Spot], missed: Callable[[Miss], None]
+) -> list[Group]:
+    """Every solution found of a group, the nearest to `near` first; ``missed`` is told why there is none."""
+    found: list[Start] = []
+    closest: tuple[float, Start] = (math.inf, {})
+    unknown = set(group.unknowns())
+    flat = False
+    for start in _starts(group, board, near):
+        off, end = _descend(group, board, start, unknown)
+        if off > CLOSED:
+            closest = min(closest, (off, end), key=lambda pair: pair[0])
+        elif not any(_same(end, other) for other in found):
+            found.append(end)
+    held = [t for t in group.targets if t in near]
+    found.sort(key=lambda end: math.hypot(*(math.dist(end[t], near[t]) for t in held)))
+    settled = []
+    for end in found:
+        option = _polished(group, board, end, unknown)
+        flat |= option is None
+        if option is not None:
+            settled.append(option)
+    if not settled:
+        missed(_flat(group) if flat else _unreached(group, board, closest[1]))
+    return settled
+
+
+def _same(one: Start, two: Start) -> bool:
+    return all(math.dist(one[t], two[t]) <= 1e-6 * (1.0 + math.hypot(*one[t])) for t in one)
+
+
+def _rows(group: Group, board: Board, unknown: set[Unknown]) -> tuple[list[dict[Unknown, float]], list[float]]:
+    rows = [equation.row(board) for equation in group.equations]
+    return [{u: v for u, v in row.by.items() if u in unknown} for row in rows], [row.value for row in rows]
+
+
+def _descend(group: Group, board: Board, start: Start, unknown: set[Unknown]) -> tuple[float, Start]:
+    """Damped Newton steps from a start: the residual reached, and where."""
+    board.points.update(start)
+    rows, values = _rows(group, board, unknown)
+    off = math.hypot(*values)
+    for _ in range(MOST_STEPS):
+        if off <= CLOSED:
+            break
+        order, _ = pivots(rows)
+        move = solved(rows, values, order)
+        longest = max(map(abs, move.values()), default=0.0)
+        fraction = min(1.0, LONGEST_STEP / longest) if longest > 0.0 else 0.0
+        at = {t: board.points[t] for t in group.targets}
+        for _ in range(8):
+            board.points.update(_moved(at, move, fraction))
+            rows, values = _rows(group, board, unknown)
+            if math.hypot(*values) < off:
+                break
+            fraction /= 2.0
+        else:
+            board.points.update(at)
+            break
+        off = math.hypot(*values)
+    return off, {t: board.points[t] for t in group.targets}
+
+
+def _moved(at: Start, move: dict[Unknown, float], fraction: float) -> Start:
+    return {
+        t: (x - fraction * move.get((t, 0), 0.0), y - fraction * move.get((t, 1), 0.0)) for t, (x, y) in at.items()
+    }
+
+
+def _polished(group: Group, board: Board, end: Start, unknown: set[Unknown]) -> Group | None:
+    """The group settled on a solution in full precision; None where it does not stand alone."""
+    board.points.update(end)
+    best = math.inf
+    option = group
+    for _ in range(12):
+        rows, values = _rows(group, board, unknown)
+        order, flatness = pivots(rows)
+        if flatness < FLAT:
+            return None
+        option = group._replace(start=tuple(board.points[t] for t in group.targets), order=tuple(order))
+        move = solved(rows, values, order)
+        longest = max(map(abs, move.values()))
+        if longest >= best / 2.0 and best < 1e-7:
+            break
+        best = longest
+        board.points.update(_moved({t: board.points[t] for t in group.targets}, move, 1.0))
+    return option
+
+
+def _starts(group: Group, board: Board, near: Mapping[str, Spot]) -> Iterator[Start]:
+    held = [t for t in group.targets if t in near]
+    for point in held[:3]:
+        yield from _constructed(group, board, near, point)
+    yield from _spread(group, near[held[0]])
+
+
+def _constructed(group: Group, board: Board, near: Mapping[str, Spot], point: str) -> Iterator[Start]:
+    """Starts by closed forms, with one point held at and about where `near` puts it."""
+    drawing = Drawing(facts_of(board.case, group.data()), frozenset())
+    ground, goal = drawing.ground, set(group.targets)
+    ground.begin([p for p in group.needs() if isinstance(p, str)] + [point])
+    ground.run(goal)
+    while not goal <= ground.placed.keys() and grow(drawing):
+        ground.run(goal)
+    forks = [i for i, step in enumerate(drawing.steps) if isinstance(step, Meet) and step.sign]
+    x, y = near[point]
+    ring = [(x, y)] + [(x + 0.1 * c, y + 0.1 * s) for c, s in ((1, 0), (0, 1), (-1, 0), (0, -1))]
+    for spot in ring:
+        for signs in islice(product((1, -1), repeat=len(forks)), MOST_BRANCHES):
+            start = _run(drawing.steps, dict(zip(forks, signs, strict=True)), board, {point: spot})
+            if start is not None:
+                yield {t: start.get(t, near.get(t, spot)) for t in group.targets}
+
+
+def _run(steps: list[Step], signs: dict[int, int], board: Board, held: Start) -> Start | None:
+    """Run a construction with given branches; circles that do not meet give the point between them."""
+    scratch = Board(board.case, board.frame, board.arithmetic)
+    scratch.points = {**board.points, **held}
+    placed: Start = dict(held)
+    try:
+        for i, step in enumerate(steps):
+            if isinstance(step, Given):
+                continue
+            (step._replace(sign=signs[i]) if isinstance(step, Meet) and i in signs else step).place(scratch)
+            placed.update({t: scratch.points[t] for t in step.targets if isinstance(t, str)})
+    except ZeroDivisionError:
+        return None
+    return placed
+
+
+def _spread(group: Group, about: Spot) -> Iterator[Start]:
+    """Points spread evenly over a square about one: multiples of irrational numbers, modulo one."""
+    for k in range(1, SPREAD + 1):
+        start = {}
+        for j, target in enumerate(group.targets):
+            u, v = (math.fmod(k * math.sqrt(prime), 1.0) for prime in (2 + 8 * j + 1, 3 + 8 * j + 2))
+            start[target] = (about[0] + 2.0 * u - 1.0, about[1] + 2.0 * v - 1.0)
+        yield start
+
+
+def _unreached(group: Group, board: Board, closest: Start) -> Miss:
+    """No solution: the datum that is farthest off where the rest comes closest."""
+    from icsolve.figure.misfit import misfit
+
+    names = listed([plain(t) for t in group.targets])
+    if not closest:
+        return Miss(Status.CANNOT_ASSEMBLE, f"no position found in which points {names} fit their data")
+    board.points.update(closest)
+    off, datum = max(((abs(misfit(board, d).off), d) for d in group.data()), key=lambda pair: pair[0])
+    return Miss(
+        Status.CANNOT_ASSEMBLE,
+        f"the figure cannot be assembled: no position found in which points {names} fit their data "
+        f"together; the closest misses {datum_words(datum)} by {measure(board, off)}",
+        off,
+    )
+
+
+def _flat(group: Group) -> Miss:
+    names = listed([plain(t) for t in group.targets])
+    return Miss(
+        Status.NEAR_SINGULAR,
+        f"points {names} are not held by their data: where these are met, the points can still move "
+        "(a dead centre, or a datum that repeats others); give one more length, angle or coordinate",
+        0.0,
+    )
