@@ -1,6 +1,6 @@
 """``python -m icsolve``."""
 
-from icsolve.cli import main
+from icsolve.cli import entry
 
 if __name__ == "__main__":
-    main()
+    entry()

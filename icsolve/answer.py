@@ -82,6 +82,8 @@ class Answer:
     notes: tuple[str, ...] = ()
     skipped: tuple[str, ...] = ()
     steps: tuple[str, ...] = ()
+    errors: dict[str, dict[str, float]] = field(default_factory=dict)
+    """bounds on the errors of ``rates`` by link; those of centres stand with them"""
     status: str = "ok"
 
     def to_dict(self) -> dict[str, Any]:

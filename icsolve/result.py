@@ -125,7 +125,7 @@ def _velocity(velocity: tuple[float, float] | str) -> list[float] | dict[str, st
 def _errors(answer: Answer) -> dict[str, Any]:
     case = answer.case
     known = {pair_name(case, pair): c.error for pair, c in answer.centres.items() if c.error is not None}
-    return {"centres": known} if known else {}
+    return {**answer.errors, **({"centres": known} if known else {})}
 
 
 def _term(term: Term) -> dict[str, Any]:

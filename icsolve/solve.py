@@ -13,6 +13,16 @@ from __future__ import annotations
 from icsolve import power, sentences, speeds, verdicts
 from icsolve.answer import Answer, Centre, Found
 from icsolve.arithmetic import FLOATS
+from icsolve.bounds import (
+    Bounded,
+    Value,
+    bounded_values,
+    centre_error,
+    evaluate_bounded,
+    plain,
+    rate_errors,
+    unbounded_values,
+)
 from icsolve.case import Case, Pair
 from icsolve.centres import CentreFinder, ordered_pair
 from icsolve.figure import case_point
@@ -21,7 +31,9 @@ from icsolve.sense import sense_of, unit_of
 from icsolve.terms import advantage, load_values, power_terms
 
 
-def solve(case: Case, *, all_centres: bool = False, rates: bool = False, examine: bool = False) -> Answer:
+def solve(
+    case: Case, *, all_centres: bool = False, rates: bool = False, examine: bool = False, bound: bool = True
+) -> Answer:
     """Solve a case.
 
     Parameters
@@ -34,6 +46,8 @@ def solve(case: Case, *, all_centres: bool = False, rates: bool = False, examine
         Link rates and point velocities too.
     examine : bool
         Solve and check the whole figure, also what the answer does not need.
+    bound : bool
+        Bound the error of every answer, rate and centre (three times the work).
 
     Raises
     ------
@@ -44,52 +58,65 @@ def solve(case: Case, *, all_centres: bool = False, rates: bool = False, examine
     want = Want(all_centres, rates, examine)
     if not any(power.is_unknown(load) for load in case.loads):
         want = Want(True, True, examine)
-    program, outcome = evaluate(prepare(case, want))
+    program = prepare(case, want)
+    scene = evaluate_bounded(program) if bound else None
+    program, outcome = (scene.program, scene.outcome) if scene else evaluate(program)
     verdicts.refuse_unbalanced(case, program.top, outcome.motions, outcome.balance, outcome.solution)
-    return _answer(program, outcome)
+    values = bounded_values(scene) if scene else unbounded_values(outcome)
+    return _answer(program, plain(outcome), values, scene)
 
 
-def _answer(program: Program, outcome: Outcome) -> Answer:
+def _answer(program: Program, outcome: Outcome, unknowns: dict[str, Value], scene: Bounded | None) -> Answer:
     """The answer as frozen values."""
     case, want, figure = program.case, program.want, program.figure
-    twists, balance, solution = outcome.motions.twists, outcome.balance, outcome.solution
+    twists, balance = outcome.motions.twists, outcome.balance
     speed = speeds.speed_of(case, twists, figure.frame, figure.points)
-    values = load_values(balance, solution)
+    values = load_values(balance, unknowns)
     moving = want.rates or None
+    errors = {"rates": rate_errors(scene, speed)} if scene and moving else {}
     return Answer(
         case=case,
-        answers=_found(case, balance, solution, values),
-        centres=_centres(program, outcome, speed),
+        answers=_found(case, balance, unknowns, values),
+        centres=_centres(program, outcome, speed, scene),
         rates=moving and speeds.link_rates(case, twists, speed),
         velocities=moving and speeds.point_velocities(case, twists, speed, figure.frame, figure.points),
         points={n: case_point(figure.frame, p) for n, p in figure.points.items() if not n.startswith("@")},
         terms=tuple(power_terms(case, figure.frame, balance, values, speed)),
-        advantage=advantage(balance, values, solution),
+        advantage=advantage(balance, values, unknowns),
         mobility=outcome.motions.mobility,
         notes=(*figure.notes, *outcome.motions.notes, *_notes(outcome)),
         skipped=_skipped(program, outcome),
         steps=_steps(program),
+        errors=errors,
     )
 
 
 def _found(
-    case: Case, balance: power.Balance, solution: power.Solution, values: dict[str, float]
+    case: Case, balance: power.Balance, unknowns: dict[str, Value], values: dict[str, float]
 ) -> dict[str, Found]:
     """The unknown loads and those that are like them, in order."""
-    return {
-        w.load.name: Found(values[w.load.name], unit_of(w.load, case), sense_of(w, values[w.load.name]))
-        for w in balance.wrenches
-        if w.root in solution.values
-    }
+    found = {}
+    for w in balance.wrenches:
+        if w.root in unknowns:
+            name, unknown = w.load.name, unknowns[w.root]
+            error = None if unknown.error is None else abs(w.ratio) * unknown.error
+            sense = sense_of(w, values[name])
+            found[name] = Found(values[name], unit_of(w.load, case), sense, error, unknown.why)
+    return found
 
 
-def _centres(program: Program, outcome: Outcome, speed: speeds.Speed) -> dict[Pair, Centre]:
+def _centres(
+    program: Program, outcome: Outcome, speed: speeds.Speed, scene: Bounded | None
+) -> dict[Pair, Centre]:
     """The centres that are asked for: all, or those of the loaded links."""
     case, figure, twists = program.case, program.figure, outcome.motions.twists
     if case.motion:
         twists = {link: speeds.meant(twists, speed, link) for link in twists}
     finder = CentreFinder(case, program.top, twists, figure.frame, figure.points, FLOATS)
-    return finder.find(wanted_pairs(case, program.want), outcome.motions.slack)
+    found = finder.find(wanted_pairs(case, program.want), outcome.motions.slack)
+    if scene is None:
+        return found
+    return {pair: centre._replace(error=centre_error(scene, centre)) for pair, centre in found.items()}
 
 
 def wanted_pairs(case: Case, want: Want) -> list[Pair]:

@@ -31,6 +31,8 @@ class Speed(NamedTuple):
     particular: tuple[float, ...]
     open: tuple[tuple[float, ...], ...]
     divisor: float = 1.0
+    reference: tuple[str, str | None] | None = None
+    """the link (and point of it) whose rate (speed) in the one motion is ``divisor``"""
 
     def of(self, values: Sequence[float], scale: float) -> float | None:
         """A quantity that has ``values[m]`` in motion m; None where it is undetermined.
@@ -58,16 +60,18 @@ def speed_of(case: Case, twists: Twists, frame: Frame, points: Mapping[str, Poin
         return _single(case, twists, frame, points)
     rows = [_row(given, case, twists, frame, points) for given in case.motion]
     if not rows:
-        rows = [_normal_row(case, twists, frame)]
+        rows = [_normal_row(case, twists, frame)[1:]]
     return _combined(rows, motions)
 
 
 def _single(case: Case, twists: Twists, frame: Frame, points: Mapping[str, Point]) -> Speed:
     if case.motion:
-        values, target = _row(case.motion[0], case, twists, frame, points)
-    else:
-        values, target = _normal_row(case, twists, frame)
-    return Speed((target,), (), values[0])
+        given = case.motion[0]
+        values, target = _row(given, case, twists, frame, points)
+        return Speed((target,), (), values[0], (given.link, given.point))
+    link, values, target = _normal_row(case, twists, frame)
+    turns = values[0] == twists[link][0][2]
+    return Speed((target,), (), values[0], (link, None) if turns else None)
 
 
 Row = tuple[tuple[float, ...], float]
@@ -159,13 +163,13 @@ def joint_order(case: Case) -> list[str]:
     return list(dict.fromkeys(link for joint in case.joints for link in joint.links))
 
 
-def _normal_row(case: Case, twists: Twists, frame: Frame) -> Row:
+def _normal_row(case: Case, twists: Twists, frame: Frame) -> tuple[str, tuple[float, ...], float]:
     """The first link that turns does so at +1; where none turns, unit speed of the first that moves."""
     largest = max((_extent(t) for link in twists.values() for t in link), default=0.0)
     for link in joint_order(case):
         rates = tuple(t[2] for t in twists.get(link, ()))
         if any(abs(rate) > STILL * largest for rate in rates):
-            return rates, 1.0
+            return link, rates, 1.0
     for link in joint_order(case):
         speeds = [(t[1], -t[0]) for t in twists.get(link, ())]
         fast = max(speeds, key=lambda v: math.hypot(*v), default=(0.0, 0.0))
@@ -173,7 +177,7 @@ def _normal_row(case: Case, twists: Twists, frame: Frame) -> Row:
         if size > STILL * largest:
             x, y = fast[0] / size, fast[1] / size
             along = (x, y) if x > STILL or (abs(x) <= STILL and y > 0) else (-x, -y)
-            return tuple(v[0] * along[0] + v[1] * along[1] for v in speeds), frame.scale
+            return link, tuple(v[0] * along[0] + v[1] * along[1] for v in speeds), frame.scale
     raise SceneError(Status.STRUCTURE, "no link of the mechanism moves in this position.")
 
 

@@ -133,6 +133,8 @@ class Tape:
         self.suspects: list[int] = []
         """indices of divisors and radicands that nearly vanish"""
         self.values: list[float] = [0.0]
+        self.converted: dict[str, float] = {}
+        """rounding of the numbers whose units were converted"""
 
     def put(self, node: Node, value: float, size: float) -> Taped:
         """Record a value."""
@@ -151,6 +153,8 @@ class Tape:
             node = Node(0, 0.0, 0, 0.0, decimal_noise(number))
             found = self.put(node, number.value, abs(number.value))
             self.inputs[number.path] = found
+            if number.factor != 1.0:
+                self.converted[number.path] = node.noise
         return found
 
     def turn(self, number: Number) -> tuple[Taped, Taped]:
@@ -208,13 +212,13 @@ class Tape:
         weights[0] = 0.0
         return weights
 
-    def doubtful(self, fraction: float) -> Iterable[int]:
-        """The near-vanishing divisors and radicands whose bound exceeds a fraction of their value."""
+    def doubts(self, fraction: float) -> Iterable[float]:
+        """Bound over value of the divisors and radicands that nearly vanish, where above a fraction."""
         for k in dict.fromkeys(self.suspects):
             weights = self._weights(k)
             bound = sum(abs(w) * node.noise for w, node in zip(weights, self.nodes, strict=False) if w)
             if bound > fraction * abs(self.values[k]):
-                yield k
+                yield bound / abs(self.values[k]) if self.values[k] else 0.0
 
 
 def decimal_noise(number: Number) -> float:

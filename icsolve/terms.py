@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 
 from icsolve.answer import Term
+from icsolve.bounds import Value
 from icsolve.case import Case
 from icsolve.figure import Frame
-from icsolve.power import Balance, Solution, Wrench, known_value
+from icsolve.power import Balance, Wrench, known_value
 from icsolve.sense import unit_of
 from icsolve.speeds import Speed
 
 
-def load_values(balance: Balance, solution: Solution) -> dict[str, float]:
+def load_values(balance: Balance, unknowns: Mapping[str, Value]) -> dict[str, float]:
     """The number of every load, known or found, in its own unit."""
     values = {}
     for w in balance.wrenches:
         known = known_value(w, balance)
-        value = float(solution.values.get(w.root, 0.0)) if known is None else known
-        values[w.load.name] = float(w.ratio) * value + 0.0
+        if known is None:
+            known = unknowns[w.root].value if w.root in unknowns else 0.0
+        values[w.load.name] = float(w.ratio) * known + 0.0
     return values
 
 
@@ -42,10 +44,10 @@ def _where(case: Case, w: Wrench) -> str:
     return where if w.against == case.ground else f"{where} against link {w.against}"
 
 
-def advantage(balance: Balance, values: dict[str, float], solution: Solution) -> float | None:
+def advantage(balance: Balance, values: dict[str, float], unknowns: Mapping[str, Value]) -> float | None:
     """unknown / known where there is one of each and the known one is not zero."""
-    found = [w.load.name for w in balance.wrenches if w.root in solution.values]
-    known = [w.load.name for w in balance.wrenches if w.root not in solution.values]
+    found = [w.load.name for w in balance.wrenches if w.root in unknowns]
+    known = [w.load.name for w in balance.wrenches if w.root not in unknowns]
     if len(found) != 1 or len(known) != 1 or values[known[0]] == 0.0:
         return None
     return values[found[0]] / values[known[0]]

@@ -1,0 +1,172 @@
+"""Error bounds of answers, rates and centres, from the tape on which a scene was evaluated.
+
+A bound is of first order. Where it is not small against its value, or a divisor nearly vanishes
+within its own, the scene is evaluated again in fifty digits on the file's decimals, which confirms
+the answer or refuses it as too close to singular.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from icsolve.answer import Centre
+from icsolve.arithmetic import Scalar
+from icsolve.errors import SceneError, Status
+from icsolve.plane import Triple, subtract, velocity
+from icsolve.program import Outcome, Program, evaluate
+from icsolve.speeds import Speed
+from icsolve.tape import UNIT, Tape, Taped
+
+SMALL = 1e-3
+"""A first-order bound is trusted below this fraction of its value."""
+HOPELESS = 0.1
+"""Above this fraction the scene can't be told from the singular one beside it."""
+
+
+class Bounded(NamedTuple):
+    """A scene evaluated on a tape: its values carry their derivatives."""
+
+    program: Program
+    outcome: Outcome
+    tape: Tape
+
+    def of(self, value: Scalar) -> float:
+        """Bound on the absolute error of a value on the tape."""
+        return self.tape.back(value).bound if isinstance(value, Taped) else 0.0
+
+
+class Value(NamedTuple):
+    """An unknown load and the bound on its error; None with the reason where none is proven."""
+
+    value: float
+    error: float | None
+    why: str = ""
+
+
+def evaluate_bounded(program: Program) -> Bounded:
+    """Evaluate a program on a tape."""
+    tape = Tape()
+    ran, outcome = evaluate(program, tape)
+    return Bounded(ran, outcome, tape)
+
+
+def bounded_values(scene: Bounded) -> dict[str, Value]:
+    """The unknown loads with their bounds.
+
+    Raises SceneError where fifty digits do not confirm what the bound leaves in doubt.
+    """
+    result = {}
+    doubt = max(scene.tape.doubts(SMALL), default=0.0)
+    for name, value in scene.outcome.solution.values.items():
+        bound = scene.of(value)
+        if value != 0.0:
+            doubt = max(doubt, bound / abs(value))
+        result[name] = Value(float(value), bound)
+    if doubt > HOPELESS and result:
+        raise too_close(next(iter(result)), None)
+    return confirmed(scene) if doubt > SMALL else result
+
+
+def confirmed(scene: Bounded) -> dict[str, Value]:
+    """The unknown loads in fifty digits; the bound is that of converted numbers and of the last rounding.
+
+    Raises SceneError where even the data leave the answer open.
+    """
+    from icsolve.digits import Digits
+
+    _, exact = evaluate(scene.program, Digits())
+    result = {}
+    for name, rough in scene.outcome.solution.values.items():
+        if name not in exact.solution.values:
+            raise too_close(name, None)
+        value = float(exact.solution.values[name])
+        spread = _converted_noise(scene, rough)
+        if spread > SMALL * abs(value):
+            raise too_close(name, spread / abs(value) if value else None)
+        result[name] = Value(value, UNIT * abs(value) + 2.0 * spread)
+    return result
+
+
+def _converted_noise(scene: Bounded, value: Scalar) -> float:
+    """What the rounding of numbers with converted units leaves open."""
+    by_path = scene.tape.back(value).by_path
+    return sum(abs(by_path[path]) * noise for path, noise in scene.tape.converted.items() if path in by_path)
+
+
+def too_close(name: str, spread: float | None) -> SceneError:
+    """The refusal of a scene whose data do not decide it."""
+    how = "" if spread is None else f" (the data leave {name} open by {100 * spread:.2g} %)"
+    return SceneError(
+        Status.NEAR_SINGULAR,
+        f"the position is too close to a dead centre or a change point to give {name}{how}. "
+        "Take a position farther from it.",
+    )
+
+
+def unbounded_values(outcome: Outcome) -> dict[str, Value]:
+    """The unknown loads of a scene on floats."""
+    return {name: Value(value, None, "no bound was asked for") for name, value in outcome.solution.values.items()}
+
+
+def plain(outcome: Outcome) -> Outcome:
+    """The outcome in floats, as if no tape had run."""
+    motions, balance = outcome.motions, outcome.balance
+    twists = {link: tuple(map(_floats, ts)) for link, ts in motions.twists.items()}
+    wrenches = tuple(
+        w._replace(unit=_floats(w.unit), gain=float(w.gain), ratio=float(w.ratio)) for w in balance.wrenches
+    )
+    factors = tuple(tuple(map(float, row)) for row in balance.factors)
+    return outcome._replace(
+        motions=motions._replace(twists=twists),
+        balance=balance._replace(wrenches=wrenches, factors=factors),
+    )
+
+
+def _floats(t: Triple) -> Triple:
+    return (float(t[0]), float(t[1]), float(t[2]))
+
+
+def rate_errors(scene: Bounded, speed: Speed) -> dict[str, float]:
+    """Bounds on the link rates where one motion is meant, rad/s."""
+    twists = scene.outcome.motions.twists
+    if speed.reference is None or len(speed.particular) != 1:
+        return {}
+    divisor = _reference(scene, speed)
+    target = speed.particular[0]
+    return {link: scene.of(t[0][2] / divisor) * abs(target) for link, t in twists.items() if t[0][2] != 0.0}
+
+
+def _reference(scene: Bounded, speed: Speed) -> Scalar:
+    """What the rates are scaled by, on the tape."""
+    assert speed.reference is not None
+    link, point = speed.reference
+    twist = scene.outcome.motions.twists[link][0]
+    if point is None:
+        return twist[2]
+    x, y = velocity(twist, scene.outcome.points[point])
+    size = scene.tape.sqrt(x * x + y * y)
+    return size if speed.divisor > 0 else -size
+
+
+def centre_error(scene: Bounded, centre: Centre) -> float | None:
+    """Bound on the place (case units) or direction (degrees) of a centre; None where none is proven.
+
+    It is the bound of the relative twist's centre, and how far the place that is shown (which lines
+    may have given) lies from it.
+    """
+    if centre.kind not in ("at", "toward") or scene.outcome.motions.mobility != 1:
+        return None
+    i, j = centre.pair
+    twists = scene.outcome.motions.twists
+    x, y, w = subtract(twists[j][0], twists[i][0])
+    if centre.kind == "toward":
+        small, large = (x, y) if abs(x) < abs(y) else (y, x)
+        return scene.of(small / large) * DEGREES + UNIT * 180.0 if large != 0.0 else None
+    if w == 0.0:
+        return None
+    px, py, (ox, oy, scale) = x / w, y / w, scene.program.figure.frame
+    apart = abs(float(px) / scale + ox - centre.place[0]) + abs(float(py) / scale + oy - centre.place[1])
+    return apart + (scene.of(px) + scene.of(py)) / scale
+
+
+DEGREES = 57.29577951308232
