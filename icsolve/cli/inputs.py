@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import glob
 import os
 import sys
 from collections.abc import Iterator
@@ -48,10 +47,12 @@ def sources(argument: str) -> Iterator[Source]:
         yield Source(STDIN)
     elif os.path.isdir(argument):
         yield from (Source(path, argument) for path in _yaml_files(argument))
-    elif os.path.lexists(argument) or not glob.has_magic(argument):
+    elif os.path.lexists(argument) or not set("*?[") & set(argument):
         yield Source(argument)
     else:
-        for path in sorted(glob.glob(argument, recursive=True)):
+        from glob import glob
+
+        for path in sorted(glob(argument, recursive=True)):
             yield from sources(path)
 
 
