@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable
 
 from icsolve.answer import Answer, Centre, Found, Term
@@ -20,7 +21,7 @@ def answer_text(answer: Answer, digits: int = 6) -> str:
     case = answer.case
     sections = [
         _title(case),
-        _unknowns(answer, show),
+        _unknowns(answer, digits),
         _points(answer, show),
         _centres(answer, show),
         _power(answer, show),
@@ -33,7 +34,11 @@ def answer_text(answer: Answer, digits: int = 6) -> str:
 
 
 def _formatter(digits: int) -> Format:
-    return lambda value: format(value + 0.0, f".{digits}g")
+    def show(value: float) -> str:
+        rounded = float(format(value, f".{digits}g")) + 0.0
+        return format(rounded, f".{max(digits, 12)}g")
+
+    return show
 
 
 def _title(case: Case) -> list[str]:
@@ -45,8 +50,9 @@ def _title(case: Case) -> list[str]:
     return lines
 
 
-def _unknowns(answer: Answer, show: Format) -> list[str]:
-    lines = [_unknown(answer.case, name, found, show) for name, found in answer.answers.items()]
+def _unknowns(answer: Answer, digits: int) -> list[str]:
+    show = _formatter(digits)
+    lines = [_unknown(answer.case, name, found, digits) for name, found in answer.answers.items()]
     return lines if answer.advantage is None else [*lines, _advantage(answer, answer.advantage, show)]
 
 
@@ -59,14 +65,23 @@ def _advantage(answer: Answer, advantage: float, show: Format) -> str:
     return f"{'/'.join(names)} = {show(advantage)}{unit}" + (" (mechanical advantage)" if not unit else "")
 
 
-def _unknown(case: Case, name: str, found: Found, show: Format) -> str:
+def _unknown(case: Case, name: str, found: Found, digits: int) -> str:
     """One line: size, unit and sense; the signed value where the sign is not plus."""
+    show = _formatter(certain_digits(found, digits))
     line = f"{name} = {show(abs(found.value))} {found.unit}".rstrip()
     if found.sense:
         line += f", {_sense(found.sense)}"
     if found.value < 0.0:
         line += f"   ({name} = {show(found.value)}, {_positive(case, name)})"
     return line
+
+
+def certain_digits(found: Found, digits: int) -> int:
+    """How many digits to show: those asked for, but none that the error bound leaves open."""
+    if not found.error or found.value == 0.0:
+        return digits
+    first = math.floor(math.log10(abs(found.value))) + 1
+    return max(1, min(digits, math.floor(first - math.log10(2.0 * found.error))))
 
 
 def _sense(sense: str) -> str:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 
+import pytest
+
 from icsolve.answer import Centre, Found, Term
 from icsolve.case import Coordinates, Motion, Torque, Units
 from icsolve.result import pair_name, refusal_dict, to_dict
@@ -96,6 +98,14 @@ def test_text_gives_the_unknown_with_unit_and_sense_in_words() -> None:
     assert "T12 = 29.6722 lbf*in, counterclockwise" in text
     assert "T12/P = 0.296722 lbf*in per lbf" in text
     assert "T12 = 29.67 lbf*in" in answer_text(four_bar_answer(), digits=4)
+
+
+@pytest.mark.parametrize(
+    ("error", "shown"), [(2e-14, "29.6722"), (2e-4, "29.672"), (0.02, "29.7"), (3.0, "30"), (None, "29.6722")]
+)
+def test_text_shows_no_digit_that_the_error_bound_leaves_open(error: float | None, shown: str) -> None:
+    answer = four_bar_answer(answers={"T12": Found(29.67219, "lbf*in", "ccw", error)})
+    assert f"T12 = {shown} lbf*in" in answer_text(answer)
 
 
 def test_text_gives_the_size_with_the_sense_and_explains_a_minus_sign() -> None:

@@ -9,9 +9,11 @@ from icsolve.templates import kinds, nearest, template
 
 
 def list_kinds() -> int:
-    """Print every kind with its first line."""
+    """Print every kind and what its first line says of it."""
+    width = max(len(kind) for kind in kinds())
     for kind in kinds():
-        click.echo(f"{kind:<16} {template(kind).splitlines()[0].lstrip('# ')}")
+        says = template(kind).splitlines()[0].partition(": ")[2]
+        click.echo(f"{kind:<{width}}  {says}")
     return DONE
 
 
