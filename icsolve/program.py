@@ -9,7 +9,7 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import NamedTuple
 
-from icsolve import motion, power, verdicts
+from icsolve import motion, power, speeds, verdicts
 from icsolve.arithmetic import FLOATS, Arithmetic
 from icsolve.case import Case
 from icsolve.figure import Figure, place, solve_figure
@@ -89,7 +89,7 @@ def _wanted_points(case: Case, top: Topology, bonds: tuple[int, ...], want: Want
     points += [p for load in case.loads for p in power.points_of(load)]
     points += [given.point for given in case.motion if given.point is not None]
     if want.everything:
-        points += [p for carried in case.carries.values() for p in carried]
+        points += [p for link in case.links for p in speeds.moving_points(case, link)]
     return list(dict.fromkeys(points))
 
 

@@ -7,10 +7,10 @@ combinations of them; what stays open is named as undetermined, never guessed.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from icsolve.case import Case
+from icsolve.case import Case, SpeedIs
 from icsolve.case import Motion as Given
 from icsolve.eliminate import null_space
 from icsolve.errors import SceneError, Status
@@ -198,13 +198,17 @@ def point_velocities(
     """Velocity (case length a second) of every point on the links that carry it."""
     result: dict[tuple[str, str], tuple[float, float] | str] = {}
     for link in case.links:
-        for name in _carried(case, link, points):
+        for name in moving_points(case, link):
+            if name.startswith("@") or name not in points:
+                continue
             result[(name, link)] = _velocity(link, name, twists[link], speed, frame, points[name])
     return result
 
 
-def _carried(case: Case, link: str, points: Mapping[str, Point]) -> Iterable[str]:
-    return [name for name in case.carries.get(link, ()) if name in points and not name.startswith("@")]
+def moving_points(case: Case, link: str) -> list[str]:
+    """The points whose velocity on a link is told: those that it carries, and those with a published speed."""
+    asked = [e.target.point for e in case.expect if isinstance(e.target, SpeedIs) and e.target.link == link]
+    return list(dict.fromkeys((*case.carries.get(link, ()), *asked)))
 
 
 def _velocity(

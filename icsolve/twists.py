@@ -102,7 +102,7 @@ def _rescaled(closure: Closure, found: dict[int, Triple]) -> tuple[Closure, dict
 def _size(value: Scalar) -> float:
     """Largest absolute value: of a float, a number on a tape, an array."""
     size = abs(value)
-    return float(size if isinstance(size, float) else size.max())
+    return float(size.max() if hasattr(size, "max") else size)
 
 
 def _close(group: Group, top: Topology, bases: Bases, pool: _Pool) -> tuple[Closure, dict[int, Triple]]:

@@ -1,0 +1,35 @@
+"""The same program in sixty digits of mpmath, on the decimals of the file: the reference of bounds."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from mpmath import mp, mpf
+
+from icsolve.case import Number
+
+mp.dps = 60
+
+
+class SixtyDigits:
+    """An arithmetic of mpmath numbers; converted units are taken as the doubles that were read."""
+
+    def given(self, number: Number) -> Any:
+        return mpf(number.digits) if number.factor == 1.0 else mpf(number.value)
+
+    def turn(self, number: Number) -> tuple[Any, Any]:
+        radians = self.given(number) * mp.pi / 180
+        return mp.cos(radians), mp.sin(radians)
+
+    def sqrt(self, value: Any) -> Any:
+        return mp.sqrt(max(mpf(value), mpf(0)))
+
+    def vanishes(self, value: Any, size: Any) -> bool:
+        return bool(abs(value) <= mpf(10) ** -40 * size)
+
+
+class AsRead(SixtyDigits):
+    """The same on the doubles as they were read: what remains is the error of the method alone."""
+
+    def given(self, number: Number) -> Any:
+        return mpf(number.value)

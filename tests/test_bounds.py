@@ -1,0 +1,81 @@
+"""The error bound holds: against sixty digits on the file's decimals, on scenes of all joint kinds."""
+
+from __future__ import annotations
+
+import os
+from random import Random
+from statistics import median
+
+import growth
+import loading
+import mechanisms
+import pytest
+import transcribe
+from more_digits import SixtyDigits
+
+import icsolve
+from icsolve.bounds import bounded_values, evaluate_bounded
+from icsolve.errors import SceneError
+from icsolve.program import Want, evaluate, prepare
+
+FULL = os.environ.get("ICSOLVE_FULL") == "1"
+PINNED = [mechanisms.four_bar, mechanisms.watt, mechanisms.stephenson, mechanisms.butterfly]
+SLIDING = [mechanisms.slider_crank, mechanisms.coupler_slot, mechanisms.oldham, mechanisms.trammel]
+TURNING = [mechanisms.gear_pair, mechanisms.epicyclic, mechanisms.belt, mechanisms.cam]
+
+
+def pessimism(text: str) -> float:
+    """Bound over true error; the law itself is asserted here."""
+    program = prepare(icsolve.load(text), Want())
+    _, exact = evaluate(program, SixtyDigits())
+    worst = 1.0
+    for name, found in bounded_values(evaluate_bounded(program)).items():
+        true = abs(found.value - exact.solution.values[name])
+        assert found.error is not None
+        assert true <= found.error, f"{name}: error {float(true):.3g} above its bound {found.error:.3g}"
+        worst = max(worst, float(found.error / max(true, abs(found.value) * 2.0**-53)))
+    return worst
+
+
+@pytest.mark.parametrize("generator", PINNED + SLIDING + TURNING)
+def test_the_bound_is_never_violated_on_a_family(generator: mechanisms.Generator) -> None:
+    scenes = (loading.drawn(seed, generator) for seed in range(200 if FULL else 4))
+    assert median(pessimism(transcribe.text(scene)) for scene in scenes) <= 100
+
+
+@pytest.mark.parametrize("block", range(100 if FULL else 2))
+def test_the_bound_is_never_violated_on_random_mechanisms(block: int) -> None:
+    """Median pessimism at most 100: a bound that is far too wide tells nobody anything."""
+    scenes = (growth.random_mechanism(Random(f"bound {block} {k}")) for k in range(20))
+    assert median(pessimism(transcribe.text(scene)) for scene in scenes) <= 100
+
+
+def test_the_bound_of_a_chain_from_lengths_does_not_explode() -> None:
+    """Twelve four-bars in series: a running bound doubles at every dyad, the adjoint bound does not."""
+    scene = loading.drawn(3, mechanisms.chain(12))
+    assert pessimism(transcribe.text(scene)) < 1e4
+
+
+TOGGLE = """
+icsolve: 1
+points: {A0: [0, 0], A: [1, 0], B: [%s, 2], B0: [3, 4]}
+joints:
+  - {pin: [1, 2], at: A0}
+  - {pin: [2, 3], at: A}
+  - {pin: [3, 4], at: B}
+  - {pin: [4, 1], at: B0}
+loads: {M4: {torque: 1, link: 4}, M2: {torque: unknown, link: 2}}
+"""
+
+
+@pytest.mark.parametrize("delta", ["1e-1", "1e-3", "1e-6", "1e-9", "1e-12"])
+def test_near_a_dead_centre_the_digits_that_are_left_are_said(delta: str) -> None:
+    """A, B and B0 within delta of a line: the bound grows as 1 / delta and holds."""
+    digits = f"{2 + float(delta):.12f}"
+    assert pessimism(TOGGLE % digits) < 1e3
+
+
+def test_closer_than_doubles_can_tell_it_is_refused_as_the_dead_centre() -> None:
+    with pytest.raises(SceneError) as refused:
+        icsolve.solve(icsolve.load(TOGGLE % "2.0000000000000002"))
+    assert refused.value.status in ("dead-centre", "near-singular")
