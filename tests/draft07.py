@@ -60,12 +60,16 @@ def _unique(value: Any, said: bool, *_: Any) -> bool:
 
 
 def _dependencies(value: Any, said: Any, *_: Any) -> bool:
-    return not isinstance(value, dict) or all(set(needs) <= set(value) for key, needs in said.items() if key in value)
+    return not isinstance(value, dict) or all(
+        set(needs) <= set(value) for key, needs in said.items() if key in value
+    )
 
 
 _WORDS: dict[str, Any] = {
     "type": _type,
-    "enum": lambda v, said, *_: any(v == one and isinstance(v, bool) == isinstance(one, bool) for one in said),
+    "enum": lambda v, said, *_: any(
+        v == one and isinstance(v, bool) == isinstance(one, bool) for one in said
+    ),
     "const": lambda v, said, *_: v == said,
     "minimum": lambda v, said, *_: not _numeric(v) or v >= said,
     "pattern": lambda v, said, *_: not isinstance(v, str) or re.search(said, v) is not None,
@@ -76,7 +80,9 @@ _WORDS: dict[str, Any] = {
     "required": lambda v, said, *_: not isinstance(v, dict) or set(said) <= set(v),
     "properties": _properties,
     "additionalProperties": _additional,
-    "propertyNames": lambda v, said, _, root: not isinstance(v, dict) or all(valid(key, said, root) for key in v),
+    "propertyNames": lambda v, said, _, root: (
+        not isinstance(v, dict) or all(valid(key, said, root) for key in v)
+    ),
     "dependencies": _dependencies,
     "anyOf": lambda v, said, _, root: any(valid(v, one, root) for one in said),
     "oneOf": lambda v, said, _, root: sum(valid(v, one, root) for one in said) == 1,

@@ -7,14 +7,14 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
 from corpus import ALL
 from draft07 import valid
-from trees import document, tree, typed
-
 from icsolve.errors import CaseError
 from icsolve.read import load
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.schema import schema
+from trees import document, tree, typed
 
 SCHEMA = schema()
 CASES = sorted((Path(__file__).parent.parent / "cases").rglob("*.yaml"))
@@ -81,7 +81,7 @@ def broken(text: str) -> Iterator[tuple[str, Mapping]]:
                 assert isinstance(node, Mapping)
                 node.items[key] = Sequence([Sequence([], (1, 1))], (1, 1))
                 yield f"[[]] for {key} in {path}", root
-        elif path != ("joints",) and path != ("motion",):
+        elif path not in (("joints",), ("motion",)):
             node.items.append(Mapping({"zzz": Scalar("1", True, (1, 1))}, {"zzz": (1, 1)}, (1, 1)))
             yield f"a mapping in {path}", root
 
@@ -117,7 +117,22 @@ def test_a_lost_key_that_the_schema_misses_is_refused_by_the_reader(name: str) -
             assert not reads(document(root)), f"the schema alone refuses the case without {what}"
 
 
-WORDS = ["unknown", "0", "-1", "1e3", "A", "3 kg", "cw", "true", "[1, 2]", "[A, B]", "{like: T}", "", "1,5", "N*m"]
+WORDS = [
+    "unknown",
+    "0",
+    "-1",
+    "1e3",
+    "A",
+    "3 kg",
+    "cw",
+    "true",
+    "[1, 2]",
+    "[A, B]",
+    "{like: T}",
+    "",
+    "1,5",
+    "N*m",
+]
 
 
 @pytest.mark.parametrize("name", ALL)

@@ -37,7 +37,7 @@ def document(root: Mapping) -> str:
 def _scalar(text: str, plain: bool) -> str:
     if plain and not text:
         return "~"
-    quoted = not plain or not _PLAIN.fullmatch(text) or text[0] in "@'%-" and not _NUMBER.fullmatch(text)
+    quoted = not plain or not _PLAIN.fullmatch(text) or (text[0] in "@'%-" and not _NUMBER.fullmatch(text))
     return json.dumps(text) if quoted else text
 
 

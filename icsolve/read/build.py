@@ -30,7 +30,7 @@ from icsolve.read.geometry import check_given, read_angles, read_carried, read_l
 from icsolve.read.joints import mention_links, read_joints
 from icsolve.read.loads import read_loads
 from icsolve.read.motion import read_motion
-from icsolve.read.problems import Problems, shown, suggestion
+from icsolve.read.problems import Problems, shown
 from icsolve.read.quantities import measures, number
 from icsolve.read.reading import Reading
 
@@ -88,7 +88,8 @@ def build(root: Mapping, problems: Problems, name: str) -> Case:
     mention_links(reading, root.items.get("joints"))
     ground = _ground(reading, root)
     parts = _parts(reading, root)
-    check_given(reading)
+    if _readable(root, "points", "lengths", "angles"):
+        check_given(reading)
     texts = {key: reading.text(root.items[key], key) for key in TEXTS if key in root.items}
     return _case(name, problems.path, units, ground, reading, parts, texts, _gravity(reading, root))
 
@@ -104,24 +105,29 @@ def _parts(reading: Reading, root: Mapping) -> _Parts:
     known = reading.given | set(reading.used) | _hyphened(root)
     lengths = read_lengths(reading, _section(reading, root, "lengths"), known)
     angles = read_angles(reading, _section(reading, root, "angles"), known)
-    everything = reading.given | set(reading.used)
-    expect = read_expect(reading, _section(reading, root, "expect"), everything)
+    named = reading.given | set(reading.used)
+    published = _section(reading, root, "expect")
+    expect = read_expect(reading, published, named) if _readable(root, "loads") else ()
     return _Parts(joints, loads, {**points, **reading.hidden}, links, near, motion, lengths, angles, expect)
 
 
 def check_version(root: Mapping, problems: Problems) -> None:
-    """``icsolve: 1`` is the version that this program reads."""
+    """``icsolve: 1`` is the version that this program reads; of another one nothing is judged."""
     node = root.items.get("icsolve")
     if node is None:
-        likely = suggestion("icsolve", root.items)
-        problems.refuse(root.mark, f"this is not an icsolve case: it has no 'icsolve: 1' at its top{likely}")
+        problems.refuse(root.mark, "this is not an icsolve case: it has no 'icsolve: 1' at its top")
     elif type(node) is not Scalar or node.text != "1":
         said = f"version {shown(node.text)}" if type(node) is Scalar and node.text else "this version"
-        problems.refuse(node.mark, f"{said} of the format is not known; this program reads 'icsolve: 1'")
+        raise problems.stop(node.mark, f"{said} of the format is not known; this program reads 'icsolve: 1'")
 
 
 def _stands(root: Mapping, key: str) -> bool:
     return key in root.items and not is_null(root.items[key])
+
+
+def _readable(root: Mapping, *keys: str) -> bool:
+    """Whether these sections, where they stand, are mappings: else what they name is not known."""
+    return all(not _stands(root, key) or type(root.items[key]) is Mapping for key in keys)
 
 
 def _section(reading: Reading, root: Mapping, key: str) -> Mapping:

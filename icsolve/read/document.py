@@ -150,7 +150,8 @@ class _Tree:
         if event.anchor is not None:
             self.problems.refuse(mark, f"'&{event.anchor}': a case has no anchors; write the value out")
         if event.tag is not None:
-            self.problems.refuse(mark, f"the tag '{event.tag[:40]}': a case has no tags; take it away")
+            tag = event.tag.replace("tag:yaml.org,2002:", "!!")[:40]
+            self.problems.refuse(mark, f"the tag '{tag}': a case has no tags; take it away")
 
     def _place(self, node: Node) -> None:
         """Put a node where it belongs: in the list or mapping that is open, or at the root."""
@@ -177,7 +178,8 @@ class _Tree:
             return
         if type(node) is Scalar and node.text == "" and node.plain and missing_space(name):
             self.problems.refuse(mark, f"'{name}': write a space after the colon")
-            name = name.partition(":")[0]
+            name, _, value = name.partition(":")
+            node = Scalar(value, True, mark)
             if name in mapping.keys:
                 return
         mapping.keys[name] = mark

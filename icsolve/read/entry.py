@@ -87,6 +87,11 @@ class Entry:
     def point(self, key: str) -> str | None:
         """The name of a point if the key stands there."""
         node = self.node.items.get(key)
+        if type(node) is Sequence:
+            self.refuse(
+                node.mark, f"'{key}' of {self.what} should be a point's name; coordinates stand in 'points'"
+            )
+            return None
         return self.reading.point(node, f"'{key}' of {self.what}") if node is not None else None
 
     def place(self, key: str, hidden: str, meaning: str) -> str | None:

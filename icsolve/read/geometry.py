@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
 from icsolve.case import Centroid, Coordinates, Corner, Direction, Length
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.names import Names, point_key
-from icsolve.read.problems import shown
+from icsolve.read.problems import shown, suggestion
 from icsolve.read.quantities import number
 from icsolve.read.reading import Reading
 
@@ -27,9 +29,8 @@ def read_points(reading: Reading, section: Mapping) -> dict[str, Coordinates | C
 
 def _coordinates(reading: Reading, name: str, node: Node) -> Coordinates | None:
     if type(node) is not Sequence or len(node.items) != 2:
-        count = f"has {len(node.items)} numbers; it" if type(node) is Sequence else ""
-        message = f"point {name} {count} should have two coordinates, as in [3, 0.5] or [unknown, 0.5]"
-        reading.refuse(node.mark, message.replace("  ", " "))
+        message = f"point {name} should have two coordinates, as in [3, 0.5] or [unknown, 0.5]"
+        reading.refuse(node.mark, message)
         return None
     open_ones = [type(item) is Scalar and item.text == "unknown" for item in node.items]
     if all(open_ones):
@@ -96,6 +97,7 @@ def _keyed(
         names = point_key(key, sizes, known)
         if isinstance(names, str):
             reading.refuse(mark, names)
+            reading.given.update(name for name in known if name in key)  # no second message about them
             continue
         reading.given.update(names)
         same = tuple(sorted(names)) if what == "lengths" else names
@@ -144,7 +146,7 @@ def read_carried(reading: Reading, section: Mapping) -> dict[str, tuple[str, ...
 
 def check_given(reading: Reading) -> None:
     """Every point that is needed must be given by something."""
-    guided = {name for name in reading.on_guides if reading.on_guides.count(name) > 1}
+    guided = {name for name, times in Counter(reading.on_guides).items() if times > 1}
     given = reading.given | guided
     for name, mark in reading.used.items():
         if name not in given and not name.startswith("@"):
@@ -152,7 +154,5 @@ def check_given(reading: Reading) -> None:
 
 
 def _never_given(name: str, given: set[str]) -> str:
-    from icsolve.read.problems import suggestion
-
     likely = suggestion(name, sorted(given)) if len(name) > 1 else ""
     return f"point {name} is named here, but nothing gives it: no coordinates, length, angle or guide{likely}"

@@ -31,7 +31,7 @@ Pair = tuple[str, str]
 
 def mention_links(reading: Reading, section: Node | None) -> None:
     """The links of all joints, faulty ones too, in order of first mention: other sections know them."""
-    if type(section) is not Sequence:
+    if type(section) is not Sequence or not section.items:
         return
     reading.links = {}
     for item in section.items:
@@ -76,6 +76,7 @@ def _at(item: Node) -> str:
 def _joint(reading: Reading, node: Mapping, shared: Counter[str]) -> Joint | None:
     kind = _kind(reading, node)
     if kind is None:
+        reading.given.add(_at(node))  # it may have been the guide that gives the point
         return None
     links = _links(reading, kind, node.items[kind])
     pair = "-".join(links) if links else "?"
@@ -105,8 +106,8 @@ def _kind(reading: Reading, node: Mapping) -> str | None:
     first = strange[0] if strange else None
     likely = suggestion(first, KINDS) if first else ""
     mark = node.keys[first] if first else node.mark
-    said = f"there is no joint kind {shown(first)}{likely}" if first else "this joint has no kind"
-    reading.refuse(mark, f"{said}; the kinds are {', '.join(KINDS)}")
+    said = f"there is no joint kind {shown(first)}" if first else "this joint has no kind"
+    reading.refuse(mark, said + (likely or f"; the kinds are {', '.join(KINDS)}"))
     return None
 
 

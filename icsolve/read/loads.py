@@ -136,6 +136,7 @@ def _like(entry: Entry, name: str, node: Mapping, likes: Likes) -> Like | None:
 
 def _check_likes(reading: Reading, likes: Likes) -> None:
     """Each other load exists, is a number of the same kind, and does not lead back."""
+    circular = _circular(likes)
     for name, (other, mark) in likes.items():
         kind, others = reading.kinds[name], reading.kinds.get(other)
         if others is None:
@@ -144,19 +145,24 @@ def _check_likes(reading: Reading, likes: Likes) -> None:
             reading.refuse(mark, f"load {name} cannot be like {other}, which is given by components")
         elif kind and others and DIMENSION[kind] != DIMENSION[others]:
             reading.refuse(mark, f"load {name} is a {kind} and cannot be like {other}, a {others}")
-        elif _leads_back(name, likes):
+        elif name in circular:
             reading.refuse(mark, f"load {name} is like {other}, which leads back to {name}")
 
 
-def _leads_back(name: str, likes: Likes) -> bool:
-    at = name
-    for _ in likes:
-        if at not in likes:
-            return False
-        at = likes[at][0]
-        if at == name:
-            return True
-    return False
+def _circular(likes: Likes) -> set[str]:
+    """The loads that are like each other in a ring; each is walked over once."""
+    circular: set[str] = set()
+    seen: dict[str, str] = {}
+    for start in likes:
+        at = start
+        while at in likes and at not in seen:
+            seen[at] = start
+            at = likes[at][0]
+        if seen.get(at) == start:
+            while at not in circular:
+                circular.add(at)
+                at = likes[at][0]
+    return circular
 
 
 def _bearer(entry: Entry) -> tuple[str | None, str | None, bool]:

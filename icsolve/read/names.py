@@ -35,15 +35,15 @@ def atoms(key: str) -> Names:
     return tuple(found)
 
 
-def splits(key: str, parts: int) -> Iterator[Names]:
-    """Every way to cut a key without hyphens into so many names."""
+def splits(key: str, parts: int, known: Callable[[str], bool]) -> Iterator[Names]:
+    """Every way to cut a key without hyphens into so many known names."""
     if parts == 1:
-        if is_name(key):
+        if is_name(key) and known(key):
             yield (key,)
         return
     for at in range(1, len(key) - parts + 2):
-        if is_name(key[:at]):
-            for rest in splits(key[at:], parts - 1):
+        if known(key[:at]) and is_name(key[:at]):
+            for rest in splits(key[at:], parts - 1, known):
                 yield (key[:at], *rest)
 
 
@@ -71,12 +71,8 @@ def point_key(key: str, sizes: tuple[int, ...], known: Collection[str]) -> Names
 
 def _unhyphened(key: str, sizes: tuple[int, ...], known: Collection[str], wanted: str) -> Names | str:
     plain = atoms(key)
-    other = [
-        names
-        for size in sizes
-        for names in splits(key, size)
-        if names != plain and all(name in known for name in names)
-    ]
+    cuts = [names for size in sizes for names in splits(key, size, known.__contains__)]
+    other = [names for names in cuts if names != plain]
     if len(plain) in sizes:
         if not other:
             return _distinct(plain)
@@ -103,4 +99,4 @@ def pairs(key: str, known: Callable[[str], bool]) -> list[tuple[str, str]]:
     if "-" in key:
         first, _, second = key.partition("-")
         return [(first, second)] if known(first) and known(second) else []
-    return [(a, b) for a, b in splits(key, 2) if known(a) and known(b)]
+    return [(a, b) for a, b in splits(key, 2, known)]

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from itertools import islice
+
 from icsolve.case import Mark
 from icsolve.errors import Problem
 
+_MOST_OPTIONS = 300
 MOST = 100
 """After so many problems a file is not read further."""
 
@@ -22,11 +26,11 @@ class Problems:
 
     def refuse(self, mark: Mark, message: str) -> None:
         """Note a problem; stops at the hundredth."""
-        problem = Problem(self.path, mark[0], mark[1], printable(message))
+        problem = Problem(printable(self.path), mark[0], mark[1], printable(message))
         if problem not in self.found:
             self.found.append(problem)
         if len(self.found) == MOST:
-            self.found.append(Problem(self.path, mark[0], mark[1], "and perhaps more: reading stopped here"))
+            self.found.append(problem._replace(message="and perhaps more: reading stopped here"))
             raise Stop
 
     def stop(self, mark: Mark, message: str) -> Stop:
@@ -48,11 +52,11 @@ def shown(text: str) -> str:
     return f"'{text}'" if len(text) <= 60 else f"'{text[:40]}...'"
 
 
-def suggestion(name: str, options: object) -> str:
-    """`` ; did you mean ...?`` for the nearest option, else nothing."""
+def suggestion(name: str, options: Iterable[str]) -> str:
+    """``; did you mean ...?`` for the nearest option, else nothing."""
     from difflib import get_close_matches
 
-    known = [str(option) for option in options]  # type: ignore[attr-defined]
+    known = list(islice(options, _MOST_OPTIONS))
     lower = [option for option in known if option.lower() == name.lower()]
     near = lower or get_close_matches(name[:60], known, 1, 0.6)
     return f"; did you mean '{near[0]}'?" if near else ""

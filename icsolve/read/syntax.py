@@ -6,6 +6,7 @@ import yaml
 
 from icsolve.case import Mark
 
+_OF_A_COLON = ("mapping values are not allowed", "could not find expected ':'", "expected <document start>")
 _LOOKBACK = 5
 """Lines before YAML's complaint among which its cause is sought."""
 
@@ -28,15 +29,22 @@ def _known(error: yaml.MarkedYAMLError, place: Mark, lines: list[str], line: str
         return (place[0], column), "a tab stands here; YAML is indented with spaces only"
     if here and here in "@`%&*!|>":
         return place, f"a value cannot start with '{here}'; put the text in quotes"
-    if "mapping values are not allowed" in problem or "could not find expected ':'" in problem:
+    if any(sign in problem for sign in _OF_A_COLON):
         cause = _unspaced_line(place[0], lines)
         if cause:
             return cause, "write a space after the colon"
     if "'[' or" in problem or "or ']'" in problem or "or '}'" in problem:
-        opened = error.context_mark
-        where = f" (opened in line {opened.line + 1}, column {opened.column + 1})" if opened else ""
-        return place, f"a bracket{where} is not closed, or a comma is missing before this"
+        return place, f"a bracket{_opened(error)} is not closed, or a comma is missing before this"
+    if "quoted scalar" in (error.context or "") and "end of stream" in problem:
+        return place, f"a quotation mark{_opened(error)} is not closed"
+    if "expected key" in problem or "expected <block end>" in problem or "expected '-' indicator" in problem:
+        return place, "this line is indented otherwise than the lines that it should stand beside"
     return None
+
+
+def _opened(error: yaml.MarkedYAMLError) -> str:
+    mark = error.context_mark
+    return f" (opened in line {mark.line + 1}, column {mark.column + 1})" if mark else ""
 
 
 def _unspaced_line(number: int, lines: list[str]) -> Mark | None:

@@ -39,7 +39,7 @@ def target_of(reading: Reading, key: str, points: set[str]) -> Target | str:
 def _unknown(reading: Reading, key: str) -> str:
     likely = suggestion(key, reading.kinds)
     forms = "a load, I24, I12-I26, I24-A, w4/w2, w2, 'v C on 8', F34, M34, 'h F32 A' or 'rf B'"
-    return f"{shown(key)} names nothing in this case{likely}; a key can be {forms}"
+    return f"{shown(key)} names nothing in this case" + (likely or f"; a key can be {forms}")
 
 
 def _readings(reading: Reading, key: str, points: set[str]) -> Iterator[Target]:

@@ -1,0 +1,427 @@
+"""Reading: what a file says comes out as the values of a case, in case units, with its place in the file."""
+
+from __future__ import annotations
+
+import os
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
+import yaml
+
+from corpus import ALL, AWKWARD_NAMES, CAM_AND_BLACK_BOX, FOUR_BAR, GEARS, SLIDER_CRANK, SLOT_AND_WORDS
+from icsolve.case import (
+    ArmIs,
+    Case,
+    CentreIs,
+    Centroid,
+    Coordinates,
+    Corner,
+    Direction,
+    DistanceIs,
+    Force,
+    ForceVector,
+    FrictionRadiusIs,
+    Gears,
+    KnownCentre,
+    Like,
+    LoadIs,
+    Pin,
+    RateIs,
+    RatioIs,
+    ReactionIs,
+    Slide,
+    Slope,
+    Slot,
+    SpeedIs,
+    Spring,
+    Torque,
+    Toward,
+    Weight,
+)
+from icsolve.errors import CaseError
+from icsolve.read import document, load, read_file, read_text
+
+
+@pytest.fixture(scope="module")
+def slider() -> Case:
+    return load(SLIDER_CRANK)
+
+
+@pytest.fixture(scope="module")
+def slot() -> Case:
+    return load(SLOT_AND_WORDS)
+
+
+@pytest.fixture(scope="module")
+def gears() -> Case:
+    return load(GEARS)
+
+
+def expected(case: Case, key: str) -> object:
+    """What a published value is of."""
+    return next(one.target for one in case.expect if one.key == key)
+
+
+def test_the_four_bar_of_the_format() -> None:
+    case = load(FOUR_BAR)
+    assert (case.title, case.source) == ("Four-bar press", "where the problem stands")
+    assert (case.units.length, case.units.force, case.units.torque) == ("in", "lbf", "lbf*in")
+    assert (case.ground, case.links) == ("1", ("1", "2", "3", "4"))
+    assert [(length.a, length.b, length.value.value) for length in case.lengths] == [
+        ("A", "B", 1.0),
+        ("B", "C", 3.5),
+        ("C", "D", 2.5),
+        ("D", "E", 1.5),
+    ]
+    direction, corner = case.angles
+    assert isinstance(direction, Direction)
+    assert isinstance(corner, Corner)
+    assert (direction.a, direction.b, direction.value.value) == ("A", "B", 60.0)
+    assert (corner.a, corner.at, corner.b, corner.value.value) == ("C", "D", "E", 0.0)
+    assert case.near == {"C": (3.5, 2.4)}
+    assert case.joints[0] == Pin(("1", "2"), "A")
+    assert case.carries == {"1": ("A", "D"), "2": ("A", "B"), "3": ("B", "C"), "4": ("C", "D", "E")}
+    force, torque = case.loads
+    assert isinstance(force, Force)
+    assert (force.link, force.at, force.value.value, force.heading.value) == ("4", "E", 100.0, 180.0)
+    assert torque == Torque("T12", "2", None)
+
+
+def test_a_number_keeps_its_numeral_its_half_unit_and_its_path() -> None:
+    number = load(FOUR_BAR).lengths[1].value
+    assert number == (3.5, 0.05, "lengths.BC", "3.5", 1.0)
+
+
+def test_places_are_lines_and_columns_from_one() -> None:
+    marks = load(FOUR_BAR).marks
+    assert marks["lengths.BC"] == (9, 22)
+    assert marks["points.D.x"] == (8, 7)
+    assert marks["joints[1]"] == marks["joints.B"] == (15, 5)
+    assert marks["loads.P.angle"] == (20, 44)
+    assert marks["expect.w4/w2"] == (24, 18)
+
+
+def test_units_other_than_the_case_s_are_converted_with_one_rounding(slider: Case) -> None:
+    assert [length.value.value for length in slider.lengths] == [30.0, 90.0]
+    assert slider.near["C"] == (100.0, 0.0)
+    assert slider.angles[0].value.value == 68.75493541569878  # 1.2 * 180 / pi to 20 digits, rounded
+    metres = load("icsolve: 1\npoints: {A: [30 mm, 0]}\njoints: [{pin: [1, 2], at: A}]\n")
+    point = metres.points["A"]
+    assert isinstance(point, Coordinates)
+    assert point.x is not None
+    assert point.x.value == 0.03
+    assert (point.x.half, point.x.factor) == (0.0005, 0.001)
+
+
+def test_a_torque_unit_of_its_own(slider: Case) -> None:
+    """1 N*mm is 0.001 N*m, and a bare torque stands in the unit that ``units`` gives."""
+    assert slider.units.torque == "N*m"
+    assert slider.units.torque_per_force_length == 0.001
+    case = load(SLIDER_CRANK.replace("torque: unknown", "torque: 50"))
+    assert case.loads[1].value.value == 50.0  # type: ignore[union-attr]
+
+
+def test_a_torque_of_other_words_in_case_units() -> None:
+    case = load(FOUR_BAR.replace("torque: unknown", "torque: 5 ft-lb").replace("w4/w2", "T12"))
+    assert case.loads[1].value.value == 60.0  # type: ignore[union-attr]
+
+
+def test_force_and_length_of_the_case_per_newton_and_metre() -> None:
+    units = load(FOUR_BAR).units
+    assert units.force_per_newton == float(Fraction(10**13, 44482216152605))
+    assert units.length_per_metre == float(Fraction(10000, 254))
+
+
+def test_one_coordinate_unknown(slider: Case) -> None:
+    point = slider.points["C"]
+    assert isinstance(point, Coordinates)
+    assert point.x is None
+    assert point.y is not None
+
+
+def test_friction_is_kept(slider: Case) -> None:
+    pin, slide = slider.joints[0], slider.joints[3]
+    assert isinstance(pin, Pin)
+    assert isinstance(slide, Slide)
+    assert pin.friction is not None
+    assert slide.friction is not None
+    assert (pin.friction.mu.value, pin.friction.radius) == (0.2, (4.0, 0.5, "joints.A.radius", "4", 1.0))
+    assert slide.friction.length is not None
+    assert slide.friction.mu.path == "joints.4-1@C.mu"  # two joints stand at C
+
+
+def test_a_slope_and_a_speed(slider: Case) -> None:
+    force = slider.loads[0]
+    assert isinstance(force, Force)
+    assert isinstance(force.heading, Slope)
+    assert (force.heading.run.value, force.heading.rise.value) == (-3.0, 4.0)
+    (motion,) = slider.motion
+    assert motion.speed is not None
+    assert (motion.speed.value, motion.turns) == (31.41592653589793, "cw")  # 300 rpm is 10 pi rad/s
+
+
+def test_a_carried_point_by_each_way(slot: Case) -> None:
+    """Pins on all links, a slot's pin on its first and its guide on its second, loads, and ``links:``."""
+    assert slot.carries["frame"] == ("O2", "O4")
+    assert slot.carries["crank"] == ("O2", "A", "G", "@M")
+    assert slot.carries["rocker"] == ("O4", "C", "@S'")
+
+
+def test_loads_of_each_kind(slot: Case) -> None:
+    weight, mass, spring, vector, torque, like, unknown, away = slot.loads
+    assert isinstance(weight, Weight) and not weight.mass
+    assert isinstance(mass, Weight) and mass.mass and mass.at == "@M"
+    assert isinstance(spring, Spring) and (spring.against, spring.to) == ("rocker", "@S'")
+    assert isinstance(vector, ForceVector)
+    assert (vector.x.value, vector.y.value, vector.against, vector.turns_with) == (
+        3.0,
+        -4000.0,
+        "crank",
+        "rocker",
+    )
+    assert (vector.x.path, vector.y.path) == ("loads.Q.x", "loads.Q.y")
+    assert isinstance(torque, Torque)
+    assert torque.value.value == pytest.approx(6.779089741657002, rel=1e-15)  # type: ignore[union-attr]
+    assert isinstance(like, Torque) and isinstance(like.value, Like)
+    assert like.value.times is not None and like.value.times.value == -1.0
+    assert isinstance(unknown, Force) and unknown.heading == Toward("A") and unknown.value is None
+    assert isinstance(away, Force) and away.heading == Toward("O4", away=True)
+
+
+def test_a_load_given_by_coordinates_has_a_hidden_point(slot: Case) -> None:
+    point = slot.points["@M"]
+    assert isinstance(point, Coordinates)
+    assert point.x is not None
+    assert (point.x.value, point.x.path) == (0.1, "loads.M.at.x")
+
+
+def test_a_centroid_a_slot_by_two_points_and_gravity(slot: Case) -> None:
+    assert slot.points["G"] == Centroid(("O2", "A"))
+    joint = slot.joints[2]
+    assert isinstance(joint, Slot)
+    assert (joint.guide.ends, joint.guide.through, joint.guide.angle) == (("O4", "C"), "C", None)
+    assert slot.gravity.value == 32.174 * 3048 / 10000
+    assert slot.reconstructed == "the figure is lost"
+
+
+def test_gears_and_belts(gears: Case) -> None:
+    mesh, internal, belt = gears.joints[3:6]
+    assert isinstance(mesh, Gears)
+    assert isinstance(internal, Gears)
+    assert (mesh.teeth[0].value, mesh.teeth[1].value, mesh.carrier) == (31.0, 57.0, "2")
+    assert internal.teeth[1].value == -92.0
+    assert internal.module is not None
+    assert internal.module.value == 0.002
+    assert mesh.pressure_angle is not None
+    assert mesh.diametral_pitch is not None
+    assert belt.crossed is True  # type: ignore[union-attr]
+    assert [motion.link for motion in gears.motion] == ["2", "3"]
+
+
+def test_given_centres_at_points_at_coordinates_and_at_infinity() -> None:
+    case = load(CAM_AND_BLACK_BOX)
+    _, by_place, at_infinity, at_point, again = case.joints
+    assert isinstance(by_place, KnownCentre) and by_place.at == "@2-7" and "@2-7" in case.points
+    assert isinstance(at_infinity, KnownCentre) and at_infinity.at is None and at_infinity.toward is not None
+    assert isinstance(at_point, KnownCentre) and at_point.at == "L"
+    assert isinstance(again, KnownCentre) and again.at == "@1-2"
+    assert case.carries == {"2": (), "3": (), "7": (), "1": ()}
+
+
+def test_names_are_raw_text() -> None:
+    """YAML 1.1 would read ``on`` and ``NO`` as truth values, ``12`` and ``1E3`` as numbers."""
+    case = load(AWKWARD_NAMES)
+    assert list(case.points) == ["NO", "B'", "A", "12", "1E3", "O2"]
+    assert case.links == ("1", "on", "3'", "y")
+    assert [load.name for load in case.loads] == ["ON", "null"]
+    assert [(length.a, length.b) for length in case.lengths] == [
+        ("A", "B'"),
+        ("A'", "B'"),
+        ("O2", "A"),
+        ("NO", "12"),
+    ]
+
+
+NUMERALS = {"1e3": 1000.0, "-.5": -0.5, "010": 10.0, "+5.": 5.0, "'7'": 7.0, "1.0E+2": 100.0, "−3": -3.0}
+
+
+@pytest.mark.parametrize("text", NUMERALS)
+def test_numbers_follow_yaml_1_2(text: str) -> None:
+    case = load(FOUR_BAR.replace("AB: 60", f"AB: {text}"))
+    assert case.angles[0].value.value == NUMERALS[text]
+
+
+KEYS = {
+    "T12": LoadIs("T12"),
+    "I24": CentreIs(("2", "4")),
+    "I13": CentreIs(("1", "3")),
+    "I24-A": DistanceIs(("2", "4"), "A"),
+    "I12-I23": DistanceIs(("1", "2"), ("2", "3")),
+    "w3": RateIs("3"),
+    "v C on 4": SpeedIs("C", "4"),
+    "F34": ReactionIs("3", "4"),
+    "F34x": ReactionIs("3", "4", "x"),
+    "F3-4@C": ReactionIs("3", "4", "", "C"),
+    "M14": ReactionIs("1", "4", "moment"),
+    "h F32 A": ArmIs("3", "2", "A"),
+    "rf A": FrictionRadiusIs("A"),
+    "P": LoadIs("P"),
+}
+
+
+@pytest.mark.parametrize("key", KEYS)
+def test_what_a_published_value_is_of(slider: Case, key: str) -> None:
+    assert expected(slider, key) == KEYS[key]
+
+
+def test_links_of_words_in_published_values(slot: Case) -> None:
+    assert expected(slot, "crank-rocker") == CentreIs(("crank", "rocker"))
+    assert expected(slot, "wrocker/wcrank") == RatioIs("rocker", "crank")
+    assert expected(slot, "Fcrank-rocker") == ReactionIs("crank", "rocker")
+
+
+def test_hyphens_in_published_centres_and_distances() -> None:
+    keys = "expect: {I2-4: [0, 0], 2-4: [0, 0], I1-2-I2-3: 1, A-I2-4: 2, A-D: 4}"
+    targets = [one.target for one in load(FOUR_BAR.replace("expect:", keys).rpartition("  w4")[0]).expect]
+    assert targets == [
+        CentreIs(("2", "4")),
+        CentreIs(("2", "4")),
+        DistanceIs(("1", "2"), ("2", "3")),
+        DistanceIs("A", ("2", "4")),
+        DistanceIs("A", "D"),
+    ]
+
+
+def test_a_load_s_name_wins() -> None:
+    case = load(
+        FOUR_BAR.replace("T12:", "F34:").replace("w4/w2: {value: 0.49, within: 1%}", "F34: 3\n  F3-4: 5")
+    )
+    assert [one.target for one in case.expect] == [LoadIs("F34"), ReactionIs("3", "4")]
+
+
+def test_widths_senses_and_errata(slider: Case) -> None:
+    by_key = {one.key: one for one in slider.expect}
+    assert (by_key["T12"].value[0].value, by_key["T12"].sense) == (29.67, "cw")
+    assert (by_key["v C on 4"].sense, by_key["w3"].sense) == ("at 30 deg", "cw")
+    assert (by_key["I12-I23"].within, by_key["I12-I23"].relative) == (0.5, False)
+    assert (by_key["rf A"].within, by_key["rf A"].relative) == (0.002, True)
+    assert by_key["P"].erratum == "kN taken for N"
+    assert by_key["I13"].toward is not None
+    assert [number.value for number in by_key["I24"].value] == [-15.5, 2.25]
+
+
+def test_a_published_sense_is_one_word() -> None:
+    for words, sense in {"cw": "cw", "clockwise": "cw", "Counterclockwise": "ccw"}.items():
+        case = load(FOUR_BAR.replace("w4/w2: {value: 0.49, within: 1%}", f"T12: 3 lbf*ft {words}"))
+        assert (case.expect[0].sense, case.expect[0].value[0].value) == (sense, 36.0)
+    for words, sense in {"to the right": "right", "towards A": "toward A", "tension": "pull"}.items():
+        case = load(FOUR_BAR.replace("w4/w2: {value: 0.49, within: 1%}", f"P: 3 {words}"))
+        assert case.expect[0].sense == sense
+
+
+# --- files, texts, settings ------------------------------------------------------------------------
+
+
+def test_a_case_is_named_by_its_file(tmp_path: Path) -> None:
+    for file in ("press.yaml", "press.icsolve.yaml"):
+        (tmp_path / file).write_text(FOUR_BAR, encoding="utf-8")
+        case = load(tmp_path / file)
+        assert (case.name, case.path) == ("press", os.fspath(tmp_path / file))
+        assert load(str(tmp_path / file)) is not case
+    assert (load(FOUR_BAR).name, load(FOUR_BAR).path) == ("case", "<text>")
+    assert read_text(FOUR_BAR, "<stdin>").path == "<stdin>"
+
+
+@pytest.mark.parametrize("how", ["bom", "crlf", "cr", "utf-16"])
+def test_encodings_and_line_ends_of_other_systems(tmp_path: Path, how: str) -> None:
+    data = {
+        "bom": b"\xef\xbb\xbf" + FOUR_BAR.encode(),
+        "crlf": FOUR_BAR.replace("\n", "\r\n").encode(),
+        "cr": FOUR_BAR.replace("\n", "\r").encode(),
+        "utf-16": FOUR_BAR.encode("utf-16"),
+    }
+    (tmp_path / "press.yaml").write_bytes(data[how])
+    case = read_file(tmp_path / "press.yaml")
+    assert case.marks == load(FOUR_BAR).marks
+    assert case.joints == load(FOUR_BAR).joints
+
+
+@pytest.mark.parametrize("name", ALL)
+def test_the_parser_without_libyaml_reads_the_same(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    swift = load(ALL[name])
+    monkeypatch.setattr(document, "LOADER", yaml.SafeLoader)
+    plain = load(ALL[name])
+    assert {key: getattr(plain, key) for key in Case.__dataclass_fields__} == {
+        key: getattr(swift, key) for key in Case.__dataclass_fields__
+    }
+
+
+def test_settings_replace_numbers_before_reading() -> None:
+    settings = {
+        "angles.AB": "1 rev",
+        "lengths.BA": "50.8 mm",
+        "points.D.x": 5,
+        "loads.P": "1 kip",
+        "loads.P.angle": -90.0,
+        "near.C.y": "3",
+        "gravity": "9.8",
+    }
+    case = load(FOUR_BAR, settings)
+    point = case.points["D"]
+    assert isinstance(point, Coordinates)
+    assert point.x is not None
+    assert (case.angles[0].value.value, case.lengths[0].value.value, point.x.value) == (360.0, 2.0, 5.0)
+    assert (case.loads[0].value.value, case.loads[0].heading.value) == (1000.0, -90.0)  # type: ignore[union-attr]
+    assert (case.near["C"], case.gravity.value) == ((3.5, 3.0), 9.8)
+    assert case.lengths[0].value.path == "lengths.AB"
+
+
+def test_settings_of_joints_motion_and_components() -> None:
+    case = load(SLIDER_CRANK, {"joints.A.mu": "0.3", "joints.4-1@C.along": 5, "motion.speed": "2 rad/s"})
+    assert case.joints[0].friction.mu.value == 0.3  # type: ignore[union-attr]
+    assert case.joints[3].guide.angle.value == 5.0  # type: ignore[union-attr]
+    assert case.motion[0].speed is not None
+    assert case.motion[0].speed.value == 2.0
+    vector = load(SLOT_AND_WORDS, {"loads.Q.x": "7", "loads.M.at.y": "1"}).loads[3]
+    assert isinstance(vector, ForceVector)
+    assert vector.x.value == 7.0
+
+
+UNSETTABLE = {
+    "angles.BA": "the case gives the angle AB, which is not BA",
+    "angles.XY": "the case has no XY under 'angles'",
+    "lengths.AX": "the case has no AX",
+    "points.Q.x": "the case has no Q",
+    "points.A": "points.D.x",
+    "points.A.z": "points.D.x",
+    "joints.X.mu": "no joint stands at X",
+    "joints.A": "joints.B.mu",
+    "joints.A.at.x": "joints.B.mu",
+    "motion.speed": "the case has no 'motion'",
+    "title": "a path is like",
+    "loads": "a path is like",
+    "loads.Q": "the case has no Q",
+    "loads.P.force": "a path is like",
+    "nonsense": "a path is like",
+    "": "a path is like",
+    "joints.D.teeth": "no key 'teeth'",
+    "loads.P.away": "give one of them",
+}
+
+
+@pytest.mark.parametrize("path", UNSETTABLE)
+def test_a_setting_that_the_case_has_no_place_for_is_refused(path: str) -> None:
+    with pytest.raises(CaseError) as caught:
+        load(FOUR_BAR, {path: "A"})
+    assert UNSETTABLE[path] in str(caught.value)
+
+
+def test_a_setting_of_a_joint_where_two_stand_names_both() -> None:
+    with pytest.raises(CaseError, match=r"joints\.3-4@C\.mu or joints\.4-1@C\.mu"):
+        load(SLIDER_CRANK, {"joints.C.mu": "0.1"})
+
+
+def test_a_setting_of_the_wrong_dimension_is_refused() -> None:
+    with pytest.raises(CaseError, match="'kg' is a mass, but an angle is wanted"):
+        load(FOUR_BAR, {"angles.AB": "30 kg"})

@@ -1,0 +1,181 @@
+"""Units: exact factors, the spellings that people use, and conversion that rounds once."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from icsolve.units import (
+    DIMENSIONS,
+    UNITS,
+    UnitError,
+    canonical,
+    converted,
+    factor,
+    kind_of,
+    parse_unit,
+    split_quantity,
+)
+
+
+def value(text: str, target: str) -> float:
+    """A quantity in another unit."""
+    parts = split_quantity(text)
+    assert parts is not None
+    return converted(parts[0], parse_unit(parts[1]), parse_unit(target))
+
+
+# Definitions: NIST SP 811 (2008), appendix B.8; the pound-force from 0.45359237 kg and 9.80665 m/s^2.
+DEFINED = [
+    ("1 in", "m", 0.0254),
+    ("1 ft", "m", 0.3048),
+    ("1 yd", "m", 0.9144),
+    ("1 km", "cm", 100000.0),
+    ("1 lbf", "N", 4.4482216152605),
+    ("1 lb", "N", 4.4482216152605),
+    ("1 kip", "lbf", 1000.0),
+    ("16 ozf", "lbf", 1.0),
+    ("1 tonf", "lbf", 2000.0),
+    ("1 kgf", "N", 9.80665),
+    ("1 MN", "kN", 1000.0),
+    ("1 lbm", "kg", 0.45359237),
+    ("1 slug", "lbm", 32.17404855643045),
+    ("1 t", "kg", 1000.0),
+    ("1 g", "kg", 0.001),
+    ("180 deg", "rad", math.pi),
+    ("1 rev", "deg", 360.0),
+    ("1 rad", "deg", 57.29577951308232),
+    ("60 rpm", "rad/s", 6.283185307179586),
+    ("1 hp", "ft*lbf/s", 550.0),
+    ("1 hp", "W", 745.6998715822702),
+    ("1 kW", "W", 1000.0),
+    ("1 h", "min", 60.0),
+    ("12 in*lbf", "lbf*ft", 1.0),
+    ("9.81 m/s^2", "m/s^2", 9.81),
+]
+
+
+@pytest.mark.parametrize(("text", "target", "expected"), DEFINED, ids=str)
+def test_defined_factors_to_the_last_bit(text: str, target: str, expected: float) -> None:
+    assert value(text, target) == expected
+
+
+SPELLINGS = {
+    "in": ["inch", "inches", "IN", "In"],
+    "ft": ["foot", "feet", "FT"],
+    "mm": ["millimetre", "millimeters"],
+    "N": ["newton", "newtons", "Newtons"],
+    "lbf": ["lb", "lbs", "pounds", "LBF"],
+    "deg": ["°", "degree", "degrees", "DEG"],
+    "rad/s": ["rad/sec", "rad s^-1", "rad·s⁻¹", "radians/second", "rad per s"],
+    "rpm": ["rev/min", "r/min", "RPM", "revolutions/minute"],
+    "N*m": ["N·m", "N⋅m", "Nm", "N-m", "N.m", "N m", "newton-metres"],
+    "kN*m": ["kN·m", "kNm", "kN-m"],
+    "lbf*ft": ["lbf·ft", "lb-ft", "ft-lb", "ft·lb", "ft-lbs", "ft*lbf", "lbft", "foot-pounds", "lbf ft"],
+    "lbf*in": ["in-lb", "inlb", "in·lbf", "lb-in", "in-lbs", "inch-pounds"],
+    "kip*ft": ["kip-ft", "ft-kip", "kip·ft"],
+    "m/s^2": ["m/s2", "m/s²", "m/s/s", "m/(s*s)", "m/s**2", "m·s^-2"],
+    "lbf/in": ["lb/in", "lbs/inch", "lbf per in"],
+    "N/mm": ["kN/m"],
+    "ft/min": ["feet/minute", "ft / min"],
+    "1/in": ["/in", "in^-1", "in⁻¹"],
+}
+
+
+@pytest.mark.parametrize("unit", SPELLINGS)
+def test_usual_spellings_are_the_same_unit(unit: str) -> None:
+    for spelling in SPELLINGS[unit]:
+        assert factor(parse_unit(spelling), parse_unit(unit)) == 1.0, spelling
+        assert parse_unit(spelling).dims == parse_unit(unit).dims
+
+
+WRONG = {
+    "furlong": "no unit 'furlong'",
+    "inchs": "did you mean 'inches'",
+    "kn": "did you mean 'kN'",
+    "Mm": "did you mean 'mm'",
+    "ton": "'tonf' (2000 lbf) or 't' (1000 kg)",
+    "N**m": "not a unit",
+    "N^": "a power is one digit",
+    "N^12": "a power is one digit",
+    "N*": "not a unit",
+    "(N*m": "a bracket is not closed",
+    "N)m": "nothing fits before ')m'",
+    "N+m": "'+' is out of place",
+    "m" * 200: "too long",
+    "": "not a unit",
+}
+
+
+@pytest.mark.parametrize("text", WRONG)
+def test_what_is_no_unit_is_refused_with_the_reason(text: str) -> None:
+    with pytest.raises(UnitError) as caught:
+        parse_unit(text)
+    assert WRONG[text] in str(caught.value)
+
+
+NUMERALS = {
+    "5": (5, 0, ""),
+    "-.5": (-5, -1, ""),
+    "1e3": (1, 3, ""),
+    "1.50E-2 mm": (150, -4, "mm"),
+    "30mm": (30, 0, "mm"),
+    "−12 rad/s": (-12, 0, "rad/s"),
+    "+3.  N": (3, 0, "N"),
+    "010": (10, 0, ""),
+    "2e": (2, 0, "e"),
+}
+
+
+@pytest.mark.parametrize("text", NUMERALS)
+def test_numerals_are_read_as_decimals(text: str) -> None:
+    parts = split_quantity(text)
+    assert parts is not None
+    assert (parts[0].mantissa, parts[0].exponent, parts[1]) == NUMERALS[text]
+
+
+@pytest.mark.parametrize("text", ["", "N", "e5", "-", ".", "+-3", "x1", "٣"])
+def test_text_without_a_numeral_has_none(text: str) -> None:
+    assert split_quantity(text) is None
+
+
+def test_a_numeral_of_five_thousand_digits_is_refused_at_once() -> None:
+    with pytest.raises(UnitError, match="too long"):
+        split_quantity("1" * 5000)
+    with pytest.raises(UnitError, match="too long"):
+        split_quantity("1e999999999")
+
+
+RATIONAL = sorted(name for name, unit in UNITS.items() if unit.dims == DIMENSIONS["length"])
+
+
+@given(
+    st.integers(-(10**20), 10**20), st.integers(-30, 30), st.sampled_from(RATIONAL), st.sampled_from(RATIONAL)
+)
+def test_a_conversion_is_the_nearest_double_of_the_exact_value(
+    mantissa: int, exponent: int, unit: str, target: str
+) -> None:
+    """Against the exact rational, whose ``float`` Python rounds correctly."""
+    parts = split_quantity(f"{mantissa}e{exponent}")
+    assert parts is not None
+    a, b = UNITS[unit], UNITS[target]
+    exact = mantissa * Fraction(10) ** exponent * Fraction(a.num, a.den) / Fraction(b.num, b.den)
+    assert converted(parts[0], a, b) == float(exact)
+
+
+def test_a_unit_to_itself_is_exactly_one() -> None:
+    assert {factor(unit, unit) for unit in UNITS.values()} == {1.0}
+
+
+def test_every_dimension_is_told_by_its_name() -> None:
+    assert {kind_of(dims) for dims in DIMENSIONS.values()} == set(DIMENSIONS)
+    assert kind_of((9, 9, 9, 9)) is None
+
+
+def test_spellings_are_shown_by_the_listed_name() -> None:
+    shown = {"inches": "in", "lb": "lb", "lbs": "lbf", "newtons": "N", "mm": "mm", "FT": "ft"}
+    assert {name: canonical(name) for name in shown} == shown
