@@ -105,7 +105,8 @@ def too_close(name: str, spread: float | None) -> SceneError:
 
 def unbounded_values(outcome: Outcome) -> dict[str, Value]:
     """The unknown loads of a scene on floats."""
-    return {name: Value(value, None, "no bound was asked for") for name, value in outcome.solution.values.items()}
+    values = outcome.solution.values
+    return {name: Value(value, None, "no bound was asked for") for name, value in values.items()}
 
 
 def plain(outcome: Outcome) -> Outcome:

@@ -105,8 +105,8 @@ class CentreFinder:
             i, j = (self.top.members[body][0] for body in pair)
             raise SceneError(
                 Status.NEAR_SINGULAR,
-                f"centre {i}-{j} by construction and by the loop equations lie {apart:.1g} of the figure apart: "
-                "the position is too close to singular for a trustworthy answer.",
+                f"centre {i}-{j} by construction and by the loop equations lie {apart:.1g} of the figure "
+                "apart: the position is too close to singular for a trustworthy answer.",
             )
 
     def _centre(
@@ -125,7 +125,7 @@ class CentreFinder:
         if i == j or (bodies not in moving and self._relative(*bodies) == REST):
             return Centre(pair, "undefined", why=f"{pair[0]} and {pair[1]} move as one")
         if bodies not in moving:
-            why = f"{pair[0]} and {pair[1]} have no one centre: their relative motion has more than one freedom"
+            why = f"{pair[0]} and {pair[1]} have no one centre: they have more than one relative freedom"
             return Centre(pair, "undetermined", why=why)
         known = search.known[bodies]
         if known.error > TRUSTED:
@@ -138,10 +138,10 @@ class CentreFinder:
         if any(isinstance(joint, Weld) and set(joint.links) == set(pair) for joint in self.case.joints):
             return None
         for joint in self.case.joints:
-            if pair[0] in joint.links and pair[1] in joint.links and FREEDOMS.get(type(joint)) == 1:
-                if all(point in self.points for point in joint_points(joint)):
-                    by = "given" if isinstance(joint, KnownCentre) else "inspection"
-                    return joint_freedoms(joint, self.points, self.arithmetic)[0], by
+            single = {*pair} <= {*joint.links} and FREEDOMS.get(type(joint)) == 1
+            if single and all(point in self.points for point in joint_points(joint)):
+                by = "given" if isinstance(joint, KnownCentre) else "inspection"
+                return joint_freedoms(joint, self.points, self.arithmetic)[0], by
         return None
 
     def _placed(self, pair: Pair, known: Known) -> Centre:

@@ -101,7 +101,7 @@ class Digits:
 
     def vanishes(self, value: Scalar, size: float) -> bool:
         """Zero to half of the digits."""
-        return abs(value) <= 10.0 ** (-PRECISION // 2) * size
+        return bool(abs(value) <= 10.0 ** (-PRECISION // 2) * size)
 
 
 def _series(x: Decimal, first: Decimal) -> Decimal:

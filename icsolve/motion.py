@@ -53,7 +53,7 @@ def by_plan(plan: Plan, top: Topology, points: Points, arithmetic: Arithmetic) -
     found = run(plan, top, bases)
     if any(is_singular(closure) for closure in found.closures):
         return None
-    frame = found.twists[top.ground] if top.ground in found.twists else None
+    frame = found.twists.get(top.ground)
     twists: dict[str, tuple[Triple, ...]] = {}
     for body, twist in found.twists.items():
         relative = twist if frame is None else subtract(twist, frame)

@@ -145,7 +145,7 @@ def balance(all_wrenches: Sequence[Wrench], twists: Mapping[str, Sequence[Triple
 
 def _size(w: Wrench, on: Triple, off: Triple) -> float:
     total: float = sum(abs(u) * (abs(a) + abs(b)) for u, a, b in zip(w.unit, on, off, strict=True))
-    return abs(w.gain) * total
+    return float(abs(w.gain)) * total
 
 
 class Solution(NamedTuple):

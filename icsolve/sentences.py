@@ -29,8 +29,9 @@ def structure(top: Topology) -> str:
     bodies = len(top.members) - 1
     constraints = sum(bond.constraints for bond in top.bonds)
     return (
-        f"the links form a structure: {plural(bodies, 'moving link')} have 3 x {bodies} freedoms, and the joints take "
-        f"{constraints}. Nothing moves, so power gives no equation. Take out a joint or a link to make it move."
+        f"the links form a structure: {plural(bodies, 'moving link')} have 3 x {bodies} freedoms, and the joints "
+        f"take {constraints}. Nothing moves, so power gives no equation. Take out a joint or a link to make "
+        "it move."
     )
 
 
@@ -45,7 +46,10 @@ def near_structure(last: float) -> str:
 def loose(case: Case, names: list[str]) -> str:
     """Links that no chain of joints ties to the frame."""
     which = f"link {names[0]} is" if len(names) == 1 else f"links {listed(names)} are"
-    return f"{which} held by nothing: no chain of joints leads to the frame (link {case.ground}). Add the joint that is missing."
+    return (
+        f"{which} held by nothing: no chain of joints leads to the frame (link {case.ground}). "
+        "Add the joint that is missing."
+    )
 
 
 def contradiction(top: Topology, bases: Bases, frame: Frame, unit: str) -> str:
@@ -58,11 +62,11 @@ def contradiction(top: Topology, bases: Bases, frame: Frame, unit: str) -> str:
         if off is not None and (worst is None or off < worst[0]):
             worst = (off, f"{bond.links[0]}-{bond.links[1]}")
     if worst is None:
-        return "the given centres contradict each other: no motion has all of them. Correct or take out one of them."
+        return "the given centres contradict each other: no motion has all of them. Correct one, or leave it out."
     distance = worst[0] / frame.scale
     return (
-        f"the given centres contradict each other: centre {worst[1]} lies {distance:.3g} {unit} from where the other "
-        "centres and joints put it. Correct it, or leave it out."
+        f"the given centres contradict each other: centre {worst[1]} lies {distance:.3g} {unit} from where the "
+        "other centres and joints put it. Correct it, or leave it out."
     )
 
 
@@ -102,8 +106,14 @@ def workless(load: str, link: str, at_rest: bool, others_work: bool, why: str) -
         else f"{load} does no work on link {link}: where it acts, its line is square to the motion{why}"
     )
     if others_work:
-        return f"no value of {load} balances: {cause}, but the known loads do work. Put the unknown on another link, or take another position."
-    return f"any value of {load} balances: {cause}, and the known loads do none either. The joints carry it; ask for another load."
+        return (
+            f"no value of {load} balances: {cause}, but the known loads do work. "
+            "Put the unknown on another link, or take another position."
+        )
+    return (
+        f"any value of {load} balances: {cause}, and the known loads do none either. "
+        "The joints carry it; ask for another load."
+    )
 
 
 def wrong_count(mobility: int, unknowns: int, idle: int) -> str:
@@ -112,19 +122,20 @@ def wrong_count(mobility: int, unknowns: int, idle: int) -> str:
     if unknowns > active:
         extra = unknowns - active
         return (
-            f"{plural(unknowns, 'unknown load')} for a mobility of {active}: {plural(extra, 'unknown')} too many. "
-            f"Give a number to {plural(extra, 'of them') if extra > 1 else 'one of them'}, or tie it to another with `like`."
+            f"{plural(unknowns, 'unknown load')} for a mobility of {active}: {extra} too many. "
+            f"Give {'one of them a number' if extra == 1 else f'{extra} of them numbers'}, or tie it to another "
+            "with `like`."
         )
     missing = active - unknowns
     return (
-        f"the mechanism has {plural(active, 'degree')} of freedom but {plural(unknowns, 'unknown load')}: it would not stay in "
-        f"equilibrium. Add {plural(missing, 'unknown load')}, or a joint that locks {'a freedom' if missing == 1 else 'freedoms'}."
+        f"the mechanism has {plural(active, 'degree')} of freedom but {plural(unknowns, 'unknown load')}: it would "
+        f"not stay in equilibrium. Add {plural(missing, 'unknown load')}, or {plural(missing, 'joint')} to lock it."
     )
 
 
 def change_point(mobility: int, count: int) -> str:
     """Momentarily more freedoms than the joints leave elsewhere."""
     return (
-        f"change point: in this position the mechanism has {plural(mobility, 'degree')} of freedom where counting leaves "
-        f"{count}, so it can go on in more than one way. Take a position beside it."
+        f"change point: in this position the mechanism has {plural(mobility, 'degree')} of freedom where counting "
+        f"leaves {count}, so it can go on in more than one way. Take a position beside it."
     )

@@ -81,10 +81,12 @@ Row = tuple[tuple[float, ...], float]
 def _combined(rows: list[Row], motions: int) -> Speed:
     matrix = [[*values, -target] for values, target in rows]
     sizes = [max(map(abs, row)) or 1.0 for row in matrix]
-    found = null_space([[v / s for v in row] for row, s in zip(matrix, sizes, strict=True)], motions + 1, 1e-12)
+    scaled = [[v / s for v in row] for row, s in zip(matrix, sizes, strict=True)]
+    found = null_space(scaled, motions + 1, 1e-12)
     with_target = [vector for vector in found.basis if abs(vector[-1]) > 1e-9]
     if not with_target:
-        raise SceneError(Status.MOBILITY, "the motions given contradict each other: no motion has all of them.")
+        message = "the motions given contradict each other: no motion has all of them."
+        raise SceneError(Status.MOBILITY, message)
     first = with_target[0]
     particular = tuple(v / first[-1] for v in first[:-1])
     rest = [v for v in found.basis if v is not first]
@@ -110,7 +112,10 @@ def _cannot_turn(name: str, link: Sequence[Triple], case: Case) -> str:
             f"link {name} cannot drive in this position (dead centre): when the mechanism moves, link {name} "
             "stands still. Give the motion of another link, or another position."
         )
-    return f"link {name} does not turn, it only slides: give `motion` as the speed of one of its points, or of another link."
+    return (
+        f"link {name} does not turn, it only slides: give `motion` as the speed of one of its points, "
+        "or of another link."
+    )
 
 
 def _point_row(given: Given, link: Sequence[Triple], case: Case, frame: Frame, p: Point) -> Row:
@@ -139,19 +144,19 @@ def _point_row(given: Given, link: Sequence[Triple], case: Case, frame: Frame, p
 
 
 def _check_direction(given: Given, v: Point, along: Point) -> None:
-    sine = abs(v[0] * along[1] - v[1] * along[0]) / math.hypot(*v)
+    sine: float = abs(v[0] * along[1] - v[1] * along[0]) / math.hypot(*v)
     if sine > math.sin(math.radians(1.0)):
         own = math.degrees(math.atan2(v[1], v[0])) % 180.0
         assert given.angle is not None
         raise SceneError(
             Status.INCONSISTENT,
-            f"point {given.point} of link {given.link} can only move at {own:.4g} or {own + 180.0:.4g} deg in this "
-            f"position, not at {given.angle.value:g} deg: correct the angle of `motion`, or leave it out.",
+            f"point {given.point} of link {given.link} can only move at {own:.4g} or {own + 180.0:.4g} deg in "
+            f"this position, not at {given.angle.value:g} deg: correct the angle of `motion`, or leave it out.",
         )
 
 
 def _extent(t: Triple) -> float:
-    return max(abs(t[0]), abs(t[1]), abs(t[2]))
+    return max(abs(float(x)) for x in t)
 
 
 def _rests(t: Triple) -> bool:

@@ -6,12 +6,15 @@ A bond is one joint between two bodies, with the relative freedoms (1 or 2) that
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from icsolve.case import Belt, Case, Contact, Gears, Joint, KnownCentre, Pin, Roll, Slide, Slot, Weld
 from icsolve.errors import SceneError, Status
 
-FREEDOMS: dict[type, int] = {Pin: 1, Slide: 1, Roll: 1, KnownCentre: 1, Slot: 2, Contact: 2, Gears: 2, Belt: 2}
+FREEDOMS: dict[type[Any], int] = {
+    **dict.fromkeys((Pin, Slide, Roll, KnownCentre), 1),
+    **dict.fromkeys((Slot, Contact, Gears, Belt), 2),
+}
 """Relative freedoms that a joint leaves to its two links (a mesh is one constraint)."""
 
 
@@ -133,6 +136,5 @@ def _pivots(joint: Gears | Belt, body_of: dict[str, int], pins: dict[str, list[i
             "(the frame or an arm) and they can turn about those pins.",
         )
     ways = " or ".join(sorted(f"{p}-{q}" for p, q in found))
-    raise SceneError(
-        Status.AMBIGUOUS, f"the {names} could turn about several pairs of pins ({ways}): give `carrier:` the link."
-    )
+    message = f"the {names} could turn about several pairs of pins ({ways}): give `carrier:` the link."
+    raise SceneError(Status.AMBIGUOUS, message)

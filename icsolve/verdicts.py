@@ -31,8 +31,8 @@ def refuse_friction(case: Case) -> None:
         if friction is not None and friction.mu.value > 0:
             raise SceneError(
                 Status.UNSUPPORTED,
-                f"the joint of links {sentences.listed(joint.links)} has friction (mu {friction.mu.digits}), which is "
-                "not solved yet. Take out `mu` to solve without friction.",
+                f"the joint of links {sentences.listed(joint.links)} has friction (mu {friction.mu.digits}), which "
+                "is not solved yet. Take out `mu` to solve without friction.",
             )
 
 
