@@ -1,0 +1,113 @@
+"""The case library: every published value agrees or is an erratum, and every kind of the format has its case.
+
+Tolerance: half a unit of the last digit that a case gives, as `icsolve check` takes it; cases with a
+closed form give ten digits and more.
+"""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import pytest
+
+from icsolve import Case, load
+from icsolve.case import (
+    Belt,
+    Contact,
+    Force,
+    ForceVector,
+    Gears,
+    KnownCentre,
+    LoadIs,
+    Pin,
+    Roll,
+    Slide,
+    Slot,
+    Spring,
+    Torque,
+    Weight,
+    Weld,
+)
+from icsolve.check import AGREES, DISAGREES, ERRATUM, compare, wanted
+from icsolve.solve import solve
+
+LIBRARY = Path(__file__).parent.parent / "cases"
+FILES = sorted(LIBRARY.rglob("*.yaml"))
+CASES = {path.relative_to(LIBRARY).as_posix(): path for path in FILES}
+CLOSED_FORMS = {name: path for name, path in CASES.items() if not name.startswith("ch13/")}
+
+MECHANISMS = """
+    black_box/given_centres cams/flat_follower cams/roller_follower gears/belt_open gears/epicyclic_train
+    gears/gear_pair gears/internal_gear linkages/double_butterfly linkages/five_bar linkages/parallelogram
+    linkages/single_flier linkages/stephenson_six_bar linkages/three_links_on_one_pin linkages/watt_six_bar
+    linkages/welded_link rolling/rack_and_pinion rolling/rolling_disk sliders/elliptic_trammel
+    sliders/inverted_slider_crank sliders/oldham_coupling sliders/quick_return sliders/scotch_yoke
+    sliders/slider_crank_in_line sliders/slider_crank_offset sliders/whitworth springs/knee_with_spring
+    tools/bolt_cutter tools/scissor_lift tools/toggle_clamp
+""".split()
+
+
+@pytest.fixture(params=CASES)
+def case(request: pytest.FixtureRequest) -> Case:
+    """Each case of the library."""
+    return load(CASES[request.param])
+
+
+def test_published_values_agree_or_are_errata(case: Case) -> None:
+    want = wanted(case)
+    rows = compare(solve(case, all_centres=want.all_centres, rates=want.rates, examine=True))
+    assert rows
+    assert [row for row in rows if row.verdict not in (AGREES, ERRATUM)] == []
+
+
+def test_every_case_says_what_it_is_and_where_it_comes_from(case: Case) -> None:
+    assert case.title and case.source
+    assert any(isinstance(expected.target, LoadIs) for expected in case.expect)
+
+
+def test_every_erratum_gives_its_reason(case: Case) -> None:
+    reasons = [expected.erratum for expected in case.expect if expected.erratum is not None]
+    assert all(len(reason.split()) > 3 for reason in reasons)
+
+
+@pytest.mark.parametrize("name", CLOSED_FORMS)
+def test_closed_forms_are_sharp(name: str) -> None:
+    """A closed form binds to 1e-8 of itself: a value of fewer digits would hide an error."""
+    for expected in load(CLOSED_FORMS[name]).expect:
+        for number in expected.value:
+            scale = abs(number.value) or 1.0
+            assert expected.within is None
+            assert number.half <= 1e-8 * scale, expected.key
+
+
+@pytest.mark.parametrize("name", CLOSED_FORMS)
+def test_a_wrong_value_of_the_same_digits_would_be_noticed(name: str) -> None:
+    """The answer turned about by one part in a million disagrees with every expected load."""
+    answer = solve(load(CLOSED_FORMS[name]), rates=True, all_centres=True)
+    for found in answer.answers:
+        value = answer.answers[found]
+        answer.answers[found] = value._replace(value=value.value * (1 + 1e-6))
+    moved = [row for row in compare(answer) if row.key in answer.answers]
+    assert moved
+    assert {row.verdict for row in moved} == {DISAGREES}
+
+
+def test_the_mechanisms_that_a_student_meets_are_there() -> None:
+    assert [name for name in MECHANISMS if f"{name}.yaml" not in CASES] == []
+
+
+def test_every_kind_of_joint_and_load_has_a_case() -> None:
+    cases = [load(path) for path in FILES]
+    joints = {type(joint) for case in cases for joint in case.joints}
+    loads = {type(entry) for case in cases for entry in case.loads}
+    assert joints == {Pin, Slide, Slot, Roll, Gears, Belt, Contact, KnownCentre, Weld}
+    assert loads == {Force, ForceVector, Torque, Weight, Spring}
+
+
+def test_errors_are_bounded_far_below_the_digits(case: Case) -> None:
+    """Every answer carries a bound of its rounding error, a billionth of it at most."""
+    for name, found in solve(case).answers.items():
+        assert found.error is not None, name
+        assert math.isfinite(found.error)
+        assert found.error <= 1e-9 * abs(found.value), name
