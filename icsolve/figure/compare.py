@@ -6,14 +6,15 @@ it is compared with, and by 0.2 % of the figure's size, whichever is less.
 
 from __future__ import annotations
 
-from icsolve.arithmetic import FLOATS, Scalar, turn_of
-from icsolve.case import Number
-from icsolve.figure.board import Board, Key
+from icsolve.arithmetic import Floats, turn_of
+from icsolve.case import Coordinates, Number
+from icsolve.figure.board import Board
 from icsolve.figure.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, number_of
 from icsolve.figure.misfit import misfit
+from icsolve.figure.order import leading_to
 from icsolve.figure.refusals import Miss, clash, measure
 from icsolve.figure.steps import Given, Step
-from icsolve.figure.words import joined, listed, plain
+from icsolve.figure.words import datum_words, joined, listed
 
 ROUNDING = 1e-10
 """Misfit, over the figure's size, that is rounding in the sums and not in the data."""
@@ -22,7 +23,7 @@ MOST_WORK = 50_000
 """Steps that the propagation of half units may run again; beyond, only the size decides."""
 
 
-class Nudged:
+class Nudged(Floats):
     """Floats with one number moved by half a unit of its last decimal."""
 
     def __init__(self, path: str) -> None:
@@ -39,10 +40,6 @@ class Nudged:
         """Cosine and sine, moved if it is the one."""
         return turn_of(self._value(number))
 
-    def sqrt(self, value: Scalar) -> Scalar:
-        """As for floats."""
-        return FLOATS.sqrt(value)
-
 
 def size_of(board: Board, points: tuple[str, ...]) -> float:
     """The greater side of the box about the points, normalised."""
@@ -53,7 +50,9 @@ def size_of(board: Board, points: tuple[str, ...]) -> float:
     return float(max(max(xs) - min(xs), max(ys) - min(ys)))
 
 
-def compare(board: Board, steps: tuple[Step, ...], data: list[Datum], size: float) -> tuple[Miss | None, dict[Datum, float]]:
+def compare(
+    board: Board, steps: tuple[Step, ...], data: list[Datum], size: float
+) -> tuple[Miss | None, dict[Datum, float]]:
     """The first datum that the points contradict, and how far off each of the others is."""
     offs: dict[Datum, float] = {}
     for datum in data:
@@ -70,7 +69,7 @@ def compare(board: Board, steps: tuple[Step, ...], data: list[Datum], size: floa
 
 def _allowance(board: Board, steps: tuple[Step, ...], datum: Datum, off: float, limit: float) -> float:
     """Sum over the numbers involved of what half a unit of each does to the misfit."""
-    cone = _cone(steps, datum)
+    cone = leading_to(datum.points, steps)
     numbers = _numbers(board, cone, datum)
     if len(numbers) * len(cone) > MOST_WORK:
         return limit
@@ -86,19 +85,7 @@ def _allowance(board: Board, steps: tuple[Step, ...], datum: Datum, off: float, 
     return total
 
 
-def _cone(steps: tuple[Step, ...], datum: Datum) -> list[Step]:
-    """The steps on which a datum's points hang, with only those coordinates that they need."""
-    needed: set[Key] = set(datum.points)
-    cone: list[Step] = []
-    for step in reversed(steps):
-        targets = tuple(key for key in step.targets if key in needed)
-        if targets:
-            needed.update(step.needs())
-            cone.append(Given(targets) if isinstance(step, Given) else step)
-    return cone[::-1]
-
-
-def _numbers(board: Board, cone: list[Step], datum: Datum) -> list[Number]:
+def _numbers(board: Board, cone: tuple[Step, ...], datum: Datum) -> list[Number]:
     """The distinct numbers that a datum and its points come from."""
     case = board.case
     numbers: dict[str, Number] = {}
@@ -107,15 +94,16 @@ def _numbers(board: Board, cone: list[Step], datum: Datum) -> list[Number]:
             number = number_of(case, each)
             numbers[number.path] = number
     for step in cone:
-        if isinstance(step, Given):
-            for key in step.targets:
-                place = case.points[plain(key)] if plain(key) in case.points else case.points[key]  # type: ignore[index]
-                for number in (place.x, place.y):  # type: ignore[union-attr]
-                    numbers[number.path] = number
+        for key in step.targets if isinstance(step, Given) else ():
+            place = case.points[str(key)]
+            if isinstance(place, Coordinates):
+                numbers.update((n.path, n) for n in (place.x, place.y) if n is not None)
     return list(numbers.values())
 
 
-def notes_of(board: Board, offs: dict[Datum, float], used: frozenset[Datum], given: bool, size: float) -> list[str]:
+def notes_of(
+    board: Board, offs: dict[Datum, float], used: frozenset[Datum], given: bool, size: float
+) -> list[str]:
     """Which data set the points and which were only compared, where there were more than needed."""
     spare = {
         datum: off
@@ -135,8 +123,6 @@ def notes_of(board: Board, offs: dict[Datum, float], used: frozenset[Datum], giv
 
 
 def _said(board: Board, datum: Datum) -> str:
-    from icsolve.figure.words import datum_words
-
     if datum.kind in (MEAN, LINE, GUIDE):
         return datum_words(datum)
     return f"{datum_words(datum)} = {number_of(board.case, datum).value:.6g}"

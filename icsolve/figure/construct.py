@@ -10,7 +10,7 @@ from icsolve.figure.choice import choose
 from icsolve.figure.compare import compare, notes_of, size_of
 from icsolve.figure.data import Datum
 from icsolve.figure.frame import Frame
-from icsolve.figure.order import Order, order_of
+from icsolve.figure.order import Order, leading_to, order_of, points_of
 from icsolve.figure.refusals import Miss
 from icsolve.figure.solution import Figure
 from icsolve.figure.steps import Given
@@ -19,34 +19,61 @@ from icsolve.figure.words import plain
 
 MOST_RETRIES = 20
 
+Fit = tuple[Way, dict[Datum, float], float]
+"""A way that agrees with all data: how far off each is, and the figure's size."""
+
 
 def construct(case: Case, frame: Frame, goal: list[str], names: list[str]) -> Figure:
     """The wanted points of a figure that needs construction (see ``solve_figure``)."""
+    try:
+        figure = _constructed(case, frame, goal, best_effort=False)
+    except SceneError as error:
+        if error.status != Status.AMBIGUOUS or set(names) <= set(goal):
+            raise
+        figure = _by_the_rest(case, frame, goal, names, error)
+    return figure._replace(skipped=tuple(plain(p) for p in names if p not in figure.points))
+
+
+def _by_the_rest(case: Case, frame: Frame, goal: list[str], names: list[str], error: SceneError) -> Figure:
+    """Let the data of the points that nothing asked for decide between the ways."""
+    try:
+        whole = _constructed(case, frame, names, best_effort=True)
+    except SceneError:
+        raise error from None
+    if not set(goal) <= whole.points.keys():
+        raise error
+    steps = leading_to(goal, whole.steps)
+    return whole._replace(steps=steps, points={p: whole.points[p] for p in points_of(steps)})
+
+
+def _constructed(case: Case, frame: Frame, goal: list[str], best_effort: bool) -> Figure:
+    """Construct, and again by other data where two loci turned out to be one."""
+    first: Miss | None = None
     banned: frozenset[frozenset[object]] = frozenset()
     for _ in range(MOST_RETRIES):
         try:
-            order = order_of(case, goal, banned)
+            outcome = _assembled(case, frame, order_of(case, goal, banned, best_effort))
         except SceneError as error:
-            if not banned:
-                raise
-            raise SceneError(Status.UNDERDETERMINED, degenerate.message) from error
-        outcome = _assemble(case, frame, order)
+            if first is not None and error.status == Status.UNDERDETERMINED:
+                raise SceneError(first.status, first.message) from error
+            raise
         if isinstance(outcome, Figure):
-            return outcome._replace(skipped=tuple(plain(p) for p in names if p not in outcome.points))
-        degenerate = outcome
+            return outcome
+        first = first or outcome
         if outcome.loci is None:
             break
         banned |= {outcome.loci}
-    raise SceneError(degenerate.status, degenerate.message)
+    last = first if outcome.loci is not None or outcome.vague else outcome
+    raise SceneError(last.status, last.message)
 
 
-def _assemble(case: Case, frame: Frame, order: Order) -> Figure | Miss:
+def _assembled(case: Case, frame: Frame, order: Order) -> Figure | Miss:
     """The one way in which an order of construction assembles, or why it does not."""
     board = Board(case, frame, FLOATS)
     walk = Walker(order, board).walk()
     if not walk.ways:
         return refusal(walk)
-    fits: list[tuple[Way, dict[Datum, float], float]] = []
+    fits: list[Fit] = []
     misses: list[Miss] = []
     for way in walk.ways:
         board.points = way.points
@@ -62,7 +89,7 @@ def _assemble(case: Case, frame: Frame, order: Order) -> Figure | Miss:
     return _figure(board, order, fits)
 
 
-def _figure(board: Board, order: Order, fits: list[tuple[Way, dict[Datum, float], float]]) -> Figure:
+def _figure(board: Board, order: Order, fits: list[Fit]) -> Figure:
     way = choose(board, [fit[0] for fit in fits], order.points)
     offs, size = next((offs, size) for each, offs, size in fits if each is way)
     board.points = way.points

@@ -87,7 +87,7 @@ class System(NamedTuple):
     free: set[Unknown]
 
 
-def next_group(drawing: Drawing, case: Case, wanted: set[str]) -> tuple[Group, tuple[str, ...]]:
+def next_group(drawing: Drawing, case: Case, wanted: Iterable[str]) -> tuple[Group, tuple[str, ...]]:
     """The smallest group that leads to the wanted points.
 
     Raises
@@ -96,8 +96,9 @@ def next_group(drawing: Drawing, case: Case, wanted: set[str]) -> tuple[Group, t
         ``underdetermined`` with what is free; ``ambiguous`` for a group without ``near``.
     """
     placed = drawing.ground.placed.keys()
-    system = system_of(drawing.facts.data, placed, wanted)
-    goal = _leading(system, wanted - placed)
+    goal = [p for p in wanted if p not in placed]
+    system = system_of(drawing.facts.data, placed, goal)
+    goal = _leading(system, goal)
     if any((p, part) in system.free for p in goal for part in (0, 1)):
         raise underdetermined(case, system, placed, goal)
     groups = [group for group in _groups(system, goal) if group]
@@ -185,9 +186,9 @@ def _leans(system: System, point: str) -> list[str]:
     return list(dict.fromkeys(p for i in rows for p, _ in system.reach[i] if p != point))
 
 
-def _leading(system: System, wanted: set[str]) -> list[str]:
+def _leading(system: System, wanted: list[str]) -> list[str]:
     """The wanted points and all that they lean on."""
-    found = dict.fromkeys(sorted(wanted))
+    found = dict.fromkeys(wanted)
     stack = list(found)
     while stack:
         for p in _leans(system, stack.pop()):

@@ -198,6 +198,13 @@ def is_ray(locus: Locus) -> bool:
     return type(locus) is Line and locus.ray
 
 
+def headings_of(locus: Locus) -> list[Heading]:
+    """The directions that a locus goes by."""
+    if isinstance(locus, Shifted):
+        return [locus.heading, *headings_of(locus.base)]
+    return [locus.heading] if isinstance(locus, Line) else []
+
+
 def crossing(first: Locus, second: Locus, board: Board, tangent: bool = False) -> Crossing:
     """Where two loci meet; a line comes first if there is one."""
     p, q = first.values(board), second.values(board)

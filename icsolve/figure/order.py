@@ -7,13 +7,13 @@ points that only all their data together determine.
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from typing import NamedTuple
 
 from icsolve.case import Case
 from icsolve.figure.board import Key
 from icsolve.figure.data import LENGTH, Datum, Facts, given_points, facts_of
-from icsolve.figure.sheet import Drawing, Sheet
+from icsolve.figure.sheet import ALL_SHEETS, LOOSE_SHEETS, NOBODY, Drawing, Sheet
 from icsolve.figure.steps import Base, Given, Step
 
 
@@ -50,28 +50,34 @@ def order_of(
     ground.begin(given_points(case))
     ground.run(wanted)
     while not wanted <= ground.placed.keys():
-        if not grow(drawing) and not _group(drawing, case, wanted, best_effort):
+        if not grow(drawing) and not _group(drawing, case, goal, best_effort):
             break
         ground.run(wanted)
-    return _pruned(drawing, wanted & ground.placed.keys() if best_effort else wanted)
+    steps = leading_to(wanted & ground.placed.keys() if best_effort else wanted, drawing.steps)
+    return Order(steps, points_of(steps), drawing.facts)
 
 
 def grow(drawing: Drawing) -> bool:
-    """Draw the shapes of loose links until no sheet gains a point; whether the ground may go on."""
-    ground = drawing.ground
+    """Draw the shapes of loose links, by no more than is needed; whether the ground may go on.
+
+    First by their own data alone, then by distances that they lend one another, then point by point
+    by those that the ground lends.
+    """
     before = len(drawing.steps)
     _start(drawing)
-    grew = True
-    while grew:
-        grew = False
+    for drawing.lenders in (NOBODY, LOOSE_SHEETS, ALL_SHEETS):
+        most = 1 if drawing.lenders == ALL_SHEETS else None
         for sheet in drawing.sheets[1:]:
-            _touch(sheet)
-            grew = sheet.run() or grew
-    if len(drawing.steps) == before:
-        return False
-    for point in [p for sheet in drawing.sheets[1:] for p in sheet.placed]:
-        ground.mark(point)
-    return True
+            for point in list(sheet.placed):
+                sheet.reach_from(point)
+            if sheet.run(most=most) and most:
+                break
+        if len(drawing.steps) > before:
+            drawing.lenders = LOOSE_SHEETS
+            for point in [p for sheet in drawing.sheets[1:] for p in sheet.placed]:
+                drawing.ground.mark(point)
+            return True
+    return False
 
 
 def _start(drawing: Drawing) -> None:
@@ -88,32 +94,29 @@ def _start(drawing: Drawing) -> None:
         sheet.run()
 
 
-def _touch(sheet: Sheet) -> None:
-    """Mark all that hangs on a loose sheet: it grows when others did."""
-    for point in list(sheet.placed):
-        sheet.reach_from(point)
-
-
-def _group(drawing: Drawing, case: Case, wanted: set[str], best_effort: bool) -> bool:
+def _group(drawing: Drawing, case: Case, goal: Collection[str], best_effort: bool) -> bool:
     """The smallest group that its data determine together becomes one step; else say what is free."""
     if best_effort:
         return False
     from icsolve.figure.group import next_group
 
-    step, points = next_group(drawing, case, wanted)
+    step, points = next_group(drawing, case, goal)
     drawing.ground.put(step, points, (400, 400, 1))
     return True
 
 
-def _pruned(drawing: Drawing, wanted: set[str]) -> Order:
-    """Only the steps that lead to the wanted points."""
-    needed: set[Key] = set(wanted)
+def leading_to(goal: Collection[str], steps: Sequence[Step]) -> tuple[Step, ...]:
+    """Only the steps that lead to some points."""
+    needed: set[Key] = set(goal)
     kept: list[Step] = []
-    for step in reversed(drawing.steps):
+    for step in reversed(steps):
         targets = tuple(key for key in step.targets if key in needed)
         if targets:
             needed.update(step.needs())
             kept.append(Given(targets) if isinstance(step, Given) else step)
-    kept.reverse()
-    points = [key for step in kept for key in step.targets if isinstance(key, str)]
-    return Order(tuple(kept), tuple(points), drawing.facts)
+    return tuple(reversed(kept))
+
+
+def points_of(steps: Sequence[Step]) -> tuple[str, ...]:
+    """The points that steps place on the ground."""
+    return tuple(key for step in steps for key in step.targets if isinstance(key, str))

@@ -35,9 +35,15 @@ def best_step(sheet: Sheet, point: str) -> tuple[Cost, Step] | None:
     for one, two in combinations(reaches, 2):
         step = _meet(sheet, point, one.locus, two.locus)
         if step is not None:
-            ways = 1 if isinstance(step, Meet) and step.sign else 0
-            found.append(((max(one.cost, two.cost), one.cost + two.cost, ways), step))
+            found.append((_cost(sheet, one, two, step), step))
     return min(found, key=lambda pair: pair[0], default=None)
+
+
+def _cost(sheet: Sheet, one: Reach, two: Reach, step: Step) -> Cost:
+    """What a step costs; nothing where a locus that came by its vector is in place already."""
+    if isinstance(step, Polar) and step.span in sheet.carried:
+        return (EXACT, EXACT, 0)
+    return max(one.cost, two.cost), one.cost + two.cost, 1 if isinstance(step, Meet) and step.sign else 0
 
 
 def reaches_of(sheet: Sheet, point: str, after: tuple[str, ...] = ()) -> Iterator[Reach]:
@@ -129,6 +135,8 @@ def _lent(sheet: Sheet, point: str) -> Iterator[Reach]:
     data = sheet.drawing.facts.of.get(point, ())
     lengths = {other for datum in data if datum.kind == LENGTH for other in datum.points}
     for lender in sheet.drawing.holding.get(point, ()):
+        if sheet.number != 0 and sheet.drawing.lenders < (1 if lender.number else 2):
+            continue
         shared = _shared(sheet, lender)
         if lender.number != 0 and len(shared) > 1:
             continue
@@ -178,7 +186,7 @@ def _means(sheet: Sheet, point: str) -> Iterator[tuple[Cost, Step]]:
 def _transfers(sheet: Sheet, point: str) -> Iterator[tuple[Cost, Step]]:
     """A point of a shape that two of its points hold on this sheet."""
     for lender in sheet.drawing.holding.get(point, ()):
-        if lender.number == 0 or lender is sheet:
+        if lender.number == 0 or lender is sheet or (sheet.number and not sheet.drawing.lenders):
             continue
         shared = _shared(sheet, lender)[:2]
         if len(shared) == 2:

@@ -8,21 +8,23 @@ from typing import NamedTuple
 from icsolve.errors import Status
 from icsolve.figure.board import Board, Span
 from icsolve.figure.data import CORNER, LENGTH, LINE, MEAN, RAY, X, Y, Datum, number_of
-from icsolve.figure.loci import Circle, Crossing, Locus
-from icsolve.figure.steps import Meet
+from icsolve.figure.loci import Circle, Crossing, is_round
+from icsolve.figure.steps import Meet, Step
 from icsolve.figure.words import datum_words, joined, locus_words, plain, span_words
 
 
 class Miss(NamedTuple):
     """A way in which the figure does not assemble.
 
-    ``amount`` is how far off (normalised); ``loci`` the pair that turned out to be one locus.
+    ``amount`` is how far off (normalised); ``loci`` the pair that turned out to be one locus;
+    ``vague`` where an earlier miss says more.
     """
 
     status: str
     message: str
     amount: float = math.inf
     loci: frozenset[object] | None = None
+    vague: bool = False
 
 
 def measure(board: Board, length: float) -> str:
@@ -61,7 +63,7 @@ def _circles(step: Meet, one: Circle, two: Circle, board: Board, found: Crossing
 
 def concentric(step: Meet, board: Board) -> Miss:
     """Two circles about one centre."""
-    (px, py, a), (_, _, b) = step.first.values(board), step.second.values(board)
+    (_, _, a), (_, _, b) = step.first.values(board), step.second.values(board)
     at = plain(step.target)
     centres = " and ".join(plain(c.centre) for c in (step.first, step.second) if isinstance(c, Circle))
     if math.isclose(a, b, rel_tol=1e-12, abs_tol=1e-300):
@@ -101,10 +103,18 @@ def behind(step: Meet, board: Board, amount: float) -> Miss:
     return Miss(Status.CANNOT_ASSEMBLE, message, abs(amount))
 
 
-def merged(target: str, words: str) -> Miss:
+def merged(target: str, a: str, b: str) -> Miss:
     """A direction between two points that coincide."""
-    message = f"{target} has no place: {words} goes by the direction between two points that coincide"
-    return Miss(Status.CANNOT_ASSEMBLE, message)
+    message = f"{target} has no place: its data go by the direction from {a} to {b}, and these coincide"
+    return Miss(Status.CANNOT_ASSEMBLE, message, vague=True)
+
+
+def degenerate(step: Step, board: Board) -> Miss:
+    """A step that divides by zero: parallel lines, concentric circles."""
+    if isinstance(step, Meet):
+        return concentric(step, board) if is_round(step.second) else parallel(step, board)
+    message = f"{plain(step.targets[0])} has no place ({step.name})"
+    return Miss(Status.CANNOT_ASSEMBLE, message, vague=True)
 
 
 def clash(board: Board, datum: Datum, off: float, ahead: bool) -> Miss:

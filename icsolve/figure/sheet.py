@@ -13,19 +13,23 @@ from collections.abc import Iterable
 
 from icsolve.figure.board import Apart, Heading, Key
 from icsolve.figure.data import LENGTH, LINE, MEAN, RAY, Facts
-from icsolve.figure.loci import Circle, Line
+from icsolve.figure.loci import Circle, Line, Shifted
 from icsolve.figure.reach import Cost, best_step
 from icsolve.figure.steps import Given, Meet, Polar, Step, Transfer
+
+
+NOBODY, LOOSE_SHEETS, ALL_SHEETS = 0, 1, 2
+"""Which sheets lend their distances to loose ones."""
 
 
 class Drawing:
     """All sheets of a figure, and the steps so far in the order in which they can run.
 
-    ``holding`` tells which sheets hold a point; ``banned`` which pairs of loci turned out not to
+    ``lenders`` says which sheets lend distances to loose ones. ``holding`` tells which sheets hold a point; ``banned`` which pairs of loci turned out not to
     determine a point (parallel lines, concentric circles).
     """
 
-    __slots__ = ("banned", "count", "holding", "facts", "sheets", "steps")
+    __slots__ = ("banned", "count", "facts", "holding", "lenders", "sheets", "steps")
 
     def __init__(self, facts: Facts, banned: frozenset[frozenset[object]]) -> None:
         self.facts = facts
@@ -33,6 +37,7 @@ class Drawing:
         self.holding: dict[str, list[Sheet]] = {}
         self.steps: list[Step] = []
         self.count = 0
+        self.lenders = NOBODY
         self.sheets: list[Sheet] = []
         self.sheets.append(Sheet(self))
 
@@ -52,10 +57,11 @@ class Sheet:
 
     ``placed`` has the cost of each point's step. ``headings`` has the known directions of pairs
     that are arms of corners or have a direction given. ``committed`` has the numbers of the
-    sheets that lent a distance: their shapes are part of this one.
+    sheets that lent a distance: their shapes are part of this one; ``carried`` the lengths of the
+    vectors by which loci were moved.
     """
 
-    __slots__ = ("committed", "dirty", "drawing", "headings", "heap", "number", "placed", "turn")
+    __slots__ = ("carried", "committed", "dirty", "drawing", "headings", "heap", "number", "placed", "turn")
 
     def __init__(self, drawing: Drawing) -> None:
         self.drawing = drawing
@@ -63,6 +69,7 @@ class Sheet:
         self.placed: dict[str, Cost] = {}
         self.headings: dict[tuple[str, str], Heading] = {}
         self.committed: set[int] = set()
+        self.carried: set[object] = set()
         self.dirty: dict[str, None] = {}
         self.heap: list[tuple[Cost, int, str, Step]] = []
         self.turn: dict[str, int] = {}
@@ -87,10 +94,10 @@ class Sheet:
         drawing = self.drawing
         drawing.steps.append(step)
         aimed = _aimed_from(step)
+        self._commit(step)
         for point in points:
             self.placed[point] = cost
             drawing.holding.setdefault(point, []).append(self)
-            self._commit(step)
             self._orient(point, aimed)
         for point in points:
             self.reach_from(point)
@@ -133,10 +140,15 @@ class Sheet:
                 for corner, other, sense in arms.get((at, arm), ()):
                     stack.append((at, other, self.headings[at, arm].turned(corner, sense)))
 
-    def run(self, goal: set[str] | None = None) -> bool:
-        """Place what can be placed, cheapest data first, until the goal is reached; whether any was."""
+    def run(self, goal: set[str] | None = None, most: int | None = None) -> bool:
+        """Place what can be placed, cheapest data first, until the goal is reached; whether any was.
+
+        At most ``most`` points, where it is given.
+        """
         start = len(self.placed)
         while goal is None or not goal <= self.placed.keys():
+            if most is not None and len(self.placed) >= start + most:
+                break
             self._weigh()
             if not self.heap:
                 break
@@ -162,6 +174,7 @@ class Sheet:
                     self.mark(other)
 
     def _commit(self, step: Step) -> None:
+        self.carried.update(carried_by(step))
         if isinstance(step, Transfer):
             self.committed.add(step.shape[0][0])  # type: ignore[arg-type]
         elif isinstance(step, Meet):
@@ -187,6 +200,16 @@ class Sheet:
                     self.headings[point, other], self.headings[other, point] = pair, pair.reverse()
                 else:
                     self.learn(point, other, pair)
+
+
+def carried_by(step: Step) -> set[object]:
+    """The lengths of the vectors by which a step moves loci."""
+    spans: set[object] = set()
+    for locus in (step.first, step.second) if isinstance(step, Meet) else ():
+        while isinstance(locus, Shifted):
+            spans.add(locus.span)
+            locus = locus.base
+    return spans
 
 
 def _aimed_from(step: Step) -> set[Key]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from typing import NamedTuple
 
 from icsolve.arithmetic import FLOATS, Arithmetic, Scalar
@@ -13,8 +13,6 @@ from icsolve.figure.data import Datum, data_of, names_of
 from icsolve.figure.frame import Frame, frame_of
 from icsolve.figure.steps import Given, Step
 from icsolve.figure.words import plain
-
-MOST_RETRIES = 20
 
 
 class Figure(NamedTuple):
@@ -43,12 +41,25 @@ class Placement(NamedTuple):
     margins: tuple[tuple[Scalar, ...], ...]
 
 
-def place(figure: Figure, case: Case, arithmetic: Arithmetic = FLOATS) -> Placement:
+def place(
+    figure: Figure,
+    case: Case,
+    arithmetic: Arithmetic = FLOATS,
+    rounds: int = 1,
+    starts: Mapping[str, Point] | None = None,
+) -> Placement:
     """Run a figure's construction again, on the numbers of a case of the same shape.
 
     The same steps with the same branches, without a test on any value.
+
+    Parameters
+    ----------
+    rounds : Newton steps for groups without an order of construction; 1 is enough at the
+        figure's own numbers, where that step carries the derivatives by all data
+    starts : where such groups start (normalised); left out, at the figure's own points
     """
     board = Board(case, figure.frame, arithmetic)
+    board.rounds, board.starts = rounds, starts or {}
     for step in figure.steps:
         step.place(board)
     return Placement({p: at for p, at in board.points.items() if isinstance(p, str)}, tuple(board.margins))

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple, Protocol
 
-from icsolve.figure.board import Board, Heading, Key, Span, data_in, ends_of
+from icsolve.figure.board import Apart, Board, Heading, Key, Span, data_in, ends_of
 from icsolve.figure.data import Datum
-from icsolve.figure.loci import Crossing, Locus, crossing, is_ray, is_round
+from icsolve.figure.loci import Crossing, Locus, crossing, headings_of, is_ray, is_round
 from icsolve.figure.words import heading_words, locus_words, plain, span_words
 
 
@@ -203,6 +203,16 @@ class Meet(NamedTuple):
     def needs(self) -> tuple[Key, ...]:
         """The points of both loci."""
         return (*self.first.needs(), *self.second.needs())
+
+
+def aims(step: Step) -> list[tuple[Key, Key]]:
+    """The pairs of points whose direction a step goes by."""
+    if isinstance(step, Transfer):
+        return [step.pose, step.shape[:2]]
+    headings = [step.heading] if isinstance(step, Polar) else []
+    for locus in (step.first, step.second) if isinstance(step, Meet) else ():
+        headings += headings_of(locus)
+    return [(h.root.a, h.root.b) for h in headings if isinstance(h.root, Apart)]
 
 
 class Base(NamedTuple):

@@ -17,8 +17,8 @@ from icsolve.figure.frame import normalised
 from icsolve.figure.loci import Crossing, is_round
 from icsolve.figure.misfit import TOO_CLOSE, misfit
 from icsolve.figure.order import Order
-from icsolve.figure.refusals import Miss, behind, clash, concentric, merged, parallel, too_far
-from icsolve.figure.steps import Base, Given, Mean, Meet, Polar, Step, Transfer
+from icsolve.figure.refusals import Miss, behind, clash, concentric, degenerate, merged, parallel, too_far
+from icsolve.figure.steps import Base, Given, Mean, Meet, Polar, Step, Transfer, aims
 from icsolve.figure.words import plain
 
 U = 2.0**-53
@@ -130,10 +130,15 @@ class Walker:
                 else:
                     self._miss(depth, miss)
         except ZeroDivisionError:
-            self._miss(depth, self._degenerate(step))
+            self._miss(depth, degenerate(step, self.board))
 
     def _settled(self, depth: int, step: Step) -> list[Step]:
         """The step with each of the branches that it has here."""
+        points = self.board.points
+        for a, b in aims(step):
+            if math.dist(points[a], points[b]) <= TOO_CLOSE:
+                self._miss(depth, merged(plain(step.targets[0]), plain(a), plain(b)))
+                return []
         if isinstance(step, Meet):
             return [*self._crossings(depth, step)]
         if not isinstance(step, Given | Polar | Mean | Base | Transfer):
@@ -196,13 +201,6 @@ class Walker:
             if not ahead or abs(off) > COARSE * reach:
                 return clash(self.board, datum, off, ahead)
         return None
-
-    def _degenerate(self, step: Step) -> Miss:
-        if isinstance(step, Meet) and is_round(step.first):
-            return concentric(step, self.board)
-        if isinstance(step, Meet) and not is_round(step.second):
-            return parallel(step, self.board)
-        return merged(plain(step.targets[0]), step.name)
 
     def _miss(self, depth: int, miss: Miss) -> None:
         """Keep the misses of the ways that `near` chose."""
