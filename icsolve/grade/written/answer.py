@@ -1,0 +1,266 @@
+"""An answer as a student wrote it, to a number, a unit and a direction; what has two readings is flagged."""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+from icsolve.grade.written.characters import plain
+from icsolve.grade.written.directions import AMBIGUOUS as AMBIGUOUS_DIRECTION
+from icsolve.grade.written.directions import Direction, direction
+from icsolve.grade.written.numerals import UNREAD, Numeral, numeral
+from icsolve.grade.written.unit_words import AMBIGUOUS as AMBIGUOUS_UNIT
+from icsolve.grade.written.unit_words import UnitWord, unit_word
+
+MISSING = "missing"
+NO_NUMBER = "no-number"
+TOO_LONG = "too-long"
+TWO_VALUES = "two-values"
+REVIEW = frozenset({"ambiguous-number", AMBIGUOUS_DIRECTION, AMBIGUOUS_UNIT, TWO_VALUES})
+"""Flags that ask for a person; the others say that the text can't be read as an answer."""
+LONGEST = 200
+"""Characters of an answer; more is no number with a unit and a direction."""
+
+
+class Written(NamedTuple):
+    """What an answer says.
+
+    ``number`` is signed, in ``unit`` (None: none was given); ``digits`` carries its significant figures;
+    ``direction`` is None where no words give one. ``flag`` is '' where all of the text was read in
+    one way; ``note`` is ``unit-case`` where capitals were overlooked.
+    """
+
+    number: float
+    unit: UnitWord | None
+    direction: Direction | None
+    digits: str = ""
+    flag: str = ""
+    note: str = ""
+
+
+def flagged(flag: str) -> Written:
+    """An answer that is not to be judged."""
+    return Written(0.0, None, None, "", flag)
+
+
+_NOTHING = {"", "-", "--", "---", ".", "n/a", "na", "none", "null", "nil"} | {
+    "no answer",
+    "not answered",
+    "no response",
+    "keine antwort",
+}
+_LEAD = re.compile(
+    r"(?:approximately|approx\.?|about|around|roughly|ca\.?|circa|answer|ans\.?|result|value|magnitude|is|equals|~|=|:"
+    r"|answer is|the answer is)+\s*",
+    re.IGNORECASE,
+)
+_INTRODUCE = set(
+    "the a an force torque moment load answer value required unknown result is equals of about i get got and it".split()
+)
+_NAME = re.compile(r"\s*\|?[^\W\d_][\w'\-/ω{}^.]*(?: ?\([\w' ]*\))?\|?\s*(?:=|:|~)\s*(?=[^=])")
+_LETTERS = ("T", "C")
+"""Tension and compression; only tonnes and coulombs would end so."""
+_AXES = {
+    "+x",
+    "-x",
+    "+y",
+    "-y",
+    "x",
+    "y",
+    "positive",
+    "negative",
+    "the",
+    "a",
+    "tension",
+    "compression",
+    "direction",
+}
+_SEXAGESIMAL = re.compile(r"(\d+(?:\.\d+)?) ?° ?(\d+(?:\.\d+)?) ?'(?: ?(\d+(?:\.\d+)?) ?\")?$")
+
+
+class Reader:
+    """Reads answers; remembers what followed the numbers, which repeats from student to student.
+
+    ``decimal`` says what a comma before three digits is: ``point`` (a group of thousands), ``comma``
+    (a decimal mark) or ``either`` (flagged).
+    """
+
+    _MOST = 4096
+
+    def __init__(self, decimal: str = "either") -> None:
+        self.decimal = decimal
+        self._rests: dict[str, Written] = {}
+
+    def read(self, text: str) -> Written:
+        """The reading of an answer's text."""
+        quick = _QUICK.match(text)
+        if quick is not None and self.decimal != "comma":
+            digits, rest = quick.groups()
+            after = self._rests.get(rest) or self._remember(rest)
+            number = float(digits)
+            if not after.flag and (number >= 0.0 or after.direction is None):
+                return Written(number, after.unit, after.direction, digits, "", after.note)
+        return self.slowly(text)
+
+    def _remember(self, rest: str) -> Written:
+        if len(self._rests) >= self._MOST:
+            self._rests.clear()
+        found = self._rests[rest] = _rest(plain(rest), Written(0.0, None, None))
+        return found
+
+    def slowly(self, text: str) -> Written:
+        """As ``read``, of any text."""
+        if len(text) > LONGEST * 20:
+            return flagged(TOO_LONG)
+        words = plain(text)
+        if words.lower() in _NOTHING:
+            return flagged(MISSING)
+        if len(words) > LONGEST:
+            return flagged(TOO_LONG)
+        return _answer(words, self.decimal)
+
+
+_QUICK = re.compile(
+    r"([-+]?\d{1,30}(?:\.\d{1,30})?(?:[eE][-+]?\d\d?)?)"
+    r"((?: ?[A-Za-z°][A-Za-z °·*/.-]*)?)\Z",
+    re.ASCII,
+)
+"""Plain answers, which are most: digits, then words without digits."""
+
+
+def _answer(text: str, decimal: str) -> Written:
+    text = _unwrapped(text)
+    before, start = _before(text)
+    if start is None:
+        return flagged(NO_NUMBER)
+    if _is_accounting(text):
+        return flagged("ambiguous-number")
+    if before.rstrip().endswith("±"):
+        return flagged(TWO_VALUES)
+    sign, before = _sign(before)
+    angle = _SEXAGESIMAL.fullmatch(text[start:])
+    found = _sexagesimal(angle) if angle else numeral(text, start, decimal)
+    if found is None:
+        return flagged(NO_NUMBER)
+    if found.flag:
+        return flagged(found.flag)
+    read = _rest(text[found.end :].strip(), Written(0.0, None, None))
+    if angle:
+        read = _rest("deg", read)
+    return _joined(read, _leading(before), found, sign)
+
+
+def _sexagesimal(parts: re.Match[str]) -> Numeral:
+    """Degrees, minutes and seconds."""
+    degrees, minutes, seconds = (float(part or 0) for part in parts.groups())
+    return Numeral(degrees + minutes / 60.0 + seconds / 3600.0, parts.end(), "")
+
+
+def _unwrapped(text: str) -> str:
+    """Without what only introduces: ``T12 = ...``, ``approx.``, brackets around all of it, quotes, a stop."""
+    if text[:1] in "\"'" and text[-1:] == text[:1]:
+        text = text[1:-1].strip()
+    inside = text[1:-1]
+    bracketed = text[:1] in tuple("([{") and text[-1:] in tuple(")]}") and not set(inside) & set("()[]{}")
+    if bracketed and not _is_accounting(text):
+        text = inside.strip()
+    name = _NAME.match(text)
+    if name is not None and direction(name.group().strip(" :=~")) is None:
+        text = text[name.end() :]
+    lead = _LEAD.match(text)
+    return text[lead.end() :] if lead is not None and lead.end() < len(text) else text
+
+
+def _is_accounting(text: str) -> bool:
+    """``(412.7)``: bare brackets mean a negative number to a spreadsheet."""
+    return bool(re.fullmatch(r"\(\s*[\d.,' ]+\)", text))
+
+
+def _before(text: str) -> tuple[str, int | None]:
+    """What stands before the number, and where the number starts."""
+    found = re.search(r"(?<![A-Za-z_])(?:\d|[.,]\d|√|sqrt ?\(|pi(?![a-z]))", text, re.IGNORECASE)
+    return (text[: found.start()], found.start()) if found is not None else (text, None)
+
+
+def _sign(before: str) -> tuple[str, str]:
+    """The sign right before the number, and what stands before that."""
+    stripped = before.rstrip()
+    if stripped.endswith(("-", "+")):
+        return stripped[-1], stripped[:-1].rstrip()
+    return "", stripped
+
+
+def _leading(before: str) -> Direction | str | None:
+    """The direction that stands before the number; a flag where the words are not understood."""
+    words = before.strip(" ,;:=~([{")
+    if not words or all(word in _INTRODUCE for word in words.lower().split()):
+        return None
+    found = direction(words)
+    return found if found is not None else UNREAD
+
+
+def _rest(text: str, read: Written) -> Written:
+    """What follows the number: a unit, a direction, both in this order, or nothing."""
+    text = re.sub(r"[.!]+$", "", text).strip(" ,;)") if text not in ('"', "'") else text
+    if not text:
+        return read
+    whole = unit_word(text) or unit_word(text.strip("[](){} "))
+    if whole is not None and not text.endswith(_LETTERS):
+        return _doubted(whole.note) or read._replace(unit=whole, note=whole.note)
+    return _parted(text, read)
+
+
+def _doubted(note: str) -> Written | None:
+    """A reading that is flagged for a unit of two meanings."""
+    return flagged(AMBIGUOUS_UNIT) if note == AMBIGUOUS_UNIT else None
+
+
+def _parted(text: str, read: Written) -> Written:
+    """A unit and a direction: the longest unit after which a direction stands."""
+    words = _pieces(text)
+    for cut in range(len(words), -1, -1):
+        unit_text, rest = " ".join(words[:cut]).strip("[](){},; "), words[cut:]
+        unit = unit_word(unit_text) if unit_text else None
+        if (unit is None and unit_text) or _belongs_to_direction(words, cut):
+            continue
+        way = direction(" ".join(rest)) if rest else None
+        if way is not None:
+            return _checked(read._replace(unit=unit, direction=way, note=unit.note if unit else ""))
+    return flagged(_why_unread(text))
+
+
+def _pieces(text: str) -> list[str]:
+    """Words, with signs and brackets that touch them set apart from the unit before."""
+    spaced = re.sub(r"(?<=[A-Za-z°%])(?=[(\[{@])|(?<=[,;])(?=\S)|(?<=[)\]}])(?=\S)|(?=@)", " ", text)
+    return spaced.split()
+
+
+def _belongs_to_direction(words: list[str], cut: int) -> bool:
+    """Whether the ``in`` before the cut is the preposition: ``N in tension``, ``in the -x direction``."""
+    if not 0 < cut < len(words) or words[cut - 1].lower() != "in":
+        return False
+    return words[cut].lower().strip("([,") in _AXES
+
+
+def _checked(read: Written) -> Written:
+    """Flags of its parts."""
+    assert read.direction is not None
+    return flagged(read.direction.flag) if read.direction.flag else _doubted(read.note) or read
+
+
+def _why_unread(text: str) -> str:
+    """Two values where another number stands in it, else not understood."""
+    return TWO_VALUES if re.search(r"(?<![A-Za-z^\d.,])\d", text) else UNREAD
+
+
+def _joined(read: Written, leading: Direction | str | None, found: Numeral, sign: str) -> Written:
+    """Number, sign, and the directions before and after it as one reading."""
+    if read.flag or isinstance(leading, str):
+        return read if read.flag else flagged(UNREAD)
+    way = read.direction or leading
+    if read.direction is not None and leading is not None and read.direction != leading:
+        return flagged(AMBIGUOUS_DIRECTION)
+    if way is not None and (way.flag or (sign == "-" and found.value != 0.0)):
+        return flagged(AMBIGUOUS_DIRECTION)
+    number = -found.value if sign == "-" else found.value
+    return read._replace(number=number, direction=way, digits=found.digits)

@@ -1,0 +1,250 @@
+"""The direction that a student gave in words: a turn, a heading, toward a point, pull or push."""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import NamedTuple
+
+AMBIGUOUS = "ambiguous-direction"
+
+
+class Direction(NamedTuple):
+    """A direction in words.
+
+    ``kind`` is ``turn`` (``value`` +1 ccw, -1 cw), ``line`` (``value`` in degrees ccw from +x),
+    ``axial`` (+1 pull, -1 push), ``toward`` or ``away`` (of the point ``name``), ``sign`` (+1, -1);
+    with a ``flag`` the words have two readings.
+    """
+
+    kind: str
+    value: float
+    words: str
+    name: str = ""
+    flag: str = ""
+
+
+def _line(degrees: float) -> Direction:
+    degrees = round(degrees, 9) % 360.0
+    named = {0.0: "right", 90.0: "up", 180.0: "left", 270.0: "down"}.get(degrees)
+    return Direction("line", degrees, named or f"at {degrees:.10g} deg")
+
+
+CCW = Direction("turn", 1.0, "ccw")
+CW = Direction("turn", -1.0, "cw")
+PULL = Direction("axial", 1.0, "pull")
+PUSH = Direction("axial", -1.0, "push")
+DOUBTFUL = Direction("line", 0.0, "", "", AMBIGUOUS)
+
+_SPELLINGS = (
+    (
+        CCW,
+        "ccw",
+        "acw",
+        "c.c.w",
+        "counterclockwise",
+        "counter clockwise",
+        "counterclock wise",
+        "counter clock wise",
+    ),
+    (CCW, "anticlockwise", "anti clockwise", "contraclockwise", "linksdrehend", "gegen den uhrzeigersinn"),
+    (CCW, "entgegen dem uhrzeigersinn"),
+    (
+        CW,
+        "cw",
+        "c.w",
+        "clockwise",
+        "clock wise",
+        "rechtsdrehend",
+        "im uhrzeigersinn",
+        "mit dem uhrzeigersinn",
+    ),
+    (PULL, "pull", "pulls", "pulling", "tension", "tensile", "zug"),
+    (PUSH, "push", "pushes", "pushing", "compression", "compressive", "druck"),
+    (
+        _line(0.0),
+        "right",
+        "rightward",
+        "rightwards",
+        "horizontally right",
+        "horizontal right",
+        "nach rechts",
+        "rechts",
+    ),
+    (_line(0.0), "+x", "positive x", "plus x"),
+    (
+        _line(90.0),
+        "up",
+        "upward",
+        "upwards",
+        "vertically up",
+        "vertically upward",
+        "vertically upwards",
+        "vertical up",
+    ),
+    (_line(90.0), "+y", "positive y", "plus y", "nach oben", "oben"),
+    (
+        _line(180.0),
+        "left",
+        "leftward",
+        "leftwards",
+        "horizontally left",
+        "horizontal left",
+        "nach links",
+        "links",
+    ),
+    (_line(180.0), "-x", "negative x", "minus x"),
+    (
+        _line(270.0),
+        "down",
+        "downward",
+        "downwards",
+        "vertically down",
+        "vertically downward",
+        "vertical down",
+    ),
+    (_line(270.0), "vertically downwards", "-y", "negative y", "minus y", "nach unten", "unten"),
+)
+_WORDS: dict[str, Direction] = {text: first for first, *texts in _SPELLINGS for text in texts}  # type: ignore[misc]
+
+_SIDES = {"right": (1, 0), "left": (-1, 0), "up": (0, 1), "down": (0, -1)}
+_FILLER = re.compile(
+    r"\b(?:in|the|to|a|an|is|are|it|its|acts?|acting|directed|pointing|points|direction|directions|sense|going|towards?"
+    r"|rotation|rotating|turning|moment|torque|force|axis|member|link|being|of|on|dir|und|and|with|along|which)\b"
+)
+_LETTERS = {"T": PULL, "C": PUSH, "cw": CW, "ccw": CCW}
+_NUMBER = r"([-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+))"
+_UNIT = r" ?(deg|degs|degrees?|°|rad|radians?|grad)?"
+_LEAD = r"(?:(?:at|@|angle|angle of|at an angle of|unter|theta ?=|direction|dir)[ :=]*)"
+_ANGLE = re.compile(rf"({_LEAD}?) ?{_NUMBER}{_UNIT}(?: (.+))?$")
+_AXES = {
+    "x": 0.0, "+x": 0.0, "positive x": 0.0, "-x": 180.0, "negative x": 180.0,
+    "y": 90.0, "+y": 90.0, "positive y": 90.0, "-y": 270.0, "negative y": 270.0,
+}  # fmt: skip
+_ABOVE = re.compile(
+    r"(above|below|ccw|cw|from|counterclockwise|anticlockwise|clockwise|left of|right of)(?: (?:from|of))? (.+)$"
+)
+_DOUBTFUL_AXIS = re.compile(
+    r"(?:above|below|to|from|with|off|left of|right of|against|over|under)"
+    r" (?:horizontal|vertical|x|y|horizontally|vertically)"
+)
+_TOWARD = re.compile(
+    r"(?:directed |acting |pointing )?(towards?|away from|away|from \S+ to|from \S+ towards?)"
+    r" (?:point )?([^\W_][\w']*)$",
+    re.IGNORECASE,
+)
+
+
+def direction(text: str) -> Direction | None:
+    """The direction that a text in plain characters says; None where it says none, or more than that."""
+    bare = _bare(text)
+    if not bare:
+        return None
+    if bare in _LETTERS:
+        return _LETTERS[bare]
+    lower = bare.lower()
+    return _WORDS.get(lower) or _toward(bare) or _angle(lower) or _spelled(lower)
+
+
+def _bare(text: str) -> str:
+    """Without brackets and stops."""
+    text = re.sub(r"[()\[\]{},;:!]|\.(?=$|\s)", " ", text)
+    return " ".join(text.split())
+
+
+def _toward(text: str) -> Direction | None:
+    found = _TOWARD.match(text)
+    if found is None:
+        return None
+    word, name = found.groups()
+    if name.lower() in _WORDS or name.lower() in ("the", "positive", "negative"):
+        return None
+    kind = "away" if word.lower().startswith("away") else "toward"
+    return Direction(kind, 0.0, f"{kind} {name}" if kind == "toward" else f"away from {name}", name)
+
+
+def _spelled(lower: str) -> Direction | None:
+    """With words around that say nothing, ``in the clockwise sense``; two sides, ``up and left``."""
+    hyphenless = re.sub(r"(?<=[a-z])-(?=[a-z])", " ", lower)
+    words = " ".join(_FILLER.sub(" ", hyphenless).split())
+    if words in _WORDS:
+        return _WORDS[words]
+    joined = re.sub(r"([-+]) ([xy])", r"\1\2", words)
+    return _WORDS.get(joined) or _corner(words) or _turn_after_words(words)
+
+
+def _turn_after_words(words: str) -> Direction | None:
+    """The same direction said twice: ``clockwise cw``."""
+    parts = [_WORDS.get(part) for part in words.split()]
+    if len(parts) > 1 and None not in parts:
+        return parts[0] if len(set(parts)) == 1 else _clash(parts)
+    return None
+
+
+def _clash(parts: list[Direction | None]) -> Direction | None:
+    """Opposite words (``left right``, ``cw ccw``) have two readings."""
+    kinds = {part.kind for part in parts if part is not None}
+    return DOUBTFUL if len(kinds) == 1 else None
+
+
+def _corner(words: str) -> Direction | None:
+    """``down left`` and the like, half way between two sides."""
+    parts = [_WORDS.get(part) for part in words.split()]
+    sides = [_SIDES[part.words] for part in parts if part is not None and part.words in _SIDES]
+    if len(sides) != 2 or len(parts) != 2:
+        return None
+    x, y = (sum(side[i] for side in sides) for i in (0, 1))
+    return _line(math.degrees(math.atan2(y, x))) if x and y else None
+
+
+def _angle(lower: str) -> Direction | None:
+    """``at 30 deg``, ``30° above -x``, ``at 30 deg cw from +y``."""
+    found = _ANGLE.match(lower)
+    if found is None:
+        return None
+    lead, number, unit, rest = found.groups()
+    if not (lead or unit):
+        return None
+    degrees = float(number.replace(",", "."))
+    if unit and unit.startswith("rad"):
+        degrees = math.degrees(degrees)
+    if not rest:
+        return _line(degrees)
+    return _from_axis(degrees, rest)
+
+
+def _from_axis(degrees: float, rest: str) -> Direction | None:
+    """An angle reckoned from an axis; from one with two ends it is doubtful."""
+    rest = " ".join(re.sub(r"\b(?:the|axis|direction|measured)\b|-axis\b", " ", rest).split())
+    if _DOUBTFUL_AXIS.fullmatch(rest):
+        return DOUBTFUL
+    found = _ABOVE.match(rest)
+    if found is None:
+        return _turned_only(degrees, rest)
+    way, axis = found.groups()
+    base = _AXES.get(axis) if axis in _AXES else _side(axis)
+    return _line(base + _sign(way, base) * degrees) if base is not None else None
+
+
+def _turned_only(degrees: float, rest: str) -> Direction | None:
+    """``30 deg ccw``: from +x."""
+    turn = _WORDS.get(rest)
+    return _line(turn.value * degrees) if turn is not None and turn.kind == "turn" else None
+
+
+def _side(axis: str) -> float | None:
+    """``horizontal to the right``, ``left``."""
+    words = " ".join(re.sub(r"\b(?:horizontal|vertical|horizontally|vertically|to)\b", " ", axis).split())
+    found = _WORDS.get(words)
+    return found.value if found is not None and found.kind == "line" else None
+
+
+def _sign(way: str, base: float) -> float:
+    """Which way an angle ``way`` an axis at ``base`` goes, +1 ccw."""
+    if way in ("cw", "clockwise"):
+        return -1.0
+    if way in ("above", "below"):
+        return (1.0 if way == "above" else -1.0) * (-1.0 if base == 180.0 else 1.0)
+    if way in ("left of", "right of"):
+        return (1.0 if way == "left of" else -1.0) * (-1.0 if base == 270.0 else 1.0)
+    return 1.0

@@ -1,0 +1,197 @@
+"""The number at the start of an answer: decimals, groups of thousands, powers of ten, fractions.
+
+A numeral with two readings (``1,234``; ``4 x 102``) is not guessed: it comes back with a flag.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from typing import NamedTuple
+
+AMBIGUOUS = "ambiguous-number"
+UNREAD = "unread"
+
+_RUN = re.compile(r"(?:\d+|[.,]\d+)(?:[.,'_]\d+|(?<=\d) \d{3}(?![\d.,]*\d*/)(?!\d))*[.,]?")
+_EXPONENT = re.compile(r" ?[eE]{1,2} ?([-+]?\d+)(?![\d.,])")
+_TIMES_TEN = re.compile(r" ?[xX×*·]? ?10 ?(?:\^|\*\*) ?([-+]?\d+)(?![\d.,])")
+_LOST_SUPERSCRIPT = re.compile(r" ?[xX×*·] ?10 ?-? ?\d")
+_MIXED = re.compile(r" (\d+) ?/ ?(\d+)(?![\d.,/])")
+_OF = re.compile(r" ?/ ?(?=\d)")
+_ROOT = re.compile(r"(?: ?[*·×x]? ?)(?:√ ?\(? ?|sqrt ?\( ?)(\d+(?:\.\d+)?) ?\)?", re.IGNORECASE)
+_PI = re.compile(r"(?: ?[*·×x]? ?)pi(?![a-z])", re.IGNORECASE)
+_MOST_DIGITS = 400
+
+
+class Numeral(NamedTuple):
+    """A number as written: its value, where it ends in the text, the digits that carry it, and a flag.
+
+    ``digits`` is the part that counts for significant figures. With a ``flag`` the value is not to be used.
+    """
+
+    value: float
+    end: int
+    digits: str
+    flag: str = ""
+
+
+def numeral(text: str, start: int = 0, decimal: str = "either") -> Numeral | None:
+    """The unsigned number that starts at ``start``; None where none starts there.
+
+    ``decimal`` says what a comma or point before three digits is: ``point``, ``comma``, or ``either``
+    (then ``1,234`` is flagged).
+    """
+    leading = _leading_factor(text, start)
+    if leading is not None:
+        return _over(text, leading, decimal)
+    if text.startswith("10^", start) or text.startswith("10**", start):
+        power = _TIMES_TEN.match(text, start)
+        return _scaled("1", power) if power else None
+    found = _simple(text, start, decimal)
+    if found is None or found.flag:
+        return found
+    return _exponent(text, found) or _fraction(text, found, decimal)
+
+
+def _leading_factor(text: str, start: int) -> Numeral | None:
+    """A root or pi that no numeral stands before: ``√2``, ``pi``."""
+    if text[start : start + 1] not in "√spSP" or not text[start : start + 1]:
+        return None
+    return _factor(text, Numeral(1.0, start, ""))
+
+
+def _simple(text: str, start: int, decimal: str) -> Numeral | None:
+    """Digits with their decimal mark and groups."""
+    found = _RUN.match(text, start)
+    if found is None:
+        return None
+    run = found.group()
+    end = found.end()
+    if run[-1] in ".," and len(run) > 1:
+        run, end = run[:-1], end - (run[-1] == ",")
+    if len(run) > _MOST_DIGITS:
+        return Numeral(0.0, end, "", UNREAD)
+    return _classified(run, end, decimal)
+
+
+def _classified(run: str, end: int, decimal: str) -> Numeral:
+    """The value of a run of digits and marks."""
+    if run.isdigit() or (run.replace(".", "", 1).isdigit() and decimal != "comma"):
+        return Numeral(float(run), end, run)
+    marks = {c for c in run if not c.isdigit()}
+    grouping = marks & {" ", "'", "_"}
+    if len(grouping) > 1:
+        return Numeral(0.0, end, run, UNREAD)
+    whole, mark, part, flag = _split(run, marks & {".", ","}, decimal)
+    for group in grouping:
+        whole, part, good = _ungrouped(whole, part, group)
+        flag = flag or ("" if good else UNREAD)
+    if flag or not (whole + part).isdigit():
+        return Numeral(0.0, end, run, flag or UNREAD)
+    digits = whole + ("." if mark else "") + part
+    return Numeral(float(digits), end, digits)
+
+
+def _split(run: str, marks: set[str], decimal: str) -> tuple[str, str, str, str]:
+    """Whole part, decimal mark, decimals and flag of a run with at most both of point and comma."""
+    if not marks:
+        return run, "", "", ""
+    if len(marks) == 2:
+        mark = run[max(run.rfind("."), run.rfind(","))]
+        other = "," if mark == "." else "."
+        whole, _, part = run.partition(mark)
+        good = mark not in part and other not in part and _is_grouped(whole, other)
+        return whole.replace(other, ""), mark, part, "" if good else UNREAD
+    (mark,) = marks
+    if run.count(mark) > 1:
+        return run.replace(mark, ""), "", "", "" if _is_grouped(run, mark) else UNREAD
+    return _one_mark(run, mark, decimal)
+
+
+def _one_mark(run: str, mark: str, decimal: str) -> tuple[str, str, str, str]:
+    """A single comma or point: decimal, or thousands, or both are possible."""
+    whole, _, part = run.partition(mark)
+    if mark == ("," if decimal == "comma" else ".") or not _is_grouped(run, mark):
+        return whole, mark, part, ""
+    if decimal == "either":
+        return whole, mark, part, AMBIGUOUS
+    return whole + part, "", "", ""
+
+
+def _is_grouped(text: str, mark: str) -> bool:
+    """Whether the marks stand where thousands are divided: ``1,234,567``."""
+    first, *rest = text.split(mark)
+    return 1 <= len(first) <= 3 and first[0] != "0" and all(len(group) == 3 for group in rest)
+
+
+def _ungrouped(whole: str, part: str, mark: str) -> tuple[str, str, bool]:
+    """Without the spaces or apostrophes that divide thousands; whether they stood where they may."""
+    *full, last = part.split(mark)
+    good = all(len(group) == 3 for group in full) and (not full or len(last) <= 3)
+    good = good and (mark not in whole or _is_grouped(whole, mark))
+    return whole.replace(mark, ""), part.replace(mark, ""), good
+
+
+def _exponent(text: str, found: Numeral) -> Numeral | None:
+    """The number times its power of ten, where one follows."""
+    power = _EXPONENT.match(text, found.end) or _TIMES_TEN.match(text, found.end)
+    if power is not None:
+        return _scaled(found.digits, power)
+    if _LOST_SUPERSCRIPT.match(text, found.end):
+        return found._replace(flag=AMBIGUOUS)
+    return None
+
+
+def _scaled(digits: str, power: re.Match[str]) -> Numeral:
+    """Digits times the power of ten that was matched."""
+    value = float(f"{digits}e{power.group(1)}") if len(power.group(1)) <= 5 else math.inf
+    flag = UNREAD if math.isinf(value) else ""
+    return Numeral(value, power.end(), digits, flag)
+
+
+def _fraction(text: str, found: Numeral, decimal: str) -> Numeral:
+    """``1/3``, ``1 1/2``, ``3√2/2``, ``2pi``: else the number itself."""
+    mixed = _mixed(text, found)
+    return mixed or _over(text, _factor(text, found) or found, decimal)
+
+
+def _mixed(text: str, found: Numeral) -> Numeral | None:
+    """A whole number and a fraction: ``1 1/2``."""
+    parts = _MIXED.match(text, found.end)
+    if parts is None or not found.digits.isdigit():
+        return None
+    top, bottom = int(parts.group(1)), int(parts.group(2))
+    if bottom == 0 or top >= bottom:
+        return found._replace(flag=UNREAD)
+    return Numeral(found.value + top / bottom, parts.end(), "")
+
+
+def _factor(text: str, found: Numeral) -> Numeral | None:
+    """The number times a root or pi."""
+    root = _ROOT.match(text, found.end)
+    if root is not None:
+        return Numeral(found.value * math.sqrt(float(root.group(1))), root.end(), "")
+    pi = _PI.match(text, found.end)
+    return Numeral(found.value * math.pi, pi.end(), "") if pi is not None else None
+
+
+def _over(text: str, found: Numeral, decimal: str) -> Numeral:
+    """The number over another one, where a ``/`` and digits follow."""
+    slash = _OF.match(text, found.end)
+    if slash is None:
+        return found
+    below = _simple(text, slash.end(), decimal)
+    if below is None or text[below.end : below.end + 1] == "/":
+        return found._replace(flag=UNREAD)
+    if below.flag or below.value == 0.0:
+        return found._replace(end=below.end, flag=below.flag or UNREAD)
+    return Numeral(found.value / below.value, below.end, "")
+
+
+def figures(digits: str) -> tuple[int, int]:
+    """Least and most significant figures that a numeral may have: ``100`` has 1 to 3; (0, 0) for none."""
+    whole, point, part = digits.partition(".")
+    counted = (whole + part).lstrip("0")
+    if point or not counted:
+        return len(counted), len(counted)
+    return len(counted.rstrip("0")), len(counted)
