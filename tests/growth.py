@@ -12,8 +12,10 @@ from random import Random
 from typing import Any
 
 from chains import BUTTERFLY
+from icsolve.case import Belt, Gears
 from loading import loaded, sound
 from mechanisms import heading, pinned, polar, spot
+from reference import carriers
 from transcribe import Scene, case
 
 
@@ -163,7 +165,12 @@ GROUPS: list[Callable[[Growing], None]] = [
 ]
 
 
-def grown(rng: Random) -> Scene:
+def pendulum(g: Growing) -> None:
+    """A link that hangs on another: one more freedom."""
+    g.joints.append({"pin": [g.rng.choice(g.links), g.link()], "at": g.point()})
+
+
+def grown(rng: Random, freedoms: int = 1) -> Scene:
     """A base and one to four groups on it, without loads."""
     g = Growing(rng)
     if rng.random() < 0.1:
@@ -173,18 +180,32 @@ def grown(rng: Random) -> Scene:
         rng.choice([g.pin, g.pin, g.slide])(1, g.link())
         if rng.random() < 0.7:
             rng.choice([lever, pinned_dyad])(g)
+    for _ in range(freedoms - 1):
+        pendulum(g)
     for _ in range(rng.randrange(1, 5)):
         rng.choice(GROUPS)(g)
-    return {"points": g.points, "joints": g.joints}
+    return plain_carriers({"points": g.points, "joints": g.joints})
 
 
-def random_mechanism(rng: Random) -> Scene:
-    """A sound scene of mobility 1 with any joints, loads and one unknown, where more than two links move."""
+def plain_carriers(base: Scene) -> Scene:
+    """The scene without `carrier` where only one link bears both wheels."""
+    joints = []
+    for joint in base["joints"]:
+        bare = {key: value for key, value in joint.items() if key != "carrier"}
+        read = case(base | {"joints": [*base["joints"], bare]})
+        mesh = read.joints[-1]
+        lone = isinstance(mesh, Gears | Belt) and len(carriers(read, mesh)) == 1
+        joints.append(bare if lone else joint)
+    return base | {"joints": joints}
+
+
+def random_mechanism(rng: Random, freedoms: int = 1) -> Scene:
+    """A sound scene with any joints, loads and as many unknowns as freedoms, where two links or more move."""
     while True:
-        base = grown(rng)
+        base = grown(rng, freedoms)
         if len(case(base).links) > 2 and all("at" not in j or _apart(j, base) for j in base["joints"]):
-            trial = loaded(rng, base)
-            if sound(trial):
+            trial = loaded(rng, base, freedoms)
+            if sound(trial, freedoms):
                 return trial
 
 

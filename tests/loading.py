@@ -38,14 +38,15 @@ def random_load(rng: Random, base: Scene, link: str, number: Any) -> dict[str, A
     return rng.choice(kinds)
 
 
-def loaded(rng: Random, base: Scene) -> Scene:
-    """The scene with one to three known loads, and one unknown on a link of its own choice."""
+def loaded(rng: Random, base: Scene, unknowns: int = 1) -> Scene:
+    """The scene with known loads, and the unknowns `U` (and `V`), each on a link of its own choice."""
     links = [n for n in transcribe.case(base).links if n != "1"]
     known = rng.choices(links, k=rng.randrange(1, 4))
     loads = {
         f"P{k}": random_load(rng, base, n, round(rng.uniform(5, 200), 2)) for k, n in enumerate(known, 1)
     }
-    loads["U"] = random_load(rng, base, rng.choice(links), "unknown")
+    for name in "UV"[:unknowns]:
+        loads[name] = random_load(rng, base, rng.choice(links), "unknown")
     if rng.random() < 0.2:
         loads |= alike(rng, rng.choice(list(loads)), loads, links)
     return base | {"loads": loads}
@@ -62,14 +63,14 @@ def alike(rng: Random, name: str, loads: dict[str, Any], links: list[str]) -> di
     return {}
 
 
-def sound(trial: Scene) -> bool:
-    """One motion, well away from another mobility; an unknown and known loads that do work in it."""
+def sound(trial: Scene, freedoms: int = 1) -> bool:
+    """The right mobility, well away from another; unknown and known loads that do work in it."""
     case = transcribe.case(trial)
     points = reference.points_of(case)
     if reference.clearance(case, points) < 1e-3:
         return False
     found = reference.motions(case, points)
-    return len(found.basis) == 1 and witness.firmness(found) > 1e-2
+    return len(found.basis) == freedoms and witness.firmness(found) > 1e-2
 
 
 def drawn(seed: int, generator: Generator) -> Scene:

@@ -149,8 +149,8 @@ def coaxial(case: c.Case) -> list[tuple[str, set[str]]]:
     return groups
 
 
-def pivots(case: c.Case, joint: c.Gears | c.Belt) -> tuple[str, str, str]:
-    """The carrier of two wheels, and the points at which it bears the first and the second."""
+def carriers(case: c.Case, joint: c.Gears | c.Belt) -> list[tuple[str, str, str]]:
+    """Links that could carry two wheels, and the points at which they bear the first and the second."""
     pins = coaxial(case)
 
     def bearing(wheel: str, carrier: str) -> str | None:
@@ -158,9 +158,13 @@ def pivots(case: c.Case, joint: c.Gears | c.Belt) -> tuple[str, str, str]:
 
     others = [joint.carrier] if joint.carrier else [n for n in case.links if n not in joint.links]
     found = [(n, bearing(joint.links[0], n), bearing(joint.links[1], n)) for n in others]
-    whole = [(n, a, b) for n, a, b in found if a is not None and b is not None]
-    assert len(whole) == 1, f"carriers of {joint.links}: {whole}"
-    return whole[0]
+    return [(n, a, b) for n, a, b in found if a is not None and b is not None]
+
+
+def pivots(case: c.Case, joint: c.Gears | c.Belt) -> tuple[str, str, str]:
+    """The carrier of two wheels, and the points at which it bears the first and the second."""
+    (found,) = carriers(case, joint)
+    return found
 
 
 def forbidden(case: c.Case, joint: c.Joint, points: Points, frame: Frame, digits: Digits) -> list[Row]:

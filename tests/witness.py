@@ -199,20 +199,25 @@ def answers(found: Motions) -> dict[str, float]:
 
 
 def firmness(found: Motions) -> float:
-    """How well the balance of one motion determines its unknown: 1 at best, 0 at a dead centre.
+    """How well the balance determines its unknowns: 1 at best, 0 at a dead centre.
 
-    The smaller of two ratios, of the unknown and of the known loads: the power in this motion over the
-    most that loads of their sizes could do.
+    The smaller of two ratios, of the unknowns and of the known loads: the power in these motions over the
+    most that loads of their sizes could do; of several unknowns, the least independent.
     """
     powers = balance(found)
-    largest = max(_size(t) for t in found.basis[0].values())
-    most = {True: 1e-300, False: 1e-300}
+    largest = max(_size(t) for motion in found.basis for t in motion.values())
+    sizes = {True: 1e-300, False: 1e-300}
     for load in found.case.loads:
         value, unknown = share(found.case, load)
         first = parts(load, found)[0]
         size = math.hypot(*(float(f) for f in first.force)) + abs(float(first.couple))
-        most[unknown is None] += abs(value) * size * largest
-    return min(abs(float(powers.factors[0][0])) / most[False], abs(float(sum(powers.known[0]))) / most[True])
+        sizes[unknown is None] += abs(value) * size * largest
+    factors = np.array(powers.factors, dtype=float)
+    least = (
+        float(np.linalg.svd(factors, compute_uv=False)[-1]) if factors.shape[0] == factors.shape[1] else 0.0
+    )
+    known = math.hypot(*(float(sum(row)) for row in powers.known))
+    return min(least / sizes[False], known / sizes[True])
 
 
 # --- rates and velocities --------------------------------------------------------------------------
