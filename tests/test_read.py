@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 from fractions import Fraction
 from pathlib import Path
 
@@ -418,10 +420,35 @@ def test_a_setting_that_the_case_has_no_place_for_is_refused(path: str) -> None:
 
 
 def test_a_setting_of_a_joint_where_two_stand_names_both() -> None:
+    without = SLIDER_CRANK.replace(", mu: 0.1, length: 20", "")
     with pytest.raises(CaseError, match=r"joints\.3-4@C\.mu or joints\.4-1@C\.mu"):
-        load(SLIDER_CRANK, {"joints.C.mu": "0.1"})
+        load(without, {"joints.C.mu": "0.1"})
+    assert load(SLIDER_CRANK, {"joints.C.mu": "0.3"}).joints[3].friction.mu.value == 0.3  # type: ignore[union-attr]
+
+
+def test_a_setting_of_a_joint_that_alone_takes_it_needs_no_links() -> None:
+    """A pin and a slide stand at C; only the slide has ``along``, and only it has ``length``."""
+    case = load(SLIDER_CRANK, {"joints.C.along": "7", "joints.1-4.length": "9"})
+    slide = case.joints[3]
+    assert isinstance(slide, Slide)
+    assert slide.guide.angle is not None
+    assert slide.friction is not None
+    assert slide.friction.length is not None
+    assert (slide.guide.angle.value, slide.friction.length.value) == (7.0, 9.0)
 
 
 def test_a_setting_of_the_wrong_dimension_is_refused() -> None:
     with pytest.raises(CaseError, match="'kg' is a mass, but an angle is wanted"):
         load(FOUR_BAR, {"angles.AB": "30 kg"})
+
+
+def test_reading_a_valid_case_loads_nothing_that_is_slow_to_start() -> None:
+    """Start-up time is a feature: these are for messages, exact checks and sweeps only."""
+    code = (
+        "import sys; from icsolve.read import load; load(sys.argv[1]); "
+        "print(sorted({'difflib', 'fractions', 'decimal', 'numpy', 'shapely', 'json'} & set(sys.modules)))"
+    )
+    run = subprocess.run(
+        [sys.executable, "-c", code, SLIDER_CRANK], capture_output=True, text=True, check=True
+    )
+    assert run.stdout == "[]\n"

@@ -21,9 +21,11 @@ from icsolve.case import (
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.entry import Entry
 from icsolve.read.loads import DIMENSION
+from icsolve.read.names import is_name
 from icsolve.read.quantities import number, quantity
 from icsolve.read.reading import Reading
 from icsolve.read.targets import target_of
+from icsolve.units import UnitError, split_quantity
 
 KEYS = ("value", "toward", "within", "erratum")
 SENSES = {
@@ -166,8 +168,17 @@ def _fits(sense: str, dimension: str) -> bool:
     if dimension in ("torque", "angular speed"):
         return sense in _TURNS
     if dimension in ("force", "speed"):
-        return sense in _LINES or (lead in ("at", "toward") and bool(rest))
+        return sense in _LINES or (lead == "toward" and is_name(rest)) or (lead == "at" and _is_angle(rest))
     return False
+
+
+def _is_angle(text: str) -> bool:
+    """Whether a text is an angle in degrees, with or without its unit."""
+    try:
+        parts = split_quantity(text)
+    except UnitError:
+        return False
+    return parts is not None and parts[1] in ("", "deg", "°", "degrees")
 
 
 def _allowed(dimension: str) -> str:

@@ -124,7 +124,8 @@ def _no_number(node: Scalar, text: str, dimension: str) -> str:
         return f"'{text}' is not a number that a mechanism can have"
     if text == "unknown":
         return f"'unknown' cannot stand here; {wanted} is wanted"
-    return f"{wanted} should stand here, but {shown(text)} does not start with a number"
+    likely = suggestion(text, ("unknown",))
+    return f"{wanted} should stand here, but {shown(text)} does not start with a number{likely}"
 
 
 def measures(node: Node | None, problems: Problems) -> tuple[Units, dict[str, Unit], dict[str, str]]:

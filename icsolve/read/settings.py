@@ -6,11 +6,11 @@ from collections.abc import Mapping as Named
 
 from icsolve.case import Mark
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
+from icsolve.read.joints import KINDS
+from icsolve.read.loads import KEYS
 from icsolve.read.names import atoms
 from icsolve.read.problems import Problems, shown, suggestion
 
-_LOADS = ("force", "torque", "weight", "mass", "spring")
-_KINDS = ("pin", "slide", "slot", "roll", "gears", "belt", "contact", "centre", "weld")
 _FORM = "a path is like angles.AB, lengths.AB, points.D.x, loads.P, loads.P.angle or joints.B.mu"
 
 
@@ -105,7 +105,7 @@ def _axis(node: Node, steps: list[str], text: str) -> str:
 def _of_load(node: Node, steps: list[str], text: str) -> str:
     if type(node) is not Mapping:
         return "the load is not a mapping"
-    kind = next((key for key in _LOADS if key in node.items), None)
+    kind = next((key for key in KEYS if key in node.items), None)
     if kind is None:
         return "the load has no number"
     value = node.items[kind]
@@ -115,7 +115,7 @@ def _of_load(node: Node, steps: list[str], text: str) -> str:
         return _axis(value, steps, text)
     if steps[0] in ("at", "slope", "to") and steps[0] in node.items and len(steps) == 2:
         return _axis(node.items[steps[0]], steps[1:], text)
-    return _put(node, steps[0], text) if len(steps) == 1 and steps[0] not in _LOADS else _FORM
+    return _put(node, steps[0], text) if len(steps) == 1 and steps[0] not in KEYS else _FORM
 
 
 def _of_motion(node: Node, steps: list[str], text: str) -> str:
@@ -135,18 +135,28 @@ def _of_joint(node: Node, steps: list[str], text: str) -> str:
         return "a number of a joint is set as joints.B.mu, with the point at which the joint stands"
     if not found:
         return f"no joint stands at {steps[0]}{suggestion(steps[0], [k for j in joints for k in _labels(j)])}"
+    found = _of_that_key(found, steps[1])
     if len(found) > 1:
         names = " or ".join(f"joints.{label}.{steps[1]}" for label in (_labels(joint)[-1] for joint in found))
         return f"{len(found)} joints stand at {steps[0]}; write {names}"
     return _put(found[0], steps[1], text)
 
 
+def _of_that_key(joints: list[Mapping], key: str) -> list[Mapping]:
+    """Of several joints at a point, those that have the key, or at least are of a kind that takes it."""
+    having = [joint for joint in joints if key in joint.items]
+    taking = [
+        joint for joint in joints if any(key in KINDS[kind][0] for kind in joint.items if kind in KINDS)
+    ]
+    return having or taking or joints
+
+
 def _labels(joint: Mapping) -> list[str]:
     """By what a joint can be called: its point, its links, both."""
     at = joint.items.get("at")
-    kind = next((key for key in _KINDS if key in joint.items), "")
+    kind = next((key for key in KINDS if key in joint.items), "")
     links = joint.items.get(kind)
     names = [item.text for item in links.items if type(item) is Scalar] if type(links) is Sequence else []
-    pair = "-".join(names)
+    pair, turned = "-".join(names), "-".join(reversed(names))
     point = [at.text] if type(at) is Scalar else []
-    return [*point, pair, *[f"{pair}@{name}" for name in point]]
+    return [*point, turned, pair, *[f"{pair}@{name}" for name in point]]
