@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
 from icsolve.case import Case, Pair
+
+if TYPE_CHECKING:
+    from icsolve.bodies.values import Friction, Reactions, Witness
 
 
 class Found(NamedTuple):
@@ -59,6 +64,33 @@ class Term(NamedTuple):
     words: str
 
 
+K = TypeVar("K")
+V = TypeVar("V")
+
+
+class Deferred(Mapping[K, V]):
+    """A mapping that is made when it is first looked into: what nobody reads costs nothing."""
+
+    def __init__(self, make: Callable[[], Mapping[K, V]]) -> None:
+        self._make = make
+
+    @cached_property
+    def _made(self) -> Mapping[K, V]:
+        return self._make()
+
+    def __getitem__(self, key: K) -> V:
+        return self._made[key]
+
+    def __iter__(self) -> Iterator[K]:
+        return iter(self._made)
+
+    def __len__(self) -> int:
+        return len(self._made)
+
+    def __repr__(self) -> str:
+        return repr(self._made)
+
+
 @dataclass(frozen=True, eq=False)
 class Answer:
     """All that was found of one case.
@@ -70,21 +102,26 @@ class Answer:
     """
 
     case: Case
-    answers: dict[str, Found] = field(default_factory=dict)
-    centres: dict[Pair, Centre] = field(default_factory=dict)
+    answers: Mapping[str, Found] = field(default_factory=dict)
+    centres: Mapping[Pair, Centre] = field(default_factory=dict)
     rates: dict[str, float | str] | None = None
     velocities: dict[tuple[str, str], tuple[float, float] | str] | None = None
-    points: dict[str, tuple[float, float]] = field(default_factory=dict)
-    terms: tuple[Term, ...] = ()
+    points: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    terms: Sequence[Term] = ()
     advantage: float | None = None
     """unknown / known where there is one of each: the mechanical advantage (or its like)"""
     mobility: int | None = None
     notes: tuple[str, ...] = ()
     skipped: tuple[str, ...] = ()
     steps: tuple[str, ...] = ()
-    errors: dict[str, dict[str, float]] = field(default_factory=dict)
+    errors: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     """bounds on the errors of ``rates`` by link; those of centres stand with them"""
     status: str = "ok"
+    reactions: Reactions | None = None
+    """the force of each link on each other, by the names of the format; None unless asked"""
+    witnesses: tuple[Witness, ...] = ()
+    """the unknown loads by power and by free bodies, where reactions were asked"""
+    friction: Friction | None = None
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of the format (``icsolve/solve/1``)."""

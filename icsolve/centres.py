@@ -13,7 +13,6 @@ from icsolve.answer import Centre
 from icsolve.arithmetic import Arithmetic
 from icsolve.case import Belt, Case, Gears, KnownCentre, Pair, Weld
 from icsolve.eliminate import ROUNDING
-from icsolve.errors import SceneError, Status
 from icsolve.figure.frame import Frame
 from icsolve.joints import Points, freedoms, joint_freedoms, joint_points, pitch_point
 from icsolve.kennedy import BodyPair, Kennedy, Known, ordered, sine_between, unit
@@ -26,7 +25,8 @@ ONE = 1e-13
 SPREAD = 1e-9
 """Relative twists of two motions nearer than this angle share their centre."""
 TRUSTED = 1e-8
-"""A construction that loses more digits than this is not shown; the loop equations are."""
+"""A construction that loses more digits than this is not shown; the loop equations are. So too where
+the two disagree by more than the construction can have lost."""
 
 
 class CentreFinder:
@@ -47,9 +47,7 @@ class CentreFinder:
         primaries, normals = self._by_inspection()
         search = Kennedy(sorted(self.twists), primaries, normals, moving)
         search.find(ordered(self.top.body_of[a], self.top.body_of[b]) for a, b in pairs)
-        for pair, known in search.known.items():
-            self._agree(pair, known, moving, slack)
-        return {pair: self._centre(pair, search, moving, primaries) for pair in pairs}
+        return {pair: self._centre(pair, search, moving, primaries, slack) for pair in pairs}
 
     def _moving(self) -> dict[BodyPair, Triple]:
         """Relative twist of every pair of bodies that has one centre in all motions meant."""
@@ -97,24 +95,13 @@ class CentreFinder:
                 primaries.setdefault(pair, (basis[0], by))
         return primaries, normals
 
-    def _agree(self, pair: BodyPair, known: Known, moving: Mapping[BodyPair, Triple], slack: float) -> None:
-        if pair not in moving or known.error > TRUSTED:
-            return
-        apart = sine_between(known.point, moving[pair])
-        if apart > max(1e-9, 1e3 * known.error, 10.0 * slack):
-            i, j = (self.top.members[body][0] for body in pair)
-            raise SceneError(
-                Status.NEAR_SINGULAR,
-                f"centre {i}-{j} by construction and by the loop equations lie {apart:.1g} of the figure "
-                "apart: the position is too close to singular for a trustworthy answer.",
-            )
-
     def _centre(
         self,
         pair: Pair,
         search: Kennedy,
         moving: Mapping[BodyPair, Triple],
         primaries: Mapping[BodyPair, tuple[Triple, str]],
+        slack: float,
     ) -> Centre:
         i, j = (self.top.body_of[link] for link in pair)
         bodies = ordered(i, j)
@@ -128,7 +115,7 @@ class CentreFinder:
             why = f"{pair[0]} and {pair[1]} have no one centre: they have more than one relative freedom"
             return Centre(pair, "undetermined", why=why)
         known = search.known[bodies]
-        if known.error > TRUSTED:
+        if known.error > TRUSTED or not _agree(known, moving[bodies], slack):
             known = Known(unit(moving[bodies]), ROUNDING, "loop equations")
         return self._placed(pair, known)
 
@@ -155,6 +142,11 @@ class CentreFinder:
 
     def _names(self, pair: BodyPair) -> Pair:
         return ordered_pair(self.case, self.top.members[pair[0]][0], self.top.members[pair[1]][0])
+
+
+def _agree(known: Known, twist: Triple, slack: float) -> bool:
+    """Whether a construction and the loop equations give one place, as far as its digits go."""
+    return sine_between(known.point, twist) <= max(1e-12, 1e3 * known.error, 10.0 * slack)
 
 
 REST: Triple = (0.0, 0.0, 0.0)

@@ -11,7 +11,7 @@
 from __future__ import annotations
 
 from icsolve import power, sentences, speeds, verdicts
-from icsolve.answer import Answer, Centre, Found
+from icsolve.answer import Answer, Centre, Deferred, Found
 from icsolve.arithmetic import FLOATS
 from icsolve.bounds import (
     Bounded,
@@ -25,14 +25,21 @@ from icsolve.bounds import (
 )
 from icsolve.case import Case, Pair
 from icsolve.centres import CentreFinder, ordered_pair
-from icsolve.figure import case_point
+from icsolve.errors import SceneError, Status
+from icsolve.figure import Figure, case_point
 from icsolve.program import Outcome, Program, Want, evaluate, prepare
 from icsolve.sense import sense_of, unit_of
 from icsolve.terms import advantage, load_values, power_terms
 
 
 def solve(
-    case: Case, *, all_centres: bool = False, rates: bool = False, examine: bool = False, bound: bool = True
+    case: Case,
+    *,
+    all_centres: bool = False,
+    rates: bool = False,
+    examine: bool = False,
+    bound: bool = True,
+    reactions: bool = False,
 ) -> Answer:
     """Solve a case.
 
@@ -48,6 +55,8 @@ def solve(
         Solve and check the whole figure, also what the answer does not need.
     bound : bool
         Bound the error of every answer, rate and centre (three times the work).
+    reactions : bool
+        The force of each link on each other at every joint too; a structure is then solved as well.
 
     Raises
     ------
@@ -55,15 +64,40 @@ def solve(
         Where the scene has no answer; its ``status`` is a member of `icsolve.errors.Status`.
     """
     verdicts.refuse_friction(case)
-    want = Want(all_centres, rates, examine)
+    want = Want(all_centres, rates, examine, reactions)
     if not any(power.is_unknown(load) for load in case.loads):
-        want = Want(True, True, examine)
+        want = Want(True, True, examine, reactions)
     program = prepare(case, want)
-    scene = evaluate_bounded(program) if bound else None
-    program, outcome = (scene.program, scene.outcome) if scene else evaluate(program)
+    try:
+        scene = evaluate_bounded(program) if bound else None
+        program, outcome = (scene.program, scene.outcome) if scene else evaluate(program)
+    except SceneError as error:
+        if reactions and error.status == Status.STRUCTURE:
+            return _structure(program, error)
+        raise
     verdicts.refuse_unbalanced(case, program.top, outcome.motions, outcome.balance, outcome.solution)
     values = bounded_values(scene) if scene else unbounded_values(outcome)
-    return _answer(program, plain(outcome), values, scene)
+    answer = _answer(program, plain(outcome), values, scene)
+    return _with_bodies(answer, program, plain(outcome), values) if reactions else answer
+
+
+def _with_bodies(answer: Answer, program: Program, outcome: Outcome, values: dict[str, Value]) -> Answer:
+    """The answer with the reactions, and with the unknown loads as free bodies give them."""
+    from icsolve.bodies.statics import free_bodies
+    from icsolve.bodies.ties import Position
+
+    figure, moves = program.figure, outcome.motions
+    scale, slack = figure.frame.scale, float(moves.slack)
+    place = Position(program.case, program.top, figure.points, scale, moves.twists, slack)
+    power_values = {root: value.value for root, value in values.items()}
+    return free_bodies(place, figure.frame, outcome.balance, power_values).added_to(answer)
+
+
+def _structure(program: Program, refusal: SceneError) -> Answer:
+    """A structure by statics alone; it has no unknown load that anything would determine."""
+    from icsolve.bodies.statics import structure
+
+    return structure(program, refusal)
 
 
 def _answer(program: Program, outcome: Outcome, unknowns: dict[str, Value], scene: Bounded | None) -> Answer:
@@ -73,22 +107,26 @@ def _answer(program: Program, outcome: Outcome, unknowns: dict[str, Value], scen
     speed = speeds.speed_of(case, twists, figure.frame, figure.points)
     values = load_values(balance, unknowns)
     moving = want.rates or None
-    errors = {"rates": rate_errors(scene, speed)} if scene and moving else {}
     return Answer(
         case=case,
         answers=_found(case, balance, unknowns, values),
-        centres=_centres(program, outcome, speed, scene),
+        centres=Deferred(lambda: _centres(program, outcome, speed, scene)),
         rates=moving and speeds.link_rates(case, twists, speed),
         velocities=moving and speeds.point_velocities(case, twists, speed, figure.frame, figure.points),
-        points={n: case_point(figure.frame, p) for n, p in figure.points.items() if not n.startswith("@")},
+        points=Deferred(lambda: _shown(figure)),
         terms=tuple(power_terms(case, figure.frame, balance, values, speed)),
         advantage=advantage(balance, values, unknowns),
         mobility=outcome.motions.mobility,
         notes=(*figure.notes, *outcome.motions.notes, *_notes(outcome)),
         skipped=_skipped(program, outcome),
         steps=_steps(program),
-        errors=errors,
+        errors=Deferred(lambda: {"rates": rate_errors(scene, speed)} if scene and moving else {}),
     )
+
+
+def _shown(figure: Figure) -> dict[str, tuple[float, float]]:
+    """The points that have a name in the case, in case units."""
+    return {name: case_point(figure.frame, p) for name, p in figure.points.items() if not name.startswith("@")}
 
 
 def _found(
