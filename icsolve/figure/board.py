@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from icsolve.arithmetic import Arithmetic, Scalar
 from icsolve.case import Case, Coordinates
-from icsolve.figure.data import X, Datum, number_of
+from icsolve.figure.data import Datum, X, number_of
 from icsolve.figure.frame import Frame
 
 Key = str | tuple[int, str]
@@ -31,7 +31,7 @@ class Heading(NamedTuple):
 
     def reverse(self) -> Heading:
         """The opposite direction."""
-        if type(self.root) is Apart:
+        if isinstance(self.root, Apart):
             return Heading(Apart(self.root.b, self.root.a), self.flip, self.turns)
         return Heading(self.root, not self.flip, self.turns)
 
@@ -41,12 +41,12 @@ class Heading(NamedTuple):
 
     def data(self) -> tuple[Datum, ...]:
         """The data that it comes from."""
-        root = (self.root,) if type(self.root) is Datum else ()
+        root = data_in(self.root)
         return (*root, *(datum for datum, _ in self.turns))
 
     def needs(self) -> tuple[Key, ...]:
         """The points that it comes from."""
-        return () if type(self.root) is Datum else (self.root.a, self.root.b)
+        return () if isinstance(self.root, Datum) else (self.root.a, self.root.b)
 
 
 Span = Datum | Apart
@@ -84,7 +84,7 @@ class Board:
 
     def length(self, span: Span) -> Scalar:
         """A length, normalised."""
-        if type(span) is Datum:
+        if isinstance(span, Datum):
             return self.arithmetic.given(number_of(self.case, span)) * self.frame.scale
         (ax, ay), (bx, by) = self.points[span.a], self.points[span.b]
         dx, dy = bx - ax, by - ay
@@ -97,7 +97,7 @@ class Board:
     def unit(self, heading: Heading) -> Point:
         """The unit vector of a direction."""
         root = heading.root
-        if type(root) is Datum:
+        if isinstance(root, Datum):
             x, y = self.turn(root)
         else:
             (ax, ay), (bx, by) = self.points[root.a], self.points[root.b]

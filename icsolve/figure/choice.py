@@ -73,7 +73,7 @@ def _listing(board: Board, rivals: list[Way], points: tuple[str, ...]) -> str:
         if isinstance(step, Meet) and step.sign and step.target in differing
     ] or differing
     lines = [f"{plain(p)}: {_places(board, rivals, str(p))}" for p in forks]
-    hint = _hint(board, rivals, str(forks[0]))
+    hint = _hint(board, rivals, str(next((p for p in forks if p not in board.case.near), forks[0])))
     return f"the figure assembles in several ways, {'; '.join(lines)}; {hint}"
 
 
@@ -91,7 +91,10 @@ def _places(board: Board, rivals: list[Way], point: str) -> str:
 def _hint(board: Board, rivals: list[Way], point: str) -> str:
     example = _pair(case_point(board.frame, rivals[0].points[point]))
     if point in board.case.near:
-        return f"near: for {plain(point)} is about as far from the one as from the other; move it nearer to the one that is meant"
+        return (
+            f"near: for {plain(point)} is about as far from the one as from the other; "
+            "move it nearer to the one that is meant"
+        )
     return f"add near: {{{plain(point)}: [{example}]}} for the one that is meant"
 
 

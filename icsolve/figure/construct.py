@@ -61,10 +61,10 @@ def _constructed(case: Case, frame: Frame, goal: list[str], best_effort: bool) -
             return outcome
         first = first or outcome
         if outcome.loci is None:
-            break
+            told = first if outcome.vague else outcome
+            raise SceneError(told.status, told.message)
         banned |= {outcome.loci}
-    last = first if outcome.loci is not None or outcome.vague else outcome
-    raise SceneError(last.status, last.message)
+    raise SceneError(Status.NEAR_SINGULAR, "too many lines and circles of the figure coincide to construct it")
 
 
 def _assembled(case: Case, frame: Frame, order: Order) -> Figure | Miss:

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from icsolve.arithmetic import Scalar
 from icsolve.figure.board import Board
-from icsolve.figure.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, X, Y, Datum
+from icsolve.figure.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, X, Y
 
 Unknown = tuple[str, int]
 """A coordinate: the point and 0 for x, 1 for y."""
@@ -104,7 +104,8 @@ def _axis(board: Board, equation: Equation) -> Row:
 
 
 ROWS: dict[str, Callable[[Board, Equation], Row]] = {
-    LENGTH: _length, RAY: _along, GUIDE: _along, CORNER: _corner, LINE: _line, MEAN: _mean, X: _axis, Y: _axis,
+    LENGTH: _length, RAY: _along, GUIDE: _along, CORNER: _corner,
+    LINE: _line, MEAN: _mean, X: _axis, Y: _axis,
 }  # fmt: skip
 
 
@@ -145,7 +146,9 @@ def _clear(row: dict[Unknown, Scalar], top: dict[Unknown, Scalar], unknown: Unkn
     return ratio
 
 
-def solved(rows: list[dict[Unknown, Scalar]], values: list[Scalar], order: list[Pivot]) -> dict[Unknown, Scalar]:
+def solved(
+    rows: list[dict[Unknown, Scalar]], values: list[Scalar], order: list[Pivot]
+) -> dict[Unknown, Scalar]:
     """x with rows . x = values, eliminated in a given order; unknowns without a pivot stay at zero."""
     work, right = [dict(row) for row in rows], list(values)
     for k, (i, unknown) in enumerate(order):

@@ -11,7 +11,7 @@ from icsolve.figure.data import GUIDE, RAY, X, Y
 from icsolve.figure.words import listed, plain
 
 if TYPE_CHECKING:
-    from icsolve.figure.group import System
+    from icsolve.figure.matching import System
 
 COUNT = {1: "one more length, angle or coordinate", 2: "two more (lengths, angles or coordinates)"}
 
@@ -58,10 +58,14 @@ def _said(system: System, part: list[str], known: set[str]) -> str:
     turned = any(datum.kind in (RAY, GUIDE, X, Y) for datum in data)
     if not anchors and not absolute:
         direction = "" if turned else " and one direction (the angle of a pair)"
-        return f"nothing fixes where the figure of {names} lies: give coordinates of one of its points{direction}"
+        return (
+            f"nothing fixes where the figure of {names} lies: "
+            f"give coordinates of one of its points{direction}"
+        )
     hint = ""
     if len(anchors) == 1 and not turned and missing == 1:
-        hint = f"; nothing fixes how it is turned about {plain(next(iter(anchors)))}: give the direction of a pair"
+        about = plain(next(iter(anchors)))
+        hint = f"; nothing fixes how it is turned about {about}: give the direction of a pair"
     subject = "point" if len(part) == 1 else "points"
     verb = "is" if missing == 1 else "are"
     return f"{subject} {names}: {COUNT.get(missing, f'{missing} more data')} {verb} needed{hint}"

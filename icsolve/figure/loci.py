@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from icsolve.arithmetic import Arithmetic, Scalar
 from icsolve.figure.board import Board, Heading, Key, Point, Span, data_in, ends_of
-from icsolve.figure.data import X, Datum
+from icsolve.figure.data import Datum, X
 
 
 class Crossing(NamedTuple):

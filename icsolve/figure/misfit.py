@@ -7,7 +7,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from icsolve.figure.board import Board
-from icsolve.figure.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, X, Y, Datum
+from icsolve.figure.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, X, Y
 
 TOO_CLOSE = 1e-12
 """Points nearer than this (normalised) have no direction to one another."""

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from icsolve.case import Case
 from icsolve.figure.board import Key
-from icsolve.figure.data import LENGTH, Datum, Facts, given_points, facts_of
+from icsolve.figure.data import LENGTH, Datum, Facts, facts_of, given_points
 from icsolve.figure.sheet import ALL_SHEETS, LOOSE_SHEETS, NOBODY, Drawing, Sheet
 from icsolve.figure.steps import Base, Given, Step
 
@@ -30,7 +30,10 @@ class Order(NamedTuple):
 
 
 def order_of(
-    case: Case, goal: Collection[str], banned: frozenset[frozenset[object]] = frozenset(), best_effort: bool = False
+    case: Case,
+    goal: Collection[str],
+    banned: frozenset[frozenset[object]] = frozenset(),
+    best_effort: bool = False,
 ) -> Order:
     """The order of construction of the goal's points.
 
@@ -65,19 +68,23 @@ def grow(drawing: Drawing) -> bool:
     """
     before = len(drawing.steps)
     _start(drawing)
-    for drawing.lenders in (NOBODY, LOOSE_SHEETS, ALL_SHEETS):
-        most = 1 if drawing.lenders == ALL_SHEETS else None
-        for sheet in drawing.sheets[1:]:
-            for point in list(sheet.placed):
-                sheet.reach_from(point)
-            if sheet.run(most=most) and most:
-                break
+    for lenders in (NOBODY, LOOSE_SHEETS, ALL_SHEETS):
+        drawing.lenders = lenders
+        _extend(drawing, most=1 if lenders == ALL_SHEETS else None)
         if len(drawing.steps) > before:
-            drawing.lenders = LOOSE_SHEETS
             for point in [p for sheet in drawing.sheets[1:] for p in sheet.placed]:
                 drawing.ground.mark(point)
             return True
     return False
+
+
+def _extend(drawing: Drawing, most: int | None) -> None:
+    """Let every loose sheet take what is within its reach; with ``most``, the first that can."""
+    for sheet in drawing.sheets[1:]:
+        for point in list(sheet.placed):
+            sheet.reach_from(point)
+        if sheet.run(most=most) and most is not None:
+            return
 
 
 def _start(drawing: Drawing) -> None:

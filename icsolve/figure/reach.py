@@ -7,7 +7,7 @@ from itertools import combinations
 from typing import TYPE_CHECKING, NamedTuple
 
 from icsolve.figure.board import Apart, Heading
-from icsolve.figure.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, X, Y, Datum
+from icsolve.figure.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, X, Y
 from icsolve.figure.loci import Arc, Axis, Circle, Line, Locus, Shifted, is_round
 from icsolve.figure.steps import Mean, Meet, Polar, Step, Transfer
 

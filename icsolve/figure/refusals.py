@@ -5,9 +5,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+from icsolve.case import Coordinates
 from icsolve.errors import Status
-from icsolve.figure.board import Board, Span
-from icsolve.figure.data import CORNER, LENGTH, LINE, MEAN, RAY, X, Y, Datum, number_of
+from icsolve.figure.board import Board
+from icsolve.figure.data import CORNER, LENGTH, LINE, MEAN, RAY, Datum, X, Y, number_of
 from icsolve.figure.loci import Circle, Crossing, is_round
 from icsolve.figure.steps import Meet, Step
 from icsolve.figure.words import datum_words, joined, locus_words, plain, span_words
@@ -54,9 +55,9 @@ def _circles(step: Meet, one: Circle, two: Circle, board: Board, found: Crossing
     gap = -min(found.margins)
     apart = math.dist(board.points[one.centre], board.points[two.centre])
     kind = "too far" if found.margins[0] < 0.0 else "too close"
-    lengths = " and ".join(f"{span_words(c.radius)} = {bare(board, board.length(c.radius))}" for c in (one, two))
+    first, second = (f"{span_words(c.radius)} = {bare(board, board.length(c.radius))}" for c in (one, two))
     return (
-        f"{lengths} cannot meet at {at}: {a} and {b} are {bare(board, apart)} apart, "
+        f"{first} and {second} cannot meet at {at}: {a} and {b} are {bare(board, apart)} apart, "
         f"{bare(board, gap)} {kind} (closest gap {measure(board, gap)})"
     )
 
@@ -68,8 +69,8 @@ def concentric(step: Meet, board: Board) -> Miss:
     centres = " and ".join(plain(c.centre) for c in (step.first, step.second) if isinstance(c, Circle))
     if math.isclose(a, b, rel_tol=1e-12, abs_tol=1e-300):
         message = (
-            f"{at} may lie anywhere about {centres}: they coincide and their distances to {at} are equal, so any "
-            f"angle fits; give a direction (angles) or coordinates of {at}"
+            f"{at} may lie anywhere about {centres}: they coincide and their distances to {at} are equal, "
+            f"so any angle fits; give a direction (angles) or coordinates of {at}"
         )
         return Miss(Status.UNDERDETERMINED, message, 0.0, frozenset((step.first, step.second)))
     message = (
@@ -86,10 +87,14 @@ def parallel(step: Meet, board: Board) -> Miss:
     lines = f"{locus_words(step.first)} and {locus_words(step.second)}"
     at = plain(step.target)
     if off <= 1e-12 * (1.0 + math.hypot(px, py) + math.hypot(qx, qy)):
-        message = f"{at} may lie anywhere on a line: {lines} coincide; give one more length or coordinate for {at}"
+        message = (
+            f"{at} may lie anywhere on a line: {lines} coincide; "
+            f"give one more length or coordinate for {at}"
+        )
         return Miss(Status.UNDERDETERMINED, message, 0.0, frozenset((step.first, step.second)))
     message = (
-        f"the figure cannot be assembled at {at}: {lines} are parallel, {measure(board, off)} apart, and never meet"
+        f"the figure cannot be assembled at {at}: {lines} are parallel, {measure(board, off)} apart, "
+        "and never meet"
     )
     return Miss(Status.CANNOT_ASSEMBLE, message, off)
 
@@ -124,26 +129,35 @@ def clash(board: Board, datum: Datum, off: float, ahead: bool) -> Miss:
 
 def _clash(board: Board, datum: Datum, off: float, ahead: bool) -> str:
     points, kind = datum.points, datum.kind
-    makers = "the coordinates make" if _all_given(board, points) else "the other data make"
-    if kind == LENGTH:
-        length = board.length(datum)
-        return f"{joined(*points)} is given as {bare(board, length)}, {makers} it {bare(board, length + off)}"
-    if kind in (RAY, CORNER):
-        return f"angle {joined(*points)} is given as {number_of(board.case, datum).value:.6g}, {makers} it {_angle(board, datum)}"
-    if kind in (X, Y):
-        value = number_of(board.case, datum).value
-        return f"{kind} of {plain(points[0])} is given as {value:.6g}, {makers} it {value + off / board.frame.scale:.6g}"
+    name = plain(points[0])
     if kind == MEAN:
-        return f"{plain(points[0])} is {measure(board, abs(off))} off the centroid of {', '.join(map(plain, points[1:]))}"
+        return f"{name} is {measure(board, abs(off))} off the centroid of {', '.join(map(plain, points[1:]))}"
+    if kind in (LENGTH, RAY, CORNER, X, Y):
+        subject, value, found = _values(board, datum, off)
+        makers = "the coordinates make" if _all_given(board, points) else "the other data make"
+        return f"{subject} is given as {value}, {makers} it {found}"
     if not ahead:
         return f"{datum_words(datum)} has no direction: {joined(*points[2:])} are one point"
     line = f"the line through {plain(points[1])}" + (f" along {joined(*points[2:])}" if kind == LINE else "")
-    return f"{plain(points[0])} is {measure(board, abs(off))} off its guide, {line}"
+    return f"{name} is {measure(board, abs(off))} off its guide, {line}"
+
+
+def _values(board: Board, datum: Datum, off: float) -> tuple[str, str, str]:
+    """What a number is of, the number, and what the points make it."""
+    points, kind = datum.points, datum.kind
+    if kind == LENGTH:
+        length = board.length(datum)
+        return joined(*points), bare(board, length), bare(board, length + off)
+    value = number_of(board.case, datum).value
+    if kind in (X, Y):
+        return datum_words(datum), f"{value:.6g}", f"{value + off / board.frame.scale:.6g}"
+    return datum_words(datum), f"{value:.6g}", _angle(board, datum)
 
 
 def _all_given(board: Board, points: tuple[str, ...]) -> bool:
-    given = (board.case.points.get(p) for p in points)
-    return all(g is not None and getattr(g, "x", None) is not None and getattr(g, "y", None) is not None for g in given)
+    """Whether coordinates alone place the points."""
+    places = (board.case.points.get(p) for p in points)
+    return all(isinstance(at, Coordinates) and None not in (at.x, at.y) for at in places)
 
 
 def _angle(board: Board, datum: Datum) -> str:

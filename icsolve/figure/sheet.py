@@ -17,7 +17,6 @@ from icsolve.figure.loci import Circle, Line, Shifted
 from icsolve.figure.reach import Cost, best_step
 from icsolve.figure.steps import Given, Meet, Polar, Step, Transfer
 
-
 NOBODY, LOOSE_SHEETS, ALL_SHEETS = 0, 1, 2
 """Which sheets lend their distances to loose ones."""
 
@@ -25,8 +24,9 @@ NOBODY, LOOSE_SHEETS, ALL_SHEETS = 0, 1, 2
 class Drawing:
     """All sheets of a figure, and the steps so far in the order in which they can run.
 
-    ``lenders`` says which sheets lend distances to loose ones. ``holding`` tells which sheets hold a point; ``banned`` which pairs of loci turned out not to
-    determine a point (parallel lines, concentric circles).
+    ``lenders`` says which sheets lend distances to loose ones; ``holding`` which sheets hold a
+    point; ``banned`` has the pairs of loci that turned out not to determine a point (parallel
+    lines, concentric circles).
     """
 
     __slots__ = ("banned", "count", "facts", "holding", "lenders", "sheets", "steps")
@@ -205,10 +205,11 @@ class Sheet:
 def carried_by(step: Step) -> set[object]:
     """The lengths of the vectors by which a step moves loci."""
     spans: set[object] = set()
-    for locus in (step.first, step.second) if isinstance(step, Meet) else ():
-        while isinstance(locus, Shifted):
+    loci = [step.first, step.second] if isinstance(step, Meet) else []
+    for locus in loci:
+        if isinstance(locus, Shifted):
             spans.add(locus.span)
-            locus = locus.base
+            loci.append(locus.base)
     return spans
 
 

@@ -100,7 +100,9 @@ def _drawn(case: Case, frame: Frame, goal: list[str], names: list[str]) -> Figur
     return Figure(frame, points, steps, notes, tuple(plain(p) for p in names if p not in points))
 
 
-def _compared(board: Board, steps: tuple[Step, ...], data: list[Datum], goal: tuple[str, ...]) -> tuple[str, ...]:
+def _compared(
+    board: Board, steps: tuple[Step, ...], data: list[Datum], goal: tuple[str, ...]
+) -> tuple[str, ...]:
     from icsolve.figure.compare import compare, notes_of, size_of
 
     size = size_of(board, goal)

@@ -141,11 +141,13 @@ class Walker:
                 return []
         if isinstance(step, Meet):
             return [*self._crossings(depth, step)]
-        if not isinstance(step, Given | Polar | Mean | Base | Transfer):
-            from icsolve.figure.newton import solutions
+        if isinstance(step, Given | Polar | Mean | Base | Transfer):
+            return [step]
+        from icsolve.figure.group import Group
+        from icsolve.figure.newton import solutions
 
-            return [*solutions(step, self.board, self.near, lambda miss: self._miss(depth, miss))]
-        return [step]
+        assert isinstance(step, Group)
+        return [*solutions(step, self.board, self.near, lambda miss: self._miss(depth, miss))]
 
     def _crossings(self, depth: int, step: Meet) -> list[Step]:
         found = step.cross(self.board)
@@ -221,5 +223,6 @@ def _due(order: Order) -> dict[int, list[Datum]]:
 def refusal(walk: Walk) -> Miss:
     """The miss to report of a figure that does not assemble: the deepest, of these the smallest."""
     if not walk.misses:
-        return Miss(Status.AMBIGUOUS, "the figure has too many open branches to try; give near: for more points")
+        message = "the figure has too many open branches to try; give near: for more points"
+        return Miss(Status.AMBIGUOUS, message)
     return min(walk.misses, key=lambda at: (-at[0], at[1].amount))[1]

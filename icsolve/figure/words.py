@@ -51,7 +51,10 @@ def span_words(span: Span) -> str:
 def heading_words(heading: Heading) -> str:
     """A direction by its data."""
     root = heading.root
-    start = datum_words(root) if isinstance(root, Datum) else f"the line {joined(plain(root.a), plain(root.b))}"
+    if isinstance(root, Datum):
+        start = datum_words(root)
+    else:
+        start = f"the line {joined(plain(root.a), plain(root.b))}"
     turns = "".join(f", turned by angle {joined(*datum.points)}" for datum, _ in heading.turns)
     return f"{'the reverse of ' if heading.flip else ''}{start}{turns}"
 
