@@ -23,6 +23,7 @@ from icsolve.case import (
     RatioIs,
     ReactionIs,
     SpeedIs,
+    Target,
     Torque,
 )
 from icsolve.result import pair_name
@@ -53,6 +54,7 @@ class Wanted(NamedTuple):
 
     all_centres: bool
     rates: bool
+    reactions: bool = False
 
 
 class _MissingError(Exception):
@@ -69,12 +71,24 @@ def wanted(case: Case) -> Wanted:
     return Wanted(
         all_centres=any(isinstance(t, CentreIs | DistanceIs) for t in targets),
         rates=any(isinstance(t, RatioIs | RateIs | SpeedIs) for t in targets),
+        reactions=any(isinstance(t, ReactionIs | ArmIs | FrictionRadiusIs) for t in targets),
     )
 
 
 def compare(answer: Answer) -> list[Row]:
     """Every published value of the answer's case, in the order of the file."""
     return [_row(answer, expected) for expected in answer.case.expect]
+
+
+def value_of(answer: Answer, target: Target) -> tuple[float, ...]:
+    """The value that a key of ``expect`` would be compared with: one number, two for the place of a centre.
+
+    Raises LookupError, with a sentence, where the answer has no such value.
+    """
+    try:
+        return _found(answer, Expected("", target, ()))
+    except _MissingError as missing:
+        raise LookupError(str(missing)) from None
 
 
 def _row(answer: Answer, expected: Expected) -> Row:
@@ -154,10 +168,19 @@ def _found(answer: Answer, expected: Expected) -> tuple[float, ...]:
             return (_turned(_rate(answer, link), expected.sense),)
         case SpeedIs(point, link):
             return (_speed(answer, point, link, expected.sense),)
-        case ReactionIs() | ArmIs():
-            raise _MissingError("reactions are not solved for yet", NOT_EXAMINED)
-        case FrictionRadiusIs():
-            raise _MissingError("friction is not solved for yet", NOT_EXAMINED)
+        case ReactionIs() | ArmIs() | FrictionRadiusIs() as target:
+            return (_of_bodies(answer, target),)
+
+
+def _of_bodies(answer: Answer, target: ReactionIs | ArmIs | FrictionRadiusIs) -> float:
+    from icsolve.bodies.compared import found_value
+
+    if answer.reactions is None and not isinstance(target, FrictionRadiusIs):
+        raise _MissingError("reactions were not asked for", NOT_EXAMINED)
+    try:
+        return found_value(answer, target)
+    except LookupError as error:
+        raise _MissingError(str(error)) from None
 
 
 def _load(answer: Answer, name: str, sense: str | None) -> float:

@@ -24,11 +24,13 @@ class Want(NamedTuple):
     centres: bool = False
     rates: bool = False
     examine: bool = False
+    bodies: bool = False
+    """reactions or friction: the equilibrium of every link"""
 
     @property
     def everything(self) -> bool:
         """Whether every link is to be solved."""
-        return self.centres or self.rates or self.examine
+        return self.centres or self.rates or self.examine or self.bodies
 
 
 class Program(NamedTuple):
@@ -88,6 +90,8 @@ def _wanted_points(case: Case, top: Topology, bonds: tuple[int, ...], want: Want
     points = motion.needed_points(bonds, top)
     points += [p for load in case.loads for p in power.points_of(load)]
     points += [given.point for given in case.motion if given.point is not None]
+    if want.bodies:
+        points += [p for joint in case.joints if (p := getattr(joint, "at", None)) is not None]
     if want.everything:
         points += [p for link in case.links for p in speeds.moving_points(case, link)]
     return list(dict.fromkeys(points))

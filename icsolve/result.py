@@ -44,6 +44,7 @@ def to_dict(answer: Answer) -> dict[str, Any]:
         "answers": {name: _found(found) for name, found in answer.answers.items()},
         "centres": {pair_name(case, pair): _centre(case, c) for pair, c in answer.centres.items()},
         **_motion(answer),
+        **_bodies(answer),
         "points": {name: _numbers(place) for name, place in shown_points(answer).items()},
         "errors": _errors(answer),
         "advantage": None if answer.advantage is None else _plain(answer.advantage),
@@ -112,6 +113,15 @@ def _motion(answer: Answer) -> dict[str, Any]:
             if not point.startswith("@")
         }
     return shown
+
+
+def _bodies(answer: Answer) -> dict[str, Any]:
+    """Reactions and friction, where there are some; free bodies are not even imported before."""
+    if answer.reactions is None and answer.friction is None:
+        return {}
+    from icsolve.bodies.shown import bodies_dict
+
+    return bodies_dict(answer)
 
 
 def _rate(rate: float | str) -> float | dict[str, str]:

@@ -27,6 +27,7 @@ def answer_text(answer: Answer, digits: int = 6) -> str:
         _power(answer, show),
         _rates(answer, show),
         _velocities(answer, show),
+        _reactions(answer, show),
         _sentences("Notes", answer.notes),
         _sentences("Not examined", answer.skipped),
     ]
@@ -193,6 +194,14 @@ def _points(answer: Answer, show: Format) -> list[str]:
         return []
     places = [", ".join(_coordinate(answer, c, show) for c in place) for place in points.values()]
     return [f"Points found, {answer.case.units.length}", *_table(list(points), [f"({p})" for p in places])]
+
+
+def _reactions(answer: Answer, show: Format) -> list[str]:
+    if answer.reactions is None and answer.friction is None:
+        return []
+    from icsolve.bodies.shown import bodies_lines
+
+    return bodies_lines(answer, show, _table)
 
 
 def _sentences(title: str, sentences: Iterable[str]) -> list[str]:

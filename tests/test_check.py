@@ -11,6 +11,7 @@ import pytest
 
 from icsolve.answer import Answer, Centre, Found
 from icsolve.case import (
+    ArmIs,
     CentreIs,
     DistanceIs,
     Force,
@@ -177,13 +178,15 @@ def test_rates_ratios_and_speeds() -> None:
 
 def test_what_is_not_solved_for_is_not_examined() -> None:
     assert row(ReactionIs("3", "4"), "909").verdict == "not examined"
-    assert row(FrictionRadiusIs("B"), "0.196").verdict == "not examined"
+    assert row(ArmIs("3", "4", "A"), "2.76").verdict == "not examined"
+    assert "no pin at B has friction" in row(FrictionRadiusIs("B"), "0.196").text
 
 
 def test_only_what_the_published_values_need_is_asked_of_the_solver() -> None:
-    def needs(target: Target) -> tuple[bool, bool]:
-        return tuple(wanted(four_bar_case(expect=(published("key", target, "1"),))))  # type: ignore[return-value]
+    def needs(target: Target) -> tuple[bool, ...]:
+        return wanted(four_bar_case(expect=(published("key", target, "1"),)))
 
-    assert needs(T12) == (False, False)
-    assert needs(DistanceIs(("2", "4"), "A")) == (True, False)
-    assert needs(RatioIs("4", "2")) == (False, True)
+    assert needs(T12) == (False, False, False)
+    assert needs(DistanceIs(("2", "4"), "A")) == (True, False, False)
+    assert needs(RatioIs("4", "2")) == (False, True, False)
+    assert needs(ReactionIs("3", "4")) == (False, False, True)

@@ -44,8 +44,8 @@ def check_cases(cases: tuple[str, ...], as_json: bool, settings: Mapping[str, st
 def _rows(case: Case) -> list[Row]:
     from icsolve.solve import solve
 
-    want = wanted(case)
-    return compare(solve(case, all_centres=want.all_centres, rates=want.rates, examine=True))
+    centres, rates, reactions = wanted(case)
+    return compare(solve(case, all_centres=centres, rates=rates, examine=True, reactions=reactions))
 
 
 def _print_rows(case: Case, path: str, rows: list[Row], as_json: bool) -> None:

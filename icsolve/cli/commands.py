@@ -58,6 +58,7 @@ def icsolve(ctx: click.Context) -> int:
 @JSON
 @click.option("--all-centres", is_flag=True, help="All n(n-1)/2 instant centres, not only those needed.")
 @click.option("--rates", is_flag=True, help="Angular velocities of the links and velocities of the points.")
+@click.option("--reactions", is_flag=True, help="The force of each link on each other at every joint.")
 @click.option("--report", is_flag=True, help="Mobility, Grashof kind, transmission angles, limit positions.")
 @SET
 @DIGITS
@@ -66,6 +67,7 @@ def solve(
     as_json: bool,
     all_centres: bool,
     rates: bool,
+    reactions: bool,
     report: bool,
     settings: tuple[str, ...],
     digits: int,
@@ -81,7 +83,7 @@ def solve(
     """
     from icsolve.cli.solving import Options, solve_cases
 
-    options = Options(as_json, all_centres, rates, report, digits)
+    options = Options(as_json, all_centres, rates, reactions, report, digits)
     return solve_cases(cases, options, _settings(settings))
 
 

@@ -22,6 +22,7 @@ class Options(NamedTuple):
     as_json: bool
     all_centres: bool
     rates: bool
+    reactions: bool
     report: bool
     digits: int
 
@@ -42,7 +43,7 @@ def print_json(entry: Mapping[str, Any]) -> None:
 def _solve(case: Case, options: Options) -> Answer:
     from icsolve.solve import solve
 
-    return solve(case, all_centres=options.all_centres, rates=options.rates)
+    return solve(case, all_centres=options.all_centres, rates=options.rates, reactions=options.reactions)
 
 
 def _report(case: Case) -> Report:

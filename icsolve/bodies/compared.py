@@ -1,0 +1,64 @@
+"""Published reactions, arms and friction radii: the found values that they are about."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from icsolve.bodies.values import Reaction
+from icsolve.case import ArmIs, FrictionRadiusIs, Pin, ReactionIs
+
+if TYPE_CHECKING:
+    from icsolve.answer import Answer
+
+
+def found_value(answer: Answer, target: ReactionIs | ArmIs | FrictionRadiusIs) -> float:
+    """The value of a target, in case units.
+
+    Raises LookupError, with a sentence, where the answer has none.
+    """
+    if isinstance(target, FrictionRadiusIs):
+        return _friction_radius(answer, target.point)
+    if isinstance(target, ArmIs):
+        return _arm(answer, _reaction(answer, target.by, target.on, None), target.point)
+    reaction = _reaction(answer, target.by, target.on, target.at)
+    value = {"": reaction.magnitude, "x": reaction.x, "y": reaction.y, "moment": reaction.moment}[target.part]
+    if value is None:
+        raise LookupError(f"it is not determined: {reaction.why}")
+    return value
+
+
+def _reaction(answer: Answer, by: str, on: str, at: str | None) -> Reaction:
+    """The one reaction between two links (at a point, where they have several joints)."""
+    both = [r for r in (answer.reactions or {}).values() if {r.by, r.on} == {by, on}]
+    found = both if at is None else [r for r in both if r.where == at]
+    if not found:
+        place = f" at {at}" if at else ""
+        raise LookupError(f"links {by} and {on} have no joint{place}")
+    if len(found) > 1:
+        which = f"F{by}-{on}@{found[0].where or 'B'}"
+        raise LookupError(f"links {by} and {on} have {len(found)} joints: say which, as in {which}")
+    return found[0] if (found[0].by, found[0].on) == (by, on) else found[0].reversed()
+
+
+def _arm(answer: Answer, reaction: Reaction, point: str) -> float:
+    """Arm of a force about a point: its moment there, with its couple, over its size."""
+    if point not in answer.points:
+        raise LookupError(f"the point {point} was not found")
+    if reaction.x is None or reaction.y is None or reaction.moment is None:
+        raise LookupError(f"the force is not determined: {reaction.why}")
+    size = math.hypot(reaction.x, reaction.y)
+    if size == 0.0:
+        raise LookupError("the force is zero: it has no arm")
+    px, py = answer.points[point]
+    couple = reaction.moment / answer.case.units.torque_per_force_length
+    x, y = reaction.at
+    return abs((x - px) * reaction.y - (y - py) * reaction.x + couple) / size
+
+
+def _friction_radius(answer: Answer, point: str) -> float:
+    """Radius of a pin's friction circle: its own radius times the sine of the friction angle."""
+    for joint in answer.case.joints:
+        if isinstance(joint, Pin) and joint.at == point and joint.friction and joint.friction.radius:
+            return float(joint.friction.radius.value * math.sin(math.atan(joint.friction.mu.value)))
+    raise LookupError(f"no pin at {point} has friction")

@@ -1,0 +1,95 @@
+"""Tooth forces: along the line of action, through the pitch point at the pressure angle.
+
+The tangential part follows from the torques; the separating part, its size times the tangent of the
+pressure angle, pushes each externally toothed gear toward its own pivot, whichever flank carries.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+from icsolve.bodies.ties import Position, Tie
+from icsolve.case import Case, Gears
+from icsolve.errors import SceneError, Status
+from icsolve.plane import Point
+
+MISFIT = 2e-3
+"""Pivots may miss the distance of the pitch radii by this fraction of it."""
+
+
+def meshes(ties: Sequence[Tie]) -> list[int]:
+    """The ties that are meshes of known pressure angle."""
+    return [t for t, tie in enumerate(ties) if _has_angle(tie)]
+
+
+def _has_angle(tie: Tie) -> bool:
+    return isinstance(tie.joint, Gears) and tie.joint.pressure_angle is not None and tie.pivots[0] != ""
+
+
+def with_flanks(position: Position, ties: Sequence[Tie], flanks: Mapping[int, float]) -> tuple[Tie, ...]:
+    """The ties with the tooth force of each mesh along the line of action of the flank that carries.
+
+    ``flanks`` has the sign of the tangential force of each mesh; 0 leaves out the separating part.
+    """
+    return tuple(
+        _along_action(position, tie, flanks[t]) if t in flanks else tie for t, tie in enumerate(ties)
+    )
+
+
+def _along_action(position: Position, tie: Tie, flank: float) -> Tie:
+    """One unit: a tangential force of 1 on the tie's link ``on``, with its separating part."""
+    assert isinstance(tie.joint, Gears) and tie.joint.pressure_angle is not None
+    (tx, ty), (sx, sy) = tangent_and_separating(position, tie)
+    apart = abs(flank) * math.tan(math.radians(tie.joint.pressure_angle.value))
+    sign = flank or 1.0
+    return tie._replace(units=((sign * tx + apart * sx, sign * ty + apart * sy, 0.0),))
+
+
+def tangent_and_separating(position: Position, tie: Tie) -> tuple[Point, Point]:
+    """Unit vectors at the pitch point: the common tangent, and the separating force on link ``on``."""
+    a, b = (position.points[p] for p in tie.pivots)
+    ex, ey = _unit(a, b)
+    assert isinstance(tie.joint, Gears)
+    internal_on = tie.joint.teeth[1].value < 0
+    separating = _unit(a, tie.at) if internal_on else _unit(tie.at, b)
+    return (-ey, ex), separating
+
+
+def _unit(a: Point, b: Point) -> Point:
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    length = math.hypot(dx, dy)
+    return dx / length, dy / length
+
+
+def refuse_misfit(case: Case, ties: Sequence[Tie], points: Mapping[str, Point], scale: float) -> None:
+    """Refuse teeth of a given pitch or module whose pitch circles do not touch on these pivots."""
+    for tie in ties:
+        module = _module(tie)
+        if module is None:
+            continue
+        assert isinstance(tie.joint, Gears)
+        fit = abs(tie.joint.teeth[0].value + tie.joint.teeth[1].value) * module / 2.0
+        apart = math.dist(*(points[p] for p in tie.pivots)) / scale
+        if abs(apart - fit) > MISFIT * fit:
+            raise SceneError(Status.INCONSISTENT, _misfit(case, tie, fit, apart))
+
+
+def _module(tie: Tie) -> float | None:
+    """Pitch diameter per tooth (case lengths), where the case gives it."""
+    if not isinstance(tie.joint, Gears) or not tie.pivots[0]:
+        return None
+    if tie.joint.module is not None:
+        return tie.joint.module.value
+    return None if tie.joint.diametral_pitch is None else 1.0 / tie.joint.diametral_pitch.value
+
+
+def _misfit(case: Case, tie: Tie, fit: float, apart: float) -> str:
+    line, _ = case.marks.get(f"joints.{tie.by}-{tie.on}", (0, 0))
+    where = f" (line {line})" if line else ""
+    unit = case.units.length
+    return (
+        f"the teeth of gears {tie.by} and {tie.on}{where} do not fit: their pitch circles touch where the "
+        f"pivots are {fit:.6g} {unit} apart, and {tie.pivots[0]} and {tie.pivots[1]} are {apart:.6g} {unit} "
+        "apart. Correct the teeth, the pitch or module, or the pivots."
+    )

@@ -1,0 +1,102 @@
+"""Reactions, their witness and friction, as the JSON object of the format and as lines of text."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+from icsolve.bodies.values import Friction, Reaction, Rubbing
+
+if TYPE_CHECKING:
+    from icsolve.answer import Answer
+
+Format = Callable[[float], str]
+Table = Callable[..., list[str]]
+
+
+def bodies_dict(answer: Answer) -> dict[str, Any]:
+    """``reactions`` and ``free_bodies`` where they were asked for, ``friction`` where there is some."""
+    shown: dict[str, Any] = {}
+    if answer.reactions is not None:
+        shown["reactions"] = {name: _reaction(reaction) for name, reaction in answer.reactions.items()}
+    if answer.witnesses:
+        shown["free_bodies"] = {w.load: dict(list(w._asdict().items())[1:]) for w in answer.witnesses}
+    if answer.friction is not None:
+        shown["efficiency"] = answer.friction.efficiency
+        shown["friction"] = _friction(answer.friction)
+    return shown
+
+
+def _reaction(reaction: Reaction) -> dict[str, Any]:
+    entry: dict[str, Any] = {
+        "x": reaction.x,
+        "y": reaction.y,
+        "at": [reaction.at[0] + 0.0, reaction.at[1] + 0.0],
+        "moment": reaction.moment,
+        "magnitude": reaction.magnitude,
+        "direction": reaction.direction,
+        "joint": reaction.kind,
+        **dict(reaction.parts),
+    }
+    if None in (reaction.x, reaction.y, reaction.moment):
+        entry["undetermined"] = reaction.why
+    return entry
+
+
+def _friction(friction: Friction) -> dict[str, Any]:
+    return {
+        "losses": friction.losses,
+        "residual": friction.residual,
+        "error": friction.error,
+        "unique": friction.unique,
+        "joints": [_rubbing(rubbing) for rubbing in friction.rubbing],
+    }
+
+
+def _rubbing(rubbing: Rubbing) -> dict[str, Any]:
+    return {key: value for key, value in rubbing._asdict().items() if value is not None}
+
+
+def bodies_lines(answer: Answer, show: Format, table: Table) -> list[str]:
+    """Reactions, friction, and the unknown loads by free bodies."""
+    return [*reaction_lines(answer, show, table), *witness_lines(answer, show)]
+
+
+def reaction_lines(answer: Answer, show: Format, table: Table) -> list[str]:
+    """A line for each joint: components, size and direction, couple."""
+    if not answer.reactions:
+        return []
+    units = answer.case.units
+    rows = [(name, *_columns(reaction, show)) for name, reaction in answer.reactions.items()]
+    couples = f"; couples in {units.torque}" if any(r.moment for r in answer.reactions.values()) else ""
+    title = f"Reactions, {units.force}{couples}: the force of the first link on the second"
+    return [title, *table(*(list(column) for column in zip(*rows, strict=True)))]
+
+
+def _columns(reaction: Reaction, show: Format) -> tuple[str, str, str]:
+    """The force by components, by size and direction, and what goes with it."""
+    force = f"({_number(reaction.x, show)}, {_number(reaction.y, show)})"
+    size = "" if reaction.magnitude is None else f"= {show(reaction.magnitude)}"
+    if reaction.direction is not None:
+        size += f" at {show(reaction.direction)} deg"
+    return force, size, _rest(reaction, show)
+
+
+def _rest(reaction: Reaction, show: Format) -> str:
+    place = f"{reaction.kind} at {reaction.where}" if reaction.where else reaction.kind
+    couple = "" if reaction.moment == 0.0 else f", couple {_number(reaction.moment, show)}"
+    parts = "".join(f", {name} {show(value)}" for name, value in reaction.parts if value)
+    return f"{place}{couple}{parts}"
+
+
+def _number(value: float | None, show: Format) -> str:
+    return "?" if value is None else show(value)
+
+
+def witness_lines(answer: Answer, show: Format) -> list[str]:
+    """What free bodies make of the unknown loads, beside power."""
+    return [
+        f"{w.load} by free bodies alone: {show(w.bodies)}, {show(abs(w.difference))} from power "
+        f"(rounding may make {show(w.bound)})"
+        for w in answer.witnesses
+    ]

@@ -1,0 +1,134 @@
+"""Sparse elimination of homogeneous linear equations, in rows of column: coefficient.
+
+Some columns are to be solved for, the others are parameters. Markowitz's rule keeps rows short (the
+row with the fewest entries, in it the column that the fewest rows share) among pivots that are at
+least a tenth of their row (threshold pivoting: Duff, Erisman and Reid, Direct Methods for Sparse
+Matrices, 1986, ch. 5 and 7).
+"""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+Row = dict[int, float]
+
+THRESHOLD = 0.1
+SPENT = 1e-13
+"""A row whose largest entry is below this fraction of what it was summed from says nothing more."""
+
+
+class General(NamedTuple):
+    """The general solution: each solved column as a combination of parameters and free columns.
+
+    ``left`` are the rows in which only parameters remain; each is zero. ``free`` are the columns
+    that the equations leave open.
+    """
+
+    solved: dict[int, Row]
+    free: tuple[int, ...]
+    left: tuple[Row, ...]
+
+    def of(self, column: int) -> Row:
+        """A column as a combination of parameters and free columns."""
+        return self.solved.get(column, {column: 1.0})
+
+
+def eliminate(rows: Sequence[Mapping[int, float]], columns: int) -> General:
+    """Solve ``sum of row[c] x[c] = 0`` for the columns below ``columns``; the others are parameters."""
+    work = _Work(rows, columns)
+    pivots: list[tuple[int, Row]] = []
+    left = []
+    while (found := work.next_row()) is not None:
+        column, row = found
+        if column is None:
+            left.append({c: a for c, a in row.items() if c >= columns})
+            continue
+        work.clear(column, row)
+        pivots.append((column, row))
+    solved = _back_substituted(pivots, columns)
+    free = tuple(c for c in range(columns) if c not in solved)
+    return General(solved, free, tuple(left))
+
+
+class _Work:
+    """The rows that are still active, and which of them each column touches."""
+
+    def __init__(self, rows: Sequence[Mapping[int, float]], columns: int) -> None:
+        self.columns = columns
+        self.rows: dict[int, Row] = {n: {c: a for c, a in row.items() if a} for n, row in enumerate(rows)}
+        self.holders: list[set[int]] = [set() for _ in range(columns)]
+        self.sizes: dict[int, float] = {}
+        for n, row in self.rows.items():
+            inner = self.inner(row)
+            self.sizes[n] = max((abs(row[c]) for c in inner), default=0.0)
+            for c in inner:
+                self.holders[c].add(n)
+        self.heap = [(len(self.inner(row)), n) for n, row in self.rows.items()]
+        heapq.heapify(self.heap)
+
+    def inner(self, row: Row) -> list[int]:
+        """The columns of a row that are to be solved for."""
+        return [c for c in row if c < self.columns]
+
+    def next_row(self) -> tuple[int | None, Row] | None:
+        """The shortest row and its pivot column (None where it has none left); None at the end."""
+        while self.heap:
+            count, n = heapq.heappop(self.heap)
+            row = self.rows.get(n)
+            if row is None:
+                continue
+            inner = self.inner(row)
+            if len(inner) > count:
+                heapq.heappush(self.heap, (len(inner), n))
+                continue
+            del self.rows[n]
+            for c in inner:
+                self.holders[c].discard(n)
+            return self.pivot(row, inner, self.sizes[n]), row
+        return None
+
+    def pivot(self, row: Row, inner: list[int], size: float) -> int | None:
+        """The column of a row that the fewest others share, among those that are large enough."""
+        largest = max((abs(row[c]) for c in inner), default=0.0)
+        if largest <= SPENT * size:
+            return None
+        fit = [c for c in inner if abs(row[c]) >= THRESHOLD * largest]
+        return min(fit, key=lambda c: (len(self.holders[c]), -abs(row[c]), c))
+
+    def clear(self, column: int, pivot: Row) -> None:
+        """Take the column out of every other row."""
+        for n in self.holders[column]:
+            row = self.rows[n]
+            ratio = row.pop(column) / pivot[column]
+            for c, a in pivot.items():
+                if c != column:
+                    self.subtract(n, row, c, ratio * a)
+            heapq.heappush(self.heap, (len(self.inner(row)), n))
+        self.holders[column] = set()
+
+    def subtract(self, n: int, row: Row, c: int, amount: float) -> None:
+        """Subtract from one entry, and keep the books."""
+        old = row.get(c, 0.0)
+        new = old - amount
+        if new:
+            row[c] = new
+        elif old:
+            del row[c]
+        if c < self.columns:
+            self.sizes[n] = max(self.sizes[n], abs(amount))
+            (self.holders[c].add if new else self.holders[c].discard)(n)
+
+
+def _back_substituted(pivots: list[tuple[int, Row]], columns: int) -> dict[int, Row]:
+    solved: dict[int, Row] = {}
+    for column, row in reversed(pivots):
+        total: Row = {}
+        for c, a in row.items():
+            if c == column:
+                continue
+            for p, b in solved[c].items() if c in solved else ((c, 1.0),):
+                total[p] = total.get(p, 0.0) - a / row[column] * b
+        solved[column] = total
+    return solved

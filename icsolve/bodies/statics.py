@@ -1,0 +1,138 @@
+"""Free bodies of a scene without friction: reactions, and the witness for the unknown loads."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+from icsolve.answer import Answer
+from icsolve.arithmetic import FLOATS
+from icsolve.bodies import gears
+from icsolve.bodies.agreement import bounds_of, refuse_apart, unknowns_of, witnesses
+from icsolve.bodies.equilibrium import Statics, equilibrium, residual, terms_of
+from icsolve.bodies.reactions import is_unique, names_by_tie, reactions_of
+from icsolve.bodies.said import said_of
+from icsolve.bodies.sparse import Row
+from icsolve.bodies.ties import Position, Tie, ties_of
+from icsolve.bodies.values import Friction, Reactions, Witness
+from icsolve.errors import SceneError, Status
+from icsolve.figure import Frame, case_point
+from icsolve.plane import Triple
+from icsolve.power import Balance, is_unknown, wrenches
+from icsolve.program import Program
+from icsolve.sentences import plural
+
+
+class Bodies(NamedTuple):
+    """What free bodies say of a scene."""
+
+    reactions: Reactions
+    witnesses: tuple[Witness, ...] = ()
+    residual: float = 0.0
+    notes: tuple[str, ...] = ()
+    friction: Friction | None = None
+
+    def added_to(self, answer: Answer) -> Answer:
+        """An answer with what free bodies add to it."""
+        return replace(
+            answer,
+            reactions=self.reactions,
+            witnesses=self.witnesses,
+            friction=self.friction,
+            notes=(*answer.notes, *self.notes),
+        )
+
+
+def structure(program: Program, refusal: SceneError) -> Answer:
+    """A structure by statics alone: its reactions.
+
+    Raises the refusal of power where there is an unknown load: nothing would determine it.
+    """
+    case, top, figure = program.case, program.top, program.figure
+    if any(is_unknown(load) for load in case.loads):
+        remedy = "In a structure any value of the unknown load is carried: give it a number."
+        raise SceneError(refusal.status, f"{refusal} {remedy}")
+    still: dict[str, tuple[Triple, ...]] = dict.fromkeys((*case.links, case.ground), ())
+    place = Position(case, top, figure.points, figure.frame.scale, still)
+    balance = Balance(wrenches(case, figure.frame, figure.points, FLOATS), (), ())
+    points = {n: case_point(figure.frame, p) for n, p in figure.points.items() if not n.startswith("@")}
+    said = "the links form a structure: nothing moves, and statics alone gives the reactions."
+    answer = Answer(case, points=points, mobility=0, notes=(*figure.notes, said), skipped=figure.skipped)
+    return free_bodies(place, figure.frame, balance, {}).added_to(answer)
+
+
+def free_bodies(position: Position, frame: Frame, balance: Balance, power: Mapping[str, float]) -> Bodies:
+    """Equilibrium of every link, with the unknown loads that power found.
+
+    Raises SceneError where the two disagree, and where teeth do not fit their pivots.
+    """
+    ties = ties_of(position)
+    gears.refuse_misfit(position.case, ties, position.points, position.scale)
+    solved = with_tooth_forces(position, ties, lambda flanked: _solved(position, balance, flanked))
+    statics, parameters = solved.statics, solved.parameters
+    terms = terms_of(position, statics, balance, parameters)
+    bounds = bounds_of(position, statics, balance, terms) if position.mobility else {}
+    found = witnesses(power, solved.unknowns, bounds)
+    refuse_apart(found, position.slack)
+    reactions = reactions_of(position, frame, statics, parameters)
+    notes = said_of(position, statics, reactions, names_by_tie(position.case, statics.ties))
+    return Bodies(reactions, found, residual(terms), notes)
+
+
+class Solved(NamedTuple):
+    """Statics with the values of its parameters: unknown loads in case units, friction scaled."""
+
+    statics: Statics
+    unknowns: dict[str, float]
+    friction: tuple[float, ...] = ()
+
+    @property
+    def parameters(self) -> Row:
+        """Values by column."""
+        return self.statics.parameters(self.unknowns, self.friction)
+
+
+def _solved(position: Position, balance: Balance, ties: Sequence[Tie]) -> Solved:
+    statics = equilibrium(position, ties, balance)
+    if len(statics.general.left) != position.mobility:
+        raise SceneError(Status.NEAR_SINGULAR, _doubtful(position, len(statics.general.left)))
+    unknowns = unknowns_of(statics)
+    if unknowns is None:
+        raise SceneError(Status.NEAR_SINGULAR, _doubtful(position, 0))
+    return Solved(statics, unknowns)
+
+
+def _doubtful(position: Position, freedoms: int) -> str:
+    return (
+        f"by its motions the mechanism has {plural(position.mobility, 'degree')} of freedom, by the "
+        f"equilibrium of its links {freedoms}: this position is too near to a singular one. Take another "
+        "position, or give its data with more digits."
+    )
+
+
+MOST_TURNS = 4
+"""Flanks are tried again where friction turns a tooth force."""
+
+
+def with_tooth_forces(
+    position: Position, ties: Sequence[Tie], solve: Callable[[Sequence[Tie]], Solved]
+) -> Solved:
+    """Solve with the tooth forces on the flanks that carry: found from the tangential forces alone first."""
+    flanks = dict.fromkeys(gears.meshes(ties), 0.0)
+    found = solve(gears.with_flanks(position, ties, flanks))
+    flanks = {t: flank for t, flank in flanks.items() if is_unique(found.statics, t)}
+    for _ in range(MOST_TURNS):
+        turned = {t: _carrying(found, t) * (flank or 1.0) for t, flank in flanks.items()}
+        if turned == flanks:
+            break
+        flanks = turned
+        found = solve(gears.with_flanks(position, ties, flanks))
+    return found
+
+
+def _carrying(found: Solved, t: int) -> float:
+    """Sign of the force in a mesh along its unit."""
+    value = found.statics.value(found.statics.first[t], found.parameters)
+    return 0.0 if value == 0.0 else math.copysign(1.0, value)

@@ -1,0 +1,108 @@
+"""What free bodies find, as frozen values in case units."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+
+class Reaction(NamedTuple):
+    """The force of link ``by`` on link ``on`` at a joint, with its couple about ``at``.
+
+    A part that the joints leave open is None, and ``why`` says so. ``kind`` is the joint's;
+    ``where`` the name of its point, '' where it has none. ``parts`` are shares by name:
+    ``normal`` and ``friction``, ``tangential`` and ``separating``.
+    """
+
+    by: str
+    on: str
+    kind: str
+    where: str
+    at: tuple[float, float]
+    x: float | None
+    y: float | None
+    moment: float | None
+    why: str = ""
+    parts: tuple[tuple[str, float], ...] = ()
+
+    @property
+    def magnitude(self) -> float | None:
+        """Size of the force."""
+        return None if self.x is None or self.y is None else math.hypot(self.x, self.y)
+
+    @property
+    def direction(self) -> float | None:
+        """Direction of the force, degrees in [0, 360); None for no force."""
+        if self.x is None or self.y is None or self.x == self.y == 0.0:
+            return None
+        return math.degrees(math.atan2(self.y, self.x)) % 360.0
+
+    def reversed(self) -> Reaction:
+        """The force of ``on`` on ``by``: equal and opposite."""
+        x, y, moment = (None if v is None else 0.0 - v for v in (self.x, self.y, self.moment))
+        return self._replace(by=self.on, on=self.by, x=x, y=y, moment=moment)
+
+
+class Reactions(dict[str, Reaction]):
+    """Reactions by name; ``F43`` finds the opposite of ``F34``."""
+
+    def __missing__(self, name: str) -> Reaction:
+        for reaction in self.values():
+            if name in names_of(reaction.on, reaction.by, reaction.where):
+                return reaction.reversed()
+        raise KeyError(name)
+
+
+def names_of(by: str, on: str, where: str) -> tuple[str, ...]:
+    """The names of a force between two links, the usual one first."""
+    long = (f"F{by}-{on}", f"F{by}-{on}@{where}")
+    return (f"F{by}{on}", *long) if len(by) == len(on) == 1 and (by + on).isdigit() else long
+
+
+class Witness(NamedTuple):
+    """An unknown load by power and by free bodies, in case units.
+
+    ``bound`` is what rounding can make of their difference.
+    """
+
+    load: str
+    power: float
+    bodies: float
+    difference: float
+    bound: float
+
+
+class Rubbing(NamedTuple):
+    """Friction at one place: what it is, how far it is from its limit, and what it costs.
+
+    ``joint`` is the joint's reaction by name, ``kind`` ``pin`` (a couple), ``slide``, ``slot`` or ``contact``
+    (forces). ``value`` acts on the joint's second link, ccw or along the guide (the tangent);
+    ``limit`` is the most that it can be there; ``rate`` the rubbing motion of the second link against
+    the first; ``loss`` the power that it takes. ``radius`` is that of a pin's friction circle.
+    """
+
+    joint: str
+    where: str
+    kind: str
+    value: float
+    limit: float
+    rate: float
+    loss: float
+    radius: float | None = None
+
+
+class Friction(NamedTuple):
+    """How friction was solved.
+
+    ``rubbing`` has every place that rubs (empty where a range was found, as there nothing moves yet);
+    ``residual`` is what is left of the equilibrium of any link, as a fraction of the largest term;
+    ``error`` bounds the relative error of the friction forces from the iteration; ``unique`` says how
+    it is known that there is no other solution, '' where that is not known.
+    """
+
+    rubbing: tuple[Rubbing, ...]
+    residual: float
+    error: float
+    unique: str
+    losses: float = 0.0
+    efficiency: float | None = None
