@@ -66,10 +66,14 @@ class Measured:
         """p by its distances from two known points, and `near`."""
         self.length(a, p)
         self.length(b, p)
+        self.approximate(p, self.height(a, b, p))
+
+    def height(self, a: str, b: str, p: str) -> float:
+        """Of a triangle over its side a-b; one that is nearly flat has two ways that nearly coincide."""
         (ax, ay), (bx, by), (px, py) = (self.truth[q] for q in (a, b, p))
         height = abs((bx - ax) * (py - ay) - (by - ay) * (px - ax)) / math.dist((ax, ay), (bx, by))
         self.firm &= height > 0.3
-        self.approximate(p, height)
+        return height
 
     def block(self, a: str, p: str, along: float) -> None:
         """p on a known guide by its distance from a known point, and `near`."""
@@ -142,8 +146,8 @@ def _by_joint(joint: dict[str, Any], carried: dict[str, list[str]], figure: Meas
     return False
 
 
-def without_order(scene: Scene, rng: Random) -> Scene:
-    """A pinned chain by all the side lengths of its links and the crank's direction; `near` everywhere."""
+def without_order(scene: Scene, rng: Random) -> Scene | None:
+    """A pinned chain by its links' sides and the crank's direction; None where a triangle is flat."""
     carried, figure = bodies(scene), Measured(scene, rng)
     frame = str(scene.get("ground", 1))
     fixed = carried[frame]
@@ -152,6 +156,10 @@ def without_order(scene: Scene, rng: Random) -> Scene:
         for a, b in combinations(points, 2):
             if link != frame:
                 figure.length(a, b)
+        for corners in combinations(points, 3):
+            figure.height(*corners)
+    if not figure.firm:
+        return None
     figure.arm(carried[crank][0], carried[crank][1])
     for p in scene["points"]:
         if p not in fixed:

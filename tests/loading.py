@@ -64,13 +64,16 @@ def alike(rng: Random, name: str, loads: dict[str, Any], links: list[str]) -> di
 
 
 def sound(trial: Scene, freedoms: int = 1) -> bool:
-    """The right mobility, well away from another; unknown and known loads that do work in it."""
+    """The right mobility, well away from another; unknown and known loads that do work in it,
+    and no unknown that has nothing to balance."""
     case = transcribe.case(trial)
     points = reference.points_of(case)
     if reference.clearance(case, points) < 1e-3:
         return False
     found = reference.motions(case, points)
-    return len(found.basis) == freedoms and witness.firmness(found) > 1e-2
+    if len(found.basis) != freedoms or witness.firmness(found) < 1e-2:
+        return False
+    return min(map(abs, witness.answers(found).values())) > 1e-6
 
 
 def drawn(seed: int, generator: Generator) -> Scene:

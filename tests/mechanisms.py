@@ -63,6 +63,13 @@ def four_bar(rng: Random) -> Scene:
     return scene(points, ({"pin": [i, j], "at": p} for i, j, p in joints))
 
 
+def five_bar(rng: Random) -> Scene:
+    """Mobility 2: cranks AB and ED, two rods that meet at C."""
+    points = {name: spot(rng) for name in "ABCDE"}
+    joints = [(1, 2, "A"), (2, 3, "B"), (3, 4, "C"), (4, 5, "D"), (5, 1, "E")]
+    return scene(points, ({"pin": [i, j], "at": p} for i, j, p in joints))
+
+
 def watt(rng: Random) -> Scene:
     """Six-bar whose two ternary links are joined."""
     return pinned(rng, WATT)
