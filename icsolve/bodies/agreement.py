@@ -63,7 +63,8 @@ def bounds_of(position: Position, statics: Statics, balance: Balance, terms: Ter
     columns = [[n for n, w in enumerate(balance.wrenches) if w.root == root] for root in statics.roots]
     rows = []
     for m, factors in enumerate(balance.factors):
-        powers = [float(w.ratio) * float(f) * w.measure for w, f in zip(balance.wrenches, factors, strict=True)]
+        both = zip(balance.wrenches, factors, strict=True)
+        powers = [float(w.ratio) * float(f) * w.measure for w, f in both]
         row = [sum(powers[n] for n in ns) for ns in columns]
         rows.append([*row, _lost(position, terms, m)])
     rows = independent(rows, len(columns))

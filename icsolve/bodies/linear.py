@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TypeVar
 
-Entry = TypeVar("Entry", float, complex)
+from icsolve.arithmetic import Scalar
 
 SINGULAR = 1e-14
 """A pivot below this fraction of the largest entry of its column counts as none."""
 
 
-def solve_square(matrix: Sequence[Sequence[Entry]], right: Sequence[Entry]) -> list[Entry] | None:
+def solve_square(matrix: Sequence[Sequence[Scalar]], right: Sequence[Scalar]) -> list[Scalar] | None:
     """x with ``matrix @ x = right``; None where the matrix is singular."""
     n = len(matrix)
-    work = _augmented(matrix, right)
+    work = [[*row, b] for row, b in zip(matrix, right, strict=True)]
     sizes = [max((abs(entries[c]) for entries in matrix), default=0.0) for c in range(n)]
     for c in range(n):
         r = _largest(work, c)
@@ -26,26 +25,19 @@ def solve_square(matrix: Sequence[Sequence[Entry]], right: Sequence[Entry]) -> l
     return _back(work)
 
 
-def _augmented(matrix: Sequence[Sequence[Entry]], right: Sequence[Entry]) -> list[list[Entry]]:
-    rows: list[list[Entry]] = []
-    for r, entries in enumerate(matrix):
-        rows.append([*entries, right[r]])
-    return rows
-
-
-def _largest(work: list[list[Entry]], c: int) -> int:
+def _largest(work: list[list[Scalar]], c: int) -> int:
     """The row, from the c-th on, with the largest entry in column c."""
     return max(range(c, len(work)), key=lambda k: abs(work[k][c]))
 
 
-def _subtract(row: list[Entry], pivot: list[Entry], c: int) -> None:
+def _subtract(row: list[Scalar], pivot: list[Scalar], c: int) -> None:
     if row[c]:
         ratio = row[c] / pivot[c]
         for k in range(c + 1, len(row)):
             row[k] -= ratio * pivot[k]
 
 
-def _back(work: list[list[Entry]]) -> list[Entry]:
+def _back(work: list[list[Scalar]]) -> list[Scalar]:
     n = len(work)
     x = [row[n] for row in work]
     for r in range(n - 1, -1, -1):

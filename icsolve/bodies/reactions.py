@@ -99,9 +99,9 @@ def _least(values: list[tuple[float, ...]]) -> tuple[float, float, float]:
 
 def _reaction(position: Position, frame: Frame, tie: Tie, kept: list[float | None], scale: float) -> Reaction:
     case = position.case
-    couple_unit = scale * frame.scale / case.units.torque_per_force_length
-    units = (scale, scale, couple_unit)
-    x, y, moment = (None if f is None else f / unit + 0.0 for f, unit in zip(kept, units, strict=True))
+    x, y, couple = (None if f is None else f / scale + 0.0 for f in kept)
+    per_torque = frame.scale / case.units.torque_per_force_length
+    moment = None if couple is None else couple / per_torque
     at = case_point(frame, tie.at)
     why, parts = _why(tie, kept), _parts(position, tie, x, y)
     found = Reaction(tie.by, tie.on, kind_of(tie.joint), tie.where, at, x, y, moment, why, parts)
