@@ -64,7 +64,9 @@ def _constructed(case: Case, frame: Frame, goal: list[str], best_effort: bool) -
             told = first if outcome.vague else outcome
             raise SceneError(told.status, told.message)
         banned |= {outcome.loci}
-    raise SceneError(Status.NEAR_SINGULAR, "too many lines and circles of the figure coincide to construct it")
+    raise SceneError(
+        Status.NEAR_SINGULAR, "too many lines and circles of the figure coincide to construct it"
+    )
 
 
 def _assembled(case: Case, frame: Frame, order: Order) -> Figure | Miss:

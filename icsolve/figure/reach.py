@@ -194,8 +194,9 @@ def _transfers(sheet: Sheet, point: str) -> Iterator[tuple[Cost, Step]]:
             shape = (lender.key(shared[0]), lender.key(shared[1]), lender.key(point))
             cost = lender.placed[point]
             free = lender.number in sheet.committed
-            yield (EXACT, EXACT, 0) if free else (cost[0], cost[1] + 1, cost[2]), Transfer(
-                sheet.key(point), pose, shape
+            yield (
+                (EXACT, EXACT, 0) if free else (cost[0], cost[1] + 1, cost[2]),
+                Transfer(sheet.key(point), pose, shape),
             )
 
 

@@ -88,8 +88,7 @@ def parallel(step: Meet, board: Board) -> Miss:
     at = plain(step.target)
     if off <= 1e-12 * (1.0 + math.hypot(px, py) + math.hypot(qx, qy)):
         message = (
-            f"{at} may lie anywhere on a line: {lines} coincide; "
-            f"give one more length or coordinate for {at}"
+            f"{at} may lie anywhere on a line: {lines} coincide; give one more length or coordinate for {at}"
         )
         return Miss(Status.UNDERDETERMINED, message, 0.0, frozenset((step.first, step.second)))
     message = (
@@ -138,8 +137,8 @@ def _clash(board: Board, datum: Datum, off: float, ahead: bool) -> str:
         return f"{subject} is given as {value}, {makers} it {found}"
     if not ahead:
         return f"{datum_words(datum)} has no direction: {joined(*points[2:])} are one point"
-    line = f"the line through {plain(points[1])}" + (f" along {joined(*points[2:])}" if kind == LINE else "")
-    return f"{name} is {measure(board, abs(off))} off its guide, {line}"
+    along = joined(*points[2:]) if kind == LINE else f"{number_of(board.case, datum).value:.6g} deg"
+    return f"{name} is {measure(board, abs(off))} off its guide, the line through {plain(points[1])} along {along}"
 
 
 def _values(board: Board, datum: Datum, off: float) -> tuple[str, str, str]:
@@ -161,7 +160,7 @@ def _all_given(board: Board, points: tuple[str, ...]) -> bool:
 
 
 def _angle(board: Board, datum: Datum) -> str:
-    """What the points make of an angle, in the turn of the number given."""
+    """What the points make of an angle: 0 to 360 degrees, -180 to 180 where a negative one is given."""
     at = [board.points[p] for p in datum.points]
     if datum.kind == RAY:
         (ax, ay), (bx, by) = at
@@ -169,7 +168,6 @@ def _angle(board: Board, datum: Datum) -> str:
     else:
         (ax, ay), (vx, vy), (bx, by) = at
         angle = math.atan2(by - vy, bx - vx) - math.atan2(ay - vy, ax - vx)
-    value = number_of(board.case, datum).value
-    return f"{value + math.remainder(math.degrees(angle) - value, 360.0):.6g}"
-
-
+    degrees = math.degrees(angle)
+    negative = number_of(board.case, datum).value < 0.0
+    return f"{math.remainder(degrees, 360.0) if negative else degrees % 360.0:.6g}"

@@ -218,9 +218,5 @@ def _aimed_from(step: Step) -> set[Key]:
     if isinstance(step, Polar):
         return {step.base}
     if isinstance(step, Meet):
-        return {
-            locus.through
-            for locus in (step.first, step.second)
-            if isinstance(locus, Line) and locus.ray
-        }
+        return {locus.through for locus in (step.first, step.second) if isinstance(locus, Line) and locus.ray}
     return set()
