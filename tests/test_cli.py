@@ -107,6 +107,18 @@ def test_json_is_one_object_a_file_one_a_line(icsolve: Shell) -> None:
     assert second["answers"]["T"]["sense"] == "ccw"
 
 
+def test_of_several_files_each_answer_stands_under_its_name(icsolve: Shell) -> None:
+    lines = icsolve("solve", "press.yaml", "lever.yaml").out.splitlines()
+    assert [line for line in lines if line.startswith("===")] == ["=== press.yaml", "=== lever.yaml"]
+    assert "===" not in icsolve("solve", "press.yaml").out
+
+
+def test_a_word_that_is_neither_command_nor_file_suggests_the_command(icsolve: Shell) -> None:
+    ran = icsolve("slove", "press.yaml")
+    assert (ran.code, ran.out) == (2, "")
+    assert "No such command 'slove'" in ran.err
+
+
 def test_rates_and_all_centres_come_on_request(icsolve: Shell) -> None:
     (plain,) = icsolve("press.yaml", "--json").objects()
     (full,) = icsolve("press.yaml", "--json", "--rates", "--all-centres").objects()
@@ -353,6 +365,19 @@ def test_a_closed_pipe_is_quiet(icsolve: Shell) -> None:
     assert process.stderr.read() == b""
     process.stderr.close()
     assert process.wait() == 141
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no /dev/full")
+@pytest.mark.parametrize(("stream", "path"), [("stdout", "lever.yaml"), ("stderr", "missing.yaml")])
+def test_a_full_disk_is_said_where_it_still_can_be(icsolve: Shell, stream: str, path: str) -> None:
+    with Path("/dev/full").open("wb") as full:
+        streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, stream: full}
+        process = subprocess.Popen(
+            [sys.executable, "-m", "icsolve", path], env={**os.environ, "PYTHONPATH": ROOT}, **streams
+        )
+        _, err = process.communicate()
+    assert process.returncode == 2
+    assert err in {None, b"icsolve: No space left on device\n"}
 
 
 def test_names_that_no_encoding_knows_are_shown_all_the_same(icsolve: Shell) -> None:

@@ -5,11 +5,13 @@ from __future__ import annotations
 import gc
 import os
 import sys
+from contextlib import suppress
 from typing import NoReturn
 
 INTERRUPTED = 130
 CLOSED_PIPE = 141
 BUG = 3
+UNWRITABLE = 2
 
 
 def main(arguments: list[str] | None = None) -> NoReturn:
@@ -26,6 +28,8 @@ def main(arguments: list[str] | None = None) -> NoReturn:
     except BrokenPipeError:
         _silence_stdout()
         code = CLOSED_PIPE
+    except OSError as error:
+        code = _cannot_write(error)
     sys.exit(code)
 
 
@@ -64,11 +68,8 @@ def _run(arguments: list[str] | None) -> int:
     except (click.Abort, KeyboardInterrupt):
         click.echo("icsolve: interrupted", err=True)
         return INTERRUPTED
-    except BrokenPipeError:
+    except OSError:
         raise
-    except OSError as error:
-        click.echo(f"icsolve: {error}", err=True)
-        return 2
     except Exception as error:
         click.echo(bug_report("", error), err=True)
         return BUG
@@ -80,6 +81,13 @@ def _plain_streams() -> None:
         reconfigure = getattr(stream, "reconfigure", None)
         if reconfigure is not None:
             reconfigure(encoding="utf-8", errors="backslashreplace", newline="\n")
+
+
+def _cannot_write(error: OSError) -> int:
+    """A full disk; it may be that of the messages too."""
+    with suppress(OSError):
+        print(f"icsolve: {error.strerror or error}", file=sys.stderr)  # noqa: T201
+    return UNWRITABLE
 
 
 def _silence_stdout() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 
 import click
@@ -28,8 +29,12 @@ class Verbs(click.Group):
     """`icsolve case.yaml` means `icsolve solve case.yaml`."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
-        """Put in `solve` where the first word is no command."""
-        if args and args[0] not in {*self.commands, "-h", "--help", "--version"}:
+        """Put in `solve` where the first word is an option of it or looks like a file."""
+        first = args[0] if args else ""
+        own = {*self.commands, "-h", "--help", "--version"}
+        if first not in own and (
+            first.startswith("-") or set("./\\*?[") & set(first) or os.path.exists(first)
+        ):
             args = ["solve", *args]
         return super().parse_args(ctx, args)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -29,7 +30,7 @@ class Options(NamedTuple):
 
 def solve_cases(cases: tuple[str, ...], options: Options, settings: Mapping[str, str]) -> int:
     """Solve and print every case; returns the exit status."""
-    work = _as_json(options) if options.as_json else _as_text(options)
+    work = _as_json(options) if options.as_json else _as_text(options, several=_several(cases))
     return for_each(cases, work, _refuse_json if options.as_json else on_stderr, settings)
 
 
@@ -66,7 +67,12 @@ def _as_json(options: Options) -> Work:
     return work
 
 
-def _as_text(options: Options) -> Work:
+def _several(cases: tuple[str, ...]) -> bool:
+    """Whether the arguments may mean more than one file."""
+    return len(cases) > 1 or not (cases[0] == "-" or os.path.isfile(cases[0]))
+
+
+def _as_text(options: Options, several: bool) -> Work:
     shown = 0
 
     def work(case: Case, path: str) -> int:
@@ -77,7 +83,8 @@ def _as_text(options: Options) -> Work:
         sections = [answer_text(answer, options.digits)]
         if options.report:
             sections.append(_report(case).text(options.digits))
-        click.echo(("\n" if shown else "") + "\n\n".join(sections))
+        above = ("\n" if shown else "") + (f"=== {path}\n" if several else "")
+        click.echo(above + "\n\n".join(sections))
         shown += 1
         return DONE
 
