@@ -7,6 +7,8 @@ the answer or refuses it as too close to singular.
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from icsolve.answer import Centre
@@ -55,28 +57,35 @@ def bounded_values(scene: Bounded) -> dict[str, Value]:
 
     Raises SceneError where fifty digits do not confirm what the bound leaves in doubt.
     """
-    result = {}
+    values = scene.outcome.solution.values
+    refuse_overflow(values)
     doubt = max(scene.tape.doubts(SMALL), default=0.0)
-    for name, value in scene.outcome.solution.values.items():
+    if doubt > HOPELESS and values:
+        raise too_close(next(iter(values)), None)
+    result = {}
+    for name, value in values.items():
         bound = scene.of(value)
-        if value != 0.0:
+        inside = abs(value) <= bound
+        if not inside and bound > SMALL * abs(value):
             doubt = max(doubt, bound / abs(value))
-        result[name] = Value(float(value), bound)
-    if doubt > HOPELESS and result:
-        raise too_close(next(iter(result)), None)
-    return confirmed(scene) if doubt > SMALL else result
+        result[name] = Value(0.0 if inside else float(value), bound)
+    return confirmed(scene, result) if doubt > SMALL else result
 
 
-def confirmed(scene: Bounded) -> dict[str, Value]:
+def confirmed(scene: Bounded, first: dict[str, Value]) -> dict[str, Value]:
     """The unknown loads in fifty digits; the bound is that of converted numbers and of the last rounding.
 
-    Raises SceneError where even the data leave the answer open.
+    ``first`` has what the tape gave: its zeros stand. Raises SceneError where even the data leave the
+    answer open.
     """
     from icsolve.digits import Digits
 
     _, exact = evaluate(scene.program, Digits())
     result = {}
     for name, rough in scene.outcome.solution.values.items():
+        if first[name].value == 0.0:
+            result[name] = first[name]
+            continue
         if name not in exact.solution.values:
             raise too_close(name, None)
         value = float(exact.solution.values[name])
@@ -103,9 +112,20 @@ def too_close(name: str, spread: float | None) -> SceneError:
     )
 
 
+def refuse_overflow(values: Mapping[str, Scalar]) -> None:
+    """Refuse unknown loads beyond the range of doubles."""
+    for name, value in values.items():
+        if not abs(value) < math.inf:
+            raise SceneError(
+                Status.UNSUPPORTED,
+                f"{name} is larger than the largest double in these units: give the case in other `units`.",
+            )
+
+
 def unbounded_values(outcome: Outcome) -> dict[str, Value]:
     """The unknown loads of a scene on floats."""
     values = outcome.solution.values
+    refuse_overflow(values)
     return {name: Value(value, None, "no bound was asked for") for name, value in values.items()}
 
 

@@ -21,11 +21,13 @@ Points = Mapping[str, Point]
 
 
 class Wrench(NamedTuple):
-    """A load per unit of its number: ``gain * unit`` acts on ``link``, the opposite on ``against``.
+    """A load per unit of its number: ``gain * measure * unit`` acts on ``link``, the opposite on
+    ``against``.
 
-    ``unit`` is a wrench in the normalised frame (a force of length 1, or a couple of 1);
-    ``gain`` brings the load's own unit to force units (torques: to force times normalised length).
-    ``root`` names the load whose number it takes, ``ratio`` times as large.
+    ``unit`` is a wrench in the normalised frame (a force of length 1, or a couple of 1); ``gain``
+    brings the load's own unit to force units, or force times case length; ``measure`` is the power
+    of two that brings case lengths into the normalised frame (for a torque, else 1), kept apart so
+    that nothing overflows. ``root`` names the load whose number it takes, ``ratio`` times as large.
     """
 
     load: Load
@@ -34,6 +36,7 @@ class Wrench(NamedTuple):
     gain: Scalar
     root: str
     ratio: Scalar
+    measure: float = 1.0
 
 
 def wrenches(case: Case, frame: Frame, points: Points, arithmetic: Arithmetic) -> tuple[Wrench, ...]:
@@ -43,7 +46,8 @@ def wrenches(case: Case, frame: Frame, points: Points, arithmetic: Arithmetic) -
     for load in case.loads:
         root, ratio = _root(load, by_name, arithmetic)
         unit, gain = _unit_wrench(load, case, frame, points, arithmetic)
-        result.append(Wrench(load, reacting(case, load), unit, gain, root, ratio))
+        measure = frame.scale if isinstance(load, Torque) else 1.0
+        result.append(Wrench(load, reacting(case, load), unit, gain, root, ratio, measure))
     return tuple(result)
 
 
@@ -78,7 +82,7 @@ def _unit_wrench(
     match load:
         case Torque():
             sign = -1.0 if load.turns == "cw" else 1.0
-            return (0.0, 0.0, sign), frame.scale / case.units.torque_per_force_length
+            return (0.0, 0.0, sign), 1.0 / case.units.torque_per_force_length
         case Weight():
             gain: Scalar = 1.0
             if load.mass:
@@ -89,9 +93,9 @@ def _unit_wrench(
             stretch = length / frame.scale - arithmetic.given(load.free)
             return force_wrench(toward, points[load.at]), stretch
         case ForceVector():
-            size = max(abs(load.x.value), abs(load.y.value)) or 1.0
+            size = vector_size(load) or 1.0
             x, y = arithmetic.given(load.x) / size, arithmetic.given(load.y) / size
-            return force_wrench((x, y), points[load.at]), size
+            return force_wrench((x, y), points[load.at]), 1.0
         case Force():
             heading = direction(load.heading, points[load.at], points, arithmetic)
             return force_wrench(heading, points[load.at]), 1.0
@@ -117,10 +121,11 @@ def _between(a: Point, b: Point, arithmetic: Arithmetic) -> tuple[Point, Scalar]
 
 
 class Balance(NamedTuple):
-    """Factors of every load for every motion, and what balances.
+    """Factors of every load for every motion.
 
-    ``factors[m][n]`` is the power of load n per unit in motion m; ``sizes[m][n]`` the sum of the
-    absolute values of the products that it was summed from, against which a zero is judged.
+    ``factors[m][n]`` is the power of load n per unit, over its ``measure``, in motion m;
+    ``sizes[m][n]`` the sum of the absolute values of the products that it was summed from, against
+    which a zero is judged.
     """
 
     wrenches: tuple[Wrench, ...]
@@ -165,6 +170,7 @@ class Solution(NamedTuple):
 def solve_balance(b: Balance, arithmetic: Arithmetic) -> Solution:
     """The unknown loads from the sums of power of all motions."""
     roots = [w.load.name for w in b.wrenches if is_unknown(w.load)]
+    measures = {w.load.name: w.measure for w in b.wrenches}
     scale = force_scale(b)
     rows, idle = [], []
     for m, factors in enumerate(b.factors):
@@ -172,7 +178,7 @@ def solve_balance(b: Balance, arithmetic: Arithmetic) -> Solution:
         rows.append(row)
         if all(value == 0.0 for value in row):
             idle.append(m)
-    return _solved(rows, roots, tuple(idle), scale)
+    return _solved(rows, roots, tuple(idle), [(scale, measures[root]) for root in roots])
 
 
 def is_unknown(load: Load) -> bool:
@@ -186,15 +192,20 @@ def force_scale(b: Balance) -> float:
     for w in b.wrenches:
         value = known_value(w, b)
         if value is not None:
-            largest = max(largest, abs(value) * abs(w.gain))
+            largest = max(largest, abs(value) * abs(w.gain) * w.measure)
     return math.ldexp(1.0, -math.frexp(largest)[1]) if 0.0 < largest < math.inf else 1.0
+
+
+def vector_size(load: ForceVector) -> float:
+    """Magnitude of a force that is given by its components."""
+    return math.hypot(load.x.value, load.y.value)
 
 
 def known_value(w: Wrench, b: Balance) -> float | None:
     """The number of a load in its own unit; None where it hangs on an unknown."""
     root = next(other.load for other in b.wrenches if other.load.name == w.root)
     if isinstance(root, ForceVector):
-        return 1.0
+        return vector_size(root)
     if root.value is None or isinstance(root.value, Like):
         return None
     return root.value.value
@@ -204,13 +215,14 @@ def _row(
     b: Balance, m: int, factors: Sequence[Scalar], roots: list[str], scale: float, arithmetic: Arithmetic
 ) -> list[Scalar]:
     """Factor of each unknown in motion m, then the (scaled) power of the known loads."""
+    measures = {w.load.name: w.measure for w in b.wrenches}
     sums: dict[str, Scalar] = dict.fromkeys([*roots, ""], 0.0)
     sizes: dict[str, float] = dict.fromkeys([*roots, ""], 0.0)
     for w, factor, size in zip(b.wrenches, factors, b.sizes[m], strict=True):
         if w.root in roots:
-            key, amount = w.root, w.ratio
+            key, amount = w.root, w.ratio * (w.measure / measures[w.root])
         else:
-            key, amount = "", _amount(w, b, arithmetic) * scale * w.ratio
+            key, amount = "", _amount(w, b, arithmetic) * scale * w.measure * w.ratio
         sums[key] = sums[key] + amount * factor
         sizes[key] += abs(amount) * size
     return [0.0 if arithmetic.vanishes(sums[key], sizes[key]) else sums[key] for key in (*roots, "")]
@@ -219,19 +231,19 @@ def _row(
 def _amount(w: Wrench, b: Balance, arithmetic: Arithmetic) -> Scalar:
     root = next(other.load for other in b.wrenches if other.load.name == w.root)
     if isinstance(root, ForceVector):
-        return 1.0
+        return vector_size(root)
     assert root.value is not None and not isinstance(root.value, Like)
     return arithmetic.given(root.value)
 
 
-def _solved(rows: list[list[Scalar]], roots: list[str], idle: tuple[int, ...], scale: float) -> Solution:
+def _solved(rows: list[list[Scalar]], roots: list[str], idle: tuple[int, ...], scales: list[tuple[float, float]]) -> Solution:
     working = [row for m, row in enumerate(rows) if m not in idle]
     if len(working) == 1 and len(roots) == 1:
         factor, known = working[0]
         if factor == 0.0:
             return Solution("no value", {}, idle, roots[0])
-        return Solution("balanced", {roots[0]: -known / factor / scale}, idle)
-    return _solved_many(_equilibrated(working), roots, idle, scale)
+        return Solution("balanced", {roots[0]: -known / factor / scales[0][0] / scales[0][1]}, idle)
+    return _solved_many(_equilibrated(working), roots, idle, scales)
 
 
 def _equilibrated(rows: list[list[Scalar]]) -> list[list[Scalar]]:
@@ -240,7 +252,7 @@ def _equilibrated(rows: list[list[Scalar]]) -> list[list[Scalar]]:
 
 
 def _solved_many(
-    rows: list[list[Scalar]], roots: list[str], idle: tuple[int, ...], scale: float
+    rows: list[list[Scalar]], roots: list[str], idle: tuple[int, ...], scales: list[tuple[float, float]]
 ) -> Solution:
     count = len(roots)
     free = null_space([row[:count] for row in rows], count, 1e-13)
@@ -254,7 +266,7 @@ def _solved_many(
     if not whole.basis or not roots:
         return Solution("balanced", dict.fromkeys(roots, 0.0), idle)
     vector = whole.basis[0]
-    values = {root: vector[k] / vector[-1] / scale for k, root in enumerate(roots)}
+    values = {root: vector[k] / vector[-1] / scales[k][0] / scales[k][1] for k, root in enumerate(roots)}
     return Solution("balanced", values, idle)
 
 

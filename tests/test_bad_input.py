@@ -90,7 +90,7 @@ CHANGES = {
     "infinity": ("AB: 1,", "AB: -.inf,", 9, 15, "'-.inf' is not a number"),
     "five thousand digits": ("AB: 1,", f"AB: {'1' * 5000},", 9, 15, "too long"),
     "giant exponent": ("AB: 1,", "AB: 1e999999999,", 9, 15, "too long"),
-    "too large": ("AB: 1,", "AB: 1e101,", 9, 15, "too large"),
+    "too large": ("AB: 1,", "AB: 1e306,", 9, 15, "too large"),
     "too large once converted": ("AB: 1,", "AB: 1e400 km,", 9, 15, "too large"),
     "too small": ("AB: 1,", "AB: 1e-400,", 9, 15, "too small"),
     "length in kilograms": ("AB: 1,", "AB: 3 kg,", 9, 15, "'kg' is a mass, but a length is wanted"),

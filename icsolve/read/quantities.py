@@ -21,8 +21,8 @@ from icsolve.units import (
     times,
 )
 
-SMALLEST, LARGEST = 1e-100, 1e100
-"""Magnitudes between which a number stays, so that products of a few never overflow."""
+SMALLEST, LARGEST = 1e-305, 1e305
+"""Magnitudes between which a number stays; the solver scales figures and forces by powers of two."""
 
 _A = {
     "number": "a bare number",
