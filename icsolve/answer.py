@@ -116,6 +116,8 @@ class Answer:
     steps: tuple[str, ...] = ()
     errors: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     """bounds on the errors of ``rates`` by link; those of centres stand with them"""
+    sensitivities: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    """derivative of every unknown load by every number of the case, by its path"""
     status: str = "ok"
     reactions: Reactions | None = None
     """the force of each link on each other, by the names of the format; None unless asked"""

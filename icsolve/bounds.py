@@ -112,6 +112,17 @@ def too_close(name: str, spread: float | None) -> SceneError:
     )
 
 
+def slopes(scene: Bounded) -> dict[str, dict[str, float]]:
+    """Derivative of every unknown load (and those like it) by every number of the case, by its path."""
+    values = scene.outcome.solution.values
+    by_root = {root: scene.tape.back(value).by_path for root, value in values.items()}
+    return {
+        w.load.name: {path: float(w.ratio) * slope for path, slope in by_root[w.root].items()}
+        for w in scene.outcome.balance.wrenches
+        if w.root in by_root
+    }
+
+
 def refuse_overflow(values: Mapping[str, Scalar]) -> None:
     """Refuse unknown loads beyond the range of doubles."""
     for name, value in values.items():

@@ -21,6 +21,7 @@ from icsolve.bounds import (
     evaluate_bounded,
     plain,
     rate_errors,
+    slopes,
     unbounded_values,
 )
 from icsolve.case import Case, Pair
@@ -89,8 +90,8 @@ def _with_bodies(answer: Answer, program: Program, outcome: Outcome, values: dic
     figure, moves = program.figure, outcome.motions
     scale, slack = figure.frame.scale, float(moves.slack)
     place = Position(program.case, program.top, figure.points, scale, moves.twists, slack)
-    power_values = {root: value.value for root, value in values.items()}
-    return free_bodies(place, figure.frame, outcome.balance, power_values).added_to(answer)
+    by_power = {root: (value.value, value.error or 0.0) for root, value in values.items()}
+    return free_bodies(place, figure.frame, outcome.balance, by_power).added_to(answer)
 
 
 def _structure(program: Program, refusal: SceneError) -> Answer:
@@ -120,6 +121,7 @@ def _answer(program: Program, outcome: Outcome, unknowns: dict[str, Value], scen
         notes=(*figure.notes, *outcome.motions.notes, *_notes(outcome)),
         skipped=_skipped(program, outcome),
         steps=_steps(program),
+        sensitivities=Deferred(lambda: slopes(scene) if scene else {}),
         errors=Deferred(lambda: {"rates": rate_errors(scene, speed)} if scene and moving else {}),
     )
 

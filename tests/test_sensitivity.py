@@ -1,0 +1,70 @@
+"""Sensitivities are derivatives: finite differences in sixty digits say the same."""
+
+from __future__ import annotations
+
+import pytest
+from mpmath import mpf
+from more_digits import SixtyDigits
+
+import icsolve
+from icsolve.case import Number
+from icsolve.program import Want, evaluate, prepare
+from icsolve.sensitivity import band, influences
+
+PRESS = """
+icsolve: 1
+points: {A: [0, 0], D: [4, 0.5]}
+lengths: {AB: 1, BC: 3.5, CD: 2.5, DE: 1.5}
+angles: {AB: 60, CDE: 20}
+near: {C: [3.5, 2.4]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {pin: [4, 1], at: D}
+loads:
+  P: {force: 100, link: 4, at: E, angle: 180}
+  K: {spring: 12, free: 1.2, link: 3, at: C, to: A}
+  T12: {torque: unknown, link: 2}
+"""
+
+
+class Moved(SixtyDigits):
+    """Sixty digits with one number of the case moved."""
+
+    def __init__(self, path: str, by: float) -> None:
+        self.path, self.by = path, by
+
+    def given(self, number: Number) -> object:
+        return super().given(number) + (mpf(self.by) if number.path == self.path else 0)
+
+
+def test_every_sensitivity_is_a_derivative() -> None:
+    case = icsolve.load(PRESS)
+    found = influences(icsolve.solve(case), "T12")
+    assert {"lengths.AB", "angles.CDE", "loads.K.free", "points.D.y", "loads.P"} <= {i.path for i in found}
+    program = prepare(case, Want())
+    for influence in found:
+        ends = [evaluate(program, Moved(influence.path, h))[1].solution.values["T12"] for h in (1e-12, -1e-12)]
+        difference = float((ends[0] - ends[1]) / mpf(2e-12))
+        assert influence.per_unit == pytest.approx(difference, rel=1e-9, abs=1e-12), influence.path
+
+
+def test_one_percent_more_of_the_only_load_is_one_percent_more_torque() -> None:
+    text = "\n".join(line for line in PRESS.splitlines() if "spring" not in line)
+    by_path = {i.path: i for i in influences(icsolve.solve(icsolve.load(text)), "T12")}
+    assert by_path["loads.P"].percent == pytest.approx(1.0)
+
+
+def test_the_strongest_comes_first() -> None:
+    found = influences(icsolve.solve(icsolve.load(PRESS)), "T12")
+    percents = [abs(i.percent) for i in found if i.percent is not None]
+    assert percents == sorted(percents, reverse=True)
+
+
+def test_the_band_of_a_drawing_grows_with_its_tolerance_and_covers_each_point_moved() -> None:
+    answer = icsolve.solve(icsolve.load(PRESS))
+    assert band(answer, "T12", 0.02) == pytest.approx(2 * band(answer, "T12", 0.01))
+    for path in ("lengths.AB", "points.D.y"):
+        slope = answer.sensitivities["T12"][path]
+        assert band(answer, "T12", 0.01) >= abs(slope) * 0.01
