@@ -9,6 +9,5 @@ from __future__ import annotations
 from icsolve.figure.board import Key, Point
 from icsolve.figure.frame import Frame, case_point
 from icsolve.figure.solution import Figure, Placement, place, solve_figure
-from icsolve.figure.steps import Step
 
-__all__ = ["Figure", "Frame", "Key", "Placement", "Point", "Step", "case_point", "place", "solve_figure"]
+__all__ = ["Figure", "Frame", "Key", "Placement", "Point", "case_point", "place", "solve_figure"]

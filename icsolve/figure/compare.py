@@ -6,18 +6,21 @@ it is compared with, and by 0.2 % of the figure's size, whichever is less.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from icsolve.arithmetic import Floats, turn_of
 from icsolve.case import Coordinates, Number
 from icsolve.figure.board import Board
 from icsolve.figure.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, number_of
-from icsolve.figure.misfit import misfit
-from icsolve.figure.order import leading_to
+from icsolve.figure.given import Given
+from icsolve.figure.lead import leading_to
+from icsolve.figure.misfit import ROUNDING, misfit
 from icsolve.figure.refusals import Miss, clash, measure
-from icsolve.figure.steps import Given, Step
+
+if TYPE_CHECKING:
+    from icsolve.figure.steps import Step
 from icsolve.figure.words import datum_words, joined, listed
 
-ROUNDING = 1e-10
-"""Misfit, over the figure's size, that is rounding in the sums and not in the data."""
 OF_SIZE = 0.002
 MOST_WORK = 50_000
 """Steps that the propagation of half units may run again; beyond, only the size decides."""
@@ -39,15 +42,6 @@ class Nudged(Floats):
     def turn(self, number: Number) -> tuple[float, float]:
         """Cosine and sine, moved if it is the one."""
         return turn_of(self._value(number))
-
-
-def size_of(board: Board, points: tuple[str, ...]) -> float:
-    """The greater side of the box about the points, normalised."""
-    at = [board.points[p] for p in points]
-    if not at:
-        return 0.0
-    xs, ys = [p[0] for p in at], [p[1] for p in at]
-    return float(max(max(xs) - min(xs), max(ys) - min(ys)))
 
 
 def compare(
@@ -79,7 +73,7 @@ def _allowance(board: Board, steps: tuple[Step, ...], datum: Datum, off: float, 
         try:
             for step in cone:
                 step.place(moved)
-            total += abs(misfit(moved, datum).off - off)
+            total += abs(misfit(moved, datum)[0] - off)
         except ZeroDivisionError:
             return limit
     return total
@@ -103,7 +97,7 @@ def _numbers(board: Board, cone: tuple[Step, ...], datum: Datum) -> list[Number]
 
 def notes_of(
     board: Board, offs: dict[Datum, float], used: frozenset[Datum], given: bool, size: float
-) -> list[str]:
+) -> tuple[str, ...]:
     """Which data set the points and which were only compared, where there were more than needed."""
     spare = {
         datum: off
@@ -111,7 +105,7 @@ def notes_of(
         if datum not in used and (off > ROUNDING * size or datum.kind not in (GUIDE, LINE))
     }
     if not spare:
-        return []
+        return ()
     setters = ["the coordinates"] if given else []
     for kinds, one, many in (((LENGTH,), "length", "lengths"), ((RAY, CORNER), "angle", "angles")):
         names = sorted(joined(*d.points) for d in used if d.kind in kinds)
@@ -119,7 +113,7 @@ def notes_of(
             setters.append(f"{one if len(names) == 1 else many} {', '.join(names)}")
     only = "; ".join(f"{_said(board, datum)} {_off(board, off, size)}" for datum, off in spare.items())
     by = f"set by {listed(setters)}" if setters else "set by the other data"
-    return [f"more data than the figure needs: the points are {by}; only compared: {only}"]
+    return (f"more data than the figure needs: the points are {by}; only compared: {only}",)
 
 
 def _said(board: Board, datum: Datum) -> str:

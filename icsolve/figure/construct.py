@@ -6,21 +6,20 @@ from icsolve.arithmetic import FLOATS
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.figure.board import Board
-from icsolve.figure.choice import choose
-from icsolve.figure.compare import compare, notes_of, size_of
 from icsolve.figure.data import Datum
 from icsolve.figure.frame import Frame
-from icsolve.figure.order import Order, leading_to, order_of, points_of
+from icsolve.figure.given import Given
+from icsolve.figure.lead import leading_to, points_of
+from icsolve.figure.misfit import agrees, size_of
+from icsolve.figure.order import Order, order_of
 from icsolve.figure.refusals import Miss
 from icsolve.figure.solution import Figure
-from icsolve.figure.steps import Given
 from icsolve.figure.ways import Walker, Way, refusal
-from icsolve.figure.words import plain
 
 MOST_RETRIES = 20
 
-Fit = tuple[Way, dict[Datum, float], float]
-"""A way that agrees with all data: how far off each is, and the figure's size."""
+Fit = tuple[Way, dict[Datum, float]]
+"""A way that agrees with all data, and how far off each is."""
 
 
 def construct(case: Case, frame: Frame, goal: list[str], names: list[str]) -> Figure:
@@ -31,7 +30,7 @@ def construct(case: Case, frame: Frame, goal: list[str], names: list[str]) -> Fi
         if error.status != Status.AMBIGUOUS or set(names) <= set(goal):
             raise
         figure = _by_the_rest(case, frame, goal, names, error)
-    return figure._replace(skipped=tuple(plain(p) for p in names if p not in figure.points))
+    return figure._replace(skipped=tuple(p.lstrip("@") for p in names if p not in figure.points))
 
 
 def _by_the_rest(case: Case, frame: Frame, goal: list[str], names: list[str], error: SceneError) -> Figure:
@@ -73,29 +72,49 @@ def _assembled(case: Case, frame: Frame, order: Order) -> Figure | Miss:
     """The one way in which an order of construction assembles, or why it does not."""
     board = Board(case, frame, FLOATS)
     walk = Walker(order, board).walk()
-    if not walk.ways:
+    if not walk.ways or walk.gave_up:
         return refusal(walk)
     fits: list[Fit] = []
     misses: list[Miss] = []
+    used = order.used()
     for way in walk.ways:
         board.points = way.points
-        size = size_of(board, order.points)
-        data = [d for d in order.facts.data if all(p in way.points for p in d.points)]
-        miss, offs = compare(board, way.steps, data, size)
+        miss, offs = _compared(board, order, way, used)
         if miss is None:
-            fits.append((way, offs, size))
+            fits.append((way, offs))
         else:
             misses.append(miss)
     if not fits:
         return min(misses, key=lambda miss: miss.amount)
-    return _figure(board, order, fits)
+    return _figure(board, order, fits, used)
 
 
-def _figure(board: Board, order: Order, fits: list[Fit]) -> Figure:
-    way = choose(board, [fit[0] for fit in fits], order.points)
-    offs, size = next((offs, size) for each, offs, size in fits if each is way)
+def _compared(
+    board: Board, order: Order, way: Way, used: frozenset[Datum]
+) -> tuple[Miss | None, dict[Datum, float]]:
+    """Compare the points with the data that did not make them."""
+    size = size_of(board, order.points)
+    data = [d for d in order.facts.data if all(p in way.points for p in d.points)]
+    if used.issuperset(data) and agrees(board, data, size):
+        return None, {}
+    from icsolve.figure.compare import compare
+
+    return compare(board, way.steps, data, size)
+
+
+def _figure(board: Board, order: Order, fits: list[Fit], used: frozenset[Datum]) -> Figure:
+    """The figure of the way that is meant."""
+    way, offs = fits[0]
+    if len(fits) > 1:
+        from icsolve.figure.choice import choose
+
+        way = choose(board, [each for each, _ in fits], order.points)
+        offs = next(offs for each, offs in fits if each is way)
     board.points = way.points
-    given = any(isinstance(step, Given) for step in order.steps)
-    notes = notes_of(board, offs, order.used(), given, size)
-    points = {p: way.points[p] for p in order.points}
-    return Figure(board.frame, points, way.steps, tuple(notes), ())
+    notes: tuple[str, ...] = ()
+    if offs:
+        from icsolve.figure.compare import notes_of
+
+        given = any(isinstance(step, Given) for step in order.steps)
+        notes = notes_of(board, offs, used, given, size_of(board, order.points))
+    return Figure(board.frame, {p: way.points[p] for p in order.points}, way.steps, notes, ())

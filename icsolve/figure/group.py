@@ -12,6 +12,7 @@ from icsolve.figure.board import Board, Key
 from icsolve.figure.data import Datum
 from icsolve.figure.equations import Equation, Pivot, Unknown, solved
 from icsolve.figure.free import underdetermined
+from icsolve.figure.given import told
 from icsolve.figure.matching import groups_of, leading, system_of
 from icsolve.figure.sheet import Drawing
 from icsolve.figure.words import listed, plain
@@ -32,8 +33,7 @@ class Group(NamedTuple):
     @property
     def name(self) -> str:
         """What the step does."""
-        names = ", ".join(map(plain, self.targets))
-        return f"{names}: together, by Newton's method on their {len(self.equations)} data"
+        return told(self)
 
     def place(self, board: Board) -> None:
         """Put the points, and improve them."""

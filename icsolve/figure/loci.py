@@ -9,8 +9,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from icsolve.arithmetic import Arithmetic, Scalar
-from icsolve.figure.board import Board, Heading, Key, Point, Span, data_in, ends_of
+from icsolve.figure.board import Board, Key, Point
 from icsolve.figure.data import Datum, X
+from icsolve.figure.heading import Heading, Span, data_in, ends_of
 
 
 class Crossing(NamedTuple):

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import NamedTuple
+from collections.abc import Callable, Collection
 
 from icsolve.figure.board import Board
 from icsolve.figure.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, X, Y
@@ -13,11 +12,26 @@ TOO_CLOSE = 1e-12
 """Points nearer than this (normalised) have no direction to one another."""
 
 
-class Misfit(NamedTuple):
-    """``off`` is a signed distance (normalised); ``ahead`` is False where a ray points the other way."""
+Misfit = tuple[float, bool]
+"""A signed distance (normalised), and False where a ray points the other way."""
 
-    off: float
-    ahead: bool = True
+
+ROUNDING = 1e-10
+"""Misfit, over the figure's size, that is rounding in the sums and not in the data."""
+
+
+def size_of(board: Board, points: Collection[str]) -> float:
+    """The greater side of the box about the points, normalised."""
+    at = [board.points[p] for p in points]
+    if not at:
+        return 0.0
+    xs, ys = [p[0] for p in at], [p[1] for p in at]
+    return float(max(max(xs) - min(xs), max(ys) - min(ys)))
+
+
+def agrees(board: Board, data: Collection[Datum], size: float) -> bool:
+    """Whether the points meet data exactly, but for rounding."""
+    return all(ahead and abs(off) <= ROUNDING * size for off, ahead in (misfit(board, d) for d in data))
 
 
 def misfit(board: Board, datum: Datum) -> Misfit:
@@ -27,14 +41,14 @@ def misfit(board: Board, datum: Datum) -> Misfit:
 
 def _length(board: Board, datum: Datum) -> Misfit:
     (ax, ay), (bx, by) = (board.points[p] for p in datum.points)
-    return Misfit(math.hypot(bx - ax, by - ay) - board.length(datum))
+    return math.hypot(bx - ax, by - ay) - board.length(datum), True
 
 
 def _ray(board: Board, datum: Datum) -> Misfit:
     (ax, ay), (bx, by) = (board.points[p] for p in datum.points)
     c, s = board.turn(datum)
     dx, dy = bx - ax, by - ay
-    return Misfit(c * dy - s * dx, c * dx + s * dy > TOO_CLOSE or math.hypot(dx, dy) <= TOO_CLOSE)
+    return c * dy - s * dx, c * dx + s * dy > TOO_CLOSE or math.hypot(dx, dy) <= TOO_CLOSE
 
 
 def _corner(board: Board, datum: Datum) -> Misfit:
@@ -44,15 +58,15 @@ def _corner(board: Board, datum: Datum) -> Misfit:
     px, py, qx, qy = ax - vx, ay - vy, bx - vx, by - vy
     p, q = math.hypot(px, py), math.hypot(qx, qy)
     if min(p, q) <= TOO_CLOSE:
-        return Misfit(max(p, q), ahead=False)
+        return max(p, q), False
     tx, ty = c * px - s * py, s * px + c * py
-    return Misfit((tx * qy - ty * qx) / min(p, q), tx * qx + ty * qy > 0.0)
+    return (tx * qy - ty * qx) / min(p, q), tx * qx + ty * qy > 0.0
 
 
 def _guide(board: Board, datum: Datum) -> Misfit:
     (x, y), (tx, ty) = (board.points[p] for p in datum.points)
     c, s = board.turn(datum)
-    return Misfit(c * (y - ty) - s * (x - tx))
+    return c * (y - ty) - s * (x - tx), True
 
 
 def _line(board: Board, datum: Datum) -> Misfit:
@@ -60,19 +74,19 @@ def _line(board: Board, datum: Datum) -> Misfit:
     dx, dy = bx - ax, by - ay
     d = math.hypot(dx, dy)
     if d <= TOO_CLOSE:
-        return Misfit(d, ahead=False)
-    return Misfit((dx * (y - ty) - dy * (x - tx)) / d)
+        return d, False
+    return (dx * (y - ty) - dy * (x - tx)) / d, True
 
 
 def _mean(board: Board, datum: Datum) -> Misfit:
     (x, y), *of = (board.points[p] for p in datum.points)
     mx, my = sum(p[0] for p in of) / len(of), sum(p[1] for p in of) / len(of)
-    return Misfit(max(x - mx, y - my, key=abs))
+    return max(x - mx, y - my, key=abs), True
 
 
 def _axis(board: Board, datum: Datum) -> Misfit:
     x, y = board.points[datum.points[0]]
-    return Misfit((x if datum.kind == X else y) - board.coordinate(datum))
+    return (x if datum.kind == X else y) - board.coordinate(datum), True
 
 
 MISFITS: dict[str, Callable[[Board, Datum], Misfit]] = {

@@ -14,11 +14,12 @@ from icsolve.errors import Status
 from icsolve.figure.board import Board
 from icsolve.figure.data import LENGTH, facts_of
 from icsolve.figure.equations import Unknown, pivots, solved
+from icsolve.figure.given import Given
 from icsolve.figure.group import Group
 from icsolve.figure.order import grow
 from icsolve.figure.refusals import Miss, measure
 from icsolve.figure.sheet import Drawing
-from icsolve.figure.steps import Given, Meet, Step
+from icsolve.figure.steps import Meet, Step
 from icsolve.figure.words import datum_words, listed, plain
 
 Spot = tuple[float, float]
@@ -195,7 +196,7 @@ def _unreached(group: Group, board: Board, closest: Start) -> Miss:
     if not closest:
         return Miss(Status.CANNOT_ASSEMBLE, f"no position found in which points {names} fit their data")
     board.points.update(closest)
-    off, datum = max(((abs(misfit(board, d).off), d) for d in group.data()), key=lambda pair: pair[0])
+    off, datum = max(((abs(misfit(board, d)[0]), d) for d in group.data()), key=lambda pair: pair[0])
     return Miss(
         Status.CANNOT_ASSEMBLE,
         f"the figure cannot be assembled: no position found in which points {names} fit their data "

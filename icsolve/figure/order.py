@@ -7,14 +7,14 @@ points that only all their data together determine.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection
 from typing import NamedTuple
 
 from icsolve.case import Case
-from icsolve.figure.board import Key
 from icsolve.figure.data import LENGTH, Datum, Facts, facts_of, given_points
+from icsolve.figure.lead import leading_to, points_of
 from icsolve.figure.sheet import ALL_SHEETS, LOOSE_SHEETS, NOBODY, Drawing, Sheet
-from icsolve.figure.steps import Base, Given, Step
+from icsolve.figure.steps import Base, Step
 
 
 class Order(NamedTuple):
@@ -110,20 +110,3 @@ def _group(drawing: Drawing, case: Case, goal: Collection[str], best_effort: boo
     step, points = next_group(drawing, case, goal)
     drawing.ground.put(step, points, (400, 400, 1))
     return True
-
-
-def leading_to(goal: Collection[str], steps: Sequence[Step]) -> tuple[Step, ...]:
-    """Only the steps that lead to some points."""
-    needed: set[Key] = set(goal)
-    kept: list[Step] = []
-    for step in reversed(steps):
-        targets = tuple(key for key in step.targets if key in needed)
-        if targets:
-            needed.update(step.needs())
-            kept.append(Given(targets) if isinstance(step, Given) else step)
-    return tuple(reversed(kept))
-
-
-def points_of(steps: Sequence[Step]) -> tuple[str, ...]:
-    """The points that steps place on the ground."""
-    return tuple(key for step in steps for key in step.targets if isinstance(key, str))

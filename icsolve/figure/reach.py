@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from itertools import combinations
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
-from icsolve.figure.board import Apart, Heading
 from icsolve.figure.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, X, Y
+from icsolve.figure.heading import Apart, Heading
 from icsolve.figure.loci import Arc, Axis, Circle, Line, Locus, Shifted, is_round
 from icsolve.figure.steps import Mean, Meet, Polar, Step, Transfer
 
@@ -21,19 +21,16 @@ EXACT, BY_LENGTH, BY_ANGLE, BY_ARC = 0, 100, 200, 300
 """What data cost: coordinates and guides, lengths, angles, angles seen from the point itself."""
 
 
-class Reach(NamedTuple):
-    """A locus of a point, at the cost of its data."""
-
-    cost: int
-    locus: Locus
+Reach = tuple[int, Locus]
+"""A locus of a point, after the cost of its data."""
 
 
 def best_step(sheet: Sheet, point: str) -> tuple[Cost, Step] | None:
     """The step of greatest authority that places a point, if there is one."""
     found: list[tuple[Cost, Step]] = [*_means(sheet, point), *_transfers(sheet, point)]
-    reaches = sorted(reaches_of(sheet, point), key=lambda reach: reach.cost)
+    reaches = sorted(reaches_of(sheet, point), key=lambda reach: reach[0])
     for one, two in combinations(reaches, 2):
-        step = _meet(sheet, point, one.locus, two.locus)
+        step = _meet(sheet, point, one[1], two[1])
         if step is not None:
             found.append((_cost(sheet, one, two, step), step))
     return min(found, key=lambda pair: pair[0], default=None)
@@ -43,7 +40,7 @@ def _cost(sheet: Sheet, one: Reach, two: Reach, step: Step) -> Cost:
     """What a step costs; nothing where a locus that came by its vector is in place already."""
     if isinstance(step, Polar) and step.span in sheet.carried:
         return (EXACT, EXACT, 0)
-    return max(one.cost, two.cost), one.cost + two.cost, 1 if isinstance(step, Meet) and step.sign else 0
+    return max(one[0], two[0]), one[0] + two[0], 1 if isinstance(step, Meet) and step.sign else 0
 
 
 def reaches_of(sheet: Sheet, point: str, after: tuple[str, ...] = ()) -> Iterator[Reach]:
@@ -60,7 +57,7 @@ def _circle(sheet: Sheet, datum: Datum, point: str) -> Iterator[Reach]:
     a, b = datum.points
     centre = b if a == point else a
     if centre in sheet.placed:
-        yield Reach(BY_LENGTH, Circle(sheet.key(centre), datum))
+        yield BY_LENGTH, Circle(sheet.key(centre), datum)
 
 
 def _seen(sheet: Sheet, datum: Datum, point: str) -> Iterator[Reach]:
@@ -70,9 +67,9 @@ def _seen(sheet: Sheet, datum: Datum, point: str) -> Iterator[Reach]:
         return
     ends = sheet.key(a), sheet.key(b)
     if datum in sheet.drawing.facts.flat:
-        yield Reach(BY_ARC, Line(ends[0], Heading(Apart(*ends)), False))
+        yield BY_ARC, Line(ends[0], Heading(Apart(*ends)), False)
     else:
-        yield Reach(BY_ARC, Arc(*ends, datum))
+        yield BY_ARC, Arc(*ends, datum)
 
 
 def _guided(sheet: Sheet, datum: Datum, point: str) -> Iterator[Reach]:
@@ -80,7 +77,7 @@ def _guided(sheet: Sheet, datum: Datum, point: str) -> Iterator[Reach]:
     at, through = datum.points
     other = through if point == at else at
     if other in sheet.placed:
-        yield Reach(EXACT, Line(sheet.key(other), Heading(datum), False))
+        yield EXACT, Line(sheet.key(other), Heading(datum), False)
 
 
 def _lined(sheet: Sheet, datum: Datum, point: str) -> Iterator[Reach]:
@@ -98,11 +95,11 @@ def _lined(sheet: Sheet, datum: Datum, point: str) -> Iterator[Reach]:
         if heading is None and a in sheet.placed and b in sheet.placed:
             heading = Heading(Apart(sheet.key(a), sheet.key(b)))
         if heading is not None and base in sheet.placed:
-            yield Reach(EXACT, Line(sheet.key(base), heading, False))
+            yield EXACT, Line(sheet.key(base), heading, False)
 
 
 def _axis(sheet: Sheet, datum: Datum, point: str) -> Iterator[Reach]:
-    yield Reach(EXACT, Axis(datum))
+    yield EXACT, Axis(datum)
 
 
 def _nothing(sheet: Sheet, datum: Datum, point: str) -> Iterator[Reach]:
@@ -127,7 +124,7 @@ def _rays(sheet: Sheet, point: str) -> Iterator[Reach]:
     for other in others:
         heading = sheet.headings.get((other, point))
         if other in sheet.placed and heading is not None:
-            yield Reach(BY_ANGLE + len(heading.turns), Line(sheet.key(other), heading, True))
+            yield BY_ANGLE + len(heading.turns), Line(sheet.key(other), heading, True)
 
 
 def _lent(sheet: Sheet, point: str) -> Iterator[Reach]:
@@ -145,7 +142,7 @@ def _lent(sheet: Sheet, point: str) -> Iterator[Reach]:
                 cost = max(BY_LENGTH, lender.placed[point][0], lender.placed[other][0])
                 span = Apart(lender.key(other), lender.key(point))
                 lengths.add(other)
-                yield Reach(cost, Circle(sheet.key(other), span))
+                yield cost, Circle(sheet.key(other), span)
 
 
 def _shared(sheet: Sheet, lender: Sheet) -> list[str]:
@@ -164,8 +161,8 @@ def _shifted(sheet: Sheet, point: str, after: tuple[str, ...]) -> Iterator[Reach
         heading = sheet.headings.get((point, other))
         if heading is None or other in sheet.placed or other in after:
             continue
-        for reach in reaches_of(sheet, other, (*after, point)):
-            yield Reach(max(reach.cost, BY_ANGLE) + 10, Shifted(reach.locus, datum, heading))
+        for cost, locus in reaches_of(sheet, other, (*after, point)):
+            yield max(cost, BY_ANGLE) + 10, Shifted(locus, datum, heading)
 
 
 def _means(sheet: Sheet, point: str) -> Iterator[tuple[Cost, Step]]:

@@ -138,7 +138,8 @@ def _clash(board: Board, datum: Datum, off: float, ahead: bool) -> str:
     if not ahead:
         return f"{datum_words(datum)} has no direction: {joined(*points[2:])} are one point"
     along = joined(*points[2:]) if kind == LINE else f"{number_of(board.case, datum).value:.6g} deg"
-    return f"{name} is {measure(board, abs(off))} off its guide, the line through {plain(points[1])} along {along}"
+    line = f"the line through {plain(points[1])} along {along}"
+    return f"{name} is {measure(board, abs(off))} off its guide, {line}"
 
 
 def _values(board: Board, datum: Datum, off: float) -> tuple[str, str, str]:

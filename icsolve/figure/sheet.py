@@ -11,11 +11,13 @@ from __future__ import annotations
 import heapq
 from collections.abc import Iterable
 
-from icsolve.figure.board import Apart, Heading, Key
+from icsolve.figure.board import Key
 from icsolve.figure.data import LENGTH, LINE, MEAN, RAY, Facts
+from icsolve.figure.given import Given
+from icsolve.figure.heading import Apart, Heading
 from icsolve.figure.loci import Circle, Line, Shifted
 from icsolve.figure.reach import Cost, best_step
-from icsolve.figure.steps import Given, Meet, Polar, Step, Transfer
+from icsolve.figure.steps import Meet, Polar, Step, Transfer
 
 NOBODY, LOOSE_SHEETS, ALL_SHEETS = 0, 1, 2
 """Which sheets lend their distances to loose ones."""

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from icsolve.arithmetic import FLOATS, Arithmetic, Scalar
 from icsolve.case import Case, Coordinates
-from icsolve.errors import SceneError, Status
+from icsolve.errors import SceneError
 from icsolve.figure.board import Board, Point
-from icsolve.figure.data import Datum, data_of, names_of
+from icsolve.figure.data import GUIDE, LINE, Datum, data_of, names_of
 from icsolve.figure.frame import Frame, frame_of
-from icsolve.figure.steps import Given, Step
-from icsolve.figure.words import plain
+from icsolve.figure.given import Given
+from icsolve.figure.misfit import agrees, size_of
+
+if TYPE_CHECKING:
+    from icsolve.figure.steps import Step
 
 
 class Figure(NamedTuple):
@@ -95,18 +98,19 @@ def _drawn(case: Case, frame: Frame, goal: list[str], names: list[str]) -> Figur
     steps: tuple[Step, ...] = (Given(tuple(goal)),)
     steps[0].place(board)
     data = [d for d in data_of(case) if all(p in board.points for p in d.points)]
-    notes = _compared(board, steps, data, tuple(goal)) if data else ()
+    notes = _compared(board, steps, data, goal) if data else ()
     points = {p: board.points[p] for p in goal}
-    return Figure(frame, points, steps, notes, tuple(plain(p) for p in names if p not in points))
+    return Figure(frame, points, steps, notes, tuple(p.lstrip("@") for p in names if p not in points))
 
 
-def _compared(
-    board: Board, steps: tuple[Step, ...], data: list[Datum], goal: tuple[str, ...]
-) -> tuple[str, ...]:
-    from icsolve.figure.compare import compare, notes_of, size_of
-
+def _compared(board: Board, steps: tuple[Step, ...], data: list[Datum], goal: list[str]) -> tuple[str, ...]:
+    """Notes on the data that the coordinates make spare; guides that are met need none."""
     size = size_of(board, goal)
+    if agrees(board, data, size) and all(d.kind in (GUIDE, LINE) for d in data):
+        return ()
+    from icsolve.figure.compare import compare, notes_of
+
     miss, offs = compare(board, steps, data, size)
     if miss is not None:
-        raise SceneError(Status.INCONSISTENT, miss.message)
-    return tuple(notes_of(board, offs, frozenset(), True, size))
+        raise SceneError(miss.status, miss.message)
+    return notes_of(board, offs, frozenset(), True, size)

@@ -2,57 +2,20 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Union
 
-from icsolve.figure.board import Apart, Board, Heading, Key, Span, data_in, ends_of
+from icsolve.figure.board import Board, Key
 from icsolve.figure.data import Datum
-from icsolve.figure.loci import Crossing, Locus, crossing, headings_of, is_ray, is_round
-from icsolve.figure.words import heading_words, locus_words, plain, span_words
+from icsolve.figure.given import Given, told
+from icsolve.figure.heading import Apart, Heading, Span, data_in, ends_of
+from icsolve.figure.loci import Crossing, Locus, crossing, headings_of, is_ray
 
+if TYPE_CHECKING:
+    from icsolve.figure.group import Group
 
-class Step(Protocol):
-    """What every step can do."""
-
-    @property
-    def targets(self) -> tuple[Key, ...]:
-        """The points that it places."""
-
-    @property
-    def name(self) -> str:
-        """What it does, for a reader."""
-
-    def place(self, board: Board) -> None:
-        """Put the points on a board."""
-
-    def data(self) -> tuple[Datum, ...]:
-        """The data that it uses."""
-
-    def needs(self) -> tuple[Key, ...]:
-        """The points that must be in place."""
-
-
-class Given(NamedTuple):
-    """Points whose coordinates the case gives."""
-
-    targets: tuple[Key, ...]
-
-    @property
-    def name(self) -> str:
-        """What the step does."""
-        return f"{', '.join(map(plain, self.targets))}: by coordinates"
-
-    def place(self, board: Board) -> None:
-        """Put the points."""
-        for key in self.targets:
-            board.points[key] = board.coordinates(key if isinstance(key, str) else key[1])
-
-    def data(self) -> tuple[Datum, ...]:
-        """None but the coordinates."""
-        return ()
-
-    def needs(self) -> tuple[Key, ...]:
-        """Nothing."""
-        return ()
+Step = Union["Given", "Mean", "Polar", "Meet", "Base", "Transfer", "Group"]
+"""Each puts points on a board (``place``), and tells its ``targets``, what it ``needs``, its ``data``
+and its ``name``, a sentence."""
 
 
 class Mean(NamedTuple):
@@ -76,10 +39,7 @@ class Mean(NamedTuple):
     @property
     def name(self) -> str:
         """What the step does."""
-        of = ", ".join(self.datum.points[1:])
-        if self.centroid is None:
-            return f"{plain(self.target)}: centroid of {of}"
-        return f"{plain(self.target)}: from {plain(self.centroid)}, the centroid of {of}"
+        return told(self)
 
     def place(self, board: Board) -> None:
         """Put the point."""
@@ -121,10 +81,7 @@ class Polar(NamedTuple):
     @property
     def name(self) -> str:
         """What the step does."""
-        return (
-            f"{plain(self.target)}: from {plain(self.base)} by {span_words(self.span)} "
-            f"along {heading_words(self.heading)}"
-        )
+        return told(self)
 
     def place(self, board: Board) -> None:
         """Put the point."""
@@ -162,11 +119,7 @@ class Meet(NamedTuple):
     @property
     def name(self) -> str:
         """What the step does."""
-        words = f"{plain(self.target)}: where {locus_words(self.first)} meets {locus_words(self.second)}"
-        if self.sign == 0:
-            return f"{words} (touching)" if is_round(self.second) else words
-        side = ("left", "right") if is_round(self.first) else ("farther", "nearer")
-        return f"{words} ({side[self.sign < 0]})"
+        return told(self)
 
     def cross(self, board: Board) -> Crossing:
         """Where the loci meet, both places."""
@@ -230,7 +183,7 @@ class Base(NamedTuple):
     @property
     def name(self) -> str:
         """What the step does."""
-        return f"{plain(self.a)}, {plain(self.b)}: {span_words(self.span)} apart, a shape still to be placed"
+        return told(self)
 
     def place(self, board: Board) -> None:
         """Put both points."""
@@ -265,8 +218,7 @@ class Transfer(NamedTuple):
     @property
     def name(self) -> str:
         """What the step does."""
-        p, q = map(plain, self.pose)
-        return f"{plain(self.target)}: carried by the shape that {p} and {q} hold"
+        return told(self)
 
     def place(self, board: Board) -> None:
         """Put the point: the shape turned as p to q is, and not stretched."""

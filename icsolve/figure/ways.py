@@ -14,11 +14,12 @@ from icsolve.errors import Status
 from icsolve.figure.board import Board, Key, Point
 from icsolve.figure.data import Datum
 from icsolve.figure.frame import normalised
+from icsolve.figure.given import Given
 from icsolve.figure.loci import Crossing, is_round
 from icsolve.figure.misfit import TOO_CLOSE, misfit
 from icsolve.figure.order import Order
 from icsolve.figure.refusals import Miss, behind, clash, concentric, degenerate, merged, parallel, too_far
-from icsolve.figure.steps import Base, Given, Mean, Meet, Polar, Step, Transfer, aims
+from icsolve.figure.steps import Base, Mean, Meet, Polar, Step, Transfer, aims
 from icsolve.figure.words import plain
 
 U = 2.0**-53
@@ -40,14 +41,6 @@ class Way(NamedTuple):
     points: dict[Key, Point]
 
 
-class Walk(NamedTuple):
-    """All ways found; the misses on the paths that `near` chose, deepest last; whether it gave up."""
-
-    ways: list[Way]
-    misses: list[tuple[int, Miss]]
-    gave_up: bool
-
-
 class Fork(NamedTuple):
     """Where the walk can go on otherwise: only if no way was found since, where ``spare``."""
 
@@ -58,7 +51,11 @@ class Fork(NamedTuple):
 
 
 class Walker:
-    """The walk over the steps of an order on one board."""
+    """The walk over the steps of an order on one board.
+
+    ``ways`` has what it found, ``misses`` (with their depth) what failed on the paths that `near`
+    chose; ``gave_up`` tells that there were too many branches to try.
+    """
 
     def __init__(self, order: Order, board: Board) -> None:
         self.order, self.board = order, board
@@ -66,25 +63,27 @@ class Walker:
         self.checks = _due(order)
         self.steps = list(order.steps)
         self.budget = 20_000 + 20 * len(self.steps)
+        self.ways: list[Way] = []
         self.misses: list[tuple[int, Miss]] = []
+        self.gave_up = False
         self.spared = 0
 
-    def walk(self) -> Walk:
-        """Every way, or the misses of the ways that failed."""
-        ways: list[Way] = []
+    def walk(self) -> Walker:
+        """Try every way."""
         forks: list[Fork] = []
-        depth, count = 0, len(self.steps)
-        while self.budget > 0 and len(ways) < MOST_WAYS:
-            if depth < count:
-                depth = self._advance(depth, forks, len(ways))
-            if depth == count:
-                ways.append(Way(tuple(self.steps), dict(self.board.points)))
+        depth = 0
+        while depth >= 0:
+            if depth < len(self.steps):
+                depth = self._advance(depth, forks, len(self.ways))
+            if depth == len(self.steps):
+                self.ways.append(Way(tuple(self.steps), dict(self.board.points)))
                 depth = -1
             if depth < 0:
-                depth = self._back(forks, len(ways))
-                if depth < 0:
-                    return Walk(ways, self.misses, False)
-        return Walk(ways, self.misses, True)
+                depth = self._back(forks, len(self.ways))
+            if self.budget <= 0 or len(self.ways) > MOST_WAYS:
+                self.gave_up = depth >= 0
+                break
+        return self
 
     def _advance(self, depth: int, forks: list[Fork], found: int) -> int:
         """Run one step; the next depth, or -1 where nothing fits."""
@@ -220,9 +219,11 @@ def _due(order: Order) -> dict[int, list[Datum]]:
     return due
 
 
-def refusal(walk: Walk) -> Miss:
+def refusal(walk: Walker) -> Miss:
     """The miss to report of a figure that does not assemble: the deepest, of these the smallest."""
-    if not walk.misses:
-        message = "the figure has too many open branches to try; give near: for more points"
+    if walk.gave_up:
+        forks = [step.target for step in walk.steps if isinstance(step, Meet) and step.sign]
+        names = ", ".join(plain(key) for key in forks if key not in walk.near)
+        message = f"the figure has too many open branches to try them all; give near: for some of {names}"
         return Miss(Status.AMBIGUOUS, message)
     return min(walk.misses, key=lambda at: (-at[0], at[1].amount))[1]

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
 
 from icsolve.figure.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum
 
 if TYPE_CHECKING:
-    from icsolve.figure.board import Heading, Key, Span
+    from icsolve.figure.board import Key
+    from icsolve.figure.group import Group
+    from icsolve.figure.heading import Heading, Span
     from icsolve.figure.loci import Locus
+    from icsolve.figure.steps import Base, Mean, Meet, Polar, Step, Transfer
 
 
 def plain(key: Key) -> str:
@@ -61,14 +65,65 @@ def heading_words(heading: Heading) -> str:
 
 def locus_words(locus: Locus) -> str:
     """A locus by what makes it."""
-    kind = type(locus).__name__
-    if kind == "Circle":
-        return f"the circle about {plain(locus.centre)} of radius {span_words(locus.radius)}"  # type: ignore[union-attr]
-    if kind == "Arc":
-        return f"the circle of {datum_words(locus.corner)}"  # type: ignore[union-attr]
-    if kind == "Axis":
-        return f"the line of its given {locus.datum.kind}"  # type: ignore[union-attr]
-    if kind == "Shifted":
-        return f"{locus_words(locus.base)}, moved by {span_words(locus.span)}"  # type: ignore[union-attr]
-    what = "ray" if locus.ray else "line"  # type: ignore[union-attr]
-    return f"the {what} from {plain(locus.through)} along {heading_words(locus.heading)}"  # type: ignore[union-attr]
+    from icsolve.figure.loci import Arc, Axis, Circle, Shifted
+
+    if isinstance(locus, Circle):
+        return f"the circle about {plain(locus.centre)} of radius {span_words(locus.radius)}"
+    if isinstance(locus, Arc):
+        return f"the circle of {datum_words(locus.corner)}"
+    if isinstance(locus, Axis):
+        return f"the line of its given {locus.datum.kind}"
+    if isinstance(locus, Shifted):
+        return f"{locus_words(locus.base)}, moved by {span_words(locus.span)}"
+    what = "ray" if locus.ray else "line"
+    return f"the {what} from {plain(locus.through)} along {heading_words(locus.heading)}"
+
+
+def step_words(step: Step) -> str:
+    """A step of a construction as a sentence."""
+    names = ", ".join(map(plain, step.targets))
+    return f"{names}: {SENTENCES[type(step).__name__](step)}"
+
+
+def _given(step: Step) -> str:
+    return "by coordinates"
+
+
+def _mean(step: Mean) -> str:
+    of = ", ".join(map(plain, step.datum.points[1:]))
+    return (
+        f"centroid of {of}" if step.centroid is None else f"from {plain(step.centroid)}, the centroid of {of}"
+    )
+
+
+def _polar(step: Polar) -> str:
+    return f"from {plain(step.base)} by {span_words(step.span)} along {heading_words(step.heading)}"
+
+
+def _meet(step: Meet) -> str:
+    from icsolve.figure.loci import is_round
+
+    words = f"where {locus_words(step.first)} meets {locus_words(step.second)}"
+    if step.sign == 0:
+        return f"{words} (touching)" if is_round(step.second) else words
+    side = ("left", "right") if is_round(step.first) else ("farther", "nearer")
+    return f"{words} ({side[step.sign < 0]})"
+
+
+def _base(step: Base) -> str:
+    return f"{span_words(step.span)} apart, a shape still to be placed"
+
+
+def _transfer(step: Transfer) -> str:
+    p, q = map(plain, step.pose)
+    return f"carried by the shape that {p} and {q} hold"
+
+
+def _group(step: Group) -> str:
+    return f"together, by Newton's method on their {len(step.equations)} data"
+
+
+SENTENCES: dict[str, Callable[[Any], str]] = {
+    "Given": _given, "Mean": _mean, "Polar": _polar, "Meet": _meet,
+    "Base": _base, "Transfer": _transfer, "Group": _group,
+}  # fmt: skip
