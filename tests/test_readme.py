@@ -13,6 +13,7 @@ import shlex
 from pathlib import Path
 from typing import NamedTuple
 
+import click
 import pytest
 
 import icsolve
@@ -148,8 +149,11 @@ def test_every_status_stands_in_the_readme() -> None:
 
 def test_every_command_and_option_stands_in_the_readme() -> None:
     text = section("Commands")
-    for name, command in commands.commands.items():
+    context = click.Context(commands)
+    for name in commands.list_commands(context):
         assert f"`icsolve {name}" in text
+        command = commands.get_command(context, name)
+        assert command is not None
         for parameter in command.params:
             long = [option for option in parameter.opts if option.startswith("--")]
             assert not long or any(f"`{option}" in text for option in long) or "--output" in long

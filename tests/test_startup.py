@@ -30,7 +30,7 @@ def test_one_scene_needs_neither_numpy_nor_shapely(
     path = tmp_path / "one.yaml"
     path.write_text(template(kind))
     modules = imported("-m", "icsolve", "solve", *options, str(path))
-    assert "icsolve.cli.solving" in modules
+    assert "icsolve.solve" in modules
     assert not {name for name in modules if name.partition(".")[0] in {"numpy", "shapely"}}
 
 

@@ -9,12 +9,36 @@ from typing import TYPE_CHECKING
 import click
 
 from icsolve.check import AGREES, DISAGREES, ERRATUM, NOT_EXAMINED, Row, compare, wanted
+from icsolve.cli.options import CASES, JSON, SET
 from icsolve.cli.run import DONE, NO_ANSWER, complain, for_each, on_stderr
 from icsolve.cli.solving import print_json
 
 if TYPE_CHECKING:
     from icsolve.case import Case
     from icsolve.errors import SceneError
+
+
+@click.command("check")
+@CASES
+@JSON
+@SET
+def check_command(cases: tuple[str, ...], as_json: bool, settings: dict[str, str]) -> int:
+    """Solve cases and compare with the values under `expect`, a line a value.
+
+    \b
+    icsolve check cases/
+
+    Exit status: 1 where a value disagrees or a case has no answer; an erratum must not agree.
+    """
+    return check_cases(cases, as_json, settings)
+
+
+@click.command("validate")
+@CASES
+@SET
+def validate_command(cases: tuple[str, ...], settings: dict[str, str]) -> int:
+    """Read cases and examine everything in them, also what the answer does not need."""
+    return for_each(cases, _validate, settings=settings)
 
 
 def check_cases(cases: tuple[str, ...], as_json: bool, settings: Mapping[str, str]) -> int:
@@ -72,11 +96,6 @@ def _summary(files: int, tally: Counter[str]) -> str:
     if tally["without an answer"]:
         counts.append(f"{tally['without an answer']} without an answer")
     return f"{files} {'case' if files == 1 else 'cases'}: {', '.join(counts) or 'no values'}"
-
-
-def validate_cases(cases: tuple[str, ...], settings: Mapping[str, str]) -> int:
-    """Examine every case whole; returns the exit status."""
-    return for_each(cases, _validate, settings=settings)
 
 
 def _validate(case: Case, path: str) -> int:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
+from icsolve.cli.options import CASES, DIGITS, JSON, SET
 from icsolve.cli.run import DONE, Work, for_each, on_stderr
 
 if TYPE_CHECKING:
@@ -26,6 +27,28 @@ class Options(NamedTuple):
     reactions: bool
     report: bool
     digits: int
+
+
+@click.command("solve")
+@CASES
+@JSON
+@click.option("--all-centres", is_flag=True, help="All n(n-1)/2 instant centres, not only those needed.")
+@click.option("--rates", is_flag=True, help="Angular velocities of the links and velocities of the points.")
+@click.option("--reactions", is_flag=True, help="The force of each link on each other at every joint.")
+@click.option("--report", is_flag=True, help="Mobility, Grashof kind, transmission angles, limit positions.")
+@SET
+@DIGITS
+def solve_command(cases: tuple[str, ...], settings: dict[str, str], **asked: Any) -> int:
+    """Solve cases: files, folders, globs, or - for standard input.
+
+    \b
+    icsolve solve press.yaml
+    icsolve solve cases/ --json > answers.jsonl
+    icsolve solve press.yaml --set angles.AB=30 --all-centres
+
+    Exit status: 0 solved, 1 a case has no answer, 2 a file can't be read; of several the largest.
+    """
+    return solve_cases(cases, Options(**asked), settings)
 
 
 def solve_cases(cases: tuple[str, ...], options: Options, settings: Mapping[str, str]) -> int:

@@ -1,4 +1,4 @@
-"""`icsolve new`."""
+"""`icsolve new` and `icsolve schema`: to start a file."""
 
 from __future__ import annotations
 
@@ -6,6 +6,30 @@ import click
 
 from icsolve.cli.run import DONE, UNREADABLE, complain
 from icsolve.templates import kinds, nearest, template
+
+
+@click.command("new")
+@click.argument("kind", required=False)
+@click.option("-o", "--output", metavar="FILE", help="Write here instead of standard output.")
+def new_command(kind: str | None, output: str | None) -> int:
+    """Print a commented case of a KIND of mechanism; without KIND, list the kinds.
+
+    \b
+    icsolve new
+    icsolve new slider-crank -o pump.yaml
+    """
+    return list_kinds() if kind is None else write_template(kind, output)
+
+
+@click.command("schema")
+def schema_command() -> int:
+    """Print the JSON Schema (draft-07) of a case, for editors."""
+    import json
+
+    from icsolve.schema import schema
+
+    click.echo(json.dumps(schema(), indent=2))
+    return DONE
 
 
 def list_kinds() -> int:
