@@ -38,7 +38,7 @@ class CentreFinder:
         self.case, self.top, self.frame = case, top, frame
         self.twists = {top.body_of[link]: motions for link, motions in twists.items()}
         self.points, self.arithmetic = points, a
-        self.slack = 0.0
+        self.fastest = max((_length(t) for ts in twists.values() for t in ts), default=0.0)
 
     def find(self, pairs: Iterable[Pair], slack: float = 0.0) -> dict[Pair, Centre]:
         """A `Centre` for every pair of links; ``slack`` is how far given centres contradict."""
@@ -63,11 +63,11 @@ class CentreFinder:
     def _relative(self, i: int, j: int) -> Triple | None:
         """The relative twist; REST where the two move as one, None where the centre is open."""
         best, size = REST, 0.0
-        relatives = []
+        relatives: list[Triple] = []
         for ti, tj in zip(self.twists[i], self.twists[j], strict=True):
             t = subtract(tj, ti)
             length = _length(t)
-            if length > ONE * max(_length(ti), _length(tj)):
+            if length > ONE * self.fastest:
                 relatives.append(t)
                 if length > size:
                     best, size = t, length

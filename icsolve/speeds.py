@@ -19,7 +19,7 @@ from icsolve.plane import Point, Triple, velocity
 
 Twists = Mapping[str, Sequence[Triple]]
 STILL = 2e-14
-"""A rate below this fraction of what it is summed from is rest (rounding)."""
+"""What moves slower than this fraction of the fastest link is at rest (rounding); normalised frame."""
 
 OPEN = "a freedom that no given motion fixes moves it."
 
@@ -41,6 +41,10 @@ class Speed(NamedTuple):
         """
         if any(abs(_dot(direction, values)) > 1e-9 * scale for direction in self.open):
             return None
+        return self.particular_of(values, scale)
+
+    def particular_of(self, values: Sequence[float], scale: float) -> float:
+        """The same in one motion of those that are meant, as good as any other."""
         value = _dot(self.particular, values)
         size = scale * max(map(abs, self.particular), default=0.0)
         return 0.0 if abs(value) <= STILL * size else value / self.divisor
@@ -98,16 +102,17 @@ def _row(given: Given, case: Case, twists: Twists, frame: Frame, points: Mapping
     """The condition that a given motion puts on the coefficients."""
     link = twists[given.link]
     if given.point is not None:
-        return _point_row(given, link, case, frame, points[given.point])
+        return _point_row(given, link, fastest(twists), frame, points[given.point])
     rates = tuple(t[2] for t in link)
-    if all(_rests(t) or abs(t[2]) <= STILL * _extent(t) for t in link):
-        raise SceneError(Status.DEAD_CENTRE, _cannot_turn(given.link, link, case))
+    largest = fastest(twists)
+    if all(abs(rate) <= STILL * largest for rate in rates):
+        raise SceneError(Status.DEAD_CENTRE, _cannot_turn(given.link, link, largest))
     sign = -1.0 if given.turns == "cw" else 1.0
     return rates, sign * (given.speed.value if given.speed is not None else 1.0)
 
 
-def _cannot_turn(name: str, link: Sequence[Triple], case: Case) -> str:
-    if all(_rests(t) for t in link):
+def _cannot_turn(name: str, link: Sequence[Triple], largest: float) -> str:
+    if all(_extent(t) <= STILL * largest for t in link):
         return (
             f"link {name} cannot drive in this position (dead centre): when the mechanism moves, link {name} "
             "stands still. Give the motion of another link, or another position."
@@ -118,12 +123,12 @@ def _cannot_turn(name: str, link: Sequence[Triple], case: Case) -> str:
     )
 
 
-def _point_row(given: Given, link: Sequence[Triple], case: Case, frame: Frame, p: Point) -> Row:
+def _point_row(given: Given, link: Sequence[Triple], largest: float, frame: Frame, p: Point) -> Row:
     velocities = [velocity(t, p) for t in link]
     sizes = [math.hypot(*v) for v in velocities]
     assert given.speed is not None
     target = given.speed.value * frame.scale
-    if max(sizes) <= STILL * max(max(map(abs, t)) for t in link):
+    if max(sizes) <= STILL * largest:
         raise SceneError(
             Status.DEAD_CENTRE,
             f"point {given.point} of link {given.link} is at rest in this position when the mechanism moves: "
@@ -159,8 +164,9 @@ def _extent(t: Triple) -> float:
     return max(abs(float(x)) for x in t)
 
 
-def _rests(t: Triple) -> bool:
-    return t == (0.0, 0.0, 0.0)
+def fastest(twists: Twists) -> float:
+    """Size of the largest twist of a scene, against which rest is judged."""
+    return max((_extent(t) for link in twists.values() for t in link), default=0.0)
 
 
 def joint_order(case: Case) -> list[str]:
@@ -170,7 +176,7 @@ def joint_order(case: Case) -> list[str]:
 
 def _normal_row(case: Case, twists: Twists, frame: Frame) -> tuple[str, tuple[float, ...], float]:
     """The first link that turns does so at +1; where none turns, unit speed of the first that moves."""
-    largest = max((_extent(t) for link in twists.values() for t in link), default=0.0)
+    largest = fastest(twists)
     for link in joint_order(case):
         rates = tuple(t[2] for t in twists.get(link, ()))
         if any(abs(rate) > STILL * largest for rate in rates):
@@ -189,10 +195,9 @@ def _normal_row(case: Case, twists: Twists, frame: Frame) -> tuple[str, tuple[fl
 def link_rates(case: Case, twists: Twists, speed: Speed) -> dict[str, float | str]:
     """Angular velocity of every link; a sentence where it is undetermined."""
     rates: dict[str, float | str] = {}
+    largest = fastest(twists)
     for link in case.links:
-        motions = twists[link]
-        scale = max((_extent(t) for t in motions), default=0.0)
-        value = speed.of([t[2] for t in motions], scale)
+        value = speed.of([t[2] for t in twists[link]], largest)
         rates[link] = f"the speed of link {link} is left open: {OPEN}" if value is None else value + 0.0
     return rates
 
@@ -202,11 +207,14 @@ def point_velocities(
 ) -> dict[tuple[str, str], tuple[float, float] | str]:
     """Velocity (case length a second) of every point on the links that carry it."""
     result: dict[tuple[str, str], tuple[float, float] | str] = {}
+    largest = fastest(twists)
     for link in case.links:
         for name in moving_points(case, link):
             if name.startswith("@") or name not in points:
                 continue
-            result[(name, link)] = _velocity(link, name, twists[link], speed, frame, points[name])
+            both = _velocity(twists[link], speed, largest, points[name])
+            words = f"the velocity of {name} on link {link} is left open: {OPEN}"
+            result[(name, link)] = words if both is None else (both[0] / frame.scale, both[1] / frame.scale)
     return result
 
 
@@ -216,17 +224,11 @@ def moving_points(case: Case, link: str) -> list[str]:
     return list(dict.fromkeys((*case.carries.get(link, ()), *asked)))
 
 
-def _velocity(
-    link: str, name: str, motions: Sequence[Triple], speed: Speed, frame: Frame, p: Point
-) -> tuple[float, float] | str:
-    scale = max((_extent(t) for t in motions), default=0.0)
-    both = []
-    for axis in (0, 1):
-        value = speed.of([velocity(t, p)[axis] for t in motions], scale)
-        if value is None:
-            return f"the velocity of {name} on link {link} is left open: {OPEN}"
-        both.append(value / frame.scale + 0.0)
-    return (both[0], both[1])
+def _velocity(motions: Sequence[Triple], speed: Speed, largest: float, p: Point) -> Point | None:
+    """Velocity (normalised) of a point of a link; None where it is undetermined."""
+    x = speed.of([velocity(t, p)[0] for t in motions], largest)
+    y = speed.of([velocity(t, p)[1] for t in motions], largest)
+    return None if x is None or y is None else (x + 0.0, y + 0.0)
 
 
 def meant(twists: Twists, speed: Speed, link: str) -> tuple[Triple, ...]:

@@ -31,7 +31,8 @@ def power_terms(
     motions = range(len(balance.factors))
     for n, w in enumerate(balance.wrenches):
         row = [float(balance.factors[m][n]) for m in motions]
-        factor = (speed.of(row, max(balance.sizes[m][n] for m in motions)) or 0.0) * (w.measure / frame.scale)
+        size = max(balance.sizes[m][n] for m in motions)
+        factor = speed.particular_of(row, size) * (w.measure / frame.scale)
         value, name = values[w.load.name], w.load.name
         unknown = known_value(w, balance) is None
         unit = unit_of(w.load, case)
