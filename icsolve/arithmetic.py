@@ -15,6 +15,12 @@ Scalar = Any
 """A float, an array of them, or any number type with + - * /."""
 
 
+def magnitude(value: Scalar) -> float:
+    """Largest absolute value: of a float, a number on a tape, an array."""
+    size = abs(value)
+    return float(size.max() if hasattr(size, "max") else size)
+
+
 def turn_of(degrees: float) -> tuple[float, float]:
     """Cosine and sine of an angle in degrees; exact at multiples of 90.
 

@@ -11,7 +11,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from icsolve.arithmetic import Arithmetic, Scalar
+from icsolve.arithmetic import Arithmetic, Scalar, magnitude
 from icsolve.case import Case, Force, ForceVector, Heading, Like, Load, Slope, Spring, Torque, Toward, Weight
 from icsolve.eliminate import null_space
 from icsolve.figure.frame import Frame
@@ -124,7 +124,7 @@ class Balance(NamedTuple):
     """Factors of every load for every motion.
 
     ``factors[m][n]`` is the power of load n per unit, over its ``measure``, in motion m;
-    ``sizes[m][n]`` the sum of the absolute values of the products that it was summed from, against
+    ``sizes[m][n]`` what it would be summed from if its links moved as fast as the fastest, against
     which a zero is judged.
     """
 
@@ -138,19 +138,15 @@ def balance(all_wrenches: Sequence[Wrench], twists: Mapping[str, Sequence[Triple
     factors, sizes = [], []
     for m in range(motions):
         row, scale = [], []
+        fastest = max((magnitude(x) for ts in twists.values() for x in ts[m]), default=0.0)
         for w in all_wrenches:
             on, off = twists[w.load.link][m], twists[w.against][m]
             relative = (on[0] - off[0], on[1] - off[1], on[2] - off[2])
             row.append(w.gain * pairing(w.unit, relative))
-            scale.append(_size(w, on, off))
+            scale.append(magnitude(w.gain) * sum(map(magnitude, w.unit)) * fastest)
         factors.append(tuple(row))
         sizes.append(tuple(scale))
     return Balance(tuple(all_wrenches), tuple(factors), tuple(sizes))
-
-
-def _size(w: Wrench, on: Triple, off: Triple) -> float:
-    total: float = sum(abs(u) * (abs(a) + abs(b)) for u, a, b in zip(w.unit, on, off, strict=True))
-    return float(abs(w.gain)) * total
 
 
 class Solution(NamedTuple):

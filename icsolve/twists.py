@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from icsolve.arithmetic import Scalar
+from icsolve.arithmetic import Scalar, magnitude
 from icsolve.eliminate import ROUNDING, null_space
 from icsolve.loops import ORIGIN, Bases, loop_rows, span, twists_on
 from icsolve.plan import Group, Plan
@@ -91,18 +91,12 @@ def run(plan: Plan, top: Topology, bases: Bases) -> Run:
 
 
 def _rescaled(closure: Closure, found: dict[int, Triple]) -> tuple[Closure, dict[int, Triple]]:
-    largest = max(_size(value) for value in (closure.factor, *closure.numerators))
+    largest = max(magnitude(value) for value in (closure.factor, *closure.numerators))
     scale = math.ldexp(1.0, -math.frexp(largest)[1]) if 0.0 < largest < math.inf else 1.0
     numerators = tuple(scale * value for value in closure.numerators)
     columns = tuple(times(scale, column) for column in closure.columns[:1]) + closure.columns[1:]
     scaled = {body: times(scale, twist) for body, twist in found.items()}
     return Closure(closure.group, scale * closure.factor, numerators, columns), scaled
-
-
-def _size(value: Scalar) -> float:
-    """Largest absolute value: of a float, a number on a tape, an array."""
-    size = abs(value)
-    return float(size.max() if hasattr(size, "max") else size)
 
 
 def _close(group: Group, top: Topology, bases: Bases, pool: _Pool) -> tuple[Closure, dict[int, Triple]]:
