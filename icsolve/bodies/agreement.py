@@ -88,10 +88,13 @@ def _lost(position: Position, terms: Terms, motion: int) -> float:
 
 
 def witnesses(
-    power: Mapping[str, float], bodies: Mapping[str, float], bounds: Mapping[str, float]
+    power: Mapping[str, tuple[float, float]], bodies: Mapping[str, float], bounds: Mapping[str, float]
 ) -> tuple[Witness, ...]:
-    """Both values of each unknown beside each other."""
-    return tuple(Witness(q, power[q], bodies[q], bodies[q] - power[q], bounds[q]) for q in bodies)
+    """Both values of each unknown beside each other; that of power comes with its own bound."""
+    return tuple(
+        Witness(q, power[q][0], value, value - power[q][0], bounds[q] + power[q][1])
+        for q, value in bodies.items()
+    )
 
 
 def refuse_apart(found: Sequence[Witness], slack: float) -> None:

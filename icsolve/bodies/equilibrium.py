@@ -84,8 +84,24 @@ def equilibrium(
         rows.load(w, *_share(w, balance, roots, column, scale))
     for n, rub in enumerate(rubs):
         rows.between(ties[rub.tie], rub.unit, column + 1 + len(roots) + n)
-    general = eliminate(rows.all(), column)
+    general = _eliminated(rows.all(), column, position.mobility)
     return Statics(tuple(ties), tuple(first), column, roots, tuple(rubs), scale, general)
+
+
+def _eliminated(rows: list[Row], columns: int, mobility: int) -> General:
+    """The elimination in which as many equations lose all joints as the links have motions.
+
+    Where rounding hides that number, it is looked for a little above and below.
+    """
+    tries = [eliminate(rows, columns)]
+    for spent in SPENT_TRIES:
+        if len(tries[-1].left) == mobility:
+            return tries[-1]
+        tries.append(eliminate(rows, columns, spent))
+    return tries[-1] if len(tries[-1].left) == mobility else tries[0]
+
+
+SPENT_TRIES = (1e-12, 1e-11, 1e-10, 1e-14, 1e-15)
 
 
 def _share(w: Wrench, balance: Balance, roots: Sequence[str], known: int, scale: float) -> tuple[int, float]:

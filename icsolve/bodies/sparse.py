@@ -35,9 +35,12 @@ class General(NamedTuple):
         return self.solved.get(column, {column: 1.0})
 
 
-def eliminate(rows: Sequence[Mapping[int, float]], columns: int) -> General:
-    """Solve ``sum of row[c] x[c] = 0`` for the columns below ``columns``; the others are parameters."""
-    work = _Work(rows, columns)
+def eliminate(rows: Sequence[Mapping[int, float]], columns: int, spent: float = SPENT) -> General:
+    """Solve ``sum of row[c] x[c] = 0`` for the columns below ``columns``; the others are parameters.
+
+    ``spent`` is the fraction of a row's size below which its largest entry counts as rounding.
+    """
+    work = _Work(rows, columns, spent)
     pivots: list[tuple[int, Row]] = []
     left = []
     while (found := work.next_row()) is not None:
@@ -55,8 +58,9 @@ def eliminate(rows: Sequence[Mapping[int, float]], columns: int) -> General:
 class _Work:
     """The rows that are still active, and which of them each column touches."""
 
-    def __init__(self, rows: Sequence[Mapping[int, float]], columns: int) -> None:
+    def __init__(self, rows: Sequence[Mapping[int, float]], columns: int, spent: float) -> None:
         self.columns = columns
+        self.spent = spent
         self.rows: dict[int, Row] = {n: {c: a for c, a in row.items() if a} for n, row in enumerate(rows)}
         self.holders: list[set[int]] = [set() for _ in range(columns)]
         self.sizes: dict[int, float] = {}
@@ -92,7 +96,7 @@ class _Work:
     def pivot(self, row: Row, inner: list[int], size: float) -> int | None:
         """The column of a row that the fewest others share, among those that are large enough."""
         largest = max((abs(row[c]) for c in inner), default=0.0)
-        if largest <= SPENT * size:
+        if largest <= self.spent * size:
             return None
         fit = [c for c in inner if abs(row[c]) >= THRESHOLD * largest]
         return min(fit, key=lambda c: (len(self.holders[c]), -abs(row[c]), c))

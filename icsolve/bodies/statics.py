@@ -63,8 +63,10 @@ def structure(program: Program, refusal: SceneError) -> Answer:
     return free_bodies(place, figure.frame, balance, {}).added_to(answer)
 
 
-def free_bodies(position: Position, frame: Frame, balance: Balance, power: Mapping[str, float]) -> Bodies:
-    """Equilibrium of every link, with the unknown loads that power found.
+def free_bodies(
+    position: Position, frame: Frame, balance: Balance, power: Mapping[str, tuple[float, float]]
+) -> Bodies:
+    """Equilibrium of every link; ``power`` has the unknown loads as power found them, and their bounds.
 
     Raises SceneError where the two disagree, and where teeth do not fit their pivots.
     """
