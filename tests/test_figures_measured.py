@@ -16,9 +16,10 @@ import mechanisms
 import reference
 import transcribe
 import witness
-from loading import loaded, sound
+from figures import from_lengths, without_order
+from loading import drawn, loaded, sound
 from mechanisms import bearing, heading, polar, scene, spot
-from test_laws import MORE, solved, told
+from solving import LAW, MORE, solved, told
 from transcribe import Scene
 
 Measures = dict[str, Any]
@@ -154,3 +155,51 @@ def test_the_measured_figure_is_the_drawn_one(figure: Callable[[Random], Drawing
         assert answer.answers["U"].value == pytest.approx(witness.answers(found)["U"], rel=1e-9), told(
             measured
         )
+
+
+# --- by the order of construction, and without one ---
+
+DYADIC = [
+    mechanisms.four_bar,
+    mechanisms.watt,
+    mechanisms.stephenson,
+    mechanisms.three_loops,
+    mechanisms.triple_pin,
+    mechanisms.welded,
+    mechanisms.slider_crank,
+]
+
+
+def check_figure(scene: Scene, measured: Scene, close: float) -> None:
+    """Points where they were measured, and the answer of the scene by coordinates."""
+    answer = solved(measured)
+    assert set(answer.points) <= set(scene["points"]) | {p for p in answer.points if p.startswith("@")}
+    for name, xy in answer.points.items():
+        if name in scene["points"]:
+            assert xy == pytest.approx(scene["points"][name], abs=close), name + told(measured)
+    found = reference.motions(transcribe.case(scene), digits=reference.MANY)
+    assert answer.answers["U"].value == pytest.approx(witness.answers(found)["U"], rel=LAW), told(measured)
+
+
+@pytest.mark.parametrize("generator", DYADIC, ids=lambda g: g.__name__)
+def test_lengths_and_angles_give_back_the_figure(generator: mechanisms.Generator) -> None:
+    done = 0
+    for seed in range(12 * MORE):
+        scene = drawn(300 + seed, generator)
+        measured = from_lengths(scene, Random(seed))
+        if measured is not None:
+            done += 1
+            check_figure(scene, measured, 1e-11)
+    assert done > 1
+
+
+def test_the_double_butterfly_by_its_side_lengths() -> None:
+    """No order of construction: the group is solved as a whole, from `near`."""
+    done = 0
+    for seed in range(8 * MORE):
+        scene = drawn(400 + seed, mechanisms.butterfly)
+        measured = without_order(scene, Random(seed))
+        if measured is not None:
+            done += 1
+            check_figure(scene, measured, 1e-10)
+    assert done > 1
