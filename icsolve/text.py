@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 
 from icsolve.answer import Answer, Centre, Found, Term
 from icsolve.case import Case, Coordinates, Pair, Torque, Units
-from icsolve.result import pair_name, shown_points
+from icsolve.result import link_order, pair_name, shown_points
 
 Format = Callable[[float], str]
 """A number with the digits that were asked for."""
@@ -125,14 +125,15 @@ def _coordinate(answer: Answer, value: float, show: Format) -> str:
 def _how(case: Case, centre: Centre) -> str:
     """How a centre was found, in words."""
     if centre.lines:
-        return "on " + " and ".join(_line(case, line) for line in centre.lines)
+        return "where " + " meets ".join(_line(case, line) for line in centre.lines)
     return {"inspection": "a joint", "given": "given by the case"}.get(centre.by, centre.by)
 
 
 def _line(case: Case, line: tuple[Pair, ...]) -> str:
     if len(line) == 1:
         return f"the normal of joint {pair_name(case, line[0])}"
-    return "line " + " ".join(f"I{pair_name(case, pair)}" for pair in line)
+    ends = sorted(line, key=lambda pair: sorted(link_order(case, link) for link in pair))
+    return "line " + " ".join(f"I{pair_name(case, pair)}" for pair in ends)
 
 
 def _power(answer: Answer, show: Format) -> list[str]:

@@ -119,7 +119,7 @@ def test_text_gives_the_size_with_the_sense_and_explains_a_minus_sign() -> None:
 
 def test_text_shows_how_each_centre_was_found_and_no_rounding_noise() -> None:
     text = answer_text(four_bar_answer())
-    assert "I2-4  (-1.5139, 0)  on line I2-3 I3-4 and line I1-2 I1-4" in text
+    assert "I2-4  (-1.5139, 0)  where line I2-3 I3-4 meets line I1-2 I1-4" in text
     assert "I1-2  (0, 0)        a joint" in text
 
 
