@@ -370,6 +370,33 @@ class Expected(NamedTuple):
     erratum: str | None = None
 
 
+class Tolerance(NamedTuple):
+    """How far an answer may lie from the right one, where the case is set as a task: the widest of these.
+
+    ``relative`` is a fraction of the value, ``absolute`` a width in ``unit`` ('': the answer's own),
+    ``figures`` half a unit of that significant figure, ``drawing`` the accuracy of a drawing, a length.
+    """
+
+    relative: float = 0.0
+    absolute: float = 0.0
+    unit: str = ""
+    figures: int = 0
+    drawing: str = ""
+
+
+class Variable(NamedTuple):
+    """A number that is another for each student, as written.
+
+    One of ``choices``, or one from ``start`` to ``stop`` in steps of ``step``.
+    """
+
+    name: str
+    choices: tuple[str, ...] = ()
+    start: str = ""
+    stop: str = ""
+    step: str = ""
+
+
 @dataclass(frozen=True, eq=False)
 class Case:
     """One mechanism in one position, as its file gives it.
@@ -398,4 +425,6 @@ class Case:
     carries: dict[str, tuple[str, ...]] = field(default_factory=dict)
     gravity: Number = Number(9.81, 0.005, "gravity", "9.81")
     """m/s^2, along -y"""
+    tolerance: Tolerance | None = None
+    variables: tuple[Variable, ...] = ()
     marks: dict[str, Mark] = field(default_factory=dict)

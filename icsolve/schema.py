@@ -17,9 +17,10 @@ _LETTER = "0-9A-Za-z\u00aa-\uffff"
 _NAME = f"[{_LETTER}][{_LETTER}_']*"
 _ATOM = f"[{_LETTER}]'*"
 _NUMERAL = r"[-+\u2212]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][-+\u2212]?[0-9]+)?"
-_QUANTITY = rf"^\s*{_NUMERAL}\s*([^0-9\s.,_].*|1/.*)?$"
-_BARE = rf"^\s*{_NUMERAL}\s*$"
-_WITH_UNIT = rf"^\s*{_NUMERAL}\s*[^0-9\s.,_].*$"
+_VARIED = r"^.*\$\{?[A-Za-z\u00aa-\uffff].*$"
+_QUANTITY = rf"^\s*{_NUMERAL}\s*([^0-9\s.,_].*|1/.*)?$|{_VARIED}"
+_BARE = rf"^\s*{_NUMERAL}\s*$|{_VARIED}"
+_WITH_UNIT = rf"^\s*{_NUMERAL}\s*[^0-9\s.,_].*$|{_VARIED}"
 
 
 def schema() -> Schema:
@@ -97,7 +98,24 @@ def _sections() -> Schema:
         "loads": _named(_ref("load")),
         "motion": {"anyOf": [_ref("motion"), _list(_ref("motion"), 0), {"type": "null"}]},
         "expect": _named({"anyOf": [_value(), _ref("published")]}, "^.+$"),
+        "tolerance": {"anyOf": [_ref("quantity"), _tolerance(), {"type": "null"}]},
+        "variables": {**_named(_variable()), "description": "numbers that are others for each student"},
     }
+
+
+def _tolerance() -> Schema:
+    share = _pattern(r"^\s*[0-9.]+ ?%\s*$")
+    width, figures = _ref("quantity"), _ref("number")
+    keys = {"relative": share, "absolute": width, "figures": figures, "drawing": width}
+    return {**_object(keys), "minProperties": 1}
+
+
+def _variable() -> Schema:
+    """Choices, or a range with its step."""
+    text: Schema = {"type": ["string", "number", "boolean"]}
+    choices = _object({"choices": _list(text, 1)}, ["choices"])
+    span = _object({"range": _list(_ref("number"), 2, 2), "step": _ref("number")}, ["range", "step"])
+    return {"oneOf": [choices, span]}
 
 
 def _keys(count: str) -> str:

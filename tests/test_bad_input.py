@@ -80,7 +80,7 @@ CHANGES = {
     # sections and keys
     "section that does not exist": ("lengths:", "lenghts:", 9, 1, "did you mean 'lengths'?"),
     "later version": ("icsolve: 1", "icsolve: 2", 1, 10, "version '2' of the format is not known"),
-    "reserved section": ("near: ", "tolerance: 1\nnear: ", 11, 1, "'tolerance' is not yet supported"),
+    "reserved section": ("near: ", "profile: 1\nnear: ", 11, 1, "'profile' is not yet supported"),
     "section of the wrong form": ("{C: [3.5, 2.4]}", "C", 11, 10, "'near' should be a mapping"),
     "unit of the wrong kind": ("{length: in", "{length: lbf", 4, 17, "'lbf' is a force, not a length"),
     "unknown unit of the case": ("{length: in", "{length: inchs", 4, 17, "did you mean 'inches'?"),

@@ -63,13 +63,28 @@ def read_text(text: str, path: str = "<text>", settings: Settings | None = None)
         if "icsolve" not in root.items and not {"joints", "points"} & set(root.items):
             check_version(root, problems)
             raise Stop
-        apply(root, settings or {}, problems)
-        case = build(root, problems, _name(path))
+        case = _case(root, settings or {}, problems, _name(path))
     except Stop:
         pass
     if case is None or problems.found:
         raise _error(root, text, problems)
     return case
+
+
+def _case(root: Mapping, settings: Settings, problems: Problems, name: str) -> Case:
+    """The case of a tree with its settings, and with values for its variables."""
+    if "variables" not in root.items:
+        apply(root, settings, problems)
+        return build(root, problems, name)
+    from dataclasses import replace
+
+    from icsolve.read.variables import read_variables, substitute
+
+    variables = read_variables(root, problems)
+    given = {path[10:]: str(value) for path, value in settings.items() if path.startswith("variables.")}
+    substitute(root, variables, given, problems)
+    apply(root, {p: v for p, v in settings.items() if not p.startswith("variables.")}, problems)
+    return replace(build(root, problems, name), variables=variables)
 
 
 def _root(node: Node | None, problems: Problems) -> Mapping:

@@ -20,6 +20,7 @@ from icsolve.case import (
     Slide,
     Slot,
     Spring,
+    Tolerance,
     Torque,
     Units,
     Weld,
@@ -51,6 +52,8 @@ SECTIONS = (
     "loads",
     "motion",
     "expect",
+    "tolerance",
+    "variables",
 )
 TEXTS = ("title", "source", "reconstructed")
 _FORMS = {
@@ -91,7 +94,7 @@ def build(root: Mapping, problems: Problems, name: str) -> Case:
     if _readable(root, "points", "lengths", "angles"):
         check_given(reading)
     texts = {key: reading.text(root.items[key], key) for key in TEXTS if key in root.items}
-    return _case(name, problems.path, units, ground, reading, parts, texts, _gravity(reading, root))
+    return _case(name, problems.path, units, ground, reading, parts, texts, root)
 
 
 def _parts(reading: Reading, root: Mapping) -> _Parts:
@@ -167,6 +170,14 @@ def _gravity(reading: Reading, root: Mapping) -> Number | None:
     return value
 
 
+def _tolerance(reading: Reading, root: Mapping) -> Tolerance | None:
+    if not _stands(root, "tolerance"):
+        return None
+    from icsolve.read.tolerances import read_tolerance
+
+    return read_tolerance(reading, root.items["tolerance"])
+
+
 def _hyphened(root: Mapping) -> set[str]:
     """Points that keys with hyphens name."""
     sections: list[Node | None] = [root.items.get("lengths"), root.items.get("angles")]
@@ -182,7 +193,7 @@ def _case(
     reading: Reading,
     parts: _Parts,
     texts: dict[str, str],
-    gravity: Number | None,
+    root: Mapping,
 ) -> Case:
     links = tuple(reading.links or ())
     return Case(
@@ -203,7 +214,8 @@ def _case(
         motion=parts.motion,
         expect=parts.expect,
         carries=carried(links, ground, parts.joints, parts.loads, parts.links, parts.motion),
-        gravity=gravity or Case.gravity,
+        gravity=_gravity(reading, root) or Case.gravity,
+        tolerance=_tolerance(reading, root),
         marks=reading.marks,
     )
 

@@ -15,14 +15,12 @@ RESERVED = (
     "profile",
     "helix angle",
     "power",
-    "variables",
-    "tolerance",
     "ball",
     "radial",
     "thrust",
     "hinge",
 )
-"""Keys of later versions: spatial joints, cam profiles, variants."""
+"""Keys of later versions: spatial joints, cam profiles."""
 
 
 class Reading:

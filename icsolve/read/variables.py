@@ -1,0 +1,156 @@
+"""``variables``: numbers that are others for each student, put in before the case is read."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping as Named
+from fractions import Fraction
+
+from icsolve.case import Variable
+from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
+from icsolve.read.formula import FormulaError, decimal, names_in, replaced, with_texts
+from icsolve.read.names import is_name, why_no_name
+from icsolve.read.problems import Problems, shown, suggestion
+
+_FORM = "as in {P: {range: [100, 500], step: 10}, a: {choices: [1.5, 2, 2.5]}}"
+_TEXTS = ("title", "source", "reconstructed")
+_LEFT_OUT = ("icsolve", "units", "variables")
+MOST = 1_000_000
+"""Values of one variable."""
+
+
+def read_variables(root: Mapping, problems: Problems) -> tuple[Variable, ...]:
+    """The variables of a case, in the order of the file."""
+    section = root.items.get("variables")
+    if section is None or is_null(section):
+        return ()
+    if type(section) is not Mapping:
+        problems.refuse(section.mark, f"'variables' should be a mapping, {_FORM}")
+        return ()
+    found = (_variable(name, node, section.keys[name], problems) for name, node in section.items.items())
+    return tuple(variable for variable in found if variable is not None)
+
+
+def _variable(name: str, node: Node, mark: tuple[int, int], problems: Problems) -> Variable | None:
+    if not is_name(name) or not name[0].isalpha():
+        problems.refuse(
+            mark, f"{shown(name)} is not a name of a variable, a letter first: {why_no_name(name)}"
+        )
+        return None
+    try:
+        return _range_or_choices(name, node)
+    except ValueError as error:
+        problems.refuse(node.mark, f"the variable {name}: {error}")
+        return None
+
+
+def _range_or_choices(name: str, node: Node) -> Variable:
+    keys = set(node.items) if type(node) is Mapping else set()
+    if type(node) is not Mapping or keys not in ({"choices"}, {"range", "step"}):
+        raise ValueError("it has either 'choices: [...]', or 'range: [low, high]' and 'step'")
+    if "choices" in keys:
+        choices = _texts(node.items["choices"])
+        if not choices:
+            raise ValueError("there is nothing to choose")
+        return Variable(name, choices=choices)
+    ends = _texts(node.items["range"])
+    step = _texts(Sequence([node.items["step"]], node.mark))[0]
+    if len(ends) != 2:
+        raise ValueError("a range has two ends, as in [100, 500]")
+    start, stop, width = (_fraction(text) for text in (*ends, step))
+    if width <= 0 or stop < start:
+        raise ValueError("a range goes from the lower to the higher number, in steps above zero")
+    if (stop - start) / width >= MOST:
+        raise ValueError(f"there are more than {MOST} values in it")
+    return Variable(name, start=ends[0], stop=ends[1], step=step)
+
+
+def _texts(node: Node) -> tuple[str, ...]:
+    if type(node) is not Sequence or not all(type(item) is Scalar and item.text for item in node.items):
+        raise ValueError("there should be a list of values")
+    return tuple(item.text for item in node.items if type(item) is Scalar)
+
+
+def _fraction(text: str) -> Fraction:
+    try:
+        value = Fraction(text.replace("−", "-"))
+    except (ValueError, ZeroDivisionError):
+        value = None
+    if value is None or "/" in text or "_" in text or abs(value) > 10**30:
+        raise ValueError(f"{shown(text)} is not a number; its unit stands where it is used, as in '$P lbf'")
+    return value
+
+
+def count(variable: Variable) -> int:
+    """How many values it can take."""
+    if variable.choices:
+        return len(variable.choices)
+    start, stop, step = (Fraction(text) for text in (variable.start, variable.stop, variable.step))
+    return int((stop - start) // step) + 1
+
+
+def value_at(variable: Variable, index: int) -> str:
+    """Its value of an index, as text; exact."""
+    if variable.choices:
+        return variable.choices[index]
+    return decimal(Fraction(variable.start) + index * Fraction(variable.step))
+
+
+def first_values(variables: tuple[Variable, ...]) -> dict[str, str]:
+    """The values that a case is solved with where none are said."""
+    return {variable.name: value_at(variable, 0) for variable in variables}
+
+
+def substitute(
+    root: Mapping, variables: tuple[Variable, ...], given: Named[str, str], problems: Problems
+) -> None:
+    """Put values in for ``$names`` throughout the tree; those that are not given take their first.
+
+    The title tells the values, so that no answer stands without them.
+    """
+    section = root.keys.get("variables", root.mark)
+    names = [variable.name for variable in variables]
+    for name in given:
+        if name not in names:
+            problems.refuse(section, f"there is no variable {shown(name)}{suggestion(name, names)}")
+    values = first_values(variables) | dict(given)
+    used: set[str] = set()
+    for key, node in root.items.items():
+        if key not in _LEFT_OUT:
+            root.items[key] = _put_in(node, values, used, problems, key in _TEXTS)
+    for name in names:
+        if name not in used:
+            problems.refuse(section, f"the variable {name} is used nowhere; write ${name} where it stands")
+    if variables:
+        _tell(root, values)
+
+
+def _tell(root: Mapping, values: dict[str, str]) -> None:
+    title = root.items.get("title")
+    said = ", ".join(f"{name} = {value}" for name, value in values.items())
+    text = title.text if type(title) is Scalar else ""
+    mark = title.mark if title is not None else root.mark
+    root.items["title"] = Scalar(f"{text} ({said})".strip(), False, mark)
+
+
+def _put_in(node: Node, values: dict[str, str], used: set[str], problems: Problems, free: bool) -> Node:
+    """The node with its variables put in; in ``free`` text nothing is worked out."""
+    if type(node) is Sequence:
+        return Sequence([_put_in(item, values, used, problems, free) for item in node.items], node.mark)
+    if type(node) is Mapping:
+        items = {key: _put_in(item, values, used, problems, free) for key, item in node.items.items()}
+        return Mapping(items, node.keys, node.mark)
+    assert type(node) is Scalar
+    names = names_in(node.text)
+    if not names:
+        return node
+    unknown = [name for name in names if name not in values]
+    if unknown:
+        problems.refuse(node.mark, f"there is no variable ${unknown[0]}{suggestion(unknown[0], values)}")
+        return node
+    used.update(() if free else names)
+    try:
+        text = with_texts(node.text, values) if free else replaced(node.text, values)
+        return Scalar(text, node.plain, node.mark)
+    except FormulaError as error:
+        problems.refuse(node.mark, f"{shown(node.text)}: {error}")
+        return node
