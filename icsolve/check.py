@@ -108,10 +108,15 @@ def _row(answer: Answer, expected: Expected) -> Row:
 
 def _published(expected: Expected) -> str:
     if expected.toward is not None:
-        return f"toward {expected.toward.digits}"
-    numbers = ", ".join(number.digits for number in expected.value)
+        return f"toward {_written(expected.toward)}"
+    numbers = ", ".join(_written(number) for number in expected.value)
     text = f"[{numbers}]" if len(expected.value) > 1 else numbers
     return f"{text} {expected.sense}" if expected.sense else text
+
+
+def _written(number: Number) -> str:
+    """A published number as its file writes it; in case units where it has a unit of its own."""
+    return number.digits if number.factor == 1.0 else _digits(number.value)
 
 
 def _shown(values: tuple[float, ...], expected: Expected) -> str:

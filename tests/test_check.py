@@ -14,10 +14,12 @@ from icsolve.case import (
     ArmIs,
     CentreIs,
     DistanceIs,
+    Expected,
     Force,
     FrictionRadiusIs,
     Like,
     LoadIs,
+    Number,
     RateIs,
     RatioIs,
     ReactionIs,
@@ -107,6 +109,13 @@ def test_a_pull_is_a_force_toward_the_other_end(sense: str, verdict: str) -> Non
     assert row(LoadIs("F"), "12", sense=sense, answer=dict(answer)).verdict == verdict
     toward_a = "left" if sense == "pull" else "right"
     assert row(LoadIs("F"), "12", sense=toward_a, answer=dict(answer)).verdict == verdict
+
+
+def test_a_published_value_in_a_unit_of_its_own_is_shown_in_that_of_the_case() -> None:
+    torque = Number(29.67, 0.06, "", "2.4725", 12.0)
+    expected = Expected("T12", T12, (torque,))
+    (only,) = compare(four_bar_answer(four_bar_case(expect=(expected,))))
+    assert (only.verdict, only.published) == ("agrees", "29.67")
 
 
 def test_an_erratum_is_expected_not_to_agree() -> None:
