@@ -33,6 +33,7 @@ from solving import (
     unknown,
     worst_sine,
 )
+from transcribe import Scene
 
 
 @pytest.mark.parametrize("generator", mechanisms.ALL, ids=lambda g: g.__name__)
