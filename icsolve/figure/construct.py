@@ -51,11 +51,12 @@ def _constructed(case: Case, frame: Frame, goal: list[str], best_effort: bool) -
     banned: frozenset[frozenset[object]] = frozenset()
     for _ in range(MOST_RETRIES):
         try:
-            outcome = _assembled(case, frame, order_of(case, goal, banned, best_effort))
+            order = order_of(case, goal, banned, best_effort)
         except SceneError as error:
-            if first is not None and error.status == Status.UNDERDETERMINED:
+            if first is not None:
                 raise SceneError(first.status, first.message) from error
             raise
+        outcome = _assembled(case, frame, order)
         if isinstance(outcome, Figure):
             return outcome
         first = first or outcome

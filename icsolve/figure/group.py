@@ -90,7 +90,7 @@ def next_group(drawing: Drawing, case: Case, wanted: Iterable[str]) -> tuple[Gro
     if not any(p in case.near for p in points):
         raise SceneError(
             Status.AMBIGUOUS,
-            f"points {listed([plain(p) for p in points])} hang together without an order of construction; "
-            f"say roughly where one of them is: near: {{{plain(points[0])}: [x, y]}}",
+            f"{listed([plain(p) for p in points])} can only be found together, there is no order of "
+            f"construction; say roughly where one of them is: near: {{{plain(points[0])}: [x, y]}}",
         )
     return Group(points, equations), points

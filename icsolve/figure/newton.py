@@ -212,4 +212,5 @@ def _flat(group: Group) -> Miss:
         f"points {names} are not held by their data: where these are met, the points can still move "
         "(a dead centre, or a datum that repeats others); give one more length, angle or coordinate",
         0.0,
+        vague=True,
     )

@@ -1,0 +1,272 @@
+"""Every refusal of a figure: its status, where it is, how much is missing, and what would mend it."""
+
+from __future__ import annotations
+
+import pytest
+from icsolve.errors import SceneError, Status
+from test_figure import FOUR_BAR, LOOP, PINS, SLIDER, butterfly, case, solved
+
+from icsolve.figure import solve_figure
+
+
+def refused(text: str, wanted: list[str] | None = None) -> tuple[str, str]:
+    with pytest.raises(SceneError) as caught:
+        solve_figure(case(text), wanted)
+    return caught.value.status, caught.value.message
+
+
+def assert_refused(text: str, status: str, *parts: str, wanted: list[str] | None = None) -> None:
+    found, message = refused(text, wanted)
+    assert found == status, message
+    for part in parts:
+        assert part in message, message
+
+
+SPAN = "points: {{A: [0, 0], C: [{c}, 0]}}\nlengths: {{AB: {ab}, BC: {bc}}}\n" + PINS.replace("{", "{{").replace("}", "}}")
+
+
+def test_too_short_by_the_gap() -> None:
+    assert_refused(
+        SPAN.format(ab=1, bc=2, c=3.3),
+        Status.CANNOT_ASSEMBLE,
+        "AB = 1 and BC = 2 cannot meet at B: A and C are 3.3 apart, 0.3 too far (closest gap 0.3 m)",
+    )
+
+
+def test_too_long_by_the_gap() -> None:
+    assert_refused(
+        SPAN.format(ab=1, bc=5, c=3.3),
+        Status.CANNOT_ASSEMBLE,
+        "AB = 1 and BC = 5 cannot meet at B: A and C are 3.3 apart, 0.7 too close (closest gap 0.7 m)",
+    )
+
+
+def test_the_gap_is_in_the_units_of_the_case() -> None:
+    text = "units: {length: in}\n" + SPAN.format(ab=1, bc=2, c=3.3)
+    assert_refused(text, Status.CANNOT_ASSEMBLE, "closest gap 0.3 in")
+
+
+def test_a_slider_out_of_reach() -> None:
+    text = SLIDER.replace("BC: 3", "BC: 0.5") + PINS + "  - {slide: [4, 1], at: C, along: 0, through: A}\n"
+    assert_refused(text, Status.CANNOT_ASSEMBLE, "at C", "BC", "closest gap 0.366025 m")
+
+
+def test_a_ray_that_is_met_only_behind_its_start() -> None:
+    text = "points: {A: [0, 0], C: [4, 1]}\nangles: {AB: 180, CB: 270}\n" + PINS
+    assert_refused(text, Status.CANNOT_ASSEMBLE, "at B", "wrong side", "4 m behind")
+
+
+def test_parallel_guides_never_meet() -> None:
+    text = "points: {A: [0, 0], C: [0, 1]}\nangles: {AB: 30, CB: 30}\n" + PINS
+    assert_refused(text, Status.CANNOT_ASSEMBLE, "at B", "parallel", "0.866025 m apart")
+
+
+def test_guides_on_one_line_leave_the_point_free() -> None:
+    joints = PINS + "  - {slide: [4, 1], at: B, along: 0, through: A}\n  - {slot: [3, 1], at: B, along: 0, through: C}\n"
+    text = "points: {A: [0, 0], C: [4, 0]}\n" + joints
+    assert_refused(text, Status.UNDERDETERMINED, "B may lie anywhere on a line", "coincide")
+
+
+def test_equal_circles_about_one_point_fit_at_any_angle() -> None:
+    assert_refused(SPAN.format(ab=1, bc=1, c=0), Status.UNDERDETERMINED, "B may lie anywhere", "any angle fits")
+
+
+def test_unequal_circles_about_one_point() -> None:
+    assert_refused(SPAN.format(ab=1, bc=2, c=0), Status.CANNOT_ASSEMBLE, "A and C coincide", "(gap 1 m)")
+
+
+def test_two_ways_are_listed_with_a_line_to_add() -> None:
+    assert_refused(
+        FOUR_BAR + LOOP,
+        Status.AMBIGUOUS,
+        "C: (3.61106, 2.46956) or (2.50433, -2.00324)",
+        "near: {C: [3.61106, 2.46956]}",
+    )
+
+
+def test_ways_are_listed_dyad_by_dyad() -> None:
+    text = FOUR_BAR.replace("CD: 2.5", "CD: 2.5, CE: 3, EG: 4").replace("D: [4, 0]", "D: [4, 0], G: [8, 0]")
+    joints = LOOP + "  - {pin: [3, 5], at: C}\n  - {pin: [5, 6], at: E}\n  - {pin: [6, 1], at: G}\n"
+    status, message = refused(text + joints)
+    assert status == Status.AMBIGUOUS
+    first, second, _ = message.split("; ")
+    assert first.endswith("C: (3.61106, 2.46956) or (2.50433, -2.00324)")
+    assert second.startswith("E: (6.36819, 3.65201) or ")
+    assert second.count(" or ") == 3
+
+
+def test_a_later_near_chooses_an_earlier_dyad() -> None:
+    text = FOUR_BAR.replace("CD: 2.5", "CD: 2.5, CE: 3, EG: 4").replace("D: [4, 0]", "D: [4, 0], G: [8, 0]")
+    joints = LOOP + "  - {pin: [3, 5], at: C}\n  - {pin: [5, 6], at: E}\n  - {pin: [6, 1], at: G}\n"
+    _, at = solved(text + "near: {E: [6, 3.5]}\n" + joints)
+    assert at["C"][1] > 0.0
+
+
+def test_near_in_the_middle_is_refused() -> None:
+    """On the line of centres; and off it by less than a hundredth of the distance."""
+    for y in ("0", "0.001"):
+        text = SPAN.format(ab=2, bc=2, c=3) + f"near: {{B: [1.5, {y}]}}\n"
+        assert_refused(text, Status.AMBIGUOUS, "B: (1.5, 1.32288) or (1.5, -1.32288)", "near: for B")
+
+
+def test_a_group_needs_near_for_one_of_its_points() -> None:
+    assert_refused(butterfly(""), Status.AMBIGUOUS, "can only be found together", "no order of construction", "near: {")
+
+
+def test_a_group_that_has_no_solution_tells_the_datum_that_is_farthest_off() -> None:
+    text = butterfly("near: {F: [2, 2.6]}\n").replace("FJ: ", "FJ: 1")
+    assert_refused(text, Status.CANNOT_ASSEMBLE, "no position found", "points G, I, H, J and F", "misses length")
+
+
+def test_a_group_with_two_solutions_about_as_near() -> None:
+    """Three rods hold a platform on three pins, all symmetric about the line of C: D is on either side."""
+    text = (
+        "points: {A: [-2, 0], B: [2, 0], C: [0, 4]}\nlengths: {AD: 2, BE: 2, CF: 2, DE: 2, EF: 2, FD: 2}\n"
+        "near: {F: [0, 2.5]}\njoints:\n"
+        + "".join(f"  - {{pin: [{i}, {j}], at: {p}}}\n" for i, j, p in
+                  ((1, 2, "A"), (1, 3, "B"), (1, 4, "C"), (2, 5, "D"), (3, 5, "E"), (4, 5, "F")))
+    )  # fmt: skip
+    status, message = refused(text)
+    assert status == Status.AMBIGUOUS
+    assert " or (" in message
+
+
+def test_one_datum_too_few() -> None:
+    text = FOUR_BAR.replace(", CD: 2.5", "") + PINS
+    assert_refused(text, Status.UNDERDETERMINED, "point C: one more length, angle or coordinate is needed")
+
+
+def test_a_figure_that_may_turn() -> None:
+    text = "points: {A: [0, 0]}\nlengths: {AB: 1, BC: 3, CA: 3}\n" + PINS
+    assert_refused(text, Status.UNDERDETERMINED, "points B and C", "nothing fixes how it is turned about A")
+
+
+def test_a_figure_that_may_be_anywhere() -> None:
+    text = "lengths: {AB: 1, BC: 3, CA: 3}\n" + PINS
+    assert_refused(text, Status.UNDERDETERMINED, "nothing fixes where the figure of A, B and C lies", "direction")
+    turned = text.replace("joints:", "angles: {AB: 0}\njoints:")
+    assert_refused(turned, Status.UNDERDETERMINED, "nothing fixes where", "coordinates of one of its points")
+    assert "direction" not in refused(turned)[1]
+
+
+def test_all_that_is_free_is_listed() -> None:
+    text = (
+        "points: {A: [0, 0], D: [4, 0]}\nlengths: {AB: 1, CD: 2, DE: 1}\nangles: {CDE: 20}\n" + LOOP + "links: {4: [E]}\n"
+    )
+    assert_refused(text, Status.UNDERDETERMINED, "point B: one more", "points C and E: one more")
+
+
+def test_free_points_that_nothing_needs_are_no_matter() -> None:
+    text = FOUR_BAR.replace(", CD: 2.5", "") + PINS
+    _, at = solved(text, ["B"])
+    assert set(at) == {"A", "B"}
+
+
+def test_a_braced_square_that_floats_is_not_taken_for_determined() -> None:
+    """Six bars between four points hold their shape twice over; two more to the frame cannot hold its place."""
+    square = {"A": (1, 1), "B": (2, 1), "C": (2, 2), "D": (1, 2)}
+    bars = ["AB", "BC", "CD", "DA", "AC", "BD"]
+    lengths = ", ".join(f"{b}: {1 if b in ('AB', 'BC', 'CD', 'DA') else 1.4142135623730951}" for b in bars)
+    text = (
+        f"points: {{E: [0, 0], F: [4, 0]}}\nlengths: {{{lengths}, EA: 1.4142135623730951, FB: 2.23606797749979}}\n"
+        "near: {A: [1, 1], B: [2, 1], C: [2, 2], D: [1, 2]}\n" + LOOP + "links: {4: [E, F]}\n"
+    )
+    assert set(square) <= set(case(text).near)
+    status, _ = refused(text)
+    assert status in (Status.UNDERDETERMINED, Status.NEAR_SINGULAR)
+
+
+COORDINATES = "points: {A: [0, 0], B: [0.5, 0.866], C: [3.611, 2.47], D: [4, 0]}\n"
+
+
+def test_a_length_that_the_coordinates_contradict() -> None:
+    text = COORDINATES + "lengths: {BC: 3.62}\n" + LOOP
+    assert_refused(text, Status.INCONSISTENT, "BC is given as 3.62, the coordinates make it 3.50016")
+
+
+@pytest.mark.parametrize(("datum", "said"), [
+    ("angles: {AB: 61.5}", "angle AB is given as 61.5, the coordinates make it 59.9993"),
+    ("angles: {AB: 240}", "angle AB is given as 240, the coordinates make it 59.9993"),
+    ("angles: {BAD: 60}", "angle BAD is given as 60, the coordinates make it 300.001"),
+    ("angles: {BAD: -50}", "angle BAD is given as -50, the coordinates make it -59.9993"),
+])  # fmt: skip
+def test_an_angle_that_the_coordinates_contradict(datum: str, said: str) -> None:
+    assert_refused(COORDINATES + datum + "\n" + LOOP, Status.INCONSISTENT, said)
+
+
+def test_a_guide_that_misses_its_point() -> None:
+    joints = LOOP + "  - {slide: [4, 1], at: C, along: 30, through: A}\n"
+    assert_refused(COORDINATES + joints, Status.INCONSISTENT, "C is ", "off its guide, the line through A along 30 deg")
+    joints = LOOP + "  - {slide: [4, 1], at: C, along: [A, D]}\n"
+    assert_refused(COORDINATES + joints, Status.INCONSISTENT, "C is 2.47 m off its guide, the line through A along AD")
+
+
+def test_data_that_contradict_the_construction() -> None:
+    text = FOUR_BAR.replace("CD: 2.5", "CD: 2.5, BD: 3.7") + "near: {C: [3.5, 2.4]}\n" + LOOP
+    assert_refused(text, Status.INCONSISTENT, "angle AB is given as 60, the other data make it 65.5594")
+
+
+def test_spare_data_that_agree_are_named_with_those_that_set_the_points() -> None:
+    text = FOUR_BAR.replace("CD: 2.5", "CD: 2.5, BD: 3.606") + "near: {C: [3.5, 2.4]}\n" + LOOP
+    figure, _ = solved(text)
+    (note,) = figure.notes
+    assert "set by the coordinates and lengths AB, BC, BD, CD" in note
+    assert "only compared: angle AB = 60 (off by 0.000467013 m)" in note
+
+
+def test_coordinates_outrank_lengths_and_lengths_angles() -> None:
+    figure, at = solved(COORDINATES + "lengths: {AB: 1, BC: 3.5}\nangles: {AB: 60}\n" + LOOP)
+    assert at["B"] == (0.5, 0.866)
+    assert "set by the coordinates; only compared: length AB = 1" in figure.notes[0]
+
+
+def test_a_spare_datum_is_held_to_its_own_decimals() -> None:
+    """0.0004 off: half a unit of 2.500 and of the coordinates allow it, those of 2.50000 do not allow 0.003."""
+    solved(COORDINATES + "lengths: {CD: 2.500}\n" + LOOP)
+    precise = COORDINATES.replace("3.611, 2.47", "3.61110, 2.47300").replace("[4, 0]", "[4.00000, 0.00000]")
+    assert_refused(precise + "lengths: {CD: 2.50000}\n" + LOOP, Status.INCONSISTENT, "CD is given as 2.5, ")
+
+
+def test_a_spare_datum_is_held_to_the_size_of_the_figure() -> None:
+    """Half a unit of 3 is 0.5; 0.2 % of a figure of size 3 is 0.006."""
+    text = "points: {A: [0, 0], B: [3.005, 0], C: [1, 1]}\nlengths: {AB: 3}\n" + PINS
+    solved(text)
+    assert_refused(text.replace("3.005", "3.01"), Status.INCONSISTENT, "AB is given as 3, the coordinates make it 3.01")
+
+
+def test_spare_data_choose_between_two_ways() -> None:
+    """The corner is only compared, yet it leaves one of the two ways."""
+    text = FOUR_BAR.replace("AB: 60}", "AB: 60, DCB: -71.7}") + LOOP
+    _, at = solved(text)
+    assert at["C"][1] > 0.0
+
+
+def test_coordinates_that_cannot_draw_the_figure() -> None:
+    text = "points: {A: [1e17, 0], D: [100000000000000001, 5]}\nlengths: {AB: 1, BC: 3}\nangles: {AB: 60}\n" + PINS
+    assert_refused(text, Status.NEAR_SINGULAR, "cannot resolve the figure", "near 1e+17", "16 apart")
+
+
+def test_two_points_that_become_one() -> None:
+    text = "points: {A: [1e15, 0], B: [1000000000000000.01, 0], C: [1e15, 900]}\n" + PINS
+    assert_refused(text, Status.NEAR_SINGULAR, "A and B are different numbers")
+
+
+def test_one_point_by_two_names_is_allowed() -> None:
+    _, at = solved("points: {A: [1, 2], B: [1.0, 2.00], C: [4, 4]}\n" + PINS)
+    assert at["A"] == at["B"]
+
+
+def test_a_direction_between_points_that_coincide() -> None:
+    text = "points: {A: [1, 1], B: [1, 1], E: [0, 0]}\nlengths: {BC: 2}\nangles: {ABC: 30}\n" + PINS
+    assert_refused(text, Status.CANNOT_ASSEMBLE, "C has no place", "from B to A, and these coincide")
+
+
+def test_too_many_open_branches() -> None:
+    names = [f"P{k}" for k in range(40)]
+    lengths = ", ".join(f"{a}-{b}: 1.1" for a, b in zip(names[2:], names[1:], strict=False))
+    lengths += ", " + ", ".join(f"{a}-{b}: 1.7" for a, b in zip(names[2:], names, strict=False))
+    text = (
+        f"points: {{P0: [0, 0], P1: [1, 0]}}\nlengths: {{{lengths}}}\n"
+        f"links: {{2: [{', '.join(names)}]}}\njoints:\n  - {{pin: [1, 2], at: P0}}\n"
+    )
+    assert_refused(text, Status.AMBIGUOUS, "too many open branches", "near:", "P39")
