@@ -11,6 +11,7 @@ import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
+from icsolve import verdicts
 from icsolve.answer import Centre
 from icsolve.arithmetic import Scalar
 from icsolve.errors import SceneError, Status
@@ -61,7 +62,7 @@ def bounded_values(scene: Bounded) -> dict[str, Value]:
     refuse_overflow(values)
     doubt = max(scene.tape.doubts(SMALL), default=0.0)
     if doubt > HOPELESS and values:
-        raise too_close(next(iter(values)), None)
+        raise _too_close(scene, next(iter(values)), None)
     result = {}
     for name, value in values.items():
         bound = scene.of(value)
@@ -87,29 +88,23 @@ def confirmed(scene: Bounded, first: dict[str, Value]) -> dict[str, Value]:
             result[name] = first[name]
             continue
         if name not in exact.solution.values:
-            raise too_close(name, None)
+            raise _too_close(scene, name, None)
         value = float(exact.solution.values[name])
         spread = _converted_noise(scene, rough)
         if spread > SMALL * abs(value):
-            raise too_close(name, spread / abs(value) if value else None)
+            raise _too_close(scene, name, spread / abs(value) if value else None)
         result[name] = Value(value, UNIT * abs(value) + 2.0 * spread)
     return result
+
+
+def _too_close(scene: Bounded, name: str, open_by: float | None) -> SceneError:
+    return verdicts.too_close(scene.program.top, scene.outcome.motions, name, open_by)
 
 
 def _converted_noise(scene: Bounded, value: Scalar) -> float:
     """What the rounding of numbers with converted units leaves open."""
     by_path = scene.tape.back(value).by_path
     return sum(abs(by_path[path]) * noise for path, noise in scene.tape.converted.items() if path in by_path)
-
-
-def too_close(name: str, spread: float | None) -> SceneError:
-    """The refusal of a scene whose data do not decide it."""
-    how = "" if spread is None else f" (the data leave {name} open by {100 * spread:.2g} %)"
-    return SceneError(
-        Status.NEAR_SINGULAR,
-        f"the position is too close to a dead centre or a change point to give {name}{how}. "
-        "Take a position farther from it.",
-    )
 
 
 def slopes(scene: Bounded) -> dict[str, dict[str, float]]:

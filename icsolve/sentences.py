@@ -5,12 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
-from icsolve.case import Case, KnownCentre
+from icsolve.case import Case, Contact, KnownCentre, Pin, Slot
 from icsolve.figure.frame import Frame
 from icsolve.loops import Bases, all_motions
-from icsolve.plane import subtract
+from icsolve.plane import cross, subtract
 from icsolve.topology import Bond, Topology
-from icsolve.twists import Closure
 
 
 def listed(names: Iterable[str]) -> str:
@@ -31,7 +30,7 @@ def structure(top: Topology) -> str:
     return (
         f"the links form a structure: {plural(bodies, 'moving link')} have 3 x {bodies} freedoms, and the joints "
         f"take {constraints}. Nothing moves, so power gives no equation. Take out a joint or a link to make "
-        "it move."
+        "it move, or ask for its reactions by statics (`--reactions`)."
     )
 
 
@@ -41,6 +40,13 @@ def near_structure(last: float) -> str:
         f"as the data stand this is a structure, but within {last:.1g} of the figure's size of moving. "
         "Give the coordinates with more digits, or lengths and angles from which they follow."
     )
+
+
+def too_close(load: str, why: str, open_by: float | None) -> str:
+    """The data do not tell this position from the singular one beside it."""
+    cause = f"a dead centre ({why})" if why else "a dead centre or a change point"
+    how = "" if open_by is None else f" (the data leave it open by {100 * open_by:.2g} %)"
+    return f"the position is too close to {cause} to give {load}{how}. Take a position farther from it."
 
 
 def loose(case: Case, names: list[str]) -> str:
@@ -71,39 +77,53 @@ def contradiction(top: Topology, bases: Bases, frame: Frame, unit: str) -> str:
 
 
 def _off_place(top: Topology, bases: Bases, k: int) -> float | None:
-    """Distance (normalised) of a given finite centre from the one that all else gives."""
-    rest = {n: basis for n, basis in bases.items() if n != k}
-    motions = all_motions(top, rest)
-    bond = top.bonds[k]
-    if len(motions.found.basis) != 1 or bond.a not in motions.twists or bond.b not in motions.twists:
+    """Distance (normalised) of a given finite centre from the point, or the line, that all else gives."""
+    bond, (px, py, pw) = top.bonds[k], bases[k][0]
+    motions = all_motions(top, {n: basis for n, basis in bases.items() if n != k})
+    if pw == 0.0 or bond.a not in motions.twists or bond.b not in motions.twists:
         return None
-    x, y, w = subtract(motions.twists[bond.b][0], motions.twists[bond.a][0])
-    px, py, pw = bases[k][0]
-    if pw == 0.0 or abs(w) <= 1e-12 * max(abs(x), abs(y)):
+    both = zip(motions.twists[bond.a], motions.twists[bond.b], strict=True)
+    relative = [subtract(b, a) for a, b in both]
+    if len(relative) == 2:
+        x, y, w = cross(*relative)
+        return abs(x * px + y * py + w) / math.hypot(x, y) if x or y else None
+    if len(relative) != 1:
         return None
-    return math.hypot(x / w - px, y / w - py)
+    x, y, w = relative[0]
+    return math.hypot(x / w - px, y / w - py) if abs(w) > 1e-12 * max(abs(x), abs(y)) else None
 
 
-def points_in_line(closures: Iterable[Closure], top: Topology, dead: Iterable[bool]) -> str:
-    """Names the points of a group whose centres lie on one line, as a clause."""
-    for closure, is_dead in zip(closures, dead, strict=True):
-        names = [_place(top.bonds[k]) for k in closure.group.bonds]
-        if is_dead and len(names) == 3 and all(names):
-            return f" ({listed(names)} lie on one line)"
+def aligned(top: Topology, bonds: Iterable[int], verb: str = "lie on") -> str:
+    """Names the centres of bonds that lie on one line; empty where one of them has no name."""
+    joints = [top.bonds[k] for k in bonds]
+    names = [_place(bond) for bond in joints if bond.freedom == 1]
+    normals = [_normal(bond) for bond in joints if bond.freedom == 2]
+    if not all((*names, *normals)):
+        return ""
+    if len(names) == 3:
+        return f"{listed(names)} {verb} one line"
+    if len(names) == len(normals) == 1:
+        return f"{normals[0]} {'passes through' if verb == 'lie on' else 'nearly passes through'} {names[0]}"
     return ""
 
 
 def _place(bond: Bond) -> str:
-    at = getattr(bond.joint, "at", None)
-    return at if at and type(bond.joint).__name__ == "Pin" else ""
+    return bond.joint.at if isinstance(bond.joint, Pin) and not bond.joint.at.startswith("@") else ""
+
+
+def _normal(bond: Bond) -> str:
+    if isinstance(bond.joint, Slot):
+        return f"the normal to the slot at {bond.joint.at}"
+    return f"the common normal at {bond.joint.at}" if isinstance(bond.joint, Contact) else ""
 
 
 def workless(load: str, link: str, at_rest: bool, others_work: bool, why: str) -> str:
     """The unknown does no work: no value balances, or any value does."""
+    clause = f" ({why})" if why else ""
     cause = (
-        f"link {link} stands still in this position{why}, so it is a dead centre for {load}"
+        f"link {link} stands still in this position{clause}, so it is a dead centre for {load}"
         if at_rest
-        else f"{load} does no work on link {link}: where it acts, its line is square to the motion{why}"
+        else f"{load} does no work on link {link}: where it acts, its line is square to the motion"
     )
     if others_work:
         return (

@@ -47,6 +47,8 @@ class _Pool:
         self.twists: dict[int, Triple] = {}
         self.levels: dict[int, int] = {}
         self.factors: list[Scalar] = []
+        self.drift = 0.0
+        """log2 of what rescaling by whole powers of two has left of the common scale"""
 
     def put(self, body: int, twist: Triple, level: int) -> None:
         self.twists[body] = twist
@@ -82,7 +84,7 @@ def run(plan: Plan, top: Topology, bases: Bases) -> Run:
     for group in plan.groups:
         closure, found = _close(group, top, bases, pool)
         if len(plan.groups) > LONG:
-            closure, found = _rescaled(closure, found)
+            closure, found = _rescaled(closure, found, pool)
         closures.append(closure)
         pool.factors.append(closure.factor)
         for body, twist in found.items():
@@ -90,9 +92,17 @@ def run(plan: Plan, top: Topology, bases: Bases) -> Run:
     return Run(pool.all_now(), tuple(closures))
 
 
-def _rescaled(closure: Closure, found: dict[int, Triple]) -> tuple[Closure, dict[int, Triple]]:
+def _rescaled(closure: Closure, found: dict[int, Triple], pool: _Pool) -> tuple[Closure, dict[int, Triple]]:
+    """Times a power of two that brings the largest determinant, and what was left over before, near 1.
+
+    The largest alone would lie between 1/2 and 1 at every step, and all twists fade along a chain.
+    """
     largest = max(magnitude(value) for value in (closure.factor, *closure.numerators))
-    scale = math.ldexp(1.0, -math.frexp(largest)[1]) if 0.0 < largest < math.inf else 1.0
+    scale = 1.0
+    if 0.0 < largest < math.inf:
+        exponent = round(math.log2(largest) + pool.drift)
+        pool.drift += math.log2(largest) - exponent
+        scale = math.ldexp(1.0, -exponent)
     numerators = tuple(scale * value for value in closure.numerators)
     columns = tuple(times(scale, column) for column in closure.columns[:1]) + closure.columns[1:]
     scaled = {body: times(scale, twist) for body, twist in found.items()}
@@ -123,7 +133,7 @@ def _monad(group: Group, top: Topology, bases: Bases, pool: _Pool) -> tuple[Clos
 
 def _dyad(group: Group, top: Topology, bases: Bases, pool: _Pool) -> tuple[Closure, dict[int, Triple]]:
     u, v = group.bodies
-    outer_u, inner, outer_v = _dyad_bonds(group, top)
+    outer_u, inner, outer_v = dyad_bonds(group, top)
     ta, tc = pool.now(top.bonds[outer_u].other(u)), pool.now(top.bonds[outer_v].other(v))
     b1, b3, b2 = bases[outer_u][0], bases[inner][0], bases[outer_v][0]
     o = _origin(b1, b3, b2)
@@ -142,7 +152,8 @@ def _is_dyad(group: Group, top: Topology) -> bool:
     return len(inner) == 1 and all(len(set(top.at[body]) & set(group.bonds)) == 2 for body in group.bodies)
 
 
-def _dyad_bonds(group: Group, top: Topology) -> tuple[int, int, int]:
+def dyad_bonds(group: Group, top: Topology) -> tuple[int, int, int]:
+    """The bonds of a dyad: of its first body to what is known, between its two bodies, of its second."""
     u, v = group.bodies
     inner = next(k for k in group.bonds if {top.bonds[k].a, top.bonds[k].b} == {u, v})
     outer_u = next(k for k in group.bonds if k != inner and u in (top.bonds[k].a, top.bonds[k].b))
@@ -179,7 +190,7 @@ def is_singular(closure: Closure) -> bool:
     if not closure.columns:
         return bool(closure.factor == 0.0 and all(n == 0.0 for n in closure.numerators))
     return is_dead(closure) and all(
-        abs(n) <= SINGULAR * size for n, size in zip(closure.numerators, _rate_sizes(closure), strict=True)
+        abs(n) <= SINGULAR * size for n, size in zip(closure.numerators, rate_sizes(closure), strict=True)
     )
 
 
@@ -188,18 +199,19 @@ def is_dead(closure: Closure) -> bool:
     if not closure.columns:
         return bool(abs(closure.factor) <= SINGULAR * max(map(abs, closure.numerators)))
     *bases, _ = closure.columns
-    return bool(abs(closure.factor) <= SINGULAR * _products(*bases))
+    return bool(abs(closure.factor) <= SINGULAR * products(*bases))
 
 
-def _rate_sizes(closure: Closure) -> tuple[float, ...]:
+def rate_sizes(closure: Closure) -> tuple[float, ...]:
+    """For each numerator the products that it is summed from."""
     if len(closure.columns) == 3:
         join, _, r = closure.columns
-        return (_products(join, r),)
+        return (products(join, r),)
     b1, b3, b2, r = closure.columns
-    return (_products(r, b3, b2), _products(b1, b3, r))
+    return (products(r, b3, b2), products(b1, b3, r))
 
 
-def _products(*columns: Triple) -> float:
+def products(*columns: Triple) -> float:
     """Sum of the absolute values of the products in a scalar product, or in a determinant."""
     (a, b, c), (d, e, f), *last = (tuple(map(abs, column)) for column in columns)
     if not last:

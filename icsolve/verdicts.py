@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from icsolve import power, sentences
+from icsolve.alignment import lined_up, tightest
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
+from icsolve.joints import Points
 from icsolve.motion import Motions
 from icsolve.topology import Topology
-from icsolve.twists import is_dead
 
 
 def refuse_loose(case: Case, top: Topology) -> None:
@@ -24,6 +25,23 @@ def refuse_loose(case: Case, top: Topology) -> None:
         raise SceneError(Status.LOOSE, sentences.loose(case, names))
 
 
+def refuse_no_direction(case: Case, top: Topology, points: Points) -> None:
+    """Refuse loads, guides and wheels whose direction two points give that lie at one place."""
+    lines = [(f"load {load.name}", power.line_of(load)) for load in case.loads]
+    for bond in top.bonds:
+        names = sentences.listed(bond.links)
+        guide = getattr(bond.joint, "guide", None)
+        lines.append((f"the guide of links {names}", guide.ends if guide is not None else None))
+        lines.append((f"the wheels {names}", bond.pivots if bond.pivots[0] else None))
+    for what, ends in lines:
+        if ends and ends[0] in points and ends[1] in points and points[ends[0]] == points[ends[1]]:
+            raise SceneError(
+                Status.INCONSISTENT,
+                f"{what} has no direction: {sentences.listed(ends)} lie at one place. Give it by an angle, or "
+                "correct the points.",
+            )
+
+
 def refuse_friction(case: Case) -> None:
     """Refuse joints with friction until free bodies are solved: an answer without it would be wrong."""
     for joint in case.joints:
@@ -31,8 +49,8 @@ def refuse_friction(case: Case) -> None:
         if friction is not None and friction.mu.value > 0:
             raise SceneError(
                 Status.UNSUPPORTED,
-                f"the joint of links {sentences.listed(joint.links)} has friction (mu {friction.mu.digits}), which "
-                "is not solved yet. Take out `mu` to solve without friction.",
+                f"the joint of links {sentences.listed(joint.links)} has friction (mu {friction.mu.digits}), "
+                "which is not solved yet. Take out `mu` to solve without friction.",
             )
 
 
@@ -63,10 +81,25 @@ def _no_work(
     apart = max(abs(x - y) for a, b in zip(on, off, strict=True) for x, y in zip(a, b, strict=True))
     at_rest = apart <= AT_REST * largest
     others = solution.verdict == "no value"
-    clause = sentences.points_in_line(motions.closures, top, map(is_dead, motions.closures))
+    clause = _why_at_rest(top, motions, culprit.load.link) if at_rest else ""
     message = sentences.workless(culprit.load.name, culprit.load.link, at_rest, others, clause)
     status = Status.DEAD_CENTRE if at_rest and others else Status.NO_VALUE if others else Status.ANY_VALUE
     return SceneError(status, message)
+
+
+def _why_at_rest(top: Topology, motions: Motions, link: str) -> str:
+    """Which centres on one line hold a link at rest."""
+    body = top.body_of[link]
+    own_first = sorted(motions.closures, key=lambda closure: body not in closure.group.bodies)
+    clauses = (sentences.aligned(top, lined_up(closure, top, body)) for closure in own_first)
+    return next(filter(None, clauses), "")
+
+
+def too_close(top: Topology, motions: Motions, load: str, open_by: float | None) -> SceneError:
+    """The refusal of a scene whose data do not decide it."""
+    group = tightest(motions.closures)
+    why = sentences.aligned(top, sorted(group.group.bonds), "lie nearly on") if group else ""
+    return SceneError(Status.NEAR_SINGULAR, sentences.too_close(load, why, open_by))
 
 
 AT_REST = 1e-13

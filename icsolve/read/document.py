@@ -29,7 +29,7 @@ LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 """libyaml's parser; the pure one where libyaml is missing."""
 
 DEEPEST = 50
-MOST_NODES = 100_000
+MOST_NODES = 200_000
 
 
 class Scalar(NamedTuple):

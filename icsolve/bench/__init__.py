@@ -1,0 +1,1 @@
+"""Run time against error, and the stress catalogue: what `icsolve bench` runs."""
