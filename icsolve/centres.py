@@ -16,6 +16,7 @@ from icsolve.eliminate import ROUNDING
 from icsolve.figure.frame import Frame
 from icsolve.joints import Points, freedoms, joint_freedoms, joint_points, pitch_point
 from icsolve.kennedy import BodyPair, Kennedy, Known, ordered, sine_between, unit
+from icsolve.names import ordered_pair
 from icsolve.plane import Triple, cross, subtract
 from icsolve.topology import FREEDOMS, Topology
 
@@ -154,11 +155,3 @@ REST: Triple = (0.0, 0.0, 0.0)
 
 def _length(t: Triple) -> float:
     return math.sqrt(t[0] * t[0] + t[1] * t[1] + t[2] * t[2])
-
-
-def ordered_pair(case: Case, a: str, b: str) -> Pair:
-    """The pair as it is named: numbers ascending, words in order of first mention."""
-    if a.isdigit() and b.isdigit():
-        return (a, b) if int(a) <= int(b) else (b, a)
-    order = {link: k for k, link in enumerate(case.links)}
-    return (a, b) if order.get(a, -1) <= order.get(b, -1) else (b, a)

@@ -26,7 +26,7 @@ from icsolve.case import (
     Target,
     Torque,
 )
-from icsolve.result import pair_name
+from icsolve.names import pair_name
 
 AGREES = "agrees"
 DISAGREES = "disagrees"

@@ -12,7 +12,7 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from icsolve.arithmetic import Arithmetic, Scalar, magnitude
-from icsolve.case import Case, Force, ForceVector, Heading, Like, Load, Slope, Spring, Torque, Toward, Weight
+from icsolve.case import Case, Force, ForceVector, Like, Load, Slope, Spring, Torque, Toward, Weight
 from icsolve.eliminate import null_space
 from icsolve.figure.frame import Frame
 from icsolve.plane import Point, Triple, force_wrench, pairing
@@ -67,6 +67,15 @@ def points_of(load: Load) -> tuple[str, ...]:
     return (load.at,)
 
 
+def line_of(load: Load) -> tuple[str, str] | None:
+    """The two points that give a load its direction, where points do."""
+    if isinstance(load, Spring):
+        return (load.at, load.to)
+    if isinstance(load, Force) and isinstance(load.heading, Toward):
+        return (load.at, load.heading.point)
+    return None
+
+
 def _root(load: Load, by_name: Mapping[str, Load], arithmetic: Arithmetic) -> tuple[str, Scalar]:
     ratio: Scalar = 1.0
     while not isinstance(load, ForceVector) and isinstance(load.value, Like):
@@ -97,15 +106,15 @@ def _unit_wrench(
             x, y = arithmetic.given(load.x) / size, arithmetic.given(load.y) / size
             return force_wrench((x, y), points[load.at]), 1.0
         case Force():
-            heading = direction(load.heading, points[load.at], points, arithmetic)
-            return force_wrench(heading, points[load.at]), 1.0
+            return force_wrench(direction(load, points, arithmetic), points[load.at]), 1.0
     raise TypeError(type(load).__name__)
 
 
-def direction(heading: Heading, at: Point, points: Points, arithmetic: Arithmetic) -> Point:
-    """Unit vector of a heading for a force at a point."""
+def direction(load: Force, points: Points, arithmetic: Arithmetic) -> Point:
+    """Unit vector along which a force acts."""
+    heading = load.heading
     if isinstance(heading, Toward):
-        x, y = _between(at, points[heading.point], arithmetic)[0]
+        x, y = _between(points[load.at], points[heading.point], arithmetic)[0]
         return (-x, -y) if heading.away else (x, y)
     if isinstance(heading, Slope):
         run, rise = arithmetic.given(heading.run), arithmetic.given(heading.rise)
@@ -232,7 +241,9 @@ def _amount(w: Wrench, b: Balance, arithmetic: Arithmetic) -> Scalar:
     return arithmetic.given(root.value)
 
 
-def _solved(rows: list[list[Scalar]], roots: list[str], idle: tuple[int, ...], scales: list[tuple[float, float]]) -> Solution:
+def _solved(
+    rows: list[list[Scalar]], roots: list[str], idle: tuple[int, ...], scales: list[tuple[float, float]]
+) -> Solution:
     working = [row for m, row in enumerate(rows) if m not in idle]
     if len(working) == 1 and len(roots) == 1:
         factor, known = working[0]

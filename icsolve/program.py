@@ -66,6 +66,7 @@ def prepare(case: Case, want: Want) -> Program:
         plan = None
     bonds = motion.needed_bonds(plan, top)
     figure = solve_figure(case, None if want.examine else _wanted_points(case, top, bonds, want))
+    verdicts.refuse_no_direction(case, top, figure.points)
     return Program(case, want, top, plan, figure)
 
 
@@ -82,6 +83,7 @@ def _wanted_bodies(case: Case, top: Topology, want: Want) -> frozenset[int]:
     if want.everything:
         return frozenset(range(len(top.members)))
     links = {link for load in case.loads for link in (load.link, power.reacting(case, load))}
+    links |= {given.link for given in case.motion}
     return frozenset(top.body_of[link] for link in links)
 
 

@@ -5,22 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from icsolve.answer import Answer, Centre, Found, Term
-from icsolve.case import Case, Pair
+from icsolve.case import Case
+from icsolve.names import pair_name
 
 SCHEMA = "icsolve/solve/1"
-
-
-def link_order(case: Case, link: str) -> tuple[int, int]:
-    """Sorting key of a link: numbers ascending, then words in order of first mention."""
-    if link.isdecimal():
-        return (0, int(link))
-    return (1, case.links.index(link) if link in case.links else len(case.links))
-
-
-def pair_name(case: Case, pair: Pair) -> str:
-    """Name of the centre of two links: ``2-4``, ``crank-rocker``, whichever way they are given."""
-    first, second = sorted(pair, key=lambda link: link_order(case, link))
-    return f"{first}-{second}"
 
 
 def shown_points(answer: Answer) -> dict[str, tuple[float, float]]:

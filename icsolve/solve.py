@@ -25,9 +25,10 @@ from icsolve.bounds import (
     unbounded_values,
 )
 from icsolve.case import Case, Pair
-from icsolve.centres import CentreFinder, ordered_pair
+from icsolve.centres import CentreFinder
 from icsolve.errors import SceneError, Status
 from icsolve.figure import Figure, case_point
+from icsolve.names import link_order
 from icsolve.program import Outcome, Program, Want, evaluate, prepare
 from icsolve.sense import sense_of, unit_of
 from icsolve.terms import advantage, load_values, power_terms
@@ -128,7 +129,8 @@ def _answer(program: Program, outcome: Outcome, unknowns: dict[str, Value], scen
 
 def _shown(figure: Figure) -> dict[str, tuple[float, float]]:
     """The points that have a name in the case, in case units."""
-    return {name: case_point(figure.frame, p) for name, p in figure.points.items() if not name.startswith("@")}
+    named = (name for name in figure.points if not name.startswith("@"))
+    return {name: case_point(figure.frame, figure.points[name]) for name in named}
 
 
 def _found(
@@ -153,7 +155,8 @@ def _centres(
     if case.motion:
         twists = {link: speeds.meant(twists, speed, link) for link in twists}
     finder = CentreFinder(case, program.top, twists, figure.frame, figure.points, FLOATS)
-    found = finder.find(wanted_pairs(case, program.want), outcome.motions.slack)
+    pairs = [pair for pair in wanted_pairs(case, program.want) if {*pair} <= twists.keys()]
+    found = finder.find(pairs, outcome.motions.slack)
     if scene is None:
         return found
     return {pair: centre._replace(error=centre_error(scene, centre)) for pair, centre in found.items()}
@@ -161,17 +164,13 @@ def _centres(
 
 def wanted_pairs(case: Case, want: Want) -> list[Pair]:
     """Pairs of links whose centres are asked for, in order."""
-    links = list(case.links)
-    if all(link.isdigit() for link in links):
-        links.sort(key=int)
+    links = sorted(case.links, key=lambda link: link_order(case, link))
     pairs = [(a, b) for n, a in enumerate(links) for b in links[n + 1 :]]
     if want.centres or want.examine:
         return pairs
     loaded = {load.link for load in case.loads} | {case.ground}
     against = {frozenset((load.link, power.reacting(case, load))) for load in case.loads}
-    return [
-        ordered_pair(case, a, b) for a, b in pairs if {a, b} <= loaded or frozenset((a, b)) in against
-    ]
+    return [pair for pair in pairs if {*pair} <= loaded or frozenset(pair) in against]
 
 
 def _notes(outcome: Outcome) -> list[str]:

@@ -7,7 +7,8 @@ from collections.abc import Callable, Iterable
 
 from icsolve.answer import Answer, Centre, Found, Term
 from icsolve.case import Case, Coordinates, Pair, Torque, Units
-from icsolve.result import link_order, pair_name, shown_points
+from icsolve.names import link_order, pair_name
+from icsolve.result import shown_points
 
 Format = Callable[[float], str]
 """A number with the digits that were asked for."""

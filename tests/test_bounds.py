@@ -6,17 +6,17 @@ import os
 from random import Random
 from statistics import median
 
+import pytest
+
 import growth
+import icsolve
 import loading
 import mechanisms
-import pytest
 import transcribe
-from more_digits import SixtyDigits
-
-import icsolve
 from icsolve.bounds import bounded_values, evaluate_bounded
 from icsolve.errors import SceneError
 from icsolve.program import Want, evaluate, prepare
+from more_digits import SixtyDigits
 
 FULL = os.environ.get("ICSOLVE_FULL") == "1"
 PINNED = [mechanisms.four_bar, mechanisms.watt, mechanisms.stephenson, mechanisms.butterfly]

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from random import Random
 
-import mechanisms
 import pytest
+
+import mechanisms
 import transcribe
 from chains import BUTTERFLY, FLIER
-
 from icsolve.plan import Plan, make_plan
 from icsolve.topology import Topology, topology
 
@@ -17,7 +18,7 @@ def chain_of_four_bars(loops: int) -> Topology:
     """Cranks 2, 4, 6 ... on the frame, couplers 3, 5, 7 ... between them."""
     cranks = [str(2 * k + 2) for k in range(loops + 1)]
     joints = [{"pin": ["1", crank], "at": f"O{crank}"} for crank in cranks]
-    for left, right in zip(cranks, cranks[1:], strict=False):
+    for left, right in pairwise(cranks):
         coupler = str(int(left) + 1)
         joints.append({"pin": [left, coupler], "at": f"P{left}"})
         joints.append({"pin": [coupler, right], "at": f"Q{right}"})

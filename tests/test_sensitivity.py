@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import pytest
 from mpmath import mpf
-from more_digits import SixtyDigits
 
 import icsolve
 from icsolve.case import Number
 from icsolve.program import Want, evaluate, prepare
 from icsolve.sensitivity import band, influences
+from more_digits import SixtyDigits
 
 PRESS = """
 icsolve: 1
@@ -45,8 +45,8 @@ def test_every_sensitivity_is_a_derivative() -> None:
     assert {"lengths.AB", "angles.CDE", "loads.K.free", "points.D.y", "loads.P"} <= {i.path for i in found}
     program = prepare(case, Want())
     for influence in found:
-        ends = [evaluate(program, Moved(influence.path, h))[1].solution.values["T12"] for h in (1e-12, -1e-12)]
-        difference = float((ends[0] - ends[1]) / mpf(2e-12))
+        up, down = (evaluate(program, Moved(influence.path, h))[1].solution for h in (1e-12, -1e-12))
+        difference = float((up.values["T12"] - down.values["T12"]) / mpf(2e-12))
         assert influence.per_unit == pytest.approx(difference, rel=1e-9, abs=1e-12), influence.path
 
 

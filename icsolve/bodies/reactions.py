@@ -11,7 +11,7 @@ from icsolve.bodies.sparse import Row
 from icsolve.bodies.ties import Force, Position, Tie, kind_of
 from icsolve.bodies.values import Reaction, Reactions, names_of
 from icsolve.case import Belt, Case, Contact, Gears, KnownCentre, Slide, Slot
-from icsolve.centres import ordered_pair
+from icsolve.names import ordered_pair
 from icsolve.figure import Frame, case_point
 
 UNIQUE = 1e-9
