@@ -5,11 +5,14 @@ from __future__ import annotations
 import math
 
 import pytest
+
 from icsolve.case import Case
 from icsolve.figure import Figure, case_point, solve_figure
 from icsolve.read import load
 
-PINS = "joints:\n" + "".join(f"  - {{pin: [{k}, {k + 1}], at: {p}}}\n" for k, p in ((1, "A"), (2, "B"), (3, "C")))
+PINS = "joints:\n" + "".join(
+    f"  - {{pin: [{k}, {k + 1}], at: {p}}}\n" for k, p in ((1, "A"), (2, "B"), (3, "C"))
+)
 LOOP = PINS + "  - {pin: [4, 1], at: D}\n"
 FOUR_BAR = "points: {A: [0, 0], D: [4, 0]}\nlengths: {AB: 1, BC: 3.5, CD: 2.5}\nangles: {AB: 60}\n"
 
@@ -53,14 +56,18 @@ def test_rhombus_of_sides_five_on_a_diagonal_of_six() -> None:
 def test_ray_gives_length_and_side_without_near() -> None:
     """E on the prolongation of CD (CDE: 0 puts it back on the ray from D through C)."""
     _, at = solved(
-        "points: {A: [0, 0], B: [0, 1], C: [0, 3]}\nlengths: {BE: 0.5}\nangles: {CBE: 0}\nlinks: {3: [E]}\n" + PINS
+        "points: {A: [0, 0], B: [0, 1], C: [0, 3]}\nlengths: {BE: 0.5}\nangles: {CBE: 0}\nlinks: {3: [E]}\n"
+        + PINS
     )
     assert_at(at["E"], 0.0, 1.5)
 
 
 @pytest.mark.parametrize("turn", [0, 360, -720])
 def test_angles_are_any_real_number(turn: int) -> None:
-    _, at = solved(f"points: {{A: [0, 0]}}\nlengths: {{AB: 2, BC: 1}}\nangles: {{AB: {30 + turn}, ABC: {turn + 90}}}\n" + PINS)
+    _, at = solved(
+        f"points: {{A: [0, 0]}}\nlengths: {{AB: 2, BC: 1}}\nangles: {{AB: {30 + turn}, ABC: {turn + 90}}}\n"
+        + PINS
+    )
     assert_at(at["B"], math.sqrt(3), 1.0)
     # at B, from BA (210 deg) ccw by 90: 300 deg
     assert_at(at["C"], math.sqrt(3) + 0.5, 1.0 - math.sqrt(3) / 2)
@@ -153,7 +160,8 @@ def test_rod_to_a_block_whose_pin_stands_off_the_guide() -> None:
     """F on the block is at a known vector from C on the guide: the guide's line is carried to F."""
     figure, at = solved(
         "points: {A: [0, 0]}\nlengths: {AF: 5, CF: 3}\nangles: {CF: 90}\nnear: {F: [4, 3]}\njoints:\n"
-        "  - {pin: [1, 2], at: A}\n  - {pin: [2, 3], at: F}\n  - {slide: [3, 1], at: C, along: 0, through: A}\n"
+        "  - {pin: [1, 2], at: A}\n  - {pin: [2, 3], at: F}\n"
+        "  - {slide: [3, 1], at: C, along: 0, through: A}\n"
     )
     assert_at(at["F"], 4.0, 3.0)
     assert_at(at["C"], 4.0, 0.0)
@@ -203,7 +211,8 @@ def test_directions_that_corners_carry_along_a_chain() -> None:
     lengths = ", ".join(f"{names[k]}{names[(k + 1) % 6]}: 1" for k in range(5))
     corners = ", ".join(f"{names[k]}{names[k + 1]}{names[k + 2]}: -120" for k in range(4))
     _, at = solved(
-        f"points: {{A: [0, 0]}}\nlengths: {{{lengths}}}\nangles: {{AB: 0, {corners}}}\nlinks: {{2: [D, E, F]}}\n" + PINS
+        f"points: {{A: [0, 0]}}\nlengths: {{{lengths}}}\nangles: {{AB: 0, {corners}}}\n"
+        "links: {2: [D, E, F]}\n" + PINS
     )
     assert_at(at["F"], -0.5, math.sqrt(3) / 2)
 
@@ -226,7 +235,8 @@ def test_law_of_cosines_where_a_rigid_link_stands_in_the_middle_of_a_chain() -> 
 def test_a_straight_rigid_link_loses_no_digits_to_a_flat_triangle() -> None:
     """With BEC: 180 the circles about B and C touch at E; the shape carries E instead."""
     _, at = solved(
-        "points: {A: [0, 0], D: [4, 0]}\nlengths: {AB: 1, BE: 1.5, EC: 2, CD: 2.5}\nangles: {AB: 60, BEC: 180}\n"
+        "points: {A: [0, 0], D: [4, 0]}\nlengths: {AB: 1, BE: 1.5, EC: 2, CD: 2.5}\n"
+        "angles: {AB: 60, BEC: 180}\n"
         "near: {C: [3.5, 2.4]}\n" + LOOP + "links: {3: [E]}\n"
     )
     (bx, by), (cx, cy) = at["B"], at["C"]
@@ -244,7 +254,8 @@ def test_centroid_of_a_triangle_and_midpoint() -> None:
 
 def test_a_centroid_in_place_gives_the_point_that_it_leaves_open() -> None:
     _, at = solved(
-        "points: {A: [0, 0], B: [3, 0], H: [1, 5], C: [unknown, 6], G: {centroid: [A, B, C]}}\nlengths: {HG: 3}\nangles: {HG: 270}\n"
+        "points: {A: [0, 0], B: [3, 0], H: [1, 5], C: [unknown, 6], G: {centroid: [A, B, C]}}\n"
+        "lengths: {HG: 3}\nangles: {HG: 270}\n"
         "links: {2: [G, H]}\n" + PINS
     )
     assert_at(at["G"], 1.0, 2.0)
@@ -253,9 +264,7 @@ def test_a_centroid_in_place_gives_the_point_that_it_leaves_open() -> None:
 
 def test_pose_by_the_third_point_of_a_shape() -> None:
     """Without any point of the crank given but C and a direction elsewhere on its link."""
-    _, at = solved(
-        "points: {C: [1, 1]}\nlengths: {AB: 5, BC: 3, AC: 4}\nangles: {AB: 0, ACB: 90}\n" + PINS
-    )
+    _, at = solved("points: {C: [1, 1]}\nlengths: {AB: 5, BC: 3, AC: 4}\nangles: {AB: 0, ACB: 90}\n" + PINS)
     assert math.dist(at["A"], at["B"]) == pytest.approx(5.0, rel=1e-15)
     assert at["A"][1] == pytest.approx(at["B"][1], abs=1e-14)
     assert at["C"][1] > at["A"][1] or at["C"][1] < at["A"][1]

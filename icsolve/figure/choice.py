@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 from icsolve.errors import SceneError, Status
-from icsolve.figure.board import Board
+from icsolve.figure.board import Board, Point
 from icsolve.figure.frame import case_point, normalised
 from icsolve.figure.steps import Meet
-from icsolve.figure.ways import EVEN, Way
+from icsolve.figure.ways import Way, nearer
 from icsolve.figure.words import plain
 
 SAME = 1e-11
@@ -27,9 +27,9 @@ def choose(board: Board, ways: list[Way], points: tuple[str, ...]) -> Way:
     ways = _distinct(ways, points)
     best = ways[0]
     for way in ways[1:]:
-        if _ratio(board, way, best, points) < 1.0:
+        if _nearer(board, way, best, points):
             best = way
-    rivals = [way for way in ways if way is best or _ratio(board, best, way, points) >= EVEN]
+    rivals = [way for way in ways if way is best or not _nearer(board, best, way, points)]
     if len(rivals) > 1:
         raise SceneError(Status.AMBIGUOUS, _listing(board, rivals, points))
     return best
@@ -53,15 +53,11 @@ def _differing(one: Way, two: Way, points: tuple[str, ...]) -> list[str]:
     return out
 
 
-def _ratio(board: Board, one: Way, two: Way, points: tuple[str, ...]) -> float:
-    """How far the one way is from `near`, over how far the other is, where they differ."""
-    first = second = 0.0
-    for p in _differing(one, two, points):
-        if p in board.case.near:
-            near = normalised(board.frame, board.case.near[p])
-            first += math.dist(near, one.points[p]) ** 2
-            second += math.dist(near, two.points[p]) ** 2
-    return math.sqrt(first / second) if second > 0.0 else 1.0
+def _nearer(board: Board, one: Way, two: Way, points: tuple[str, ...]) -> bool:
+    """Whether the one way is clearly nearer to `near` where the two differ."""
+    held = [p for p in _differing(one, two, points) if p in board.case.near]
+    near: list[Point] = [normalised(board.frame, board.case.near[p]) for p in held]
+    return nearer([one.points[p] for p in held], [two.points[p] for p in held], near)
 
 
 def _listing(board: Board, rivals: list[Way], points: tuple[str, ...]) -> str:

@@ -9,7 +9,7 @@ from icsolve.arithmetic import Scalar
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.figure.board import Board, Key
-from icsolve.figure.data import Datum
+from icsolve.figure.data import CORNER, LENGTH, LINE, MEAN, Datum
 from icsolve.figure.equations import Equation, Pivot, Unknown, solved
 from icsolve.figure.free import underdetermined
 from icsolve.figure.given import told
@@ -70,6 +70,19 @@ def _moved(move: dict[Unknown, Scalar], target: str, part: int) -> Scalar:
     return move.get((target, part), 0.0)
 
 
+def _counting(drawing: Drawing) -> list[Datum]:
+    """The data without those that only repeat the shape of a loose sheet: they hold nothing more."""
+    used = {datum for step in drawing.steps for datum in step.data()}
+    shapes = [sheet.placed.keys() for sheet in drawing.sheets[1:]]
+    return [
+        datum
+        for datum in drawing.facts.data
+        if datum in used
+        or datum.kind not in (LENGTH, CORNER, LINE, MEAN)
+        or not any(shape >= set(datum.points) for shape in shapes)
+    ]
+
+
 def next_group(drawing: Drawing, case: Case, wanted: Iterable[str]) -> tuple[Group, tuple[str, ...]]:
     """The smallest group that leads to the wanted points.
 
@@ -80,7 +93,7 @@ def next_group(drawing: Drawing, case: Case, wanted: Iterable[str]) -> tuple[Gro
     """
     placed = drawing.ground.placed.keys()
     goal = [p for p in wanted if p not in placed]
-    system = system_of(drawing.facts.data, placed, goal)
+    system = system_of(_counting(drawing), placed, goal)
     goal = leading(system, goal)
     if any((p, part) in system.free for p in goal for part in (0, 1)):
         raise underdetermined(case, system, placed, goal)

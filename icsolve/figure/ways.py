@@ -23,14 +23,17 @@ from icsolve.figure.steps import Base, Mean, Meet, Polar, Step, Transfer, aims
 from icsolve.figure.words import plain
 
 U = 2.0**-53
-TOUCHING = 16.0 * U
+TOUCHING = 8.0 * U
 """Gaps below this many roundings of the lengths that made them are zero: the circles touch."""
 PARALLEL = 1e-14
 """Sine of the smallest angle at which two lines still meet."""
 COARSE = 0.02
 """Misfit at which a way is given up before its end; the finer test comes with the whole figure."""
 EVEN = 0.99
-"""Two ways whose distances from `near` have at least this ratio are equally near."""
+SIDEWAYS = 0.05
+"""Two ways are equally near where their distances from `near` have at least the ratio EVEN, and `near`
+is seen from between them within this sine of square to the line that joins them. (Near a dead centre the two
+are close together, and the ratio alone would call any two digits of `near` in between.)"""
 MOST_WAYS = 256
 
 
@@ -182,12 +185,11 @@ class Walker:
         held = [t for t in options[0].targets if isinstance(t, str) and t in self.near]
         if not held:
             return False
-        distances = []
+        places = []
         for option in options[:2]:
             self._put(option)
-            off = (math.dist(self.near[t], self.board.points[t]) for t in held)
-            distances.append(math.hypot(*off))
-        return distances[0] < EVEN * distances[1]
+            places.append([self.board.points[t] for t in held])
+        return nearer(places[0], places[1], [self.near[t] for t in held])
 
     def _ahead(self, step: Step) -> Miss | None:
         if not isinstance(step, Meet):
@@ -207,6 +209,23 @@ class Walker:
         """Keep the misses of the ways that `near` chose."""
         if self.spared == 0:
             self.misses.append((depth, miss))
+
+
+def nearer(one: list[Point], two: list[Point], near: list[Point]) -> bool:
+    """Whether the first of two placements of some points is clearly the nearer to `near`.
+
+    Both are points of a space of twice as many dimensions; ``side`` is how far `near` is from the
+    plane midway between them.
+    """
+    first, second, half = _distance(one, near), _distance(two, near), _distance(one, two) / 2.0
+    if half == 0.0 or first < EVEN * second:
+        return half > 0.0
+    side = (second - first) * (second + first) / (4.0 * half)
+    return side > SIDEWAYS * math.sqrt((first * first + second * second) / 2.0)
+
+
+def _distance(one: list[Point], two: list[Point]) -> float:
+    return math.hypot(*(math.dist(p, q) for p, q in zip(one, two, strict=True)))
 
 
 def _due(order: Order) -> dict[int, list[Datum]]:

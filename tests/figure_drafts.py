@@ -1,0 +1,196 @@
+"""Random figures from which the data are read off: every kind of datum, in any order of mention."""
+
+from __future__ import annotations
+
+import math
+from random import Random
+
+from icsolve.case import (
+    Case,
+    Centroid,
+    Coordinates,
+    Corner,
+    Direction,
+    Guide,
+    Length,
+    Number,
+    Pin,
+    Slot,
+)
+
+Place = tuple[float, float]
+
+
+def bearing(a: Place, b: Place) -> float:
+    """Direction from a to b in degrees."""
+    return math.degrees(math.atan2(b[1] - a[1], b[0] - a[0]))
+
+
+class Draft:
+    """Points that are known, and the data read off them so far; no two data say the same."""
+
+    def __init__(self, seed: int, count: int) -> None:
+        self.rng = Random(seed)
+        self.names = [f"P{k}" for k in range(count)]
+        self.at: dict[str, Place] = {
+            p: (self.rng.uniform(-3, 3), self.rng.uniform(-3, 3)) for p in self.names
+        }
+        self.points: dict[str, Coordinates | Centroid] = {}
+        self.lengths: list[Length] = []
+        self.angles: list[Direction | Corner] = []
+        self.joints: list[Pin | Slot] = []
+        self.near: dict[str, Place] = {}
+        self.said: set[object] = set()
+
+    def number(self, value: float, path: str) -> Number:
+        """A number with all its digits."""
+        return Number(value, 0.0, path, repr(value))
+
+    def say(self, *what: object) -> bool:
+        """Whether it was not said before."""
+        fresh = what not in self.said
+        self.said.add(what)
+        return fresh
+
+    def coordinates(self, p: str, x: bool = True, y: bool = True) -> bool:
+        """Coordinates, or one of them."""
+        if p in self.points:
+            return False
+        u, v = self.at[p]
+        self.points[p] = Coordinates(
+            self.number(u, f"points.{p}.x") if x else None, self.number(v, f"points.{p}.y") if y else None
+        )
+        return True
+
+    def mean(self, p: str, of: list[str]) -> None:
+        """Move a point to the centroid of others."""
+        u, v = (sum(self.at[q][k] for q in of) / len(of) for k in (0, 1))
+        self.at[p] = (u, v)
+        self.points[p] = Centroid(tuple(of))
+
+    def length(self, a: str, b: str) -> bool:
+        """A length, named either way about."""
+        if not self.say("length", frozenset((a, b))):
+            return False
+        a, b = self.rng.sample([a, b], 2)
+        self.lengths.append(Length(a, b, self.number(math.dist(self.at[a], self.at[b]), f"lengths.{a}-{b}")))
+        return True
+
+    def ray(self, a: str, b: str) -> bool:
+        """A direction, in any turn."""
+        if not self.say("sight", a, b):
+            return False
+        a, b = self.rng.sample([a, b], 2)
+        value = bearing(self.at[a], self.at[b]) + self.rng.choice((0, 0, 360, -360))
+        self.angles.append(Direction(a, b, self.number(value, f"angles.{a}-{b}")))
+        return True
+
+    def corner(self, a: str, at: str, b: str) -> bool:
+        """An angle at a point, from either arm."""
+        if not self.say("corner", frozenset((a, b)), at):
+            return False
+        a, b = self.rng.sample([a, b], 2)
+        value = bearing(self.at[at], self.at[b]) - bearing(self.at[at], self.at[a])
+        self.angles.append(Corner(a, at, b, self.number(value, f"angles.{a}-{at}-{b}")))
+        return True
+
+    def guide(self, at: str, through: str) -> bool:
+        """A guide line by its direction, modulo 180."""
+        if not self.say("sight", through, at):
+            return False
+        value = bearing(self.at[at], self.at[through]) + self.rng.choice((0, 180))
+        angle = self.number(value, f"joints.{len(self.joints)}.along")
+        self.joints.append(Slot(("2", "3"), at, Guide(angle, None, through)))
+        return True
+
+    def approximately(self, p: str, off: float) -> None:
+        """`near` for a point."""
+        (x, y), r = self.at[p], self.rng
+        self.near[p] = (x + r.uniform(-off, off), y + r.uniform(-off, off))
+
+    def case(self) -> Case:
+        """The case, its data in any order."""
+        for data in (self.lengths, self.angles, self.joints):
+            self.rng.shuffle(data)
+        points = list(self.points.items())
+        self.rng.shuffle(points)
+        return Case(
+            points=dict(points), lengths=tuple(self.lengths), angles=tuple(self.angles),
+            joints=tuple(self.joints), near=self.near,
+        )  # fmt: skip
+
+
+def sequence(seed: int, count: int = 9) -> Draft:
+    """Each point by two data that bind it to points before it."""
+    draft = Draft(seed, count)
+    rng = draft.rng
+    for i, p in enumerate(draft.names):
+        before = draft.names[:i]
+        if i < 2 or rng.random() < 0.1:
+            draft.coordinates(p)
+        elif i > 4 and rng.random() < 0.1:
+            draft.mean(p, rng.sample(before, 3))
+        else:
+            bound = 0
+            while bound < 2:
+                bound += _bind(draft, p, before)
+            draft.approximately(p, 0.02)
+    return draft
+
+
+def _bind(draft: Draft, p: str, before: list[str]) -> bool:
+    """One more datum for a point, of any kind, that does not follow from those it has."""
+    rng = draft.rng
+    kind, (q, other) = rng.choice("llllrrccaagxy"), rng.sample(before, 2)
+    if kind == "l":
+        return draft.length(q, p)
+    if kind == "r":
+        return draft.ray(q, p)
+    if kind == "c":
+        return draft.say("sight", q, p) and draft.corner(other, q, p)
+    if kind == "a":
+        return draft.corner(q, p, other)
+    if kind == "g":
+        return draft.guide(p, q)
+    return draft.coordinates(p, x=kind == "x", y=kind == "y")
+
+
+def framework(seed: int, count: int, split: float, corners: float) -> Draft:
+    """A framework of bars that is just rigid (Henneberg 1911).
+
+    Each point joins two others; or, with probability ``split``, takes the place of a bar and joins
+    a third, which may leave no order of construction. Triangles lose a bar to the corner that faces it
+    with probability ``corners``.
+    """
+    draft = Draft(seed, count)
+    rng = draft.rng
+    bars: set[frozenset[str]] = set()
+    for i, p in enumerate(draft.names):
+        if i < 2:
+            draft.coordinates(p)
+            continue
+        before = draft.names[:i]
+        if bars and rng.random() < split:
+            bar = rng.choice(sorted(bars, key=sorted))
+            bars.remove(bar)
+            ends = [*sorted(bar), rng.choice([q for q in before if q not in bar])]
+        else:
+            ends = rng.sample(before, 2)
+        bars |= {frozenset((q, p)) for q in ends}
+        draft.approximately(p, 0.02)
+    _with_corners(draft, bars, corners)
+    return draft
+
+
+def _with_corners(draft: Draft, bars: set[frozenset[str]], share: float) -> None:
+    arms: set[frozenset[str]] = set()
+    for a in draft.names:
+        for b in draft.names:
+            for at in draft.names:
+                sides = {frozenset(pair) for pair in ((a, b), (a, at), (b, at))}
+                if a < b and sides <= bars and not sides & arms and draft.rng.random() < share:
+                    bars.discard(frozenset((a, b)))
+                    arms |= sides
+                    draft.corner(a, at, b)
+    for a, b in sorted(sorted(bar) for bar in bars):
+        draft.length(a, b)
