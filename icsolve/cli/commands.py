@@ -15,6 +15,7 @@ VERBS = {
     "validate": "checking",
     "new": "starting",
     "schema": "starting",
+    "grade": "grading",
 }
 """Each verb, and the room beside this one that has its click command (``solve_command``)."""
 

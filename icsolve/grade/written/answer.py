@@ -55,7 +55,7 @@ _LEAD = re.compile(
     re.IGNORECASE,
 )
 _INTRODUCE = set(
-    "the a an force torque moment load answer value required unknown result is equals of about i get got and it".split()
+    "the a an force torque moment load answer value required unknown result is of about i get got and".split()
 )
 _NAME = re.compile(r"\s*\|?[^\W\d_][\w'\-/ω{}^.]*(?: ?\([\w' ]*\))?\|?\s*(?:=|:|~)\s*(?=[^=])")
 _LETTERS = ("T", "C")

@@ -105,7 +105,7 @@ _SPELLINGS = (
     ),
     (_line(270.0), "vertically downwards", "-y", "negative y", "minus y", "nach unten", "unten"),
 )
-_WORDS: dict[str, Direction] = {text: first for first, *texts in _SPELLINGS for text in texts}  # type: ignore[misc]
+_WORDS: dict[str, Direction] = {text: first for first, *texts in _SPELLINGS for text in texts}
 
 _SIDES = {"right": (1, 0), "left": (-1, 0), "up": (0, 1), "down": (0, -1)}
 _FILLER = re.compile(
@@ -122,7 +122,8 @@ _AXES = {
     "y": 90.0, "+y": 90.0, "positive y": 90.0, "-y": 270.0, "negative y": 270.0,
 }  # fmt: skip
 _ABOVE = re.compile(
-    r"(above|below|ccw|cw|from|counterclockwise|anticlockwise|clockwise|left of|right of)(?: (?:from|of))? (.+)$"
+    r"(above|below|ccw|cw|from|counterclockwise|anticlockwise|clockwise|left of|right of)"
+    r"(?: (?:from|of))? (.+)$"
 )
 _DOUBTFUL_AXIS = re.compile(
     r"(?:above|below|to|from|with|off|left of|right of|against|over|under)"

@@ -1,0 +1,187 @@
+"""`icsolve grade`."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
+from typing import IO, TYPE_CHECKING, Any
+
+import click
+
+from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain
+from icsolve.errors import CaseError
+
+if TYPE_CHECKING:
+    from icsolve.grade.course import Course
+    from icsolve.grade.run import Graded, Job
+
+COURSE = "course.yaml"
+"""The course that is taken where none is named and the folder of cases has it."""
+
+
+@click.command("grade")
+@click.argument("submissions", metavar="SUBMISSIONS...", nargs=-1, required=True)
+@click.option("--cases", metavar="DIR", required=True, help="The folder of cases.")
+@click.option("-o", "--output", metavar="FILE", help="Results as CSV; - for standard output.")
+@click.option("--jsonl", metavar="FILE", help="Results as JSON Lines, with every cause that fits.")
+@click.option("--html", metavar="FILE", help="The class summary as one HTML page.")
+@click.option(
+    "--write",
+    "writes",
+    metavar="KIND=FILE",
+    multiple=True,
+    help="For a platform: canvas, moodle, gradescope, prairielearn, prairielearn-csv, junit. Repeatable.",
+)
+@click.option(
+    "--template", metavar="FILE", help="The platform's own grade file, to be filled (canvas, moodle)."
+)
+@click.option("--roster", metavar="FILE", help="Who the students are; those without an answer are listed.")
+@click.option("--course", metavar="FILE", help="Tolerances, marks, strictness [default: DIR/course.yaml].")
+@click.option("--attempt", type=click.Choice(["last", "first", "best"]), help="Which attempt counts [last].")
+@click.option("--decimal", type=click.Choice(["either", "point", "comma"]), help="What 1,234 means [either].")
+@click.option("--seed", metavar="TEXT", help="Seed of the variants.")
+@click.option(
+    "--map", "mapping", metavar="A=B", multiple=True, help='A column: student_id="Email Address", "Q3=press".'
+)
+@click.option("--jobs", type=click.IntRange(1, 64), help="Processes [one, two on long work].")
+@click.option("--force", is_flag=True, help="Write over files that are there.")
+@click.option("-q", "--quiet", is_flag=True, help="No summary.")
+def grade_command(**options: Any) -> int:
+    """Grade a table of answers (CSV of any learning platform) against a folder of cases.
+
+    \b
+    icsolve grade answers.csv --cases cases/ -o results.csv
+    icsolve grade quiz.csv --cases cases/ --map "Q1=press" --roster roster.csv --html summary.html
+
+    Exit status: 0 all answers judged, 1 some could not be and are listed, 2 a file can't be used.
+    """
+    from icsolve.grade.files import ExistsError
+    from icsolve.grade.tables import HeaderError
+
+    try:
+        job = _job(options)
+        return _graded(job, options)
+    except CaseError as error:
+        complain(str(error))
+    except ExistsError as error:
+        complain(f"icsolve grade: {error}")
+    except (HeaderError, ValueError) as error:
+        complain(f"icsolve grade: {_named(options, error)}")
+    except OSError as error:
+        complain(f"icsolve grade: {error.filename or ''}: {error.strerror or error}".replace(" : ", " "))
+    return UNREADABLE
+
+
+def _named(options: dict[str, Any], error: Exception) -> str:
+    """The message with the file that it is about, where there is only one."""
+    files = options["submissions"]
+    return (
+        f"{files[0]}: {error}"
+        if len(files) == 1 and not str(error).startswith("there is no case in")
+        else str(error)
+    )
+
+
+def _job(options: dict[str, Any]) -> Job:
+    from icsolve.grade.run import Job, processes
+
+    if not os.path.exists(options["cases"]):
+        raise FileNotFoundError(2, "there is no such folder", options["cases"])
+    for path in (options["output"], options["jsonl"], options["html"], *_pairs(options["writes"]).values()):
+        _check(path, options)
+    course = _course(options)
+    jobs = options["jobs"] or processes()
+    return Job(tuple(options["submissions"]), options["cases"], course, options["roster"] or "", jobs)
+
+
+def _check(path: str | None, options: dict[str, Any]) -> None:
+    """An output may not be there already, nor be one of the inputs."""
+    from icsolve.grade.files import ExistsError, check_free
+
+    if path is None or path == "-":
+        return
+    inputs = [*options["submissions"], options["roster"], options["course"], options["template"]]
+    if any(
+        other and os.path.exists(path) and os.path.exists(other) and os.path.samefile(path, other)
+        for other in inputs
+    ):
+        raise ExistsError(f"{path} is one of the files to read; choose another name for the results")
+    check_free(path, options["force"])
+
+
+def _course(options: dict[str, Any]) -> Course:
+    """The course file, with what the command line says over it."""
+    from icsolve.grade.course import Course, read_course
+
+    path = options["course"] or os.path.join(options["cases"], COURSE)
+    course = Course()
+    if options["course"] or os.path.isfile(path):
+        course = read_course(path)
+        if not options["course"] and not options["quiet"]:
+            complain(f"using {path}")
+    said = {key: options[key] for key in ("attempt", "decimal", "seed") if options[key] is not None}
+    columns = (*course.columns, *_pairs(options["mapping"]).items())
+    return course._replace(columns=columns, **said)
+
+
+def _pairs(texts: tuple[str, ...]) -> dict[str, str]:
+    """``A=B`` texts; the last ``=`` divides where the first would leave one side empty."""
+    pairs = {}
+    for text in texts:
+        left, equals, right = text.partition("=")
+        if not (left.strip() and equals and right.strip()):
+            raise ValueError(f"{text!r} is not of the form NAME=VALUE")
+        pairs[left.strip()] = right.strip()
+    return pairs
+
+
+def _graded(job: Job, options: dict[str, Any]) -> int:
+    from icsolve.grade.files import whole_file
+    from icsolve.grade.run import Sinks, grade
+
+    with ExitStack() as stack:
+        quiet, force = options["quiet"], options["force"]
+        csv = stack.enter_context(_results(options["output"], force))
+        jsonl = stack.enter_context(whole_file(options["jsonl"], force)) if options["jsonl"] else None
+        with _progress(quiet) as progress:
+            graded = grade(job, Sinks(csv, jsonl), progress)  # type: ignore[arg-type]
+    for note in graded.notes:
+        complain(str(note))
+    _further(graded, options)
+    if not quiet:
+        _summary(graded, options["output"] == "-")
+    return NO_ANSWER if graded.serious else DONE
+
+
+@contextmanager
+def _results(output: str | None, force: bool) -> Iterator[IO[str] | None]:
+    from icsolve.grade.files import whole_file
+
+    if output is None:
+        yield None
+    elif output == "-":
+        yield sys.stdout
+    else:
+        with whole_file(output, force) as file:
+            yield file  # type: ignore[misc]
+
+
+@contextmanager
+def _progress(quiet: bool) -> Iterator[Any]:
+    """Steps of long work on a terminal."""
+    shown = not quiet and sys.stderr.isatty()
+    yield (lambda what: click.echo(f"\r\033[K{what}", nl=False, err=True)) if shown else (lambda what: None)
+    if shown:
+        click.echo("\r\033[K", nl=False, err=True)
+
+
+def _further(graded: Graded, options: dict[str, Any]) -> None:
+    """The page, and the files for platforms."""
+
+
+def _summary(graded: Graded, on_stderr: bool) -> None:
+    from icsolve.grade.summary import summary
+
+    click.echo(summary(graded), err=on_stderr)

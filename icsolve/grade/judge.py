@@ -1,0 +1,179 @@
+"""The verdict: number, unit and direction apart, and which mistake."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from icsolve.grade.keys import AnyKey, Key, unit_factor
+from icsolve.grade.malrules import Wrong, message
+from icsolve.grade.senses import AGAINST, NEITHER
+from icsolve.grade.tolerance import SLACK
+from icsolve.grade.written import MISSING, REVIEW, UNREAD, Direction, Written, figures
+
+RIGHT, WRONG, INVALID, IN_REVIEW = "right", "wrong", "invalid", "review"
+VERDICTS = (RIGHT, WRONG, INVALID, IN_REVIEW, MISSING)
+SQUARE = "square-direction"
+_NEAR = 3.0
+"""A near miss lies within this many half-widths."""
+
+
+class Judgement(NamedTuple):
+    """What an answer earns, and why.
+
+    ``share`` is that of the mark, 0 to 1; ``parts`` whether number, unit and direction are right;
+    ``value`` the answer in the question's unit, signed as the case signs it; ``off`` its relative
+    error (None where there is no number, or the right one is zero); ``mistakes`` the causes that
+    fit, simplest first.
+    """
+
+    verdict: str
+    share: float
+    parts: tuple[bool, bool, bool]
+    value: float | None = None
+    off: float | None = None
+    code: str = ""
+    mistakes: tuple[Wrong, ...] = ()
+
+
+_NO_PARTS = (False, False, False)
+
+
+def judge(key: Key, written: Written) -> Judgement:
+    """The verdict on an answer to a question that is one number."""
+    if written.flag:
+        return _unjudged(written.flag)
+    factor = 1.0 if written.unit is None else unit_factor(key, written.unit.unit)
+    words = _words(key, written)
+    sign = key.senses.sign(words, key.policy.within) if words is not None else 1
+    value = written.number * (factor or 1.0) * (sign if sign else 1)
+    size = abs(key.value)
+    number = abs(abs(value) - size) <= key.half
+    unit = _unit_is_right(key, written, factor)
+    if not number and factor != 1.0 and abs(abs(written.number) - size) <= key.half:
+        number, unit = True, key.policy.unit == "ignored"
+        value = written.number * (sign or 1)
+    if number and sign is None and key.value:
+        return Judgement(IN_REVIEW, 0.0, (number, unit, False), value, None, SQUARE)
+    direction = _direction_is_right(key, written, value, sign)
+    off = abs(abs(value) - size) / size if size else None
+    parts = (number, unit, direction)
+    if number and unit and direction:
+        return _right(key, written, value, off)
+    mistakes = _mistakes(key, written, value, parts, sign)
+    return Judgement(WRONG, share_of(key, parts, mistakes), parts, value, off, _codes(mistakes), mistakes)
+
+
+def _unjudged(flag: str) -> Judgement:
+    if flag == MISSING:
+        return Judgement(MISSING, 0.0, _NO_PARTS, code=MISSING)
+    return Judgement(IN_REVIEW if flag in REVIEW else INVALID, 0.0, _NO_PARTS, code=flag or UNREAD)
+
+
+def _words(key: Key, written: Written) -> Direction | None:
+    """The answer's direction in words, where those are looked at."""
+    return written.direction if key.policy.direction != "ignored" and key.senses.any else None
+
+
+def _unit_is_right(key: Key, written: Written, factor: float | None) -> bool:
+    if key.policy.unit == "ignored":
+        return True
+    if written.unit is None:
+        return key.policy.unit == "assumed" or not key.unit_name
+    return factor is not None and not (written.note and key.policy.strict_case)
+
+
+def _direction_is_right(key: Key, written: Written, value: float, sign: int | None) -> bool:
+    """By the sign of the value; by words as well where the course wants them."""
+    if not key.value or key.policy.direction == "ignored":
+        return True
+    if sign == NEITHER or sign is None:
+        return False
+    if key.policy.direction == "required" and written.direction is None and key.senses.any:
+        return False
+    return (value > 0.0) == (key.value > 0.0)
+
+
+def _right(key: Key, written: Written, value: float, off: float | None) -> Judgement:
+    """Right, unless too few figures are written."""
+    if key.policy.figures and written.digits and figures(written.digits)[1] < key.policy.figures:
+        mistakes = (Wrong("figures", value),)
+        share = share_of(key, (False, True, True), mistakes)
+        return Judgement(WRONG, share, (False, True, True), value, off, "figures", mistakes)
+    return Judgement(RIGHT, 1.0, (True, True, True), value, off)
+
+
+def _mistakes(
+    key: Key, written: Written, value: float, parts: tuple[bool, bool, bool], sign: int | None
+) -> tuple[Wrong, ...]:
+    """The causes of a wrong answer: those that are seen at once, else those that the solver foresaw."""
+    number, unit, direction = parts
+    if number:
+        found = [] if unit else [Wrong(_unit_code(key, written), value)]
+        if not direction:
+            found.append(Wrong(_direction_code(key, written, sign), value))
+        return tuple(found)
+    foreseen = key.wrongs.near(value)
+    if not foreseen and _unsigned(key, written, value):
+        foreseen = key.wrongs.near(-value)
+    near = abs(abs(value) - abs(key.value)) <= _NEAR * key.half * (1.0 + SLACK) and direction and key.value
+    return (*foreseen, Wrong("near-miss", value)) if near else foreseen
+
+
+def _unsigned(key: Key, written: Written, value: float) -> bool:
+    """Whether only a size was given, which may stand for either sense."""
+    return key.policy.direction == "ignored" or (written.direction is None and value > 0.0 > key.value)
+
+
+def _unit_code(key: Key, written: Written) -> str:
+    if written.unit is None:
+        return "no-unit"
+    return "unit-case" if unit_factor(key, written.unit.unit) == 1.0 else "unit"
+
+
+def _direction_code(key: Key, written: Written, sign: int | None) -> str:
+    if sign == NEITHER or sign is None:
+        return "direction"
+    if written.direction is None and sign != AGAINST and (written.number > 0.0) == (key.value > 0.0):
+        return "no-direction"
+    return "sign"
+
+
+def share_of(key: Key, parts: tuple[bool, bool, bool], mistakes: tuple[Wrong, ...]) -> float:
+    """The share of the mark: for the right parts, or for the known mistake, whichever is more."""
+    credit = key.policy.credit
+    earned = (
+        sum(part for part, right in zip(credit, parts, strict=True) if right) if credit is not None else 0.0
+    )
+    known = dict(key.policy.mistakes)
+    return min(1.0, max([earned, *(known.get(mistake.code, 0.0) for mistake in mistakes[:1])]))
+
+
+def _codes(mistakes: tuple[Wrong, ...]) -> str:
+    return " ".join(mistake.code for mistake in mistakes)
+
+
+def feedback(key: AnyKey, judged: Judgement, reveal: bool = False) -> str:
+    """What the student is told; never the answer, unless it is right or the course reveals it."""
+    if judged.verdict == RIGHT:
+        return f"Right: {key.accepted} is accepted."
+    band = f" Accepted is {key.accepted}." if reveal else f" Accepted is an answer {key.rule}."
+    if judged.mistakes:
+        said = " Or: ".join(message(m.code, m.where) for m in judged.mistakes)
+        return said + (band if reveal or judged.mistakes[0].code == "near-miss" else "")
+    if judged.verdict == WRONG:
+        return f"Not right.{band}"
+    return UNJUDGED.get(judged.code, "This can't be read as an answer.")
+
+
+UNJUDGED = {
+    MISSING: "No answer was given.",
+    UNREAD: "This can't be read: write a number, a unit and a direction, such as '41.2 N*m ccw'.",
+    "no-number": "There is no number in this.",
+    "too-long": "This is too long to be an answer.",
+    "ambiguous-number": "This number can be read in two ways; a person will look at it. Write no commas.",
+    "ambiguous-direction": "Sign and words, or words alone, say two directions; a person will look at it.",
+    "ambiguous-unit": "This unit has several meanings; a person will look at it.",
+    "two-values": "There are two values in this; a person will look at it.",
+    SQUARE: "These words are square to the answer's direction; a person will look at it.",
+}
+"""What is told where nothing was judged, by the flag."""

@@ -1,0 +1,106 @@
+"""All likely wrong answers of a case, computed once by the solver, ready to be looked up."""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+from icsolve.answer import Answer
+from icsolve.case import Case
+from icsolve.errors import IcsolveError
+from icsolve.grade.malrules.centres import centre_wrongs
+from icsolve.grade.malrules.changed import (
+    in_radians,
+    other_modes,
+    with_motion_reversed,
+    without_friction,
+)
+from icsolve.grade.malrules.loads import load_wrongs
+from icsolve.grade.malrules.messages import ORDER, Wrong
+from icsolve.grade.malrules.plain import plain_wrongs
+
+MOST = 3
+"""Causes that are named where several fit."""
+
+
+def resolve(case: Case | None) -> dict[str, float]:
+    """The answers of a changed case; none where it can't be solved, which is no one's mistake then."""
+    from icsolve.solve import solve
+
+    if case is None:
+        return {}
+    try:
+        return {name: found.value for name, found in solve(case, bound=False).answers.items()}
+    except (IcsolveError, ArithmeticError):
+        return {}
+
+
+def wrong_answers(answer: Answer) -> dict[str, list[Wrong]]:
+    """The wrong answers of every unknown; ``answer`` has been solved with all centres and rates."""
+    found: dict[str, list[Wrong]] = {name: list(plain_wrongs(a.value)) for name, a in answer.answers.items()}
+    for name, wrong in (*load_wrongs(answer, resolve), *_resolved(answer)):
+        if name in found:
+            found[name].append(wrong)
+    if len(found) == 1:
+        (name,) = found
+        found[name].extend(centre_wrongs(answer, name))
+    return found
+
+
+def changed_cases(answer: Answer) -> Iterator[tuple[str, Case]]:
+    """Cases that a student may have solved instead, each with the code of the mistake."""
+    case = answer.case
+    for figure, loads in ((True, True), (False, True), (True, False)):
+        changed = in_radians(case, figure, loads)
+        if changed is not None:
+            yield "deg-rad", changed
+    for changed in other_modes(case, answer):
+        yield "other-mode", changed
+    for code, turned in (
+        ("no-friction", without_friction(case)),
+        ("friction-sense", with_motion_reversed(case)),
+    ):
+        if turned is not None:
+            yield code, turned
+
+
+def _resolved(answer: Answer) -> Iterator[tuple[str, Wrong]]:
+    for code, changed in changed_cases(answer):
+        for name, value in resolve(changed).items():
+            yield name, Wrong(code, value)
+
+
+class Wrongs(NamedTuple):
+    """Wrong answers sorted by value; ``reach`` is the relative half-width within which one is recognised."""
+
+    values: tuple[float, ...]
+    wrongs: tuple[Wrong, ...]
+    reach: float
+
+    def near(self, value: float) -> tuple[Wrong, ...]:
+        """The wrong answers that a value may be, simplest cause first, one of each code."""
+        if not math.isfinite(value):
+            return ()
+        width = self.reach * abs(value) * (1.0 + self.reach)
+        start = bisect_left(self.values, value - width)
+        found: dict[str, tuple[float, Wrong]] = {}
+        for index in range(start, len(self.values)):
+            at = self.values[index]
+            if at > value + width:
+                break
+            off = abs(value - at)
+            wrong = self.wrongs[index]
+            if off <= self.reach * abs(at) and off < found.get(wrong.code, (math.inf, wrong))[0]:
+                found[wrong.code] = (off, wrong)
+        ordered = sorted((wrong for _, wrong in found.values()), key=lambda w: ORDER[w.code])
+        return tuple(ordered[:MOST])
+
+
+def sorted_wrongs(wrongs: Iterable[Wrong], right: float, half: float) -> Wrongs:
+    """Ready to be looked up; what the band about the right answer holds is dropped."""
+    reach = half / abs(right) if right else 0.01
+    kept = [w for w in wrongs if math.isfinite(w.value) and w.value != 0.0 and abs(w.value - right) > half]
+    kept.sort(key=lambda w: (w.value, ORDER[w.code]))
+    return Wrongs(tuple(w.value for w in kept), tuple(kept), min(reach, 0.05))

@@ -1,0 +1,279 @@
+"""Entries in order of student to results: attempts chosen, answers judged, errors carried forward."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from itertools import groupby
+from typing import NamedTuple
+
+from icsolve.grade.carried import Intermediate, carried
+from icsolve.grade.course import Course
+from icsolve.grade.judge import IN_REVIEW, WRONG, Judgement, feedback, judge, share_of
+from icsolve.grade.judge_place import judge_place
+from icsolve.grade.keys import AnyKey, Key, NoKeyError, PlaceKey
+from icsolve.grade.ledger import Ledger
+from icsolve.grade.malrules import Wrong
+from icsolve.grade.shelf import Shelf, Solved
+from icsolve.grade.store import Entry
+from icsolve.grade.written import MISSING, Reader
+from icsolve.grade.written.combined import Combined
+from icsolve.grade.written.place import read_place
+
+_MEMORY = 50_000
+"""Different answers that are remembered with their verdicts; a class repeats itself."""
+_AT_ONCE = 5000
+"""Answers of one student that are looked at together."""
+
+
+class Marked:
+    """An answer judged: the same for every student who writes the same to the same question."""
+
+    __slots__ = (
+        "count",
+        "direction",
+        "given",
+        "item",
+        "judged",
+        "points",
+        "raw",
+        "tail",
+        "text",
+        "unit",
+        "value",
+    )
+
+    def __init__(self, item: str, raw: str, judged: Judgement, points: float, text: str) -> None:
+        self.item = item
+        self.raw = raw
+        self.judged = judged
+        self.points = points
+        self.text = text
+        self.value: float | None = None
+        self.unit = ""
+        self.direction = ""
+        self.given: tuple[float, ...] = ()
+        self.tail = ""
+        self.count = 0
+
+
+class Result(NamedTuple):
+    """One line of the results."""
+
+    student: str
+    item: str
+    variant: str
+    attempt: str
+    line: int
+    marked: Marked
+
+
+class Marker:
+    """Judges entries; ``shelf`` has the keys."""
+
+    def __init__(
+        self, shelf: Shelf, course: Course, ledger: Ledger, path: str, questions: Iterable[str]
+    ) -> None:
+        self.shelf = shelf
+        self.course = course
+        self.ledger = ledger
+        self.path = path
+        self.questions = sorted(set(questions))
+        self.combined = Combined(Reader(course.decimal))
+        self._memory: dict[tuple[str, str, str, str, str], Marked] = {}
+        self._missing: dict[str, Marked] = {}
+        self.done: list[Marked] = []
+        """What was forgotten of the memory, with its counts."""
+
+    def results(self, entries: Iterable[Entry], students: Iterable[str] = ()) -> Iterator[Result]:
+        """The results of sorted entries, and of sorted ``students`` who may have given none."""
+        waiting = iter(students)
+        owed = next(waiting, None)
+        for student, own in groupby(entries, key=lambda entry: entry.student):
+            while owed is not None and owed < student:
+                yield from self._student(owed, [])
+                owed = next(waiting, None)
+            if owed == student:
+                owed = next(waiting, None)
+            yield from self._of_student(student, own)
+        while owed is not None:
+            yield from self._student(owed, [])
+            owed = next(waiting, None)
+
+    def _of_student(self, student: str, entries: Iterator[Entry]) -> Iterator[Result]:
+        """In pieces, should one id have an endless number of rows."""
+        chosen: list[Entry] = []
+        if not student:
+            for entry in entries:
+                yield self._result(entry, self._troubled(entry, entry.trouble))
+            return
+        for _, attempts in groupby(entries, key=lambda entry: entry.item):
+            chosen.append(self._chosen(attempts))
+            if len(chosen) >= _AT_ONCE:
+                for entry in chosen:
+                    yield self._result(entry, self._marked(entry))
+                chosen.clear()
+        yield from self._student(student, chosen)
+
+    def _student(self, student: str, chosen: list[Entry]) -> Iterator[Result]:
+        """One student's results, with what is missing, in order of the questions."""
+        marked = {entry.item: (entry, self._marked(entry)) for entry in chosen}
+        self._carry(marked)
+        if student:
+            for item in self.questions:
+                if item not in marked:
+                    entry = Entry(student, item, 0, 0.0, 0, "", "", "", "", "", "")
+                    marked[item] = (entry, self._absent(item))
+        for item in sorted(marked):
+            yield self._result(*marked[item])
+
+    def _result(self, entry: Entry, marked: Marked) -> Result:
+        marked.count += 1
+        return Result(entry.student, entry.item, entry.variant, entry.tried, entry.line, marked)
+
+    def _chosen(self, attempts: Iterator[Entry]) -> Entry:
+        """The attempt that counts; those that nothing tells apart from it are listed."""
+        best = next(attempts)
+        for entry in attempts:
+            if entry.trouble or best.trouble:
+                best = entry if best.trouble else best
+                continue
+            if (entry.attempt, entry.time) == (best.attempt, best.time):
+                self._duplicate(entry, best)
+            if self._is_better(entry, best):
+                best = entry
+        return best
+
+    def _is_better(self, entry: Entry, best: Entry) -> bool:
+        if self.course.attempt == "best":
+            return self._marked(entry).judged.share >= self._marked(best).judged.share
+        return self.course.attempt == "last"
+
+    def _duplicate(self, entry: Entry, other: Entry) -> None:
+        line = entry.line if self.course.attempt == "first" else other.line
+        reason = f"the same student answers the same question again; the {self.course.attempt} row counts"
+        self.ledger.note(self.path, line, reason)
+
+    def _marked(self, entry: Entry) -> Marked:
+        variant = self.shelf.variant_of(entry.item, entry.student)
+        key = (entry.item, variant, entry.answer, entry.unit, entry.direction)
+        found = self._memory.get(key)
+        if found is None or entry.trouble:
+            found = self._judged(entry)
+            if not entry.trouble:
+                self._remember(key, found)
+        return found
+
+    def _remember(self, key: tuple[str, str, str, str, str], marked: Marked) -> None:
+        if len(self._memory) >= _MEMORY:
+            self.forget()
+        self._memory[key] = marked
+
+    def forget(self) -> list[Marked]:
+        """All that was judged so far, and their counts."""
+        self.done += [marked for marked in self._memory.values() if marked.count]
+        self._memory.clear()
+        return self.done
+
+    def _judged(self, entry: Entry) -> Marked:
+        if entry.trouble:
+            return self._troubled(entry, entry.trouble)
+        try:
+            key = self.shelf.key(entry.item, entry.student)
+        except NoKeyError as error:
+            self.ledger.note(self.path, entry.line, f"not graded: {error}", serious=True)
+            return self._troubled(entry, str(error))
+        if isinstance(key, PlaceKey):
+            return self._place(entry, key)
+        written = self.combined.read(entry.answer, entry.unit, entry.direction)
+        judged = judge(key, written)
+        marked = Marked(
+            entry.item, entry.answer, judged, key.policy.points, feedback(key, judged, self.course.reveal)
+        )
+        if not written.flag:
+            marked.value = written.number
+            marked.unit = written.unit.name if written.unit else ""
+            marked.direction = written.direction.words if written.direction else ""
+            marked.given = (judged.value or 0.0,)
+        return marked
+
+    def _place(self, entry: Entry, key: PlaceKey) -> Marked:
+        written = read_place(f"{entry.answer} {entry.unit}".strip())
+        judged = judge_place(key, written)
+        marked = Marked(
+            entry.item, entry.answer, judged, key.policy.points, feedback(key, judged, self.course.reveal)
+        )
+        if not written.flag:
+            marked.unit = written.unit.name if written.unit else ""
+            marked.given = (written.x, written.y) if written.toward is None else ()
+        return marked
+
+    def _troubled(self, entry: Entry, why: str) -> Marked:
+        """A row that can't be graded: for a person to look at."""
+        judged = Judgement(IN_REVIEW, 0.0, (False, False, False), code="not-graded")
+        marked = Marked(entry.item, entry.answer, judged, self._points(entry.item), f"Not graded: {why}")
+        self.done.append(marked)
+        return marked
+
+    def _points(self, item: str) -> float:
+        return self.course.policy_of(item).points
+
+    def _absent(self, item: str) -> Marked:
+        found = self._missing.get(item)
+        if found is None:
+            judged = Judgement(MISSING, 0.0, (False, False, False), code=MISSING)
+            found = self._missing[item] = Marked(item, "", judged, self._points(item), "No answer was given.")
+            self.done.append(found)
+        return found
+
+    def _carry(self, marked: dict[str, tuple[Entry, Marked]]) -> None:
+        """Look again at a wrong final answer whose student has a wrong intermediate one."""
+        wrong = [item for item, (_, m) in marked.items() if ":" in item and m.judged.verdict == WRONG]
+        for case in dict.fromkeys(item.partition(":")[0] for item in wrong):
+            final = marked.get(case)
+            if final is None or final[1].judged.verdict != WRONG or final[1].judged.value is None:
+                continue
+            solved = self.shelf.solved(case, final[0].student)
+            steps = [
+                self._step(solved, item, marked[item][1]) for item in wrong if item.startswith(f"{case}:")
+            ]
+            again = self._again(solved, final, [step for step in steps if step is not None])
+            if again is not None:
+                marked[case] = (final[0], again)
+
+    def _step(self, solved: Solved, item: str, marked: Marked) -> Intermediate | None:
+        try:
+            key: AnyKey = solved.key(item)
+        except NoKeyError:
+            return None
+        right = key.place if isinstance(key, PlaceKey) else (key.value,)
+        if len(marked.given) != len(right):
+            return None
+        return Intermediate(item.partition(":")[2], solved.target(item), right, marked.given)
+
+    def _again(self, solved: Solved, final: tuple[Entry, Marked], steps: list[Intermediate]) -> Marked | None:
+        """The final answer as one that follows from the wrong steps; None where it does not."""
+        entry, before = final
+        key, target = solved.key(entry.item), solved.target(entry.item)
+        value = before.judged.value
+        assert isinstance(key, Key) and value is not None
+        reach = key.wrongs.reach
+        name = getattr(target, "load", "")
+        for wrong in carried(solved.answer, name, steps):
+            close = abs(value - wrong.value) <= reach * abs(wrong.value)
+            if close and abs(wrong.value - key.value) > key.half:
+                return self._with_cause(key, before, wrong)
+        return None
+
+    def _with_cause(self, key: Key, before: Marked, wrong: Wrong) -> Marked:
+        others = tuple(m for m in before.judged.mistakes if m.code != "near-miss")
+        mistakes = (wrong, *others)[:3]
+        judged = before.judged._replace(
+            mistakes=mistakes,
+            code=" ".join(m.code for m in mistakes),
+            share=max(share_of(key, before.judged.parts, mistakes), before.judged.share),
+        )
+        text = feedback(key, judged, self.course.reveal)
+        again = Marked(before.item, before.raw, judged, before.points, text)
+        again.value, again.unit, again.direction = before.value, before.unit, before.direction
+        self.done.append(again)
+        return again

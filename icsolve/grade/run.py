@@ -1,0 +1,190 @@
+"""The whole of grading: files in, one sorted list of results out, and the counts of the class."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import tempfile
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import ExitStack
+from typing import IO, NamedTuple
+
+from icsolve.grade.course import Course
+from icsolve.grade.intake import Intake, expand
+from icsolve.grade.keys import Key, NoKeyError
+from icsolve.grade.ledger import Entry as Noted
+from icsolve.grade.ledger import Ledger
+from icsolve.grade.marking import Marked, Marker
+from icsolve.grade.people import Roster, read_roster
+from icsolve.grade.results import HEADER, json_line, line
+from icsolve.grade.shelf import Shelf
+from icsolve.grade.store import Store
+from icsolve.grade.tally import Counts, added, tally
+
+_WORTH_TWO = 20_000
+"""Answers from which a second process pays."""
+
+
+class Job(NamedTuple):
+    """What to grade: files of answers, the folder of cases, the course, who is on the roster."""
+
+    submissions: tuple[str, ...]
+    cases: str
+    course: Course = Course()
+    roster: str = ""
+    jobs: int = 1
+
+
+class Part(NamedTuple):
+    """The work of one process: the students from ``since`` on, before ``until``."""
+
+    job: Job
+    store: str
+    path: str
+    questions: tuple[str, ...]
+    students: tuple[str, ...]
+    since: str | None
+    until: str | None
+    csv: str
+    jsonl: str
+
+
+class Graded(NamedTuple):
+    """What grading found: the counts by question, what was noted, how many rows and students."""
+
+    counts: dict[str, Counts]
+    notes: tuple[Noted, ...]
+    serious: bool
+    rows: int
+    students: int
+    questions: tuple[str, ...]
+
+
+class Sinks(NamedTuple):
+    """Where results go as they come: CSV and JSON Lines, None for neither."""
+
+    csv: IO[str] | None = None
+    jsonl: IO[str] | None = None
+
+
+Progress = Callable[[str], None]
+
+
+def grade(job: Job, sinks: Sinks, progress: Progress = lambda what: None) -> Graded:
+    """Grade all submissions of a job; results go to the sinks, sorted by student and question.
+
+    Raises HeaderError, ValueError or OSError where a file can't be used at all.
+    """
+    ledger = Ledger()
+    shelf = Shelf(job.cases, job.course)
+    if not shelf.paths:
+        raise ValueError(f"there is no case in {job.cases}")
+    roster = read_roster(job.roster, lambda at, why: ledger.note(job.roster, at, why)) if job.roster else None
+    with ExitStack() as stack:
+        store = Store()
+        stack.callback(store.close)
+        intake = Intake(store, shelf, ledger, roster)
+        paths = expand(job.submissions)
+        for path in paths:
+            progress(f"reading {path}")
+            intake.read(path, job.course.columns)
+        folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="icsolve-grade-"))
+        parts = list(_parts(job, intake, roster, store.path, ", ".join(paths), folder, sinks))
+        progress(f"judging {intake.count} answers")
+        found = list(_done(parts, shelf))
+        _join(parts, sinks)
+        for _, notes in found:
+            ledger.extend(notes)
+        counts = added(counts for counts, _ in found)
+        students = len(parts[0].students) if len(parts) == 1 else sum(len(part.students) for part in parts)
+    return Graded(counts, tuple(ledger.entries()), ledger.serious, intake.count, students, tuple(counts))
+
+
+def _parts(
+    job: Job, intake: Intake, roster: Roster | None, store: str, path: str, folder: str, sinks: Sinks
+) -> Iterator[Part]:
+    """The students in as many ranges as there are processes."""
+    questions = tuple(sorted(set(job.course.questions) or _asked(intake)))
+    students = sorted(set(intake.students) | set(roster.people if roster is not None else ()))
+    count = job.jobs if intake.count >= _WORTH_TWO and len(students) >= 2 * job.jobs else 1
+    cuts = [students[len(students) * k // count] for k in range(1, count)]
+    for n, (since, until) in enumerate(zip([None, *cuts], [*cuts, None], strict=True)):
+        own = tuple(s for s in students if (since is None or s >= since) and (until is None or s < until))
+        csv = os.path.join(folder, f"{n}.csv") if sinks.csv is not None else ""
+        jsonl = os.path.join(folder, f"{n}.jsonl") if sinks.jsonl is not None else ""
+        yield Part(job, store, path, questions, own, since, until, csv, jsonl)
+
+
+def _asked(intake: Intake) -> set[str]:
+    """The questions that someone answered and that have a key: each student owes an answer to them."""
+    asked = set()
+    for question in intake.questions:
+        try:
+            intake.shelf.key(question, next(iter(intake.students), ""))
+        except NoKeyError:
+            continue
+        asked.add(question)
+    return asked
+
+
+Outcome = tuple[dict[str, Counts], list[Noted]]
+
+
+def _done(parts: list[Part], shelf: Shelf) -> Iterable[Outcome]:
+    if len(parts) == 1:
+        return [work(parts[0], shelf)]
+    from concurrent.futures import ProcessPoolExecutor
+
+    with ProcessPoolExecutor(len(parts)) as pool:
+        return list(pool.map(work, parts))
+
+
+def work(part: Part, shelf: Shelf | None = None) -> Outcome:
+    """Judge the answers of one range of students; results go to the part's own files."""
+    course = part.job.course
+    shelf = shelf if shelf is not None else Shelf(part.job.cases, course)
+    ledger = Ledger()
+    marker = Marker(shelf, course, ledger, part.path, part.questions)
+    store = Store(part.store)
+    with ExitStack() as stack:
+        stack.callback(store.close)
+        csv = stack.enter_context(open(part.csv, "w", encoding="utf-8", newline="")) if part.csv else None
+        jsonl = (
+            stack.enter_context(open(part.jsonl, "w", encoding="utf-8", newline="")) if part.jsonl else None
+        )
+        for result in marker.results(store.sorted(part.since, part.until), part.students):
+            if csv is not None:
+                csv.write(line(result))
+            if jsonl is not None:
+                jsonl.write(json_line(result))
+    marked = marker.forget()
+    return tally(marked, _bands(shelf, marked)), list(ledger.entries())
+
+
+def _bands(shelf: Shelf, marked: list[Marked]) -> dict[str, tuple[float, float]]:
+    """The right value and half-width of each question that has one for all students."""
+    found = {}
+    for item in {m.item for m in marked}:
+        try:
+            key = shelf.key(item)
+        except NoKeyError:
+            continue
+        if isinstance(key, Key):
+            found[item] = (key.value, key.half)
+    return found
+
+
+def _join(parts: list[Part], sinks: Sinks) -> None:
+    """The parts' files one after the other, under one header."""
+    if sinks.csv is not None:
+        sinks.csv.write(HEADER + "\n")
+    for sink, names in ((sinks.csv, [p.csv for p in parts]), (sinks.jsonl, [p.jsonl for p in parts])):
+        for name in names if sink is not None else ():
+            assert sink is not None
+            with open(name, encoding="utf-8", newline="") as file:
+                shutil.copyfileobj(file, sink, 1 << 20)
+
+
+def processes() -> int:
+    """Two processes where the machine has two cores."""
+    return min(2, os.cpu_count() or 1)

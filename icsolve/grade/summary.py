@@ -1,0 +1,62 @@
+"""The class summary as text: marks a question, the mistakes by code, a histogram of the answers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from icsolve.grade.run import Graded
+from icsolve.grade.tally import BINS, Counts
+
+_WIDTH = 40
+_SHOWN = 6
+"""Mistakes of one question that are shown."""
+
+
+def summary(graded: Graded) -> str:
+    """The summary of a class, for a terminal."""
+    lines = [f"{_count(graded.rows, 'answer')} from {_count(graded.students, 'student')}"]
+    for item, counts in graded.counts.items():
+        lines += ["", *_question(item, counts)]
+    return "\n".join([*lines, *_missing(graded)])
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number:,} {what}{'' if number == 1 else 's'}".replace(",", " ")
+
+
+def _question(item: str, counts: Counts) -> Iterator[str]:
+    verdicts = ", ".join(f"{n} {verdict}" for verdict, n in ordered_verdicts(counts))
+    mark = f"mean {counts.score / counts.max_score:.0%}" if counts.max_score else ""
+    yield f"{item}: {verdicts}" + (f"; {mark}" if mark else "")
+    wrong = counts.verdicts["wrong"]
+    for code, n in counts.mistakes.most_common(_SHOWN):
+        yield f"  {n} of {wrong} wrong answers: {code or 'no known cause'}"
+    if counts.unread:
+        yield "  not judged: " + ", ".join(f"{n} {code}" for code, n in counts.unread.most_common(_SHOWN))
+    yield from histogram(counts)
+
+
+def ordered_verdicts(counts: Counts) -> list[tuple[str, int]]:
+    """The verdicts that occur, in the order right, wrong, invalid, review, missing."""
+    return [
+        (v, counts.verdicts[v])
+        for v in ("right", "wrong", "invalid", "review", "missing")
+        if counts.verdicts[v]
+    ]
+
+
+def histogram(counts: Counts) -> Iterator[str]:
+    """One line of blocks: answers over the right one from -2 to 2, the right one marked below."""
+    if not counts.bins:
+        return
+    bars = "▁▂▃▄▅▆▇█"
+    most = max(counts.bins.values())
+    cells = [counts.bins.get(k, 0) for k in (*range(-BINS - 1, 0), *range(1, BINS + 2))]
+    drawn = "".join(" " if not n else bars[max(0, -(-n * len(bars) // most) - 1)] for n in cells)
+    place = BINS + 1 + BINS // 2 - 1
+    yield f"  |{drawn}|"
+    yield "   " + " " * place + "^ right; left and right of it -2 to 2 times, and beyond"
+
+
+def _missing(graded: Graded) -> Iterator[str]:
+    return iter(())

@@ -1,0 +1,137 @@
+"""Names of columns: what each platform calls them, and which question a column is for."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Sequence
+
+from icsolve.grade.tables.layout import HeaderError
+
+FIELDS = {
+    "student_id": (
+        "student_id",
+        "student id",
+        "studentid",
+        "student",
+        "sid",
+        "matriculation number",
+        "matrikelnummer",
+    ),
+    "case": ("case", "case_id", "case id", "question", "problem"),
+    "answer": ("answer", "response", "submitted_answer"),
+    "unit": ("unit", "units"),
+    "direction": ("direction", "sense"),
+    "attempt": ("attempt", "attempt number", "versuch"),
+    "variant": ("variant",),
+    "submitted_at": (
+        "submitted_at",
+        "submitted at",
+        "submitted",
+        "submission time",
+        "timestamp",
+        "time",
+        "zeitstempel",
+    ),
+    "email": (
+        "email",
+        "email address",
+        "e-mail-adresse",
+        "e-mail address",
+        "e-mail",
+        "username",
+        "sis login id",
+    ),
+    "first_name": ("first_name", "first name", "vorname"),
+    "last_name": ("last_name", "last name", "surname", "nachname"),
+    "section": ("section", "sections"),
+}
+"""Fields that can be mapped, and the headers by which each is known."""
+
+Find = Callable[[str], "str | None"]
+"""The question that a text names: ``press``, ``press:w4/w2``; None for none."""
+
+
+def plain_name(text: str) -> str:
+    """A header in small letters with single spaces."""
+    return " ".join(text.replace("\ufeff", "").lower().split())
+
+
+class Columns:
+    """The columns of a header, and the user's own mapping of them."""
+
+    def __init__(self, header: Sequence[str], mapping: Iterable[tuple[str, str]], find: Find) -> None:
+        self.header = list(header)
+        self.names = [plain_name(text) for text in header]
+        self.find = find
+        self.fields: dict[str, int] = {}
+        self.questions: dict[int, str] = {}
+        for left, right in mapping:
+            self._map(left, right)
+
+    def _map(self, left: str, right: str) -> None:
+        """``student_id=Email Address`` names a field's column; ``Q3=press`` a question's."""
+        if left in FIELDS and self._matching(right):
+            self.fields[left] = self._one(right)
+            return
+        columns = self._matching(left)
+        if not columns:
+            if left in FIELDS:
+                raise HeaderError(f"there is no column '{right}' for {left}; the columns are {self.listed()}")
+            return
+        question = self.find(right)
+        if question is None:
+            raise HeaderError(f"there is no case '{right}' for the column '{left}'")
+        self.questions[self._one(left)] = question
+
+    def _matching(self, name: str) -> list[int]:
+        """Columns of that name; else those that start with it (``Q3`` of ``Q3: crank torque (2 pts)``)."""
+        wanted = plain_name(name)
+        exact = [i for i, text in enumerate(self.names) if text == wanted]
+        start = re.compile(re.escape(wanted) + r"(?![\w-])")
+        return exact or [i for i, text in enumerate(self.names) if start.match(text)]
+
+    def _one(self, name: str) -> int:
+        columns = self._matching(name)
+        if len(columns) > 1:
+            found = ", ".join(f"'{self.header[i]}'" for i in columns)
+            raise HeaderError(f"'{name}' can mean {len(columns)} columns: {found}; write one of them in full")
+        return columns[0]
+
+    def field(self, name: str) -> int | None:
+        """The column of a field, as mapped or by its usual names."""
+        if name in self.fields:
+            return self.fields[name]
+        found = [i for i, text in enumerate(self.names) if text in FIELDS[name] and i not in self.questions]
+        return found[0] if found else None
+
+    def has(self, *names: str) -> bool:
+        """Whether all these headers stand there."""
+        return all(name in self.names for name in names)
+
+    def question_of(self, index: int) -> str | None:
+        """The question of a column: mapped, or named in its header."""
+        if index in self.questions:
+            return self.questions[index]
+        for text in _candidates(self.header[index]):
+            question = self.find(text)
+            if question is not None:
+                return question
+        return None
+
+    def listed(self) -> str:
+        """The columns, for a message."""
+        shown = ", ".join(f"'{text[:40]}'" for text in self.header[:20])
+        return shown + (", ..." if len(self.header) > 20 else "")
+
+
+def _candidates(header: str) -> Iterable[str]:
+    """Texts of a header that may name a case: all of it, what brackets hold, what stands before a colon."""
+    text = " ".join(header.split())
+    yield text
+    for inside in re.findall(r"[\[(]([^\])(\[]+)[\])]", text):
+        yield inside.strip()
+    points = re.sub(r"\s*\(\d+(?:\.\d+)? ?(?:pts?|points?)?\)$", "", text)
+    yield points
+    parts = re.split(r":\s+|\s+-\s+|\s", points)
+    yield from (part.strip() for part in points.split(": "))
+    yield parts[0].rstrip(":.)")

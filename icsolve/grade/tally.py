@@ -1,0 +1,80 @@
+"""Counts of a class: verdicts, mistakes and answers of each question, small enough to add up and to send."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from icsolve.grade.marking import Marked
+
+BINS = 20
+"""Bins of the histogram to each side of zero, up to twice the right answer; one more for what lies beyond."""
+_SPAN = 2.0
+
+
+class Counts(NamedTuple):
+    """What a class answered to one question."""
+
+    verdicts: Counter[str]
+    mistakes: Counter[str]
+    """by the first cause; '' for those of no known cause"""
+    bins: Counter[int]
+    """answers by `bin_of` their ratio to the right one"""
+    unread: Counter[str]
+    """invalid answers and those for review, by their flag"""
+    score: float
+    max_score: float
+
+
+def empty() -> Counts:
+    """Nothing yet."""
+    return Counts(Counter(), Counter(), Counter(), Counter(), 0.0, 0.0)
+
+
+def bin_of(value: float, right: float, half: float) -> int:
+    """The bin of an answer: of its ratio to the right one, of a zero by half-widths."""
+    ratio = value / right if right else (value / half if half else 0.0)
+    if not math.isfinite(ratio) or abs(ratio) > _SPAN:
+        return (BINS + 1) * (1 if ratio > 0 else -1)
+    return math.ceil(ratio / _SPAN * BINS) if ratio > 0 else math.floor(ratio / _SPAN * BINS)
+
+
+def tally(marked: Iterable[Marked], bands: dict[str, tuple[float, float]]) -> dict[str, Counts]:
+    """Counts by question; ``bands`` has the right value and half-width of each."""
+    found: dict[str, Counts] = {}
+    for m in marked:
+        if m.count:
+            found[m.item] = _with(found.get(m.item) or empty(), m, bands.get(m.item))
+    return found
+
+
+def _with(counts: Counts, m: Marked, band: tuple[float, float] | None) -> Counts:
+    judged, n = m.judged, m.count
+    counts.verdicts[judged.verdict] += n
+    if judged.verdict == "wrong":
+        counts.mistakes[judged.mistakes[0].code if judged.mistakes else ""] += n
+    elif judged.verdict in ("invalid", "review"):
+        counts.unread[judged.code] += n
+    if judged.value is not None and band is not None:
+        counts.bins[bin_of(judged.value, *band)] += n
+    score = counts.score + n * judged.share * m.points
+    return counts._replace(score=score, max_score=counts.max_score + n * m.points)
+
+
+def added(parts: Iterable[dict[str, Counts]]) -> dict[str, Counts]:
+    """Counts of several groups of students together."""
+    total: dict[str, Counts] = {}
+    for part in parts:
+        for item, counts in part.items():
+            before = total.get(item) or empty()
+            total[item] = Counts(
+                before.verdicts + counts.verdicts,
+                before.mistakes + counts.mistakes,
+                before.bins + counts.bins,
+                before.unread + counts.unread,
+                before.score + counts.score,
+                before.max_score + counts.max_score,
+            )
+    return dict(sorted(total.items()))
