@@ -6,7 +6,7 @@ The derivatives come from the backward pass that bounds the rounding error (see 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from icsolve.answer import Answer
 from icsolve.case import Case, Coordinates, Corner, Direction, Number
@@ -55,6 +55,42 @@ def band(answer: Answer, load: str, tolerance: float) -> float:
         elif path in arms:
             total += abs(slope) * math.degrees(tolerance * arms[path])
     return total
+
+
+def entries(answer: Answer, influence: bool, tolerance: float | None) -> dict[str, Any]:
+    """What ``--json`` adds: ``sensitivity`` by load, the strongest first, and the ``band`` of a drawing."""
+    shown: dict[str, Any] = {}
+    if influence:
+        shown["sensitivity"] = {
+            load: [i._asdict() for i in influences(answer, load)] for load in answer.answers
+        }
+    if tolerance is not None:
+        shown["band"] = {load: band(answer, load, tolerance) for load in answer.answers}
+    return shown
+
+
+def text(answer: Answer, influence: bool, tolerance: float | None, digits: int) -> str:
+    """The same as lines."""
+    lines = []
+    for load, found in answer.answers.items():
+        if tolerance is not None:
+            reach = format(band(answer, load, tolerance), ".2g")
+            unit = answer.case.units.length
+            lines.append(f"{load} within {reach} {found.unit} where the drawing is off by {tolerance:g} {unit}")
+        if influence:
+            lines += [f"Sensitivity of {load}, in % a % and in {found.unit} a unit of the number"]
+            lines += [f"  {row}" for row in _rows(influences(answer, load), digits)]
+    return "\n".join(lines)
+
+
+def _rows(found: list[Influence], digits: int) -> list[str]:
+    width = max((len(i.path) for i in found), default=0)
+    places = min(digits, 4)
+    return [
+        f"{i.path:<{width}}  {'' if i.percent is None else format(i.percent, f'.{places}g'):>10}  "
+        f"{format(i.per_unit, f'.{places}g'):>10}"
+        for i in found
+    ]
 
 
 def numbers_of(case: Case) -> dict[str, Number]:

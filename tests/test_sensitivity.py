@@ -8,7 +8,7 @@ from mpmath import mpf
 import icsolve
 from icsolve.case import Number
 from icsolve.program import Want, evaluate, prepare
-from icsolve.sensitivity import band, influences
+from icsolve.sensitivity import band, entries, influences, text
 from more_digits import SixtyDigits
 
 PRESS = """
@@ -68,3 +68,12 @@ def test_the_band_of_a_drawing_grows_with_its_tolerance_and_covers_each_point_mo
     for path in ("lengths.AB", "points.D.y"):
         slope = answer.sensitivities["T12"][path]
         assert band(answer, "T12", 0.01) >= abs(slope) * 0.01
+
+
+def test_the_text_and_the_json_say_the_same_numbers() -> None:
+    answer = icsolve.solve(icsolve.load(PRESS))
+    shown = entries(answer, True, 0.01)
+    first = shown["sensitivity"]["T12"][0]
+    lines = text(answer, True, 0.01, 6).splitlines()
+    assert lines[0].startswith(f"T12 within {shown['band']['T12']:.2g} N*m")
+    assert lines[2].split() == [first["path"], f"{first['percent']:.4g}", f"{first['per_unit']:.4g}"]

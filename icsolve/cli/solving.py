@@ -26,6 +26,8 @@ class Options(NamedTuple):
     rates: bool
     reactions: bool
     report: bool
+    sensitivity: bool
+    tolerance: float | None
     digits: int
 
 
@@ -36,6 +38,12 @@ class Options(NamedTuple):
 @click.option("--rates", is_flag=True, help="Angular velocities of the links and velocities of the points.")
 @click.option("--reactions", is_flag=True, help="The force of each link on each other at every joint.")
 @click.option("--report", is_flag=True, help="Mobility, Grashof kind, transmission angles, limit positions.")
+@click.option("--sensitivity", is_flag=True, help="How the answer depends on every number of the case.")
+@click.option(
+    "--tolerance",
+    type=click.FloatRange(min=0.0, min_open=True),
+    help="The band of the answer where each point of the drawing may be off by this, in case units.",
+)
 @SET
 @DIGITS
 def solve_command(cases: tuple[str, ...], settings: dict[str, str], **asked: Any) -> int:
@@ -84,6 +92,10 @@ def _as_json(options: Options) -> Work:
         entry = answer.to_dict()
         if options.report:
             entry["report"] = _report(case).to_dict()
+        if options.sensitivity or options.tolerance:
+            from icsolve.sensitivity import entries
+
+            entry |= entries(answer, options.sensitivity, options.tolerance)
         print_json(entry)
         return DONE
 
@@ -106,6 +118,10 @@ def _as_text(options: Options, several: bool) -> Work:
         sections = [answer_text(answer, options.digits)]
         if options.report:
             sections.append(_report(case).text(options.digits))
+        if options.sensitivity or options.tolerance:
+            from icsolve.sensitivity import text
+
+            sections.append(text(answer, options.sensitivity, options.tolerance, options.digits))
         above = ("\n" if shown else "") + (f"=== {path}\n" if several else "")
         click.echo(above + "\n\n".join(sections))
         shown += 1
