@@ -138,9 +138,9 @@ def unbounded_values(outcome: Outcome) -> dict[str, Value]:
 def plain(outcome: Outcome) -> Outcome:
     """The outcome in floats, as if no tape had run."""
     motions, balance = outcome.motions, outcome.balance
-    twists = {link: tuple(map(_floats, ts)) for link, ts in motions.twists.items()}
+    twists = {link: tuple(map(floats, ts)) for link, ts in motions.twists.items()}
     wrenches = tuple(
-        w._replace(unit=_floats(w.unit), gain=float(w.gain), ratio=float(w.ratio)) for w in balance.wrenches
+        w._replace(unit=floats(w.unit), gain=float(w.gain), ratio=float(w.ratio)) for w in balance.wrenches
     )
     factors = tuple(tuple(map(float, row)) for row in balance.factors)
     return outcome._replace(
@@ -149,7 +149,8 @@ def plain(outcome: Outcome) -> Outcome:
     )
 
 
-def _floats(t: Triple) -> Triple:
+def floats(t: Triple) -> Triple:
+    """A triple off the tape."""
     return (float(t[0]), float(t[1]), float(t[2]))
 
 

@@ -191,6 +191,13 @@ def is_unknown(load: Load) -> bool:
     return not isinstance(load, ForceVector) and load.value is None
 
 
+def has_number(load: Load) -> bool:
+    """Whether a load's own number is known, and not zero."""
+    if isinstance(load, ForceVector):
+        return vector_size(load) > 0.0
+    return load.value is not None and not isinstance(load.value, Like) and load.value.value != 0.0
+
+
 def force_scale(b: Balance) -> float:
     """A power of two that brings the largest known load near 1, so that nothing overflows."""
     largest = 0.0

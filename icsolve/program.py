@@ -79,8 +79,12 @@ def without_plan(program: Program) -> Program:
 
 
 def _wanted_bodies(case: Case, top: Topology, want: Want) -> frozenset[int]:
-    """The bodies whose twists the answer needs: those that loads act on, or all."""
-    if want.everything:
+    """The bodies whose twists the answer needs: those that loads act on, or all.
+
+    Where nothing is to be balanced, whether an unknown is zero or can have any value hangs on whether
+    its link can move at all.
+    """
+    if want.everything or not any(map(power.has_number, case.loads)):
         return frozenset(range(len(top.members)))
     links = {link for load in case.loads for link in (load.link, power.reacting(case, load))}
     links |= {given.link for given in case.motion}

@@ -28,9 +28,9 @@ def structure(top: Topology) -> str:
     bodies = len(top.members) - 1
     constraints = sum(bond.constraints for bond in top.bonds)
     return (
-        f"the links form a structure: {plural(bodies, 'moving link')} have 3 x {bodies} freedoms, and the joints "
-        f"take {constraints}. Nothing moves, so power gives no equation. Take out a joint or a link to make "
-        "it move, or ask for its reactions by statics (`--reactions`)."
+        f"the links form a structure: {plural(bodies, 'moving link')} have 3 x {bodies} freedoms, and the "
+        f"joints take {constraints}. Nothing moves, so power gives no equation. Take out a joint or a link to "
+        "make it move, or ask for its reactions by statics (`--reactions`)."
     )
 
 
@@ -68,11 +68,13 @@ def contradiction(top: Topology, bases: Bases, frame: Frame, unit: str) -> str:
         if off is not None and (worst is None or off < worst[0]):
             worst = (off, f"{bond.links[0]}-{bond.links[1]}")
     if worst is None:
-        return "the given centres contradict each other: no motion has all of them. Correct one, or leave it out."
+        return (
+            "the given centres contradict each other: no motion has all of them. Correct one, or leave it out."
+        )
     distance = worst[0] / frame.scale
     return (
-        f"the given centres contradict each other: centre {worst[1]} lies {distance:.3g} {unit} from where the "
-        "other centres and joints put it. Correct it, or leave it out."
+        f"the given centres contradict each other: centre {worst[1]} lies {distance:.3g} {unit} from where "
+        "the other centres and joints put it. Correct it, or leave it out."
     )
 
 
@@ -143,19 +145,32 @@ def wrong_count(mobility: int, unknowns: int, idle: int) -> str:
         extra = unknowns - active
         return (
             f"{plural(unknowns, 'unknown load')} for a mobility of {active}: {extra} too many. "
-            f"Give {'one of them a number' if extra == 1 else f'{extra} of them numbers'}, or tie it to another "
-            "with `like`."
+            f"Give {'one of them a number' if extra == 1 else f'{extra} of them numbers'}, or tie it to "
+            "another with `like`."
         )
     missing = active - unknowns
     return (
-        f"the mechanism has {plural(active, 'degree')} of freedom but {plural(unknowns, 'unknown load')}: it would "
-        f"not stay in equilibrium. Add {plural(missing, 'unknown load')}, or {plural(missing, 'joint')} to lock it."
+        f"the mechanism has {plural(active, 'degree')} of freedom but {plural(unknowns, 'unknown load')}: it "
+        f"would not stay in equilibrium. Add {plural(missing, 'unknown load')}, or {plural(missing, 'joint')} to "
+        "lock it."
     )
+
+
+def redundant(count: int, goes_on: bool | None) -> str:
+    """Redundant constraints, and whether the motion is more than a moment's (None: not known)."""
+    cause = f"the joints have {plural(count, 'redundant constraint')}"
+    if goes_on is False:
+        return (
+            f"{cause}: the links yield only for an instant, then they bind (second order), so the answer is "
+            "for this position alone; the reactions are not unique."
+        )
+    onward = ", and it goes on moving to second order" if goes_on else ""
+    return f"{cause}: it moves only because the figure is exact{onward}; the reactions are not unique."
 
 
 def change_point(mobility: int, count: int) -> str:
     """Momentarily more freedoms than the joints leave elsewhere."""
     return (
-        f"change point: in this position the mechanism has {plural(mobility, 'degree')} of freedom where counting "
-        f"leaves {count}, so it can go on in more than one way. Take a position beside it."
+        f"change point: in this position the mechanism has {plural(mobility, 'degree')} of freedom where "
+        f"counting leaves {count}, so it can go on in more than one way. Take a position beside it."
     )

@@ -19,6 +19,7 @@ from icsolve.bounds import (
     bounded_values,
     centre_error,
     evaluate_bounded,
+    floats,
     plain,
     rate_errors,
     slopes,
@@ -28,10 +29,12 @@ from icsolve.case import Case, Pair
 from icsolve.centres import CentreFinder
 from icsolve.errors import SceneError, Status
 from icsolve.figure import Figure, case_point
+from icsolve.motion import Motions
 from icsolve.names import link_order
 from icsolve.program import Outcome, Program, Want, evaluate, prepare
 from icsolve.sense import sense_of, unit_of
 from icsolve.terms import advantage, load_values, power_terms
+from icsolve.topology import Topology
 
 
 def solve(
@@ -119,7 +122,7 @@ def _answer(program: Program, outcome: Outcome, unknowns: dict[str, Value], scen
         terms=tuple(power_terms(case, figure.frame, balance, values, speed)),
         advantage=advantage(balance, values, unknowns),
         mobility=outcome.motions.mobility,
-        notes=(*figure.notes, *outcome.motions.notes, *_notes(outcome)),
+        notes=(*figure.notes, *outcome.motions.notes, *_notes(program.top, outcome)),
         skipped=_skipped(program, outcome),
         steps=_steps(program),
         sensitivities=Deferred(lambda: slopes(scene) if scene else {}),
@@ -173,17 +176,24 @@ def wanted_pairs(case: Case, want: Want) -> list[Pair]:
     return [pair for pair in pairs if {*pair} <= loaded or frozenset(pair) in against]
 
 
-def _notes(outcome: Outcome) -> list[str]:
+def _notes(top: Topology, outcome: Outcome) -> list[str]:
     """Sentences about the mechanism that a reader of the answer should know."""
     notes = []
     motions, solution = outcome.motions, outcome.solution
     if motions.redundant and not motions.notes:
-        count = sentences.plural(motions.redundant, "redundant constraint")
-        notes.append(f"the joints have {count}: the links move only because the figure is exact.")
+        notes.append(_redundancy(top, motions))
     if solution.idle and solution.values:
         count = sentences.plural(len(solution.idle), "passive freedom")
         notes.append(f"{count} in which no load does work.")
     return notes
+
+
+def _redundancy(top: Topology, motions: Motions) -> str:
+    """What becomes of a motion that redundant constraints allow in this position."""
+    from icsolve.second_order import goes_on
+
+    bases = {k: tuple(map(floats, basis)) for k, basis in motions.bases.items()}
+    return sentences.redundant(motions.redundant, goes_on(top, bases))
 
 
 def _skipped(program: Program, outcome: Outcome) -> tuple[str, ...]:

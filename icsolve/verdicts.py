@@ -37,8 +37,8 @@ def refuse_no_direction(case: Case, top: Topology, points: Points) -> None:
         if ends and ends[0] in points and ends[1] in points and points[ends[0]] == points[ends[1]]:
             raise SceneError(
                 Status.INCONSISTENT,
-                f"{what} has no direction: {sentences.listed(ends)} lie at one place. Give it by an angle, or "
-                "correct the points.",
+                f"{what} has no direction: {sentences.listed(ends)} lie at one place. Give it by an angle, "
+                "or correct the points.",
             )
 
 
