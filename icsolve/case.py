@@ -6,8 +6,6 @@ times in s). Points are named; a position that a load or a centre gives by coord
 hidden name that starts with ``@``.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
