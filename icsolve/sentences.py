@@ -29,8 +29,8 @@ def structure(top: Topology) -> str:
     constraints = sum(bond.constraints for bond in top.bonds)
     return (
         f"the links form a structure: {plural(bodies, 'moving link')} have 3 x {bodies} freedoms, and the "
-        f"joints take {constraints}. Nothing moves, so power gives no equation. Take out a joint or a link to "
-        "make it move, or ask for its reactions by statics (`--reactions`)."
+        f"joints take {constraints}. Nothing moves, so power gives no equation. Take out a joint or a link "
+        "to make it move, or ask for its reactions by statics (`--reactions`)."
     )
 
 
@@ -69,7 +69,8 @@ def contradiction(top: Topology, bases: Bases, frame: Frame, unit: str) -> str:
             worst = (off, f"{bond.links[0]}-{bond.links[1]}")
     if worst is None:
         return (
-            "the given centres contradict each other: no motion has all of them. Correct one, or leave it out."
+            "the given centres contradict each other: no motion has all of them. Correct one, or leave it "
+            "out."
         )
     distance = worst[0] / frame.scale
     return (
@@ -151,8 +152,8 @@ def wrong_count(mobility: int, unknowns: int, idle: int) -> str:
     missing = active - unknowns
     return (
         f"the mechanism has {plural(active, 'degree')} of freedom but {plural(unknowns, 'unknown load')}: it "
-        f"would not stay in equilibrium. Add {plural(missing, 'unknown load')}, or {plural(missing, 'joint')} to "
-        "lock it."
+        f"would not stay in equilibrium. Add {plural(missing, 'unknown load')}, or {plural(missing, 'joint')} "
+        "to lock it."
     )
 
 
