@@ -272,6 +272,17 @@ def test_pose_by_the_third_point_of_a_shape() -> None:
     assert cross == pytest.approx(12.0, rel=1e-14)
 
 
+def test_a_shape_is_placed_by_one_point_and_a_direction_elsewhere_in_it() -> None:
+    """B is in place; the triangle BCE is known by two sides and a corner; only CE has a direction."""
+    figure, at = solved(
+        "points: {A: [0, 0], B: [1, 1]}\nlengths: {BC: 3, BE: 4}\nangles: {CBE: 90, CE: 180}\n"
+        "links: {2: [B, C, E]}\n" + PINS
+    )
+    assert_at(at["C"], 1 + 9 / 5, 1 + 12 / 5)
+    assert_at(at["E"], 1 - 16 / 5, 1 + 12 / 5)
+    assert figure.notes == ()
+
+
 def test_only_what_is_wanted_is_constructed() -> None:
     figure, at = solved(FOUR_BAR + "near: {C: [3, 2]}\n" + LOOP, ["B"])
     assert set(at) == {"A", "B"}

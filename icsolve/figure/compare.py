@@ -18,7 +18,7 @@ from icsolve.figure.misfit import ROUNDING, misfit
 from icsolve.figure.refusals import Miss, clash, measure
 
 if TYPE_CHECKING:
-    from icsolve.figure.steps import Step
+    from icsolve.figure.step import Step
 from icsolve.figure.words import datum_words, joined, listed
 
 OF_SIZE = 0.002

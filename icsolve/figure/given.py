@@ -8,7 +8,7 @@ from icsolve.figure.board import Board, Key
 from icsolve.figure.data import Datum
 
 if TYPE_CHECKING:
-    from icsolve.figure.steps import Step
+    from icsolve.figure.step import Step
 
 
 def told(step: Step) -> str:

@@ -9,7 +9,7 @@ from icsolve.figure.board import Key
 from icsolve.figure.given import Given
 
 if TYPE_CHECKING:
-    from icsolve.figure.steps import Step
+    from icsolve.figure.step import Step
 
 
 def leading_to(goal: Collection[str], steps: Sequence[Step]) -> tuple[Step, ...]:

@@ -19,7 +19,8 @@ from icsolve.figure.group import Group
 from icsolve.figure.order import grow
 from icsolve.figure.refusals import Miss, measure
 from icsolve.figure.sheet import Drawing
-from icsolve.figure.steps import Meet, Step
+from icsolve.figure.step import Step
+from icsolve.figure.steps import Meet
 from icsolve.figure.words import datum_words, listed, plain
 
 Spot = tuple[float, float]

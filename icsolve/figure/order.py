@@ -13,8 +13,9 @@ from typing import NamedTuple
 from icsolve.case import Case
 from icsolve.figure.data import LENGTH, Datum, Facts, facts_of, given_points
 from icsolve.figure.lead import leading_to, points_of
+from icsolve.figure.shapes import Base
 from icsolve.figure.sheet import ALL_SHEETS, LOOSE_SHEETS, NOBODY, Drawing, Sheet
-from icsolve.figure.steps import Base, Step
+from icsolve.figure.step import Step
 
 
 class Order(NamedTuple):

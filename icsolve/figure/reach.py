@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 from icsolve.figure.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, X, Y
 from icsolve.figure.heading import Apart, Heading
 from icsolve.figure.loci import Arc, Axis, Circle, Line, Locus, Shifted, is_round
-from icsolve.figure.steps import Mean, Meet, Polar, Step, Transfer
+from icsolve.figure.shapes import Transfer, Turned
+from icsolve.figure.step import Step
+from icsolve.figure.steps import Mean, Meet, Polar
 
 if TYPE_CHECKING:
     from icsolve.figure.sheet import Sheet
@@ -181,20 +183,43 @@ def _means(sheet: Sheet, point: str) -> Iterator[tuple[Cost, Step]]:
 
 
 def _transfers(sheet: Sheet, point: str) -> Iterator[tuple[Cost, Step]]:
-    """A point of a shape that two of its points hold on this sheet."""
+    """A point of a shape that two of its points hold on this sheet, or one and a direction."""
     for lender in sheet.drawing.holding.get(point, ()):
         if lender.number == 0 or lender is sheet or (sheet.number and not sheet.drawing.lenders):
             continue
-        shared = _shared(sheet, lender)[:2]
-        if len(shared) == 2:
-            pose = (sheet.key(shared[0]), sheet.key(shared[1]))
-            shape = (lender.key(shared[0]), lender.key(shared[1]), lender.key(point))
-            cost = lender.placed[point]
-            free = lender.number in sheet.committed
-            yield (
-                (EXACT, EXACT, 0) if free else (cost[0], cost[1] + 1, cost[2]),
-                Transfer(sheet.key(point), pose, shape),
-            )
+        shared = _shared(sheet, lender)
+        cost = (EXACT, EXACT, 0)
+        if lender.number not in sheet.committed:
+            worst, total, ways = lender.placed[point]
+            cost = (worst, total + 1, ways)
+        if len(shared) > 1:
+            p, q = shared[:2]
+            shape = (lender.key(p), lender.key(q), lender.key(point))
+            yield cost, Transfer(sheet.key(point), (sheet.key(p), sheet.key(q)), shape)
+        elif shared:
+            yield from _turned(sheet, lender, shared[0], point, cost)
+
+
+def _turned(sheet: Sheet, lender: Sheet, base: str, point: str, cost: Cost) -> Iterator[tuple[Cost, Step]]:
+    """A point of a shape that has one point in place, by the first direction known in the shape."""
+    for a, b in _sights(sheet, lender):
+        heading = sheet.headings[a, b]
+        shape = (lender.key(a), lender.key(b), lender.key(base), lender.key(point))
+        worst = max(cost[0], BY_ANGLE + len(heading.turns))
+        yield (
+            (worst, cost[1] + BY_ANGLE, cost[2]),
+            Turned(sheet.key(point), sheet.key(base), heading, shape),
+        )
+        return
+
+
+def _sights(sheet: Sheet, lender: Sheet) -> Iterator[tuple[str, str]]:
+    """The pairs of a shape whose direction is known on a sheet."""
+    for a in lender.placed:
+        for datum in sheet.drawing.facts.of.get(a, ()):
+            for b in datum.points if datum.kind in (RAY, CORNER) else ():
+                if b in lender.placed and (a, b) in sheet.headings:
+                    yield a, b
 
 
 def _meet(sheet: Sheet, point: str, one: Locus, two: Locus) -> Step | None:

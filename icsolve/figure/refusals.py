@@ -10,7 +10,8 @@ from icsolve.errors import Status
 from icsolve.figure.board import Board
 from icsolve.figure.data import CORNER, LENGTH, LINE, MEAN, RAY, Datum, X, Y, number_of
 from icsolve.figure.loci import Circle, Crossing, is_round
-from icsolve.figure.steps import Meet, Step
+from icsolve.figure.step import Step
+from icsolve.figure.steps import Meet
 from icsolve.figure.words import datum_words, joined, locus_words, plain, span_words
 
 

@@ -17,7 +17,9 @@ from icsolve.figure.given import Given
 from icsolve.figure.heading import Apart, Heading
 from icsolve.figure.loci import Circle, Line, Shifted
 from icsolve.figure.reach import Cost, best_step
-from icsolve.figure.steps import Meet, Polar, Step, Transfer
+from icsolve.figure.shapes import Transfer, Turned
+from icsolve.figure.step import Step
+from icsolve.figure.steps import Meet, Polar
 
 NOBODY, LOOSE_SHEETS, ALL_SHEETS = 0, 1, 2
 """Which sheets lend their distances to loose ones."""
@@ -174,10 +176,14 @@ class Sheet:
             if datum.kind == LINE:
                 for other in datum.points:
                     self.mark(other)
+        for sheet in self.drawing.holding.get(point, ()):
+            if sheet is not self and sheet.number != 0:
+                for other in sheet.placed:
+                    self.mark(other)
 
     def _commit(self, step: Step) -> None:
         self.carried.update(carried_by(step))
-        if isinstance(step, Transfer):
+        if isinstance(step, Transfer | Turned):
             self.committed.add(step.shape[0][0])  # type: ignore[arg-type]
         elif isinstance(step, Meet):
             for locus in (step.first, step.second):

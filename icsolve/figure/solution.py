@@ -15,7 +15,7 @@ from icsolve.figure.given import Given
 from icsolve.figure.misfit import agrees, size_of
 
 if TYPE_CHECKING:
-    from icsolve.figure.steps import Step
+    from icsolve.figure.step import Step
 
 
 class Figure(NamedTuple):

@@ -1,21 +1,14 @@
-"""The steps of a construction. Each puts points on a board, and can tell in words what it does."""
+"""The steps that place one point from others: a centroid, a length along a direction, two loci."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple, Union
+from typing import NamedTuple
 
 from icsolve.figure.board import Board, Key
 from icsolve.figure.data import Datum
-from icsolve.figure.given import Given, told
-from icsolve.figure.heading import Apart, Heading, Span, data_in, ends_of
-from icsolve.figure.loci import Crossing, Locus, crossing, headings_of, is_ray
-
-if TYPE_CHECKING:
-    from icsolve.figure.group import Group
-
-Step = Union["Given", "Mean", "Polar", "Meet", "Base", "Transfer", "Group"]
-"""Each puts points on a board (``place``), and tells its ``targets``, what it ``needs``, its ``data``
-and its ``name``, a sentence."""
+from icsolve.figure.given import told
+from icsolve.figure.heading import Heading, Span, data_in, ends_of
+from icsolve.figure.loci import Crossing, Locus, crossing, is_ray
 
 
 class Mean(NamedTuple):
@@ -156,85 +149,3 @@ class Meet(NamedTuple):
     def needs(self) -> tuple[Key, ...]:
         """The points of both loci."""
         return (*self.first.needs(), *self.second.needs())
-
-
-def aims(step: Step) -> list[tuple[Key, Key]]:
-    """The pairs of points whose direction a step goes by."""
-    if isinstance(step, Transfer):
-        return [step.pose, step.shape[:2]]
-    headings = [step.heading] if isinstance(step, Polar) else []
-    for locus in (step.first, step.second) if isinstance(step, Meet) else ():
-        headings += headings_of(locus)
-    return [(h.root.a, h.root.b) for h in headings if isinstance(h.root, Apart)]
-
-
-class Base(NamedTuple):
-    """The first two points of a link's own sheet: one at its origin, the other along its x."""
-
-    a: Key
-    b: Key
-    span: Span
-
-    @property
-    def targets(self) -> tuple[Key, ...]:
-        """Both points."""
-        return (self.a, self.b)
-
-    @property
-    def name(self) -> str:
-        """What the step does."""
-        return told(self)
-
-    def place(self, board: Board) -> None:
-        """Put both points."""
-        board.points[self.a] = (0.0, 0.0)
-        board.points[self.b] = (board.length(self.span), 0.0)
-
-    def data(self) -> tuple[Datum, ...]:
-        """The length."""
-        return data_in(self.span)
-
-    def needs(self) -> tuple[Key, ...]:
-        """What the length comes from."""
-        return ends_of(self.span)
-
-
-class Transfer(NamedTuple):
-    """A point of a shape that two other points hold: ``pose`` here, ``shape`` on its own sheet.
-
-    ``shape`` has the sheet's keys of the two points and of the one to place. As complex numbers:
-    target = p + (q - p) (s_target - s_p) / (s_q - s_p), of length one.
-    """
-
-    target: Key
-    pose: tuple[Key, Key]
-    shape: tuple[Key, Key, Key]
-
-    @property
-    def targets(self) -> tuple[Key, ...]:
-        """The point placed."""
-        return (self.target,)
-
-    @property
-    def name(self) -> str:
-        """What the step does."""
-        return told(self)
-
-    def place(self, board: Board) -> None:
-        """Put the point: the shape turned as p to q is, and not stretched."""
-        points, sqrt = board.points, board.arithmetic.sqrt
-        (px, py), (qx, qy) = (points[key] for key in self.pose)
-        (ax, ay), (bx, by), (tx, ty) = (points[key] for key in self.shape)
-        dx, dy, ex, ey = qx - px, qy - py, bx - ax, by - ay
-        norm = sqrt(dx * dx + dy * dy) * sqrt(ex * ex + ey * ey)
-        c, s = (dx * ex + dy * ey) / norm, (dy * ex - dx * ey) / norm
-        tx, ty = tx - ax, ty - ay
-        points[self.target] = (px + c * tx - s * ty, py + s * tx + c * ty)
-
-    def data(self) -> tuple[Datum, ...]:
-        """None of its own."""
-        return ()
-
-    def needs(self) -> tuple[Key, ...]:
-        """The pose and the shape."""
-        return (*self.pose, *self.shape)

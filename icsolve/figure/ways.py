@@ -14,12 +14,12 @@ from icsolve.errors import Status
 from icsolve.figure.board import Board, Key, Point
 from icsolve.figure.data import Datum
 from icsolve.figure.frame import normalised
-from icsolve.figure.given import Given
 from icsolve.figure.loci import Crossing, is_round
 from icsolve.figure.misfit import TOO_CLOSE, misfit
 from icsolve.figure.order import Order
 from icsolve.figure.refusals import Miss, behind, clash, concentric, degenerate, merged, parallel, too_far
-from icsolve.figure.steps import Base, Mean, Meet, Polar, Step, Transfer, aims
+from icsolve.figure.step import CLOSED_FORMS, Step, aims
+from icsolve.figure.steps import Meet
 from icsolve.figure.words import plain
 
 U = 2.0**-53
@@ -143,7 +143,7 @@ class Walker:
                 return []
         if isinstance(step, Meet):
             return [*self._crossings(depth, step)]
-        if isinstance(step, Given | Polar | Mean | Base | Transfer):
+        if isinstance(step, CLOSED_FORMS):
             return [step]
         from icsolve.figure.group import Group
         from icsolve.figure.newton import solutions

@@ -12,7 +12,9 @@ if TYPE_CHECKING:
     from icsolve.figure.group import Group
     from icsolve.figure.heading import Heading, Span
     from icsolve.figure.loci import Locus
-    from icsolve.figure.steps import Base, Mean, Meet, Polar, Step, Transfer
+    from icsolve.figure.shapes import Base, Transfer, Turned
+    from icsolve.figure.step import Step
+    from icsolve.figure.steps import Mean, Meet, Polar
 
 
 def plain(key: Key) -> str:
@@ -119,11 +121,15 @@ def _transfer(step: Transfer) -> str:
     return f"carried by the shape that {p} and {q} hold"
 
 
+def _turned(step: Turned) -> str:
+    return f"carried by the shape that {plain(step.base)} and {heading_words(step.heading)} hold"
+
+
 def _group(step: Group) -> str:
     return f"together, by Newton's method on their {len(step.equations)} data"
 
 
 SENTENCES: dict[str, Callable[[Any], str]] = {
     "Given": _given, "Mean": _mean, "Polar": _polar, "Meet": _meet,
-    "Base": _base, "Transfer": _transfer, "Group": _group,
+    "Base": _base, "Transfer": _transfer, "Turned": _turned, "Group": _group,
 }  # fmt: skip
