@@ -18,7 +18,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.plane import Triple, subtract, velocity
 from icsolve.program import Outcome, Program, evaluate
 from icsolve.speeds import Speed
-from icsolve.tape import UNIT, Tape, Taped
+from icsolve.tape import UNIT, Tape
 
 SMALL = 1e-3
 """A first-order bound is trusted below this fraction of its value."""
@@ -35,7 +35,7 @@ class Bounded(NamedTuple):
 
     def of(self, value: Scalar) -> float:
         """Bound on the absolute error of a value on the tape."""
-        return self.tape.back(value).bound if isinstance(value, Taped) else 0.0
+        return self.tape.bound(value)
 
 
 class Value(NamedTuple):

@@ -13,7 +13,7 @@ import math
 from collections.abc import Iterable
 from typing import NamedTuple, Union
 
-from icsolve.arithmetic import turn_of
+from icsolve.arithmetic import Scalar, turn_of
 from icsolve.case import Number
 
 UNIT = 2.0**-53
@@ -22,68 +22,100 @@ TURN_NOISE = 3.0 * UNIT
 CANCELLED = 1e-6
 """A divisor or radicand this much smaller than its terms is looked at before it is trusted."""
 
+LARGE = 1e-3
+"""A sum above this fraction of its terms is not zero by rounding alone."""
+
 Operand = Union["Taped", float]
 
 
-class Node(NamedTuple):
-    """One recorded value: its operands with the derivatives by them, and its own rounding error."""
-
-    a: int
-    da: float
-    b: int
-    db: float
-    noise: float
+Node = tuple[int, float, int, float, float]
+"""One recorded value: first operand and the derivative by it, second operand and the derivative by
+it, own rounding error. Operand 0 is none."""
 
 
 class Taped:
-    """A float on a tape; ``size`` is the size of the terms that it was summed from."""
+    """A float on a tape; ``size`` is the size of the terms that it was summed from.
+
+    The operators are written out, and what does nothing (+ 0, * 1) is not recorded: they run a hundred
+    times a scene.
+    """
 
     __slots__ = ("index", "size", "tape", "value")
 
-    def __init__(self, tape: Tape, index: int, value: float, size: float) -> None:
-        self.tape, self.index, self.value, self.size = tape, index, value, size
-
-    def _same(self, other: object) -> tuple[float, int, float]:
-        if isinstance(other, Taped):
-            return other.value, other.index, other.size
-        constant = float(other)  # type: ignore[arg-type]
-        return constant, 0, abs(constant)
+    def __init__(self, tape: Tape, node: Node, value: float, size: float) -> None:
+        nodes = tape.nodes
+        self.tape, self.index, self.value, self.size = tape, len(nodes), value, size
+        nodes.append(node)
 
     def __add__(self, other: Operand) -> Taped:
-        v, k, size = self._same(other)
-        value = self.value + v
-        noise = 0.0 if v == 0.0 or self.value == 0.0 else UNIT * abs(value)
-        return self.tape.put(Node(self.index, 1.0, k, 1.0, noise), value, max(self.size, size))
+        x, size = self.value, self.size
+        if type(other) is Taped:
+            y, k = other.value, other.index
+            size = size if size > other.size else other.size
+        else:
+            y, k = float(other), 0
+            if y == 0.0:
+                return self
+            size = max(size, abs(y))
+        value = x + y
+        noise = UNIT * value if value >= 0.0 else -UNIT * value
+        return Taped(self.tape, (self.index, 1.0, k, 1.0, noise if x and y else 0.0), value, size)
 
     __radd__ = __add__
 
     def __neg__(self) -> Taped:
-        return self.tape.put(Node(self.index, -1.0, 0, 0.0, 0.0), -self.value, self.size)
+        return Taped(self.tape, (self.index, -1.0, 0, 0.0, 0.0), -self.value, self.size)
 
     def __sub__(self, other: Operand) -> Taped:
-        v, k, size = self._same(other)
-        value = self.value - v
-        noise = 0.0 if v == 0.0 or self.value == 0.0 else UNIT * abs(value)
-        return self.tape.put(Node(self.index, 1.0, k, -1.0, noise), value, max(self.size, size))
+        x, size = self.value, self.size
+        if type(other) is Taped:
+            y, k = other.value, other.index
+            size = size if size > other.size else other.size
+        else:
+            y, k = float(other), 0
+            if y == 0.0:
+                return self
+            size = max(size, abs(y))
+        value = x - y
+        noise = UNIT * value if value >= 0.0 else -UNIT * value
+        return Taped(self.tape, (self.index, 1.0, k, -1.0, noise if x and y else 0.0), value, size)
 
-    def __rsub__(self, other: Operand) -> Taped:
+    def __rsub__(self, other: float) -> Taped:
         return (-self) + other
 
-    def __mul__(self, other: Operand) -> Taped:
-        v, k, size = self._same(other)
-        value = self.value * v
-        noise = 0.0 if k == 0 and _is_power_of_two(v) else UNIT * abs(value)
-        return self.tape.put(Node(self.index, v, k, self.value, noise), value, self.size * size)
+    def __mul__(self, other: Operand) -> Scalar:
+        x = self.value
+        if type(other) is Taped:
+            y, k, size = other.value, other.index, other.size
+            value = x * y
+            noise = UNIT * value if value >= 0.0 else -UNIT * value
+            return Taped(self.tape, (self.index, y, k, x, noise), value, self.size * size)
+        y = float(other)
+        if y == 1.0:
+            return self
+        if y == 0.0:
+            return 0.0
+        value = x * y
+        noise = 0.0 if _is_power_of_two(y) else UNIT * abs(value)
+        return Taped(self.tape, (self.index, y, 0, 0.0, noise), value, self.size * abs(y))
 
     __rmul__ = __mul__
 
     def __truediv__(self, other: Operand) -> Taped:
-        v, k, size = self._same(other)
-        if k and abs(v) < CANCELLED * size:
-            self.tape.suspects.append(k)
-        value = self.value / v
-        noise = 0.0 if k == 0 and _is_power_of_two(v) else UNIT * abs(value)
-        return self.tape.put(Node(self.index, 1.0 / v, k, -value / v, noise), value, self.size / abs(v))
+        x = self.value
+        if type(other) is Taped:
+            y, k = other.value, other.index
+            if abs(y) < CANCELLED * other.size:
+                self.tape.suspects.append((k, y))
+            value = x / y
+            node = (self.index, 1.0 / y, k, -value / y, UNIT * abs(value))
+            return Taped(self.tape, node, value, self.size / abs(y))
+        y = float(other)
+        if y == 1.0:
+            return self
+        value = x / y
+        noise = 0.0 if _is_power_of_two(y) else UNIT * abs(value)
+        return Taped(self.tape, (self.index, 1.0 / y, 0, 0.0, noise), value, self.size / abs(y))
 
     def __rtruediv__(self, other: float) -> Taped:
         return self.tape.constant(other) / self
@@ -127,34 +159,27 @@ class Tape:
     """The record; an `icsolve.arithmetic.Arithmetic` whose numbers are `Taped`."""
 
     def __init__(self) -> None:
-        self.nodes: list[Node] = [Node(0, 0.0, 0, 0.0, 0.0)]
+        self.nodes: list[Node] = [(0, 0.0, 0, 0.0, 0.0)]
         self.inputs: dict[str, Taped] = {}
         self.turns: dict[str, tuple[Taped, Taped]] = {}
-        self.suspects: list[int] = []
-        """indices of divisors and radicands that nearly vanish"""
-        self.values: list[float] = [0.0]
+        self.suspects: list[tuple[int, float]] = []
+        """index and value of divisors and radicands that nearly vanish"""
         self.converted: dict[str, float] = {}
         """rounding of the numbers whose units were converted"""
 
-    def put(self, node: Node, value: float, size: float) -> Taped:
-        """Record a value."""
-        self.nodes.append(node)
-        self.values.append(value)
-        return Taped(self, len(self.nodes) - 1, value, size)
-
     def constant(self, value: float) -> Taped:
         """An exact number."""
-        return self.put(Node(0, 0.0, 0, 0.0, 0.0), value, abs(value))
+        return Taped(self, (0, 0.0, 0, 0.0, 0.0), value, abs(value))
 
     def given(self, number: Number) -> Taped:
         """A number of the case, with the rounding of its decimals; one node a path."""
         found = self.inputs.get(number.path)
         if found is None:
-            node = Node(0, 0.0, 0, 0.0, decimal_noise(number))
-            found = self.put(node, number.value, abs(number.value))
+            noise = decimal_noise(number)
+            found = Taped(self, (0, 0.0, 0, 0.0, noise), number.value, abs(number.value))
             self.inputs[number.path] = found
             if number.factor != 1.0:
-                self.converted[number.path] = node.noise
+                self.converted[number.path] = noise
         return found
 
     def turn(self, number: Number) -> tuple[Taped, Taped]:
@@ -170,55 +195,61 @@ class Tape:
 
     def _function(self, angle: Taped, value: float, derivative: float) -> Taped:
         noise = 0.0 if value in (0.0, 1.0, -1.0) else TURN_NOISE * abs(value)
-        return self.put(Node(angle.index, derivative, 0, 0.0, noise), value, abs(value))
+        return Taped(self, (angle.index, derivative, 0, 0.0, noise), value, abs(value))
 
     def sqrt(self, value: Operand) -> Taped:
         """Square root; of rounding noise below zero: zero, with no derivative."""
         if not isinstance(value, Taped):
             return self.constant(math.sqrt(max(value, 0.0)))
-        if value.value <= CANCELLED * value.size:
-            self.suspects.append(value.index)
-        if value.value <= 0.0:
-            return self.put(Node(0, 0.0, 0, 0.0, math.sqrt(UNIT * value.size)), 0.0, math.sqrt(value.size))
-        root = math.sqrt(value.value)
-        return self.put(Node(value.index, 0.5 / root, 0, 0.0, UNIT * root), root, math.sqrt(value.size))
+        x, size = value.value, value.size
+        if x <= CANCELLED * size:
+            self.suspects.append((value.index, x))
+        if x <= 0.0:
+            return Taped(self, (0, 0.0, 0, 0.0, math.sqrt(UNIT * size)), 0.0, math.sqrt(size))
+        root = math.sqrt(x)
+        return Taped(self, (value.index, 0.5 / root, 0, 0.0, UNIT * root), root, math.sqrt(size))
 
     def vanishes(self, value: Operand, size: float) -> bool:
-        """Zero where it lies within its own bound."""
-        return abs(value) <= self.back(value).bound
+        """Zero where it lies within its own bound.
+
+        A value that is not small against its ``size`` is left to the bound of what is made from it.
+        """
+        return abs(value) <= LARGE * size and abs(value) <= self.bound(value)
+
+    def bound(self, value: Operand) -> float:
+        """Bound on the absolute error of a value."""
+        return self._swept(value.index)[0] if type(value) is Taped else 0.0
 
     def back(self, result: Operand) -> Pass:
         """The backward pass from a result."""
-        if not isinstance(result, Taped):
+        if type(result) is not Taped:
             return Pass(0.0, {})
-        weights = self._weights(result.index)
-        bound = sum(abs(w) * node.noise for w, node in zip(weights, self.nodes, strict=False) if w)
-        by_path = {
-            path: weights[leaf.index] for path, leaf in self.inputs.items() if leaf.index < len(weights)
-        }
-        return Pass(bound, by_path)
+        bound, weights = self._swept(result.index)
+        last = result.index
+        return Pass(bound, {p: weights[leaf.index] for p, leaf in self.inputs.items() if leaf.index <= last})
 
-    def _weights(self, last: int) -> list[float]:
-        """Derivative of the value at ``last`` by every value recorded before it."""
+    def _swept(self, last: int) -> tuple[float, list[float]]:
+        """Sum of the effects of all roundings on the value at ``last``, and its derivative by every value
+        recorded before it."""
         weights = [0.0] * (last + 1)
         weights[last] = 1.0
-        nodes = self.nodes
+        bound = 0.0
         for k in range(last, 0, -1):
             w = weights[k]
             if w:
-                a, da, b, db, _ = nodes[k]
+                a, da, b, db, noise = self.nodes[k]
+                bound += w * noise if w > 0.0 else -w * noise
                 weights[a] += w * da
-                weights[b] += w * db
-        weights[0] = 0.0
-        return weights
+                if b:
+                    weights[b] += w * db
+        return bound, weights
 
     def doubts(self, fraction: float) -> Iterable[float]:
         """Bound over value of the divisors and radicands that nearly vanish, where above a fraction."""
-        for k in dict.fromkeys(self.suspects):
-            weights = self._weights(k)
-            bound = sum(abs(w) * node.noise for w, node in zip(weights, self.nodes, strict=False) if w)
-            if bound > fraction * abs(self.values[k]):
-                yield bound / abs(self.values[k]) if self.values[k] else 0.0
+        for k, value in dict.fromkeys(self.suspects):
+            bound = self._swept(k)[0]
+            if bound > fraction * abs(value):
+                yield bound / abs(value) if value else 0.0
 
 
 def decimal_noise(number: Number) -> float:
