@@ -21,8 +21,8 @@ Point = tuple[Scalar, Scalar]
 class Board:
     """Points in normalised coordinates, and how to measure on them.
 
-    ``margins`` collects, for each step by its place in the construction, what must not be
-    negative for it to assemble: gaps of circles, distances along rays (normalised). Groups that
+    ``margins`` collects, for each point where two loci meet, what must not be negative for it to
+    assemble: gaps of circles, distances along rays (normalised). Groups that
     Newton's method solves start from ``starts`` where it has them, and take ``rounds`` steps.
     """
 
@@ -33,7 +33,7 @@ class Board:
         self.frame = frame
         self.arithmetic = arithmetic
         self.points: dict[Key, Point] = {}
-        self.margins: list[tuple[Scalar, ...]] = []
+        self.margins: dict[Key, tuple[Scalar, ...]] = {}
         self.starts: Mapping[str, Point] = {}
         self.rounds = 1
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from icsolve.arithmetic import FLOATS, Arithmetic, Scalar
 from icsolve.case import Case, Coordinates
 from icsolve.errors import SceneError
-from icsolve.figure.board import Board, Point
+from icsolve.figure.board import Board, Key, Point
 from icsolve.figure.data import GUIDE, LINE, Datum, data_of, names_of
 from icsolve.figure.frame import Frame, frame_of
 from icsolve.figure.given import Given
@@ -36,12 +36,13 @@ class Figure(NamedTuple):
 class Placement(NamedTuple):
     """Points of the same construction in another arithmetic.
 
-    ``margins`` has, for each step that may fail, what must not be negative (normalised): gaps
-    of circles, distances along rays. Callers with arrays test them outside.
+    ``margins`` has, for each point where two loci meet, what must not be negative (normalised):
+    gaps of circles, distances along rays. Callers with arrays test them outside. (Points on the
+    sheet of a loose shape have keys of the sheet's number and the name.)
     """
 
     points: dict[str, Point]
-    margins: tuple[tuple[Scalar, ...], ...]
+    margins: dict[Key, tuple[Scalar, ...]]
 
 
 def place(
@@ -65,7 +66,7 @@ def place(
     board.rounds, board.starts = rounds, starts or {}
     for step in figure.steps:
         step.place(board)
-    return Placement({p: at for p, at in board.points.items() if isinstance(p, str)}, tuple(board.margins))
+    return Placement({p: at for p, at in board.points.items() if isinstance(p, str)}, board.margins)
 
 
 def solve_figure(case: Case, wanted: Collection[str] | None = None) -> Figure:

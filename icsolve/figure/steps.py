@@ -140,7 +140,7 @@ class Meet(NamedTuple):
         """Put the point, and note the margins."""
         found = self.cross(board)
         self.put(board, found)
-        board.margins.append((*found.margins, *self.ahead(board)))
+        board.margins[self.target] = (*found.margins, *self.ahead(board))
 
     def data(self) -> tuple[Datum, ...]:
         """The data of both loci."""
