@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from icsolve.topology import Topology
-from icsolve.twists import SINGULAR, Closure, dyad_bonds, is_dead, products, rate_sizes
+from icsolve.twists import SINGULAR, Closure, is_dead, products, rate_sizes
 
 
 def lined_up(closure: Closure, top: Topology, body: int) -> tuple[int, ...]:
@@ -22,13 +22,8 @@ def lined_up(closure: Closure, top: Topology, body: int) -> tuple[int, ...]:
         return tuple(sorted(bonds)) if is_dead(closure) else ()
     if not _rests(closure, n := bodies.index(body)):
         return ()
-    if len(bodies) == 2:
-        outer_u, inner, outer_v = dyad_bonds(closure.group, top)
-        ends = (top.bonds[outer_u].other(bodies[0]), top.bonds[outer_v].other(bodies[1]))
-        kept = (inner, outer_v if n == 0 else outer_u)
-    else:
-        ends = tuple(top.bonds[k].other(body) for k in bonds)
-        kept = tuple(k for k in bonds if top.bonds[k].freedom == 2)
+    kept = (bonds[1], bonds[2 if n == 0 else 0]) if closure.group.kind == "dyad" else bonds[1:]
+    ends = closure.group.ends
     shared = (k for k in top.at[ends[0]] if top.bonds[k].other(ends[0]) == ends[1])
     driver = next((k for k in shared if top.bonds[k].freedom == 1), None)
     return () if driver is None else tuple(sorted((driver, *kept)))

@@ -17,10 +17,17 @@ from icsolve.topology import Topology
 
 
 class Group(NamedTuple):
-    """One step: the bodies that ``bonds`` determine from the bodies known before."""
+    """One step: the bodies that ``bonds`` determine from the bodies known before.
+
+    ``kind`` is ``monad`` (one body; the bonds are that with one freedom, that with two), ``dyad`` (two
+    bodies; the bonds are the first's to what is known, the one between them, the second's to what is
+    known) or empty; ``ends`` are the known bodies of the first and last bond of a monad or dyad.
+    """
 
     bodies: tuple[int, ...]
     bonds: tuple[int, ...]
+    kind: str = ""
+    ends: tuple[int, int] = (-1, -1)
 
 
 class Plan(NamedTuple):
@@ -159,4 +166,24 @@ def _pruned(top: Topology, plan: Plan, wanted: Collection[int]) -> Plan:
             needed.update((top.bonds[k].a, top.bonds[k].b))
     entry = top.bonds[plan.entry]
     bodies = frozenset({entry.a, entry.b}.union(*(group.bodies for group in kept)))
-    return plan._replace(groups=tuple(reversed(kept)), bodies=bodies)
+    groups = tuple(_classified(top, group) for group in reversed(kept))
+    return plan._replace(groups=groups, bodies=bodies)
+
+
+def _classified(top: Topology, group: Group) -> Group:
+    """The group as a monad or dyad, if it is one."""
+    bonds = sorted(group.bonds, key=lambda k: top.bonds[k].freedom)
+    shape = [top.bonds[k].freedom for k in bonds]
+    if len(group.bodies) == 1 and shape == [1, 2]:
+        (body,) = group.bodies
+        ends = (top.bonds[bonds[0]].other(body), top.bonds[bonds[1]].other(body))
+        return Group(group.bodies, tuple(bonds), "monad", ends)
+    if len(group.bodies) != 2 or shape != [1, 1, 1]:
+        return group
+    u, v = group.bodies
+    inner = [k for k in bonds if {top.bonds[k].a, top.bonds[k].b} == {u, v}]
+    outer = [[k for k in bonds if k not in inner and k in top.at[body]] for body in (u, v)]
+    if len(inner) != 1 or any(len(held) != 1 for held in outer):
+        return group
+    ends = (top.bonds[outer[0][0]].other(u), top.bonds[outer[1][0]].other(v))
+    return Group(group.bodies, (outer[0][0], inner[0], outer[1][0]), "dyad", ends)

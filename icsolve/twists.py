@@ -110,18 +110,16 @@ def _rescaled(closure: Closure, found: dict[int, Triple], pool: _Pool) -> tuple[
 
 
 def _close(group: Group, top: Topology, bases: Bases, pool: _Pool) -> tuple[Closure, dict[int, Triple]]:
-    shape = sorted(top.bonds[k].freedom for k in group.bonds)
-    if len(group.bodies) == 1 and shape == [1, 2]:
-        return _monad(group, top, bases, pool)
-    if shape == [1, 1, 1] and _is_dyad(group, top):
-        return _dyad(group, top, bases, pool)
+    if group.kind == "dyad":
+        return _dyad(group, bases, pool)
+    if group.kind == "monad":
+        return _monad(group, bases, pool)
     return _eliminated(group, top, bases, pool)
 
 
-def _monad(group: Group, top: Topology, bases: Bases, pool: _Pool) -> tuple[Closure, dict[int, Triple]]:
-    (body,) = group.bodies
-    one, two = sorted(group.bonds, key=lambda k: top.bonds[k].freedom)
-    ta, tc = pool.now(top.bonds[one].other(body)), pool.now(top.bonds[two].other(body))
+def _monad(group: Group, bases: Bases, pool: _Pool) -> tuple[Closure, dict[int, Triple]]:
+    (body,), (one, two) = group.bodies, group.bonds
+    ta, tc = pool.now(group.ends[0]), pool.now(group.ends[1])
     basis, line = bases[one][0], bases[two]
     o = _origin(basis, line[0])
     here = shift(basis, o)
@@ -131,10 +129,9 @@ def _monad(group: Group, top: Topology, bases: Bases, pool: _Pool) -> tuple[Clos
     return Closure(group, d, (s,), (join, here, r)), {body: blend(d, ta, s, basis)}
 
 
-def _dyad(group: Group, top: Topology, bases: Bases, pool: _Pool) -> tuple[Closure, dict[int, Triple]]:
-    u, v = group.bodies
-    outer_u, inner, outer_v = dyad_bonds(group, top)
-    ta, tc = pool.now(top.bonds[outer_u].other(u)), pool.now(top.bonds[outer_v].other(v))
+def _dyad(group: Group, bases: Bases, pool: _Pool) -> tuple[Closure, dict[int, Triple]]:
+    (u, v), (outer_u, inner, outer_v) = group.bodies, group.bonds
+    ta, tc = pool.now(group.ends[0]), pool.now(group.ends[1])
     b1, b3, b2 = bases[outer_u][0], bases[inner][0], bases[outer_v][0]
     o = _origin(b1, b3, b2)
     r = shift(subtract(tc, ta), o)
@@ -142,23 +139,6 @@ def _dyad(group: Group, top: Topology, bases: Bases, pool: _Pool) -> tuple[Closu
     d, s1, s2 = dyad_twists(*columns)
     found = {u: blend(d, ta, s1, b1), v: blend(d, tc, s2, b2)}
     return Closure(group, d, (s1, s2), columns), found
-
-
-def _is_dyad(group: Group, top: Topology) -> bool:
-    """Two bodies, joined once, each held once."""
-    if len(group.bodies) != 2:
-        return False
-    inner = [k for k in group.bonds if {top.bonds[k].a, top.bonds[k].b} == set(group.bodies)]
-    return len(inner) == 1 and all(len(set(top.at[body]) & set(group.bonds)) == 2 for body in group.bodies)
-
-
-def dyad_bonds(group: Group, top: Topology) -> tuple[int, int, int]:
-    """The bonds of a dyad: of its first body to what is known, between its two bodies, of its second."""
-    u, v = group.bodies
-    inner = next(k for k in group.bonds if {top.bonds[k].a, top.bonds[k].b} == {u, v})
-    outer_u = next(k for k in group.bonds if k != inner and u in (top.bonds[k].a, top.bonds[k].b))
-    outer_v = next(k for k in group.bonds if k not in (inner, outer_u))
-    return outer_u, inner, outer_v
 
 
 def _origin(*bases: Triple) -> tuple[Scalar, Scalar]:
