@@ -16,6 +16,7 @@ VERBS = {
     "new": "starting",
     "schema": "starting",
     "grade": "grading",
+    "draw": "drawing",
 }
 """Each verb, and the room beside this one that has its click command (``solve_command``)."""
 

@@ -1,0 +1,21 @@
+"""The construction behind an answer: what is known of a scene, the order in which its centres are found,
+and how the speed of one link follows from another's. Explanations, drawings and pages all read it."""
+
+from __future__ import annotations
+
+from icsolve.construction.known import Known, known_of
+from icsolve.construction.needed import all_steps, answer_ratios, loaded_links, needed_steps
+from icsolve.construction.order import Step
+from icsolve.construction.ratios import Ratio, Ratios
+
+__all__ = [
+    "Known",
+    "Ratio",
+    "Ratios",
+    "Step",
+    "all_steps",
+    "answer_ratios",
+    "known_of",
+    "loaded_links",
+    "needed_steps",
+]

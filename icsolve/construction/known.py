@@ -1,0 +1,154 @@
+"""All that is known of a scene: its answer or why there is none, every point that can be placed, and how
+the links move."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import NamedTuple
+
+from icsolve import speeds
+from icsolve.answer import Answer, Centre
+from icsolve.case import Case, Coordinates, Pair
+from icsolve.names import ordered_pair
+from icsolve.errors import SceneError
+from icsolve.figure import Frame, case_point, solve_figure
+from icsolve.plane import Point, Triple
+from icsolve.program import Want, evaluate, prepare
+from icsolve.solve import solve
+
+
+class Known(NamedTuple):
+    """What is known of a case, in case units.
+
+    ``answer`` is None where the scene has none; ``refusal`` then says why. ``whole`` has all centres,
+    rates and velocities (where it has no answer, those of the mechanism without its loads; None where
+    nothing is known to move). ``points`` has the hidden ones too. ``twists`` are the links' motions
+    ``omega * (x, y, 1)``, those only that the case determines; ``size`` is the figure's.
+    """
+
+    case: Case
+    answer: Answer | None
+    refusal: SceneError | None
+    whole: Answer | None
+    points: Mapping[str, Point]
+    twists: Mapping[str, Triple]
+    size: float
+
+    @property
+    def title(self) -> str:
+        """What the case is called."""
+        return self.case.title or self.case.name
+
+    def centre(self, a: str, b: str) -> Centre | None:
+        """The centre of two links, where one is known."""
+        if self.whole is None:
+            return None
+        return self.whole.centres.get(ordered_pair(self.case, a, b))
+
+    def pair(self, a: str, b: str) -> Pair:
+        """The pair of links as it is named."""
+        return ordered_pair(self.case, a, b)
+
+    def rests(self, link: str) -> bool:
+        """Whether a link is known not to move."""
+        return self.twists.get(link) == (0.0, 0.0, 0.0)
+
+    def turns(self, link: str) -> bool:
+        """Whether a link is known to turn."""
+        return link in self.twists and self.twists[link][2] != 0.0
+
+
+STILL = 1e-12
+"""A velocity below this fraction of the fastest is none (rounding)."""
+
+
+def known_of(case: Case, *, reactions: bool = False) -> Known:
+    """Solve a case as far as it goes; never raises `SceneError`."""
+    answer, refusal = _solved(case, reactions)
+    whole = _whole(case) or _whole(replace(case, loads=(), expect=(), motion=())) or answer
+    points = _points(case, whole)
+    twists = _twists(whole.case) if whole is not None else {}
+    return Known(case, answer, refusal, whole, points, twists, _size(points))
+
+
+def _solved(case: Case, reactions: bool) -> tuple[Answer | None, SceneError | None]:
+    try:
+        return solve(case, reactions=reactions), None
+    except SceneError as error:
+        return None, error
+
+
+def _whole(case: Case) -> Answer | None:
+    try:
+        return solve(case, all_centres=True, rates=True, bound=False)
+    except SceneError:
+        return None
+
+
+def _points(case: Case, whole: Answer | None) -> dict[str, Point]:
+    """Every point that can be placed, in case units: those of the answer, and what the figure has beside."""
+    names = list(dict.fromkeys((*case.points, *(p for ps in case.carries.values() for p in ps))))
+    found = {} if whole is None else dict(whole.points)
+    for name in names:
+        place = case.points.get(name)
+        if isinstance(place, Coordinates) and place.x is not None and place.y is not None:
+            found.setdefault(name, (place.x.value, place.y.value))
+    return found if set(names) <= set(found) else {**_figure(case, names), **found}
+
+
+def _figure(case: Case, names: list[str]) -> dict[str, Point]:
+    """All points of a figure, or each that can be placed alone."""
+    try:
+        figure = solve_figure(case)
+    except SceneError:
+        return {name: place for name in names if (place := _alone(case, name)) is not None}
+    return {name: case_point(figure.frame, place) for name, place in figure.points.items()}
+
+
+def _alone(case: Case, name: str) -> Point | None:
+    try:
+        figure = solve_figure(case, (name,))
+    except SceneError:
+        return None
+    return case_point(figure.frame, figure.points[name])
+
+
+def _size(points: Mapping[str, Point]) -> float:
+    xs, ys = [x for x, _ in points.values()], [y for _, y in points.values()]
+    return max(max(xs) - min(xs), max(ys) - min(ys), 0.0) if points else 0.0
+
+
+def _twists(case: Case) -> dict[str, Triple]:
+    """Twists of the links in the motion that is meant, in case units."""
+    try:
+        program = prepare(case, Want(True, True))
+        outcome = evaluate(program)[1]
+        motions, frame = outcome.motions.twists, program.figure.frame
+        speed = speeds.speed_of(case, motions, frame, outcome.points)
+    except SceneError:
+        return {}
+    meant = {link: speeds.meant(motions, speed, link) for link in motions}
+    found = {
+        link: first
+        for link, (first, *rest) in meant.items()
+        if all(_extent(t) <= STILL * _extent(first) for t in rest)
+    }
+    least = STILL * max(map(_extent, found.values()), default=0.0)
+    return {link: _in_case_units(_cleaned(t, least), frame, speed.divisor) for link, t in found.items()}
+
+
+def _extent(t: Triple) -> float:
+    return max(map(abs, t))
+
+
+def _cleaned(t: Triple, least: float) -> Triple:
+    """A twist without what rounding left of a rest or of a turning."""
+    if _extent(t) <= least:
+        return (0.0, 0.0, 0.0)
+    return (t[0], t[1], 0.0 if abs(t[2]) <= least else t[2])
+
+
+def _in_case_units(t: Triple, frame: Frame, divisor: float) -> Triple:
+    x, y, w = (value / divisor + 0.0 for value in t)
+    return (x / frame.scale + w * frame.ox, y / frame.scale + w * frame.oy, w)

@@ -1,0 +1,248 @@
+"""The frame and the joints in the field's symbols (ISO 3952): hatched feet, rails, pins, contacts, belts."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+import shapely
+
+from icsolve.case import Contact, Joint, KnownCentre, Pin, Roll, Slide, Slot, Weld
+from icsolve.draw.links import guide_in_picture
+from icsolve.draw.marks import Arc, Disc, Group, Mark, Point, Run, Stroke
+from icsolve.draw.place import Label, Soft
+from icsolve.draw.scene import BLOCK, PIN, RAIL, SLOT, Part, Scene, around, fixed_springs
+from icsolve.draw.shapes import area, hatched
+from icsolve.draw.view import along, unit
+from icsolve.draw.wheels import Edge, Loop, Wheel
+from icsolve.draw.words import name_runs
+
+FOOT = (17.0, 13.0)
+"""Height of a foot and half its width."""
+DOWN, UP, LEFT, RIGHT = (0.0, 1.0), (0.0, -1.0), (-1.0, 0.0), (1.0, 0.0)
+
+
+def frame_parts(scene: Scene, links: shapely.Geometry) -> list[Part]:
+    """Feet, rails and straight edges of the frame, and its number."""
+    ground = scene.case.ground
+    parts = [_foot(p, links) for p in _feet(scene)]
+    parts += [_rail(scene, joint, links) for joint in _guides(scene) if joint.links[1] == ground]
+    parts += [_surface(scene, edge) for edge in scene.round.edges if edge.link == ground]
+    parts += [_annulus(scene, w) for w in scene.round.wheels if w.link == ground and w.kind == "gear"]
+    anchors = tuple(a for part in parts for a in part.labels[0].anchors)[:6]
+    bare = [part._replace(labels=()) for part in parts]
+    if anchors:
+        runs = (Run(ground),)
+        bare.append(Part(labels=(Label(f"number-{ground}", runs, "t-link", 12.0, anchors, 5.0, badge=True),)))
+    marks = tuple(mark for part in bare for mark in part.marks)
+    group = Group(f"link-{ground}", "", marks, f"frame {ground}")
+    return [*(part._replace(marks=()) for part in bare), Part((group,) if marks else ())]
+
+
+def _feet(scene: Scene) -> list[Point]:
+    """Where the frame holds something: its pins, welds, blocks on it, and the ends of springs."""
+    ground = scene.case.ground
+    found: list[Point] = []
+    for joint in scene.joints():
+        if isinstance(joint, Pin | Weld) and ground in joint.links and joint.at:
+            found.append(scene.at[joint.at])
+        if isinstance(joint, Slide | Slot) and joint.links[0] == ground:
+            found.append(scene.at[joint.at])
+    found += [scene.at[spring.to] for spring in fixed_springs(scene.case) if spring.to in scene.at]
+    return list(dict.fromkeys(found))
+
+
+def _guides(scene: Scene) -> Iterable[Slide | Slot]:
+    return (joint for joint in scene.joints() if isinstance(joint, Slide | Slot))
+
+
+def _foot(p: Point, links: shapely.Geometry) -> Part:
+    """A pin's foot: a triangle on hatched ground, where it hides least of the links."""
+    height, half = FOOT
+
+    def corners(d: Point) -> tuple[Point, Point, Point]:
+        base, side = along(p, d, height), (-d[1], d[0])
+        return p, along(base, side, -half), along(base, side, half)
+
+    def hidden(d: Point) -> float:
+        grown = shapely.Polygon(corners(d)).buffer(4.0)
+        return float(shapely.area(shapely.intersection(grown, links))) + {DOWN: 0.0, UP: 60.0}.get(d, 40.0)
+
+    down = min((DOWN, LEFT, RIGHT, UP), key=hidden)
+    apex, left, right = corners(down)
+    side = unit(right[0] - left[0], right[1] - left[1])
+    ends = (along(left, side, -5.0), along(right, side, 5.0))
+    triangle = shapely.Polygon([apex, left, right])
+    ground = hatched(ends[0], ends[1], 1.0 if _turns_left(side, down) else -1.0)
+    shape = shapely.Polygon([apex, ends[0], ends[1]]).buffer(7.0, quad_segs=1)
+    beside = (along(ends[0], down, 3.0), along(ends[1], down, 3.0))
+    label = Label("", (), "", 0.0, beside, 0.0)
+    return Part((area(triangle, "foot"), *ground), (Soft(shape, 1.5),), (), (label,))
+
+
+def _turns_left(u: Point, v: Point) -> bool:
+    """Whether v lies where `hatched` draws for side 1 when going along u."""
+    return -u[1] * v[0] + u[0] * v[1] > 0.0
+
+
+def _rail(scene: Scene, joint: Slide | Slot, links: shapely.Geometry) -> Part:
+    """A hatched rail beside a block; two beside a pin that runs in a slot of the frame."""
+    p, u = scene.at[joint.at], guide_in_picture(scene, joint)
+    if u[0] < 0.0 or (u[0] == 0.0 and u[1] > 0.0):
+        u = (-u[0], -u[1])
+    v = (-u[1], u[0])
+    sides = (1.0, -1.0)
+    if isinstance(joint, Slide):
+        offset, reach = BLOCK[1] / 2.0 + 1.0, RAIL
+        sides = (min(sides, key=lambda side: _cover(along(p, v, side * 16.0), u, links) - 5.0 * side),)
+    else:
+        offset, reach = PIN + 1.5, SLOT
+    marks: list[Mark] = []
+    for side in sides:
+        middle = along(p, v, side * offset)
+        marks += hatched(along(middle, u, -reach), along(middle, u, reach), side)
+    ends = tuple(along(along(p, u, s * (reach - 6.0)), v, sides[0] * (offset + 5.0)) for s in (1.0, -1.0))
+    lines = [Soft(_band(mark.points), 1.5) for mark in marks if isinstance(mark, Stroke) and mark.kind == "frame"]
+    return Part(tuple(marks), tuple(lines), (), (Label("", (), "", 0.0, ends, 0.0),))
+
+
+def _band(points: tuple[Point, ...]) -> shapely.Geometry:
+    return shapely.LineString(points).buffer(6.0, quad_segs=1, cap_style="flat")
+
+
+def _cover(middle: Point, u: Point, links: shapely.Geometry) -> float:
+    """How much of the links a rail through a point would hide."""
+    line = shapely.LineString([along(middle, u, -RAIL), along(middle, u, RAIL)])
+    return float(shapely.length(shapely.intersection(line, links)))
+
+
+def _surface(scene: Scene, edge: Edge) -> Part:
+    """Level ground on which something rolls or rubs."""
+    at, n = scene.view.at(edge.at), (edge.normal[0], -edge.normal[1])
+    u = (-n[1], n[0])
+    ends = (along(at, u, -74.0), along(at, u, 74.0))
+    marks = hatched(ends[0], ends[1], 1.0 if _turns_left(u, (-n[0], -n[1])) else -1.0)
+    beside = tuple(along(end, n, -5.0) for end in ends)
+    return Part(tuple(marks), (Soft(_band(ends), 1.5),), (), (Label("", (), "", 0.0, beside, 0.0),))
+
+
+def _annulus(scene: Scene, wheel: Wheel) -> Part:
+    """A pitch circle of the frame with hatching outside."""
+    centre, radius = scene.view.at(wheel.centre), wheel.radius * scene.view.scale
+    count = max(int(2.0 * math.pi * radius / 9.0), 12)
+    marks: list[Mark] = [Disc(centre, radius, "rim")]
+    outer = radius + 5.0 if wheel.rim else radius - 5.0
+    marks.append(Disc(centre, outer, "frame"))
+    step = 2.0 * math.pi / count
+    depth = 7.0 if wheel.rim else -7.0
+    for k in range(count):
+        a, b = k * step, (k + 0.6) * step
+        marks.append(
+            Stroke((_polar(centre, outer, a), _polar(centre, outer + depth, b)), "hatch")
+        )
+    ring = shapely.Point(centre).buffer(outer + depth).boundary
+    spots = tuple(_polar(centre, outer + depth, a) for a in (-0.8, -2.3, 0.8, 2.3))
+    return Part(tuple(marks), (Soft(ring, 2.0),), (), (Label("", (), "", 0.0, spots, 0.0),))
+
+
+def _polar(centre: Point, radius: float, angle: float) -> Point:
+    return (centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle))
+
+
+def rims(scene: Scene) -> list[Part]:
+    """The annuli of moving links."""
+    parts = []
+    for wheel in scene.round.wheels:
+        if wheel.rim and wheel.link != scene.case.ground:
+            centre, radius = scene.view.at(wheel.centre), wheel.radius * scene.view.scale
+            marks = (Disc(centre, radius, "rim"), Disc(centre, radius + 7.0, "frame"))
+            ring = shapely.Point(centre).buffer(radius + 3.0).boundary
+            spots = tuple(_polar(centre, radius + 7.0, a) for a in (-0.8, -2.3, 0.8, 2.3))
+            label = Label(f"number-{wheel.link}", (Run(wheel.link),), "t-link", 12.0, spots, 4.0, badge=True)
+            group = Group(f"rim-{wheel.link}", "", marks, f"link {wheel.link}")
+            parts.append(Part((group,), (Soft(ring, 2.0),), (), (label,)))
+    return parts
+
+
+def belts(scene: Scene) -> list[Part]:
+    """The two strands of each belt."""
+    parts = []
+    for loop in scene.round.loops:
+        strands = [Stroke(ends, "rope") for ends in _strands(scene, loop)]
+        soft = tuple(Soft(shapely.LineString(strand.points), 2.0) for strand in strands)
+        name = f"belt-{loop.first.link}-{loop.second.link}"
+        parts.append(Part((Group(name, "", tuple(strands), "belt"),), soft))
+    return parts
+
+
+def _strands(scene: Scene, loop: Loop) -> Iterable[tuple[Point, Point]]:
+    a, b = scene.view.at(loop.first.centre), scene.view.at(loop.second.centre)
+    ra = loop.first.radius * scene.view.scale
+    rb = loop.second.radius * scene.view.scale * (-1.0 if loop.crossed else 1.0)
+    span = math.dist(a, b)
+    if span <= abs(ra - rb):
+        return
+    heading = math.atan2(b[1] - a[1], b[0] - a[0])
+    lean = math.acos((ra - rb) / span)
+    for side in (1.0, -1.0):
+        angle = heading + side * lean
+        yield _polar(a, ra, angle), _polar(b, rb, angle)
+
+
+def joint_parts(scene: Scene) -> list[Part]:
+    """Pins, contacts, welds and known centres, on top of the links; labels keep off them."""
+    parts = []
+    for joint in scene.joints():
+        marks = _symbol(scene, joint)
+        if marks:
+            at = scene.at[getattr(joint, "at", "")]
+            reach = PIN + 1.0 if isinstance(joint, Pin | Slot | Slide) else 4.0
+            parts.append(Part((Group(_name(joint), "", tuple(marks)),), (), (around(at, reach),)))
+    return parts
+
+
+def _name(joint: Joint) -> str:
+    return f"joint-{type(joint).__name__.lower()}-{getattr(joint, 'at', '')}-{'-'.join(joint.links)}".replace("@", "at-")
+
+
+def _symbol(scene: Scene, joint: Joint) -> list[Mark]:
+    at = getattr(joint, "at", None)
+    if at is None:
+        return []
+    p = scene.at[at]
+    match joint:
+        case Pin() | Slot():
+            return [Disc(p, PIN, "pin"), *([Disc(p, PIN + 3.0, "faint")] if len(joint.links) > 2 else [])]
+        case Slide():
+            return [Disc(p, 1.6, "dot")]
+        case Roll() | Contact():
+            return [Disc(p, 2.4, "dot")]
+        case Weld():
+            return [_square(p)]
+        case KnownCentre():
+            return [Disc(p, 4.0, "primary")]
+    return []
+
+
+def _square(p: Point) -> Mark:
+    return area(shapely.box(p[0] - 4.0, p[1] - 4.0, p[0] + 4.0, p[1] + 4.0), "pin")
+
+
+def point_parts(scene: Scene) -> list[Part]:
+    """The letter of every point that a link carries or a joint has, and a dot where no joint shows it."""
+    jointed = {getattr(joint, "at", None) for joint in scene.joints() if not isinstance(joint, Weld)}
+    named = [p for ps in scene.case.carries.values() for p in ps]
+    named += [at for joint in scene.case.joints if (at := getattr(joint, "at", None))]
+    parts = []
+    for name in dict.fromkeys(named):
+        if name not in scene.at or name.startswith("@"):
+            continue
+        p = scene.at[name]
+        pinned = name in jointed
+        label = Label(f"point-{name}", name_runs(name), "t-point", 15.0, (p,), PIN + 3.0 if pinned else 5.0)
+        dot = () if pinned else (Disc(p, 2.2, "dot"),)
+        parts.append(Part(dot, (), () if pinned else (around(p, 2.6),), (label,)))
+    return parts
+
+
+__all__ = ["Arc", "belts", "frame_parts", "joint_parts", "point_parts", "rims"]

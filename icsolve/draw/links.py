@@ -1,0 +1,235 @@
+"""The outline of every link: bars and plates between its points, blocks, slotted levers, wheels and cams."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import NamedTuple
+
+import shapely
+
+from icsolve.arithmetic import turn_of
+from icsolve.case import Contact, Joint, KnownCentre, Slide, Slot
+from icsolve.draw.marks import Area, Disc, Group, Mark, Point, Run
+from icsolve.draw.place import Label, Soft
+from icsolve.draw.scene import BLOCK, HALF, PIN, RAIL, SLOT, Part, Scene
+from icsolve.draw.shapes import area, bar, joined, nearest, plate, tilted
+from icsolve.draw.view import along, unit
+from icsolve.joints import guide_direction
+from icsolve.arithmetic import FLOATS
+
+ROD = 5.0
+"""Half the width of a rod on which a block slides."""
+COVER = 1.6
+"""What it costs a label to cover a link."""
+
+
+class Body(NamedTuple):
+    """A link's own outline (None where it has none but wheels), its blocks above it, holes in it, and where
+    its number may stand."""
+
+    link: str
+    shape: shapely.Geometry | None
+    wheels: tuple[Disc, ...]
+    blocks: tuple[shapely.Geometry, ...]
+    holes: tuple[shapely.Geometry, ...]
+    anchors: tuple[Point, ...]
+    dashed: bool = False
+
+
+def body_of(scene: Scene, link: str) -> Body:
+    """The outline of a link that moves (or of a black box, dashed)."""
+    points = _own_points(scene, link)
+    blocks = tuple(_blocks(scene, link))
+    slots = list(_slots(scene, link))
+    levers = [(along(p, u, -SLOT), along(p, u, SLOT)) for p, u in slots]
+    rods = list(_rods(scene, link))
+    wheels = tuple(
+        Disc(scene.view.at(w.centre), w.radius * scene.view.scale, "wheel" if w.kind == "gear" else "body")
+        for w in scene.round.wheels
+        if w.link == link and not w.rim
+    )
+    parts = [*_frame_of_points(points, rods, levers, wheels)]
+    parts += [bar(ends, 11.0) for ends in levers]
+    parts += [*_cams(scene, link), *_edges(scene, link, points)]
+    dashed = bool(points) and all(isinstance(j, KnownCentre) for j in scene.case.joints if link in j.links)
+    if dashed:
+        parts = [plate(points, 4.0)] if len(points) != 2 else [bar(points, 0.01)]
+    shape = joined(parts) if parts else None
+    holes = tuple(bar([along(p, u, 12.0 - SLOT), along(p, u, SLOT - 12.0)], PIN + 0.8) for p, u in slots)
+    return Body(link, shape, wheels, blocks, holes, _anchors(points, rods, wheels, shape), dashed)
+
+
+def _own_points(scene: Scene, link: str) -> list[Point]:
+    """Where the link has joints, loads and other points; each place once."""
+    names = [p for p in scene.case.carries.get(link, ()) if p in scene.at]
+    names += [j.at for j in scene.joints() if isinstance(j, KnownCentre) and link in j.links and j.at]
+    return list(dict.fromkeys(scene.at[p] for p in names))
+
+
+def guide_in_picture(scene: Scene, joint: Slide | Slot) -> Point:
+    """Unit vector along a guide, in the picture."""
+    x, y = guide_direction(joint.guide, scene.known.points, FLOATS)
+    return (x, -y)
+
+
+def _joints_of(scene: Scene, link: str, kind: type[Joint], place: int) -> Iterable[Joint]:
+    return (j for j in scene.joints() if isinstance(j, kind) and j.links[place] == link)
+
+
+def _blocks(scene: Scene, link: str) -> Iterable[shapely.Geometry]:
+    for joint in _joints_of(scene, link, Slide, 0):
+        assert isinstance(joint, Slide)
+        yield tilted(scene.at[joint.at], guide_in_picture(scene, joint), *BLOCK)
+
+
+def _rods(scene: Scene, link: str) -> Iterable[tuple[Point, Point]]:
+    """The rods of a moving link along which blocks of others slide."""
+    for joint in _joints_of(scene, link, Slide, 1):
+        assert isinstance(joint, Slide)
+        p, u = scene.at[joint.at], guide_in_picture(scene, joint)
+        yield along(p, u, -RAIL), along(p, u, RAIL)
+
+
+def _slots(scene: Scene, link: str) -> Iterable[tuple[Point, Point]]:
+    for joint in _joints_of(scene, link, Slot, 1):
+        assert isinstance(joint, Slot)
+        yield scene.at[joint.at], guide_in_picture(scene, joint)
+
+
+def _frame_of_points(
+    points: list[Point],
+    rods: list[tuple[Point, Point]],
+    levers: list[tuple[Point, Point]],
+    wheels: tuple[Disc, ...],
+) -> Iterable[shapely.Geometry]:
+    """Bars and plates that hold a link's points, rods, slotted levers and wheels together."""
+    outside = [p for p in points if not any(math.dist(p, w.centre) <= w.radius + 2.0 for w in wheels)]
+    held = [*outside, *(w.centre for w in wheels)] if outside or rods or levers else []
+    for a, b in rods:
+        yield bar(_stretched(a, b, held), ROD)
+    lines = [shapely.LineString(ends) for ends in (*rods, *levers)]
+    for line in lines[1:]:
+        held.append(nearest(line, lines[0].centroid.coords[0]))
+    for p in held if lines else ():
+        foot = nearest(lines[0], p)
+        if math.dist(p, foot) > 1.0:
+            yield bar([p, foot], ROD if rods else HALF)
+    if not lines and len(held) > 1:
+        yield plate(held, HALF)
+    elif not lines and len(held) == 1 and not wheels:
+        yield bar(held, HALF + 2.5)
+
+
+def _stretched(a: Point, b: Point, points: list[Point]) -> list[Point]:
+    """A rod made longer to reach the points on its line."""
+    u = unit(b[0] - a[0], b[1] - a[1])
+    reach = [0.0, math.dist(a, b)]
+    for p in points:
+        dx, dy = p[0] - a[0], p[1] - a[1]
+        if abs(dx * u[1] - dy * u[0]) <= 1.0:
+            reach.append(dx * u[0] + dy * u[1])
+    return [along(a, u, min(reach)), along(a, u, max(reach))]
+
+
+def _cams(scene: Scene, link: str) -> Iterable[shapely.Geometry]:
+    """A rounded cam where the case gives its contact alone."""
+    for joint in scene.round.cams:
+        if joint.links[0] != link:
+            continue
+        at, n = scene.at[joint.at], turn_of(joint.normal.value)
+        points = _own_points(scene, link)
+        gap = math.dist(points[0], at) if points else 40.0
+        radius = min(max(0.4 * gap, 6.0), 34.0)
+        nose = bar([(at[0] - n[0] * radius, at[1] + n[1] * radius)], radius)
+        yield shapely.convex_hull(joined([nose, *(bar([p], 13.0) for p in points)]))
+
+
+def _edges(scene: Scene, link: str, points: list[Point]) -> Iterable[shapely.Geometry]:
+    """Straight faces of racks and followers, on a stem to the link's nearest point."""
+    for edge in scene.round.edges:
+        if edge.link != link:
+            continue
+        at, n = scene.view.at(edge.at), (edge.normal[0], -edge.normal[1])
+        face = tilted(along(at, n, -4.5), (-n[1], n[0]), 84.0, 9.0)
+        yield face
+        if points:
+            near = min(points, key=lambda p: math.dist(p, at))
+            foot = nearest(face, near)
+            if math.dist(foot, near) > 1.0:
+                yield bar([near, foot], HALF)
+
+
+def _anchors(
+    points: list[Point],
+    rods: list[tuple[Point, Point]],
+    wheels: tuple[Disc, ...],
+    shape: shapely.Geometry | None,
+) -> tuple[Point, ...]:
+    """Where a link's number may stand beside: the middle of its bar, its rim."""
+    spots: list[Point] = []
+    for k, p in enumerate(points):
+        for q in points[k + 1 :]:
+            spots += [_between(p, q, share) for share in (0.5, 0.36, 0.64)]
+    for w in wheels:
+        spots += [along(w.centre, unit(a, b), 0.62 * w.radius) for a, b in ((1, -1), (-1, -1), (1, 1), (-1, 1))]
+    if not spots:
+        spots = [q for rod in rods for q in rod] + points
+    if not spots and shape is not None:
+        inside = shape.representative_point()
+        spots = [(inside.x, inside.y)]
+    return tuple(spots[:9])
+
+
+def _between(p: Point, q: Point, share: float) -> Point:
+    return (p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1]))
+
+
+def wheel_parts(bodies: Iterable[Body]) -> list[Part]:
+    """The wheels of all links, large ones under small ones, all under bars and feet."""
+    discs = [(disc, body.link) for body in bodies for disc in body.wheels]
+    discs.sort(key=lambda found: -found[0].radius)
+    return [
+        Part(
+            (Group(f"wheel-{link}" if n == 0 else "", "", (disc,), f"link {link}"),),
+            (Soft(shapely.Point(disc.centre).buffer(disc.radius).boundary, 1.5),),
+        )
+        for n, disc, link in _counted(discs)
+    ]
+
+
+def _counted(discs: list[tuple[Disc, str]]) -> Iterable[tuple[int, Disc, str]]:
+    """Each wheel with how many of its link came before (an id stands once)."""
+    seen: dict[str, int] = {}
+    for disc, link in discs:
+        yield seen.get(link, 0), disc, link
+        seen[link] = seen.get(link, 0) + 1
+
+
+def link_part(scene: Scene, body: Body) -> Part:
+    """A link's bars, plates and blocks, and its number."""
+    marks: list[Mark] = []
+    if body.shape is not None:
+        marks.append(area(body.shape, "box" if body.dashed else "body"))
+    marks += [area(hole, "hole") for hole in body.holes]
+    marks += [area(block, "block") for block in body.blocks]
+    solids = [shape for shape in (body.shape, *body.blocks) if shape is not None]
+    soft = [Soft(shape, 0.3 if body.dashed else COVER) for shape in solids]
+    group = Group(f"link-{body.link}", "", tuple(marks), f"link {body.link}")
+    rim = any(wheel.rim and wheel.link == body.link for wheel in scene.round.wheels)
+    number = Label(f"number-{body.link}", (Run(body.link),), "t-link", 12.0, body.anchors, 10.0, badge=True)
+    return Part((group,) if marks else (), tuple(soft), (), (number,) if body.anchors and not rim else ())
+
+
+def bars(body: Body) -> shapely.Geometry:
+    """What a link fills beside its wheels."""
+    shapes = [shape for shape in (body.shape, *body.blocks) if shape is not None]
+    return joined(shapes) if shapes else shapely.Polygon()
+
+
+def outline(body: Body) -> shapely.Geometry:
+    """All that a link fills."""
+    return joined([bars(body), *(shapely.Point(w.centre).buffer(w.radius) for w in body.wheels)])
+
+
+__all__ = ["Area", "Body", "Contact", "body_of", "guide_in_picture", "link_part", "outline"]

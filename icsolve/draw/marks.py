@@ -1,0 +1,172 @@
+"""What a picture is made of: shapes and texts in picture units (y down), grouped under ids.
+
+A mark knows its class (the style sheet has its colours) and where it lies; nothing here knows of mechanisms.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+Point = tuple[float, float]
+Box = tuple[float, float, float, float]
+"""Left, top, right, bottom."""
+
+
+class Area(NamedTuple):
+    """A filled region: an outer ring and its holes."""
+
+    rings: tuple[tuple[Point, ...], ...]
+    kind: str
+
+
+class Stroke(NamedTuple):
+    """An open line."""
+
+    points: tuple[Point, ...]
+    kind: str
+
+
+class Disc(NamedTuple):
+    """A circle."""
+
+    centre: Point
+    radius: float
+    kind: str
+
+
+class Arc(NamedTuple):
+    """Part of a circle, from one direction (degrees, counterclockwise as seen) through ``sweep``."""
+
+    centre: Point
+    radius: float
+    start: float
+    sweep: float
+    kind: str
+
+    def at(self, degrees: float) -> Point:
+        """The point of the circle in a direction, counterclockwise as seen from the start."""
+        angle = math.radians(self.start + degrees)
+        return (
+            self.centre[0] + self.radius * math.cos(angle),
+            self.centre[1] - self.radius * math.sin(angle),
+        )
+
+
+class Run(NamedTuple):
+    """A piece of a text; ``low`` sets it as a subscript."""
+
+    text: str
+    low: bool = False
+
+
+class Text(NamedTuple):
+    """A text on one line, centred at ``at``; ``size`` is its font size, ``anchor`` start, middle or end."""
+
+    at: Point
+    runs: tuple[Run, ...]
+    kind: str
+    size: float
+    anchor: str = "middle"
+
+
+class Group(NamedTuple):
+    """Marks that belong together, under an id and with a title that a reader can call up.
+
+    ``data`` are further attributes.
+    """
+
+    name: str
+    kind: str
+    marks: tuple[Mark, ...]
+    title: str = ""
+    data: tuple[tuple[str, str], ...] = ()
+
+
+Mark = Area | Stroke | Disc | Arc | Text | Group
+
+
+def moved(mark: Mark, dx: float, dy: float) -> Mark:
+    """A mark in another place."""
+    match mark:
+        case Area():
+            rings = tuple(tuple((x + dx, y + dy) for x, y in ring) for ring in mark.rings)
+            return mark._replace(rings=rings)
+        case Stroke():
+            return mark._replace(points=tuple((x + dx, y + dy) for x, y in mark.points))
+        case Disc() | Arc():
+            return mark._replace(centre=(mark.centre[0] + dx, mark.centre[1] + dy))
+        case Text():
+            return mark._replace(at=(mark.at[0] + dx, mark.at[1] + dy))
+        case Group():
+            return mark._replace(marks=tuple(moved(m, dx, dy) for m in mark.marks))
+
+
+def leaves(marks: Iterable[Mark]) -> Iterator[Area | Stroke | Disc | Arc | Text]:
+    """The marks in all groups, in order."""
+    for mark in marks:
+        if isinstance(mark, Group):
+            yield from leaves(mark.marks)
+        else:
+            yield mark
+
+
+def box_of(mark: Area | Stroke | Disc | Arc | Text) -> Box:
+    """The upright rectangle around a mark (that of an arc is its whole circle's)."""
+    match mark:
+        case Disc() | Arc():
+            (x, y), r = mark.centre, mark.radius
+            return (x - r, y - r, x + r, y + r)
+        case Text():
+            return text_box(mark)
+        case Area():
+            points: Iterable[Point] = mark.rings[0]
+        case Stroke():
+            points = mark.points
+    xs, ys = zip(*points, strict=True)
+    return (min(xs), min(ys), max(xs), max(ys))
+
+
+def bounds(marks: Iterable[Mark]) -> Box:
+    """The rectangle around marks; empty at the origin where there are none."""
+    boxes = [box_of(mark) for mark in leaves(marks)]
+    if not boxes:
+        return (0.0, 0.0, 0.0, 0.0)
+    left, top, right, bottom = zip(*boxes, strict=True)
+    return (min(left), min(top), max(right), max(bottom))
+
+
+LOW = 0.72
+"""Size of a subscript, of the text's."""
+NARROW = frozenset("iljtfrI1.,:;'|!()[]/ -·²°")
+WIDE = frozenset("mwMWOQGCDHNU%@—∞")
+
+
+def text_width(text: str, size: float) -> float:
+    """About how wide a sans-serif text is set, never less than the usual fonts need."""
+    return size * sum(_advance(c) for c in text)
+
+
+def _advance(character: str) -> float:
+    if character in NARROW:
+        return 0.42
+    if character in WIDE:
+        return 0.95
+    if character.isupper() or character in "=+<>~−×":
+        return 0.8
+    return 0.64 if ord(character) < 0x2E80 else 1.1
+
+
+def text_box(text: Text) -> Box:
+    """The rectangle that a text fills: cap height above its middle, subscripts below."""
+    width = sum(text_width(run.text, text.size * (LOW if run.low else 1.0)) for run in text.runs)
+    left = {"start": 0.0, "middle": -width / 2.0, "end": -width}[text.anchor]
+    x, y = text.at
+    below = 0.62 if any(run.low for run in text.runs) else 0.52
+    return (x + left, y - 0.52 * text.size, x + left + width, y + below * text.size)
+
+
+def plain_text(runs: Iterable[Run]) -> str:
+    """The characters of a text."""
+    return "".join(run.text for run in runs)

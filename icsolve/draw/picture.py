@@ -1,0 +1,55 @@
+"""The drawing that is asked for: which steps and panels, what stands above and below them."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from icsolve.case import Case
+from icsolve.construction import Known, Step, all_steps, known_of, needed_steps
+from icsolve.draw.captions import captioned, description
+from icsolve.draw.figure import figure_marks, scene_of
+from icsolve.draw.marks import bounds
+from icsolve.draw.svg import document
+
+PAD = 14.0
+
+
+class Drawing(NamedTuple):
+    """What to draw beside the mechanism and its loads.
+
+    ``centres`` is ``needed``, ``all`` or ``none``; ``step`` cuts the construction after so many
+    centres found; ``circle`` adds the Kennedy circle, ``velocities`` the velocities of the points,
+    ``bodies`` the free-body diagrams of all links.
+    """
+
+    centres: str = "needed"
+    step: int | None = None
+    circle: bool = False
+    velocities: bool = False
+    bodies: bool = False
+
+
+PLAIN = Drawing()
+
+
+def draw(case: Case, drawing: Drawing = PLAIN, known: Known | None = None) -> str:
+    """The drawing of a case as an SVG document, the same bytes every time.
+
+    A case that has no answer is drawn as far as it is known, with the reason below.
+    """
+    known = known or known_of(case, reactions=drawing.bodies)
+    steps = steps_shown(known, drawing)
+    scene = scene_of(known, steps)
+    marks = figure_marks(scene, steps, velocities=drawing.velocities)
+    marks = captioned(known, marks, steps, drawing.step)
+    left, top, right, bottom = bounds(marks)
+    view = (left - PAD, top - PAD, right + PAD, bottom + PAD)
+    return document(marks, view, known.title, description(known))
+
+
+def steps_shown(known: Known, drawing: Drawing) -> tuple[Step, ...]:
+    """The centres to draw, in order."""
+    if drawing.centres == "none" or known.whole is None:
+        return ()
+    steps = all_steps(known) if drawing.centres == "all" else needed_steps(known)
+    return tuple(s for s in steps if drawing.step is None or s.number <= drawing.step)

@@ -1,0 +1,187 @@
+"""Labels where they can be read: beside what they name, on no other label and on no joint.
+
+Each label has candidate places around its anchors. One that touches another label or a joint is out;
+of the rest the one that covers least of links, lines and arrows wins, near before far. Where all
+the near ones are taken it goes farther out, with a thin leader back.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+
+from icsolve.draw.marks import Box, Disc, Group, Mark, Point, Run, Stroke, Text, plain_text, text_width
+from icsolve.draw.marks import LOW as LOW_SIZE
+
+RINGS = ((0.0, 4.0, 9.0), (15.0, 22.0, 30.0), (40.0, 54.0, 70.0), (90.0, 115.0, 145.0))
+"""Distances from the anchor's rim that are tried together."""
+COMPASS = np.array([(math.cos(math.pi * k / 8.0), -math.sin(math.pi * k / 8.0)) for k in range(16)])
+PREFERENCE = np.array([0.0 if k in (2, 6, 14, 10) else 0.6 if k % 4 == 0 else 1.0 for k in range(16)])
+CLEAR = 1.5
+"""Room around each label."""
+GOOD = 14.0
+"""A place of this cost is taken without looking farther."""
+CHUNK = 8
+"""Candidates that are measured together."""
+LEADER = 20.0
+"""From this distance on a leader shows what a label names."""
+
+
+class Label(NamedTuple):
+    """A text to be placed.
+
+    ``anchors`` are points that it may stand beside, best first, ``gap`` the distance kept from them;
+    ``badge`` puts it in a circle (a link's number). ``name`` is the id of its group.
+    """
+
+    name: str
+    runs: tuple[Run, ...]
+    kind: str
+    size: float
+    anchors: tuple[Point, ...]
+    gap: float
+    badge: bool = False
+    leader: bool = True
+
+
+class Soft(NamedTuple):
+    """Something that a label had better not cover, and how much covering a unit of it costs."""
+
+    geometry: shapely.Geometry
+    weight: float
+
+
+class Placer:
+    """Places labels one after another; ``solid`` rectangles are out of bounds for all of them."""
+
+    def __init__(self, solid: Sequence[Box], soft: Sequence[Soft], window: Box) -> None:
+        self.solid = [tuple(box) for box in solid]
+        self.geometries = np.array([s.geometry for s in soft], dtype=object)
+        self.weights = np.array([s.weight for s in soft])
+        self.tree = shapely.STRtree(self.geometries) if soft else None
+        self.window = window
+
+    def put(self, label: Label) -> Group:
+        """The label at its place; what is placed later keeps off it."""
+        width, height = label_size(label)
+        spot = self._best(label, width, height)
+        x, y, anchor = spot
+        half = (width / 2.0, height / 2.0)
+        self.solid.append((x - half[0], y - half[1], x + half[0], y + half[1]))
+        return Group(label.name, "", tuple(_marks(label, (x, y), anchor, half)))
+
+    def _best(self, label: Label, width: float, height: float) -> tuple[float, float, Point]:
+        """The cheapest place: candidates by what their place costs, until no later one can be cheaper."""
+        best: tuple[float, float, float, Point] | None = None
+        for ring in _rings():
+            spots, costs, anchors = _candidates(label, ring, width, height)
+            boxes = np.hstack((spots - (width / 2, height / 2), spots + (width / 2, height / 2)))
+            costs = costs + self._outside(boxes)
+            costs[self._taken(boxes)] = math.inf
+            order = np.argsort(costs, kind="stable")
+            for first in range(0, len(order), CHUNK):
+                some = order[first : first + CHUNK]
+                if costs[some[0]] >= (math.inf if best is None else best[0]):
+                    break
+                full = costs[some] + self._covered(boxes[some])
+                n = int(np.argmin(full))
+                if full[n] < (math.inf if best is None else best[0]):
+                    k = some[n]
+                    best = (float(full[n]), float(spots[k][0]), float(spots[k][1]), label.anchors[anchors[k]])
+            if best is not None and (best[0] <= GOOD or ring[0] >= 40.0):
+                return best[1:]
+        raise AssertionError("the plane has room for every label")
+
+    def _taken(self, boxes: np.ndarray) -> np.ndarray:
+        """Which boxes touch a label or a joint."""
+        if not self.solid:
+            return np.zeros(len(boxes), dtype=bool)
+        solid = np.array(self.solid)
+        left, top, right, bottom = (boxes[:, k, None] for k in range(4))
+        apart = (
+            (left - CLEAR >= solid[:, 2])
+            | (right + CLEAR <= solid[:, 0])
+            | (top - CLEAR >= solid[:, 3])
+            | (bottom + CLEAR <= solid[:, 1])
+        )
+        return ~apart.all(axis=1)
+
+    def _covered(self, boxes: np.ndarray) -> np.ndarray:
+        """What the boxes would cover, by its weight."""
+        costs = np.zeros(len(boxes))
+        if self.tree is None:
+            return costs
+        shapes = shapely.box(*boxes.T)
+        ours, theirs = self.tree.query(shapes, predicate="intersects")
+        cuts = shapely.intersection(shapes[ours], self.geometries[theirs])
+        areas, lengths = shapely.area(cuts), shapely.length(cuts)
+        np.add.at(costs, ours, self.weights[theirs] * np.where(areas > 0.0, areas / 8.0, lengths))
+        return costs
+
+    def _outside(self, boxes: np.ndarray) -> np.ndarray:
+        """How far boxes reach out of the window."""
+        left, top, right, bottom = self.window
+        over = np.maximum(0.0, left - boxes[:, 0]) + np.maximum(0.0, boxes[:, 2] - right)
+        return 0.12 * (over + np.maximum(0.0, top - boxes[:, 1]) + np.maximum(0.0, boxes[:, 3] - bottom))
+
+
+def _rings() -> list[tuple[float, ...]]:
+    """The distances to try, without end in effect: the last are far outside any picture."""
+    return [*RINGS, *((200.0 * 1.6**k, 250.0 * 1.6**k) for k in range(24))]
+
+
+def _candidates(
+    label: Label, ring: tuple[float, ...], width: float, height: float
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Centres of the boxes to try, what their distance and direction cost, and their anchors."""
+    anchors = np.array(label.anchors)
+    reach = label.gap + np.array(ring)
+    across = COMPASS[:, 0] * (reach[:, None] + width / 2.0)
+    down = COMPASS[:, 1] * (reach[:, None] + height / 2.0)
+    spots = anchors[:, None, None, :] + np.stack((across, down), axis=-1)
+    costs = 1.5 * np.arange(len(anchors))[:, None, None] + 0.8 * np.array(ring)[:, None] + PREFERENCE
+    which = np.repeat(np.arange(len(anchors)), len(ring) * len(COMPASS))
+    return spots.reshape(-1, 2), costs.ravel(), which
+
+
+def label_size(label: Label) -> tuple[float, float]:
+    """Width and height of a label."""
+    width = sum(text_width(run.text, label.size * (LOW_SIZE if run.low else 1.0)) for run in label.runs)
+    height = 1.15 * label.size
+    if label.badge:
+        height = 1.6 * label.size
+        return max(width + 0.55 * label.size, height), height
+    return width, height
+
+
+def _marks(label: Label, at: Point, anchor: Point, half: Point) -> list[Mark]:
+    marks: list[Mark] = []
+    nearest = (
+        min(max(anchor[0], at[0] - half[0]), at[0] + half[0]),
+        min(max(anchor[1], at[1] - half[1]), at[1] + half[1]),
+    )
+    if label.leader and math.dist(nearest, anchor) > label.gap + LEADER:
+        marks.append(Stroke((anchor, nearest), "leader"))
+    if label.badge:
+        marks.append(_badge(at, half))
+    marks.append(Text(at, label.runs, label.kind, label.size))
+    return marks
+
+
+def _badge(at: Point, half: Point) -> Mark:
+    """A circle around a number; around a word an oblong."""
+    if half[0] <= half[1] * 1.01:
+        return Disc(at, half[1], "badge")
+    from icsolve.draw.shapes import area, bar
+
+    reach = half[0] - half[1]
+    return area(bar([(at[0] - reach, at[1]), (at[0] + reach, at[1])], half[1]), "badge")
+
+
+def said(label: Label) -> str:
+    """What a label says."""
+    return plain_text(label.runs)

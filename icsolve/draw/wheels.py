@@ -1,0 +1,177 @@
+"""Round things and straight edges of a mechanism, in case units: gears, pulleys, rolling wheels, cams."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from typing import NamedTuple
+
+from icsolve.arithmetic import FLOATS, turn_of
+from icsolve.case import Belt, Case, Contact, Gears, Pin, Roll
+from icsolve.errors import SceneError
+from icsolve.joints import mesh_weights
+from icsolve.plane import Point
+from icsolve.topology import Bond, topology
+
+NEAR = 0.02
+"""A point is a wheel's centre where it is so near, of the radius, to that distance from the contact."""
+
+
+class Wheel(NamedTuple):
+    """A circle that belongs to a link; ``rim`` where its teeth are inside (an annulus)."""
+
+    link: str
+    centre: Point
+    radius: float
+    kind: str
+    rim: bool = False
+
+
+class Edge(NamedTuple):
+    """A straight edge of a link through ``at``; the other body lies on the side of ``normal``."""
+
+    link: str
+    at: Point
+    normal: Point
+
+
+class Loop(NamedTuple):
+    """A belt over two wheels."""
+
+    first: Wheel
+    second: Wheel
+    crossed: bool
+
+
+class Round(NamedTuple):
+    """All of them in one mechanism; ``cams`` are contacts whose first link has no circle to draw."""
+
+    wheels: tuple[Wheel, ...]
+    edges: tuple[Edge, ...]
+    loops: tuple[Loop, ...]
+    cams: tuple[Contact, ...]
+
+
+def round_things(case: Case, points: Mapping[str, Point]) -> Round:
+    """The wheels, edges, belts and cams whose places are known."""
+    wheels: list[Wheel] = []
+    edges: list[Edge] = []
+    loops: list[Loop] = []
+    cams: list[Contact] = []
+    for bond in _meshes(case):
+        if set(bond.pivots) <= set(points):
+            both = _mesh(bond, points)
+            wheels += both
+            if isinstance(bond.joint, Belt):
+                loops.append(Loop(both[0], both[1], bond.joint.crossed))
+    for joint in case.joints:
+        if isinstance(joint, Roll) and joint.at in points:
+            rolled = _rolled(case, joint, points)
+            wheels += [thing for thing in rolled if isinstance(thing, Wheel)]
+            edges += [thing for thing in rolled if isinstance(thing, Edge)]
+        if isinstance(joint, Contact) and joint.at in points:
+            first, second = _touching(case, joint, points)
+            wheels += [thing for thing in (first, second) if isinstance(thing, Wheel)]
+            edges += [thing for thing in (first, second) if isinstance(thing, Edge)]
+            cams += [joint] if first is None else []
+    return Round(tuple(_once(wheels)), tuple(edges), tuple(loops), tuple(cams))
+
+
+def _once(wheels: Iterable[Wheel]) -> Iterable[Wheel]:
+    """Each circle once (a gear may mesh with several)."""
+    seen: dict[tuple[str, int, int, int], Wheel] = {}
+    for wheel in wheels:
+        fine = 1e6 / wheel.radius if wheel.radius else 1.0
+        key = (wheel.link, *(round(v * fine) for v in (*wheel.centre, wheel.radius)))
+        seen.setdefault((key[0], key[1], key[2], key[3]), wheel)
+    return seen.values()
+
+
+def _meshes(case: Case) -> Iterable[Bond]:
+    try:
+        bonds = topology(case).bonds
+    except SceneError:
+        return ()
+    return (bond for bond in bonds if isinstance(bond.joint, Gears | Belt))
+
+
+def _mesh(bond: Bond, points: Mapping[str, Point]) -> tuple[Wheel, ...]:
+    """The two pitch circles, or the two pulleys."""
+    joint = bond.joint
+    assert isinstance(joint, Gears | Belt)
+    a, b = (points[p] for p in bond.pivots)
+    if isinstance(joint, Belt):
+        radii = tuple(abs(r.value) for r in joint.radii)
+    else:
+        p, q = mesh_weights(joint, FLOATS)
+        span, whole = math.dist(a, b), abs(p + q)
+        radii = (abs(q) * span / whole, abs(p) * span / whole) if whole > 1e-9 else (0.0, 0.0)
+    rims = (False, False) if isinstance(joint, Belt) else tuple(n.value < 0 for n in joint.teeth)
+    kind = "pulley" if isinstance(joint, Belt) else "gear"
+    both = zip(bond.links, (a, b), radii, rims, strict=True)
+    return tuple(Wheel(link, centre, radius, kind, rim) for link, centre, radius, rim in both)
+
+
+def _rolled(case: Case, joint: Roll, points: Mapping[str, Point]) -> list[Wheel | Edge]:
+    """Wheels, and edges for the straight ones."""
+    at = points[joint.at]
+    radii: tuple[float | None, ...] = (None, None)
+    if joint.radii is not None:
+        radii = tuple(r.value for r in joint.radii)
+    wheels = [_wheel(case, link, at, r, points) for link, r in zip(joint.links, radii, strict=True)]
+    found: list[Wheel | Edge] = [wheel for wheel in wheels if wheel is not None]
+    for n, link in enumerate(joint.links):
+        other = wheels[1 - n]
+        if wheels[n] is None and other is not None:
+            gap = math.dist(other.centre, at) or 1.0
+            normal = ((other.centre[0] - at[0]) / gap, (other.centre[1] - at[1]) / gap)
+            found.append(Edge(link, at, normal))
+    return found
+
+
+def _wheel(
+    case: Case, link: str, at: Point, radius: float | None, points: Mapping[str, Point]
+) -> Wheel | None:
+    """The circle of a link that rolls at a point; None for a straight one, and where no centre is known."""
+    if radius == 0.0 or (radius is None and link == case.ground):
+        return None
+    pins = [j.at for j in case.joints if isinstance(j, Pin) and link in j.links and j.at in points]
+    if radius is None:
+        found = [points[p] for p in pins if math.dist(points[p], at) > 0.0]
+        return Wheel(link, found[0], math.dist(found[0], at), "roll") if found else None
+    size = abs(radius)
+    near = [*pins, *case.carries.get(link, ()), *points]
+    for p in near:
+        if p in points and abs(math.dist(points[p], at) - size) <= NEAR * size:
+            return Wheel(link, points[p], size, "roll", radius < 0.0)
+    return None
+
+
+def _touching(
+    case: Case, joint: Contact, points: Mapping[str, Point]
+) -> tuple[Wheel | Edge | None, Wheel | Edge]:
+    """The two surfaces of a contact: a circle where its centre is known, else an edge; None: a cam to invent."""
+    at, n = points[joint.at], turn_of(joint.normal.value)
+    back = (-n[0], -n[1])
+    first = _disc(case, joint.links[0], at, back, points, free=True)
+    second = _disc(case, joint.links[1], at, n, points, free=False)
+    if first is None and joint.links[0] == case.ground:
+        return Edge(joint.links[0], at, n), second or Edge(joint.links[1], at, back)
+    return first, second or Edge(joint.links[1], at, back)
+
+
+def _disc(
+    case: Case, link: str, at: Point, side: Point, points: Mapping[str, Point], *, free: bool
+) -> Wheel | None:
+    """A circle about a point of the common normal on the link's side: a pin of it, or a point of no link."""
+    pins = [j.at for j in case.joints if isinstance(j, Pin) and link in j.links]
+    owned = {p for ps in case.carries.values() for p in ps} | {getattr(j, "at", None) for j in case.joints}
+    loose = [p for p in points if p not in owned] if free else []
+    for name in (*loose, *pins):
+        if name not in points:
+            continue
+        dx, dy = points[name][0] - at[0], points[name][1] - at[1]
+        gap = dx * side[0] + dy * side[1]
+        if gap > 0.0 and abs(dx * side[1] - dy * side[0]) <= 0.01 * gap:
+            return Wheel(link, points[name], math.hypot(dx, dy), "cam")
+    return None
