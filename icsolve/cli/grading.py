@@ -61,8 +61,10 @@ def grade_command(**options: Any) -> int:
     from icsolve.grade.tables import HeaderError
 
     try:
-        job = _job(options)
-        return _graded(job, options)
+        from icsolve.grade.run import spare_collector
+
+        spare_collector()
+        return _graded(_job(options), options)
     except CaseError as error:
         complain(str(error))
     except ExistsError as error:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 
 from icsolve.grade.ledger import Ledger
-from icsolve.grade.moments import NEVER, attempt_number, moment
 from icsolve.grade.people import Roster
 from icsolve.grade.shelf import Shelf
 from icsolve.grade.store import Entry, Store
@@ -30,7 +29,6 @@ class Intake:
         self.count = 0
         self._items: dict[str, tuple[str, str]] = {}
         self._people: dict[tuple[str, ...], str] = {}
-        self._times: dict[str, float] = {}
         self._path = ""
 
     def read(self, path: str, mapping: Iterable[tuple[str, str]]) -> Layout:
@@ -51,31 +49,43 @@ class Intake:
         return layout
 
     def _entries(self, table: Table, layout: Layout) -> Iterator[Entry]:
-        read, entry = layout.read, self._entry
+        if layout.cells_of is not None:
+            yield from self._long_entries(table, layout, layout.cells_of)
+            return
         for row in table.rows():
-            for submission in read(row):
-                yield entry(submission)
+            for submission in layout.read(row):
+                yield self._entry(submission)
+
+    def _long_entries(
+        self, table: Table, layout: Layout, cells_of: Callable[[list[str]], tuple[str, ...]]
+    ) -> Iterator[Entry]:
+        """Of a long table: quickly where student and question were met before and the row is whole."""
+        people, items, width = self._people, self._items, len(table.header)
+        for row in table.rows():
+            line, cells = row
+            if len(cells) == width:
+                cells.append("")
+                student, question, answer, unit, direction, attempt, variant, time = cells_of(cells)
+                known, found = people.get((student,)), items.get(question)
+                if known and found is not None and not found[1] and len(answer) < _LONGEST:
+                    yield Entry(known, found[0], line, answer, unit, direction, attempt, variant, time)
+                    continue
+                cells.pop()
+            for submission in layout.read(row):
+                yield self._entry(submission)
 
     def _entry(self, s: Submission) -> Entry:
-        student = self._people.get(s.student)
-        if student is None:
-            student = self._matched(s.student)
+        """Of a student or question that is met for the first time, or of a row that is in trouble."""
+        student = self._people.get(s.student) or self._matched(s.student)
         item, why = self._items.get(s.question) or self._item(s.question)
         trouble = s.trouble or why or ("" if student else "this row has no student's id")
-        time = self._times.get(s.time)
-        if time is None:
-            time = self._time(s.time, s.line)
-        attempt = attempt_number(s.attempt) if s.attempt else 0
         if trouble:
             self.ledger.note(self._path, s.line, trouble, serious=True)
         elif self.roster is not None and student not in self.roster.people:
             self.ledger.note(self._path, s.line, self._stranger(student, s.student))
         answer = s.answer if len(s.answer) <= _LONGEST else s.answer[:_LONGEST] + "..."
-        tried = s.attempt if len(s.attempt) < _LONGEST_NAME else ""
-        return Entry(
-            student, item, attempt, time, s.line, answer, s.unit[:_LONGEST], s.direction[:_LONGEST], tried,
-            s.variant[:_LONGEST_NAME], trouble,
-        )  # fmt: skip
+        texts = [text[:_LONGEST] for text in (s.unit, s.direction, s.attempt, s.variant, s.time)]
+        return Entry._make((student, item, s.line, answer, *texts, trouble))
 
     def _matched(self, ids: tuple[str, ...]) -> str:
         """The student whose ids these are: by the roster, else the first id as it is written."""
@@ -106,17 +116,6 @@ class Intake:
             self.questions[found[0]] = None
         if len(self._items) < 100_000:
             self._items[text] = found
-        return found
-
-    def _time(self, text: str, line: int) -> float:
-        found = moment(text)
-        if found is None:
-            self.ledger.note(
-                self._path, line, "this time can't be read; the order of the rows tells which is last"
-            )
-            found = NEVER
-        if len(self._times) < 100_000:
-            self._times[text] = found
         return found
 
 

@@ -36,16 +36,50 @@ class Judgement(NamedTuple):
 
 
 _NO_PARTS = (False, False, False)
+_ALL_PARTS = (True, True, True)
 
 
 def judge(key: Key, written: Written) -> Judgement:
     """The verdict on an answer to a question that is one number."""
-    if written.flag:
-        return _unjudged(written.flag)
-    factor = 1.0 if written.unit is None else unit_factor(key, written.unit.unit)
-    words = _words(key, written)
-    sign = key.senses.sign(words, key.policy.within) if words is not None else 1
-    value = written.number * (factor or 1.0) * (sign if sign else 1)
+    number, unit, way, _, flag, _ = written
+    if flag:
+        return _unjudged(flag)
+    if key.plain:
+        factor, sign = key.factor(unit), key.sign(way)
+        if factor and sign:
+            value = number * factor * sign
+            if abs(value - key.value) <= key.half:
+                return Judgement(RIGHT, 1.0, _ALL_PARTS, value, abs(value - key.value) / abs(key.value))
+            if not _has_size(key, value) and (factor == 1.0 or not _has_size(key, number)):
+                return _wrong_size(key, value, True, (value > 0.0) == (key.value > 0.0), way is None)
+    return _in_full(key, written)
+
+
+def _has_size(key: Key, value: float) -> bool:
+    return -key.half <= abs(value) - abs(key.value) <= key.half
+
+
+def _wrong_size(key: Key, value: float, unit: bool, direction: bool, unsigned: bool) -> Judgement:
+    """A wrong number, with the causes that were foreseen; ``unsigned``: it may be meant as a size only."""
+    mistakes = key.wrongs.near(value)
+    size = abs(key.value)
+    if not mistakes and unsigned and (value > 0.0 > key.value or key.policy.direction == "ignored"):
+        mistakes = key.wrongs.near(-value)
+    off = abs(abs(value) - size)
+    if off <= _NEAR * key.half * (1.0 + SLACK) and direction and size:
+        mistakes = (*mistakes, Wrong("near-miss", value))
+    parts = (False, unit, direction)
+    code = _codes(mistakes) if mistakes else ""
+    return Judgement(
+        WRONG, share_of(key, parts, mistakes), parts, value, off / size if size else None, code, mistakes
+    )
+
+
+def _in_full(key: Key, written: Written) -> Judgement:
+    """Number, unit and direction apart."""
+    factor = key.factor(written.unit)
+    sign = key.sign(_words(key, written))
+    value = written.number * (factor or 1.0) * (sign or 1)
     size = abs(key.value)
     number = abs(abs(value) - size) <= key.half
     unit = _unit_is_right(key, written, factor)
@@ -56,10 +90,12 @@ def judge(key: Key, written: Written) -> Judgement:
         return Judgement(IN_REVIEW, 0.0, (number, unit, False), value, None, SQUARE)
     direction = _direction_is_right(key, written, value, sign)
     off = abs(abs(value) - size) / size if size else None
-    parts = (number, unit, direction)
     if number and unit and direction:
         return _right(key, written, value, off)
-    mistakes = _mistakes(key, written, value, parts, sign)
+    if not number:
+        return _wrong_size(key, value, unit, direction, written.direction is None)
+    parts = (number, unit, direction)
+    mistakes = _seen(key, written, value, parts, sign)
     return Judgement(WRONG, share_of(key, parts, mistakes), parts, value, off, _codes(mistakes), mistakes)
 
 
@@ -102,26 +138,15 @@ def _right(key: Key, written: Written, value: float, off: float | None) -> Judge
     return Judgement(RIGHT, 1.0, (True, True, True), value, off)
 
 
-def _mistakes(
+def _seen(
     key: Key, written: Written, value: float, parts: tuple[bool, bool, bool], sign: int | None
 ) -> tuple[Wrong, ...]:
-    """The causes of a wrong answer: those that are seen at once, else those that the solver foresaw."""
-    number, unit, direction = parts
-    if number:
-        found = [] if unit else [Wrong(_unit_code(key, written), value)]
-        if not direction:
-            found.append(Wrong(_direction_code(key, written, sign), value))
-        return tuple(found)
-    foreseen = key.wrongs.near(value)
-    if not foreseen and _unsigned(key, written, value):
-        foreseen = key.wrongs.near(-value)
-    near = abs(abs(value) - abs(key.value)) <= _NEAR * key.half * (1.0 + SLACK) and direction and key.value
-    return (*foreseen, Wrong("near-miss", value)) if near else foreseen
-
-
-def _unsigned(key: Key, written: Written, value: float) -> bool:
-    """Whether only a size was given, which may stand for either sense."""
-    return key.policy.direction == "ignored" or (written.direction is None and value > 0.0 > key.value)
+    """What is wrong about a right number: its unit, its sense."""
+    _, unit, direction = parts
+    found = [] if unit else [Wrong(_unit_code(key, written), value)]
+    if not direction:
+        found.append(Wrong(_direction_code(key, written, sign), value))
+    return tuple(found)
 
 
 def _unit_code(key: Key, written: Written) -> str:
@@ -141,6 +166,8 @@ def _direction_code(key: Key, written: Written, sign: int | None) -> str:
 def share_of(key: Key, parts: tuple[bool, bool, bool], mistakes: tuple[Wrong, ...]) -> float:
     """The share of the mark: for the right parts, or for the known mistake, whichever is more."""
     credit = key.policy.credit
+    if credit is None and not key.policy.mistakes:
+        return 0.0
     earned = (
         sum(part for part, right in zip(credit, parts, strict=True) if right) if credit is not None else 0.0
     )
@@ -149,7 +176,7 @@ def share_of(key: Key, parts: tuple[bool, bool, bool], mistakes: tuple[Wrong, ..
 
 
 def _codes(mistakes: tuple[Wrong, ...]) -> str:
-    return " ".join(mistake.code for mistake in mistakes)
+    return mistakes[0].code if len(mistakes) == 1 else " ".join(mistake.code for mistake in mistakes)
 
 
 def feedback(key: AnyKey, judged: Judgement, reveal: bool = False) -> str:

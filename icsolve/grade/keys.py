@@ -27,7 +27,7 @@ from icsolve.grade.course import Policy
 from icsolve.grade.malrules import Wrong, Wrongs, sorted_wrongs
 from icsolve.grade.senses import Senses, senses_of
 from icsolve.grade.tolerance import half_width, in_words, range_in_words
-from icsolve.grade.written import factors_between
+from icsolve.grade.written import Direction, UnitWord, factors_between
 from icsolve.grade.written.unit_words import unit_word
 from icsolve.units import DIMENSIONS, Unit, UnitError, parse_unit
 
@@ -54,6 +54,28 @@ class Key(NamedTuple):
     policy: Policy
     accepted: str
     rule: str
+    factors: dict[str, float | None]
+    """how many of its unit make one of a name that was met; None for another kind"""
+    signs: dict[str, int | None]
+    """what words of direction that were met say of the positive sense"""
+    plain: bool
+    """whether nothing is asked but a right size, sense and unit, where one is given"""
+
+    def factor(self, unit: UnitWord | None) -> float | None:
+        """How many units of the key make one of the answer's; None for another kind."""
+        if unit is None:
+            return 1.0
+        if unit.name not in self.factors:
+            self.factors[unit.name] = unit_factor(self, unit.unit)
+        return self.factors[unit.name]
+
+    def sign(self, words: Direction | None) -> int | None:
+        """+1 or -1 for words with or against the positive sense, 0 for neither; None: a person must look."""
+        if words is None:
+            return 1
+        if words.words not in self.signs:
+            self.signs[words.words] = self.senses.sign(words, self.policy.within)
+        return self.signs[words.words]
 
 
 class PlaceKey(NamedTuple):
@@ -164,14 +186,7 @@ def parsed_unit(name: str) -> Unit:
     return parse_unit(name) if name else Unit(1, 1, 0, DIMENSIONS["number"])
 
 
-def scalar_key(
-    question: str,
-    target: Target,
-    answer: Answer,
-    policy: Policy,
-    wrongs: list[Wrong],
-    senses: Senses | None = None,
-) -> Key:
+def scalar_key(question: str, target: Target, answer: Answer, policy: Policy, wrongs: list[Wrong]) -> Key:
     """The key of a target that is one number.
 
     Raises NoKeyError where the answer has no such value, or the policy's tolerance does not fit it.
@@ -185,24 +200,19 @@ def scalar_key(
     zero = zero_width(target, answer)
     if abs(value) <= _TRUE_ZERO / _OF_LOADS * zero:
         value = 0.0
-    half = half_width(
-        policy.tolerance, value, own_width(policy.tolerance, target, answer, unit, unit_name), zero
-    )
-    found = senses if senses is not None else _senses(target, answer)
-    rule = in_words(policy.tolerance)
-    accepted = range_in_words(value, half, unit_name)
+    width = own_width(policy.tolerance, target, answer, unit, unit_name)
+    half = half_width(policy.tolerance, value, width, zero)
+    foreseen, senses = sorted_wrongs(wrongs, value, half), _senses(target, answer)
+    accepted, rule = range_in_words(value, half, unit_name), in_words(policy.tolerance)
+    plain = _is_plain(policy) and value != 0.0 and senses.any
     return Key(
-        question,
-        value,
-        unit_name,
-        unit,
-        half,
-        found,
-        sorted_wrongs(wrongs, value, half),
-        policy,
-        accepted,
-        rule,
+        question, value, unit_name, unit, half, senses, foreseen, policy, accepted, rule, {}, {}, plain
     )
+
+
+def _is_plain(policy: Policy) -> bool:
+    asked = (policy.unit, policy.direction, policy.strict_case, policy.figures)
+    return asked == ("assumed", "signed", False, 0)
 
 
 def _senses(target: Target, answer: Answer) -> Senses:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from itertools import groupby
+from itertools import chain, groupby, islice, pairwise
+from operator import itemgetter
 from typing import NamedTuple
 
 from icsolve.grade.carried import Intermediate, carried
@@ -13,6 +14,7 @@ from icsolve.grade.judge_place import judge_place
 from icsolve.grade.keys import AnyKey, Key, NoKeyError, PlaceKey
 from icsolve.grade.ledger import Ledger
 from icsolve.grade.malrules import Wrong
+from icsolve.grade.moments import NEVER, attempt_number, moment
 from icsolve.grade.shelf import Shelf, Solved
 from icsolve.grade.store import Entry
 from icsolve.grade.written import MISSING, Reader
@@ -77,10 +79,11 @@ class Marker:
         self.course = course
         self.ledger = ledger
         self.path = path
-        self.questions = sorted(set(questions))
+        self.questions = frozenset(questions)
         self.combined = Combined(Reader(course.decimal))
         self._memory: dict[tuple[str, str, str, str, str], Marked] = {}
         self._missing: dict[str, Marked] = {}
+        self._keys: dict[str, AnyKey] = {}
         self.done: list[Marked] = []
         """What was forgotten of the memory, with its counts."""
 
@@ -88,7 +91,7 @@ class Marker:
         """The results of sorted entries, and of sorted ``students`` who may have given none."""
         waiting = iter(students)
         owed = next(waiting, None)
-        for student, own in groupby(entries, key=lambda entry: entry.student):
+        for student, own in groupby(entries, key=itemgetter(0)):
             while owed is not None and owed < student:
                 yield from self._student(owed, [])
                 owed = next(waiting, None)
@@ -100,61 +103,80 @@ class Marker:
             owed = next(waiting, None)
 
     def _of_student(self, student: str, entries: Iterator[Entry]) -> Iterator[Result]:
-        """In pieces, should one id have an endless number of rows."""
-        chosen: list[Entry] = []
+        """In pieces, should one id have an endless number of rows; rows without an id one by one."""
         if not student:
-            for entry in entries:
-                yield self._result(entry, self._troubled(entry, entry.trouble))
-            return
-        for _, attempts in groupby(entries, key=lambda entry: entry.item):
-            chosen.append(self._chosen(attempts))
-            if len(chosen) >= _AT_ONCE:
-                for entry in chosen:
-                    yield self._result(entry, self._marked(entry))
-                chosen.clear()
-        yield from self._student(student, chosen)
+            return (self._result(entry, self._troubled(entry, entry.trouble)) for entry in entries)
+        chosen = list(islice(entries, _AT_ONCE))
+        if len(chosen) == _AT_ONCE:
+            return self._endless(student, chain(chosen, entries))
+        if len({entry.item for entry in chosen}) < len(chosen):
+            groups = groupby(chosen, key=itemgetter(1))
+            chosen = [self._chosen(list(attempts)) for _, attempts in groups]
+        return self._student(student, chosen)
+
+    def _endless(self, student: str, entries: Iterator[Entry]) -> Iterator[Result]:
+        """Question by question, without what looks at all of them together."""
+        for _, attempts in groupby(entries, key=itemgetter(1)):
+            entry = self._last_of(attempts)
+            yield self._result(entry, self._marked(entry))
+
+    def _last_of(self, attempts: Iterator[Entry]) -> Entry:
+        """The attempt that counts of any number of them."""
+        chosen = next(attempts)
+        for entry in attempts:
+            chosen = self._chosen([chosen, entry])
+        return chosen
 
     def _student(self, student: str, chosen: list[Entry]) -> Iterator[Result]:
         """One student's results, with what is missing, in order of the questions."""
-        marked = {entry.item: (entry, self._marked(entry)) for entry in chosen}
-        self._carry(marked)
+        found = [(entry, self._marked(entry)) for entry in chosen]
+        if any(":" in entry.item for entry in chosen):
+            found = self._carried(found)
         if student:
-            for item in self.questions:
-                if item not in marked:
-                    entry = Entry(student, item, 0, 0.0, 0, "", "", "", "", "", "")
-                    marked[item] = (entry, self._absent(item))
-        for item in sorted(marked):
-            yield self._result(*marked[item])
+            self._add_missing(student, found)
+        for entry, marked in found:
+            marked.count += 1
+            yield Result(student, entry.item, entry.variant, entry.attempt, entry.line, marked)
+
+    def _add_missing(self, student: str, found: list[tuple[Entry, Marked]]) -> None:
+        """What the student owes and did not answer."""
+        missing = self.questions.difference([entry.item for entry, _ in found])
+        if missing:
+            found += [(Entry(student, item, 0), self._absent(item)) for item in missing]
+            found.sort(key=lambda pair: pair[0].item)
 
     def _result(self, entry: Entry, marked: Marked) -> Result:
         marked.count += 1
-        return Result(entry.student, entry.item, entry.variant, entry.tried, entry.line, marked)
+        return Result(entry.student, entry.item, entry.variant, entry.attempt, entry.line, marked)
 
-    def _chosen(self, attempts: Iterator[Entry]) -> Entry:
-        """The attempt that counts; those that nothing tells apart from it are listed."""
-        best = next(attempts)
-        for entry in attempts:
-            if entry.trouble or best.trouble:
-                best = entry if best.trouble else best
-                continue
-            if (entry.attempt, entry.time) == (best.attempt, best.time):
-                self._duplicate(entry, best)
-            if self._is_better(entry, best):
-                best = entry
-        return best
-
-    def _is_better(self, entry: Entry, best: Entry) -> bool:
+    def _chosen(self, attempts: list[Entry]) -> Entry:
+        """The attempt that counts, of several in order of their lines; what nothing tells apart is listed."""
+        good = [entry for entry in attempts if not entry.trouble] or attempts[-1:]
+        ranked = sorted(good, key=self._rank)
+        for before, entry in pairwise(ranked):
+            if self._rank(before) == self._rank(entry):
+                self._duplicate(before, entry)
+        if self.course.attempt == "first":
+            return ranked[0]
         if self.course.attempt == "best":
-            return self._marked(entry).judged.share >= self._marked(best).judged.share
-        return self.course.attempt == "last"
+            return max(reversed(ranked), key=lambda entry: self._marked(entry).judged.share)
+        return ranked[-1]
 
-    def _duplicate(self, entry: Entry, other: Entry) -> None:
-        line = entry.line if self.course.attempt == "first" else other.line
+    def _rank(self, entry: Entry) -> tuple[int, float]:
+        """By the number of the attempt, then by its time."""
+        time = moment(entry.time)
+        if time is None:
+            why = "this time can't be read; the order of the rows tells which is last"
+            self.ledger.note(self.path, entry.line, why)
+        return attempt_number(entry.attempt), NEVER if time is None else time
+
+    def _duplicate(self, before: Entry, entry: Entry) -> None:
+        line = entry.line if self.course.attempt == "first" else before.line
         reason = f"the same student answers the same question again; the {self.course.attempt} row counts"
         self.ledger.note(self.path, line, reason)
 
     def _marked(self, entry: Entry) -> Marked:
-        variant = self.shelf.variant_of(entry.item, entry.student)
+        variant = self.shelf.variant_of(entry.item, entry.student) if self.shelf.varied else ""
         key = (entry.item, variant, entry.answer, entry.unit, entry.direction)
         found = self._memory.get(key)
         if found is None or entry.trouble:
@@ -178,7 +200,7 @@ class Marker:
         if entry.trouble:
             return self._troubled(entry, entry.trouble)
         try:
-            key = self.shelf.key(entry.item, entry.student)
+            key = self._key(entry)
         except NoKeyError as error:
             self.ledger.note(self.path, entry.line, f"not graded: {error}", serious=True)
             return self._troubled(entry, str(error))
@@ -195,6 +217,15 @@ class Marker:
             marked.direction = written.direction.words if written.direction else ""
             marked.given = (judged.value or 0.0,)
         return marked
+
+    def _key(self, entry: Entry) -> AnyKey:
+        """The key of a question: the student's own, where the case has variables."""
+        found = self._keys.get(entry.item)
+        if found is None:
+            found = self.shelf.key(entry.item, entry.student)
+            if not self.shelf.variant_of(entry.item, entry.student):
+                self._keys[entry.item] = found
+        return found
 
     def _place(self, entry: Entry, key: PlaceKey) -> Marked:
         written = read_place(f"{entry.answer} {entry.unit}".strip())
@@ -225,8 +256,9 @@ class Marker:
             self.done.append(found)
         return found
 
-    def _carry(self, marked: dict[str, tuple[Entry, Marked]]) -> None:
-        """Look again at a wrong final answer whose student has a wrong intermediate one."""
+    def _carried(self, found: list[tuple[Entry, Marked]]) -> list[tuple[Entry, Marked]]:
+        """A wrong final answer looked at again where its student has a wrong intermediate one."""
+        marked = {entry.item: (entry, m) for entry, m in found}
         wrong = [item for item, (_, m) in marked.items() if ":" in item and m.judged.verdict == WRONG]
         for case in dict.fromkeys(item.partition(":")[0] for item in wrong):
             final = marked.get(case)
@@ -239,6 +271,7 @@ class Marker:
             again = self._again(solved, final, [step for step in steps if step is not None])
             if again is not None:
                 marked[case] = (final[0], again)
+        return list(marked.values())
 
     def _step(self, solved: Solved, item: str, marked: Marked) -> Intermediate | None:
         try:

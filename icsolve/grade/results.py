@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from functools import lru_cache
 from typing import Any
 
 from icsolve.grade.marking import Marked, Result
@@ -23,19 +24,34 @@ def safe(text: str) -> str:
     return text
 
 
+_PLAIN = re.compile(r"[A-Za-z0-9_.](?:[^,\"\r\n]*[^,\"\r\n ])?\Z|\Z")
+
+
 def cell(text: str) -> str:
     """A cell of a CSV line: safe, and quoted where it must be."""
+    if _PLAIN.match(text):
+        return text
     text = safe(text)
-    if text.isalnum() or not (any(c in text for c in ',"\r\n') or text != text.strip(" ")):
+    if not any(c in text for c in ',"\r\n') and text == text.strip(" "):
         return text
     return '"' + text.replace('"', '""') + '"'
+
+
+_cached = lru_cache(maxsize=4096)(cell)
+"""Students, questions and feedback come again and again."""
 
 
 def number(value: float | None) -> str:
     """The shortest text that gives the number again; '' for none."""
     if value is None:
         return ""
-    return repr(int(value)) if value == int(value) and abs(value) < 1e15 else repr(value)
+    text = repr(value)
+    return text[:-2] if text.endswith(".0") else text
+
+
+@lru_cache(maxsize=1024)
+def _score(value: float) -> str:
+    return f"{value:.10g}"
 
 
 def tail(marked: Marked) -> str:
@@ -43,26 +59,20 @@ def tail(marked: Marked) -> str:
     if not marked.tail:
         judged = marked.judged
         off = "" if judged.off is None else f"{judged.off:.3g}"
-        cells = (
-            cell(marked.raw),
-            number(marked.value),
-            cell(marked.unit),
-            cell(marked.direction),
-            judged.verdict,
-            f"{judged.share * marked.points:.10g}",
-            f"{marked.points:.10g}",
-            off,
-            judged.code,
-            cell(marked.text),
-        )
-        marked.tail = ",".join(cells) + "\n"
+        score = "0" if not judged.share else _score(judged.share * marked.points)
+        read = f"{number(marked.value)},{_cached(marked.unit)},{_cached(marked.direction)}"
+        marks = f"{judged.verdict},{score},{_score(marked.points)},{off},{judged.code}"
+        marked.tail = f"{cell(marked.raw)},{read},{marks},{_cached(marked.text)}\n"
     return marked.tail
 
 
 def line(result: Result) -> str:
     """One line of ``results.csv``."""
-    first = f"{cell(result.student)},{cell(result.item)},{cell(result.variant)},{cell(result.attempt)},"
-    return first + tail(result.marked)
+    student, item, variant, attempt, _, marked = result
+    if not attempt.isalnum():
+        attempt = cell(attempt)
+    rest = marked.tail or tail(marked)
+    return f"{_cached(student)},{_cached(item)},{cell(variant)},{attempt},{rest}"
 
 
 def record(result: Result) -> dict[str, Any]:

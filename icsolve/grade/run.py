@@ -18,11 +18,8 @@ from icsolve.grade.marking import Marked, Marker
 from icsolve.grade.people import Roster, read_roster
 from icsolve.grade.results import HEADER, json_line, line
 from icsolve.grade.shelf import Shelf
-from icsolve.grade.store import Store
+from icsolve.grade.store import Disk, Entry, Store
 from icsolve.grade.tally import Counts, added, tally
-
-_WORTH_TWO = 20_000
-"""Answers from which a second process pays."""
 
 
 class Job(NamedTuple):
@@ -33,6 +30,13 @@ class Job(NamedTuple):
     course: Course = Course()
     roster: str = ""
     jobs: int = 1
+
+
+def spare_collector() -> None:
+    """Millions of small tuples and no cycles: look for garbage seldom."""
+    import gc
+
+    gc.set_threshold(200_000, 20, 100)
 
 
 class Part(NamedTuple):
@@ -91,7 +95,7 @@ def grade(job: Job, sinks: Sinks, progress: Progress = lambda what: None) -> Gra
         folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="icsolve-grade-"))
         parts = list(_parts(job, intake, roster, store.path, ", ".join(paths), folder, sinks))
         progress(f"judging {intake.count} answers")
-        found = list(_done(parts, shelf))
+        found = list(_done(parts, shelf, store))
         _join(parts, sinks)
         for _, notes in found:
             ledger.extend(notes)
@@ -106,7 +110,7 @@ def _parts(
     """The students in as many ranges as there are processes."""
     questions = tuple(sorted(set(job.course.questions) or _asked(intake)))
     students = sorted(set(intake.students) | set(roster.people if roster is not None else ()))
-    count = job.jobs if intake.count >= _WORTH_TWO and len(students) >= 2 * job.jobs else 1
+    count = job.jobs if store and len(students) >= 2 * job.jobs else 1
     cuts = [students[len(students) * k // count] for k in range(1, count)]
     for n, (since, until) in enumerate(zip([None, *cuts], [*cuts, None], strict=True)):
         own = tuple(s for s in students if (since is None or s >= since) and (until is None or s < until))
@@ -130,29 +134,36 @@ def _asked(intake: Intake) -> set[str]:
 Outcome = tuple[dict[str, Counts], list[Noted]]
 
 
-def _done(parts: list[Part], shelf: Shelf) -> Iterable[Outcome]:
+def _done(parts: list[Part], shelf: Shelf, store: Store) -> Iterable[Outcome]:
+    """Each part's outcome: of one part here, of several in as many processes."""
     if len(parts) == 1:
-        return [work(parts[0], shelf)]
+        return [_judged(parts[0], shelf, store.sorted())]
     from concurrent.futures import ProcessPoolExecutor
 
     with ProcessPoolExecutor(len(parts)) as pool:
         return list(pool.map(work, parts))
 
 
-def work(part: Part, shelf: Shelf | None = None) -> Outcome:
-    """Judge the answers of one range of students; results go to the part's own files."""
-    course = part.job.course
-    shelf = shelf if shelf is not None else Shelf(part.job.cases, course)
+def work(part: Part) -> Outcome:
+    """Judge the answers of one range of students, in a process of its own."""
+    spare_collector()
+    disk = Disk(part.store)
+    try:
+        return _judged(part, Shelf(part.job.cases, part.job.course), disk.sorted(part.since, part.until))
+    finally:
+        disk.close()
+
+
+def _judged(part: Part, shelf: Shelf, entries: Iterator[Entry]) -> Outcome:
+    """Judge sorted entries; results go to the part's own files."""
     ledger = Ledger()
-    marker = Marker(shelf, course, ledger, part.path, part.questions)
-    store = Store(part.store)
+    marker = Marker(shelf, part.job.course, ledger, part.path, part.questions)
     with ExitStack() as stack:
-        stack.callback(store.close)
         csv = stack.enter_context(open(part.csv, "w", encoding="utf-8", newline="")) if part.csv else None
         jsonl = (
             stack.enter_context(open(part.jsonl, "w", encoding="utf-8", newline="")) if part.jsonl else None
         )
-        for result in marker.results(store.sorted(part.since, part.until), part.students):
+        for result in marker.results(entries, part.students):
             if csv is not None:
                 csv.write(line(result))
             if jsonl is not None:

@@ -80,6 +80,8 @@ class Shelf:
         self.twice: dict[str, tuple[str, str]] = {}
         for path in _yaml_files(os.fspath(folder)):
             self._add(path)
+        self.varied = False
+        """whether a case with variables has been met"""
         self._lower = {name.lower(): name for name in self.paths}
         self._solved: dict[str, Solved | NoKeyError] = {}
 

@@ -1,68 +1,104 @@
-"""Submissions in order of student and question, sorted on disk so that memory stays bounded."""
+"""Submissions in order of student and question: in memory while they are few, else sorted on disk."""
 
 from __future__ import annotations
 
 import os
-import sqlite3
 import tempfile
 from collections.abc import Iterable, Iterator
+from itertools import islice
 from typing import NamedTuple
 
-_CREATE = """
-create table s (student text, item text, attempt integer, time real, line integer, answer text, unit text,
- direction text, tried text, variant text, trouble text)
-"""
-_INSERT = "insert into s values (?,?,?,?,?,?,?,?,?,?,?)"
-_SELECT = "select * from s {where} order by student, item, attempt, time, line"
+_CREATE = (
+    "create table s (student text, item text, line integer, answer text, unit text, direction text,"
+    " attempt text, variant text, time text, trouble text)"
+)
+_INSERT = "insert into s values (?,?,?,?,?,?,?,?,?,?)"
+_SELECT = "select * from s {where} order by student, item, line"
 _BATCH = 5000
+IN_MEMORY = 150_000
+"""Submissions that are sorted in memory; more go to disk."""
 
 
 class Entry(NamedTuple):
-    """A submission as stored; ``item`` is the question, a case's own before its intermediate ones."""
+    """A submission as stored; ``item`` is the question. Order by the first three is the order of results."""
 
     student: str
     item: str
-    attempt: int
-    time: float
     line: int
-    answer: str
-    unit: str
-    direction: str
-    tried: str
-    variant: str
-    trouble: str
+    answer: str = ""
+    unit: str = ""
+    direction: str = ""
+    attempt: str = ""
+    variant: str = ""
+    time: str = ""
+    trouble: str = ""
 
 
 class Store:
-    """A temporary database of entries; gone when closed."""
+    """Entries; those on disk are in a temporary file, gone when closed."""
 
-    def __init__(self, path: str | None = None) -> None:
-        self._folder = tempfile.TemporaryDirectory(prefix="icsolve-grade-") if path is None else None
-        self.path = (
-            os.path.join(self._folder.name, "answers.sqlite") if self._folder is not None else path or ""
-        )
-        self._database = sqlite3.connect(self.path, isolation_level=None)
-        for pragma in (
-            "journal_mode=off",
-            "synchronous=off",
-            "cache_size=-20000",
-            "temp_store=file",
-        ):
-            self._database.execute(f"pragma {pragma}")
-        if self._folder is not None:
-            self._database.execute(_CREATE)
+    def __init__(self, most: int = IN_MEMORY) -> None:
+        self._few: list[Entry] = []
+        self._most = most
+        self._disk: Disk | None = None
 
     def add(self, entries: Iterable[Entry]) -> int:
         """Store entries; how many there were."""
+        count = 0
+        source = iter(entries)
+        while batch := list(islice(source, _BATCH)):
+            count += len(batch)
+            if self._disk is not None:
+                self._disk.add(batch)
+                continue
+            self._few += batch
+            if len(self._few) > self._most:
+                self._disk = Disk()
+                self._disk.add(self._few)
+                self._few = []
+        return count
+
+    @property
+    def path(self) -> str:
+        """The file on disk that another process can read; '' while all is in memory."""
+        return self._disk.path if self._disk is not None else ""
+
+    def sorted(self) -> Iterator[Entry]:
+        """All entries by student, question and line."""
+        if self._disk is not None:
+            return self._disk.sorted()
+        self._few.sort()
+        return iter(self._few)
+
+    def close(self) -> None:
+        """Forget all, and delete the file."""
+        if self._disk is not None:
+            self._disk.close()
+
+
+class Disk:
+    """A temporary database of entries; with a ``path`` one that another process has written."""
+
+    def __init__(self, path: str = "") -> None:
+        self._folder = None if path else tempfile.TemporaryDirectory(prefix="icsolve-grade-")
+        self.path = path or os.path.join(self._folder.name if self._folder else "", "answers.sqlite")
+        import sqlite3
+
+        self._database = sqlite3.connect(self.path, isolation_level=None)
+        for pragma in ("journal_mode=off", "synchronous=off", "cache_size=-20000", "temp_store=file"):
+            self._database.execute(f"pragma {pragma}")
+        if not path:
+            self._database.execute(_CREATE)
+
+    def add(self, entries: list[Entry]) -> None:
+        """Store entries."""
         cursor = self._database.cursor()
         cursor.execute("begin")
-        before = self._database.total_changes
         cursor.executemany(_INSERT, entries)
         cursor.execute("commit")
-        return self._database.total_changes - before
 
     def sorted(self, since: str | None = None, until: str | None = None) -> Iterator[Entry]:
-        """Entries by student, question, attempt, time and line: students from ``since`` up to ``until``."""
+        """Entries in order, of the students from ``since`` on, before ``until``."""
         clauses = [c for c, bound in (("student >= ?", since), ("student < ?", until)) if bound is not None]
         where = f"where {' and '.join(clauses)}" if clauses else ""
         bounds = [bound for bound in (since, until) if bound is not None]
@@ -71,7 +107,7 @@ class Store:
             yield from map(Entry._make, batch)
 
     def close(self) -> None:
-        """Close and delete."""
+        """Close, and delete what is one's own."""
         self._database.close()
         if self._folder is not None:
             self._folder.cleanup()

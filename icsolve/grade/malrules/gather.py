@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from bisect import bisect_left
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
@@ -81,21 +81,22 @@ class Wrongs(NamedTuple):
 
     def near(self, value: float) -> tuple[Wrong, ...]:
         """The wrong answers that a value may be, simplest cause first, one of each code."""
-        if not math.isfinite(value):
+        values, wrongs, reach = self
+        width = reach * abs(value) * (1.0 + reach)
+        first = bisect_left(values, value - width)
+        last = bisect_right(values, value + width, first)
+        if first == last or not math.isfinite(value):
             return ()
-        width = self.reach * abs(value) * (1.0 + self.reach)
-        start = bisect_left(self.values, value - width)
-        found: dict[str, tuple[float, Wrong]] = {}
-        for index in range(start, len(self.values)):
-            at = self.values[index]
-            if at > value + width:
-                break
-            off = abs(value - at)
-            wrong = self.wrongs[index]
-            if off <= self.reach * abs(at) and off < found.get(wrong.code, (math.inf, wrong))[0]:
-                found[wrong.code] = (off, wrong)
-        ordered = sorted((wrong for _, wrong in found.values()), key=lambda w: ORDER[w.code])
-        return tuple(ordered[:MOST])
+        fitting = [w for w in wrongs[first:last] if abs(value - w.value) <= reach * abs(w.value)]
+        return tuple(fitting) if len(fitting) < 2 else _simplest(fitting, value)
+
+
+def _simplest(fitting: list[Wrong], value: float) -> tuple[Wrong, ...]:
+    """The nearest of each code, simplest code first."""
+    nearest: dict[str, Wrong] = {}
+    for wrong in sorted(fitting, key=lambda w: abs(value - w.value)):
+        nearest.setdefault(wrong.code, wrong)
+    return tuple(sorted(nearest.values(), key=lambda w: ORDER[w.code])[:MOST])
 
 
 def sorted_wrongs(wrongs: Iterable[Wrong], right: float, half: float) -> Wrongs:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 from icsolve.grade.tables.text import Row
@@ -34,9 +34,12 @@ class Layout(NamedTuple):
     """
 
     kind: str
-    read: Callable[[Row], Iterator[Submission]]
+    read: Callable[[Row], Sequence[Submission]]
     questions: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
+    cells_of: Callable[[list[str]], tuple[str, ...]] | None = None
+    """Of a long table: student, question, answer, unit, direction, attempt, variant and time of a full row to
+    which an empty cell was added."""
 
 
 class HeaderError(ValueError):
@@ -45,6 +48,8 @@ class HeaderError(ValueError):
 
 def identifier(text: str) -> str:
     """An id as text: without spaces around it, and without what a spreadsheet puts about it (``="007"``)."""
+    if text.isalnum():
+        return text
     text = text.strip()
     if text.startswith('="') and text.endswith('"'):
         text = text[2:-1]

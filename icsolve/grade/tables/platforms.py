@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Callable, Iterator, Sequence
+from operator import itemgetter
 
 from icsolve.grade.tables.columns import FIELDS, Columns
 from icsolve.grade.tables.layout import HeaderError, Layout, Submission, identifier
@@ -46,17 +47,16 @@ def _long(columns: Columns, kind: str) -> Layout:
     if at[0] is None:
         at[0] = columns.field("email")
     width = len(columns.header)
+    cells_of = itemgetter(*(width if i is None else i for i in at))
 
-    def read(row: Row) -> Iterator[Submission]:
-        cells = row.cells
+    def read(row: Row) -> Sequence[Submission]:
+        line, cells = row
         trouble = _wrong_width(cells, width)
-        short = len(cells) < width
-        texts = ["" if i is None or (short and i >= len(cells)) else cells[i] for i in at]
-        student, question, answer, unit, direction, attempt, variant, time = texts
-        ids = (identifier(student),)
-        yield Submission(row.line, ids, question, answer, unit, direction, attempt, variant, time, trouble)
+        cells = [*cells[:width], *[""] * (width + 1 - len(cells))]
+        student, *texts = cells_of(cells)
+        return (Submission._make((line, (identifier(student),), *texts, trouble)),)
 
-    return Layout(kind, read)
+    return Layout(kind, read, cells_of=cells_of)
 
 
 def _wrong_width(cells: Sequence[str], width: int) -> str:
@@ -92,24 +92,24 @@ def _wide(columns: Columns, kind: str) -> Layout:
 
 def _wide_reader(
     ids: list[int], asked: dict[int, str], tried_at: tuple[int | None, int | None], width: int, kind: str
-) -> Callable[[Row], Iterator[Submission]]:
+) -> Callable[[Row], Sequence[Submission]]:
     attempt, time = tried_at
     skipped = _SKIPPED.get(kind, _no_row)
 
-    def read(row: Row) -> Iterator[Submission]:
+    def read(row: Row) -> Sequence[Submission]:
         cells = row.cells
         if skipped(cells):
-            return
+            return ()
         trouble = _wrong_width(cells, width)
         cells = cells + [""] * (width - len(cells))
         found = (identifier(cells[i]) for i in ids if cells[i].strip())
         student = tuple(dict.fromkeys(found)) or ("",)
         tried = cells[attempt] if attempt is not None else ""
         when = cells[time] if time is not None else ""
-        for index, question in asked.items():
-            yield Submission(
-                row.line, student, question, cells[index], attempt=tried, time=when, trouble=trouble
-            )
+        return [
+            Submission(row.line, student, question, cells[index], "", "", tried, "", when, trouble)
+            for index, question in asked.items()
+        ]
 
     return read
 
@@ -177,16 +177,19 @@ def _prairielearn(columns: Columns, kind: str) -> Layout:
     number = _index(columns, "submission_id")
     width = len(columns.header)
 
-    def read(row: Row) -> Iterator[Submission]:
+    def read(row: Row) -> Sequence[Submission]:
         cells = row.cells
         trouble = _wrong_width(cells, width)
         cells = cells + [""] * (width - len(cells))
         student = (identifier(cells[uid]),)
         attempt = cells[number] if number is not None else ""
         case = cells[qid].strip().rsplit("/", 1)[-1]
+        found = []
         for what, answer, wrong in _json_answers(cells[answers]):
             question = f"{case}:{what}" if what not in ("", "answer", case) else case
-            yield Submission(row.line, student, question, answer, attempt=attempt, trouble=trouble or wrong)
+            why = trouble or wrong
+            found.append(Submission(row.line, student, question, answer, attempt=attempt, trouble=why))
+        return found
 
     return Layout(kind, read)
 

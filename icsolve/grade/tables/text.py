@@ -94,7 +94,7 @@ class Table:
         """The rows that follow, each with the number of its first line; empty ones are passed over."""
         csv.field_size_limit(max(csv.field_size_limit(), LARGEST + 1))
         while not self._lines.done:
-            reader = csv.reader(self._lines, delimiter=self.delimiter)
+            reader = csv.reader(iter(self._lines), delimiter=self.delimiter)
             try:
                 yield from self._records(reader)
             except (_RunawayError, csv.Error):
@@ -106,9 +106,11 @@ class Table:
         lines = self._lines
         pending = lines.pending
         for cells in reader:
-            if lines.ended and _is_open(pending):
-                raise _RunawayError
-            line = lines.number - len(pending) + 1
+            line = lines.number
+            if len(pending) > 1 or lines.ended:
+                if lines.ended and _is_open(pending):
+                    raise _RunawayError
+                line -= len(pending) - 1
             pending.clear()
             if cells:
                 yield Row(line, cells)
@@ -144,25 +146,29 @@ class _Lines:
         """Whether all lines have been read."""
         return self.ended and not self._again
 
-    def __iter__(self) -> _Lines:
-        return self
+    def __iter__(self) -> Iterator[str]:
+        pending, again, readline = self.pending, self._again, self._file.readline
+        while True:
+            if len(pending) >= _MOST_LINES:
+                raise _RunawayError
+            line = again.pop() if again else readline(LARGEST)
+            if not line:
+                self.ended = True
+                return
+            self.number += 1
+            if "\0" in line or len(line) == LARGEST:
+                line = self._mended(line)
+            pending.append(line)
+            yield line
 
-    def __next__(self) -> str:
-        if len(self.pending) >= _MOST_LINES:
-            raise _RunawayError
-        line = self._again.pop() if self._again else self._file.readline(LARGEST)
-        if not line:
-            self.ended = True
-            raise StopIteration
-        self.number += 1
+    def _mended(self, line: str) -> str:
+        """Without nul characters; an overlong line empty."""
         if len(line) == LARGEST and line[-1] not in "\r\n":
             self._skip_rest()
-            line = "\n"
+            return "\n"
         if "\0" in line:
-            line = line.replace("\0", "")
             self._report(self.number, "nul characters are taken out of this line")
-        self.pending.append(line)
-        return line
+        return line.replace("\0", "")
 
     def _skip_rest(self) -> None:
         """Pass over what is left of a line that is too long."""
