@@ -18,7 +18,7 @@ Scalar = Any
 def magnitude(value: Scalar) -> float:
     """Largest absolute value: of a float, a number on a tape, an array."""
     size = abs(value)
-    return float(size.max() if hasattr(size, "max") else size)
+    return size if type(size) is float else float(size.max() if hasattr(size, "max") else size)
 
 
 def turn_of(degrees: float) -> tuple[float, float]:

@@ -18,9 +18,12 @@ Points = Mapping[str, Point]
 
 def freedoms(bond: Bond, points: Points, arithmetic: Arithmetic) -> tuple[Triple, ...]:
     """Basis twists (normalised frame) that the bond leaves to its two bodies."""
-    if isinstance(bond.joint, Gears | Belt):
+    joint = bond.joint
+    if type(joint) is Pin:
+        return (pin_twist(points[joint.at]),)
+    if isinstance(joint, Gears | Belt):
         return _mesh(bond, points, arithmetic)
-    return joint_freedoms(bond.joint, points, arithmetic)
+    return joint_freedoms(joint, points, arithmetic)
 
 
 def joint_freedoms(joint: Joint, points: Points, arithmetic: Arithmetic) -> tuple[Triple, ...]:

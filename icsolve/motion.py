@@ -10,7 +10,7 @@ from icsolve.case import Case, KnownCentre, Roll
 from icsolve.errors import SceneError, Status
 from icsolve.figure.frame import Frame
 from icsolve.joints import Points, freedoms, points_of
-from icsolve.loops import Bases, LoopMotions, all_motions
+from icsolve.loops import ORIGIN, Bases, LoopMotions, all_motions
 from icsolve.plan import Plan
 from icsolve.plane import Triple, subtract
 from icsolve.sentences import contradiction, near_structure, structure
@@ -39,7 +39,7 @@ def needed_bonds(plan: Plan | None, top: Topology) -> tuple[int, ...]:
     """The bonds whose places the plan needs; every one where the plan is not closed."""
     if plan is None or not plan.closed:
         return tuple(range(len(top.bonds)))
-    return tuple(dict.fromkeys((plan.entry, *(k for group in plan.groups for k in group.bonds))))
+    return plan.bonds
 
 
 def needed_points(bonds: tuple[int, ...], top: Topology) -> list[str]:
@@ -49,14 +49,14 @@ def needed_points(bonds: tuple[int, ...], top: Topology) -> list[str]:
 
 def by_plan(plan: Plan, top: Topology, points: Points, arithmetic: Arithmetic) -> Motions | None:
     """The one motion by the groups of the plan; None where a group is singular."""
-    bases = {k: freedoms(top.bonds[k], points, arithmetic) for k in needed_bonds(plan, top)}
+    bases = {k: freedoms(top.bonds[k], points, arithmetic) for k in plan.bonds}
     found = run(plan, top, bases)
     if any(is_singular(closure) for closure in found.closures):
         return None
     frame = found.twists.get(top.ground)
     twists: dict[str, tuple[Triple, ...]] = {}
     for body, twist in found.twists.items():
-        relative = twist if frame is None else subtract(twist, frame)
+        relative = twist if frame is None or frame is ORIGIN else subtract(twist, frame)
         for link in top.members[body]:
             twists[link] = (relative,)
     return Motions(twists, bases, 1, 0, found.closures, ())

@@ -43,6 +43,8 @@ class Plan(NamedTuple):
     closed: bool
     bodies: frozenset[int]
     """the bodies whose twists the plan finds"""
+    bonds: tuple[int, ...] = ()
+    """the bonds whose places it needs"""
 
 
 CANDIDATES = 12
@@ -167,7 +169,8 @@ def _pruned(top: Topology, plan: Plan, wanted: Collection[int]) -> Plan:
     entry = top.bonds[plan.entry]
     bodies = frozenset({entry.a, entry.b}.union(*(group.bodies for group in kept)))
     groups = tuple(_classified(top, group) for group in reversed(kept))
-    return plan._replace(groups=groups, bodies=bodies)
+    bonds = dict.fromkeys((plan.entry, *(k for group in kept for k in group.bonds)))
+    return plan._replace(groups=groups, bodies=bodies, bonds=tuple(bonds))
 
 
 def _classified(top: Topology, group: Group) -> Group:

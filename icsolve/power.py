@@ -27,7 +27,8 @@ class Wrench(NamedTuple):
     ``unit`` is a wrench in the normalised frame (a force of length 1, or a couple of 1); ``gain``
     brings the load's own unit to force units, or force times case length; ``measure`` is the power
     of two that brings case lengths into the normalised frame (for a torque, else 1), kept apart so
-    that nothing overflows. ``root`` names the load whose number it takes, ``ratio`` times as large.
+    that nothing overflows. ``root`` names the load whose number it takes, ``ratio`` times as large, and
+    ``source`` is that load.
     """
 
     load: Load
@@ -36,7 +37,8 @@ class Wrench(NamedTuple):
     gain: Scalar
     root: str
     ratio: Scalar
-    measure: float = 1.0
+    measure: float
+    source: Load
 
 
 def wrenches(case: Case, frame: Frame, points: Points, arithmetic: Arithmetic) -> tuple[Wrench, ...]:
@@ -44,10 +46,10 @@ def wrenches(case: Case, frame: Frame, points: Points, arithmetic: Arithmetic) -
     by_name = {load.name: load for load in case.loads}
     result = []
     for load in case.loads:
-        root, ratio = _root(load, by_name, arithmetic)
+        source, ratio = _source(load, by_name, arithmetic)
         unit, gain = _unit_wrench(load, case, frame, points, arithmetic)
         measure = frame.scale if isinstance(load, Torque) else 1.0
-        result.append(Wrench(load, reacting(case, load), unit, gain, root, ratio, measure))
+        result.append(Wrench(load, reacting(case, load), unit, gain, source.name, ratio, measure, source))
     return tuple(result)
 
 
@@ -76,13 +78,14 @@ def line_of(load: Load) -> tuple[str, str] | None:
     return None
 
 
-def _root(load: Load, by_name: Mapping[str, Load], arithmetic: Arithmetic) -> tuple[str, Scalar]:
+def _source(load: Load, by_name: Mapping[str, Load], arithmetic: Arithmetic) -> tuple[Load, Scalar]:
+    """The load whose number another takes, and how many times."""
     ratio: Scalar = 1.0
     while not isinstance(load, ForceVector) and isinstance(load.value, Like):
         if load.value.times is not None:
             ratio = ratio * arithmetic.given(load.value.times)
         load = by_name[load.value.load]
-    return load.name, ratio
+    return load, ratio
 
 
 def _unit_wrench(
@@ -177,13 +180,10 @@ def solve_balance(b: Balance, arithmetic: Arithmetic) -> Solution:
     roots = [w.load.name for w in b.wrenches if is_unknown(w.load)]
     measures = {w.load.name: w.measure for w in b.wrenches}
     scale = force_scale(b)
-    rows, idle = [], []
-    for m, factors in enumerate(b.factors):
-        row = _row(b, m, factors, roots, scale, arithmetic)
-        rows.append(row)
-        if all(value == 0.0 for value in row):
-            idle.append(m)
-    return _solved(rows, roots, tuple(idle), [(scale, measures[root]) for root in roots])
+    shares = [_share(w, measures, scale, arithmetic) for w in b.wrenches]
+    rows = [_row(shares, *motion, roots, arithmetic) for motion in zip(b.factors, b.sizes, strict=True)]
+    idle = tuple(m for m, row in enumerate(rows) if all(value == 0.0 for value in row))
+    return _solved(rows, roots, idle, [(scale, measures[root]) for root in roots])
 
 
 def is_unknown(load: Load) -> bool:
@@ -202,7 +202,7 @@ def force_scale(b: Balance) -> float:
     """A power of two that brings the largest known load near 1, so that nothing overflows."""
     largest = 0.0
     for w in b.wrenches:
-        value = known_value(w, b)
+        value = known_value(w)
         if value is not None:
             largest = max(largest, abs(value) * abs(w.gain) * w.measure)
     return math.ldexp(1.0, -math.frexp(largest)[1]) if 0.0 < largest < math.inf else 1.0
@@ -213,39 +213,41 @@ def vector_size(load: ForceVector) -> float:
     return math.hypot(load.x.value, load.y.value)
 
 
-def known_value(w: Wrench, b: Balance) -> float | None:
+def known_value(w: Wrench) -> float | None:
     """The number of a load in its own unit; None where it hangs on an unknown."""
-    root = next(other.load for other in b.wrenches if other.load.name == w.root)
-    if isinstance(root, ForceVector):
-        return vector_size(root)
-    if root.value is None or isinstance(root.value, Like):
-        return None
-    return root.value.value
+    if isinstance(w.source, ForceVector):
+        return vector_size(w.source)
+    number = w.source.value
+    return None if number is None or isinstance(number, Like) else number.value
+
+
+def _share(
+    w: Wrench, measures: Mapping[str, float], scale: float, arithmetic: Arithmetic
+) -> tuple[str, Scalar]:
+    """The unknown that a load belongs to and how many times; a known load, to '' by its (scaled) number."""
+    source = w.source
+    if isinstance(source, ForceVector):
+        return "", vector_size(source) * scale * w.measure * w.ratio
+    if source.value is None:
+        return w.root, w.ratio * (w.measure / measures[w.root])
+    assert not isinstance(source.value, Like)
+    return "", arithmetic.given(source.value) * scale * w.measure * w.ratio
 
 
 def _row(
-    b: Balance, m: int, factors: Sequence[Scalar], roots: list[str], scale: float, arithmetic: Arithmetic
+    shares: Sequence[tuple[str, Scalar]],
+    factors: Sequence[Scalar],
+    sizes: Sequence[float],
+    roots: list[str],
+    arithmetic: Arithmetic,
 ) -> list[Scalar]:
-    """Factor of each unknown in motion m, then the (scaled) power of the known loads."""
-    measures = {w.load.name: w.measure for w in b.wrenches}
-    sums: dict[str, Scalar] = dict.fromkeys([*roots, ""], 0.0)
-    sizes: dict[str, float] = dict.fromkeys([*roots, ""], 0.0)
-    for w, factor, size in zip(b.wrenches, factors, b.sizes[m], strict=True):
-        if w.root in roots:
-            key, amount = w.root, w.ratio * (w.measure / measures[w.root])
-        else:
-            key, amount = "", _amount(w, b, arithmetic) * scale * w.measure * w.ratio
+    """Factor of each unknown in one motion, then the (scaled) power of the known loads."""
+    sums: dict[str, Scalar] = dict.fromkeys((*roots, ""), 0.0)
+    terms: dict[str, float] = dict.fromkeys(sums, 0.0)
+    for (key, amount), factor, size in zip(shares, factors, sizes, strict=True):
         sums[key] = sums[key] + amount * factor
-        sizes[key] += abs(amount) * size
-    return [0.0 if arithmetic.vanishes(sums[key], sizes[key]) else sums[key] for key in (*roots, "")]
-
-
-def _amount(w: Wrench, b: Balance, arithmetic: Arithmetic) -> Scalar:
-    root = next(other.load for other in b.wrenches if other.load.name == w.root)
-    if isinstance(root, ForceVector):
-        return vector_size(root)
-    assert root.value is not None and not isinstance(root.value, Like)
-    return arithmetic.given(root.value)
+        terms[key] += abs(amount) * size
+    return [0.0 if arithmetic.vanishes(sums[key], terms[key]) else sums[key] for key in sums]
 
 
 def _solved(

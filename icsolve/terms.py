@@ -17,7 +17,7 @@ def load_values(balance: Balance, unknowns: Mapping[str, Value]) -> dict[str, fl
     """The number of every load, known or found, in its own unit."""
     values = {}
     for w in balance.wrenches:
-        known = known_value(w, balance)
+        known = known_value(w)
         if known is None:
             known = unknowns[w.root].value if w.root in unknowns else 0.0
         values[w.load.name] = float(w.ratio) * known + 0.0
@@ -34,7 +34,7 @@ def power_terms(
         size = max(balance.sizes[m][n] for m in motions)
         factor = speed.particular_of(row, size) * (w.measure / frame.scale)
         value, name = values[w.load.name], w.load.name
-        unknown = known_value(w, balance) is None
+        unknown = known_value(w) is None
         unit = unit_of(w.load, case)
         yield Term(name, w.load.link, value, unit, factor, value * factor, unknown, _where(case, w))
 

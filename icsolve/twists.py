@@ -57,8 +57,9 @@ class _Pool:
     def now(self, body: int) -> Triple:
         """The twist at the present level."""
         twist = self.twists[body]
-        for factor in self.factors[self.levels[body] :]:
-            twist = times(factor, twist)
+        if twist is not ORIGIN:
+            for factor in self.factors[self.levels[body] :]:
+                twist = times(factor, twist)
         self.put(body, twist, len(self.factors))
         return twist
 
@@ -69,7 +70,9 @@ class _Pool:
             suffix.append(suffix[-1] * factor)
         last = len(self.factors)
         return {
-            body: twist if self.levels[body] == last else times(suffix[last - self.levels[body]], twist)
+            body: twist
+            if self.levels[body] == last or twist is ORIGIN
+            else times(suffix[last - self.levels[body]], twist)
             for body, twist in self.twists.items()
         }
 
@@ -163,6 +166,8 @@ def _eliminated(group: Group, top: Topology, bases: Bases, pool: _Pool) -> tuple
 
 SINGULAR = 64 * ROUNDING
 """A determinant below this fraction of the products that it is summed from is zero."""
+CLEAR = 1e-6
+"""Above this it is not: in the normalised frame the products are of order 1."""
 
 
 def is_singular(closure: Closure) -> bool:
@@ -178,6 +183,8 @@ def is_dead(closure: Closure) -> bool:
     """Whether D vanishes: what drives the group from before stands still."""
     if not closure.columns:
         return bool(abs(closure.factor) <= SINGULAR * max(map(abs, closure.numerators)))
+    if abs(closure.factor) > CLEAR:
+        return False
     *bases, _ = closure.columns
     return bool(abs(closure.factor) <= SINGULAR * products(*bases))
 

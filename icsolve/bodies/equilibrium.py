@@ -106,7 +106,7 @@ SPENT_TRIES = (1e-12, 1e-11, 1e-10, 1e-14, 1e-15)
 
 def _share(w: Wrench, balance: Balance, roots: Sequence[str], known: int, scale: float) -> tuple[int, float]:
     """The parameter that a load's number belongs to, and its factor."""
-    value = known_value(w, balance)
+    value = known_value(w)
     if value is None:
         return known + 1 + roots.index(w.root), float(w.ratio)
     return known, value * scale * float(w.ratio)
