@@ -76,7 +76,8 @@ def text(answer: Answer, influence: bool, tolerance: float | None, digits: int) 
         if tolerance is not None:
             reach = format(band(answer, load, tolerance), ".2g")
             unit = answer.case.units.length
-            lines.append(f"{load} within {reach} {found.unit} where the drawing is off by {tolerance:g} {unit}")
+            off = f"where the drawing is off by {tolerance:g} {unit}"
+            lines.append(f"{load} within {reach} {found.unit} {off}")
         if influence:
             lines += [f"Sensitivity of {load}, in % a % and in {found.unit} a unit of the number"]
             lines += [f"  {row}" for row in _rows(influences(answer, load), digits)]

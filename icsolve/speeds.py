@@ -155,8 +155,8 @@ def _check_direction(given: Given, v: Point, along: Point) -> None:
         assert given.angle is not None
         raise SceneError(
             Status.INCONSISTENT,
-            f"point {given.point} of link {given.link} can only move at {own:.4g} or {own + 180.0:.4g} deg in "
-            f"this position, not at {given.angle.value:g} deg: correct the angle of `motion`, or leave it out.",
+            f"point {given.point} of link {given.link} can only move at {own:.4g} or {own + 180.0:.4g} deg "
+            f"in this position, not at {given.angle.value:g} deg: correct the angle of `motion`.",
         )
 
 
@@ -219,7 +219,7 @@ def point_velocities(
 
 
 def moving_points(case: Case, link: str) -> list[str]:
-    """The points whose velocity on a link is told: those that it carries, and those with a published speed."""
+    """The points whose velocity on a link is told: those that it carries or whose speed is published."""
     asked = [e.target.point for e in case.expect if isinstance(e.target, SpeedIs) and e.target.link == link]
     return list(dict.fromkeys((*case.carries.get(link, ()), *asked)))
 

@@ -13,7 +13,7 @@ MOST = 100
 """After so many problems a file is not read further."""
 
 
-class Stop(Exception):  # noqa: N818  (not an error of its own: the problem is already noted)
+class Stop(Exception):
     """Reading cannot go on; what is wrong is in the problems."""
 
 
