@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, overload
 
 from icsolve.case import Case, Pair
 
@@ -25,6 +25,9 @@ class Found(NamedTuple):
     sense: str
     error: float | None = None
     why: str = ""
+    holds: tuple[float, float] | None = None
+    """with friction and no motion: the range in which it holds; infinite where no value moves it"""
+    self_locking: bool = False
 
 
 class Centre(NamedTuple):
@@ -91,6 +94,32 @@ class Deferred(Mapping[K, V]):
         return repr(self._made)
 
 
+class Later(Sequence[V]):
+    """A sequence that is made when it is first looked into."""
+
+    def __init__(self, make: Callable[[], Sequence[V]]) -> None:
+        self._make = make
+
+    @cached_property
+    def _made(self) -> Sequence[V]:
+        return self._make()
+
+    @overload
+    def __getitem__(self, index: int) -> V: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> Sequence[V]: ...
+
+    def __getitem__(self, index: int | slice) -> V | Sequence[V]:
+        return self._made[index]
+
+    def __len__(self) -> int:
+        return len(self._made)
+
+    def __repr__(self) -> str:
+        return repr(self._made)
+
+
 @dataclass(frozen=True, eq=False)
 class Answer:
     """All that was found of one case.
@@ -112,8 +141,8 @@ class Answer:
     """unknown / known where there is one of each: the mechanical advantage (or its like)"""
     mobility: int | None = None
     notes: tuple[str, ...] = ()
-    skipped: tuple[str, ...] = ()
-    steps: tuple[str, ...] = ()
+    skipped: Sequence[str] = ()
+    steps: Sequence[str] = ()
     errors: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
     """bounds on the errors of ``rates`` by link; those of centres stand with them"""
     sensitivities: Mapping[str, Mapping[str, float]] = field(default_factory=dict)

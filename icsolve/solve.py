@@ -10,8 +10,10 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 from icsolve import power, sentences, speeds, verdicts
-from icsolve.answer import Answer, Centre, Deferred, Found
+from icsolve.answer import Answer, Centre, Deferred, Found, Later, Term
 from icsolve.arithmetic import FLOATS
 from icsolve.bounds import (
     Bounded,
@@ -82,20 +84,91 @@ def solve(
         raise
     verdicts.refuse_unbalanced(case, program.top, outcome.motions, outcome.balance, outcome.solution)
     values = bounded_values(scene) if scene else unbounded_values(outcome)
-    answer = _answer(program, plain(outcome), values, scene)
-    return _with_bodies(answer, program, plain(outcome), values) if reactions else answer
+    parts = _Parts(program, outcome, values, scene)
+    return _with_bodies(parts) if reactions else parts.answer()
 
 
-def _with_bodies(answer: Answer, program: Program, outcome: Outcome, values: dict[str, Value]) -> Answer:
+class _Parts:
+    """The parts of an answer, each made when somebody looks into it."""
+
+    def __init__(
+        self, program: Program, outcome: Outcome, unknowns: dict[str, Value], scene: Bounded | None
+    ) -> None:
+        self.program, self.case, self.figure = program, program.case, program.figure
+        self.traced, self.unknowns, self.scene = outcome, unknowns, scene
+
+    @cached_property
+    def outcome(self) -> Outcome:
+        """In floats, without the tape."""
+        return plain(self.traced)
+
+    @cached_property
+    def speed(self) -> speeds.Speed:
+        """Which motion is meant, and how fast."""
+        return speeds.speed_of(self.case, self.outcome.motions.twists, self.figure.frame, self.figure.points)
+
+    def answer(self) -> Answer:
+        """The answer as frozen values; a given motion that can't be is refused."""
+        balance, motions = self.traced.balance, self.traced.motions
+        values = load_values(balance, self.unknowns)
+        moving = self._moving() if self.program.want.rates else (None, None)
+        if self.case.motion:
+            _ = self.speed
+        return Answer(
+            case=self.case,
+            answers=_found(self.case, balance, self.unknowns, values),
+            centres=Deferred(self._centres),
+            rates=moving[0],
+            velocities=moving[1],
+            points=Deferred(lambda: _shown(self.figure)),
+            terms=Later(lambda: self._terms(values)),
+            advantage=advantage(balance, values, self.unknowns),
+            mobility=motions.mobility,
+            notes=(*self.figure.notes, *motions.notes, *_notes(self.program.top, self.traced)),
+            skipped=Later(lambda: _skipped(self.program, self.traced)),
+            steps=Later(lambda: _steps(self.program)),
+            sensitivities=Deferred(lambda: slopes(self.scene) if self.scene else {}),
+            errors=Deferred(self._errors),
+        )
+
+    def _moving(self) -> tuple[dict[str, float | str], dict[tuple[str, str], tuple[float, float] | str]]:
+        """Link rates and point velocities."""
+        case, twists, figure = self.case, self.outcome.motions.twists, self.figure
+        velocities = speeds.point_velocities(case, twists, self.speed, figure.frame, figure.points)
+        return speeds.link_rates(case, twists, self.speed), velocities
+
+    def _terms(self, values: dict[str, float]) -> tuple[Term, ...]:
+        balance = self.outcome.balance
+        return tuple(power_terms(self.case, self.figure.frame, balance, values, self.speed))
+
+    def _errors(self) -> dict[str, dict[str, float]]:
+        if self.scene is None or not self.program.want.rates:
+            return {}
+        return {"rates": rate_errors(self.scene, self.speed)}
+
+    def _centres(self) -> dict[Pair, Centre]:
+        """The centres that are asked for: all, or those of the loaded links."""
+        case, figure, twists = self.case, self.figure, self.outcome.motions.twists
+        if case.motion:
+            twists = {link: speeds.meant(twists, self.speed, link) for link in twists}
+        finder = CentreFinder(case, self.program.top, twists, figure.frame, figure.points, FLOATS)
+        pairs = [pair for pair in wanted_pairs(case, self.program.want) if {*pair} <= twists.keys()]
+        found = finder.find(pairs, self.outcome.motions.slack)
+        if self.scene is None:
+            return found
+        return {pair: c._replace(error=centre_error(self.scene, c)) for pair, c in found.items()}
+
+
+def _with_bodies(parts: _Parts) -> Answer:
     """The answer with the reactions, and with the unknown loads as free bodies give them."""
     from icsolve.bodies.statics import free_bodies
     from icsolve.bodies.ties import Position
 
-    figure, moves = program.figure, outcome.motions
+    figure, moves = parts.figure, parts.outcome.motions
     scale, slack = figure.frame.scale, float(moves.slack)
-    place = Position(program.case, program.top, figure.points, scale, moves.twists, slack)
-    by_power = {root: (value.value, value.error or 0.0) for root, value in values.items()}
-    return free_bodies(place, figure.frame, outcome.balance, by_power).added_to(answer)
+    place = Position(parts.case, parts.program.top, figure.points, scale, moves.twists, slack)
+    by_power = {root: (value.value, value.error or 0.0) for root, value in parts.unknowns.items()}
+    return free_bodies(place, figure.frame, parts.outcome.balance, by_power).added_to(parts.answer())
 
 
 def _structure(program: Program, refusal: SceneError) -> Answer:
@@ -103,31 +176,6 @@ def _structure(program: Program, refusal: SceneError) -> Answer:
     from icsolve.bodies.statics import structure
 
     return structure(program, refusal)
-
-
-def _answer(program: Program, outcome: Outcome, unknowns: dict[str, Value], scene: Bounded | None) -> Answer:
-    """The answer as frozen values."""
-    case, want, figure = program.case, program.want, program.figure
-    twists, balance = outcome.motions.twists, outcome.balance
-    speed = speeds.speed_of(case, twists, figure.frame, figure.points)
-    values = load_values(balance, unknowns)
-    moving = want.rates or None
-    return Answer(
-        case=case,
-        answers=_found(case, balance, unknowns, values),
-        centres=Deferred(lambda: _centres(program, outcome, speed, scene)),
-        rates=moving and speeds.link_rates(case, twists, speed),
-        velocities=moving and speeds.point_velocities(case, twists, speed, figure.frame, figure.points),
-        points=Deferred(lambda: _shown(figure)),
-        terms=tuple(power_terms(case, figure.frame, balance, values, speed)),
-        advantage=advantage(balance, values, unknowns),
-        mobility=outcome.motions.mobility,
-        notes=(*figure.notes, *outcome.motions.notes, *_notes(program.top, outcome)),
-        skipped=_skipped(program, outcome),
-        steps=_steps(program),
-        sensitivities=Deferred(lambda: slopes(scene) if scene else {}),
-        errors=Deferred(lambda: {"rates": rate_errors(scene, speed)} if scene and moving else {}),
-    )
 
 
 def _shown(figure: Figure) -> dict[str, tuple[float, float]]:
@@ -148,21 +196,6 @@ def _found(
             sense = sense_of(w, values[name])
             found[name] = Found(values[name], unit_of(w.load, case), sense, error, unknown.why)
     return found
-
-
-def _centres(
-    program: Program, outcome: Outcome, speed: speeds.Speed, scene: Bounded | None
-) -> dict[Pair, Centre]:
-    """The centres that are asked for: all, or those of the loaded links."""
-    case, figure, twists = program.case, program.figure, outcome.motions.twists
-    if case.motion:
-        twists = {link: speeds.meant(twists, speed, link) for link in twists}
-    finder = CentreFinder(case, program.top, twists, figure.frame, figure.points, FLOATS)
-    pairs = [pair for pair in wanted_pairs(case, program.want) if {*pair} <= twists.keys()]
-    found = finder.find(pairs, outcome.motions.slack)
-    if scene is None:
-        return found
-    return {pair: centre._replace(error=centre_error(scene, centre)) for pair, centre in found.items()}
 
 
 def wanted_pairs(case: Case, want: Want) -> list[Pair]:
