@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from itertools import chain, groupby, islice, pairwise
 from operator import itemgetter
-from typing import NamedTuple
 
 from icsolve.grade.carried import Intermediate, carried
 from icsolve.grade.course import Course
@@ -14,59 +13,19 @@ from icsolve.grade.judge_place import judge_place
 from icsolve.grade.keys import AnyKey, Key, NoKeyError, PlaceKey
 from icsolve.grade.ledger import Ledger
 from icsolve.grade.malrules import Wrong
+from icsolve.grade.marked import Marked, Result
 from icsolve.grade.moments import NEVER, attempt_number, moment
 from icsolve.grade.shelf import Shelf, Solved
 from icsolve.grade.store import Entry
+from icsolve.grade.tally import Counts, Tally
 from icsolve.grade.written import MISSING, Reader
 from icsolve.grade.written.combined import Combined
 from icsolve.grade.written.place import read_place
 
-_MEMORY = 50_000
+_MEMORY = 40_000
 """Different answers that are remembered with their verdicts; a class repeats itself."""
 _AT_ONCE = 5000
 """Answers of one student that are looked at together."""
-
-
-class Marked:
-    """An answer judged: the same for every student who writes the same to the same question."""
-
-    __slots__ = (
-        "count",
-        "direction",
-        "given",
-        "item",
-        "judged",
-        "points",
-        "raw",
-        "tail",
-        "text",
-        "unit",
-        "value",
-    )
-
-    def __init__(self, item: str, raw: str, judged: Judgement, points: float, text: str) -> None:
-        self.item = item
-        self.raw = raw
-        self.judged = judged
-        self.points = points
-        self.text = text
-        self.value: float | None = None
-        self.unit = ""
-        self.direction = ""
-        self.given: tuple[float, ...] = ()
-        self.tail = ""
-        self.count = 0
-
-
-class Result(NamedTuple):
-    """One line of the results."""
-
-    student: str
-    item: str
-    variant: str
-    attempt: str
-    line: int
-    marked: Marked
 
 
 class Marker:
@@ -84,8 +43,8 @@ class Marker:
         self._memory: dict[tuple[str, str, str, str, str], Marked] = {}
         self._missing: dict[str, Marked] = {}
         self._keys: dict[str, AnyKey] = {}
-        self.done: list[Marked] = []
-        """What was forgotten of the memory, with its counts."""
+        self._others: list[Marked] = []
+        self.tally = Tally(self._band)
 
     def results(self, entries: Iterable[Entry], students: Iterable[str] = ()) -> Iterator[Result]:
         """The results of sorted entries, and of sorted ``students`` who may have given none."""
@@ -187,14 +146,29 @@ class Marker:
 
     def _remember(self, key: tuple[str, str, str, str, str], marked: Marked) -> None:
         if len(self._memory) >= _MEMORY:
-            self.forget()
+            self.counted()
         self._memory[key] = marked
 
-    def forget(self) -> list[Marked]:
-        """All that was judged so far, and their counts."""
-        self.done += [marked for marked in self._memory.values() if marked.count]
+    def _once(self, marked: Marked) -> None:
+        """Keep until it is counted what is not in the memory."""
+        self._others.append(marked)
+        if len(self._others) >= _MEMORY:
+            self.tally.add(self._others[:-1])
+            self._others = [marked]
+
+    def counted(self) -> dict[str, Counts]:
+        """The counts of all that was judged so far, which is forgotten."""
+        self.tally.add(self._memory.values())
+        self.tally.add(self._others)
+        self.tally.add(self._missing.values())
         self._memory.clear()
-        return self.done
+        self._others.clear()
+        return self.tally.counts
+
+    def _band(self, item: str) -> tuple[float, float] | None:
+        """The right value and half-width of a question that has one for all students."""
+        key = self._keys.get(item)
+        return (key.value, key.half) if isinstance(key, Key) else None
 
     def _judged(self, entry: Entry) -> Marked:
         if entry.trouble:
@@ -242,7 +216,7 @@ class Marker:
         """A row that can't be graded: for a person to look at."""
         judged = Judgement(IN_REVIEW, 0.0, (False, False, False), code="not-graded")
         marked = Marked(entry.item, entry.answer, judged, self._points(entry.item), f"Not graded: {why}")
-        self.done.append(marked)
+        self._once(marked)
         return marked
 
     def _points(self, item: str) -> float:
@@ -253,7 +227,6 @@ class Marker:
         if found is None:
             judged = Judgement(MISSING, 0.0, (False, False, False), code=MISSING)
             found = self._missing[item] = Marked(item, "", judged, self._points(item), "No answer was given.")
-            self.done.append(found)
         return found
 
     def _carried(self, found: list[tuple[Entry, Marked]]) -> list[tuple[Entry, Marked]]:
@@ -308,5 +281,5 @@ class Marker:
         text = feedback(key, judged, self.course.reveal)
         again = Marked(before.item, before.raw, judged, before.points, text)
         again.value, again.unit, again.direction = before.value, before.unit, before.direction
-        self.done.append(again)
+        self._once(again)
         return again

@@ -7,7 +7,7 @@ import re
 from functools import lru_cache
 from typing import Any
 
-from icsolve.grade.marking import Marked, Result
+from icsolve.grade.marked import Marked, Result
 
 HEADER = (
     "student_id,case,variant,attempt,raw_answer,value,unit,direction,verdict,score,max_score,rel_error,code"

@@ -11,15 +11,15 @@ from typing import IO, NamedTuple
 
 from icsolve.grade.course import Course
 from icsolve.grade.intake import Intake, expand
-from icsolve.grade.keys import Key, NoKeyError
+from icsolve.grade.keys import NoKeyError
 from icsolve.grade.ledger import Entry as Noted
 from icsolve.grade.ledger import Ledger
-from icsolve.grade.marking import Marked, Marker
+from icsolve.grade.marking import Marker
 from icsolve.grade.people import Roster, read_roster
 from icsolve.grade.results import HEADER, json_line, line
 from icsolve.grade.shelf import Shelf
 from icsolve.grade.store import Disk, Entry, Store
-from icsolve.grade.tally import Counts, added, tally
+from icsolve.grade.tally import Counts, added
 
 
 class Job(NamedTuple):
@@ -168,21 +168,7 @@ def _judged(part: Part, shelf: Shelf, entries: Iterator[Entry]) -> Outcome:
                 csv.write(line(result))
             if jsonl is not None:
                 jsonl.write(json_line(result))
-    marked = marker.forget()
-    return tally(marked, _bands(shelf, marked)), list(ledger.entries())
-
-
-def _bands(shelf: Shelf, marked: list[Marked]) -> dict[str, tuple[float, float]]:
-    """The right value and half-width of each question that has one for all students."""
-    found = {}
-    for item in {m.item for m in marked}:
-        try:
-            key = shelf.key(item)
-        except NoKeyError:
-            continue
-        if isinstance(key, Key):
-            found[item] = (key.value, key.half)
-    return found
+    return marker.counted(), list(ledger.entries())
 
 
 def _join(parts: list[Part], sinks: Sinks) -> None:

@@ -15,7 +15,7 @@ _CREATE = (
 _INSERT = "insert into s values (?,?,?,?,?,?,?,?,?,?)"
 _SELECT = "select * from s {where} order by student, item, line"
 _BATCH = 5000
-IN_MEMORY = 150_000
+IN_MEMORY = 110_000
 """Submissions that are sorted in memory; more go to disk."""
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
-from icsolve.grade.marking import Marked
+from icsolve.grade.marked import Marked
 
 BINS = 20
 """Bins of the histogram to each side of zero, up to twice the right answer; one more for what lies beyond."""
@@ -41,13 +41,20 @@ def bin_of(value: float, right: float, half: float) -> int:
     return math.ceil(ratio / _SPAN * BINS) if ratio > 0 else math.floor(ratio / _SPAN * BINS)
 
 
-def tally(marked: Iterable[Marked], bands: dict[str, tuple[float, float]]) -> dict[str, Counts]:
-    """Counts by question; ``bands`` has the right value and half-width of each."""
-    found: dict[str, Counts] = {}
-    for m in marked:
-        if m.count:
-            found[m.item] = _with(found.get(m.item) or empty(), m, bands.get(m.item))
-    return found
+class Tally:
+    """Counts that grow: what was judged is counted and forgotten."""
+
+    def __init__(self, band: Callable[[str], tuple[float, float] | None]) -> None:
+        self._band = band
+        self.counts: dict[str, Counts] = {}
+
+    def add(self, marked: Iterable[Marked]) -> None:
+        """Count answers, each as often as it was given; its own count starts again."""
+        for m in marked:
+            if m.count:
+                before = self.counts.get(m.item) or empty()
+                self.counts[m.item] = _with(before, m, self._band(m.item))
+                m.count = 0
 
 
 def _with(counts: Counts, m: Marked, band: tuple[float, float] | None) -> Counts:
