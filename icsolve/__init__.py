@@ -17,17 +17,21 @@ if TYPE_CHECKING:
     from icsolve.errors import SceneError as SceneError
     from icsolve.read import load as load
     from icsolve.solve import solve as solve
+    from icsolve.turn import Sweep as Sweep
+    from icsolve.turn import sweep as sweep
 
 __version__ = "0.1.0"
-__all__ = ["Answer", "Case", "CaseError", "SceneError", "__version__", "load", "solve"]
+__all__ = ["Answer", "Case", "CaseError", "SceneError", "Sweep", "__version__", "load", "solve", "sweep"]
 
 _ROOMS = {
     "Answer": "answer",
     "Case": "case",
     "CaseError": "errors",
     "SceneError": "errors",
+    "Sweep": "turn",
     "load": "read",
     "solve": "solve",
+    "sweep": "turn",
 }
 
 

@@ -1,0 +1,132 @@
+"""What a sweep is asked: columns of varied numbers, zipped, and what is wanted of every row."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from icsolve.case import Case, Pair
+from icsolve.figure.data import names_of
+from icsolve.read.names import pairs
+from icsolve.read.problems import shown, suggestion
+from icsolve.turn.numbers import find_number
+from icsolve.turn.program import Asked
+from icsolve.turn.replay import Array
+from icsolve.turn.scene import pairs as all_pairs
+
+WORDS = ("answers", "status", "error", "points", "centres", "rates")
+
+
+class Columns(NamedTuple):
+    """Varied numbers by path, links turned (degrees) by name: arrays of the same length."""
+
+    paths: dict[str, Array]
+    links: dict[str, Array]
+    names: dict[str, str]
+    """by path or link, as it was asked for"""
+
+    @property
+    def arrays(self) -> dict[str, Array]:
+        """All of them by path or link."""
+        return {**self.links, **self.paths}
+
+    @property
+    def rows(self) -> int:
+        """Number of rows."""
+        return len(next(iter(self.arrays.values())))
+
+
+def columns_of(
+    case: Case, vary: Mapping[str, npt.ArrayLike] | None, drive: Mapping[str, npt.ArrayLike] | None
+) -> Columns:
+    """The columns of a sweep; single numbers are the same in every row.
+
+    Raises ValueError for arrays that can't be columns, CaseError for paths that the case does not have.
+    """
+    asked = {**{("vary", path): v for path, v in (vary or {}).items()}}
+    asked |= {("drive", str(link)): v for link, v in (drive or {}).items()}
+    if not asked:
+        raise ValueError("nothing is varied: give vary={'angles.AB': values} or drive={'2': degrees}")
+    arrays = {key: _column(key[1], value) for key, value in asked.items()}
+    rows = max(len(a) if a.ndim else 1 for a in arrays.values())
+    paths, links, names = {}, {}, {}
+    for (kind, name), array in arrays.items():
+        if array.ndim and len(array) != rows:
+            raise ValueError(f"{shown(name)} has {len(array)} values where another has {rows}")
+        own = find_number(case, name).path if kind == "vary" else _link(case, name)
+        if own in names:
+            raise ValueError(f"{shown(name)} and {shown(names[own])} are the same number")
+        names[own] = name
+        (paths if kind == "vary" else links)[own] = np.ascontiguousarray(np.broadcast_to(array, rows))
+    return Columns(paths, links, names)
+
+
+def _column(name: str, values: npt.ArrayLike) -> Array:
+    array = np.asarray(values, dtype=np.float64)
+    if array.ndim > 1:
+        raise ValueError(f"the values of {shown(name)} should be one row of numbers, not {array.ndim} dimensions")
+    if not array.size:
+        raise ValueError(f"there are no values for {shown(name)}")
+    if not np.isfinite(array).all():
+        raise ValueError(f"the values of {shown(name)} are not all finite numbers")
+    return array
+
+
+def _link(case: Case, name: str) -> str:
+    if name not in case.links:
+        raise ValueError(f"there is no link {shown(name)} to turn{suggestion(name, case.links)}")
+    return name
+
+
+class Wanted(NamedTuple):
+    """What is wanted of every row; ``error``: the bounds of the answers."""
+
+    asked: Asked
+    error: bool
+
+
+def wanted_of(case: Case, want: Sequence[str]) -> Wanted:
+    """What is wanted: whole kinds (``points``) or single ones (``points.C``, ``centres.2-4``).
+
+    Raises ValueError for a word that is none.
+    """
+    if isinstance(want, str):
+        want = (want,)
+    points: dict[str, None] = {}
+    centres: dict[Pair, None] = {}
+    kinds = set()
+    for word in want:
+        kind, dot, name = word.partition(".")
+        if kind not in WORDS or (dot and kind not in ("points", "centres")):
+            raise ValueError(f"{shown(word)} can't be wanted{suggestion(word, WORDS) or '; one of ' + ', '.join(WORDS)}")
+        kinds.add(kind)
+        if kind == "points":
+            points.update(dict.fromkeys(_points(case, name) if dot else shown_points(case)))
+        elif kind == "centres":
+            centres.update(dict.fromkeys(_pairs(case, name) if dot else all_pairs(case)))
+    answers = bool(kinds & {"answers", "error", "status"})
+    return Wanted(Asked(answers, tuple(points), tuple(centres), "rates" in kinds), "error" in kinds)
+
+
+def shown_points(case: Case) -> list[str]:
+    """The points that have a name in the case."""
+    return [name for name in names_of(case) if not name.startswith("@")]
+
+
+def _points(case: Case, name: str) -> list[str]:
+    known = shown_points(case)
+    if name not in known:
+        raise ValueError(f"there is no point {shown(name)}{suggestion(name, known)}")
+    return [name]
+
+
+def _pairs(case: Case, name: str) -> Iterable[Pair]:
+    """The pair that a centre's name means, as the format lets it be written."""
+    found = {frozenset(pair) for pair in pairs(name, lambda link: link in case.links)}
+    meant = [pair for pair in all_pairs(case) if frozenset(pair) in found]
+    if len(meant) != 1:
+        raise ValueError(f"{shown(name)} is not a pair of links of this case; write it as 2-4")
+    return meant

@@ -1,0 +1,110 @@
+"""The numbers of a case by their paths, and the case with some of them replaced."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import Any
+
+from icsolve.case import Case, ForceVector, Number
+from icsolve.errors import CaseError, Problem
+from icsolve.read.names import atoms
+from icsolve.read.problems import shown, suggestion
+
+_FORM = "a path is like angles.AB, lengths.AB, points.D.x, loads.P, loads.P.angle or joints.B.mu"
+_SECTIONS = ("points", "lengths", "angles", "joints", "loads", "motion", "gravity")
+
+
+def numbers_of(case: Case) -> dict[str, Number]:
+    """Every number that may be varied, by its path."""
+    parts = (case.points, case.lengths, case.angles, case.joints, case.loads, case.motion, case.gravity)
+    return {number.path: number for part in parts for number in _walk(part)}
+
+
+def _walk(value: Any) -> Iterator[Number]:
+    if isinstance(value, Number):
+        yield value
+    elif isinstance(value, dict):
+        for item in value.values():
+            yield from _walk(item)
+    elif isinstance(value, tuple):
+        for item in value:
+            yield from _walk(item)
+
+
+def with_numbers(case: Case, values: Mapping[str, float]) -> Case:
+    """The case with other numbers at some paths, each as if written so (exact)."""
+
+    def changed(value: Any) -> Any:
+        if isinstance(value, Number):
+            new = values.get(value.path)
+            return value if new is None else Number(new, 0.0, value.path, repr(new))
+        if isinstance(value, dict):
+            return {key: changed(item) for key, item in value.items()}
+        if isinstance(value, tuple):
+            items = [changed(item) for item in value]
+            return type(value)(*items) if hasattr(value, "_fields") else tuple(items)
+        return value
+
+    names = ("points", "lengths", "angles", "joints", "loads", "motion", "gravity")
+    return replace(case, **{name: changed(getattr(case, name)) for name in names})
+
+
+def find_number(case: Case, path: str) -> Number:
+    """The number at a path, in any of the ways in which it can be written.
+
+    Raises CaseError where there is none, with what was meant.
+    """
+    known = numbers_of(case)
+    if path in known:
+        return known[path]
+    section, _, rest = path.partition(".")
+    found = [number for own, number in known.items() if _means(own, section, rest)]
+    if len(found) == 1:
+        return found[0]
+    if found:
+        ways = " or ".join(number.path for number in found)
+        raise _refusal(case, section, path, f"{len(found)} numbers are meant by it; write {ways}")
+    raise _refusal(case, section, path, _missing(case, known, path, section, rest))
+
+
+def _means(own: str, section: str, rest: str) -> bool:
+    """Whether a path in other words is this number's: ``BA`` for a length ``AB``, a joint by its point."""
+    head, _, tail = own.partition(".")
+    if head != section:
+        return False
+    if section in ("lengths", "angles"):
+        asked, given = _parts(rest), _parts(tail)
+        return asked == given or (section == "lengths" and asked == given[::-1])
+    if section == "joints":
+        (asked_at, _, asked_key), (at, _, key) = rest.rpartition("."), tail.rpartition(".")
+        pair, _, point = at.partition("@")
+        turned = "-".join(reversed(pair.split("-")))
+        return asked_key == key and asked_at in {at, pair, turned, point or pair, f"{turned}@{point}"}
+    return False
+
+
+def _parts(key: str) -> tuple[str, ...]:
+    return tuple(key.split("-")) if "-" in key else atoms(key)
+
+
+def _missing(case: Case, known: Mapping[str, Number], path: str, section: str, rest: str) -> str:
+    """Why there is no number at a path."""
+    if section not in _SECTIONS:
+        return _FORM + suggestion(path, known)
+    if section == "angles":
+        turned = [own for own in known if own.startswith("angles.") and _parts(own[7:]) == _parts(rest)[::-1]]
+        if turned:
+            return f"the case gives {turned[0]}, which is another angle; vary that"
+    if section == "loads" and any(load.name == rest for load in case.loads):
+        load = next(load for load in case.loads if load.name == rest)
+        if isinstance(load, ForceVector):
+            return f"{rest} is given by components; vary loads.{rest}.x or loads.{rest}.y"
+        how = "is the unknown" if load.value is None else "is like another load"
+        return f"{rest} {how}, so it has no number to vary"
+    return f"the case has no number there{suggestion(path, known)}"
+
+
+def _refusal(case: Case, section: str, path: str, why: str) -> CaseError:
+    line, column = case.marks.get(section, (1, 1))
+    return CaseError([Problem(case.path, line, column, f"cannot vary {shown(path)}: {why}")])

@@ -1,0 +1,225 @@
+"""The program of a sweep: a case and what is varied become one record, made once for any number of rows.
+
+First the position as written, then the drivers and the closings of the links, then statics, rates and
+centres: each with the kernels that one scene has.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from icsolve import verdicts
+from icsolve.arithmetic import Scalar
+from icsolve.case import Case, Pair
+from icsolve.errors import SceneError, Status
+from icsolve.figure import Figure, place, solve_figure
+from icsolve.figure.data import names_of
+from icsolve.plane import Point
+from icsolve.topology import Topology, topology
+from icsolve.turn.constraints import Constraint, Turning
+from icsolve.turn.drivers import Drive, condition, drive_of, pose_of, turning
+from icsolve.turn.mechanism import Mechanism, mechanism
+from icsolve.turn.moving import Motion, order_of, set_moving
+from icsolve.turn.numbers import find_number, numbers_of
+from icsolve.turn.record import Op, Record
+from icsolve.turn.scene import Scene, centre, moved_scene, rates, statics
+
+
+Signs = tuple[tuple[str, float], ...]
+"""Branches whose sign is an input, with their sign as written."""
+
+
+class Asked(NamedTuple):
+    """What is asked of every row."""
+
+    answers: bool = True
+    points: tuple[str, ...] = ()
+    centres: tuple[Pair, ...] = ()
+    rates: bool = False
+
+
+class Setting(NamedTuple):
+    """A case whose position as written is solved, and what is varied: paths of numbers, and links that
+    are turned."""
+
+    case: Case
+    top: Topology
+    figure: Figure
+    paths: tuple[str, ...]
+    links: tuple[str, ...]
+    drive: Drive
+
+    @property
+    def moves(self) -> bool:
+        """Whether the mechanism moves, rather than being another in each row."""
+        return bool(self.drive.moving or self.links)
+
+
+class Sheet(NamedTuple):
+    """The record of a sweep.
+
+    ``inputs`` are nodes by path (or link), ``outputs`` expressions by what they are: ``("answers",
+    "T12")``, ``("points", "C")``, ``("centres", "2-4")``, ``("rates", "4")``.
+    """
+
+    setting: Setting
+    record: Record
+    inputs: dict[str, int]
+    outputs: dict[tuple[str, str], tuple[Scalar, ...]]
+    motion: Motion | None
+    scene: Scene
+    refusal: SceneError | None
+
+
+def setting_of(case: Case, paths: Sequence[str], links: Sequence[str]) -> Setting:
+    """Solve the position as written and find out what the varied numbers do.
+
+    Raises CaseError for a path that the case does not have, SceneError where the case as written has
+    no figure, or cannot be moved so.
+    """
+    own = tuple(find_number(case, path).path for path in paths)
+    top = topology(case)
+    verdicts.refuse_loose(case, top)
+    figure = solve_figure(case, wanted_points(case))
+    drive = Drive((), (), ())
+    if links or any(path.split(".")[0] in ("points", "lengths", "angles") for path in own):
+        drive = _drive(case, top, figure, own, links)
+    return Setting(case, top, figure, own, tuple(links), drive)
+
+
+def wanted_points(case: Case) -> list[str]:
+    """Every point that a joint, a link or a load has, and those that are given."""
+    carried = [p for points in case.carries.values() for p in points]
+    used = [p for joint in case.joints if (p := getattr(joint, "at", None)) is not None]
+    given = [name for name in names_of(case) if name in case.points]
+    loads = [getattr(getattr(load, "heading", None), "point", None) for load in case.loads]
+    return list(dict.fromkeys([*carried, *used, *given, *(p for p in loads if p)]))
+
+
+def _drive(case: Case, top: Topology, figure: Figure, paths: Sequence[str], links: Sequence[str]) -> Drive:
+    """What moves, found on a record that is thrown away."""
+    try:
+        scratch = mechanism(case, top, figure.frame, Record(), figure.points)
+    except SceneError:
+        if links or not _as_written_only(case, paths):
+            raise
+        return Drive((), (), ())
+    return drive_of(scratch, paths, links)
+
+
+def _as_written_only(case: Case, paths: Sequence[str]) -> bool:
+    """Whether no varied number could be meant to move anything: coordinates of fixed points."""
+    return all(path.split(".")[0] == "points" for path in paths)
+
+
+# --- the record -----------------------------------------------------------------------------------
+
+NUDGES = (2.0**-9, -(2.0**-9), 2.0**-14, -(2.0**-14), 2.0**-6, -(2.0**-6))
+"""Where the record is made: this far (of half a turn, of the figure's size) from the position as written,
+so that nothing in it is zero by chance."""
+
+
+def sheet_of(setting: Setting, asked: Asked, signs: Signs = ()) -> Sheet:
+    """The record of a sweep; the branches in ``signs`` have theirs as inputs."""
+    refusal: SceneError | None = None
+    for nudge in NUDGES:
+        try:
+            sheet = _sheet(setting, asked, nudge, signs)
+        except (SceneError, ZeroDivisionError) as error:
+            refusal = error if isinstance(error, SceneError) else refusal
+            continue
+        if all(sheet.record.nodes[root.radicand].value > 0.0 for root in sheet.record.roots.values()):
+            return sheet
+    raise refusal or SceneError(
+        Status.CHANGE_POINT,
+        "the position as written is a limit: the mechanism assembles there, but not beside it. Write the case in "
+        "another position.",
+    )
+
+
+def _sheet(setting: Setting, asked: Asked, nudge: float, signs: Signs) -> Sheet:
+    case, record, frame = setting.case, Record(), setting.figure.frame
+    numbers = numbers_of(case)
+    inputs: dict[str, int] = {}
+    for path in setting.paths:
+        if path not in setting.drive.moving:
+            value = numbers[path].value
+            node = record.input(path, value + (abs(value) or 1.0) * nudge)
+            record.vary[path], inputs[path] = node, node.index
+    ref = place(setting.figure, case, record).points
+    names = {name: ref[name] for name in setting.figure.points}
+    if setting.moves:
+        motion = _motion(setting, record, names, nudge, inputs, signs)
+        scene = moved_scene(motion.mechanism, motion.moved)
+    else:
+        motion, scene = None, Scene(case, setting.top, frame, record, names)
+    outputs, refusal = _outputs(scene, asked)
+    return Sheet(setting, record, inputs, outputs, motion, scene, refusal)
+
+
+def _motion(
+    setting: Setting,
+    record: Record,
+    ref: Mapping[str, Point],
+    nudge: float,
+    inputs: dict[str, int],
+    signs: Signs,
+) -> Motion:
+    """The mechanism driven by the inputs."""
+    case, numbers, drive = setting.case, numbers_of(setting.case), setting.drive
+    held: Mechanism = mechanism(case, setting.top, setting.figure.frame, record, ref)
+    drivers: list[Constraint] = []
+    for link in setting.links:
+        node = record.input(link, 180.0 * nudge)
+        inputs[link] = node.index
+        drivers.append(turning(held, link, node))
+    for path in drive.moving:
+        size = 180.0 if path.startswith("angles.") else 1.0 / setting.figure.frame.scale
+        node = record.input(path, numbers[path].value + size * nudge)
+        record.vary[path], inputs[path] = node, node.index
+        pose = pose_of(held, path)
+        assert pose is not None
+        drivers.append(condition(held, pose, node))
+    for pose in drive.held:
+        drivers.append(condition(held, pose, record.given(_number(case, pose.datum))))
+    drivers += [Turning(((body, 1.0),), 0.0) for body in drive.locked]
+    turns = {name: record.input(name, sign) for name, sign in signs}
+    inputs |= {name: node.index for name, node in turns.items()}
+    return set_moving(held, order_of(held, drivers), turns)
+
+
+def _number(case: Case, datum: object):  # type: ignore[no-untyped-def]
+    from icsolve.figure.data import number_of
+
+    return number_of(case, datum)  # type: ignore[arg-type]
+
+
+def _outputs(
+    scene: Scene, asked: Asked
+) -> tuple[dict[tuple[str, str], tuple[Scalar, ...]], SceneError | None]:
+    """Expressions of all that is asked, in case units."""
+    ox, oy, scale = scene.frame
+    out: dict[tuple[str, str], tuple[Scalar, ...]] = {}
+    for name in asked.points:
+        if name in scene.points:
+            x, y = scene.points[name]
+            out["points", name] = (x / scale + ox, y / scale + oy)
+    if not (asked.answers or asked.rates or asked.centres):
+        return out, None
+    found = statics(scene, asked.rates or bool(asked.centres))
+    for name, value in found.answers.items():
+        if asked.answers:
+            out["answers", name] = (value,)
+    if asked.rates:
+        out |= {("rates", link): (rate,) for link, rate in rates(scene, found.motions).items()}
+    for pair in asked.centres:
+        triple = centre(scene, found.motions, pair)
+        if triple is not None:
+            out["centres", f"{pair[0]}-{pair[1]}"] = triple
+    return out, found.refusal
+
+
+def is_input(record: Record, k: int) -> bool:
+    """Whether a node is an input."""
+    return record.nodes[k].op == Op.INPUT

@@ -1,0 +1,171 @@
+"""A record replayed on arrays: straight-line code on a few buffers that stay in the cache.
+
+Only what leads to the wanted nodes is run. A buffer is free again after the last use of its value.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from icsolve.turn.record import Op, Record
+
+Array = npt.NDArray[np.float64]
+BLOCK = 4096
+"""Rows that run at once: some thirty buffers of them fit the second-level cache."""
+
+Step = tuple[Callable[..., Any], tuple[Any, ...]]
+
+BINARY = {Op.ADD: np.add, Op.SUB: np.subtract, Op.MUL: np.multiply, Op.DIV: np.divide}
+
+
+def live(record: Record, wanted: Iterable[int], given: Collection[int]) -> list[int]:
+    """The nodes that vary and lead to the wanted ones from the given ones, in order."""
+    nodes, seen = record.nodes, set[int]()
+    stack = [k for k in wanted if nodes[k].row]
+    while stack:
+        k = stack.pop()
+        if k in seen:
+            continue
+        seen.add(k)
+        if k not in given:
+            stack += [n for n in operands(record, k) if nodes[n].row]
+    return sorted(seen)
+
+
+def operands(record: Record, k: int) -> tuple[int, ...]:
+    """The nodes that a node is made of."""
+    node = record.nodes[k]
+    if node.op in BINARY or node.op == Op.ANGLE:
+        return (node.a, node.b)
+    return () if node.op in (Op.INPUT, Op.CONST) else (node.a,)
+
+
+class Code:
+    """Straight-line code from the given nodes to the wanted ones.
+
+    Parameters
+    ----------
+    record : the record, which may grow afterwards
+    wanted : nodes whose values are asked for
+    given : nodes whose values are put in: inputs, and what was found by other means
+    keep : whether every value is kept, for a pass backwards
+    """
+
+    def __init__(
+        self, record: Record, wanted: Sequence[int], given: Collection[int] = (), keep: bool = False
+    ) -> None:
+        self.record, self.keep = record, keep
+        self.wanted = tuple(wanted)
+        found = live(record, wanted, given)
+        self.given = tuple(k for k in found if k in given or record.nodes[k].op == Op.INPUT)
+        self.order = [k for k in found if k not in set(self.given)]
+        self.place, self.buffers = self._allocated()
+        self._bound: dict[int, tuple[list[Step], Array]] = {}
+
+    def _allocated(self) -> tuple[dict[int, int], int]:
+        """The buffer of every node, and how many there are."""
+        last: dict[int, int] = {}
+        for at, k in enumerate(self.order):
+            for n in operands(self.record, k):
+                last[n] = at
+        keep = {*self.wanted, *self.given, *(self.order if self.keep else ())}
+        place = {k: at for at, k in enumerate(self.given)}
+        free: list[int] = []
+        count = len(place)
+        for at, k in enumerate(self.order):
+            dying = {n for n in operands(self.record, k) if n in place and last[n] == at and n not in keep}
+            gone = [place[n] for n in dying]
+            if self.record.nodes[k].op not in (Op.COS, Op.SIN):
+                free += gone
+            if not free:
+                free.append(count)
+                count += 1
+            place[k] = free.pop()
+            if self.record.nodes[k].op in (Op.COS, Op.SIN):
+                free += gone
+            if k not in last and k not in keep:
+                free.append(place[k])
+        return place, count
+
+    def bound(self, rows: int) -> tuple[list[Step], Array]:
+        """The steps on buffers of so many rows, and the buffers."""
+        if rows not in self._bound:
+            if len(self._bound) > 2:
+                self._bound.clear()
+            buffers = np.empty((self.buffers + 2, rows))
+            self._bound[rows] = (list(self._steps(buffers)), buffers)
+        return self._bound[rows]
+
+    def _steps(self, buffers: Array) -> Iterable[Step]:
+        nodes = self.record.nodes
+        sines = {nodes[k].b: k for k in self.order if nodes[k].op == Op.SIN}
+        done: set[int] = set()
+        for k in self.order:
+            node, out = nodes[k], buffers[self.place[k]]
+            if k in done:
+                continue
+            if node.op in BINARY:
+                yield BINARY[node.op], (self._value(node.a, buffers), self._value(node.b, buffers), out)
+            elif node.op == Op.NEG:
+                yield np.negative, (self._value(node.a, buffers), out)
+            elif node.op == Op.SQRT:
+                yield np.maximum, (self._value(node.a, buffers), 0.0, out)
+                yield np.sqrt, (out, out)
+            elif node.op == Op.ANGLE:
+                yield np.arctan2, (self._value(node.b, buffers), self._value(node.a, buffers), out)
+                yield np.degrees, (out, out)
+            elif node.op == Op.NEAREST:
+                yield np.rint, (self._value(node.a, buffers), out)
+            else:
+                sine = k if node.op == Op.SIN else sines.get(k)
+                cosine = k if node.op == Op.COS else None
+                done.update(() if sine is None else (sine,))
+                outs = [None if n is None else buffers[self.place[n]] for n in (cosine, sine)]
+                yield turn, (self._value(node.a, buffers), *outs, buffers[-2], buffers[-1])
+
+    def _value(self, k: int, buffers: Array) -> Array:
+        if k in self.place:
+            return buffers[self.place[k]]
+        return np.array(self.record.nodes[k].value)
+
+    def run(self, given: Mapping[int, Array], rows: int) -> list[Array]:
+        """The wanted nodes for the given ones (each of so many rows, or one number).
+
+        The arrays are the code's own buffers: they hold until the next run.
+        """
+        steps, buffers = self.bound(rows)
+        for k in self.given:
+            np.copyto(buffers[self.place[k]], given[k])
+        with np.errstate(all="ignore"):
+            for function, arguments in steps:
+                function(*arguments)
+        return [self._value(k, buffers) for k in self.wanted]
+
+    def value(self, k: int, rows: int) -> Array:
+        """A node's value in the last run of so many rows (of any node, where all are kept)."""
+        return self._value(k, self.bound(rows)[1])
+
+
+def turn(degrees: Array, cosine: Array | None, sine: Array | None, c: Array, s: Array) -> None:
+    """Cosine and sine of angles in degrees, exact at multiples of 90; ``c`` and ``s`` are scratch.
+
+    As `icsolve.arithmetic.turn_of`: reduced exactly to within 45 degrees of an axis before pi is met.
+    """
+    quarter = np.rint(np.divide(degrees, 90.0, c), c)
+    rest = np.subtract(degrees, np.multiply(quarter, 90.0, s), s)
+    rest = np.multiply(rest, np.pi / 180.0, s)
+    which = quarter.astype(np.int64) & 3
+    c, s = np.cos(rest, c), np.sin(rest, s)
+    odd, back, down = (which & 1).astype(bool), (which & 2).astype(bool), (which == 1) | (which == 2)
+    if cosine is not None:
+        np.copyto(cosine, c)
+        np.copyto(cosine, s, where=odd)
+        np.negative(cosine, cosine, where=down)
+    if sine is not None:
+        np.copyto(sine, s)
+        np.copyto(sine, c, where=odd)
+        np.negative(sine, sine, where=back)

@@ -1,0 +1,169 @@
+"""The second look at doubtful rows: do they assemble, does rounding decide them, what would one scene say.
+
+Whether links reach one another is told by the margins of the branches. What is divided by, and the
+answers, are held against their error bounds; a row that its bounds leave open is solved as a scene.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from icsolve.answer import Answer
+from icsolve.case import Case
+from icsolve.errors import SceneError, Status
+from icsolve.solve import solve
+from icsolve.turn.backward import SLICE, Backward
+from icsolve.turn.branches import TOUCH, live_roots
+from icsolve.turn.replay import Array, Code
+from icsolve.turn.runner import Found, Key, Rows, Runner, column
+
+OPEN = 1e-3
+"""An answer whose bound is a larger fraction of it is not trusted."""
+WIDE = 4.0
+"""A divisor within so many of its bounds may be zero."""
+MOST_SCENES = 2000
+"""More doubtful rows than these are not solved one by one."""
+
+Mask = npt.NDArray[np.bool_]
+WORDS = (
+    Status.OK,
+    Status.CANNOT_ASSEMBLE,
+    Status.CHANGE_POINT,
+    Status.DEAD_CENTRE,
+    Status.NO_VALUE,
+    Status.ANY_VALUE,
+    Status.NEAR_SINGULAR,
+    Status.MOBILITY,
+    Status.STRUCTURE,
+    Status.UNSUPPORTED,
+    Status.INCONSISTENT,
+    Status.CONTRADICTORY,
+    Status.LOOSE,
+    Status.AMBIGUOUS,
+    Status.UNDERDETERMINED,
+)
+CODE = {word: n for n, word in enumerate(WORDS)}
+
+Codes = npt.NDArray[np.int8]
+
+
+class Look(NamedTuple):
+    """What a second look has: the runner and its rows, and how a row becomes a case."""
+
+    runner: Runner
+    given: Callable[[Rows], dict[int, Array]]
+    found: Found
+    codes: Codes
+    case_of: Callable[[int], Case]
+
+
+def look_again(look: Look) -> None:
+    """Settle doubtful rows: their status, and their values where there are some."""
+    rows = look.found.doubtful[look.codes[look.found.doubtful] == 0]
+    touching = _margins(look, rows)
+    rows, touching = rows[look.codes[rows] == 0], touching[look.codes[rows] == 0]
+    _flatten(look, rows, touching)
+    open_rows = _against_bounds(look, rows) | touching.any(axis=1)
+    doubtful = rows[open_rows]
+    for row in doubtful[:MOST_SCENES]:
+        _as_scene(look, int(row))
+    look.codes[doubtful[MOST_SCENES:]] = CODE[Status.NEAR_SINGULAR]
+
+
+def _margins(look: Look, rows: Rows) -> Mask:
+    """Mark the rows that cannot assemble; which branches touch in the others (rows, branches)."""
+    roots = live_roots(look.runner.sheet)
+    touching = np.zeros((len(rows), len(roots)), dtype=bool)
+    if not roots or not len(rows):
+        return touching
+    nodes = [n for root in roots for margin in root.margins for n in margin]
+    code = Code(look.runner.sheet.record, nodes)
+    found = [np.broadcast_to(v, len(rows)) for v in code.run(look.given(rows), len(rows))]
+    apart = np.zeros(len(rows), dtype=bool)
+    with np.errstate(all="ignore"):
+        for n in range(len(roots)):
+            a, a_size, b, b_size = found[4 * n : 4 * n + 4]
+            margin = np.minimum(a / a_size, b / b_size)
+            apart |= ~(margin >= -TOUCH)
+            touching[:, n] = np.abs(margin) <= TOUCH
+    look.codes[rows[apart]] = CODE[Status.CANNOT_ASSEMBLE]
+    return touching
+
+
+def _flatten(look: Look, rows: Rows, touching: Mask) -> None:
+    """Run rows again whose branches touch, the chord of those being zero."""
+    runner, roots = look.runner, live_roots(look.runner.sheet)
+    for pattern in np.unique(touching[touching.any(axis=1)], axis=0):
+        flat = [root.node for root, touches in zip(roots, pattern, strict=True) if touches]
+        some = rows[(touching == pattern).all(axis=1)]
+        code = Code(runner.sheet.record, [index for _, _, index in runner.moving], flat)
+        given = {**look.given(some), **dict.fromkeys(flat, np.array(0.0))}
+        for (key, part, _), array in zip(runner.moving, code.run(given, len(some)), strict=True):
+            column(look.found.values[key], part)[some] = array
+
+
+def _against_bounds(look: Look, rows: Rows) -> Mask:
+    """Rows in which something that is divided by may be zero, or an answer is left open by rounding;
+    an answer within its own bound becomes zero."""
+    runner = look.runner
+    answers = [(key, index) for key, _, index in runner.moving if key[0] == "answers"]
+    targets = [*(index for _, index in answers), *runner.divisors]
+    unsure = np.zeros(len(rows), dtype=bool)
+    if not targets:
+        return unsure
+    passes = backward(runner, targets)
+    for start in range(0, len(rows), SLICE):
+        some = rows[start : start + SLICE]
+        bounds = passes.run(look.given(some), len(some))
+        with np.errstate(all="ignore"):
+            for target, passed in zip(runner.divisors, bounds[len(answers) :], strict=True):
+                size = np.abs(passes.code.value(target, len(some)))
+                unsure[start : start + SLICE] |= ~(size > WIDE * passed.bound)
+            for (key, _), passed in zip(answers, bounds, strict=False):
+                value = look.found.values[key][some]
+                inside = np.abs(value) <= passed.bound
+                loose = ~inside & ~(passed.bound <= OPEN * np.abs(value))
+                settled = inside & ~unsure[start : start + SLICE]
+                look.found.values[key][some[settled]] = 0.0
+                unsure[start : start + SLICE] |= loose
+    return unsure
+
+
+def backward(runner: Runner, targets: list[int]) -> Backward:
+    """Backward passes over the runner's record."""
+    sheet = runner.sheet
+    groups = sheet.motion.groups if sheet.motion else ()
+    exact = [k for name, k in sheet.inputs.items() if name.startswith(("branch ", "swing "))]
+    exact += [guess.index for guess, _ in sheet.record.counted.values()]
+    exact += [k for group in groups for k in (*group.guesses, *group.solved)]
+    return Backward(sheet.record, targets, groups, exact)
+
+
+def _as_scene(look: Look, row: int) -> None:
+    """Solve one row as a scene: its status, or its values."""
+    try:
+        outputs = look.found.values
+        rates = any(key[0] in ("rates", "centres") for key in outputs)
+        answer = solve(look.case_of(row), rates=rates, all_centres=rates)
+    except SceneError as error:
+        look.codes[row] = CODE.get(error.status, CODE[Status.NEAR_SINGULAR])
+        return
+    for key in outputs:
+        if key[0] == "answers" and key[1] in answer.answers:
+            look.found.values[key][row] = answer.answers[key[1]].value
+    _motions(look, row, answer)
+
+
+def _motions(look: Look, row: int, answer: Answer) -> None:
+    for kind, name in look.found.values:
+        if kind == "rates" and answer.rates is not None:
+            rate = answer.rates.get(name)
+            if isinstance(rate, float):
+                look.found.values[kind, name][row] = rate
+
+
+__all__ = ["CODE", "WORDS", "Codes", "Key", "Look", "backward", "look_again"]

@@ -1,0 +1,275 @@
+"""The way from the position as written to the rows: what is followed along it, never found from nowhere.
+
+Groups that Newton's method places and turns that are counted are followed in steps, each from the last
+ones, so that rows between two steps start from near their solution and stay on the branch. Signs of
+branches change where `branches` found them to.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from icsolve.turn.constraints import RADIAN
+from icsolve.turn.program import Sheet
+from icsolve.turn.replay import Array, Code
+from icsolve.turn.together import Solver
+
+FIRST = 2.0**-7
+"""The first step, as a part of the longest."""
+SHORTEST = 2.0**-30
+"""A way that needs shorter steps, as a part of the longest, has come to a limit."""
+FAR = 0.35
+"""The longest move (normalised, radians) that one step may bring."""
+BENT = 0.25
+"""How far a solution may lie from where the last steps pointed, as a part of the move."""
+TRIALS = 64
+
+Mask = npt.NDArray[np.bool_]
+
+
+class Way(NamedTuple):
+    """Inputs (by name) as ``base + slope * s``; it starts at ``start`` and has steps of at most ``widest``."""
+
+    base: dict[str, float]
+    slope: dict[str, float]
+    start: float
+    widest: float
+
+    def inputs(self, sheet: Sheet, s: Array) -> dict[int, Array]:
+        """The inputs at places of the way."""
+        names = [name for name in self.base if name in sheet.inputs]
+        return {sheet.inputs[name]: self.base[name] + self.slope.get(name, 0.0) * s for name in names}
+
+
+class State(NamedTuple):
+    """What is followed at a place: unknowns of the groups one after another, counted turns (degrees),
+    and the signs of branches."""
+
+    q: Array
+    turns: Array
+    signs: dict[str, float]
+
+
+class Stretch(NamedTuple):
+    """Steps without a break: places in order, and the state at each."""
+
+    s: Array
+    q: Array
+    turns: Array
+
+
+
+def written_state(sheet: Sheet) -> State:
+    """The state in the position as written."""
+    motion = sheet.motion
+    assert motion is not None
+    ref = motion.mechanism.shape.ref
+    q = [
+        x
+        for group in motion.groups
+        for body in group.bodies
+        for x in (*map(float, ref[group.bases[body][1]]), 0.0)
+    ]
+    return State(np.array(q), np.zeros(len(sheet.record.counted)), dict(motion.written))
+
+
+class Track:
+    """A way that is followed from a state; ``touches`` has the places at which branches change."""
+
+    def __init__(
+        self, sheet: Sheet, way: Way, start: State, touches: Mapping[str, Sequence[float]], reach: tuple[float, float]
+    ) -> None:
+        self.sheet, self.way, self.start, self.touches = sheet, way, start, touches
+        record, motion = sheet.record, sheet.motion
+        assert motion is not None
+        self.groups = [(group, Solver(record, group)) for group in motion.groups]
+        self.counted = list(record.counted.values())
+        self.turning = Code(record, [record.lifted(value).index for _, value in self.counted])
+        self.breaks: list[float] = []
+        """places at which a group goes through a singular position and on"""
+        self.stretches = self._followed(reach) if self.groups or self.counted else []
+
+    # --- inputs -----------------------------------------------------------------------------------
+
+    def given(self, s: Array) -> tuple[dict[int, Array], Mask]:
+        """All inputs at places of the way, and at which of them the groups have a solution."""
+        given, good = self._plain(s), np.ones(len(s), dtype=bool)
+        if self.stretches:
+            q, turns, good = self._between(s)
+            solved, _, right = self._solved(given, q, turns)
+            good &= right
+            given = {**given, **self._state(solved, turns)}
+        elif self.groups or self.counted:
+            good[:] = False
+        return given, good
+
+    def _plain(self, s: Array) -> dict[int, Array]:
+        """Inputs and signs."""
+        given = self.way.inputs(self.sheet, s)
+        for name in self.sheet.motion.written if self.sheet.motion else ():
+            if name in self.sheet.inputs:
+                sign = self.start.signs[name] * flips(s, self.way.start, self.touches.get(name, ()))
+                given[self.sheet.inputs[name]] = sign
+        return given
+
+    def _state(self, q: Array, turns: Array) -> dict[int, Array]:
+        columns = [k for group, _ in self.groups for k in group.solved]
+        given = {k: q[:, n] for n, k in enumerate(columns)}
+        return {**given, **{guess.index: turns[:, n] for n, (guess, _) in enumerate(self.counted)}}
+
+    def end(self, s: float) -> State:
+        """The state at a place."""
+        at = np.array([s])
+        signs = {
+            name: sign * float(flips(at, self.way.start, self.touches.get(name, ()))[0])
+            for name, sign in self.start.signs.items()
+        }
+        if not self.stretches:
+            return State(self.start.q, self.start.turns, signs)
+        q, turns, _ = self._between(at)
+        given = self._plain(at)
+        q, turns, _ = self._solved(given, q, turns)
+        return State(q[0], turns[0], signs)
+
+    # --- steps ------------------------------------------------------------------------------------
+
+    def _solved(self, given: Mapping[int, Array], q: Array, turns: Array) -> tuple[Array, Array, Mask]:
+        """Solutions of all groups from a guess, the turns counted on, and where it went well."""
+        rows = len(q)
+        good, found = np.ones(rows, dtype=bool), q.copy()
+        first = 0
+        for group, solver in self.groups:
+            last = first + len(group.solved)
+            env = {**given, **self._state(found, turns)}
+            found[:, first:last], right = solver.solve(env, q[:, first:last])
+            good &= right
+            first = last
+        if self.counted:
+            values = self.turning.run({**given, **self._state(found, turns)}, rows)
+            turns = np.stack([np.broadcast_to(v, rows) for v in values], axis=1)
+        return found, turns, good
+
+    def _followed(self, reach: tuple[float, float]) -> list[Stretch]:
+        """Stretches from the start to both ends of the reach."""
+        at = np.array([self.way.start])
+        q, turns, good = self._solved(self._plain(at), self.start.q[None, :], self.start.turns[None, :])
+        if not good[0]:
+            return []
+        first = (self.way.start, q[0], turns[0])
+        down, more_down = self._one_way(first, reach[0])
+        up, more_up = self._one_way(first, reach[1])
+        middle = _stretch([*reversed(down[1:]), *up])
+        return sorted([middle, *more_down, *more_up], key=lambda stretch: float(stretch.s[0]))
+
+    def _one_way(self, first: tuple[float, Array, Array], end: float) -> tuple[list[tuple[float, Array, Array]], list[Stretch]]:
+        """Steps from a place toward an end; beyond a limit, the stretches where it assembles again."""
+        steps = self._steps(first, end)
+        more: list[Stretch] = []
+        last = steps[-1]
+        while abs(last[0] - end) > self.way.widest * SHORTEST:
+            again = self._again(last, end, steps)
+            if again is None:
+                break
+            back = self._steps(again, last[0])
+            on = self._steps(again, end)
+            more.append(_stretch(sorted([*back[1:], *on], key=lambda step: step[0])))
+            last = on[-1]
+        return steps, more
+
+    def _again(self, last: tuple[float, Array, Array], end: float, steps: list[tuple[float, Array, Array]]) -> tuple[float, Array, Array] | None:
+        """The first place beyond a limit at which the groups have a solution again, near to one before."""
+        for s in np.linspace(last[0], end, TRIALS)[1:]:
+            for _, q, turns in (last, steps[len(steps) // 2], steps[0]):
+                at = np.array([s])
+                found, counted, good = self._solved(self._plain(at), q[None, :], turns[None, :])
+                if good[0]:
+                    return (float(s), found[0], counted[0])
+        return None
+
+    def _steps(self, first: tuple[float, Array, Array], end: float) -> list[tuple[float, Array, Array]]:
+        """Steps toward an end, as far as they go."""
+        steps, widest = [first], self.way.widest
+        sense = 1.0 if end >= first[0] else -1.0
+        h = widest * FIRST
+        while sense * (end - steps[-1][0]) > 0.0 and h > widest * SHORTEST:
+            s, q, turns = steps[-1]
+            there = s + sense * min(h, sense * (end - s))
+            guess, ahead = q, turns
+            if len(steps) > 1:
+                before, q0, turns0 = steps[-2]
+                part = (there - s) / (s - before)
+                guess, ahead = q + part * (q - q0), turns + part * (turns - turns0)
+            at = np.array([there])
+            found, counted, good = self._solved(self._plain(at), guess[None, :], ahead[None, :])
+            if good[0] and _near(q, guess, found[0], len(steps) > 1) and _counts(turns, counted[0]):
+                steps.append((there, found[0], counted[0]))
+                h = min(1.5 * h, widest)
+            else:
+                h /= 2.0
+        return steps
+
+    # --- between steps ----------------------------------------------------------------------------
+
+    def _between(self, s: Array) -> tuple[Array, Array, Mask]:
+        """States between the steps, by the cubic through the four nearest."""
+        q = np.full((len(s), self.start.q.size), np.nan)
+        turns = np.zeros((len(s), self.start.turns.size))
+        good = np.zeros(len(s), dtype=bool)
+        slack = self.way.widest * SHORTEST * 4.0
+        for stretch in self.stretches:
+            here = (s >= stretch.s[0] - slack) & (s <= stretch.s[-1] + slack)
+            if here.any():
+                q[here] = _cubic(stretch.s, stretch.q, s[here])
+                turns[here] = _cubic(stretch.s, stretch.turns, s[here])
+                good |= here
+        q[~good] = self.start.q
+        return q, turns, good
+
+
+def _near(q: Array, guess: Array, found: Array, pointed: bool) -> bool:
+    """Whether a step went on where the last ones pointed."""
+    if not q.size:
+        return True
+    unit = np.ones_like(q)
+    unit[2::3] = RADIAN
+    move, off = float(np.abs((found - q) * unit).max()), float(np.abs((found - guess) * unit).max())
+    return move <= FAR and (not pointed or off <= BENT * move + 1e-6)
+
+
+def _counts(turns: Array, found: Array) -> bool:
+    """Whether no counted angle may have missed a turn."""
+    return bool(np.all(np.abs(found - turns) < 60.0))
+
+
+def _stretch(steps: Sequence[tuple[float, Array, Array]]) -> Stretch:
+    return Stretch(
+        np.array([s for s, _, _ in steps]), np.array([q for _, q, _ in steps]), np.array([t for _, _, t in steps])
+    )
+
+
+def _cubic(known: Array, values: Array, at: Array) -> Array:
+    """Lagrange's polynomial through the four (or as many as there are) nearest places."""
+    count = min(4, len(known))
+    first = np.clip(np.searchsorted(known, at) - count // 2, 0, len(known) - count)
+    nodes = [known[first + n] for n in range(count)]
+    total = np.zeros((len(at), values.shape[1]))
+    for n in range(count):
+        weight = np.ones(len(at))
+        for m in range(count):
+            if m != n:
+                weight *= (at - nodes[m]) / (nodes[n] - nodes[m])
+        total += weight[:, None] * values[first + n]
+    return total
+
+
+def flips(at: Array, start: float, touches: Sequence[float]) -> Array:
+    """+1 or -1: the sign after the touches between the start and each place."""
+    if not len(touches):
+        return np.ones_like(at)
+    ordered = np.sort(np.array(touches))
+    passed = np.searchsorted(ordered, at) - np.searchsorted(ordered, start)
+    return 1.0 - 2.0 * (passed & 1)
