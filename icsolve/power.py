@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from itertools import chain
 from typing import NamedTuple
 
 from icsolve.arithmetic import Arithmetic, Scalar, magnitude
@@ -150,7 +151,7 @@ def balance(all_wrenches: Sequence[Wrench], twists: Mapping[str, Sequence[Triple
     factors, sizes = [], []
     for m in range(motions):
         row, scale = [], []
-        fastest = max((magnitude(x) for ts in twists.values() for x in ts[m]), default=0.0)
+        fastest = max(map(magnitude, chain.from_iterable(ts[m] for ts in twists.values())), default=0.0)
         for w in all_wrenches:
             on, off = twists[w.load.link][m], twists[w.against][m]
             relative = (on[0] - off[0], on[1] - off[1], on[2] - off[2])

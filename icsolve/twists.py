@@ -13,7 +13,7 @@ from icsolve.arithmetic import Scalar, magnitude
 from icsolve.eliminate import ROUNDING, null_space
 from icsolve.loops import ORIGIN, Bases, loop_rows, span, twists_on
 from icsolve.plan import Group, Plan
-from icsolve.plane import Triple, blend, cross, dyad_twists, monad_twist, shift, subtract, times
+from icsolve.plane import Point, Triple, blend, cross, dyad_twists, monad_twist, shift, subtract, times
 from icsolve.topology import Topology
 
 LONG = 4
@@ -41,58 +41,67 @@ class Run(NamedTuple):
 
 
 class _Pool:
-    """Known twists, each at the level (number of groups) to which its scale belongs."""
+    """Known twists: each as seen from an origin of its own, so that nothing of a long chain is lost to
+    its distance, and at the level (number of groups) to which its scale belongs."""
 
     def __init__(self) -> None:
-        self.twists: dict[int, Triple] = {}
-        self.levels: dict[int, int] = {}
+        self.held: dict[int, tuple[Triple, Point, int]] = {}
         self.factors: list[Scalar] = []
         self.drift = 0.0
         """log2 of what rescaling by whole powers of two has left of the common scale"""
 
-    def put(self, body: int, twist: Triple, level: int) -> None:
-        self.twists[body] = twist
-        self.levels[body] = level
+    def put(self, found: dict[int, Triple], o: Point) -> None:
+        """Hold twists at the present level."""
+        level = len(self.factors)
+        for body, twist in found.items():
+            self.held[body] = (twist, o, level)
 
-    def now(self, body: int) -> Triple:
-        """The twist at the present level."""
-        twist = self.twists[body]
-        if twist is not ORIGIN:
-            for factor in self.factors[self.levels[body] :]:
+    def now(self, body: int, o: Point) -> Triple:
+        """The twist at the present level, as seen from o."""
+        twist, own, level = self.held[body]
+        if twist is ORIGIN:
+            return twist
+        if level < len(self.factors):
+            for factor in self.factors[level:]:
                 twist = times(factor, twist)
-        self.put(body, twist, len(self.factors))
-        return twist
+            self.put({body: twist}, own)
+        return twist if own is o else shift(twist, (o[0] - own[0], o[1] - own[1]))
 
     def all_now(self) -> dict[int, Triple]:
-        """Every twist at the present level, in linear time."""
+        """Every twist at the present level, in linear time, as seen from the frame's origin."""
         suffix: list[Scalar] = [1.0]
         for factor in reversed(self.factors):
             suffix.append(suffix[-1] * factor)
         last = len(self.factors)
-        return {
-            body: twist
-            if self.levels[body] == last or twist is ORIGIN
-            else times(suffix[last - self.levels[body]], twist)
-            for body, twist in self.twists.items()
-        }
+        result = {}
+        for body, (twist, own, level) in self.held.items():
+            if twist is ORIGIN:
+                result[body] = ORIGIN
+                continue
+            x, y, w = twist if level == last else times(suffix[last - level], twist)
+            result[body] = (x + w * own[0], y + w * own[1], w)
+        return result
 
 
 def run(plan: Plan, top: Topology, bases: Bases) -> Run:
     """Twists of the planned bodies; ``bases`` has the basis twists of every bond in the plan."""
     pool = _Pool()
     entry = top.bonds[plan.entry]
-    pool.put(entry.a, ORIGIN, 0)
-    pool.put(entry.b, bases[plan.entry][0], 0)
+    o = _origin(bases[plan.entry][0])
+    pool.put({entry.a: ORIGIN, entry.b: _seen(bases[plan.entry][0], o)}, o)
     closures = []
     for group in plan.groups:
-        closure, found = _close(group, top, bases, pool)
+        closure, found, o = _close(group, top, bases, pool)
         if len(plan.groups) > LONG:
             closure, found = _rescaled(closure, found, pool)
         closures.append(closure)
         pool.factors.append(closure.factor)
-        for body, twist in found.items():
-            pool.put(body, twist, len(pool.factors))
+        pool.put(found, o)
     return Run(pool.all_now(), tuple(closures))
+
+
+Closed = tuple[Closure, dict[int, Triple], Point]
+"""How a group closed, the twists of its bodies, and the origin from which they are seen."""
 
 
 def _rescaled(closure: Closure, found: dict[int, Triple], pool: _Pool) -> tuple[Closure, dict[int, Triple]]:
@@ -112,7 +121,7 @@ def _rescaled(closure: Closure, found: dict[int, Triple], pool: _Pool) -> tuple[
     return Closure(closure.group, scale * closure.factor, numerators, columns), scaled
 
 
-def _close(group: Group, top: Topology, bases: Bases, pool: _Pool) -> tuple[Closure, dict[int, Triple]]:
+def _close(group: Group, top: Topology, bases: Bases, pool: _Pool) -> Closed:
     if group.kind == "dyad":
         return _dyad(group, bases, pool)
     if group.kind == "monad":
@@ -120,48 +129,60 @@ def _close(group: Group, top: Topology, bases: Bases, pool: _Pool) -> tuple[Clos
     return _eliminated(group, top, bases, pool)
 
 
-def _monad(group: Group, bases: Bases, pool: _Pool) -> tuple[Closure, dict[int, Triple]]:
-    (body,), (one, two) = group.bodies, group.bonds
-    ta, tc = pool.now(group.ends[0]), pool.now(group.ends[1])
+def _monad(group: Group, bases: Bases, pool: _Pool) -> Closed:
+    (body,), (one, two), (a, c) = group.bodies, group.bonds, group.ends
     basis, line = bases[one][0], bases[two]
     o = _origin(basis, line[0])
-    here = shift(basis, o)
-    join = cross(shift(line[0], o), shift(line[1], o))
-    r = shift(subtract(tc, ta), o)
+    ta, tc = pool.now(a, o), pool.now(c, o)
+    here = _seen(basis, o)
+    join = cross(_seen(line[0], o), _seen(line[1], o))
+    r = subtract(tc, ta)
     d, s = monad_twist(here, join, r)
-    return Closure(group, d, (s,), (join, here, r)), {body: blend(d, ta, s, basis)}
+    return Closure(group, d, (s,), (join, here, r)), {body: blend(d, ta, s, here)}, o
 
 
-def _dyad(group: Group, bases: Bases, pool: _Pool) -> tuple[Closure, dict[int, Triple]]:
-    (u, v), (outer_u, inner, outer_v) = group.bodies, group.bonds
-    ta, tc = pool.now(group.ends[0]), pool.now(group.ends[1])
+def _dyad(group: Group, bases: Bases, pool: _Pool) -> Closed:
+    (u, v), (outer_u, inner, outer_v), (a, c) = group.bodies, group.bonds, group.ends
     b1, b3, b2 = bases[outer_u][0], bases[inner][0], bases[outer_v][0]
     o = _origin(b1, b3, b2)
-    r = shift(subtract(tc, ta), o)
-    columns = (shift(b1, o), shift(b3, o), shift(b2, o), r)
+    ta, tc = pool.now(a, o), pool.now(c, o)
+    columns = (_seen(b1, o), _seen(b3, o), _seen(b2, o), subtract(tc, ta))
     d, s1, s2 = dyad_twists(*columns)
-    found = {u: blend(d, ta, s1, b1), v: blend(d, tc, s2, b2)}
-    return Closure(group, d, (s1, s2), columns), found
+    found = {u: blend(d, ta, s1, columns[0]), v: blend(d, tc, s2, columns[2])}
+    return Closure(group, d, (s1, s2), columns), found, o
 
 
-def _origin(*bases: Triple) -> tuple[Scalar, Scalar]:
-    """A pin of the group: seen from there, nothing of a long chain is lost to its distance."""
+def _origin(*bases: Triple) -> Point:
+    """A pin of the group."""
     for x, y, w in bases:
         if type(w) is float and w == 1.0:
             return (x, y)
-    return (0.0, 0.0)
+    return FRAME
 
 
-def _eliminated(group: Group, top: Topology, bases: Bases, pool: _Pool) -> tuple[Closure, dict[int, Triple]]:
+FRAME: Point = (0.0, 0.0)
+PIN: Triple = (0.0, 0.0, 1.0)
+"""A pin as seen from its own point."""
+
+
+def _seen(basis: Triple, o: Point) -> Triple:
+    """A basis twist as seen from o."""
+    if basis[0] is o[0] and basis[1] is o[1] and type(basis[2]) is float and basis[2] == 1.0:
+        return PIN
+    return shift(basis, o)
+
+
+def _eliminated(group: Group, top: Topology, bases: Bases, pool: _Pool) -> Closed:
     ends = {body for k in group.bonds for body in (top.bonds[k].a, top.bonds[k].b)}
-    roots = {body: pool.now(body) for body in sorted(ends - set(group.bodies))}
+    roots = {body: pool.now(body, FRAME) for body in sorted(ends - set(group.bodies))}
     tree = span(top, group.bonds, roots, bases)
-    found = null_space(loop_rows(top, tree, bases, roots), tree.columns + 1)
-    if len(found.basis) != 1:
-        return Closure(group, 0.0, (0.0,)), dict.fromkeys(group.bodies, ORIGIN)
-    rates = found.basis[0]
+    solved = null_space(loop_rows(top, tree, bases, roots), tree.columns + 1)
+    if len(solved.basis) != 1:
+        return Closure(group, 0.0, (0.0,)), dict.fromkeys(group.bodies, ORIGIN), FRAME
+    rates = solved.basis[0]
     twists = twists_on(tree, rates, roots)
-    return Closure(group, rates[-1], tuple(rates[:-1])), {body: twists[body] for body in group.bodies}
+    found = {body: twists[body] for body in group.bodies}
+    return Closure(group, rates[-1], tuple(rates[:-1])), found, FRAME
 
 
 SINGULAR = 64 * ROUNDING
