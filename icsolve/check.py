@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from icsolve.answer import Answer, Centre
+from icsolve.answer import Answer, Centre, Found
 from icsolve.bearing import bearing, same_way, turned_at_most
 from icsolve.case import (
     ArmIs,
@@ -209,7 +209,7 @@ def _turned(value: float, sense: str | None) -> float:
 def _load_value(answer: Answer, name: str) -> float:
     """A load's number as solved for, as given, or as another load has it."""
     if name in answer.answers:
-        return answer.answers[name].value
+        return _found_value(name, answer.answers[name])
     value = getattr(_named_load(answer.case, name), "value", None)
     if isinstance(value, Number):
         return value.value
@@ -217,6 +217,13 @@ def _load_value(answer: Answer, name: str) -> float:
         times = 1.0 if value.times is None else value.times.value
         return times * _load_value(answer, value.load)
     raise _MissingError(f"{name} was not solved for")
+
+
+def _found_value(name: str, found: Found) -> float:
+    if found.holds is not None:
+        least, most = map(_digits, found.holds)
+        raise _MissingError(f"{name} holds from {least} to {most}: give `motion` for one value")
+    return found.value
 
 
 def _named_load(case: Case, name: str) -> Load | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 from icsolve.answer import Answer, Centre, Found, Term
@@ -64,6 +65,10 @@ def _header(case: Case) -> dict[str, str]:
 
 
 def _found(found: Found) -> dict[str, Any]:
+    if found.holds is not None:
+        ends = [_plain(end) if math.isfinite(end) else None for end in found.holds]
+        held = {"value": None, "holds": ends, "self_locking": found.self_locking}
+        return {**held, "unit": found.unit, "sense": "", "error": None, "why": found.why}
     entry = {
         "value": _plain(found.value),
         "unit": found.unit,

@@ -10,7 +10,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from functools import cached_property
+from typing import TYPE_CHECKING
 
 from icsolve import power, sentences, speeds, verdicts
 from icsolve.answer import Answer, Centre, Deferred, Found, Later, Term
@@ -37,6 +39,9 @@ from icsolve.program import Outcome, Program, Want, evaluate, prepare
 from icsolve.sense import sense_of, unit_of
 from icsolve.terms import advantage, load_values, power_terms
 from icsolve.topology import Topology
+
+if TYPE_CHECKING:
+    from icsolve.bodies.ties import Position
 
 
 def solve(
@@ -70,8 +75,8 @@ def solve(
     SceneError
         Where the scene has no answer; its ``status`` is a member of `icsolve.errors.Status`.
     """
-    verdicts.refuse_friction(case)
-    want = Want(all_centres, rates, examine, reactions)
+    rubbing = verdicts.rubs(case)
+    want = Want(all_centres, rates, examine, reactions or rubbing)
     if not any(power.is_unknown(load) for load in case.loads):
         want = Want(True, True, examine, reactions)
     program = prepare(case, want)
@@ -82,6 +87,8 @@ def solve(
         if reactions and error.status == Status.STRUCTURE:
             return _structure(program, error)
         raise
+    if rubbing:
+        return _with_friction(_Parts(program, plain(outcome), {}, None), reactions)
     verdicts.refuse_unbalanced(case, program.top, outcome.motions, outcome.balance, outcome.solution)
     values = bounded_values(scene) if scene else unbounded_values(outcome)
     parts = _Parts(program, outcome, values, scene)
@@ -162,13 +169,34 @@ class _Parts:
 def _with_bodies(parts: _Parts) -> Answer:
     """The answer with the reactions, and with the unknown loads as free bodies give them."""
     from icsolve.bodies.statics import free_bodies
+
+    by_power = {root: (value.value, value.error or 0.0) for root, value in parts.unknowns.items()}
+    found = free_bodies(_position(parts), parts.figure.frame, parts.outcome.balance, by_power)
+    return found.added_to(parts.answer())
+
+
+def _with_friction(parts: _Parts, reactions: bool) -> Answer:
+    """The answer with friction, from free bodies; its motion or the range in which it holds."""
+    from icsolve.bodies.friction import WHY, Scene, solved
+
+    def answer_with(values: Mapping[str, float]) -> Answer:
+        parts.unknowns = {root: Value(value, None, WHY) for root, value in values.items()}
+        return parts.answer()
+
+    top, outcome = parts.program.top, parts.outcome
+    if not verdicts.is_workless(outcome.motions, outcome.solution):
+        verdicts.refuse_unbalanced(parts.case, top, outcome.motions, outcome.balance, outcome.solution)
+    scene = Scene(_position(parts), parts.figure.frame, outcome.balance, outcome.solution, parts.speed)
+    return solved(scene, answer_with, reactions)
+
+
+def _position(parts: _Parts) -> Position:
+    """The scene as free bodies take it."""
     from icsolve.bodies.ties import Position
 
     figure, moves = parts.figure, parts.outcome.motions
     scale, slack = figure.frame.scale, float(moves.slack)
-    place = Position(parts.case, parts.program.top, figure.points, scale, moves.twists, slack)
-    by_power = {root: (value.value, value.error or 0.0) for root, value in parts.unknowns.items()}
-    return free_bodies(place, figure.frame, parts.outcome.balance, by_power).added_to(parts.answer())
+    return Position(parts.case, parts.program.top, figure.points, scale, moves.twists, slack)
 
 
 def _structure(program: Program, refusal: SceneError) -> Answer:

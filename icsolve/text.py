@@ -61,7 +61,8 @@ def _unknowns(answer: Answer, digits: int) -> list[str]:
 def _advantage(answer: Answer, advantage: float, show: Format) -> str:
     """The unknown over the known load, by name; a mechanical advantage where both are of one kind."""
     units = {term.load: term.unit for term in answer.terms}
-    names = [*answer.answers, *(term.load for term in answer.terms if term.load not in answer.answers)]
+    known = [term.load for term in answer.terms if term.load not in answer.answers and " " not in term.load]
+    names = [*answer.answers, *known]
     above, below = (units.get(name, "") for name in (names[0], names[-1]))
     unit = "" if above == below else f" {above} per {below}"
     return f"{'/'.join(names)} = {show(advantage)}{unit}" + (" (mechanical advantage)" if not unit else "")
@@ -70,12 +71,26 @@ def _advantage(answer: Answer, advantage: float, show: Format) -> str:
 def _unknown(case: Case, name: str, found: Found, digits: int) -> str:
     """One line: size, unit and sense; the signed value where the sign is not plus."""
     show = _formatter(certain_digits(found, digits))
+    if found.holds is not None:
+        return _range(name, found, show)
     line = f"{name} = {show(abs(found.value))} {found.unit}".rstrip()
     if found.sense:
         line += f", {_sense(found.sense)}"
     if found.value < 0.0:
         line += f"   ({name} = {show(found.value)}, {_positive(case, name)})"
     return line
+
+
+def _range(name: str, found: Found, show: Format) -> str:
+    """The values at which the mechanism holds still."""
+    least, most = found.holds or (0.0, 0.0)
+    if math.isfinite(least) and math.isfinite(most):
+        reach = f"from {show(least)} to {show(most)} {found.unit}"
+    elif math.isfinite(least):
+        reach = f"from {show(least)} {found.unit} up"
+    else:
+        reach = f"up to {show(most)} {found.unit}" if math.isfinite(most) else "at any value"
+    return f"{name}: holds still {reach}" + (", self-locking" if found.self_locking else "")
 
 
 def certain_digits(found: Found, digits: int) -> int:

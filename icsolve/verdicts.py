@@ -42,16 +42,17 @@ def refuse_no_direction(case: Case, top: Topology, points: Points) -> None:
             )
 
 
-def refuse_friction(case: Case) -> None:
-    """Refuse joints with friction until free bodies are solved: an answer without it would be wrong."""
-    for joint in case.joints:
-        friction = getattr(joint, "friction", None)
-        if friction is not None and friction.mu.value > 0:
-            raise SceneError(
-                Status.UNSUPPORTED,
-                f"the joint of links {sentences.listed(joint.links)} has friction (mu {friction.mu.digits}), "
-                "which is not solved yet. Take out `mu` to solve without friction.",
-            )
+def rubs(case: Case) -> bool:
+    """Whether friction has a part in the answer: a joint rubs, and a load is unknown."""
+    if not any(power.is_unknown(load) for load in case.loads):
+        return False
+    frictions = (getattr(joint, "friction", None) for joint in case.joints)
+    return any(friction is not None and friction.mu.value > 0 for friction in frictions)
+
+
+def is_workless(motions: Motions, solution: power.Solution) -> bool:
+    """Whether the one unknown load of a mechanism does no work: with friction it may still balance."""
+    return solution.verdict in ("no value", "any value") and motions.mobility == 1
 
 
 def refuse_unbalanced(

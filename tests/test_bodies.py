@@ -6,7 +6,6 @@ times as many mechanisms.
 
 from __future__ import annotations
 
-import math
 import os
 from collections.abc import Iterable
 from random import Random

@@ -42,7 +42,11 @@ def _reaction(answer: Answer, by: str, on: str, at: str | None) -> Reaction:
 
 
 def _arm(answer: Answer, reaction: Reaction, point: str) -> float:
-    """Arm of a force about a point: its moment there, with its couple, over its size."""
+    """Arm of a force about a point: its moment there, with its couple, over its size.
+
+    Where a pin of the same link rubs at the point, its reaction is tangent to the friction circle: the arm
+    is to that line, as books draw it.
+    """
     if point not in answer.points:
         raise LookupError(f"the point {point} was not found")
     if reaction.x is None or reaction.y is None or reaction.moment is None:
@@ -51,9 +55,23 @@ def _arm(answer: Answer, reaction: Reaction, point: str) -> float:
     if size == 0.0:
         raise LookupError("the force is zero: it has no arm")
     px, py = answer.points[point]
-    couple = reaction.moment / answer.case.units.torque_per_force_length
+    couple = (reaction.moment + _rubbed(answer, reaction, point)) / answer.case.units.torque_per_force_length
     x, y = reaction.at
     return abs((x - px) * reaction.y - (y - py) * reaction.x + couple) / size
+
+
+def _rubbed(answer: Answer, reaction: Reaction, point: str) -> float:
+    """The couples of pins at a point on the link that a force acts on, other than with the force itself."""
+    total = 0.0
+    for other in (answer.reactions or {}).values():
+        if (
+            other.kind == "pin"
+            and other.where == point
+            and {other.by, other.on} != {reaction.by, reaction.on}
+        ):
+            sign = 1.0 if other.on == reaction.on else -1.0 if other.by == reaction.on else 0.0
+            total += sign * (other.moment or 0.0)
+    return total
 
 
 def _friction_radius(answer: Answer, point: str) -> float:

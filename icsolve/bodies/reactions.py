@@ -11,8 +11,8 @@ from icsolve.bodies.sparse import Row
 from icsolve.bodies.ties import Force, Position, Tie, kind_of
 from icsolve.bodies.values import Reaction, Reactions, names_of
 from icsolve.case import Belt, Case, Contact, Gears, KnownCentre, Slide, Slot
-from icsolve.names import ordered_pair
 from icsolve.figure import Frame, case_point
+from icsolve.names import ordered_pair
 
 UNIQUE = 1e-9
 """A share in what the joints leave open that is below this, of the largest, is none (rounding)."""

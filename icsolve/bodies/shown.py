@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from icsolve.bodies.values import Friction, Reaction, Rubbing
+from icsolve.case import Units
 
 if TYPE_CHECKING:
     from icsolve.answer import Answer
@@ -59,7 +60,10 @@ def _rubbing(rubbing: Rubbing) -> dict[str, Any]:
 
 def bodies_lines(answer: Answer, show: Format, table: Table) -> list[str]:
     """Reactions, friction, and the unknown loads by free bodies."""
-    return [*reaction_lines(answer, show, table), *witness_lines(answer, show)]
+    lines = reaction_lines(answer, show, table)
+    if answer.friction is not None:
+        lines += friction_lines(answer.friction, answer.case.units, show, table)
+    return [*lines, *witness_lines(answer, show)]
 
 
 def reaction_lines(answer: Answer, show: Format, table: Table) -> list[str]:
@@ -87,6 +91,22 @@ def _rest(reaction: Reaction, show: Format) -> str:
     couple = "" if reaction.moment == 0.0 else f", couple {_number(reaction.moment, show)}"
     parts = "".join(f", {name} {show(value)}" for name, value in reaction.parts if value)
     return f"{place}{couple}{parts}"
+
+
+def friction_lines(friction: Friction, units: Units, show: Format, table: Table) -> list[str]:
+    """A line for each rub, what friction takes, and the efficiency."""
+    rows = [_rub(rub, units, show) for rub in friction.rubbing]
+    lines = ["Friction", *table(*(list(column) for column in zip(*rows, strict=True)))] if rows else []
+    if friction.efficiency is not None:
+        lines.append(f"Efficiency {show(100.0 * friction.efficiency)} % (power out over power in)")
+    return lines
+
+
+def _rub(rub: Rubbing, units: Units, show: Format) -> tuple[str, str, str]:
+    place = f"{rub.kind} {rub.joint[1:]}" + (f" at {rub.where}" if rub.where else "")
+    unit = units.torque if rub.kind == "pin" else units.force
+    circle = f", friction circle {show(rub.radius)} {units.length}" if rub.radius is not None else ""
+    return place, f"{show(abs(rub.value))} {unit}", f"takes {show(rub.loss)}{circle}"
 
 
 def _number(value: float | None, show: Format) -> str:

@@ -12,6 +12,7 @@ from icsolve.arithmetic import FLOATS
 from icsolve.bodies import gears
 from icsolve.bodies.agreement import bounds_of, refuse_apart, unknowns_of, witnesses
 from icsolve.bodies.equilibrium import Statics, equilibrium, residual, terms_of
+from icsolve.bodies.losses import efficiency, friction_terms
 from icsolve.bodies.reactions import is_unique, names_by_tie, reactions_of
 from icsolve.bodies.said import said_of
 from icsolve.bodies.sparse import Row
@@ -34,13 +35,18 @@ class Bodies(NamedTuple):
     notes: tuple[str, ...] = ()
     friction: Friction | None = None
 
-    def added_to(self, answer: Answer) -> Answer:
-        """An answer with what free bodies add to it."""
+    def added_to(self, answer: Answer, reactions: bool = True) -> Answer:
+        """An answer with what free bodies add to it; friction brings its losses to the sum of power."""
+        friction, terms = self.friction, answer.terms
+        if friction is not None:
+            friction = friction._replace(efficiency=efficiency(terms))
+            terms = (*terms, *friction_terms(friction, answer.case))
         return replace(
             answer,
-            reactions=self.reactions,
-            witnesses=self.witnesses,
-            friction=self.friction,
+            terms=terms,
+            reactions=self.reactions if reactions else None,
+            witnesses=self.witnesses if reactions else (),
+            friction=friction,
             notes=(*answer.notes, *self.notes),
         )
 
@@ -72,7 +78,7 @@ def free_bodies(
     """
     ties = ties_of(position)
     gears.refuse_misfit(position.case, ties, position.points, position.scale)
-    solved = with_tooth_forces(position, ties, lambda flanked: _solved(position, balance, flanked))
+    solved = frictionless(position, balance, ties)
     statics, parameters = solved.statics, solved.parameters
     terms = terms_of(position, statics, balance, parameters)
     bounds = bounds_of(position, statics, balance, terms) if position.mobility else {}
@@ -96,14 +102,25 @@ class Solved(NamedTuple):
         return self.statics.parameters(self.unknowns, self.friction)
 
 
+def frictionless(position: Position, balance: Balance, ties: Sequence[Tie]) -> Solved:
+    """The statics without friction, with the tooth forces on the flanks that carry."""
+    return with_tooth_forces(position, ties, lambda flanked: _solved(position, balance, flanked))
+
+
 def _solved(position: Position, balance: Balance, ties: Sequence[Tie]) -> Solved:
     statics = equilibrium(position, ties, balance)
-    if len(statics.general.left) != position.mobility:
-        raise SceneError(Status.NEAR_SINGULAR, _doubtful(position, len(statics.general.left)))
+    refuse_doubt(position, statics)
     unknowns = unknowns_of(statics)
     if unknowns is None:
         raise SceneError(Status.NEAR_SINGULAR, _doubtful(position, 0))
     return Solved(statics, unknowns)
+
+
+def refuse_doubt(position: Position, statics: Statics) -> None:
+    """Refuse a position in which the links' equilibrium and their motions count different freedoms."""
+    freedoms = len(statics.general.left)
+    if freedoms != position.mobility:
+        raise SceneError(Status.NEAR_SINGULAR, _doubtful(position, freedoms))
 
 
 def _doubtful(position: Position, freedoms: int) -> str:

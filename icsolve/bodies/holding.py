@@ -1,0 +1,118 @@
+"""Friction without a given motion: the values of the unknown load at which the mechanism holds still.
+
+The set of values for which an equilibrium exists with every friction within its limit. Its ends are
+the equilibria in which the mechanism is about to move one way and the other; that no other friction
+holds more is proven where the influence of the rubs on each other is small, else looked for.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from itertools import product
+from typing import NamedTuple
+
+from icsolve.bodies.affine import at, contraction
+from icsolve.bodies.continuation import followed, solutions, without_friction
+from icsolve.bodies.equilibrium import Statics
+from icsolve.bodies.reduction import Reduced, reduced
+
+PROVEN = "proven: no other friction within its limits holds more"
+SEARCHED = "every combination of full friction was tried"
+MOST_TRIED = 10
+"""More rubs have too many combinations of senses."""
+
+
+class Held(NamedTuple):
+    """The interval, in case units; infinite where no value moves the mechanism that way.
+
+    ``sliding`` are the two ends by impending motion alone; ``how`` says how it is known that no other
+    friction holds more, '' where that is not known.
+    """
+
+    least: float
+    most: float
+    sliding: tuple[float, float]
+    how: str
+    self_locking: bool = False
+
+
+def held(statics: Statics, senses: Sequence[float]) -> Held:
+    """The interval of the one unknown load; ``senses`` are those of the rubs in the motion.
+
+    Self-locking: it holds with the unknown at zero (against loads), or no value moves it one way.
+    """
+    found = _held(statics, senses)
+    unbounded = math.isinf(found.least) or math.isinf(found.most)
+    idle = found.least <= 0.0 <= found.most and found.least < found.most
+    return found._replace(self_locking=unbounded or idle)
+
+
+def _held(statics: Statics, senses: Sequence[float]) -> Held:
+    ends = [_end(statics, [d * sense for sense in senses]) for d in (1.0, -1.0)]
+    sliding = (min(ends), max(ends))
+    if _is_proven(statics, senses):
+        return Held(*sliding, sliding, PROVEN)
+    if len(senses) > MOST_TRIED:
+        return Held(*sliding, sliding, "")
+    tried = [_end(statics, signs) for signs in product((1.0, -1.0), repeat=len(senses))]
+    return Held(min(*tried, *ends), max(*tried, *ends), sliding, SEARCHED)
+
+
+def _end(statics: Statics, senses: Sequence[float]) -> float:
+    """The unknown load at full friction of these senses; infinite where the forces grow without bound."""
+    equations = reduced(statics, senses)
+    assert equations is not None
+    if contraction(equations.equations) is not None:
+        found = solutions(equations.equations)
+        assert found.main is not None
+        return equations.load(found.main)[0] / statics.scale
+    y, share, grows = followed(equations.equations)
+    if y is not None:
+        return equations.load(y)[0] / statics.scale
+    last = followed(equations.equations.scaled(0.999 * share))[0] or without_friction(equations.equations)
+    change = sum(a * x for a, x in zip(equations.loads[0][1:], last, strict=True))
+    if grows or _locks(equations):
+        return math.copysign(math.inf, change)
+    return (equations.loads[0][0] + 0.999 * share * change) / statics.scale
+
+
+def _locks(equations: Reduced) -> bool:
+    """Whether friction of these senses can carry itself, however large: y_k <= |B_k y| for some y > 0.
+
+    By power iteration of the homogeneous part, whose growth is then 1 or more.
+    """
+    forms = equations.equations.vectors
+    y = [1.0] * len(forms)
+    growth = 0.0
+    for _ in range(200):
+        grown = [math.hypot(*(at((0.0, *form[1:]), y) for form in three)) for three in forms]
+        growth = min((a / b for a, b in zip(grown, y, strict=True) if b > 1e-6), default=0.0)
+        size = max(grown, default=0.0)
+        if not size:
+            return False
+        y = [a / size for a in grown]
+    return growth >= 1.0
+
+
+def _is_proven(statics: Statics, senses: Sequence[float]) -> bool:
+    """Whether the load changes one way with each friction, whatever the others are.
+
+    With f_k = e_k limit_k |v_k| and e in the cube [-1, 1]^K, the load changes with e_k in proportion to
+    s_k + (J^T diag(e limit) lambda)_k, where s is its rate of change with the frictions and J that of the
+    sizes. Bounds on J bound the second term; where it is less than s_k the extremes are at corners.
+    """
+    equations = reduced(statics, [1.0] * len(senses))
+    if equations is None or not all(senses):
+        return False
+    spread = contraction(equations.equations)
+    gains = [rub.limit for rub in statics.rubs]
+    if spread is None:
+        return False
+    n = len(gains)
+    own = [abs(a) for a in equations.loads[0][1:]]
+    factors = [
+        [math.hypot(*(f[j + 1] for f in forms)) for j in range(n)] for forms in equations.equations.vectors
+    ]
+    reach = [sum(spread[k][j] * own[k] for k in range(n)) for j in range(n)]
+    return all(sum(factors[k][j] * reach[k] for k in range(n)) < own[j] for j in range(n) if gains[j])
