@@ -13,7 +13,7 @@ from itertools import chain
 from typing import NamedTuple
 
 from icsolve.arithmetic import Arithmetic, Scalar, magnitude
-from icsolve.case import Case, Force, ForceVector, Like, Load, Slope, Spring, Torque, Toward, Weight
+from icsolve.case import Case, Force, ForceVector, Like, Load, Number, Slope, Spring, Torque, Toward, Weight
 from icsolve.eliminate import null_space
 from icsolve.figure.frame import Frame
 from icsolve.plane import Point, Triple, force_wrench, pairing
@@ -178,13 +178,14 @@ class Solution(NamedTuple):
 
 def solve_balance(b: Balance, arithmetic: Arithmetic) -> Solution:
     """The unknown loads from the sums of power of all motions."""
-    roots = [w.load.name for w in b.wrenches if is_unknown(w.load)]
-    measures = {w.load.name: w.measure for w in b.wrenches}
+    unknown = [w for w in b.wrenches if is_unknown(w.load)]
+    place = {w.load.name: k for k, w in enumerate(unknown)}
     scale = force_scale(b)
-    shares = [_share(w, measures, scale, arithmetic) for w in b.wrenches]
-    rows = [_row(shares, *motion, roots, arithmetic) for motion in zip(b.factors, b.sizes, strict=True)]
+    shares = [_share(w, unknown, place, scale, arithmetic) for w in b.wrenches]
+    motions = zip(b.factors, b.sizes, strict=True)
+    rows = [_row(shares, *motion, len(unknown) + 1, arithmetic) for motion in motions]
     idle = tuple(m for m, row in enumerate(rows) if all(value == 0.0 for value in row))
-    return _solved(rows, roots, idle, [(scale, measures[root]) for root in roots])
+    return _solved(rows, list(place), idle, [(scale, w.measure) for w in unknown])
 
 
 def is_unknown(load: Load) -> bool:
@@ -223,32 +224,33 @@ def known_value(w: Wrench) -> float | None:
 
 
 def _share(
-    w: Wrench, measures: Mapping[str, float], scale: float, arithmetic: Arithmetic
-) -> tuple[str, Scalar]:
-    """The unknown that a load belongs to and how many times; a known load, to '' by its (scaled) number."""
-    source = w.source
-    if isinstance(source, ForceVector):
-        return "", vector_size(source) * scale * w.measure * w.ratio
-    if source.value is None:
-        return w.root, w.ratio * (w.measure / measures[w.root])
-    assert not isinstance(source.value, Like)
-    return "", arithmetic.given(source.value) * scale * w.measure * w.ratio
+    w: Wrench, unknown: Sequence[Wrench], place: Mapping[str, int], scale: float, arithmetic: Arithmetic
+) -> tuple[int, Scalar]:
+    """The unknown that a load belongs to and how many times; a known load, to the last by its number."""
+    k = place.get(w.root)
+    if k is not None:
+        return k, w.ratio * (w.measure / unknown[k].measure)
+    if isinstance(w.source, ForceVector):
+        return len(unknown), vector_size(w.source) * scale * w.measure * w.ratio
+    assert isinstance(w.source.value, Number)
+    return len(unknown), arithmetic.given(w.source.value) * scale * w.measure * w.ratio
 
 
 def _row(
-    shares: Sequence[tuple[str, Scalar]],
+    shares: Sequence[tuple[int, Scalar]],
     factors: Sequence[Scalar],
     sizes: Sequence[float],
-    roots: list[str],
+    columns: int,
     arithmetic: Arithmetic,
 ) -> list[Scalar]:
     """Factor of each unknown in one motion, then the (scaled) power of the known loads."""
-    sums: dict[str, Scalar] = dict.fromkeys((*roots, ""), 0.0)
-    terms: dict[str, float] = dict.fromkeys(sums, 0.0)
-    for (key, amount), factor, size in zip(shares, factors, sizes, strict=True):
-        sums[key] = sums[key] + amount * factor
-        terms[key] += abs(amount) * size
-    return [0.0 if arithmetic.vanishes(sums[key], terms[key]) else sums[key] for key in sums]
+    sums: list[Scalar] = [0.0] * columns
+    terms = [0.0] * columns
+    for (k, amount), factor, size in zip(shares, factors, sizes, strict=True):
+        sums[k] = sums[k] + amount * factor
+        terms[k] += abs(amount) * size
+    vanishes = arithmetic.vanishes
+    return [0.0 if vanishes(x, size) else x for x, size in zip(sums, terms, strict=True)]
 
 
 def _solved(
