@@ -179,11 +179,11 @@ class Solution(NamedTuple):
 def solve_balance(b: Balance, arithmetic: Arithmetic) -> Solution:
     """The unknown loads from the sums of power of all motions."""
     unknown = [w for w in b.wrenches if is_unknown(w.load)]
-    place = {w.load.name: k for k, w in enumerate(unknown)}
+    place = {w.root: k for k, w in enumerate(unknown)}
     scale = force_scale(b)
     shares = [_share(w, unknown, place, scale, arithmetic) for w in b.wrenches]
-    motions = zip(b.factors, b.sizes, strict=True)
-    rows = [_row(shares, *motion, len(unknown) + 1, arithmetic) for motion in motions]
+    columns = len(unknown) + 1
+    rows = [_row(shares, b.factors[m], b.sizes[m], columns, arithmetic) for m in range(len(b.factors))]
     idle = tuple(m for m, row in enumerate(rows) if all(value == 0.0 for value in row))
     return _solved(rows, list(place), idle, [(scale, w.measure) for w in unknown])
 

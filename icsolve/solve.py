@@ -11,7 +11,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING
 
 from icsolve import power, sentences, speeds, verdicts
@@ -75,10 +75,11 @@ def solve(
     SceneError
         Where the scene has no answer; its ``status`` is a member of `icsolve.errors.Status`.
     """
-    rubbing = verdicts.rubs(case)
-    want = Want(all_centres, rates, examine, reactions or rubbing)
-    if not any(power.is_unknown(load) for load in case.loads):
-        want = Want(True, True, examine, reactions)
+    if case.space is not None:
+        from icsolve.space.solve import solve_space
+
+        return solve_space(case)
+    want, rubbing = _wanted(case, Want(all_centres, rates, examine, reactions))
     program = prepare(case, want)
     try:
         scene = evaluate_bounded(program) if bound else None
@@ -93,6 +94,15 @@ def solve(
     values = bounded_values(scene) if scene else unbounded_values(outcome)
     parts = _Parts(program, outcome, values, scene)
     return _with_bodies(parts) if reactions else parts.answer()
+
+
+@lru_cache(maxsize=32)
+def _wanted(case: Case, asked: Want) -> tuple[Want, bool]:
+    """What is to be found for what was asked; whether friction has a part in it."""
+    if not any(power.is_unknown(load) for load in case.loads):
+        return asked._replace(centres=True, rates=True), False
+    rubbing = verdicts.rubs(case)
+    return asked._replace(bodies=asked.bodies or rubbing), rubbing
 
 
 class _Parts:
