@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import time
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NamedTuple
 
@@ -47,13 +48,28 @@ class Asked(NamedTuple):
         return ", ".join(parts + ([f"a centre by {self.by}"] if self.by else []))
 
 
+class Turned(NamedTuple):
+    """A sweep: one number from ``first`` by whole ``step`` over ``rows`` rows; ``status`` where it is
+    not ok, by the value of that number."""
+
+    path: str
+    first: int
+    step: int
+    rows: int
+    status: Mapping[int, str]
+
+
 class Stress(NamedTuple):
-    """One scene of the catalogue: its number (letters where one has several), what it is, and the verdict."""
+    """One scene of the catalogue: its number (letters where one has several), what it is, and the verdict.
+
+    With ``turned`` the verdict is that of every row of a sweep.
+    """
 
     number: str
     title: str
     case: str | Callable[[], str]
     asked: Asked
+    turned: Turned | None = None
 
 
 class Judged(NamedTuple):
@@ -78,20 +94,45 @@ def answered(values: Mapping[str, Value | float], **more: Any) -> Asked:
 
 def judge(stress: Stress) -> Judged:
     """Solve a scene from its text, and compare the verdict with the one asked."""
-    from icsolve.read import load
-    from icsolve.solve import solve
-
     text = stress.case if isinstance(stress.case, str) else stress.case()
     start = time.perf_counter()
     try:
-        asked = stress.asked
-        answer = solve(load(text), all_centres=bool(asked.by or asked.centres), rates=bool(asked.rates))
-        got, faults = _of_answer(answer, asked)
+        got, faults = (
+            _swept(text, stress.turned, stress.asked) if stress.turned else _solved(text, stress.asked)
+        )
     except CaseError as error:
         got, faults = _of_refusal(UNREADABLE, str(error), stress.asked)
     except SceneError as error:
         got, faults = _of_refusal(error.status, error.message, stress.asked)
     return Judged(stress, got, tuple(faults), time.perf_counter() - start)
+
+
+def _solved(text: str, asked: Asked) -> tuple[str, list[str]]:
+    from icsolve.read import load
+    from icsolve.solve import solve
+
+    answer = solve(load(text), all_centres=bool(asked.by or asked.centres), rates=bool(asked.rates))
+    return _of_answer(answer, asked)
+
+
+def _swept(text: str, turned: Turned, asked: Asked) -> tuple[str, list[str]]:
+    """Every row has the status asked, and where it is ok the values asked."""
+    from icsolve.read import load
+    from icsolve.turn import sweep
+
+    at = [turned.first + turned.step * k for k in range(turned.rows)]
+    made = sweep(load(text), {turned.path: [float(x) for x in at]})
+    status = [str(word) for word in made.status]
+    meant = [turned.status.get(x, "ok") for x in at]
+    faults = [f"row {x}: {got}" for x, got, word in zip(at, status, meant, strict=True) if got != word]
+    for name, value in asked.values.items():
+        for x, word, got in zip(at, status, made.answers[name], strict=True):
+            if word == "ok" and not abs(got - value.value) <= value.within * abs(value.value):
+                faults.append(f"row {x}: {name} = {got!r}")
+            if word != "ok" and math.isfinite(got):
+                faults.append(f"row {x}: {word}, and {name} = {got!r}")
+    counts = Counter(status)
+    return ", ".join(f"{count} rows {word}" for word, count in counts.items()), faults
 
 
 def _of_refusal(status: str, message: str, asked: Asked) -> tuple[str, list[str]]:

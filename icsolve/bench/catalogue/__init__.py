@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from icsolve.bench.catalogue import figures, large, pinned, sliding, wheels
+from icsolve.bench.catalogue import figures, large, pinned, sliding, turning, wheels
 from icsolve.bench.stress import Stress
 
 
@@ -12,7 +12,8 @@ def _place(stress: Stress) -> tuple[int, str]:
     return int(digits), stress.number[len(digits) :]
 
 
+_ROOMS = (pinned, sliding, wheels, figures, turning, large)
 CATALOGUE: tuple[Stress, ...] = tuple(
-    sorted((*pinned.ENTRIES, *sliding.ENTRIES, *wheels.ENTRIES, *figures.ENTRIES, *large.ENTRIES), key=_place)
+    sorted((entry for room in _ROOMS for entry in room.ENTRIES), key=_place)
 )
 """Every scene, in the order of its number."""
