@@ -105,12 +105,16 @@ def _spots(case: Case, top: Topology, ref: Mapping[str, Point]) -> dict[int, lis
 
 
 def _inferred(case: Case, name: str, spots: Mapping[int, Iterable[Spot]], top: Topology) -> int | None:
-    """The body that a point belongs to which no link is said to carry: the one that carries all the
-    points to which its data tie it; the frame where nothing does (None: a centroid, or torn)."""
+    """The body that a point belongs to which no link is said to carry: the one that takes the opposite of a
+    force toward it, or that carries all the points to which its data tie it; the frame where nothing
+    does (None: a centroid, or torn)."""
     if isinstance(case.points.get(name), Centroid) or any(
         isinstance(joint, Roll) and joint.at == name for joint in case.joints
     ):
         return None
+    for load in case.loads:
+        if getattr(getattr(load, "heading", None), "point", None) == name and getattr(load, "against", None):
+            return top.body_of[load.against or case.ground]
     tied: set[str] = set()
     for datum in (*case.lengths, *case.angles):
         names = {getattr(datum, key) for key in ("a", "at", "b") if hasattr(datum, key)}

@@ -6,16 +6,20 @@ Only what leads to the wanted nodes is run. A buffer is free again after the las
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from threading import get_ident
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from icsolve.arithmetic import turn_of
 from icsolve.turn.record import Op, Record
 
 Array = npt.NDArray[np.float64]
 BLOCK = 4096
 """Rows that run at once: some thirty buffers of them fit the second-level cache."""
+FEW = 512
+MOST_SIZES = 24
 
 Step = tuple[Callable[..., Any], tuple[Any, ...]]
 
@@ -64,7 +68,7 @@ class Code:
         self.given = tuple(k for k in found if k in given or record.nodes[k].op == Op.INPUT)
         self.order = [k for k in found if k not in set(self.given)]
         self.place, self.buffers = self._allocated()
-        self._bound: dict[int, tuple[list[Step], Array]] = {}
+        self._bound: dict[tuple[int, int], tuple[list[Step], Array]] = {}
 
     def _allocated(self) -> tuple[dict[int, int], int]:
         """The buffer of every node, and how many there are."""
@@ -92,13 +96,15 @@ class Code:
         return place, count
 
     def bound(self, rows: int) -> tuple[list[Step], Array]:
-        """The steps on buffers of so many rows, and the buffers."""
-        if rows not in self._bound:
-            if len(self._bound) > 2:
+        """The steps on buffers for so many rows (few rows: up to the next power of two), one set a thread."""
+        room = rows if rows > FEW else 1 << (rows - 1).bit_length()
+        key = (room, get_ident())
+        if key not in self._bound:
+            if len(self._bound) > MOST_SIZES:
                 self._bound.clear()
-            buffers = np.empty((self.buffers + 2, rows))
-            self._bound[rows] = (list(self._steps(buffers)), buffers)
-        return self._bound[rows]
+            buffers = np.zeros((self.buffers + 2, room))
+            self._bound[key] = (list(self._steps(buffers)), buffers)
+        return self._bound[key]
 
     def _steps(self, buffers: Array) -> Iterable[Step]:
         nodes = self.record.nodes
@@ -139,15 +145,19 @@ class Code:
         """
         steps, buffers = self.bound(rows)
         for k in self.given:
-            np.copyto(buffers[self.place[k]], given[k])
+            np.copyto(buffers[self.place[k], :rows], given[k])
         with np.errstate(all="ignore"):
             for function, arguments in steps:
                 function(*arguments)
-        return [self._value(k, buffers) for k in self.wanted]
+        return [self._cut(k, buffers, rows) for k in self.wanted]
+
+    def _cut(self, k: int, buffers: Array, rows: int) -> Array:
+        value = self._value(k, buffers)
+        return value[:rows] if value.ndim else value
 
     def value(self, k: int, rows: int) -> Array:
         """A node's value in the last run of so many rows (of any node, where all are kept)."""
-        return self._value(k, self.bound(rows)[1])
+        return self._cut(k, self.bound(rows)[1], rows)
 
 
 def turn(degrees: Array, cosine: Array | None, sine: Array | None, c: Array, s: Array) -> None:
@@ -155,6 +165,9 @@ def turn(degrees: Array, cosine: Array | None, sine: Array | None, c: Array, s: 
 
     As `icsolve.arithmetic.turn_of`: reduced exactly to within 45 degrees of an axis before pi is met.
     """
+    if degrees.size == 1:
+        _turn_one(float(degrees.flat[0]), cosine, sine)
+        return
     quarter = np.rint(np.divide(degrees, 90.0, c), c)
     rest = np.subtract(degrees, np.multiply(quarter, 90.0, s), s)
     rest = np.multiply(rest, np.pi / 180.0, s)
@@ -169,3 +182,10 @@ def turn(degrees: Array, cosine: Array | None, sine: Array | None, c: Array, s: 
         np.copyto(sine, s)
         np.copyto(sine, c, where=odd)
         np.negative(sine, sine, where=back)
+
+
+def _turn_one(degrees: float, cosine: Array | None, sine: Array | None) -> None:
+    found = turn_of(degrees) if np.isfinite(degrees) else (np.nan, np.nan)
+    for out, value in zip((cosine, sine), found, strict=True):
+        if out is not None:
+            out.fill(value)

@@ -23,7 +23,6 @@ from icsolve.case import (
     Slope,
     Slot,
     Spring,
-    Toward,
     Weight,
 )
 from icsolve.errors import SceneError
@@ -98,15 +97,7 @@ class _Writer:
             return load
         if isinstance(load, Spring):
             return load._replace(to=self.on((self.body_of[load.against or ground], load.to)))
-        if isinstance(load, Force) and isinstance(load.heading, Toward):
-            aim = self._aim(load.heading.point, self.body_of[load.against or ground])
-            return load._replace(heading=load.heading._replace(point=aim))
         return self._turned(load) if load.turns_with else load
-
-    def _aim(self, name: str, against: int) -> str:
-        """The point toward which a force goes: of the link that it is against, where that carries it."""
-        spot = (against, name)
-        return self.on(spot) if spot in self.mechanism.spots[against] else name
 
     def _turned(self, load: Force | ForceVector) -> Load:
         """A load whose direction turns with a link."""

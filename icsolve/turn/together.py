@@ -159,16 +159,23 @@ class Solver:
     def solve(self, env: Mapping[int, Array], start: Array, rounds: int = ROUNDS) -> tuple[Array, Array]:
         """Solutions from a start (rows, unknowns), and whether each row has one."""
         q, good = start.copy(), np.zeros(len(start), dtype=bool)
+        active = np.arange(len(start))
         for _ in range(rounds):
-            f, j = self.system(env, q)
-            move = self.step(f, j)
-            size = np.abs(move).max(axis=1)
-            far = np.where(size > 0.5, 0.5 / np.where(size > 0.5, size, 1.0), 1.0)
-            move = move * far[:, None]
-            move[:, 2::3] /= RADIAN
-            q = q - move
-            good = size < CLOSE
-            if good.all() or not np.isfinite(size).any():
+            here = {k: v[active] if v.ndim and len(v) > 1 else v for k, v in env.items()}
+            move, size = self._move(here, q[active])
+            q[active] -= move
+            good[active] = size < CLOSE
+            active = active[~good[active] & np.isfinite(size)]
+            if not active.size:
                 break
         residual = np.abs(self.system(env, q)[0]).max(axis=1)
         return q, good & (residual < SOLVED)
+
+    def _move(self, env: Mapping[int, Array], q: Array) -> tuple[Array, Array]:
+        """The next step of every row, cut to half the figure, and its full size."""
+        move = self.step(*self.system(env, q))
+        size = np.abs(move).max(axis=1)
+        with np.errstate(all="ignore"):
+            move = move * np.minimum(1.0, 0.5 / size)[:, None]
+        move[:, 2::3] /= RADIAN
+        return np.nan_to_num(move), size

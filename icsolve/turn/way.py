@@ -7,7 +7,7 @@ branches change where `branches` found them to.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -16,28 +16,34 @@ import numpy.typing as npt
 from icsolve.turn.constraints import RADIAN
 from icsolve.turn.program import Sheet
 from icsolve.turn.replay import Array, Code
-from icsolve.turn.together import Solver
+from icsolve.turn.together import ROUNDS, Solver
 
-FIRST = 2.0**-7
+FIRST = 2.0**-5
 """The first step, as a part of the longest."""
-SHORTEST = 2.0**-30
+SHORTEST = 2.0**-16
 """A way that needs shorter steps, as a part of the longest, has come to a limit."""
 FAR = 0.35
 """The longest move (normalised, radians) that one step may bring."""
 BENT = 0.25
 """How far a solution may lie from where the last steps pointed, as a part of the move."""
 TRIALS = 64
+QUICK = 6
+"""Rounds of Newton's method that a step may take."""
 
 Mask = npt.NDArray[np.bool_]
 
 
 class Way(NamedTuple):
-    """Inputs (by name) as ``base + slope * s``; it starts at ``start`` and has steps of at most ``widest``."""
+    """Inputs (by name) as ``base + slope * s``; it starts at ``start`` and has steps of at most ``widest``.
+
+    After a ``period`` (of an angle) all is as before.
+    """
 
     base: dict[str, float]
     slope: dict[str, float]
     start: float
     widest: float
+    period: float | None = None
 
     def inputs(self, sheet: Sheet, s: Array) -> dict[int, Array]:
         """The inputs at places of the way."""
@@ -52,6 +58,10 @@ class State(NamedTuple):
     q: Array
     turns: Array
     signs: dict[str, float]
+
+
+Step = tuple[float, Array, Array]
+"""A place on the way, the unknowns of the groups there, and the counted turns."""
 
 
 class Stretch(NamedTuple):
@@ -137,7 +147,9 @@ class Track:
 
     # --- steps ------------------------------------------------------------------------------------
 
-    def _solved(self, given: Mapping[int, Array], q: Array, turns: Array) -> tuple[Array, Array, Mask]:
+    def _solved(
+        self, given: Mapping[int, Array], q: Array, turns: Array, rounds: int = ROUNDS
+    ) -> tuple[Array, Array, Mask]:
         """Solutions of all groups from a guess, the turns counted on, and where it went well."""
         rows = len(q)
         good, found = np.ones(rows, dtype=bool), q.copy()
@@ -145,7 +157,7 @@ class Track:
         for group, solver in self.groups:
             last = first + len(group.solved)
             env = {**given, **self._state(found, turns)}
-            found[:, first:last], right = solver.solve(env, q[:, first:last])
+            found[:, first:last], right = solver.solve(env, q[:, first:last], rounds)
             good &= right
             first = last
         if self.counted:
@@ -160,37 +172,48 @@ class Track:
         if not good[0]:
             return []
         first = (self.way.start, q[0], turns[0])
-        down, more_down = self._one_way(first, reach[0])
-        up, more_up = self._one_way(first, reach[1])
-        middle = _stretch([*reversed(down[1:]), *up])
-        return sorted([middle, *more_down, *more_up], key=lambda stretch: float(stretch.s[0]))
+        down, up = self._steps(first, reach[0]), self._steps(first, reach[1])
+        steps = [*reversed(down[1:]), *up]
+        more = [
+            stretch
+            for last, end in ((down[-1], reach[0]), (up[-1], reach[1]))
+            for stretch in self._beyond(last, end, steps)
+        ]
+        return sorted([_stretch(steps), *more], key=lambda stretch: float(stretch.s[0]))
 
-    def _one_way(self, first: tuple[float, Array, Array], end: float) -> tuple[list[tuple[float, Array, Array]], list[Stretch]]:
-        """Steps from a place toward an end; beyond a limit, the stretches where it assembles again."""
-        steps = self._steps(first, end)
-        more: list[Stretch] = []
-        last = steps[-1]
+    def _beyond(self, last: Step, end: float, known: Sequence[Step]) -> Iterator[Stretch]:
+        """Stretches beyond a limit, where it is as it was a turn before."""
         while abs(last[0] - end) > self.way.widest * SHORTEST:
-            again = self._again(last, end, steps)
+            again = self._again(last, end, known)
             if again is None:
                 break
-            back = self._steps(again, last[0])
-            on = self._steps(again, end)
-            more.append(_stretch(sorted([*back[1:], *on], key=lambda step: step[0])))
+            back, on = self._steps(again, last[0]), self._steps(again, end)
+            yield _stretch(sorted([*back[1:], *on], key=lambda step: step[0]))
             last = on[-1]
-        return steps, more
 
-    def _again(self, last: tuple[float, Array, Array], end: float, steps: list[tuple[float, Array, Array]]) -> tuple[float, Array, Array] | None:
-        """The first place beyond a limit at which the groups have a solution again, near to one before."""
-        for s in np.linspace(last[0], end, TRIALS)[1:]:
-            for _, q, turns in (last, steps[len(steps) // 2], steps[0]):
-                at = np.array([s])
-                found, counted, good = self._solved(self._plain(at), q[None, :], turns[None, :])
-                if good[0]:
-                    return (float(s), found[0], counted[0])
+    def _again(self, last: Step, end: float, steps: Sequence[Step]) -> Step | None:
+        """The first place beyond a limit that is a whole turn from one of the steps: there it is as before.
+
+        Elsewhere beyond a limit the links may assemble, but no motion leads there.
+        """
+        if self.way.period is None:
+            return None
+        sense = 1.0 if end >= last[0] else -1.0
+        trials = np.linspace(last[0], end, TRIALS)[1:]
+        known = _stretch(sorted(steps, key=lambda step: step[0]))
+        back = trials - sense * self.way.period * np.ceil(np.abs(trials - last[0]) / self.way.period)
+        inside = (back >= known.s[0]) & (back <= known.s[-1])
+        if not inside.any():
+            return None
+        trials, back = trials[inside], back[inside]
+        guess, ahead = _cubic(known.s, known.q, back), _cubic(known.s, known.turns, back)
+        found, counted, good = self._solved(self._plain(trials), guess, ahead, QUICK)
+        for k in np.flatnonzero(good):
+            if _near(guess[k], guess[k], found[k], False):
+                return (float(trials[k]), found[k], counted[k])
         return None
 
-    def _steps(self, first: tuple[float, Array, Array], end: float) -> list[tuple[float, Array, Array]]:
+    def _steps(self, first: Step, end: float) -> list[Step]:
         """Steps toward an end, as far as they go."""
         steps, widest = [first], self.way.widest
         sense = 1.0 if end >= first[0] else -1.0
@@ -198,14 +221,11 @@ class Track:
         while sense * (end - steps[-1][0]) > 0.0 and h > widest * SHORTEST:
             s, q, turns = steps[-1]
             there = s + sense * min(h, sense * (end - s))
-            guess, ahead = q, turns
-            if len(steps) > 1:
-                before, q0, turns0 = steps[-2]
-                part = (there - s) / (s - before)
-                guess, ahead = q + part * (q - q0), turns + part * (turns - turns0)
             at = np.array([there])
-            found, counted, good = self._solved(self._plain(at), guess[None, :], ahead[None, :])
-            if good[0] and _near(q, guess, found[0], len(steps) > 1) and _counts(turns, counted[0]):
+            known = _stretch(steps[-4:])
+            guess, ahead = _cubic(known.s, known.q, at), _cubic(known.s, known.turns, at)
+            found, counted, good = self._solved(self._plain(at), guess, ahead, QUICK)
+            if good[0] and _near(q, guess[0], found[0], len(steps) > 1) and _counts(turns, counted[0]):
                 steps.append((there, found[0], counted[0]))
                 h = min(1.5 * h, widest)
             else:
@@ -219,12 +239,13 @@ class Track:
         q = np.full((len(s), self.start.q.size), np.nan)
         turns = np.zeros((len(s), self.start.turns.size))
         good = np.zeros(len(s), dtype=bool)
-        slack = self.way.widest * SHORTEST * 4.0
+        slack = self.way.widest * SHORTEST * 16.0
         for stretch in self.stretches:
             here = (s >= stretch.s[0] - slack) & (s <= stretch.s[-1] + slack)
             if here.any():
-                q[here] = _cubic(stretch.s, stretch.q, s[here])
-                turns[here] = _cubic(stretch.s, stretch.turns, s[here])
+                at = np.clip(s[here], stretch.s[0], stretch.s[-1])
+                q[here] = _cubic(stretch.s, stretch.q, at)
+                turns[here] = _cubic(stretch.s, stretch.turns, at)
                 good |= here
         q[~good] = self.start.q
         return q, turns, good
@@ -245,7 +266,7 @@ def _counts(turns: Array, found: Array) -> bool:
     return bool(np.all(np.abs(found - turns) < 60.0))
 
 
-def _stretch(steps: Sequence[tuple[float, Array, Array]]) -> Stretch:
+def _stretch(steps: Sequence[Step]) -> Stretch:
     return Stretch(
         np.array([s for s, _, _ in steps]), np.array([q for _, q, _ in steps]), np.array([t for _, _, t in steps])
     )

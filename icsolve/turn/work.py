@@ -186,6 +186,9 @@ class Work:
         """An input's value as written; a link turned from there starts at zero."""
         return 0.0 if name in self.links else numbers_of(self.case)[name].value
 
+    def _period(self, name: str) -> float | None:
+        return 360.0 if name in self.links or name.startswith("angles.") else None
+
     def _widest(self, name: str) -> float:
         if name in self.links or name.startswith("angles."):
             return WIDEST["angles"]
@@ -202,7 +205,7 @@ class Work:
             first = follow(self._remade, sheet, Way(base, slope, 0.0, 1.0 / 16.0), start, np.array([1.0]))
             start = first.track.end(1.0)
         places = arrays[main][rows]
-        way = Way({**base, **here, main: 0.0}, {main: 1.0}, self._written(main), self._widest(main))
+        way = Way({**base, **here, main: 0.0}, {main: 1.0}, self._written(main), self._widest(main), self._period(main))
         followed = follow(self._remade, self._remade(_changed(sheet, start)), way, start, places)
         return Part(self._runner(signs_of(followed.sheet)), rows, followed, places)
 
