@@ -56,7 +56,7 @@ def case(request: pytest.FixtureRequest) -> Case:
 
 def test_published_values_agree_or_are_errata(case: Case) -> None:
     want = wanted(case)
-    rows = compare(solve(case, all_centres=want.all_centres, rates=want.rates, examine=True))
+    rows = compare(solve(case, all_centres=want.all_centres, rates=want.rates, examine=True, reactions=want.reactions))
     assert rows
     assert [row for row in rows if row.verdict not in (AGREES, ERRATUM)] == []
 
@@ -106,8 +106,11 @@ def test_every_kind_of_joint_and_load_has_a_case() -> None:
 
 
 def test_errors_are_bounded_far_below_the_digits(case: Case) -> None:
-    """Every answer carries a bound of its rounding error, a billionth of it at most."""
+    """Every answer without friction carries a bound of its rounding error, a billionth of it at most."""
     for name, found in solve(case).answers.items():
+        if any(getattr(joint, "friction", None) is not None for joint in case.joints):
+            assert "no bound" in found.why
+            continue
         assert found.error is not None, name
         assert math.isfinite(found.error)
         assert found.error <= 1e-9 * abs(found.value), name
