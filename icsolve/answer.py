@@ -11,6 +11,7 @@ from icsolve.case import Case, Pair
 
 if TYPE_CHECKING:
     from icsolve.bodies.values import Friction, Reactions, Witness
+    from icsolve.space.values import Spatial
 
 
 class Found(NamedTuple):
@@ -153,6 +154,8 @@ class Answer:
     witnesses: tuple[Witness, ...] = ()
     """the unknown loads by power and by free bodies, where reactions were asked"""
     friction: Friction | None = None
+    spatial: Spatial | None = None
+    """reactions and points of a case in space, which has no others"""
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of the format (``icsolve/solve/1``)."""

@@ -7,7 +7,10 @@ hidden name that starts with ``@``.
 """
 
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
+
+if TYPE_CHECKING:
+    from icsolve.space.case import Space
 
 Mark = tuple[int, int]
 """Line and column of a key or value in its file, both from 1."""
@@ -425,4 +428,6 @@ class Case:
     """m/s^2, along -y"""
     tolerance: Tolerance | None = None
     variables: tuple[Variable, ...] = ()
+    space: "Space | None" = None
+    """figure, joints and loads where the points have three coordinates; those of the plane are then empty"""
     marks: dict[str, Mark] = field(default_factory=dict)

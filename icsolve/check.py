@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from icsolve.answer import Answer, Centre, Found
 from icsolve.bearing import bearing, same_way, turned_at_most
@@ -27,6 +27,9 @@ from icsolve.case import (
     Torque,
 )
 from icsolve.names import pair_name
+
+if TYPE_CHECKING:
+    from icsolve.space.values import Spatial
 
 AGREES = "agrees"
 DISAGREES = "disagrees"
@@ -160,6 +163,8 @@ def _width(expected: Expected, number: Number, size: float) -> float:
 
 def _found(answer: Answer, expected: Expected) -> tuple[float, ...]:
     """The value that the published one is about; positive in the published sense where that is in words."""
+    if answer.spatial is not None:
+        return (_in_space(answer, answer.spatial, expected),)
     match expected.target:
         case LoadIs(load):
             return (_load(answer, load, expected.sense),)
@@ -175,6 +180,15 @@ def _found(answer: Answer, expected: Expected) -> tuple[float, ...]:
             return (_speed(answer, point, link, expected.sense),)
         case ReactionIs() | ArmIs() | FrictionRadiusIs() as target:
             return (_of_bodies(answer, target),)
+
+
+def _in_space(answer: Answer, spatial: Spatial, expected: Expected) -> float:
+    from icsolve.space.compared import found_value
+
+    try:
+        return found_value(answer, spatial, expected.target, expected.sense)
+    except LookupError as error:
+        raise _MissingError(str(error)) from None
 
 
 def _of_bodies(answer: Answer, target: ReactionIs | ArmIs | FrictionRadiusIs) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
 from icsolve.answer import Answer, Centre, Found, Term
@@ -34,7 +35,7 @@ def to_dict(answer: Answer) -> dict[str, Any]:
         "centres": {pair_name(case, pair): _centre(case, c) for pair, c in answer.centres.items()},
         **_motion(answer),
         **_bodies(answer),
-        "points": {name: _numbers(place) for name, place in shown_points(answer).items()},
+        "points": {name: _numbers(place) for name, place in _places(answer).items()},
         "errors": _errors(answer),
         "advantage": None if answer.advantage is None else _plain(answer.advantage),
         "mobility": answer.mobility,
@@ -108,8 +109,17 @@ def _motion(answer: Answer) -> dict[str, Any]:
     return shown
 
 
+def _places(answer: Answer) -> Mapping[str, tuple[float, ...]]:
+    """The points to show; of a case in space they have three coordinates."""
+    return shown_points(answer) if answer.spatial is None else answer.spatial.points
+
+
 def _bodies(answer: Answer) -> dict[str, Any]:
     """Reactions and friction, where there are some; free bodies are not even imported before."""
+    if answer.spatial is not None:
+        from icsolve.space.shown import space_dict
+
+        return space_dict(answer.spatial)
     if answer.reactions is None and answer.friction is None:
         return {}
     from icsolve.bodies.shown import bodies_dict

@@ -173,6 +173,8 @@ def _load(kind: str) -> Schema:
     number: list[Schema] = [_ref("quantity"), _ref("unknown"), _ref("like")]
     if kind == "mass":
         number[0] = _pattern(_WITH_UNIT)
+    if kind == "power":
+        number = [_pattern(_WITH_UNIT)]
     if kind == "force":
         number.append(_ref("pair"))
     values = {
@@ -182,8 +184,9 @@ def _load(kind: str) -> Schema:
         "slope": _list(_ref("number"), 2, 2),
         "free": _ref("quantity"),
         "turns": {"enum": ["ccw", "cw"]},
+        "speed": _ref("quantity"),
     }
-    needs = [key for key in KEYS[kind] if key in ("link", "at", "to", "free")]
+    needs = [key for key in KEYS[kind] if key in ("link", "at", "to", "free", "speed")]
     keys = {key: values.get(key, _ref("name")) for key in KEYS[kind]}
     form = _object({kind: {"anyOf": number}, **keys}, [kind, *needs])
     if kind == "force":

@@ -214,6 +214,10 @@ def _points(answer: Answer, show: Format) -> list[str]:
 
 
 def _reactions(answer: Answer, show: Format) -> list[str]:
+    if answer.spatial is not None:
+        from icsolve.space.shown import space_lines
+
+        return space_lines(answer, answer.spatial, show, _table)
     if answer.reactions is None and answer.friction is None:
         return []
     from icsolve.bodies.shown import bodies_lines

@@ -58,8 +58,10 @@ class Topology(NamedTuple):
 def topology(case: Case) -> Topology:
     """Bodies and bonds of a case.
 
-    Raises SceneError where gears or a belt have no common carrier.
+    Raises SceneError where gears or a belt have no common carrier, and for a case in space.
     """
+    if case.space is not None:
+        raise SceneError(Status.UNSUPPORTED, "this needs a planar case, and this one is in space.")
     body_of, members = _bodies(case)
     pins = _pinned_at(case, body_of)
     bonds = tuple(_bonds(case, body_of, pins))

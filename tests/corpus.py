@@ -109,6 +109,8 @@ joints:
   - {roll: [2, 3], at: P, radii: [1.5, 0]}
   - {weld: [4, 5]}
   - {weld: [4, 6], at: P}
+loads:
+  H: {power: 1.5 hp, speed: 1500 rpm, link: 2, turns: cw, against: 4}
 motion:
   - {link: 2, turns: ccw}
   - {link: 3, speed: -12}

@@ -28,7 +28,8 @@ from icsolve.case import (
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
 from icsolve.read.expect import read_expect
 from icsolve.read.geometry import check_given, read_angles, read_carried, read_lengths, read_near, read_points
-from icsolve.read.joints import mention_links, read_joints
+from icsolve.read.jointed import mention_links
+from icsolve.read.joints import read_joints
 from icsolve.read.loads import read_loads
 from icsolve.read.motion import read_motion
 from icsolve.read.problems import Problems, shown

@@ -20,7 +20,7 @@ from icsolve.case import (
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.entry import Entry
-from icsolve.read.loads import DIMENSION
+from icsolve.read.listed import DIMENSION
 from icsolve.read.names import is_name
 from icsolve.read.quantities import number, quantity
 from icsolve.read.reading import Reading

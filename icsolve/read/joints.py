@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
-from collections.abc import Callable
-
 from icsolve.case import (
     Belt,
     Contact,
@@ -20,116 +17,17 @@ from icsolve.case import (
     Slot,
     Weld,
 )
-from icsolve.read.document import Mapping, Node, Scalar, Sequence
+from icsolve.read.document import Sequence
 from icsolve.read.entry import Entry
-from icsolve.read.names import is_name
-from icsolve.read.problems import shown, suggestion
-from icsolve.read.reading import RESERVED, Reading
+from icsolve.read.jointed import Kinds, read_list
+from icsolve.read.reading import Reading
 
 Pair = tuple[str, str]
 
 
-def mention_links(reading: Reading, section: Node | None) -> None:
-    """The links of all joints, faulty ones too, in order of first mention: other sections know them."""
-    if type(section) is not Sequence or not section.items:
-        return
-    reading.links = {}
-    for item in section.items:
-        for name in _named(item):
-            if is_name(name.text):
-                reading.links.setdefault(name.text, name.mark)
-
-
-def _named(item: Node) -> list[Scalar]:
-    """The items of a joint's list of links, whatever the kind is called."""
-    if type(item) is not Mapping:
-        return []
-    kinds = [key for key in item.items if key in KINDS] or list(item.items)[:1]
-    return [
-        name
-        for key in kinds
-        if type(value := item.items[key]) is Sequence
-        for name in value.items
-        if type(name) is Scalar
-    ]
-
-
 def read_joints(reading: Reading, section: Sequence) -> tuple[Joint, ...]:
-    """The joints that could be read."""
-    shared = Counter(_at(item) for item in section.items)
-    found = []
-    for index, item in enumerate(section.items):
-        reading.marks[f"joints[{index}]"] = item.mark
-        node = reading.mapping(item, "a joint", "as in {pin: [1, 2], at: B}")
-        joint = _joint(reading, node, shared) if node is not None else None
-        if joint is not None:
-            found.append(joint)
-    return tuple(found)
-
-
-def _at(item: Node) -> str:
-    """The name at which a joint stands, '' where there is none."""
-    node = item.items.get("at") if type(item) is Mapping else None
-    return node.text if type(node) is Scalar else ""
-
-
-def _joint(reading: Reading, node: Mapping, shared: Counter[str]) -> Joint | None:
-    kind = _kind(reading, node)
-    if kind is None:
-        reading.given.add(_at(node))  # it may have been the guide that gives the point
-        return None
-    links = _links(reading, kind, node.items[kind])
-    pair = "-".join(links) if links else "?"
-    at = _at(node)
-    where = f"joints.{at}" if shared[at] == 1 and at else f"joints.{pair}@{at}" if at else f"joints.{pair}"
-    reading.marks[where] = node.mark
-    keys, build = KINDS[kind]
-    entry = Entry(reading, node, where, f"the {kind} of {' and '.join(links)}" if links else f"a {kind}")
-    entry.only(kind, *keys)
-    return build(entry, links or ("?", "?"), bool(links))
-
-
-def _kind(reading: Reading, node: Mapping) -> str | None:
-    kinds = [key for key in node.items if key in KINDS]
-    if len(kinds) == 1:
-        return kinds[0]
-    if len(kinds) > 1:
-        said = f"this one is '{kinds[0]}' and '{kinds[1]}'"
-        reading.refuse(node.keys[kinds[1]], f"a joint is of one kind; {said}")
-        return None
-    parts = {key for keys, _ in KINDS.values() for key in keys}
-    for key in node.items:
-        if key in RESERVED:
-            reading.unknown_key(key, node.keys[key], (), "a joint")
-            return None
-    strange = [key for key in node.items if key not in parts]
-    first = strange[0] if strange else None
-    likely = suggestion(first, KINDS) if first else ""
-    mark = node.keys[first] if first else node.mark
-    said = f"there is no joint kind {shown(first)}" if first else "this joint has no kind"
-    reading.refuse(mark, said + (likely or f"; the kinds are {', '.join(KINDS)}"))
-    return None
-
-
-def _links(reading: Reading, kind: str, node: Node) -> tuple[str, ...] | None:
-    """The names of a joint's links: two, of a pin two or more, all different."""
-    items = reading.names(node, f"the links of a {kind}", f"{{{kind}: [1, 2]}}")
-    if items is None:
-        return None
-    links = tuple(item.text for item in items)
-    if len(set(links)) < len(links):
-        reading.refuse(node.mark, f"a {kind} joins different links; {_twice(links)} is named twice")
-    elif len(links) < 2:
-        reading.refuse(node.mark, f"a {kind} joins two links; only {links[0] if links else 'none'} is named")
-    elif len(links) > 2 and kind != "pin":
-        reading.refuse(node.mark, f"a {kind} joins two links; {len(links)} are named")
-    else:
-        return links
-    return None
-
-
-def _twice(links: tuple[str, ...]) -> str:
-    return next(link for link in links if links.count(link) > 1)
+    """The joints of a planar case that could be read."""
+    return read_list(reading, section, KINDS, "{pin: [1, 2], at: B}")
 
 
 def _friction(entry: Entry, extra: str = "") -> Friction | None:
@@ -289,9 +187,7 @@ def _weld(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
     return Weld(_two(links), at) if whole else None
 
 
-Builder = Callable[[Entry, tuple[str, ...], bool], Joint | None]
-
-KINDS: dict[str, tuple[tuple[str, ...], Builder]] = {
+KINDS: Kinds[Joint] = {
     "pin": (("at", "mu", "radius"), _pin),
     "slide": (("at", "along", "through", "mu", "length"), _slide),
     "slot": (("at", "along", "through", "mu"), _slot),

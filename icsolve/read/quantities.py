@@ -187,6 +187,7 @@ def _targets(length: Unit, force: Unit, torque: Unit) -> dict[str, Unit]:
         "speed": times(length, second, -1),
         "angular speed": parse_unit("rad/s"),
         "acceleration": parse_unit("m/s^2"),
+        "power": times(torque, second, -1),
         "pitch": times(ONE, length, -1),
     }
 
@@ -203,5 +204,6 @@ def _shown(units: Units) -> dict[str, str]:
         "speed": f"{units.length}/s",
         "angular speed": "rad/s",
         "acceleration": "m/s^2",
+        "power": "hp",
         "pitch": f"1/{units.length}",
     }

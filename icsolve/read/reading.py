@@ -11,16 +11,8 @@ from icsolve.read.problems import Problems, shown, suggestion
 from icsolve.read.syntax import missing_space
 from icsolve.units import Unit
 
-RESERVED = (
-    "profile",
-    "helix angle",
-    "power",
-    "ball",
-    "radial",
-    "thrust",
-    "hinge",
-)
-"""Keys of later versions: spatial joints, cam profiles."""
+RESERVED = ("profile", "helix angle")
+"""Keys of later versions."""
 
 
 class Reading:
@@ -29,8 +21,12 @@ class Reading:
     ``links`` are the links of the joints, in order of first mention, None where the joints can't be
     read at all; ``used`` the points that something needs, each with the place of its first use;
     ``given`` the points that coordinates, lengths, angles or guides involve; ``hidden`` the points
-    that a load or centre gives by coordinates; ``kinds`` the kind of each load by its name.
+    that a load or centre gives by coordinates; ``kinds`` the kind of each load by its name. ``axes`` are
+    those along which a force has components, ``couples`` those about which a couple has.
     """
+
+    axes = "xy"
+    couples = ""
 
     def __init__(self, problems: Problems, targets: dict[str, Unit], shown_units: dict[str, str]) -> None:
         self.problems = problems

@@ -1,0 +1,56 @@
+"""Power at a speed as a load: the torque that transmits it."""
+
+from __future__ import annotations
+
+from icsolve.case import Number
+from icsolve.read.document import Mapping, Scalar
+from icsolve.read.entry import Entry
+from icsolve.units import Numeral, parse_unit, ratio, split_quantity, times
+
+
+def torque_number(entry: Entry) -> Number | None:
+    """Power over speed in the case's unit of torque, rounded once; None, with the reason noted.
+
+    Positive power at a positive speed is a positive torque, which drives its link; a negative power is taken
+    out of the link.
+    """
+    node = entry.node.items["power"]
+    entry.need("speed", "the angular speed at which the power is transmitted, such as 1500 rpm")
+    speed = entry.number("speed", "angular speed")
+    if type(node) is Mapping or (type(node) is Scalar and node.text == "unknown"):
+        said = "is a number with its unit; what is to find is a torque, `torque: unknown`"
+        entry.refuse(node.mark, f"the power of {entry.what} {said}")
+        return None
+    power = entry.value(node, "power", entry.path, "power")
+    if power is None or speed is None or type(node) is not Scalar:
+        return None
+    if speed.value == 0.0:
+        entry.refuse(entry.mark("speed"), f"at the speed 0 {entry.what} would need an endless torque")
+        return None
+    return _quotient(entry, node, power)
+
+
+def _quotient(entry: Entry, node: Scalar, power: Number) -> Number | None:
+    """The exact quotient of the two decimals and their units, as the nearest double."""
+    speed_node = entry.node.items["speed"]
+    above, below = split_quantity(node.text.strip()), None
+    if type(speed_node) is Scalar:
+        below = split_quantity(speed_node.text.strip())
+    if above is None or below is None:
+        return None
+    if not above[1]:
+        entry.refuse(node.mark, f"the power of {entry.what} carries its unit: W, kW or hp")
+        return None
+    unit = times(parse_unit(above[1]), parse_unit(below[1] or "rad/s"), -1)
+    num, den = ratio(unit, entry.reading.targets["torque"])
+    value = _divided(above[0], below[0], num, den)
+    per_power = value / power.value if power.value else 1.0
+    half = abs(per_power) * power.half
+    return Number(value, half, entry.path, above[0].digits, per_power * power.factor)
+
+
+def _divided(a: Numeral, b: Numeral, num: int, den: int) -> float:
+    above, below = a.mantissa * num, b.mantissa * den
+    power: int = a.exponent - b.exponent
+    tens: int = 10 ** abs(power)
+    return above * tens / below if power >= 0 else above / (below * tens)
