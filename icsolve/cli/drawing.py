@@ -43,7 +43,9 @@ def draw_command(case: str, output: str | None, settings: dict[str, str], **aske
     return draw_case(case, output, asked, settings)
 
 
-def draw_case(argument: str, output: str | None, asked: Mapping[str, Any], settings: Mapping[str, str]) -> int:
+def draw_case(
+    argument: str, output: str | None, asked: Mapping[str, Any], settings: Mapping[str, str]
+) -> int:
     """Draw one case; returns the exit status."""
     if not one_source("draw", argument):
         return UNREADABLE

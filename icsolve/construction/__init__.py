@@ -3,16 +3,19 @@ and how the speed of one link follows from another's. Explanations, drawings and
 
 from __future__ import annotations
 
+from icsolve.construction.acting import Acting, acting_loads
 from icsolve.construction.known import Known, known_of
 from icsolve.construction.needed import all_steps, answer_ratios, loaded_links, needed_steps
 from icsolve.construction.order import Step
 from icsolve.construction.ratios import Ratio, Ratios
 
 __all__ = [
+    "Acting",
     "Known",
     "Ratio",
     "Ratios",
     "Step",
+    "acting_loads",
     "all_steps",
     "answer_ratios",
     "known_of",

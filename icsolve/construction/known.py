@@ -10,9 +10,9 @@ from typing import NamedTuple
 from icsolve import speeds
 from icsolve.answer import Answer, Centre
 from icsolve.case import Case, Coordinates, Pair
-from icsolve.names import ordered_pair
 from icsolve.errors import SceneError
 from icsolve.figure import Frame, case_point, solve_figure
+from icsolve.names import ordered_pair
 from icsolve.plane import Point, Triple
 from icsolve.program import Want, evaluate, prepare
 from icsolve.solve import solve
@@ -139,7 +139,7 @@ def _twists(case: Case) -> dict[str, Triple]:
 
 
 def _extent(t: Triple) -> float:
-    return max(map(abs, t))
+    return float(max(map(abs, t)))
 
 
 def _cleaned(t: Triple, least: float) -> Triple:

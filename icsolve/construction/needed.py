@@ -1,4 +1,4 @@
-"""The centres that the answer needs: those of the loaded links, and those that give the ratio of their speeds."""
+"""The centres that the answer needs: those of the loaded links, and those that give the ratios of speeds."""
 
 from __future__ import annotations
 

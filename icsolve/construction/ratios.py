@@ -27,8 +27,8 @@ class Ratio(NamedTuple):
     ``kind``: ``turns`` (both turn: ``value`` is w / w), ``alike`` (their centre is at infinity: one rate),
     ``slides`` (speed of the link's translation over the other's rate), ``drives`` (rate over the speed of
     a translation), ``glides`` (two translations: speed over speed), ``one`` (welded: they move as one).
-    A speed is positive along `heading_of` its link. ``pairs`` are the centres that it reads: of the other with the frame, of the
-    link with the frame, and of the two.
+    A speed is positive along `heading_of` its link. ``pairs`` are the centres that it reads: of the other
+    with the frame, of the link with the frame, and of the two.
     """
 
     link: str

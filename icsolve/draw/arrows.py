@@ -14,7 +14,9 @@ HEAD = 11.0
 def head(tip: Point, u: Point, kind: str, size: float = HEAD) -> Area:
     """A head that ends at ``tip``, pointing along u."""
     back, v = along(tip, u, -size), (-u[1], u[0])
-    return Area(((tip, along(back, v, 0.4 * size), along(tip, u, -0.75 * size), along(back, v, -0.4 * size)),), kind)
+    return Area(
+        ((tip, along(back, v, 0.4 * size), along(tip, u, -0.75 * size), along(back, v, -0.4 * size)),), kind
+    )
 
 
 def arrow(tail: Point, tip: Point, kind: str, size: float = HEAD) -> tuple[Mark, ...]:
@@ -25,7 +27,9 @@ def arrow(tail: Point, tip: Point, kind: str, size: float = HEAD) -> tuple[Mark,
     return (Stroke((tail, neck), kind), head(tip, u, f"{kind}-head", size))
 
 
-def turning(centre: Point, radius: float, start: float, ccw: bool, kind: str, sweep: float = 250.0) -> tuple[Mark, ...]:
+def turning(
+    centre: Point, radius: float, start: float, ccw: bool, kind: str, sweep: float = 250.0
+) -> tuple[Mark, ...]:
     """An arc with a head, counterclockwise or clockwise as seen, from a direction in degrees."""
     sign = 1.0 if ccw else -1.0
     lean = math.degrees(0.75 * HEAD / radius)

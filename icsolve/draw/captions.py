@@ -82,7 +82,9 @@ def step_sentence(known: Known, steps: Sequence[Step], number: int) -> str:
 
 def line_words(known: Known, line: tuple[tuple[str, str], ...]) -> str:
     """A line of centres in words."""
-    names = [f"I{pair_name(known.case, pair)}" for pair in sorted(line, key=lambda p: pair_name(known.case, p))]
+    names = [
+        f"I{pair_name(known.case, pair)}" for pair in sorted(line, key=lambda p: pair_name(known.case, p))
+    ]
     if len(names) == 1:
         return f"the common normal of {names[0][1:]}"
     return f"the line {names[0]} {names[1]}"

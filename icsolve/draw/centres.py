@@ -65,7 +65,7 @@ def _lines(scene: Scene, spots: dict[Pair, Spot], step: Step) -> Iterable[Part]:
         if not pieces:
             continue
         names = " and ".join(f"I{_name(scene.known, end)}" for end in ends)
-        title = f"line through {names}" if len(ends) == 2 else f"common normal of {_name(scene.known, ends[0])}"
+        title = f"line through {names}" if len(ends) == 2 else f"common normal of {names[1:]}"
         marks = tuple(Stroke(piece, "construction") for piece in pieces)
         name = f"line-{_name(scene.known, step.centre.pair)}-{number}"
         soft = tuple(Soft(shapely.LineString(piece), 0.7) for piece in pieces)
@@ -74,7 +74,7 @@ def _lines(scene: Scene, spots: dict[Pair, Spot], step: Step) -> Iterable[Part]:
 
 
 def _chain(places: Sequence[Spot], scene: Scene) -> tuple[Point, ...]:
-    """The line from the first to the last of the places on it, a little longer; to the edge for those far out."""
+    """The line from the first to the last of the places on it, a little longer; to the edge if one is far."""
     finite = [spot.at for spot in places if spot.at is not None]
     infinite = [spot.toward for spot in places if spot.toward is not None]
     if not finite:
@@ -127,8 +127,15 @@ def _near(scene: Scene, spots: Iterable[Spot]) -> Iterable[Part]:
         for spot in together:
             name = _name(scene.known, spot.centre.pair)
             marks = Group(f"centre-{name}", "", (marks,), f"I{name}")
-        label = Label(f"name-{_name(scene.known, together[0].centre.pair)}", _names(together), "t-centre", 13.0, (at,), 8.0)
+        label = _label(scene, together, _names(together), (at,), 8.0)
         yield Part((marks,), (), (around(at, disc.radius + 1.0),), (label,))
+
+
+def _label(
+    scene: Scene, together: Sequence[Spot], runs: tuple[Run, ...], anchors: tuple[Point, ...], gap: float
+) -> Label:
+    """The label of centres in one place, under the id of the first."""
+    return Label(f"name-{_name(scene.known, together[0].centre.pair)}", runs, "t-centre", 13.0, anchors, gap)
 
 
 def _names(together: Sequence[Spot]) -> tuple[Run, ...]:
@@ -166,7 +173,7 @@ def _far(scene: Scene, spots: Iterable[Spot]) -> Iterable[Part]:
             name = _name(scene.known, spot.centre.pair)
             group = Group(f"centre-{name}", "", marks if group is None else (group,), f"I{name}, {text}")
         runs = (*_names(together), Run(f" {text}" if first.at is None else f", {text}"))
-        label = Label(f"name-{_name(scene.known, first.centre.pair)}", runs, "t-centre", 13.0, (tail, tip), 5.0)
+        label = _label(scene, together, runs, (tail, tip), 5.0)
         soft = (Soft(shapely.LineString([tail, tip]).buffer(5.0, quad_segs=1), 4.0),)
         yield Part((group,) if group else (), soft, (), (label,))
 

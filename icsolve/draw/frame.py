@@ -9,7 +9,7 @@ import shapely
 
 from icsolve.case import Contact, Joint, KnownCentre, Pin, Roll, Slide, Slot, Weld
 from icsolve.draw.links import guide_in_picture
-from icsolve.draw.marks import Arc, Disc, Group, Mark, Point, Run, Stroke
+from icsolve.draw.marks import Disc, Group, Mark, Point, Run, Stroke
 from icsolve.draw.place import Label, Soft
 from icsolve.draw.scene import BLOCK, PIN, RAIL, SLOT, Part, Scene, around, fixed_springs
 from icsolve.draw.shapes import area, hatched
@@ -91,7 +91,7 @@ def _rail(scene: Scene, joint: Slide | Slot, links: shapely.Geometry) -> Part:
     if u[0] < 0.0 or (u[0] == 0.0 and u[1] > 0.0):
         u = (-u[0], -u[1])
     v = (-u[1], u[0])
-    sides = (1.0, -1.0)
+    sides: tuple[float, ...] = (1.0, -1.0)
     if isinstance(joint, Slide):
         offset, reach = BLOCK[1] / 2.0 + 1.0, RAIL
         sides = (min(sides, key=lambda side: _cover(along(p, v, side * 16.0), u, links) - 5.0 * side),)
@@ -102,7 +102,8 @@ def _rail(scene: Scene, joint: Slide | Slot, links: shapely.Geometry) -> Part:
         middle = along(p, v, side * offset)
         marks += hatched(along(middle, u, -reach), along(middle, u, reach), side)
     ends = tuple(along(along(p, u, s * (reach - 6.0)), v, sides[0] * (offset + 5.0)) for s in (1.0, -1.0))
-    lines = [Soft(_band(mark.points), 1.5) for mark in marks if isinstance(mark, Stroke) and mark.kind == "frame"]
+    rails = [mark.points for mark in marks if isinstance(mark, Stroke) and mark.kind == "frame"]
+    lines = [Soft(_band(points), 1.5) for points in rails]
     return Part(tuple(marks), tuple(lines), (), (Label("", (), "", 0.0, ends, 0.0),))
 
 
@@ -137,9 +138,7 @@ def _annulus(scene: Scene, wheel: Wheel) -> Part:
     depth = 7.0 if wheel.rim else -7.0
     for k in range(count):
         a, b = k * step, (k + 0.6) * step
-        marks.append(
-            Stroke((_polar(centre, outer, a), _polar(centre, outer + depth, b)), "hatch")
-        )
+        marks.append(Stroke((_polar(centre, outer, a), _polar(centre, outer + depth, b)), "hatch"))
     ring = shapely.Point(centre).buffer(outer + depth).boundary
     spots = tuple(_polar(centre, outer + depth, a) for a in (-0.8, -2.3, 0.8, 2.3))
     return Part(tuple(marks), (Soft(ring, 2.0),), (), (Label("", (), "", 0.0, spots, 0.0),))
@@ -202,7 +201,8 @@ def joint_parts(scene: Scene) -> list[Part]:
 
 
 def _name(joint: Joint) -> str:
-    return f"joint-{type(joint).__name__.lower()}-{getattr(joint, 'at', '')}-{'-'.join(joint.links)}".replace("@", "at-")
+    at = (getattr(joint, "at", None) or "").replace("@", "at-")
+    return "-".join(("joint", type(joint).__name__.lower(), at, *joint.links))
 
 
 def _symbol(scene: Scene, joint: Joint) -> list[Mark]:
@@ -243,6 +243,3 @@ def point_parts(scene: Scene) -> list[Part]:
         dot = () if pinned else (Disc(p, 2.2, "dot"),)
         parts.append(Part(dot, (), () if pinned else (around(p, 2.6),), (label,)))
     return parts
-
-
-__all__ = ["Arc", "belts", "frame_parts", "joint_parts", "point_parts", "rims"]

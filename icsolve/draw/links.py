@@ -8,15 +8,14 @@ from typing import NamedTuple
 
 import shapely
 
-from icsolve.arithmetic import turn_of
-from icsolve.case import Contact, Joint, KnownCentre, Slide, Slot
-from icsolve.draw.marks import Area, Disc, Group, Mark, Point, Run
+from icsolve.arithmetic import FLOATS, turn_of
+from icsolve.case import Joint, KnownCentre, Slide, Slot
+from icsolve.draw.marks import Disc, Group, Mark, Point, Run
 from icsolve.draw.place import Label, Soft
 from icsolve.draw.scene import BLOCK, HALF, PIN, RAIL, SLOT, Part, Scene
 from icsolve.draw.shapes import area, bar, joined, nearest, plate, tilted
 from icsolve.draw.view import along, unit
 from icsolve.joints import guide_direction
-from icsolve.arithmetic import FLOATS
 
 ROD = 5.0
 """Half the width of a rod on which a block slides."""
@@ -172,7 +171,8 @@ def _anchors(
         for q in points[k + 1 :]:
             spots += [_between(p, q, share) for share in (0.5, 0.36, 0.64)]
     for w in wheels:
-        spots += [along(w.centre, unit(a, b), 0.62 * w.radius) for a, b in ((1, -1), (-1, -1), (1, 1), (-1, 1))]
+        corners = ((1, -1), (-1, -1), (1, 1), (-1, 1))
+        spots += [along(w.centre, unit(a, b), 0.62 * w.radius) for a, b in corners]
     if not spots:
         spots = [q for rod in rods for q in rod] + points
     if not spots and shape is not None:
@@ -230,6 +230,3 @@ def bars(body: Body) -> shapely.Geometry:
 def outline(body: Body) -> shapely.Geometry:
     """All that a link fills."""
     return joined([bars(body), *(shapely.Point(w.centre).buffer(w.radius) for w in body.wheels)])
-
-
-__all__ = ["Area", "Body", "Contact", "body_of", "guide_in_picture", "link_part", "outline"]

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from icsolve.case import Case
 from icsolve.construction import Known, Step, all_steps, known_of, needed_steps
 from icsolve.draw.captions import captioned, description
 from icsolve.draw.figure import figure_marks, scene_of
-from icsolve.draw.marks import bounds
+from icsolve.draw.marks import Mark, bounds
+from icsolve.draw.scene import Scene
 from icsolve.draw.svg import document
 
 PAD = 14.0
@@ -41,6 +43,8 @@ def draw(case: Case, drawing: Drawing = PLAIN, known: Known | None = None) -> st
     steps = steps_shown(known, drawing)
     scene = scene_of(known, steps)
     marks = figure_marks(scene, steps, velocities=drawing.velocities)
+    marks += _beside(scene, steps, drawing, marks)
+    marks += _under(scene, drawing, marks)
     marks = captioned(known, marks, steps, drawing.step)
     left, top, right, bottom = bounds(marks)
     view = (left - PAD, top - PAD, right + PAD, bottom + PAD)
@@ -53,3 +57,30 @@ def steps_shown(known: Known, drawing: Drawing) -> tuple[Step, ...]:
         return ()
     steps = all_steps(known) if drawing.centres == "all" else needed_steps(known)
     return tuple(s for s in steps if drawing.step is None or s.number <= drawing.step)
+
+
+def _beside(scene: Scene, steps: Sequence[Step], drawing: Drawing, marks: Sequence[Mark]) -> list[Mark]:
+    """The circle diagram, at the right of the figure."""
+    if not drawing.circle or not steps:
+        return []
+    from icsolve.draw.circle import circle_marks
+
+    _, top, right, _ = bounds(marks)
+    return circle_marks(scene.known, steps, (right + 34.0, top), drawing.step)
+
+
+def _under(scene: Scene, drawing: Drawing, marks: Sequence[Mark]) -> list[Mark]:
+    """The scale of the velocities, and the free bodies, below the figure."""
+    found: list[Mark] = []
+    left, _, right, bottom = bounds(marks)
+    if drawing.velocities:
+        from icsolve.draw.velocities import legend
+
+        scale = legend(scene, (left + 6.0, bottom + 20.0))
+        found += [scale] if scale is not None else []
+        bottom = max(bottom, bounds(found)[3]) if found else bottom
+    if drawing.bodies:
+        from icsolve.draw.bodies import body_panels
+
+        found += body_panels(scene, left, bottom + 30.0, max(right - left, 760.0))
+    return found

@@ -14,8 +14,8 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
-from icsolve.draw.marks import Box, Disc, Group, Mark, Point, Run, Stroke, Text, plain_text, text_width
 from icsolve.draw.marks import LOW as LOW_SIZE
+from icsolve.draw.marks import Box, Disc, Group, Mark, Point, Run, Stroke, Text, plain_text, text_width
 
 RINGS = ((0.0, 4.0, 9.0), (15.0, 22.0, 30.0), (40.0, 54.0, 70.0), (90.0, 115.0, 145.0))
 """Distances from the anchor's rim that are tried together."""
@@ -25,6 +25,8 @@ CLEAR = 1.5
 """Room around each label."""
 GOOD = 14.0
 """A place of this cost is taken without looking farther."""
+ASIDE = 40.0
+"""What it costs a label that may stand on its anchors not to."""
 CHUNK = 8
 """Candidates that are measured together."""
 LEADER = 20.0
@@ -35,7 +37,8 @@ class Label(NamedTuple):
     """A text to be placed.
 
     ``anchors`` are points that it may stand beside, best first, ``gap`` the distance kept from them;
-    ``badge`` puts it in a circle (a link's number). ``name`` is the id of its group.
+    ``badge`` puts it in a circle (a link's number), ``on`` lets it stand on its anchors too. ``name`` is
+    the id of its group.
     """
 
     name: str
@@ -45,7 +48,7 @@ class Label(NamedTuple):
     anchors: tuple[Point, ...]
     gap: float
     badge: bool = False
-    leader: bool = True
+    on: bool = False
 
 
 class Soft(NamedTuple):
@@ -79,7 +82,8 @@ class Placer:
         best: tuple[float, float, float, Point] | None = None
         for ring in _rings():
             spots, costs, anchors = _candidates(label, ring, width, height)
-            boxes = np.hstack((spots - (width / 2, height / 2), spots + (width / 2, height / 2)))
+            half = np.array((width / 2.0, height / 2.0))
+            boxes = np.hstack((spots - half, spots + half))
             costs = costs + self._outside(boxes)
             costs[self._taken(boxes)] = math.inf
             order = np.argsort(costs, kind="stable")
@@ -108,7 +112,7 @@ class Placer:
             | (top - CLEAR >= solid[:, 3])
             | (bottom + CLEAR <= solid[:, 1])
         )
-        return ~apart.all(axis=1)
+        return np.asarray(~apart.all(axis=1))
 
     def _covered(self, boxes: np.ndarray) -> np.ndarray:
         """What the boxes would cover, by its weight."""
@@ -142,8 +146,13 @@ def _candidates(
     reach = label.gap + np.array(ring)
     across = COMPASS[:, 0] * (reach[:, None] + width / 2.0)
     down = COMPASS[:, 1] * (reach[:, None] + height / 2.0)
+    costs = 0.8 * np.array(ring)[:, None] + PREFERENCE
+    if label.on:
+        costs += ASIDE
+        if ring[0] == 0.0:
+            across[0, 0] = down[0, 0] = costs[0, 0] = 0.0
     spots = anchors[:, None, None, :] + np.stack((across, down), axis=-1)
-    costs = 1.5 * np.arange(len(anchors))[:, None, None] + 0.8 * np.array(ring)[:, None] + PREFERENCE
+    costs = 1.5 * np.arange(len(anchors))[:, None, None] + costs
     which = np.repeat(np.arange(len(anchors)), len(ring) * len(COMPASS))
     return spots.reshape(-1, 2), costs.ravel(), which
 
@@ -164,7 +173,7 @@ def _marks(label: Label, at: Point, anchor: Point, half: Point) -> list[Mark]:
         min(max(anchor[0], at[0] - half[0]), at[0] + half[0]),
         min(max(anchor[1], at[1] - half[1]), at[1] + half[1]),
     )
-    if label.leader and math.dist(nearest, anchor) > label.gap + LEADER:
+    if not label.on and math.dist(nearest, anchor) > label.gap + LEADER:
         marks.append(Stroke((anchor, nearest), "leader"))
     if label.badge:
         marks.append(_badge(at, half))

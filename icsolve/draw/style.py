@@ -23,48 +23,50 @@ FRAME = Ink("#3d444d", "#aab4be")
 KNOWN = Ink("#0b5cad", "#6cb6ff")
 UNKNOWN = Ink("#b3261e", "#ff8a80")
 CENTRE = Ink("#6f42c1", "#c9a6ff")
+LIT = Ink("#e3d8f7", "#3a2f52")
 MOTION = Ink("#00704e", "#4fd6a8")
 
-_RULES: tuple[tuple[str, str, Ink | None, Ink | None, str], ...] = (
-    # classes, stroke, fill, width and the rest
-    ("paper", "", None, PAPER, ""),
-    ("body", "", LINE, BODY, "stroke-width:1.3;stroke-linejoin:round"),
-    ("wheel", "", LINE, BODY, "stroke-width:1.3;stroke-dasharray:9 2.5 1.5 2.5"),
-    ("rim", "", LINE, None, "stroke-width:1.3;stroke-dasharray:9 2.5 1.5 2.5"),
-    ("block", "", LINE, PAPER, "stroke-width:1.4;stroke-linejoin:round"),
-    ("hole", "", LINE, PAPER, "stroke-width:1.1"),
-    ("pin", "", LINE, PAPER, "stroke-width:1.5"),
-    ("dot", "", None, LINE, ""),
-    ("frame", "", FRAME, None, "stroke-width:1.7;stroke-linecap:round"),
-    ("foot", "", FRAME, PAPER, "stroke-width:1.4;stroke-linejoin:round"),
-    ("hatch", "", FRAME, None, "stroke-width:0.9"),
-    ("rope", "", LINE, None, "stroke-width:1.6"),
-    ("box", "", MUTED, None, "stroke-width:1.2;stroke-dasharray:5 4"),
-    ("faint", "", MUTED, None, "stroke-width:0.8"),
-    ("known", "", KNOWN, None, "stroke-width:2.2;stroke-linecap:round"),
-    ("known-head", "", KNOWN, KNOWN, "stroke-width:0.6;stroke-linejoin:round"),
-    ("unknown", "", UNKNOWN, None, "stroke-width:2.6;stroke-linecap:round"),
-    ("unknown-head", "", UNKNOWN, UNKNOWN, "stroke-width:0.6;stroke-linejoin:round"),
-    ("reaction", "", MOTION, None, "stroke-width:2;stroke-linecap:round"),
-    ("reaction-head", "", MOTION, MOTION, "stroke-width:0.6;stroke-linejoin:round"),
-    ("spring", "", KNOWN, None, "stroke-width:1.4;stroke-linejoin:round"),
-    ("primary", "", None, CENTRE, ""),
-    ("secondary", "", CENTRE, PAPER, "stroke-width:1.8"),
-    ("construction", "", CENTRE, None, "stroke-width:1.1;stroke-dasharray:6 3.5"),
-    ("edge-known", "", LINE, None, "stroke-width:1.6"),
-    ("edge-found", "", CENTRE, None, "stroke-width:1.4;stroke-dasharray:6 3.5"),
-    ("node", "", LINE, PAPER, "stroke-width:1.4"),
-    ("far", "", CENTRE, None, "stroke-width:1.6;stroke-linecap:round"),
-    ("far-head", "", CENTRE, CENTRE, "stroke-width:0.6;stroke-linejoin:round"),
-    ("velocity", "", MOTION, None, "stroke-width:1.8;stroke-linecap:round;stroke-dasharray:7 2.5"),
-    ("velocity-head", "", MOTION, MOTION, "stroke-width:0.6;stroke-linejoin:round"),
-    ("leader", "", MUTED, None, "stroke-width:0.7"),
-    ("plot", "", KNOWN, None, "stroke-width:1.8;stroke-linejoin:round"),
-    ("plot-2", "", UNKNOWN, None, "stroke-width:1.8;stroke-linejoin:round;stroke-dasharray:8 3"),
-    ("plot-3", "", MOTION, None, "stroke-width:1.8;stroke-linejoin:round;stroke-dasharray:2.5 2.5"),
-    ("asymptote", "", UNKNOWN, None, "stroke-width:1;stroke-dasharray:3 4"),
-    ("grid", "", MUTED, None, "stroke-width:0.4;stroke-opacity:0.5"),
-    ("badge", "", LINE, PAPER, "stroke-width:1"),
+_RULES: tuple[tuple[str, Ink | None, Ink | None, str], ...] = (
+    # class, stroke, fill, width and the rest
+    ("paper", None, PAPER, ""),
+    ("body", LINE, BODY, "stroke-width:1.3;stroke-linejoin:round"),
+    ("wheel", LINE, BODY, "stroke-width:1.3;stroke-dasharray:9 2.5 1.5 2.5"),
+    ("rim", LINE, None, "stroke-width:1.3;stroke-dasharray:9 2.5 1.5 2.5"),
+    ("block", LINE, PAPER, "stroke-width:1.4;stroke-linejoin:round"),
+    ("hole", LINE, PAPER, "stroke-width:1.1"),
+    ("pin", LINE, PAPER, "stroke-width:1.5"),
+    ("dot", None, LINE, ""),
+    ("frame", FRAME, None, "stroke-width:1.7;stroke-linecap:round"),
+    ("foot", FRAME, PAPER, "stroke-width:1.4;stroke-linejoin:round"),
+    ("hatch", FRAME, None, "stroke-width:0.9"),
+    ("rope", LINE, None, "stroke-width:1.6"),
+    ("box", MUTED, None, "stroke-width:1.2;stroke-dasharray:5 4"),
+    ("faint", MUTED, None, "stroke-width:0.8"),
+    ("known", KNOWN, None, "stroke-width:2.2;stroke-linecap:round"),
+    ("known-head", KNOWN, KNOWN, "stroke-width:0.6;stroke-linejoin:round"),
+    ("unknown", UNKNOWN, None, "stroke-width:2.6;stroke-linecap:round"),
+    ("unknown-head", UNKNOWN, UNKNOWN, "stroke-width:0.6;stroke-linejoin:round"),
+    ("reaction", MOTION, None, "stroke-width:2;stroke-linecap:round"),
+    ("reaction-head", MOTION, MOTION, "stroke-width:0.6;stroke-linejoin:round"),
+    ("spring", KNOWN, None, "stroke-width:1.4;stroke-linejoin:round"),
+    ("primary", None, CENTRE, ""),
+    ("secondary", CENTRE, PAPER, "stroke-width:1.8"),
+    ("construction", CENTRE, None, "stroke-width:1.1;stroke-dasharray:6 3.5"),
+    ("edge-known", LINE, None, "stroke-width:1.6"),
+    ("edge-found", CENTRE, None, "stroke-width:1.4;stroke-dasharray:6 3.5"),
+    ("lit", None, LIT, ""),
+    ("node", LINE, PAPER, "stroke-width:1.4"),
+    ("far", CENTRE, None, "stroke-width:1.6;stroke-linecap:round"),
+    ("far-head", CENTRE, CENTRE, "stroke-width:0.6;stroke-linejoin:round"),
+    ("velocity", MOTION, None, "stroke-width:1.8;stroke-linecap:round;stroke-dasharray:7 2.5"),
+    ("velocity-head", MOTION, MOTION, "stroke-width:0.6;stroke-linejoin:round"),
+    ("leader", MUTED, None, "stroke-width:0.7"),
+    ("plot", KNOWN, None, "stroke-width:1.8;stroke-linejoin:round"),
+    ("plot-2", UNKNOWN, None, "stroke-width:1.8;stroke-linejoin:round;stroke-dasharray:8 3"),
+    ("plot-3", MOTION, None, "stroke-width:1.8;stroke-linejoin:round;stroke-dasharray:2.5 2.5"),
+    ("asymptote", UNKNOWN, None, "stroke-width:1;stroke-dasharray:3 4"),
+    ("grid", MUTED, None, "stroke-width:0.4;stroke-opacity:0.5"),
+    ("badge", LINE, PAPER, "stroke-width:1"),
 )  # fmt: skip
 
 _TEXTS: tuple[tuple[str, Ink, str], ...] = (
@@ -94,7 +96,7 @@ _FONT = ".ic text{font-family:'Helvetica Neue',Helvetica,Arial,'Liberation Sans'
 
 def _rules(used: frozenset[str], *, dark: bool) -> list[str]:
     rules = []
-    for name, _, stroke, fill, rest in _RULES:
+    for name, stroke, fill, rest in _RULES:
         if name in used:
             parts = [f"fill:{_hue(fill, dark)}", f"stroke:{_hue(stroke, dark)}"]
             rules.append(f".ic .{name}{{{';'.join([*parts, rest] if rest and not dark else parts)}}}")

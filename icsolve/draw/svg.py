@@ -44,11 +44,15 @@ def document(marks: Iterable[Mark], view: Box, title: str, description: str) -> 
             f"<title>{escaped(title)}</title>",
             f"<desc>{escaped(description)}</desc>",
             f"<style>{sheet(used)}</style>",
-            f'<rect class="paper" x="{number(left)}" y="{number(top)}" width="{size[0]}" height="{size[1]}"/>',
+            _paper(number(left), number(top), *size),
             *(element(mark) for mark in marks),
             "</svg>\n",
         )
     )
+
+
+def _paper(x: str, y: str, width: str, height: str) -> str:
+    return f'<rect class="paper" x="{x}" y="{y}" width="{width}" height="{height}"/>'
 
 
 def _kinds(marks: Iterable[Mark]) -> Iterable[str]:

@@ -8,10 +8,10 @@ from collections.abc import Mapping
 import shapely
 
 from icsolve.draw.arrows import arrow
-from icsolve.draw.marks import Group, Point, Run, Stroke, Text
+from icsolve.draw.marks import Group, Point, Run, Text
 from icsolve.draw.place import Label, Soft
 from icsolve.draw.scene import Part, Scene
-from icsolve.draw.view import along, unit
+from icsolve.draw.view import along
 from icsolve.draw.words import quantity
 
 LONGEST = 84.0
@@ -42,8 +42,8 @@ def _velocities(scene: Scene) -> dict[tuple[str, str], Point]:
     for (point, link), v in ((whole and whole.velocities) or {}).items():
         if isinstance(v, str) or point not in scene.at or link == scene.case.ground:
             continue
-        same = [w for (other, _), w in found.items() if other == point and math.dist(v, w) <= 1e-9 * math.hypot(*v)]
-        if not same:
+        least = 1e-9 * math.hypot(*v)
+        if not any(other == point and math.dist(v, w) <= least for (other, _), w in found.items()):
             found[(point, link)] = v
     return found
 
@@ -75,7 +75,7 @@ def legend(scene: Scene, at: Point) -> Group | None:
     unit_name = f"{scene.case.units.length}/s"
     text = f"{quantity(speed, unit_name)} ({_reference(scene)})"
     words = Text((end[0] + 10.0, end[1]), (Run(text),), "t-velocity", 12.0, "start")
-    return Group("velocity-scale", "", (*arrow(at, end, "velocity", 8.0), Stroke((at, at), "velocity"), words), text)
+    return Group("velocity-scale", "", (*arrow(at, end, "velocity", 8.0), words), text)
 
 
 def _round(value: float) -> float:
@@ -90,6 +90,3 @@ def _reference(scene: Scene) -> str:
     rates = (scene.known.whole and scene.known.whole.rates) or {}
     one = next((link for link, rate in rates.items() if isinstance(rate, float) and abs(rate) == 1.0), None)
     return f"velocities for 1 rad/s of link {one}" if one else "velocities, scaled"
-
-
-__all__ = ["legend", "unit", "velocity_parts"]

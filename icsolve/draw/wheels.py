@@ -82,8 +82,8 @@ def _once(wheels: Iterable[Wheel]) -> Iterable[Wheel]:
     seen: dict[tuple[str, int, int, int], Wheel] = {}
     for wheel in wheels:
         fine = 1e6 / wheel.radius if wheel.radius else 1.0
-        key = (wheel.link, *(round(v * fine) for v in (*wheel.centre, wheel.radius)))
-        seen.setdefault((key[0], key[1], key[2], key[3]), wheel)
+        x, y = wheel.centre
+        seen.setdefault((wheel.link, round(x * fine), round(y * fine), round(wheel.radius * fine)), wheel)
     return seen.values()
 
 
@@ -150,7 +150,7 @@ def _wheel(
 def _touching(
     case: Case, joint: Contact, points: Mapping[str, Point]
 ) -> tuple[Wheel | Edge | None, Wheel | Edge]:
-    """The two surfaces of a contact: a circle where its centre is known, else an edge; None: a cam to invent."""
+    """The two surfaces of a contact: circles where centres are known, else edges; None: a cam to invent."""
     at, n = points[joint.at], turn_of(joint.normal.value)
     back = (-n[0], -n[1])
     first = _disc(case, joint.links[0], at, back, points, free=True)

@@ -21,8 +21,11 @@ def figure_number(value: float, digits: int = DIGITS) -> str:
         text = text.rstrip("0").rstrip(".") if "." in text else text
     else:
         mantissa, _, exponent = f"{value:.{digits - 1}e}".partition("e")
-        text = f"{mantissa.rstrip('0').rstrip('.')}×10^{int(exponent)}"
+        text = f"{mantissa.rstrip('0').rstrip('.')}×10{str(int(exponent)).translate(_RAISED)}"
     return text.replace("-", "−")
+
+
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 def unit_word(unit: str) -> str:
@@ -54,7 +57,8 @@ def wrapped(text: str, size: float, width: float) -> list[str]:
     """A text in lines of a width; a word that is longer than a line is cut."""
     lines: list[str] = []
     line = ""
-    for word in text.split():
+    for whole in text.split():
+        word = whole
         longer = f"{line} {word}" if line else word
         if text_width(longer, size) <= width:
             line = longer

@@ -1,0 +1,177 @@
+"""Free-body diagrams: every link by itself with its loads and the forces of its neighbours, all forces to one
+scale."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+import shapely
+
+from icsolve.bodies.values import Reaction
+from icsolve.construction import Acting, acting_loads
+from icsolve.draw.arrows import arrow, turning
+from icsolve.draw.figure import with_labels
+from icsolve.draw.frame import point_parts
+from icsolve.draw.links import bars, body_of, link_part, wheel_parts
+from icsolve.draw.loads import ARC, axle, hidden, ways
+from icsolve.draw.marks import Box, Disc, Group, Mark, Point, Run, Stroke, Text, bounds, moved
+from icsolve.draw.place import Label, Soft
+from icsolve.draw.scene import Part, Scene, around, together
+from icsolve.draw.shapes import nearest
+from icsolve.draw.words import centre_runs, name_runs, quantity
+
+LONGEST = 78.0
+"""The largest force of all links."""
+SMALLER = 0.66
+"""Links by themselves are drawn so much smaller than in the figure."""
+LEAST = 13.0
+"""An arrow is never drawn shorter."""
+BESIDE = 12.0
+"""A force that acts farther from its link than this is tied to it by a dashed line."""
+GAP = 26.0
+NOTHING = 1e-9
+"""A force below this, of the largest, is none."""
+
+
+class Push(NamedTuple):
+    """A force or couple on a link at a point (picture units), with the words beside it."""
+
+    name: str
+    words: tuple[Run, ...]
+    kind: str
+    at: Point
+    force: Point
+    couple: float
+
+
+def body_panels(scene: Scene, left: float, top: float, width: float) -> list[Mark]:
+    """The free bodies of all moving links in rows below a corner, ``width`` wide."""
+    reactions = scene.known.answer.reactions if scene.known.answer is not None else None
+    if not reactions:
+        return []
+    scene = _smaller(scene)
+    pushes = {link: list(_pushes(scene, link)) for link in scene.case.links if link != scene.case.ground}
+    largest = max((math.hypot(*push.force) for some in pushes.values() for push in some), default=0.0)
+    panels = [_panel(scene, link, some, largest) for link, some in pushes.items()]
+    return [
+        Text((left, top + 4.0), (Run("Free bodies, forces to one scale"),), "t-note", 12.5, "start"),
+        *_rows(panels, left, top + 24.0, width),
+    ]
+
+
+def _smaller(scene: Scene) -> Scene:
+    view = scene.view._replace(scale=SMALLER * scene.view.scale)
+    return scene._replace(view=view, at={name: view.at(p) for name, p in scene.known.points.items()})
+
+
+def _rows(panels: Iterable[list[Mark]], left: float, top: float, width: float) -> Iterable[Mark]:
+    """Panels beside and below each other."""
+    x, y, lowest = left, top, top
+    for panel in panels:
+        a, b, c, d = bounds(panel)
+        if x > left and x + (c - a) > left + width:
+            x, y = left, lowest + GAP
+        yield from (moved(mark, x - a, y - b) for mark in panel)
+        x, lowest = x + (c - a) + GAP, max(lowest, y + (d - b))
+
+
+def _pushes(scene: Scene, link: str) -> Iterable[Push]:
+    """All that acts on a link."""
+    answer = scene.known.answer
+    assert answer is not None
+    for name, reaction in (answer.reactions or {}).items():
+        if link in (reaction.by, reaction.on):
+            yield _reaction(scene, name, reaction if reaction.on == link else reaction.reversed())
+    for acting in acting_loads(scene.known):
+        if link in (acting.link, acting.against):
+            yield _load(scene, acting, 1.0 if link == acting.link else -1.0)
+
+
+def _reaction(scene: Scene, name: str, reaction: Reaction) -> Push:
+    at = scene.view.at(reaction.at)
+    runs = (Run("F"), centre_runs(reaction.by, reaction.on)[1])
+    words = f"reaction-{name}-on-{reaction.on}"
+    if reaction.x is None or reaction.y is None or reaction.moment is None:
+        return Push(words, (*runs, Run(" = ?")), "reaction", at, (0.0, 0.0), 0.0)
+    size = math.hypot(reaction.x, reaction.y)
+    text: tuple[Run, ...] = (*runs, Run(f" = {quantity(size, scene.case.units.force)}"))
+    if reaction.moment and abs(reaction.moment) > NOTHING * size * scene.known.size:
+        couple = (Run(", M"), runs[1], Run(f" = {quantity(abs(reaction.moment), scene.case.units.torque)}"))
+        text = (*text, *couple)
+    return Push(words, text, "reaction", at, (reaction.x, -reaction.y), reaction.moment)
+
+
+def _load(scene: Scene, acting: Acting, sign: float) -> Push:
+    kind = "unknown" if acting.unknown else "known"
+    name = f"body-load-{acting.load.name}-on-{acting.link if sign > 0 else acting.against}"
+    x, y = acting.force
+    value = abs(acting.value or 0.0) if acting.at is None else math.hypot(x, y)
+    unit = scene.case.units.torque if acting.at is None else scene.case.units.force
+    words = (*name_runs(acting.load.name), Run(f" = {quantity(value, unit)}"))
+    place = acting.at if acting.at is None or sign > 0.0 else _other_end(scene, acting)
+    if place is None:
+        link = acting.link if sign > 0 else acting.against
+        return Push(name, words, kind, axle(scene, link) or (0.0, 0.0), (0.0, 0.0), sign * acting.couple)
+    return Push(name, words, kind, scene.view.at(place), (sign * x, -sign * y), 0.0)
+
+
+def _other_end(scene: Scene, acting: Acting) -> Point | None:
+    """Where the opposite of a load acts: the point that it is toward."""
+    load = acting.load
+    name = getattr(load, "to", None) or getattr(getattr(load, "heading", None), "point", None)
+    return scene.known.points.get(name, acting.at) if name else acting.at
+
+
+def _panel(scene: Scene, link: str, pushes: Sequence[Push], largest: float) -> list[Mark]:
+    body = body_of(scene, link)
+    solid = bars(body)
+    alone = scene._replace(
+        at={p: q for p, q in scene.at.items() if p in scene.case.carries.get(link, ())},
+    )
+    parts = [*wheel_parts([body]), link_part(scene, body)]
+    parts += [_point(p) for p in dict.fromkeys(alone.at.values())]
+    parts += [part for n, push in enumerate(pushes) for part in _drawn(scene, push, largest, solid, n)]
+    parts += [part._replace(marks=()) for part in point_parts(alone)]
+    window: Box = bounds(together(parts).marks)
+    marks = [_renamed(link, mark) for mark in with_labels(together(parts), window)]
+    return [Group(f"body-{link}", "", tuple(marks), f"link {link} by itself")]
+
+
+def _renamed(link: str, mark: Mark) -> Mark:
+    """Ids stand once: those that the figure has too get a prefix."""
+    own = ("reaction-", "body-", "label-reaction", "label-body")
+    if isinstance(mark, Group) and mark.name and not mark.name.startswith(own):
+        return mark._replace(name=f"free-{link}-{mark.name}")
+    return mark
+
+
+def _point(p: Point) -> Part:
+    return Part((Disc(p, 2.4, "dot"),), (), (around(p, 2.8),))
+
+
+def _drawn(scene: Scene, push: Push, largest: float, solid: shapely.Geometry, n: int) -> Iterable[Part]:
+    size = math.hypot(*push.force)
+    marks: list[Mark] = []
+    soft: list[Soft] = []
+    anchors: list[Point] = [push.at]
+    foot = push.at if solid.is_empty else nearest(solid, push.at)
+    if size and math.dist(foot, push.at) > BESIDE:
+        marks.append(Stroke((foot, push.at), "box"))
+    if size > NOTHING * largest:
+        u = (push.force[0] / size, push.force[1] / size)
+        length = max(LONGEST * size / largest, LEAST)
+        tail, tip, _ = min(ways(push.at, u, length), key=lambda way: hidden(scene, way, solid))
+        marks += arrow(tail, tip, push.kind)
+        soft.append(Soft(shapely.LineString([tail, tip]).buffer(4.0, quad_segs=1), 4.0))
+        far = max((tail, tip), key=lambda p: math.dist(p, push.at))
+        anchors = [far, ((tail[0] + tip[0]) / 2.0, (tail[1] + tip[1]) / 2.0)]
+    if push.couple:
+        marks += turning(push.at, ARC - 6.0, 300.0 + 40.0 * n, push.couple > 0.0, push.kind)
+        ring = shapely.Point(push.at).buffer(ARC - 3.0)
+        soft.append(Soft(ring, 1.0))
+        anchors.append((push.at[0], push.at[1] + ARC - 6.0))
+    label = Label(f"label-{push.name}", push.words, f"t-{push.kind}", 12.5, tuple(anchors), 6.0)
+    title = "".join(run.text for run in push.words)
+    yield Part((Group(push.name, "", tuple(marks), title),) if marks else (), tuple(soft), (), (label,))

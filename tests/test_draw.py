@@ -1,0 +1,316 @@
+"""Drawings: what they show of a case, where their labels stand, and what no text in a case can do to them.
+
+Labels are measured by the widths that the drawing itself reckons with, which are wider than the usual
+fonts need; `test_page.py` measures them again in a browser.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import time
+from pathlib import Path
+from random import Random
+from typing import Any
+
+import pytest
+
+import icsolve
+import loading
+import mechanisms
+import transcribe
+from growth import random_mechanism
+from icsolve.case import Case
+from icsolve.construction import known_of, needed_steps
+from icsolve.draw import Drawing, draw
+from pictures import Picture, outside, overlaps, parsed
+
+ROOT = Path(__file__).parent.parent
+LIBRARY = ROOT / "cases"
+FILES = {path.relative_to(LIBRARY).as_posix(): path for path in sorted(LIBRARY.rglob("*.yaml"))}
+OPTIONS: dict[str, dict[str, Any]] = {
+    "plain": {},
+    "all centres and circle": {"centres": "all", "circle": True},
+    "velocities": {"velocities": True, "centres": "none"},
+    "free bodies": {"bodies": True, "centres": "none"},
+    "first step": {"step": 1, "circle": True},
+}
+GOLDEN = {
+    "four_bar": ("ch13/13_08_four_bar.yaml", {}),
+    "drag_link": ("ch13/13_01_drag_link.yaml", {"circle": True}),
+    "toggle_bodies": ("ch13/13_03_toggle_free_bodies.yaml", {"bodies": True, "centres": "none"}),
+    "epicyclic": ("gears/epicyclic_train.yaml", {}),
+    "scotch_yoke": ("sliders/scotch_yoke.yaml", {"velocities": True}),
+    "roller_follower": ("cams/roller_follower.yaml", {"step": 1}),
+}
+
+
+def drawn(case: Case, **options: Any) -> Picture:
+    return parsed(draw(case, Drawing(**options)))
+
+
+def check(picture: Picture) -> None:
+    """No label on another or on a joint, nothing outside the view, every id once."""
+    assert overlaps(picture) == []
+    assert outside(picture) == []
+    assert len(set(picture.ids)) == len(picture.ids)
+
+
+@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("options", OPTIONS)
+def test_every_case_draws_and_every_label_can_be_read(name: str, options: str) -> None:
+    check(drawn(icsolve.load(FILES[name]), **OPTIONS[options]))
+
+
+@pytest.mark.parametrize("block", range(10))
+def test_labels_of_random_mechanisms_can_be_read(block: int) -> None:
+    """Fifty mechanisms a block, of all kinds, every third with all centres and velocities."""
+    for seed in range(50 * block, 50 * block + 50):
+        kind = mechanisms.ALL[seed % len(mechanisms.ALL)]
+        scene = loading.drawn(seed % 40, kind) if seed % 2 else random_mechanism(Random(seed))
+        case = icsolve.load(transcribe.text(scene))
+        more = {"centres": "all", "velocities": True} if seed % 3 == 0 else {}
+        check(drawn(case, **more))
+
+
+@pytest.mark.parametrize("name", GOLDEN)
+def test_golden_files(name: str) -> None:
+    """The same bytes as last time; after a wanted change run with ICSOLVE_GOLDEN=write and look at them."""
+    file, options = GOLDEN[name]
+    path = Path(__file__).parent / "golden" / f"{name}.svg"
+    svg = draw(icsolve.load(LIBRARY / file), Drawing(**options))
+    if os.environ.get("ICSOLVE_GOLDEN") == "write":
+        path.write_text(svg, encoding="utf-8", newline="\n")
+    assert svg == path.read_text(encoding="utf-8")
+
+
+def test_the_same_bytes_every_run() -> None:
+    path = FILES["linkages/watt_six_bar.yaml"]
+    first, second = (draw(icsolve.load(path), Drawing("all", circle=True)) for _ in "ab")
+    assert first == second
+
+
+def test_a_drawing_is_plain_svg() -> None:
+    svg = draw(icsolve.load(FILES["ch13/13_08_four_bar.yaml"]))
+    picture = parsed(svg)
+    assert {"viewBox", "role"} <= set(picture.root.attrib)
+    assert "Four-bar" in svg.partition("<title>")[2].partition("</title>")[0]
+    assert "29.67" in svg.partition("<desc>")[2].partition("</desc>")[0]
+    assert {"centre-2-4", "link-2", "load-T12", "line-2-4-1", "point-E"} <= set(picture.ids)
+    assert "prefers-color-scheme:dark" in svg
+    assert "url(" not in svg and "href" not in svg
+    values = [value for e in picture.root.iter() for value in e.attrib.values()]
+    decimals = re.findall(r"\.(\d+)", " ".join(values))
+    assert decimals and max(map(len, decimals)) <= 2
+
+
+def test_colours_hold_on_paper_and_in_the_dark() -> None:
+    """WCAG AA: text at 4.5 to 1 or more, strokes at 3 to 1 or more, on both papers."""
+    from icsolve.draw import style
+
+    for name, ink, _ in style._TEXTS:
+        assert min(contrast(ink.light, style.PAPER.light), contrast(ink.dark, style.PAPER.dark)) >= 4.5, name
+    for name, stroke, _, _ in style._RULES:
+        if stroke is not None and name != "grid":
+            assert contrast(stroke.light, style.PAPER.light) >= 3.0, name
+            assert contrast(stroke.dark, style.PAPER.dark) >= 3.0, name
+
+
+def contrast(a: str, b: str) -> float:
+    """Contrast of two colours by WCAG 2."""
+    bright, dim = sorted((luminance(a), luminance(b)), reverse=True)
+    return (bright + 0.05) / (dim + 0.05)
+
+
+def luminance(colour: str) -> float:
+    parts = [int(colour[k : k + 2], 16) / 255.0 for k in (1, 3, 5)]
+    linear = [c / 12.92 if c <= 0.03928 else ((c + 0.055) / 1.055) ** 2.4 for c in parts]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+# --- the construction --------------------------------------------------------------------------------
+
+
+def test_the_answer_stands_on_the_unknown() -> None:
+    picture = drawn(icsolve.load(FILES["ch13/13_08_four_bar.yaml"]))
+    assert "T12 = 29.67 lbf·in ccw" in picture.texts("t-unknown")
+    assert "P = 100 lbf" in picture.texts("t-known")
+
+
+def test_steps_add_the_lines_in_order() -> None:
+    """13.6: I24, then I46, then I26; each step adds its two lines and nothing else."""
+    case = icsolve.load(FILES["ch13/13_06_six_bar_slider.yaml"])
+    lines = [[i for i in drawn(case, step=k).ids if i.startswith("line-")] for k in range(4)]
+    assert lines[0] == []
+    assert lines[1] == ["line-2-4-1", "line-2-4-2"]
+    assert lines[2][:2] == lines[1] and lines[2][2:] == ["line-4-6-1", "line-4-6-2"]
+    assert lines[3] == [i for i in drawn(case).ids if i.startswith("line-")]
+
+
+def test_a_step_says_which_lines_meet() -> None:
+    said = drawn(icsolve.load(FILES["ch13/13_06_six_bar_slider.yaml"]), step=1).texts("t-axis")
+    assert said == ["Step 1: I2-4 is where the line I2-3 I3-4 meets the line I1-2 I1-4."]
+
+
+def test_centres_none_needed_all() -> None:
+    case = icsolve.load(FILES["linkages/watt_six_bar.yaml"])
+    counts = [
+        sum(i.startswith("centre-") for i in drawn(case, centres=which).ids)
+        for which in ("none", "needed", "all")
+    ]
+    assert counts[0] == 0
+    assert counts[1] == len(needed_steps(known_of(case)))
+    assert counts[2] == 15
+
+
+def test_primary_centres_are_filled_and_secondary_hollow() -> None:
+    picture = drawn(icsolve.load(FILES["ch13/13_08_four_bar.yaml"]))
+    groups = {g.get("id", ""): g for g in picture.root.iter()}
+    kinds = {name: g[1].attrib["class"] for name, g in groups.items() if name.startswith("centre-")}
+    assert kinds["centre-2-3"] == "primary"
+    assert kinds["centre-2-4"] == "secondary"
+
+
+def test_far_centres_are_arrows_with_their_distance_and_infinite_ones_directions() -> None:
+    texts = drawn(icsolve.load(FILES["ch13/13_14_slider_drives_crank.yaml"])).texts("t-centre")
+    assert "I46, 9.69 in away" in texts
+    assert "I12 ∞" in texts
+
+
+def test_the_circle_numbers_chords_in_the_order_of_finding() -> None:
+    case = icsolve.load(FILES["ch13/13_06_six_bar_slider.yaml"])
+    picture = drawn(case, circle=True)
+    chords = {
+        g.attrib["id"].removeprefix("chord-"): int(g.attrib["data-step"])
+        for g in picture.root.iter()
+        if g.get("id", "").startswith("chord-")
+    }
+    assert {pair: n for pair, n in chords.items() if n} == {"2-4": 1, "4-6": 2, "2-6": 3}
+    primary = sorted(pair for pair, n in chords.items() if not n)
+    assert primary == ["1-2", "1-4", "1-6", "2-3", "3-4", "4-5", "5-6"]
+    assert {"1", "2", "3"} <= set(picture.texts("t-centre"))
+
+
+def test_velocities_are_square_to_their_radii() -> None:
+    """Four-bar: the arrow at B is square to AB, that at C to DC; both by their ends in the picture."""
+    picture = drawn(icsolve.load(FILES["ch13/13_08_four_bar.yaml"]), velocities=True)
+    places = {"A": (0, 0), "B": (-0.30782, 0.84572), "C": (2.2, 2.60424), "D": (2.9444, 0)}
+    for point, pivot, link in (("B", "A", "2"), ("C", "D", "3")):
+        group = next(g for g in picture.root.iter() if g.get("id") == f"velocity-{point}-{link}")
+        stroke = next(e for e in group if e.get("class") == "velocity")
+        (x1, y1), (x2, y2) = (map(float, p.split(",")) for p in stroke.attrib["d"].removeprefix("M").split())
+        radius = (places[point][0] - places[pivot][0], places[point][1] - places[pivot][1])
+        v = (x2 - x1, y1 - y2)
+        size = (v[0] ** 2 + v[1] ** 2) ** 0.5 * (radius[0] ** 2 + radius[1] ** 2) ** 0.5
+        assert abs(v[0] * radius[0] + v[1] * radius[1]) < 1e-3 * size
+
+
+def test_free_bodies_show_every_reaction_on_both_links() -> None:
+    """13.2: F34 = 216.7 N on link 4 is F43 on link 3."""
+    picture = drawn(icsolve.load(FILES["ch13/13_02_four_bar_free_bodies.yaml"]), bodies=True)
+    texts = picture.texts("t-reaction")
+    assert sorted(text.split(" = ")[0] for text in texts) == ["F12", "F14", "F23", "F32", "F34", "F43"]
+    assert "F34 = 216.7 N" in texts and "F43 = 216.7 N" in texts
+
+
+# --- bad input ---------------------------------------------------------------------------------------
+
+FOUR_BAR = """
+icsolve: 1
+title: {title}
+points: {{A: [0, 0], D: [4, 0]}}
+lengths: {{AB: {crank}, BC: 3.5, CD: 2.5, DE: 1.5}}
+angles: {{AB: 60, CDE: 0}}
+near: {{C: [3.5, 2.4]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{pin: [4, 1], at: D}}
+loads:
+  P: {{force: 100, link: 4, at: E, angle: 180}}
+  T12: {{torque: unknown, link: 2}}
+"""
+
+
+def test_what_does_not_assemble_is_drawn_as_far_as_it_is_known() -> None:
+    picture = drawn(icsolve.load(FOUR_BAR.format(title="too long a crank", crank=20)))
+    check(picture)
+    assert "link-2" in picture.ids and "point-D" in picture.ids
+    assert "point-C" not in picture.ids
+    assert "cannot meet at C" in " ".join(picture.texts("t-reason"))
+    assert "T12 = ?" in picture.texts("t-unknown")
+
+
+DEAD_CENTRE = """
+icsolve: 1
+points: {A: [0, 0], B: [1, 0], C: [3, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {slide: [4, 1], at: C, along: 0}
+loads:
+  P: {force: unknown, link: 4, at: C, angle: 180}
+  T12: {torque: 5, link: 2}
+"""
+
+
+def test_a_dead_centre_is_drawn_with_its_centres_and_the_reason() -> None:
+    picture = drawn(icsolve.load(DEAD_CENTRE))
+    check(picture)
+    assert {"centre-1-2", "link-3", "load-P"} <= set(picture.ids)
+    assert "dead centre" in " ".join(picture.texts("t-reason"))
+
+
+HOSTILE = [
+    '"</text></svg><script>alert(1)</script>"',
+    '\'" onload="alert(1)" x="\'',
+    '"]]> --> <!-- & &amp; &#x3c;"',
+    '"Ünïcödé 漢字 מבחן 😀 ∑ _{low} ^{high} $x$"',
+    f'"{"word " * 200}"',
+    f'"{"x" * 900}"',
+]
+
+
+@pytest.mark.parametrize("title", HOSTILE)
+def test_text_stays_text(title: str) -> None:
+    case = icsolve.load(FOUR_BAR.format(title=title, crank=1))
+    svg = draw(case, Drawing(circle=True))
+    picture = parsed(svg)
+    check(picture)
+    assert {e.tag.rpartition("}")[2] for e in picture.root.iter()} <= {
+        "svg", "title", "desc", "style", "rect", "g", "path", "circle", "text", "tspan",
+    }  # fmt: skip
+    assert not [a for e in picture.root.iter() for a in e.attrib if a.startswith("on")]
+    shown = "".join("".join(picture.texts("t-title")).split())
+    assert shown == "".join(case.title.split())
+
+
+def test_names_with_primes_and_letters_of_any_script() -> None:
+    text = FOUR_BAR.format(title="names", crank=1).replace("CDE", "C-D-Ω'").replace("at: E", "at: Ω'")
+    text = text.replace(" DE:", " D-Ω':")
+    picture = drawn(icsolve.load(text))
+    check(picture)
+    assert "point-Ω-prime" in picture.ids
+    assert "Ω'" in picture.texts("t-point")
+
+
+@pytest.mark.parametrize("scale", [1e-280, 1e-6, 1e6, 1e280])
+def test_figures_of_any_size_draw_alike(scale: float) -> None:
+    picture = drawn(icsolve.load(FOUR_BAR.format(title="size", crank=1)))
+    scaled = FOUR_BAR.format(title="size", crank=1 * scale)
+    for number in ("3.5, CD", "2.5, DE", "1.5}", "4, 0", "3.5, 2.4"):
+        scaled = scaled.replace(number, re.sub(r"\d[\d.]*", lambda n: repr(float(n[0]) * scale), number))
+    other = drawn(icsolve.load(scaled))
+    check(other)
+    assert other.root.attrib["viewBox"] == picture.root.attrib["viewBox"]
+
+
+def test_a_drawing_takes_milliseconds() -> None:
+    """Not a benchmark (those are whole processes): a guard against label placement that grows out of hand."""
+    case = icsolve.load(FILES["linkages/peaucellier.yaml"])
+    draw(case)
+    start = time.process_time()
+    draw(case, Drawing("all", circle=True, velocities=True))
+    assert time.process_time() - start < 2.0
