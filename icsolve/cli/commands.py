@@ -16,6 +16,8 @@ VERBS = {
     "new": "starting",
     "schema": "starting",
     "grade": "grading",
+    "variants": "varying",
+    "export": "exporting",
     "draw": "drawing",
 }
 """Each verb, and the room beside this one that has its click command (``solve_command``)."""

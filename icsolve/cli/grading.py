@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager
+from shutil import copyfileobj
 from typing import IO, TYPE_CHECKING, Any
 
 import click
@@ -45,6 +46,8 @@ COURSE = "course.yaml"
 @click.option(
     "--map", "mapping", metavar="A=B", multiple=True, help='A column: student_id="Email Address", "Q3=press".'
 )
+@click.option("--student", metavar="ID", help="All answers are this student's; a table needs no ids then.")
+@click.option("--metadata", metavar="FILE", help="Gradescope's submission_metadata.json says who it is.")
 @click.option("--jobs", type=click.IntRange(1, 64), help="Processes [one, two on long work].")
 @click.option("--force", is_flag=True, help="Write over files that are there.")
 @click.option("-q", "--quiet", is_flag=True, help="No summary.")
@@ -95,7 +98,13 @@ def _job(options: dict[str, Any]) -> Job:
         _check(path, options)
     course = _course(options)
     jobs = options["jobs"] or processes()
-    return Job(tuple(options["submissions"]), options["cases"], course, options["roster"] or "", jobs)
+    student = options["student"] or ""
+    if options["metadata"]:
+        from icsolve.grade.tables.alone import student_of
+
+        student = student or student_of(options["metadata"])
+    submissions = tuple(options["submissions"])
+    return Job(submissions, options["cases"], course, options["roster"] or "", jobs, student)
 
 
 def _check(path: str | None, options: dict[str, Any]) -> None:
@@ -115,17 +124,26 @@ def _check(path: str | None, options: dict[str, Any]) -> None:
 
 def _course(options: dict[str, Any]) -> Course:
     """The course file, with what the command line says over it."""
+    said = {key: options[key] for key in ("attempt", "decimal", "seed")}
+    course = course_of(options["course"], options["cases"], options["quiet"], said)
+    return course._replace(columns=(*course.columns, *_pairs(options["mapping"]).items()))
+
+
+def course_of(path: str | None, cases: str, quiet: bool, said: Mapping[str, str | None]) -> Course:
+    """The course of a file, by default the one beside the cases; what is ``said`` goes over it.
+
+    Raises CaseError where it can't be read.
+    """
     from icsolve.grade.course import Course, read_course
 
-    path = options["course"] or os.path.join(options["cases"], COURSE)
+    beside = os.path.join(cases if os.path.isdir(cases) else os.path.dirname(cases), COURSE)
     course = Course()
-    if options["course"] or os.path.isfile(path):
-        course = read_course(path)
-        if not options["course"] and not options["quiet"]:
-            complain(f"using {path}")
-    said = {key: options[key] for key in ("attempt", "decimal", "seed") if options[key] is not None}
-    columns = (*course.columns, *_pairs(options["mapping"]).items())
-    return course._replace(columns=columns, **said)
+    if path or os.path.isfile(beside):
+        course = read_course(path or beside)
+        if not path and not quiet:
+            complain(f"using {beside}")
+    fields: dict[str, Any] = {key: value for key, value in said.items() if value is not None}
+    return course._replace(**fields)
 
 
 def _pairs(texts: tuple[str, ...]) -> dict[str, str]:
@@ -145,29 +163,45 @@ def _graded(job: Job, options: dict[str, Any]) -> int:
 
     with ExitStack() as stack:
         quiet, force = options["quiet"], options["force"]
-        csv = stack.enter_context(_results(options["output"], force))
+        csv, results = stack.enter_context(_results(options, force))
         jsonl = stack.enter_context(whole_file(options["jsonl"], force)) if options["jsonl"] else None
         with _progress(quiet) as progress:
             graded = grade(job, Sinks(csv, jsonl), progress)  # type: ignore[arg-type]
-    for note in graded.notes:
-        complain(str(note))
-    _further(graded, options)
+        for note in graded.notes:
+            complain(str(note))
+        if csv is not None:
+            csv.flush()
+            _further(graded, job, results, options)
+    if options["html"]:
+        _page(graded, job, options)
     if not quiet:
         _summary(graded, options["output"] == "-")
     return NO_ANSWER if graded.serious else DONE
 
 
 @contextmanager
-def _results(output: str | None, force: bool) -> Iterator[IO[str] | None]:
+def _results(options: dict[str, Any], force: bool) -> Iterator[tuple[IO[str] | None, str]]:
+    """Where the results go, and the file in which other outputs find them."""
+    from tempfile import TemporaryDirectory
+
     from icsolve.grade.files import whole_file
 
-    if output is None:
-        yield None
-    elif output == "-":
-        yield sys.stdout
-    else:
+    output, writes = options["output"], options["writes"]
+    if output == "-" and not writes:
+        yield sys.stdout, ""
+    elif output not in (None, "-"):
         with whole_file(output, force) as file:
-            yield file  # type: ignore[misc]
+            yield file, file.name  # type: ignore[misc]
+    elif not writes:
+        yield None, ""
+    else:
+        with TemporaryDirectory(prefix="icsolve-grade-") as folder:
+            path = os.path.join(folder, "results.csv")
+            with open(path, "w", encoding="utf-8", newline="") as file:
+                yield file, path
+            if output == "-":
+                with open(path, encoding="utf-8", newline="") as file:
+                    copyfileobj(file, sys.stdout)
 
 
 @contextmanager
@@ -179,8 +213,26 @@ def _progress(quiet: bool) -> Iterator[Any]:
         click.echo("\r\033[K", nl=False, err=True)
 
 
-def _further(graded: Graded, options: dict[str, Any]) -> None:
-    """The page, and the files for platforms."""
+def _further(graded: Graded, job: Job, results: str, options: dict[str, Any]) -> None:
+    """The files for platforms, made from the results."""
+    from icsolve.grade.out.write import KINDS, Order, write
+    from icsolve.grade.people import read_roster
+
+    wanted = _pairs(options["writes"])
+    people = read_roster(job.roster, lambda line, why: None).people if job.roster and wanted else {}
+    for kind, path in wanted.items():
+        if kind not in KINDS:
+            raise ValueError(f"--write {kind}: there is no such kind; it is one of {', '.join(KINDS)}")
+        told = write(kind, Order(results, path, people, options["template"] or "", options["force"]))
+        if told and not options["quiet"]:
+            complain(told)
+
+
+def _page(graded: Graded, job: Job, options: dict[str, Any]) -> None:
+    from icsolve.grade.files import write_whole
+    from icsolve.grade.page import page
+
+    write_whole(options["html"], page(graded, job.course.title), options["force"])
 
 
 def _summary(graded: Graded, on_stderr: bool) -> None:

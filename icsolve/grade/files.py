@@ -26,10 +26,11 @@ def whole_file(path: str, force: bool, binary: bool = False) -> Iterator[IO[str]
     folder = os.path.dirname(os.path.abspath(path))
     os.makedirs(folder, exist_ok=True)
     descriptor, temporary = tempfile.mkstemp(prefix=".icsolve-", dir=folder)
+    os.close(descriptor)
     try:
         mode = "wb" if binary else "w"
         encoding, newline = (None, None) if binary else ("utf-8", "")
-        with open(descriptor, mode, encoding=encoding, newline=newline) as file:
+        with open(temporary, mode, encoding=encoding, newline=newline) as file:
             yield file
         os.chmod(temporary, 0o666 & ~_umask())
         check_free(path, force)

@@ -10,6 +10,7 @@ from icsolve.grade.people import Roster
 from icsolve.grade.shelf import Shelf
 from icsolve.grade.store import Entry, Store
 from icsolve.grade.tables import Columns, HeaderError, Layout, Submission, Table, recognise
+from icsolve.grade.tables.alone import submissions
 
 _LONGEST = 500
 """Characters of an answer that are kept; the reader takes far fewer."""
@@ -19,19 +20,25 @@ _LONGEST_NAME = 200
 class Intake:
     """Takes files in; remembers what questions were asked and who answered."""
 
-    def __init__(self, store: Store, shelf: Shelf, ledger: Ledger, roster: Roster | None) -> None:
+    def __init__(
+        self, store: Store, shelf: Shelf, ledger: Ledger, roster: Roster | None, student: str = ""
+    ) -> None:
         self.store = store
         self.shelf = shelf
         self.ledger = ledger
         self.roster = roster
+        self.student = student
+        """whose all answers are; '' where the files say"""
         self.questions: dict[str, None] = {}
+        self.columns: set[str] = set()
+        """questions with a column of their own"""
         self.students: dict[str, None] = {}
         self.count = 0
         self._items: dict[str, tuple[str, str]] = {}
         self._people: dict[tuple[str, ...], str] = {}
         self._path = ""
 
-    def read(self, path: str, mapping: Iterable[tuple[str, str]]) -> Layout:
+    def read(self, path: str, mapping: Iterable[tuple[str, str]]) -> None:
         """Take in one file.
 
         Raises HeaderError or ValueError where the file can't be used, with a sentence; OSError.
@@ -39,14 +46,20 @@ class Intake:
         self._path = path
         with open(path, "rb") as file:
             table = Table(file, lambda line, why: self.ledger.note(path, line, why))
-            layout = recognise(Columns(table.header, mapping, self.shelf.find))
-            for note in layout.notes:
-                self.ledger.note(path, 1, note)
-            self.questions |= dict.fromkeys(self._item(question)[0] for question in layout.questions)
-            self.count += self.store.add(self._entries(table, layout))
-        if not self.count:
+            columns = Columns(table.header, mapping, self.shelf.find)
+            entries: Iterator[Entry]
+            if self.student:
+                entries = map(self._entry, submissions(table, columns, self.student))
+            else:
+                layout = recognise(columns)
+                for note in layout.notes:
+                    self.ledger.note(path, 1, note)
+                self.columns |= {self._item(question)[0] for question in layout.questions}
+                entries = self._entries(table, layout)
+            count = self.store.add(entries)
+        self.count += count
+        if not count:
             raise HeaderError("there is no answer in it, only a header")
-        return layout
 
     def _entries(self, table: Table, layout: Layout) -> Iterator[Entry]:
         if layout.cells_of is not None:

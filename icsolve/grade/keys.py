@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
 from icsolve.answer import Answer
@@ -24,7 +25,7 @@ from icsolve.case import (
 )
 from icsolve.check import value_of
 from icsolve.grade.course import Policy
-from icsolve.grade.malrules import Wrong, Wrongs, sorted_wrongs
+from icsolve.grade.malrules import Wrong, Wrongs
 from icsolve.grade.senses import Senses, senses_of
 from icsolve.grade.tolerance import half_width, in_words, range_in_words
 from icsolve.grade.written import Direction, UnitWord, factors_between
@@ -58,6 +59,8 @@ class Key(NamedTuple):
     """how many of its unit make one of a name that was met; None for another kind"""
     signs: dict[str, int | None]
     """what words of direction that were met say of the positive sense"""
+    fixed: float
+    """the tolerance's own width, in the unit"""
     plain: bool
     """whether nothing is asked but a right size, sense and unit, where one is given"""
 
@@ -186,8 +189,10 @@ def parsed_unit(name: str) -> Unit:
     return parse_unit(name) if name else Unit(1, 1, 0, DIMENSIONS["number"])
 
 
-def scalar_key(question: str, target: Target, answer: Answer, policy: Policy, wrongs: list[Wrong]) -> Key:
-    """The key of a target that is one number.
+def scalar_key(
+    question: str, target: Target, answer: Answer, policy: Policy, wrongs: Callable[[], Iterable[Wrong]]
+) -> Key:
+    """The key of a target that is one number; ``wrongs`` makes its wrong answers when they are needed.
 
     Raises NoKeyError where the answer has no such value, or the policy's tolerance does not fit it.
     """
@@ -202,11 +207,30 @@ def scalar_key(question: str, target: Target, answer: Answer, policy: Policy, wr
         value = 0.0
     width = own_width(policy.tolerance, target, answer, unit, unit_name)
     half = half_width(policy.tolerance, value, width, zero)
-    foreseen, senses = sorted_wrongs(wrongs, value, half), _senses(target, answer)
+    foreseen, senses = Wrongs(wrongs, value, half), _senses(target, answer)
     accepted, rule = range_in_words(value, half, unit_name), in_words(policy.tolerance)
     plain = _is_plain(policy) and value != 0.0 and senses.any
     return Key(
-        question, value, unit_name, unit, half, senses, foreseen, policy, accepted, rule, {}, {}, plain
+        question, value, unit_name, unit, half, senses, foreseen, policy, accepted, rule, {}, {}, width, plain
+    )
+
+
+def scaled_key(key: Key, factor: float) -> Key:
+    """The key where all loads are ``factor`` times as large; a width in units stays what it is."""
+    value = key.value * factor
+    tolerance = key.policy.tolerance
+    fixed = key.fixed if not tolerance.drawing else abs(factor) * key.fixed
+    half = half_width(tolerance, value, fixed, abs(factor) * key.half)
+
+    def wrongs() -> list[Wrong]:
+        return [Wrong(code, wrong * factor, where) for code, wrong, where in key.wrongs.all]
+
+    return key._replace(
+        value=value,
+        half=half,
+        fixed=fixed,
+        wrongs=Wrongs(wrongs, value, half),
+        accepted=range_in_words(value, half, key.unit_name),
     )
 
 

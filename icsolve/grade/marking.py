@@ -15,7 +15,8 @@ from icsolve.grade.ledger import Ledger
 from icsolve.grade.malrules import Wrong
 from icsolve.grade.marked import Marked, Result
 from icsolve.grade.moments import NEVER, attempt_number, moment
-from icsolve.grade.shelf import Shelf, Solved
+from icsolve.grade.shelf import Shelf
+from icsolve.grade.solved import Solved
 from icsolve.grade.store import Entry
 from icsolve.grade.tally import Counts, Tally
 from icsolve.grade.written import MISSING, Reader
@@ -24,6 +25,8 @@ from icsolve.grade.written.place import read_place
 
 _MEMORY = 40_000
 """Different answers that are remembered with their verdicts; a class repeats itself."""
+NAMED = 40
+"""Students without an answer who are named; the others are in the results."""
 _AT_ONCE = 5000
 """Answers of one student that are looked at together."""
 
@@ -44,6 +47,8 @@ class Marker:
         self._missing: dict[str, Marked] = {}
         self._keys: dict[str, AnyKey] = {}
         self._others: list[Marked] = []
+        self.owing: dict[str, list[str]] = {}
+        """of each question the first students who gave no answer"""
         self.tally = Tally(self._band)
 
     def results(self, entries: Iterable[Entry], students: Iterable[str] = ()) -> Iterator[Result]:
@@ -101,8 +106,15 @@ class Marker:
         """What the student owes and did not answer."""
         missing = self.questions.difference([entry.item for entry, _ in found])
         if missing:
+            for item in missing:
+                self._owes(student, item)
             found += [(Entry(student, item, 0), self._absent(item)) for item in missing]
             found.sort(key=lambda pair: pair[0].item)
+
+    def _owes(self, student: str, item: str) -> None:
+        names = self.owing.setdefault(item, [])
+        if len(names) < NAMED:
+            names.append(student)
 
     def _result(self, entry: Entry, marked: Marked) -> Result:
         marked.count += 1
@@ -264,7 +276,8 @@ class Marker:
         assert isinstance(key, Key) and value is not None
         reach = key.wrongs.reach
         name = getattr(target, "load", "")
-        for wrong in carried(solved.answer, name, steps):
+        for unscaled in carried(solved.answer, name, steps):
+            wrong = unscaled._replace(value=unscaled.value * solved.scale)
             close = abs(value - wrong.value) <= reach * abs(wrong.value)
             if close and abs(wrong.value - key.value) > key.half:
                 return self._with_cause(key, before, wrong)

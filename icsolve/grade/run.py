@@ -11,11 +11,12 @@ from typing import IO, NamedTuple
 
 from icsolve.grade.course import Course
 from icsolve.grade.intake import Intake, expand
-from icsolve.grade.keys import NoKeyError
+from icsolve.grade.keys import Key, NoKeyError
 from icsolve.grade.ledger import Entry as Noted
 from icsolve.grade.ledger import Ledger
-from icsolve.grade.marking import Marker
+from icsolve.grade.marking import NAMED, Marker
 from icsolve.grade.people import Roster, read_roster
+from icsolve.grade.questions import unknowns
 from icsolve.grade.results import HEADER, json_line, line
 from icsolve.grade.shelf import Shelf
 from icsolve.grade.store import Disk, Entry, Store
@@ -30,6 +31,8 @@ class Job(NamedTuple):
     course: Course = Course()
     roster: str = ""
     jobs: int = 1
+    student: str = ""
+    """whose all answers are, where the files have no ids"""
 
 
 def spare_collector() -> None:
@@ -61,7 +64,10 @@ class Graded(NamedTuple):
     serious: bool
     rows: int
     students: int
-    questions: tuple[str, ...]
+    marks: dict[str, tuple[tuple[str, float], ...]]
+    """of each question the known wrong answers that were given, over the right one"""
+    owing: dict[str, tuple[str, ...]]
+    """of each question the first students who gave no answer"""
 
 
 class Sinks(NamedTuple):
@@ -87,7 +93,7 @@ def grade(job: Job, sinks: Sinks, progress: Progress = lambda what: None) -> Gra
     with ExitStack() as stack:
         store = Store()
         stack.callback(store.close)
-        intake = Intake(store, shelf, ledger, roster)
+        intake = Intake(store, shelf, ledger, roster, job.student)
         paths = expand(job.submissions)
         for path in paths:
             progress(f"reading {path}")
@@ -97,11 +103,34 @@ def grade(job: Job, sinks: Sinks, progress: Progress = lambda what: None) -> Gra
         progress(f"judging {intake.count} answers")
         found = list(_done(parts, shelf, store))
         _join(parts, sinks)
-        for _, notes in found:
+        for _, notes, _ in found:
             ledger.extend(notes)
-        counts = added(counts for counts, _ in found)
+        counts = added(counts for counts, _, _ in found)
+        owing = _together(owing for _, _, owing in found)
         students = len(parts[0].students) if len(parts) == 1 else sum(len(part.students) for part in parts)
-    return Graded(counts, tuple(ledger.entries()), ledger.serious, intake.count, students, tuple(counts))
+    marks = {item: tuple(_marks(shelf, item, c)) for item, c in counts.items()}
+    return Graded(counts, tuple(ledger.entries()), ledger.serious, intake.count, students, marks, owing)
+
+
+def _together(parts: Iterable[dict[str, list[str]]]) -> dict[str, tuple[str, ...]]:
+    found: dict[str, list[str]] = {}
+    for part in parts:
+        for item, students in part.items():
+            found.setdefault(item, []).extend(students)
+    return {item: tuple(students[:NAMED]) for item, students in sorted(found.items())}
+
+
+def _marks(shelf: Shelf, item: str, counts: Counts) -> Iterator[tuple[str, float]]:
+    """The nearest wrong answer of each mistake that was made."""
+    try:
+        key = shelf.key(item)
+    except NoKeyError:
+        return
+    if isinstance(key, Key) and key.value and not shelf.variant_of(item, ""):
+        for code, _ in counts.mistakes.most_common():
+            found = [w.value / key.value for w in key.wrongs.all if w.code == code]
+            if found:
+                yield code, min(found, key=lambda ratio: abs(ratio - 1.0))
 
 
 def _parts(
@@ -120,9 +149,12 @@ def _parts(
 
 
 def _asked(intake: Intake) -> set[str]:
-    """The questions that someone answered and that have a key: each student owes an answer to them."""
+    """The questions to which each student owes an answer: those with a column of their own, and the cases
+    that someone answered; an intermediate answer is owed where the course, or a column, asks for it."""
     asked = set()
     for question in intake.questions:
+        if ":" in question and question not in intake.columns and not _is_final(intake.shelf, question):
+            continue
         try:
             intake.shelf.key(question, next(iter(intake.students), ""))
         except NoKeyError:
@@ -131,7 +163,16 @@ def _asked(intake: Intake) -> set[str]:
     return asked
 
 
-Outcome = tuple[dict[str, Counts], list[Noted]]
+def _is_final(shelf: Shelf, question: str) -> bool:
+    """Whether it asks for one of several unknown loads."""
+    name, _, what = question.partition(":")
+    try:
+        return what in unknowns(shelf.read(name))
+    except NoKeyError:
+        return False
+
+
+Outcome = tuple[dict[str, Counts], list[Noted], dict[str, list[str]]]
 
 
 def _done(parts: list[Part], shelf: Shelf, store: Store) -> Iterable[Outcome]:
@@ -168,7 +209,7 @@ def _judged(part: Part, shelf: Shelf, entries: Iterator[Entry]) -> Outcome:
                 csv.write(line(result))
             if jsonl is not None:
                 jsonl.write(json_line(result))
-    return marker.counted(), list(ledger.entries())
+    return marker.counted(), list(ledger.entries()), marker.owing
 
 
 def _join(parts: list[Part], sinks: Sinks) -> None:

@@ -5,70 +5,13 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator
 
-from icsolve.answer import Answer
-from icsolve.case import Case, CentreIs, LoadIs, Target
-from icsolve.errors import CaseError, NotACase, SceneError
+from icsolve.case import Case
+from icsolve.errors import CaseError, SceneError
 from icsolve.grade.course import Course
-from icsolve.grade.keys import AnyKey, NoKeyError, place_key, scalar_key
-from icsolve.grade.malrules import wrong_answers
-from icsolve.grade.malrules.messages import Wrong
-from icsolve.grade.malrules.targets import place_wrongs, solved_for, target_wrongs
-from icsolve.grade.questions import asked_of, canonical, unknowns
-
-
-class Solved:
-    """One case with its answer, and the keys that were asked of it."""
-
-    def __init__(self, case: Case, course: Course) -> None:
-        self.case = case
-        self.course = course
-        self.answer = solved(case)
-        self._keys: dict[str, AnyKey] = {}
-        self._wrongs: dict[str, list[Wrong]] | None = None
-
-    def key(self, question: str) -> AnyKey:
-        """The key of ``case`` or ``case:what``.
-
-        Raises NoKeyError.
-        """
-        if question not in self._keys:
-            self._keys[question] = self._made(question)
-        return self._keys[question]
-
-    def target(self, question: str) -> Target:
-        """What a question asks.
-
-        Raises NoKeyError.
-        """
-        return asked_of(self.case, question.partition(":")[2])
-
-    def _made(self, question: str) -> AnyKey:
-        target = self.target(question)
-        policy = self.course.policy_of(question, self.case.tolerance)
-        answer = self.answer
-        if isinstance(target, CentreIs):
-            return place_key(question, target, answer, policy, place_wrongs(answer, target))
-        if isinstance(target, LoadIs):
-            if self._wrongs is None:
-                self._wrongs = wrong_answers(answer)
-            wrongs = self._wrongs.get(target.load, [])
-        else:
-            answer = solved_for(self.case, target)
-            wrongs = target_wrongs(answer, target)
-        return scalar_key(question, target, answer, policy, wrongs)
-
-
-def solved(case: Case) -> Answer:
-    """The answer with all centres and rates; the bare answer where those can't be had.
-
-    Raises SceneError.
-    """
-    try:
-        return solved_for(case)
-    except SceneError:
-        from icsolve.solve import solve
-
-        return solve(case, bound=False)
+from icsolve.grade.keys import AnyKey, NoKeyError
+from icsolve.grade.questions import canonical
+from icsolve.grade.solved import Solved
+from icsolve.grade.variants.varied import Varied
 
 
 class Shelf:
@@ -76,6 +19,7 @@ class Shelf:
 
     def __init__(self, folder: str | os.PathLike[str], course: Course) -> None:
         self.course = course
+        self.folder = os.fspath(folder)
         self.paths: dict[str, str] = {}
         self.twice: dict[str, tuple[str, str]] = {}
         for path in _yaml_files(os.fspath(folder)):
@@ -83,7 +27,8 @@ class Shelf:
         self.varied = False
         """whether a case with variables has been met"""
         self._lower = {name.lower(): name for name in self.paths}
-        self._solved: dict[str, Solved | NoKeyError] = {}
+        self._solved: dict[str, Solved | Varied | NoKeyError] = {}
+        self._cases: dict[str, Case] = {}
 
     def _add(self, path: str) -> None:
         name = case_name(path)
@@ -100,22 +45,35 @@ class Shelf:
         return f"{name}:{what.strip()}" if colon and what.strip() else name
 
     def solved(self, name: str, student: str = "") -> Solved:
-        """The case of that name, solved.
+        """The case of that name, solved; with the student's own values, if it has variables.
 
         Raises NoKeyError where there is none, or it has no answer; the message says why.
         """
         found = self._solved.get(name)
         if found is None:
-            try:
-                found = Solved(self.read(name), self.course)
-            except SceneError as error:
-                found = NoKeyError(f"the case {name} has no answer ({error.status}): {error.message}")
-            except NoKeyError as error:
-                found = error
-            self._solved[name] = found
+            found = self._solved[name] = self._made(name)
         if isinstance(found, NoKeyError):
             raise found
-        return found
+        return found.solved(student) if isinstance(found, Varied) else found
+
+    def _made(self, name: str) -> Solved | Varied | NoKeyError:
+        try:
+            case = self.read(name)
+            if not case.variables:
+                return Solved(case, self.course)
+            self.varied = True
+            return Varied(name, self.text(name), self.paths[name], self.course)
+        except SceneError as error:
+            return NoKeyError(f"the case {name} has no answer ({error.status}): {error.message}")
+        except NoKeyError as error:
+            return error
+
+    def variation(self, name: str) -> Varied | None:
+        """The case as one with variables; None where it has none, or can't be read."""
+        found = self._solved.get(name)
+        if found is None:
+            found = self._solved[name] = self._made(name)
+        return found if isinstance(found, Varied) else None
 
     def read(self, name: str) -> Case:
         """The case of that name.
@@ -129,7 +87,9 @@ class Shelf:
         if name not in self.paths:
             raise NoKeyError(f"there is no case '{name[:60]}'")
         try:
-            return read_file(self.paths[name])
+            if name not in self._cases:
+                self._cases[name] = read_file(self.paths[name])
+            return self._cases[name]
         except CaseError as error:
             raise NoKeyError(f"the case {name} can't be read: {error.problems[0]}") from None
 
@@ -142,22 +102,28 @@ class Shelf:
 
     def variant_of(self, question: str, student: str) -> str:
         """The label of the student's values; '' for a case without variables."""
-        return ""
+        varied = (
+            self.variation(question.partition(":")[0]) if question.partition(":")[0] in self.paths else None
+        )
+        if varied is None:
+            return ""
+        try:
+            return varied.draw(student).label
+        except NoKeyError:
+            return ""
+
+    def text(self, name: str) -> str:
+        """The file of a case. Raises OSError."""
+        with open(self.paths[name], encoding="utf-8-sig", errors="replace") as file:
+            return file.read()
 
     def canonical(self, question: str) -> str:
         """The one name of a question: ``press`` where ``press:T12`` asks for its only unknown."""
         name, _, what = question.partition(":")
         try:
-            return canonical(self.solved(name).case, name, what)
+            return canonical(self.read(name), name, what)
         except NoKeyError:
             return question
-
-    def unknowns(self, name: str) -> tuple[str, ...]:
-        """The unknown loads of a case.
-
-        Raises NoKeyError.
-        """
-        return unknowns(self.solved(name).case)
 
 
 def case_name(path: str) -> str:
@@ -186,6 +152,3 @@ def _mentions(path: str) -> bool:
     except OSError:
         return False
     return b"icsolve" in head.replace(b"\0", b"")
-
-
-__all__ = ["NotACase", "Shelf", "Solved", "case_name"]

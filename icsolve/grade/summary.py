@@ -59,4 +59,8 @@ def histogram(counts: Counts) -> Iterator[str]:
 
 
 def _missing(graded: Graded) -> Iterator[str]:
-    return iter(())
+    """Who gave no answer."""
+    for item, students in graded.owing.items():
+        count = graded.counts[item].verdicts["missing"] if item in graded.counts else len(students)
+        more = f" and {count - len(students)} more" if count > len(students) else ""
+        yield f"no answer to {item}: {', '.join(students)}{more}"

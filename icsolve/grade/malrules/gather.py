@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterable, Iterator
-from typing import NamedTuple
+from collections.abc import Callable, Iterable, Iterator
+from functools import cached_property
 
 from icsolve.answer import Answer
 from icsolve.case import Case
@@ -72,22 +72,39 @@ def _resolved(answer: Answer) -> Iterator[tuple[str, Wrong]]:
             yield name, Wrong(code, value)
 
 
-class Wrongs(NamedTuple):
-    """Wrong answers sorted by value; ``reach`` is the relative half-width within which one is recognised."""
+class Wrongs:
+    """Wrong answers sorted by value, made when the first wrong answer asks for them.
 
-    values: tuple[float, ...]
-    wrongs: tuple[Wrong, ...]
-    reach: float
+    What the band about the ``right`` answer holds is dropped. ``reach`` is the relative half-width within
+    which a wrong answer is recognised: that of the right one, 5 % at most.
+    """
+
+    def __init__(self, make: Callable[[], Iterable[Wrong]], right: float, half: float) -> None:
+        self._make = make
+        self._right = right
+        self._half = half
+        self.reach = min(half / abs(right), 0.05) if right else 0.01
+
+    @cached_property
+    def all(self) -> tuple[Wrong, ...]:
+        """The wrong answers by value."""
+        right, half = self._right, self._half
+        kept = [w for w in self._make() if math.isfinite(w.value) and w.value and abs(w.value - right) > half]
+        return tuple(sorted(kept, key=lambda w: (w.value, ORDER[w.code])))
+
+    @cached_property
+    def _values(self) -> list[float]:
+        return [wrong.value for wrong in self.all]
 
     def near(self, value: float) -> tuple[Wrong, ...]:
         """The wrong answers that a value may be, simplest cause first, one of each code."""
-        values, wrongs, reach = self
+        values, reach = self._values, self.reach
         width = reach * abs(value) * (1.0 + reach)
         first = bisect_left(values, value - width)
         last = bisect_right(values, value + width, first)
         if first == last or not math.isfinite(value):
             return ()
-        fitting = [w for w in wrongs[first:last] if abs(value - w.value) <= reach * abs(w.value)]
+        fitting = [w for w in self.all[first:last] if abs(value - w.value) <= reach * abs(w.value)]
         return tuple(fitting) if len(fitting) < 2 else _simplest(fitting, value)
 
 
@@ -97,11 +114,3 @@ def _simplest(fitting: list[Wrong], value: float) -> tuple[Wrong, ...]:
     for wrong in sorted(fitting, key=lambda w: abs(value - w.value)):
         nearest.setdefault(wrong.code, wrong)
     return tuple(sorted(nearest.values(), key=lambda w: ORDER[w.code])[:MOST])
-
-
-def sorted_wrongs(wrongs: Iterable[Wrong], right: float, half: float) -> Wrongs:
-    """Ready to be looked up; what the band about the right answer holds is dropped."""
-    reach = half / abs(right) if right else 0.01
-    kept = [w for w in wrongs if math.isfinite(w.value) and w.value != 0.0 and abs(w.value - right) > half]
-    kept.sort(key=lambda w: (w.value, ORDER[w.code]))
-    return Wrongs(tuple(w.value for w in kept), tuple(kept), min(reach, 0.05))

@@ -19,7 +19,8 @@ def load_wrongs(answer: Answer, resolve: Resolve) -> Iterator[tuple[str, Wrong]]
     right = {name: found.value for name, found in answer.answers.items()}
     loads = list(known_loads(answer.case))
     for load in loads:
-        base = resolve(with_load(answer.case, scaled(load, 0.0)))
+        alone = len(loads) == 1
+        base = dict.fromkeys(right, 0.0) if alone else resolve(with_load(answer.case, scaled(load, 0.0)))
         yield from _missed(load, len(loads), base)
         if len(loads) > 1:
             yield from _named("load-sense", resolve(with_load(answer.case, scaled(load, -1.0))), load.name)

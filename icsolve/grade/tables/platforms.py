@@ -40,14 +40,18 @@ def recognise(columns: Columns) -> Layout:
     )
 
 
-def _long(columns: Columns, kind: str) -> Layout:
-    """One answer a row."""
+def fields_of(columns: Columns) -> Callable[[list[str]], tuple[str, ...]]:
+    """Of a row with an empty cell added: student, case, answer, unit, direction, attempt, variant, time."""
     wanted = ("student_id", "case", "answer", "unit", "direction", "attempt", "variant", "submitted_at")
     at = [columns.field(name) for name in wanted]
     if at[0] is None:
         at[0] = columns.field("email")
-    width = len(columns.header)
-    cells_of = itemgetter(*(width if i is None else i for i in at))
+    return itemgetter(*(len(columns.header) if i is None else i for i in at))
+
+
+def _long(columns: Columns, kind: str) -> Layout:
+    """One answer a row."""
+    cells_of, width = fields_of(columns), len(columns.header)
 
     def read(row: Row) -> Sequence[Submission]:
         line, cells = row

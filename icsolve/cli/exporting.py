@@ -1,0 +1,62 @@
+"""`icsolve export`: cases as questions of a learning platform."""
+
+from __future__ import annotations
+
+import click
+
+from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain
+from icsolve.errors import CaseError
+
+
+@click.command("export")
+@click.argument("kind", type=click.Choice(["moodle-xml", "gift", "prairielearn", "gradescope-zip"]))
+@click.argument("cases", metavar="CASES")
+@click.option("-o", "--output", metavar="FILE", required=True, help="The file; for prairielearn a folder.")
+@click.option(
+    "--course", metavar="FILE", help="Tolerances and marks [default: course.yaml beside the cases]."
+)
+@click.option("--seed", metavar="TEXT", help="Seed of the variants.")
+@click.option(
+    "--count", type=click.IntRange(1, 1000), default=10, show_default=True, help="Variants of a case."
+)
+@click.option("--figures/--no-figures", default=True, help="The figure of each question, without its answer.")
+@click.option("--force", is_flag=True, help="Write over files that are there.")
+def export_command(
+    kind: str,
+    cases: str,
+    output: str,
+    course: str | None,
+    seed: str | None,
+    count: int,
+    figures: bool,
+    force: bool,
+) -> int:
+    """Make quiz questions (with tolerances, units, and feedback on known mistakes) or an autograder of cases.
+
+    \b
+    icsolve export moodle-xml cases/ -o quiz.xml
+    icsolve export gradescope-zip cases/ -o autograder.zip
+    """
+    from icsolve.cli.grading import course_of
+    from icsolve.cli.varying import existing
+    from icsolve.grade.files import ExistsError, check_free
+    from icsolve.grade.out.export import Order, export
+    from icsolve.grade.shelf import Shelf
+
+    problems: list[str] = []
+    try:
+        shelf = Shelf(existing(cases), course_of(course, cases, False, {"seed": seed}))
+        if kind != "prairielearn":
+            check_free(output, force)
+        made = export(kind, Order(shelf, output, force, figures, count), problems.append)
+    except CaseError as error:
+        complain(str(error))
+        return UNREADABLE
+    except (ExistsError, ValueError) as error:
+        complain(f"icsolve export: {error}")
+        return UNREADABLE
+    for problem in problems:
+        complain(problem)
+    what = "case" if kind == "gradescope-zip" else "question"
+    complain(f"wrote {output}: {made} {what}{'' if made == 1 else 's'}")
+    return NO_ANSWER if problems else DONE

@@ -1,0 +1,156 @@
+"""`icsolve variants`."""
+
+from __future__ import annotations
+
+import os
+import time
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+import click
+
+from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain
+from icsolve.errors import CaseError
+
+if TYPE_CHECKING:
+    from icsolve.grade.people import Person
+    from icsolve.grade.shelf import Shelf
+    from icsolve.grade.variants import Varied
+    from icsolve.grade.variants.sheets import Task
+
+
+@click.command("variants")
+@click.argument("cases", metavar="CASES")
+@click.option("--roster", metavar="FILE", required=True, help="The students: a CSV with a column student_id.")
+@click.option("-o", "--output", metavar="DIR", required=True, help="The folder to write into.")
+@click.option("--course", metavar="FILE", help="Seed and tolerances [default: course.yaml beside the cases].")
+@click.option("--seed", metavar="TEXT", help="Another seed gives other variants.")
+@click.option("--figures/--no-figures", default=True, help="An SVG of each variant, and a sheet a student.")
+@click.option("--force", is_flag=True, help="Write over files that are there.")
+@click.option("-q", "--quiet", is_flag=True, help="No report.")
+def variants_command(
+    cases: str,
+    roster: str,
+    output: str,
+    course: str | None,
+    seed: str | None,
+    figures: bool,
+    force: bool,
+    quiet: bool,
+) -> int:
+    """Give each student of a roster numbers of their own, for every case with `variables`.
+
+    \b
+    icsolve variants cases/ --roster roster.csv -o sheets/
+    icsolve grade answers.csv --cases cases/ --roster roster.csv -o results.csv
+
+    A student's values follow from the case's name, the student's id and the seed alone; `grade`
+    computes each student's key again. Exit status: 1 where a student has no variant that suits.
+    """
+    from icsolve.cli.grading import course_of
+    from icsolve.grade.files import ExistsError
+    from icsolve.grade.people import read_roster
+    from icsolve.grade.shelf import Shelf
+    from icsolve.grade.tables import HeaderError
+
+    try:
+        shelf = Shelf(existing(cases), course_of(course, cases, quiet, {"seed": seed}))
+        people = read_roster(roster, lambda line, why: complain(f"{roster}:{line}: {why}"))
+        return _all(shelf, list(people.people.values()), output, figures, force, quiet)
+    except CaseError as error:
+        complain(str(error))
+    except (ExistsError, HeaderError, ValueError) as error:
+        complain(f"icsolve variants: {error}")
+    except OSError as error:
+        complain(f"icsolve variants: {error.filename or ''}: {error.strerror or error}")
+    return UNREADABLE
+
+
+def existing(cases: str) -> str:
+    """The path, if there is something. Raises FileNotFoundError."""
+    if not os.path.exists(cases):
+        raise FileNotFoundError(2, "there is no such file or folder", cases)
+    return cases
+
+
+def _all(shelf: Shelf, people: list[Person], output: str, figures: bool, force: bool, quiet: bool) -> int:
+    code, some = DONE, False
+    for name in sorted(shelf.paths):
+        varied = shelf.variation(name)
+        if varied is not None:
+            some = True
+            code = max(code, _one(varied, people, os.path.join(output, name), figures, force, quiet))
+        elif "$" in _text(shelf.paths[name]):
+            code = max(code, _unreadable(shelf, name))
+    if not some:
+        complain(
+            "icsolve variants: no case has variables, as in `variables: {P: {range: [100, 500], step: 10}}`"
+        )
+        return max(code, UNREADABLE)
+    return code
+
+
+def _text(path: str) -> str:
+    with open(path, encoding="utf-8", errors="replace") as file:
+        return file.read()
+
+
+def _unreadable(shelf: Shelf, name: str) -> int:
+    from icsolve.grade.keys import NoKeyError
+
+    try:
+        shelf.solved(name)
+    except NoKeyError as error:
+        complain(str(error))
+        return UNREADABLE
+    return DONE
+
+
+def _one(varied: Varied, people: list[Person], folder: str, figures: bool, force: bool, quiet: bool) -> int:
+    """One case: values and key of all students, then figures and sheets."""
+    from icsolve.grade.files import check_free, write_whole
+    from icsolve.grade.keys import NoKeyError
+    from icsolve.grade.variants.sheets import key_csv, tasks, values_csv
+
+    paths = [os.path.join(folder, name) for name in ("values.csv", "key.csv")]
+    for path in paths:
+        check_free(path, force)
+    start = time.perf_counter()
+    found: list[Task] = []
+    code = DONE
+    for person, task in zip(people, tasks(varied, people), strict=True):
+        if isinstance(task, NoKeyError):
+            complain(f"{person.student_id}: {task}")
+            code = NO_ANSWER
+        else:
+            found.append(task)
+    write_whole(paths[0], values_csv(varied, found), force)
+    write_whole(paths[1], key_csv(varied, found), force)
+    if not quiet:
+        seconds = time.perf_counter() - start
+        complain(f"{folder}: values and key of {len(found)} students in {seconds:.2f} s")
+    if figures:
+        _figures(varied, found, folder, force, quiet)
+    return code
+
+
+def _figures(varied: Varied, found: Iterable[Task], folder: str, force: bool, quiet: bool) -> None:
+    """A figure for each variant, and a sheet for each student."""
+    from icsolve.grade.files import write_whole
+    from icsolve.grade.variants.sheets import figure, file_name, sheet
+
+    start = time.perf_counter()
+    drawn: dict[str, str] = {}
+    students = 0
+    with click.progressbar(list(found), label="figures", hidden=quiet) as bar:
+        for task in bar:
+            picture = drawn.get(task.draw.label)
+            if picture is None:
+                picture = drawn[task.draw.label] = figure(varied, task.draw)
+                write_whole(os.path.join(folder, "figures", f"{task.draw.label}.svg"), picture, force)
+            name = f"{file_name(task.person.student_id)}.html"
+            write_whole(os.path.join(folder, "sheets", name), sheet(varied, task, picture), force)
+            students += 1
+    if not quiet and drawn:
+        rate = len(drawn) / (time.perf_counter() - start)
+        complain(f"{folder}: {len(drawn)} figures and {students} sheets, {rate:.0f} figures a second")

@@ -1,0 +1,55 @@
+"""One task in a program of one's own: its values, what is asked, and the marks for an answer."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from icsolve.grade.course import Course
+from icsolve.grade.judge import feedback, judge
+from icsolve.grade.judge_place import judge_place
+from icsolve.grade.keys import AnyKey, Key
+from icsolve.grade.out.wording import asked, given
+from icsolve.grade.results import number
+from icsolve.grade.shelf import Shelf, case_name
+from icsolve.grade.written import Reader
+from icsolve.grade.written.place import read_place
+
+
+class Task:
+    """A case as one student's task; ``student`` picks the values of its variables."""
+
+    def __init__(self, path: str | os.PathLike[str], student: str = "", course: Course | None = None) -> None:
+        """Raises ValueError where the case can't be read or has no answer."""
+        self._course = course or Course()
+        self._shelf = Shelf(path, self._course)
+        self._name = case_name(os.fspath(path))
+        self._solved = self._shelf.solved(self._name, student)
+        varied = self._shelf.variation(self._name)
+        self.values: dict[str, str] = dict(varied.draw(student).values) if varied is not None else {}
+        self.given = given(varied.read(self.values) if varied is not None else self._solved.case)
+
+    def asked(self, what: str = "") -> str:
+        """The sentence that asks for ``w4/w2``, or for the unknown ('')."""
+        key = self._key(what)
+        return asked(key, self._solved.target(key.question))
+
+    def right(self, what: str = "") -> str:
+        """The right answer as text."""
+        key = self._key(what)
+        if not isinstance(key, Key):
+            return f"({number(key.place[0])}, {number(key.place[1])}) {key.unit_name}"
+        return f"{number(key.value)} {key.unit_name}".strip()
+
+    def grade(self, what: str, answer: str) -> dict[str, Any]:
+        """``verdict``, ``score`` from 0 to 1, ``code`` and ``feedback`` of an answer."""
+        key = self._key(what)
+        if isinstance(key, Key):
+            judged = judge(key, Reader(self._course.decimal).read(answer))
+        else:
+            judged = judge_place(key, read_place(answer))
+        told = feedback(key, judged, self._course.reveal)
+        return {"verdict": judged.verdict, "score": judged.share, "code": judged.code, "feedback": told}
+
+    def _key(self, what: str) -> AnyKey:
+        return self._solved.key(f"{self._name}:{what}" if what else self._name)

@@ -1,0 +1,1 @@
+"""Results and questions in the forms of learning platforms."""

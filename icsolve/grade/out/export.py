@@ -1,0 +1,109 @@
+"""Cases as questions of a platform: Moodle XML, GIFT, a PrairieLearn question, a Gradescope autograder."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterator
+from typing import NamedTuple
+
+from icsolve.case import Case
+from icsolve.grade.files import write_whole
+from icsolve.grade.keys import Key, NoKeyError
+from icsolve.grade.out.element import element
+from icsolve.grade.out.gradescope import autograder_zip
+from icsolve.grade.out.questions import Question, gift, moodle_xml
+from icsolve.grade.out.wording import asked, given
+from icsolve.grade.questions import unknowns
+from icsolve.grade.shelf import Shelf
+from icsolve.grade.solved import Solved
+
+Complain = Callable[[str], None]
+
+
+class Order(NamedTuple):
+    """What to write: the cases, where, with figures or not, how many variants of a case with variables."""
+
+    shelf: Shelf
+    path: str
+    force: bool
+    figures: bool
+    variants: int
+
+
+def questions(order: Order, complain: Complain) -> Iterator[Question]:
+    """A question for every unknown load of every case; what can't be one is told."""
+    for name in sorted(order.shelf.paths):
+        try:
+            varied = order.shelf.variation(name)
+            if varied is None:
+                solved = order.shelf.solved(name)
+                yield from _of_case(solved, solved.case, name, order.figures)
+                continue
+            for n in range(1, order.variants + 1):
+                case = varied.read(varied.draw(str(n)).values)
+                yield from _of_case(varied.solved(str(n)), case, f"{name} v{n}", order.figures)
+        except NoKeyError as error:
+            complain(f"{order.shelf.paths.get(name, name)}: {error}")
+
+
+def _of_case(solved: Solved, case: Case, name: str, figures: bool) -> Iterator[Question]:
+    names = unknowns(case)
+    if not names:
+        raise NoKeyError("no unknown load, so no question")
+    picture = figure(case) if figures else ""
+    for what in names:
+        own = case.name if len(names) == 1 else f"{case.name}:{what}"
+        key = solved.key(own)
+        assert isinstance(key, Key)
+        text = asked(key, solved.target(own))
+        shown = name if len(names) == 1 else f"{name}:{what}"
+        yield Question(shown, tuple(given(case)), text, key, picture, case.title)
+
+
+def figure(case: Case) -> str:
+    """The case drawn without its answer, as SVG."""
+    from icsolve.construction import known_of
+    from icsolve.draw import Drawing, draw
+
+    return draw(case, Drawing(centres="none"), known_of(case)._replace(answer=None))
+
+
+def export(kind: str, order: Order, complain: Complain) -> int:
+    """Write all cases as ``kind``; how many questions there are.
+
+    Raises ExistsError or OSError.
+    """
+    if kind == "gradescope-zip":
+        return _zip(order)
+    if kind == "prairielearn":
+        return _elements(order._replace(variants=1), complain)
+    found = list(questions(order._replace(figures=order.figures and kind == "moodle-xml"), complain))
+    make = moodle_xml if kind == "moodle-xml" else gift
+    write_whole(order.path, make(found, order.shelf.course.title or "icsolve"), order.force)
+    return len(found)
+
+
+def _elements(order: Order, complain: Complain) -> int:
+    """A folder a question."""
+    found = list(questions(order, complain))
+    for question in found:
+        case, _, what = question.key.question.partition(":")
+        folder = os.path.join(order.path, question.key.question.replace(":", "-"))
+        for name, text in element(question, order.shelf.text(case), what).items():
+            write_whole(os.path.join(folder, name), text, order.force)
+    return len(found)
+
+
+def _zip(order: Order) -> int:
+    shelf = order.shelf
+    cases = {os.path.basename(at): shelf.text(name) for name, at in shelf.paths.items()}
+    course = os.path.join(shelf.folder, "course.yaml")
+    text = None
+    if os.path.isfile(course):
+        with open(course, encoding="utf-8") as file:
+            text = file.read()
+    write_whole(order.path, autograder_zip(cases, text), order.force)
+    return len(cases)
+
+
+KINDS = ("moodle-xml", "gift", "prairielearn", "gradescope-zip")

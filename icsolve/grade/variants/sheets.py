@@ -1,0 +1,117 @@
+"""What a class gets: every student's values, the key, a figure of each variant, and a sheet to hand out."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable, Iterator
+from html import escape
+from typing import NamedTuple
+
+from icsolve.grade.keys import AnyKey, Key, NoKeyError
+from icsolve.grade.out.wording import asked, given
+from icsolve.grade.people import Person
+from icsolve.grade.questions import unknowns
+from icsolve.grade.results import number, safe
+from icsolve.grade.solved import Solved
+from icsolve.grade.variants.varied import Draw, Varied
+
+
+class Task(NamedTuple):
+    """One student's variant."""
+
+    person: Person
+    draw: Draw
+
+
+def tasks(varied: Varied, people: Iterable[Person]) -> Iterator[Task | NoKeyError]:
+    """Every student's variant; the error of one for whom none suits."""
+    for person in people:
+        try:
+            yield Task(person, varied.draw(person.student_id))
+        except NoKeyError as error:
+            yield error
+
+
+def values_csv(varied: Varied, found: Iterable[Task]) -> str:
+    """``student_id,email,variant`` and a column for each variable: for a mail merge."""
+    out = io.StringIO()
+    table = csv.writer(out, lineterminator="\n")
+    names = [variable.name for variable in varied.case.variables]
+    table.writerow(["student_id", "email", "variant", *names])
+    for person, draw in found:
+        cells = [safe(person.student_id), safe(person.email), draw.label]
+        table.writerow([*cells, *(safe(draw.values[name]) for name in names)])
+    return out.getvalue()
+
+
+def key_csv(varied: Varied, found: Iterable[Task]) -> str:
+    """The right answers: ``student_id,variant,case,value,unit,sense,from,to``."""
+    out = io.StringIO()
+    table = csv.writer(out, lineterminator="\n")
+    table.writerow(["student_id", "variant", "case", "value", "unit", "sense", "from", "to"])
+    for person, draw in found:
+        solved = varied.solved(person.student_id)
+        for question in questions(varied):
+            key = solved.key(question)
+            assert isinstance(key, Key)
+            low, high = abs(key.value) - key.half, abs(key.value) + key.half
+            cells = (draw.label, question, number(key.value), key.unit_name, sense(solved, question))
+            table.writerow([safe(person.student_id), *cells, f"{max(low, 0.0):.10g}", f"{high:.10g}"])
+    return out.getvalue()
+
+
+def questions(varied: Varied) -> list[str]:
+    """The questions of a case with variables: its unknown loads."""
+    names = unknowns(varied.case)
+    return [varied.name] if len(names) == 1 else [f"{varied.name}:{name}" for name in names]
+
+
+def sense(solved: Solved, question: str) -> str:
+    """The answer's sense in words."""
+    name = getattr(solved.target(question), "load", "")
+    found = solved.answer.answers.get(name)
+    return found.sense if found is not None else ""
+
+
+def figure(varied: Varied, draw: Draw) -> str:
+    """The variant drawn without its answer, as SVG."""
+    from icsolve.construction import known_of
+    from icsolve.draw import Drawing
+    from icsolve.draw import draw as drawn
+
+    case = varied.read(draw.values)
+    return drawn(case, Drawing(centres="none"), known_of(case)._replace(answer=None))
+
+
+def sheet(varied: Varied, task: Task, picture: str) -> str:
+    """One student's page: name, figure, values, and what is asked."""
+    case = varied.read(task.draw.values)
+    solved = varied.solved(task.person.student_id)
+    who = " ".join(part for part in (task.person.first_name, task.person.last_name) if part)
+    rows = "".join(f"<tr><td>{escape(n)}</td><td>{escape(v)}</td></tr>" for n, v in given(case))
+    lines = "".join(
+        f"<p>{escape(asked(key, solved.target(key.question)))}</p>" for key in _keys(varied, solved)
+    )
+    return (
+        f'<!doctype html><html lang="en"><meta charset="utf-8"><title>{escape(varied.name)}</title>'
+        "<style>body{font-family:sans-serif;max-width:50em;margin:2em auto}svg{max-width:100%;height:auto}"
+        "td{padding:.1em 1em .1em 0}</style>"
+        f"<h1>{escape(case.title or varied.name)}</h1>"
+        f"<p>{escape(who or task.person.student_id)}, variant {task.draw.label}</p>"
+        f"{picture}<table>{rows}</table>{lines}</html>\n"
+    )
+
+
+def _keys(varied: Varied, solved: Solved) -> list[AnyKey]:
+    return [solved.key(question) for question in questions(varied)]
+
+
+def file_name(student: str) -> str:
+    """A student's id as the name of a file."""
+    plain = "".join(c if c.isalnum() or c in "-_.@" else "_" for c in student)[:100].strip(".")
+    if plain == student:
+        return plain
+    import hashlib
+
+    return f"{plain or 'student'}-{hashlib.sha256(student.encode()).hexdigest()[:6]}"

@@ -1,0 +1,60 @@
+"""Whether a variant makes a fair task: it assembles, no dead centre is near, mistakes show in its answer."""
+
+from __future__ import annotations
+
+from icsolve.answer import Answer
+from icsolve.case import Number
+from icsolve.grade.keys import NoKeyError, size_of
+from icsolve.grade.malrules.centres import centre_wrongs
+from icsolve.grade.malrules.gather import resolve
+from icsolve.grade.malrules.loads import load_wrongs
+from icsolve.grade.malrules.messages import Wrong
+from icsolve.sensitivity import band
+
+_DRAWING = 1e-3
+"""Part of the mechanism's size by which every point may be off."""
+_SWING = 0.1
+"""Part of itself by which an answer may change for it; near a dead centre it changes more."""
+_APART = 0.02
+"""Part of itself by which an answer and a wrong one differ at least."""
+
+
+def far_from_dead_centres(answer: Answer) -> bool:
+    """Whether rounding the figure to a thousandth of its size leaves the answers within 10 %.
+
+    ``answer`` has been solved with its bound, whose backward pass gives the sensitivities.
+    """
+    width = _DRAWING * size_of(answer)
+    for name, found in answer.answers.items():
+        try:
+            swing = band(answer, name, width)
+        except KeyError:
+            continue
+        if found.value == 0.0 or not swing <= _SWING * abs(found.value):
+            return False
+    return True
+
+
+def swallowed(answer: Answer) -> frozenset[tuple[str, str, str]]:
+    """The mistakes that this variant would not show: their answers are as good as the right one."""
+    found = set()
+    for name, wrong in _wrongs(answer):
+        right = answer.answers[name].value
+        if abs(wrong.value - right) <= _APART * abs(right):
+            found.add((name, wrong.code, wrong.where))
+    return frozenset(found)
+
+
+def _wrongs(answer: Answer) -> list[tuple[str, Wrong]]:
+    """The mistakes of loads and centres; those of signs, powers of ten and units are always apart."""
+    try:
+        found = list(load_wrongs(answer, resolve))
+    except (ArithmeticError, StopIteration):
+        found = []
+    if len(answer.answers) == 1:
+        (name,) = answer.answers
+        found += [(name, wrong) for wrong in centre_wrongs(answer, name)]
+    return [(name, wrong) for name, wrong in found if name in answer.answers]
+
+
+__all__ = ["NoKeyError", "Number", "far_from_dead_centres", "swallowed"]
