@@ -86,32 +86,52 @@ def build(root: Mapping, problems: Problems, name: str) -> Case:
     """The case of a tree; whether it may be used, the problems tell."""
     check_version(root, problems)
     units, targets, shown_units = measures(root.items.get("units"), problems)
+    if _is_in_space(root):
+        from icsolve.read.space import build_space
+
+        return build_space(root, problems, name, (units, targets, shown_units))
     reading = Reading(problems, targets, shown_units)
     reading.marks.update(root.keys)
     reading.check_keys(root, SECTIONS, "a case")
     mention_links(reading, root.items.get("joints"))
-    ground = _ground(reading, root)
+    ground = ground_of(reading, root)
     parts = _parts(reading, root)
-    if _readable(root, "points", "lengths", "angles"):
+    if readable(root, "points", "lengths", "angles"):
         check_given(reading)
     texts = {key: reading.text(root.items[key], key) for key in TEXTS if key in root.items}
     return _case(name, problems.path, units, ground, reading, parts, texts, root)
 
 
+def _is_in_space(root: Mapping) -> bool:
+    """Whether points have three coordinates; one alone among planar joints is a slip, and read as planar."""
+    points = root.items.get("points")
+    if type(points) is not Mapping:
+        return False
+    counts = {len(node.items) for node in points.items.values() if type(node) is Sequence}
+    if 3 not in counts:
+        return False
+    from icsolve.read.jointed import PLANAR, SPATIAL
+
+    joints = root.items.get("joints")
+    entries = joints.items if type(joints) is Sequence else []
+    kinds = {key for entry in entries if type(entry) is Mapping for key in entry.items}
+    return 2 not in counts or bool(kinds & {*SPATIAL}) or not kinds & {*PLANAR}
+
+
 def _parts(reading: Reading, root: Mapping) -> _Parts:
     """Joints, loads and points first: their names tell how a key such as AB is read."""
     joints = _joints(reading, root)
-    loads = read_loads(reading, _section(reading, root, "loads"))
-    points = read_points(reading, _section(reading, root, "points"))
-    links = read_carried(reading, _section(reading, root, "links"))
-    near = read_near(reading, _section(reading, root, "near"))
-    motion = read_motion(reading, root.items["motion"]) if _stands(root, "motion") else ()
+    loads = read_loads(reading, section_of(reading, root, "loads"))
+    points = read_points(reading, section_of(reading, root, "points"))
+    links = read_carried(reading, section_of(reading, root, "links"))
+    near = read_near(reading, section_of(reading, root, "near"))
+    motion = read_motion(reading, root.items["motion"]) if stands(root, "motion") else ()
     known = reading.given | set(reading.used) | _hyphened(root)
-    lengths = read_lengths(reading, _section(reading, root, "lengths"), known)
-    angles = read_angles(reading, _section(reading, root, "angles"), known)
+    lengths = read_lengths(reading, section_of(reading, root, "lengths"), known)
+    angles = read_angles(reading, section_of(reading, root, "angles"), known)
     named = reading.given | set(reading.used)
-    published = _section(reading, root, "expect")
-    expect = read_expect(reading, published, named) if _readable(root, "loads") else ()
+    published = section_of(reading, root, "expect")
+    expect = read_expect(reading, published, named) if readable(root, "loads") else ()
     return _Parts(joints, loads, {**points, **reading.hidden}, links, near, motion, lengths, angles, expect)
 
 
@@ -125,18 +145,19 @@ def check_version(root: Mapping, problems: Problems) -> None:
         raise problems.stop(node.mark, f"{said} of the format is not known; this program reads 'icsolve: 1'")
 
 
-def _stands(root: Mapping, key: str) -> bool:
+def stands(root: Mapping, key: str) -> bool:
+    """Whether a section holds something."""
     return key in root.items and not is_null(root.items[key])
 
 
-def _readable(root: Mapping, *keys: str) -> bool:
+def readable(root: Mapping, *keys: str) -> bool:
     """Whether these sections, where they stand, are mappings: else what they name is not known."""
-    return all(not _stands(root, key) or type(root.items[key]) is Mapping for key in keys)
+    return all(not stands(root, key) or type(root.items[key]) is Mapping for key in keys)
 
 
-def _section(reading: Reading, root: Mapping, key: str) -> Mapping:
+def section_of(reading: Reading, root: Mapping, key: str, forms: dict[str, str] = _FORMS) -> Mapping:
     """A section; empty where it is left out, holds nothing, or can't be read."""
-    found = reading.mapping(root.items[key], f"'{key}'", _FORMS[key]) if _stands(root, key) else None
+    found = reading.mapping(root.items[key], f"'{key}'", forms[key]) if stands(root, key) else None
     return found if found is not None else Mapping({}, {}, (1, 1))
 
 
@@ -152,7 +173,7 @@ def _joints(reading: Reading, root: Mapping) -> tuple[Joint, ...]:
     return ()
 
 
-def _ground(reading: Reading, root: Mapping) -> str:
+def ground_of(reading: Reading, root: Mapping) -> str:
     """The frame; a joint must have it."""
     node = root.items.get("ground")
     if node is not None:
@@ -171,8 +192,9 @@ def _gravity(reading: Reading, root: Mapping) -> Number | None:
     return value
 
 
-def _tolerance(reading: Reading, root: Mapping) -> Tolerance | None:
-    if not _stands(root, "tolerance"):
+def tolerance_of_case(reading: Reading, root: Mapping) -> Tolerance | None:
+    """How far a student's answer may lie from the right one, where the case says so."""
+    if not stands(root, "tolerance"):
         return None
     from icsolve.read.tolerances import read_tolerance
 
@@ -216,7 +238,7 @@ def _case(
         expect=parts.expect,
         carries=carried(links, ground, parts.joints, parts.loads, parts.links, parts.motion),
         gravity=_gravity(reading, root) or Case.gravity,
-        tolerance=_tolerance(reading, root),
+        tolerance=tolerance_of_case(reading, root),
         marks=reading.marks,
     )
 

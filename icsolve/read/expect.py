@@ -44,7 +44,7 @@ SENSES = {
 
 _TURNS = ("ccw", "cw")
 _LINES = ("right", "left", "up", "down", "pull", "push")
-_LEADS = ("at", "toward", "towards", "to")
+_LEADS = ("at", "toward", "towards", "to", "along", "about", "away")
 
 
 class _Value(NamedTuple):
@@ -132,8 +132,8 @@ def _value(reading: Reading, node: Node, target: Target, path: str) -> _Value | 
     text, sense = _divided(node.text)
     reading.marks[path] = node.mark
     value = quantity(reading, node, text, dimension, path)
-    if sense is not None and not _fits(sense, dimension):
-        allowed = _allowed(dimension)
+    fits, allowed = (_fits_space, _ALLOWED) if reading.axes == "xyz" else (_fits, _allowed(dimension))
+    if sense is not None and not fits(sense, dimension):
         reading.refuse(node.mark, f"'{sense}' is not a sense of {path.removeprefix('expect.')}; {allowed}")
         return None
     return _Value((value,), None, sense) if value is not None else None
@@ -172,6 +172,17 @@ def _fits(sense: str, dimension: str) -> bool:
     return False
 
 
+def _fits_space(sense: str, dimension: str) -> bool:
+    """As `_fits`, of a case in space."""
+    lead = sense.partition(" ")[0]
+    if dimension == "torque":
+        return lead == "about"
+    return dimension == "force" and (lead in ("along", "toward", "away") or sense in _LINES[2:])
+
+
+_ALLOWED = "in space it is 'along -z', 'toward P', pull, push, up or down; of a torque 'about -z'"
+
+
 def _is_angle(text: str) -> bool:
     """Whether a text is an angle in degrees, with or without its unit."""
     try:
@@ -193,9 +204,9 @@ def _dimension(reading: Reading, target: Target) -> str:
     """The dimension of a target; '' of a load whose kind could not be read, and of a vector."""
     if isinstance(target, LoadIs):
         kind = reading.kinds[target.load]
-        return "force" if kind == "vector" else DIMENSION.get(kind, "")
+        return {"vector": "force", "couple": "torque"}.get(kind) or DIMENSION.get(kind, "")
     if isinstance(target, ReactionIs):
-        return "torque" if target.part == "moment" else "force"
+        return "torque" if target.part.partition(" ")[0] in ("moment", "couple") else "force"
     if isinstance(target, RateIs):
         return "angular speed"
     if isinstance(target, SpeedIs):

@@ -21,7 +21,11 @@ def read_points(reading: Reading, section: Mapping) -> dict[str, Coordinates | C
             continue
         reading.given.add(name)
         reading.marks[f"points.{name}"] = section.keys[key]
-        value = _centroid(reading, name, node) if type(node) is Mapping else _coordinates(reading, name, node)
+        value: Coordinates | Centroid | None
+        if type(node) is Mapping:
+            value = centroid_of(reading, name, node)
+        else:
+            value = _coordinates(reading, name, node)
         if value is not None:
             points[name] = value
     return points
@@ -44,7 +48,8 @@ def _coordinates(reading: Reading, name: str, node: Node) -> Coordinates | None:
     return None if missing else Coordinates(*values)
 
 
-def _centroid(reading: Reading, name: str, node: Mapping) -> Centroid | None:
+def centroid_of(reading: Reading, name: str, node: Mapping) -> Centroid | None:
+    """A point as the mean of others."""
     reading.check_keys(node, ("centroid",), f"point {name}")
     value = node.items.get("centroid")
     if value is None:

@@ -1,0 +1,100 @@
+"""The form of teeth: pressure angle, pitch or module, helix."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from icsolve.case import Number
+from icsolve.read.entry import Entry
+from icsolve.space.case import Teeth
+
+SECTIONS = ("", "normal ", "transverse ")
+ANGLES = tuple(f"{section}pressure angle" for section in SECTIONS)
+PITCHES = tuple(f"{section}diametral pitch" for section in SECTIONS)
+MODULES = tuple(f"{section}module" for section in SECTIONS)
+KEYS = (*ANGLES, *PITCHES, *MODULES, "helix angle", "hand")
+"""What a mesh takes for the form of its teeth."""
+
+
+def read_teeth(entry: Entry, pitch_needed: bool) -> Teeth | None:
+    """The teeth of a mesh; None, with the reason noted, where they can't be read.
+
+    With a helix angle the pressure angle and the pitch say in which section they are meant: square to the
+    teeth (``normal``) or in the plane of the wheel (``transverse``).
+    """
+    angle_key, pitch_key = entry.one_of(ANGLES), entry.one_of((*PITCHES, *MODULES))
+    if angle_key is None:
+        entry.need("pressure angle", "that of the teeth, such as 20")
+    if pitch_key is None and pitch_needed:
+        entry.need(
+            "diametral pitch", "or 'module': it gives the pitch circle of a gear whose mate is not shown"
+        )
+    helix, hand = _helix(entry)
+    good = (helix is not None) == entry.has("helix angle") and (hand is not None) == entry.has("hand")
+    for key in (angle_key, pitch_key):
+        good = _section_is_clear(entry, key) and good
+    angle = _acute(entry, angle_key) if angle_key else None
+    pitch, module = _size(entry, pitch_key)
+    if angle is None or not good or (pitch_key and pitch is None and module is None):
+        return None
+    is_normal = (_is_normal(angle_key), _is_normal(pitch_key))
+    return Teeth(angle, is_normal[0], helix, hand or "right", pitch, module, is_normal[1])
+
+
+def _helix(entry: Entry) -> tuple[Number | None, str | None]:
+    helix = _acute(entry, "helix angle", "not negative")
+    hand = entry.word("hand", ("right", "left"))
+    if entry.has("helix angle") and not entry.has("hand"):
+        entry.need("hand", "of the helix of the gear named first, right or left")
+    if entry.has("hand") and not entry.has("helix angle"):
+        entry.need("helix angle", "the angle of the teeth with the axis, in degrees")
+    return helix, hand
+
+
+def _acute(entry: Entry, key: str, bound: str = "positive") -> Number | None:
+    angle = entry.number(key, "angle", bound)
+    if angle is not None and angle.value >= 90.0:
+        entry.refuse(entry.mark(key), f"a {key} is less than 90 degrees")
+        return None
+    return angle
+
+
+def _is_normal(key: str | None) -> bool:
+    return key is not None and key.startswith("normal")
+
+
+def _section_is_clear(entry: Entry, key: str | None) -> bool:
+    """Straight teeth have one section; of a helix one must say which."""
+    if key is None or (key[:6] in ("normal", "transv")) == entry.has("helix angle"):
+        return True
+    if entry.has("helix angle"):
+        said = f"with a helix angle say whether it is the 'normal {key}' or the 'transverse {key}'"
+    else:
+        said = (
+            f"straight teeth have one {key.partition(' ')[2]}; without a helix angle leave out the first word"
+        )
+    entry.refuse(entry.mark(key), f"'{key}' of {entry.what}: {said}")
+    return False
+
+
+def _size(entry: Entry, key: str | None) -> tuple[Number | None, Number | None]:
+    """Diametral pitch or module."""
+    if key is None:
+        return None, None
+    if key.endswith("pitch"):
+        return entry.number(key, "pitch", "positive"), None
+    return None, entry.number(key, "length", "positive")
+
+
+def whole(entry: Entry, counts: Sequence[Number]) -> bool:
+    """Whether numbers of teeth are whole, and internal teeth surround external ones."""
+    values = [count.value for count in counts]
+    if any(value == 0.0 or value != int(value) for value in values):
+        entry.refuse(entry.mark("teeth"), f"the teeth of {entry.what} should be whole numbers other than 0")
+    elif max(values) < 0.0:
+        entry.refuse(entry.mark("teeth"), f"only one gear of {entry.what} can be internal (negative)")
+    elif min(values) < 0.0 and abs(min(values)) <= max(values):
+        entry.refuse(entry.mark("teeth"), "an internal gear has more teeth than the one inside it")
+    else:
+        return True
+    return False
