@@ -1,0 +1,110 @@
+"""Two laws held against sixty digits: the forward error, and the error bound."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator
+from random import Random
+from statistics import median
+from typing import NamedTuple
+
+from icsolve.bench.families import BOUNDED, SIX_BARS, Draw, Family, all_joints
+from icsolve.bench.reference import AsWritten, truth
+from icsolve.case import Case
+from icsolve.errors import SceneError, Status
+from icsolve.program import Want, evaluate, prepare
+from icsolve.read import load
+from icsolve.solve import solve
+
+FORWARD = 4.0
+"""Forward error over (kappa + 1) u that no scene may exceed."""
+PESSIMISM = 100.0
+"""Bound over error that a median may have."""
+LOST = 1e-2
+"""Scenes of which the doubles leave less than this are not told from the singular one beside them."""
+SCENES_A_JOB = 50
+
+
+class Law(NamedTuple):
+    """A law on a family: how many scenes were held to it, how many broke it, median and worst.
+
+    For the forward error median and worst are of error / ((kappa + 1) u); for the bound, of bound / error.
+    """
+
+    family: str
+    scenes: int
+    broken: int
+    median: float
+    worst: float
+
+
+Measure = Callable[[Case], float]
+"""What a law says of a scene: the number that is tabled; negative where the law is broken."""
+
+
+def forward_error(case: Case) -> float:
+    """Forward error on the doubles as read, in units of (kappa + 1) u."""
+    true = truth(case)
+    value = solve(case, bound=False).answers["U"].value
+    if true.kappa * 2.0**-53 > LOST:
+        raise SceneError(Status.NEAR_SINGULAR, "the doubles do not tell the scene from a singular one")
+    ratio = true.per_unit(true.error(value))
+    return ratio if ratio <= FORWARD else -ratio
+
+
+def bound_over_error(case: Case) -> float:
+    """Error bound over the true error (half a unit of the value at least) against the file's decimals."""
+    found = solve(case).answers["U"]
+    program = prepare(case, Want())
+    _, exact = evaluate(program, AsWritten())
+    true = abs(found.value - next(iter(exact.solution.values.values())))
+    assert found.error is not None
+    ratio = found.error / max(float(true), abs(found.value) * 2.0**-53, math.ulp(0.0))
+    return ratio if true <= found.error else -ratio
+
+
+FORWARD_FAMILIES = (*SIX_BARS, Family("six-bars of all joints", all_joints))
+
+
+def held(measure: Measure, families: Iterable[Family], scenes: int, jobs: int = 1) -> list[Law]:
+    """Hold a law on families, in so many processes."""
+    return [_table(family.name, _all(measure, family, scenes // family.weight, jobs)) for family in families]
+
+
+def _table(name: str, values: list[float]) -> Law:
+    sizes = [abs(value) for value in values]
+    broken = sum(value < 0.0 for value in values)
+    return Law(name, len(values), broken, median(sizes or [math.nan]), max(sizes, default=math.nan))
+
+
+def _all(measure: Measure, family: Family, scenes: int, jobs: int) -> list[float]:
+    blocks = [(measure, family.name, family.draw, k, scenes) for k in range(0, scenes, SCENES_A_JOB)]
+    if jobs == 1:
+        return [value for block in blocks for value in _block(*block)]
+    from multiprocessing import get_context
+
+    with get_context("fork").Pool(jobs) as pool:
+        return [value for values in pool.starmap(_block, blocks) for value in values]
+
+
+def _block(measure: Measure, name: str, draw: Draw, first: int, scenes: int) -> list[float]:
+    return list(_measured(measure, name, draw, range(first, min(first + SCENES_A_JOB, scenes))))
+
+
+def _measured(measure: Measure, name: str, draw: Draw, seeds: Iterable[int]) -> Iterator[float]:
+    """The scenes that have an answer; refusals are counted elsewhere."""
+    for seed in seeds:
+        try:
+            yield measure(load(draw(Random(f"{name} {seed}"))))
+        except SceneError:
+            continue
+
+
+def forward(scenes: int, jobs: int = 1) -> list[Law]:
+    """The forward error on random six-bars."""
+    return held(forward_error, FORWARD_FAMILIES, scenes, jobs)
+
+
+def bounds(scenes: int, jobs: int = 1) -> list[Law]:
+    """The error bound on random scenes of all joint kinds."""
+    return held(bound_over_error, BOUNDED, scenes, jobs)
