@@ -48,6 +48,11 @@ def operands(record: Record, k: int) -> tuple[int, ...]:
     return () if node.op in (Op.INPUT, Op.CONST) else (node.a,)
 
 
+def not_negative(values: Array, out: Array) -> None:
+    """The values, with zero where they are negative."""
+    np.maximum(values, 0.0, out=out)
+
+
 class Code:
     """Straight-line code from the given nodes to the wanted ones.
 
@@ -119,7 +124,7 @@ class Code:
             elif node.op == Op.NEG:
                 yield np.negative, (self._value(node.a, buffers), out)
             elif node.op == Op.SQRT:
-                yield np.maximum, (self._value(node.a, buffers), 0.0, out)
+                yield not_negative, (self._value(node.a, buffers), out)
                 yield np.sqrt, (out, out)
             elif node.op == Op.ANGLE:
                 yield np.arctan2, (self._value(node.b, buffers), self._value(node.a, buffers), out)
