@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
@@ -56,12 +57,17 @@ def columns_of(
     for (kind, name), array in arrays.items():
         if array.ndim and len(array) != rows:
             raise ValueError(f"{shown(name)} has {len(array)} values where another has {rows}")
-        own = find_number(case, name).path if kind == "vary" else _link(case, name)
+        own = _path(case, name) if kind == "vary" else _link(case, name)
         if own in names:
             raise ValueError(f"{shown(name)} and {shown(names[own])} are the same number")
         names[own] = name
         (paths if kind == "vary" else links)[own] = np.ascontiguousarray(np.broadcast_to(array, rows))
     return Columns(paths, links, names)
+
+
+@lru_cache(maxsize=256)
+def _path(case: Case, name: str) -> str:
+    return find_number(case, name).path
 
 
 def _column(name: str, values: npt.ArrayLike) -> Array:
@@ -82,19 +88,19 @@ def _link(case: Case, name: str) -> str:
 
 
 class Wanted(NamedTuple):
-    """What is wanted of every row; ``error``: the bounds of the answers."""
+    """What is wanted of every row, in words and resolved; ``error``: the bounds of the answers."""
 
     asked: Asked
     error: bool
+    words: tuple[str, ...] = ()
 
 
-def wanted_of(case: Case, want: Sequence[str]) -> Wanted:
+@lru_cache(maxsize=64)
+def wanted_of(case: Case, want: tuple[str, ...]) -> Wanted:
     """What is wanted: whole kinds (``points``) or single ones (``points.C``, ``centres.2-4``).
 
     Raises ValueError for a word that is none.
     """
-    if isinstance(want, str):
-        want = (want,)
     points: dict[str, None] = {}
     centres: dict[Pair, None] = {}
     kinds = set()
@@ -108,7 +114,8 @@ def wanted_of(case: Case, want: Sequence[str]) -> Wanted:
         elif kind == "centres":
             centres.update(dict.fromkeys(_pairs(case, name) if dot else all_pairs(case)))
     answers = bool(kinds & {"answers", "error", "status"})
-    return Wanted(Asked(answers, tuple(points), tuple(centres), "rates" in kinds), "error" in kinds)
+    asked = Asked(answers, tuple(points), tuple(centres), "rates" in kinds)
+    return Wanted(asked, "error" in kinds, want)
 
 
 def shown_points(case: Case) -> list[str]:

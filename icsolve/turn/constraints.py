@@ -10,10 +10,11 @@ import math
 from typing import NamedTuple
 
 from icsolve.arithmetic import Scalar
+from icsolve.errors import SceneError
 from icsolve.figure.board import Board
 from icsolve.figure.data import Datum
 from icsolve.figure.equations import Equation
-from icsolve.plane import Point
+from icsolve.plane import Point, Triple
 from icsolve.turn.poses import Places, Rotation, Shape, Spot, dot, minus, square
 
 RADIAN = math.pi / 180.0
@@ -124,7 +125,20 @@ class Drawn(NamedTuple):
         return frozenset(body for body, _ in self.owners)
 
 
-Constraint = OnLine | Apart | Turning | Pointed | RolledStraight | RolledRound | Drawn
+class Immovable(NamedTuple):
+    """A joint that is known as written only: the wrenches that it transmits, and why it cannot be moved."""
+
+    ends: tuple[int, int]
+    wrench: Triple
+    refusal: SceneError
+
+    @property
+    def bodies(self) -> frozenset[int]:
+        """The bodies that it ties."""
+        return frozenset(self.ends)
+
+
+Constraint = OnLine | Apart | Turning | Pointed | RolledStraight | RolledRound | Drawn | Immovable
 
 
 class Row(NamedTuple):
@@ -156,6 +170,8 @@ class Rows:
                 return self._straight(constraint)
             case RolledRound():
                 return self._round(constraint)
+            case Immovable():
+                return self._immovable(constraint)
         return self._drawn(constraint)
 
     def pinned(self, one: Spot, two: Spot) -> list[Row]:
@@ -233,6 +249,17 @@ class Rows:
         along = square(normal)
         contact = (p[0] + r * normal[0], p[1] + r * normal[1])
         return Row(value * RADIAN, self._pushed((one[0], along, contact), (two[0], _less(along), contact)))
+
+    def _immovable(self, c: Immovable) -> Row:
+        """Power of the wrench on the relative step of the two bodies."""
+        x, y, m = c.wrench
+        by: dict[tuple[int, int], Scalar] = {}
+        for body, sign in zip(c.ends, (-1.0, 1.0), strict=True):
+            if body in self.bases:
+                px, py = self.places.place(self.bases[body])
+                for part, value in enumerate((y, -x, x * px + y * py + m)):
+                    by[body, part] = sign * value
+        return Row(0.0, by)
 
     def _drawn(self, c: Drawn) -> Row:
         owners = {name: (body, name) for body, name in c.owners}

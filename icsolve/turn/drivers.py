@@ -19,10 +19,11 @@ from icsolve.figure import solve_figure
 from icsolve.figure.board import Board
 from icsolve.figure.data import CORNER, LENGTH, RAY, Datum, X, Y, data_of, number_of
 from icsolve.plane import Point
-from icsolve.turn.constraints import Apart, Constraint, Drawn, Line, OnLine, Pointed, Rows, Turning
+from icsolve.sentences import listed, plural
+from icsolve.turn.constraints import Apart, Constraint, Drawn, Immovable, Line, OnLine, Pointed, Rows, Turning
 from icsolve.turn.mechanism import Mechanism
 from icsolve.turn.numbers import with_numbers
-from icsolve.turn.poses import Rotation, Spot, Still, minus
+from icsolve.turn.poses import Rotation, Spot, Still
 from icsolve.turn.smallest import Matrix, bases_of, jacobian, matrix, rank
 
 CENTRED = {X: ((0.0, 1.0), 0), Y: ((1.0, 0.0), 1)}
@@ -158,16 +159,21 @@ def drive_of(mechanism: Mechanism, paths: Sequence[str], links: Sequence[str]) -
         if not taken:
             raise _cannot_turn(case, link, left, body == mechanism.top.ground)
         left -= 1
-    moving = []
+    moving: list[str] = []
+    before, freedoms = rows, left
     for path in paths:
         pose = pose_of(mechanism, path)
-        if pose is None or not left:
+        if pose is None:
             continue
-        value = _value(case, pose)
-        rows, taken = _added(mechanism, bodies, rows, condition(mechanism, pose, value))
+        rows, taken = _added(mechanism, bodies, rows, condition(mechanism, pose, _value(case, pose)))
         if taken:
             moving.append(path)
             left -= 1
+        elif links:
+            raise _too_many(path, freedoms + len(links), links)
+        elif moving or freedoms == 0:
+            moving, rows, left = [], before, freedoms
+            break
     if not moving and not links:
         return Drive((), (), ())
     held, rows, left = _held(mechanism, bodies, rows, left, moving)
@@ -232,6 +238,14 @@ def _spinning(mechanism: Mechanism, bodies: Sequence[int], rows: Matrix, left: i
     return tuple(locked)
 
 
+def _too_many(path: str, freedoms: int, links: Sequence[str]) -> SceneError:
+    return SceneError(
+        Status.MOBILITY,
+        f"{path} and the turning of {'link' if len(links) == 1 else 'links'} {listed(links)} cannot both be given: the "
+        f"mechanism has {plural(freedoms, 'degree')} of freedom. Leave one out.",
+    )
+
+
 def _cannot_turn(case: Case, link: str, left: int, ground: bool) -> SceneError:
     why = f"link {link} is the frame" if ground else f"link {link} does not turn, or not by itself"
     if not left and not ground:
@@ -253,6 +267,8 @@ def _slides(mechanism: Mechanism, path: str) -> bool:
     """
     case, point = mechanism.case, path.split(".")[1]
     if (mechanism.top.ground, point) in mechanism.spots[mechanism.top.ground]:
+        return False
+    if any(isinstance(c, Immovable) for c in mechanism.constraints):
         return False
     written = _value(case, Pose(Datum(X if path.endswith("x") else Y, point, (point,)), ()))
     step = 2.0**-10 / mechanism.frame.scale
@@ -304,16 +320,44 @@ def _unbent(mechanism: Mechanism, places: Mapping[str, tuple[float, float]]) -> 
 
 
 def _unmoved(mechanism: Mechanism, places: Mapping[str, tuple[float, float]]) -> bool:
-    """The frame's points and guides are where they were."""
+    """The frame's points are where they were, and guides on links that have not turned beside their points."""
     ground, still = mechanism.top.ground, Still(mechanism.shape)
     for spot in mechanism.spots[ground]:
         if spot[1] in places and math.dist(places[spot[1]], still.place(spot)) > SAME:
             return False
-    for index, line in mechanism.lines.items():
-        joint = mechanism.case.joints[index]
-        at = getattr(joint, "at", "")
-        if line.body == ground and at in places:
-            (x, y), (c, s) = minus(places[at], line.through), line.along
-            if abs(float(c * y - s * x)) > SAME:
-                return False
-    return True
+    return all(
+        _beside(mechanism, index, line, places)
+        for index, line in mechanism.lines.items()
+        if line.body == ground or _slides_on(mechanism, line.body, ground)
+    )
+
+
+def _slides_on(mechanism: Mechanism, body: int, ground: int) -> bool:
+    """Whether a body keeps its direction."""
+    return any(
+        isinstance(c, Turning) and c.alike and c.bodies == frozenset((body, ground))
+        for c in mechanism.constraints
+    )
+
+
+def _beside(mechanism: Mechanism, index: int, line: Line, places: Mapping[str, tuple[float, float]]) -> bool:
+    """A guide, drawn anew as if written so, has the points of its link as far beside it as before."""
+    joint = mechanism.case.joints[index]
+    guide = getattr(joint, "guide", None)
+    name = (guide and (guide.through or (guide.ends and guide.ends[0]))) or getattr(joint, "at", "")
+    c, s = (float(x) for x in line.along)
+    body, ground = line.body, mechanism.top.ground
+    before = Still(mechanism.shape).place((body, name))
+    if name not in places:
+        return True
+    moved = _off(places[name], before, c, s)
+    if body == ground:
+        return abs(moved) <= SAME
+    own = [spot[1] for spot in mechanism.spots[body] if spot[1] in places and spot[1] != name]
+    shifts = [_off(places[n], Still(mechanism.shape).place((body, n)), c, s) for n in own]
+    return all(abs(shift - moved) <= SAME for shift in shifts)
+
+
+def _off(now: tuple[float, float], before: Point, c: float, s: float) -> float:
+    """How far a point has gone square to a direction."""
+    return c * (now[1] - float(before[1])) - s * (now[0] - float(before[0]))

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
-from icsolve.arithmetic import Scalar
-from icsolve.case import Belt, Case, Centroid, Contact, Gears, Guide, KnownCentre, Pin, Roll, Slide, Slot
+from icsolve.arithmetic import FLOATS, Scalar
+from icsolve.case import Belt, Case, Centroid, Contact, Gears, Guide, Joint, KnownCentre, Pin, Roll, Slide, Slot
 from icsolve.errors import SceneError, Status
 from icsolve.figure.frame import Frame
-from icsolve.joints import guide_direction
+from icsolve.joints import guide_direction, joint_freedoms, transmitted
 from icsolve.plane import Point
 from icsolve.topology import Bond, Topology
 from icsolve.turn import rolling
-from icsolve.turn.constraints import Constraint, Line, OnLine, Turning
+from icsolve.turn.constraints import Constraint, Immovable, Line, OnLine, Turning
 from icsolve.turn.poses import Shape, Spot, dot, minus, square
 from icsolve.turn.record import Record
 from icsolve.turn.rolling import ROUNDED, Side
@@ -39,11 +39,7 @@ class Mechanism(NamedTuple):
 
 
 def mechanism(case: Case, top: Topology, frame: Frame, record: Record, ref: Mapping[str, Point]) -> Mechanism:
-    """The mechanism of a case whose points are at ``ref`` (normalised) as written.
-
-    Raises SceneError for a joint that cannot be moved.
-    """
-    refuse_immovable(case)
+    """The mechanism of a case whose points are at ``ref`` (normalised) as written."""
     places = dict(ref)
     spots = _spots(case, top, places)
     joined = _joined(case, top)
@@ -59,33 +55,46 @@ def mechanism(case: Case, top: Topology, frame: Frame, record: Record, ref: Mapp
         if isinstance(joint, Slide | Slot):
             constraints += _guided(joint, lines[i], top, places)
         elif isinstance(joint, Roll):
-            found = rolling.rolling(joint, _sides(joint, case, top, frame, record), places)
+            try:
+                found = rolling.rolling(joint, _sides(joint, case, top, frame, record), places)
+            except SceneError as refusal:
+                constraints += _immovable(joint, top, places, refusal)
+                continue
             places.update(found.centres)
             _carry(spots, found.constraints)
             constraints += found.constraints
             contacts[joint.at] = found.contact
+        elif isinstance(joint, Contact | KnownCentre):
+            constraints += _immovable(joint, top, places, _refusal(joint))
     constraints += [_meshed(bond, top, record) for bond in top.bonds if isinstance(bond.joint, Gears | Belt)]
     _base(spots, lines.values(), places)
     owners = _owners(case, top, spots, contacts)
     return Mechanism(case, top, frame, shape, spots, owners, constraints, lines, contacts)
 
 
-def refuse_immovable(case: Case) -> None:
-    """Refuse, by name, joints of which only one position is known."""
-    for joint in case.joints:
-        names = " and ".join(joint.links)
-        if isinstance(joint, Contact):
-            raise SceneError(
-                Status.UNSUPPORTED,
-                f"the contact of links {names} at {joint.at} cannot be moved: its profile is not known beyond this "
-                "position. Vary a load, or put joints in its place that describe the profile.",
-            )
-        if isinstance(joint, KnownCentre):
-            raise SceneError(
-                Status.UNSUPPORTED,
-                f"the given centre of links {names} cannot be moved: it holds in the position as written only. Put "
-                "the joints between the two links in its place.",
-            )
+def _refusal(joint: Contact | KnownCentre) -> SceneError:
+    """Why a joint of which only one position is known cannot be moved."""
+    names = " and ".join(joint.links)
+    if isinstance(joint, Contact):
+        why = (
+            f"the contact of links {names} at {joint.at} cannot be moved: its profile is not known beyond the position "
+            "as written. Vary a load, or put joints in its place that describe the profile."
+        )
+    else:
+        why = (
+            f"the given centre of links {names} cannot be moved: it holds in the position as written only. Put the "
+            "joints between the two links in its place."
+        )
+    return SceneError(Status.UNSUPPORTED, why)
+
+
+def _immovable(joint: Joint, top: Topology, ref: Mapping[str, Point], refusal: SceneError) -> Iterator[Immovable]:
+    """What such a joint transmits in the position as written."""
+    ends = (top.body_of[joint.links[0]], top.body_of[joint.links[1]])
+    if ends[0] != ends[1]:
+        still = {name: (float(x), float(y)) for name, (x, y) in ref.items()}
+        for wrench in transmitted(joint_freedoms(joint, still, FLOATS)):
+            yield Immovable(ends, wrench, refusal)
 
 
 def _spots(case: Case, top: Topology, ref: Mapping[str, Point]) -> dict[int, list[Spot]]:
@@ -219,12 +228,19 @@ def _carrier(bond: Bond, top: Topology) -> int:
 
 
 def _base(spots: dict[int, list[Spot]], lines: Iterable[Line], ref: dict[str, Point]) -> None:
-    """A body that carries no point, only guides, has one of its own on a guide."""
+    """A body that carries no point has one of its own: on a guide of its, else at the origin."""
     for line in lines:
         if not spots[line.body]:
-            name = f"@on {line.body}"
-            ref[name] = line.through
-            spots[line.body].append((line.body, name))
+            _add_base(spots, line.body, line.through, ref)
+    for body, own in spots.items():
+        if not own:
+            _add_base(spots, body, (0.0, 0.0), ref)
+
+
+def _add_base(spots: dict[int, list[Spot]], body: int, at: Point, ref: dict[str, Point]) -> None:
+    name = f"@base {body}"
+    ref[name] = at
+    spots[body].append((body, name))
 
 
 def _owners(

@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
 from icsolve.arithmetic import Scalar
+from icsolve.figure.board import Board
 from icsolve.turn.closing import Closing, Hang, Hold, Meet, Newton, Order, Swing, Turn
 from icsolve.turn.constraints import (
     RADIAN,
     Constraint,
+    Immovable,
     Pointed,
     RolledRound,
     RolledStraight,
+    Rows,
     Turning,
 )
 from icsolve.turn.loci import locus, reference
 from icsolve.turn.mechanism import Mechanism
 from icsolve.turn.meeting import meet, side, swung
 from icsolve.turn.poses import Moved, Rotation, Spot, dot, minus, square
+from icsolve.turn.record import Traced
 from icsolve.turn.smallest import smallest
 from icsolve.turn.together import Together, settled
 
@@ -36,14 +40,19 @@ class Motion(NamedTuple):
     branches: dict[int, str]
     written: dict[str, float]
     groups: tuple[Together, ...]
+    checks: tuple[int, ...]
+    """what the conditions leave that were not needed: it is to vanish"""
 
 
 def order_of(mechanism: Mechanism, drivers: list[Constraint]) -> Order:
     """The order in which the mechanism closes.
 
-    Raises SceneError where its links stay loose, or the position as written is singular.
+    Raises SceneError where a joint cannot be moved, links stay loose, or the position as written is singular.
     """
     constraints = [*drivers, *mechanism.constraints]
+    for constraint in constraints:
+        if isinstance(constraint, Immovable):
+            raise constraint.refusal
     order = Order(mechanism.shape, mechanism.spots, constraints)
     while True:
         while order.advance():
@@ -60,7 +69,13 @@ def set_moving(mechanism: Mechanism, order: Order, signs: Mapping[str, Scalar]) 
     for step in order.steps:
         run.take(step)
     return Motion(
-        mechanism, run.moved, tuple(order.steps), run.branches, run.written, tuple(run.groups)
+        mechanism,
+        run.moved,
+        tuple(order.steps),
+        run.branches,
+        run.written,
+        tuple(run.groups),
+        tuple(run.checked(c for c in order.constraints if id(c) not in order.used)),
     )
 
 
@@ -74,6 +89,7 @@ class _Run:
         self.branches: dict[int, str] = {}
         self.written: dict[str, float] = {}
         self.groups: list[Together] = []
+        self.spare: list[Scalar] = []
         ground = self.shape.ground
         self._locate((ground, name) for _, name in mechanism.spots[ground])
 
@@ -88,11 +104,11 @@ class _Run:
             case Turn(body, by):
                 self.moved.rotations[body] = self._rotation(body, by)
             case Hang(body, spot):
-                self._placed(body, spot)
+                self._placed(body, spot, (spot,))
             case Hold(body, (p, q)):
                 z = minus(self.moved.place(q), self.moved.place(p))
                 self.moved.rotations[body] = Rotation(z, self.shape.between(p, q))
-                self._placed(body, p)
+                self._placed(body, p, (p, q))
             case Meet():
                 self._meet(step)
             case Swing():
@@ -100,10 +116,26 @@ class _Run:
             case Newton():
                 self._newton(step)
 
-    def _placed(self, body: int, base: Spot) -> None:
-        self.moved.bases[body] = base
-        pins = self.shape.joined
-        self._locate(spot for spot in self.mechanism.spots[body] if spot in pins)
+    def _placed(self, body: int, base: Spot, used: tuple[Spot, ...]) -> None:
+        """A body is placed by spots; its other pins are, too, or have to agree with where they are."""
+        moved, shape = self.moved, self.shape
+        moved.bases[body] = base
+        for spot in self.mechanism.spots[body]:
+            if spot not in shape.joined:
+                continue
+            known = moved.located.get(shape.one(spot))
+            if known is None:
+                self._locate((spot,))
+            elif spot not in used:
+                self.spare += minus(moved.point(body, shape.ref[spot[1]]), known)
+
+    def checked(self, left: Iterable[Constraint]) -> Iterator[int]:
+        """Nodes that vanish where the conditions that were not needed are met."""
+        board = Board(self.mechanism.case, self.mechanism.frame, self.record)
+        rows = Rows(self.shape, self.moved, {}, board)
+        for value in (*self.spare, *(rows.of(c).value for c in left)):
+            if isinstance(value, Traced) and value.row:
+                yield value.index
 
     # --- rotations --------------------------------------------------------------------------------
 
@@ -195,7 +227,7 @@ class _Run:
             self.moved.bases[body] = base
             self.moved.located.setdefault(self.shape.one(base), group.places[body])
         for body in step.bodies:
-            self._placed(body, group.bases[body])
+            self._placed(body, group.bases[body], tuple(self.mechanism.spots[body]))
 
 
 FLUSH = 1e-13

@@ -14,7 +14,7 @@ from icsolve.arithmetic import Scalar
 from icsolve.case import Case, Pair
 from icsolve.errors import SceneError, Status
 from icsolve.figure import Figure, place, solve_figure
-from icsolve.figure.data import names_of
+from icsolve.figure.data import names_of, number_of
 from icsolve.plane import Point
 from icsolve.topology import Topology, topology
 from icsolve.turn.constraints import Constraint, Turning
@@ -22,7 +22,7 @@ from icsolve.turn.drivers import Drive, condition, drive_of, pose_of, turning
 from icsolve.turn.mechanism import Mechanism, mechanism
 from icsolve.turn.moving import Motion, order_of, set_moving
 from icsolve.turn.numbers import find_number, numbers_of
-from icsolve.turn.record import Op, Record
+from icsolve.turn.record import Record, Traced
 from icsolve.turn.scene import Scene, centre, moved_scene, rates, statics
 
 
@@ -70,6 +70,10 @@ class Sheet(NamedTuple):
     motion: Motion | None
     scene: Scene
     refusal: SceneError | None
+    margins: tuple[int, ...] = ()
+    """of the figure as written, where it is another in each row: none may be negative"""
+    delicate: bool = False
+    """whether the mechanism moves only because its data are exact, or nearly so"""
 
 
 def setting_of(case: Case, paths: Sequence[str], links: Sequence[str]) -> Setting:
@@ -99,18 +103,19 @@ def wanted_points(case: Case) -> list[str]:
 
 def _drive(case: Case, top: Topology, figure: Figure, paths: Sequence[str], links: Sequence[str]) -> Drive:
     """What moves, found on a record that is thrown away."""
-    try:
-        scratch = mechanism(case, top, figure.frame, Record(), figure.points)
-    except SceneError:
-        if links or not _as_written_only(case, paths):
-            raise
-        return Drive((), (), ())
-    return drive_of(scratch, paths, links)
+    scratch = mechanism(case, top, figure.frame, Record(), figure.points)
+    poses = [path for path in paths if _poses(case, figure, path)]
+    return drive_of(scratch, poses, links)
 
 
-def _as_written_only(case: Case, paths: Sequence[str]) -> bool:
-    """Whether no varied number could be meant to move anything: coordinates of fixed points."""
-    return all(path.split(".")[0] == "points" for path in paths)
+def _poses(case: Case, figure: Figure, path: str) -> bool:
+    """Whether a number of the figure places a joint, and not only points that links carry besides; numbers
+    that are only compared with the figure may."""
+    record = Record()
+    record.vary[path] = record.input(path, numbers_of(case)[path].value)
+    placed = place(figure, case, record).points
+    moved = {name for name, p in placed.items() if any(isinstance(v, Traced) and v.row for v in p)}
+    return not moved or any(getattr(joint, "at", None) in moved for joint in case.joints)
 
 
 # --- the record -----------------------------------------------------------------------------------
@@ -147,15 +152,17 @@ def _sheet(setting: Setting, asked: Asked, nudge: float, signs: Signs) -> Sheet:
             value = numbers[path].value
             node = record.input(path, value + (abs(value) or 1.0) * nudge)
             record.vary[path], inputs[path] = node, node.index
-    ref = place(setting.figure, case, record).points
+    placed = place(setting.figure, case, record)
+    ref = placed.points
+    margins = tuple(m.index for step in placed.margins for m in step if isinstance(m, Traced) and m.row)
     names = {name: ref[name] for name in setting.figure.points}
     if setting.moves:
         motion = _motion(setting, record, names, nudge, inputs, signs)
         scene = moved_scene(motion.mechanism, motion.moved)
     else:
         motion, scene = None, Scene(case, setting.top, frame, record, names)
-    outputs, refusal = _outputs(scene, asked)
-    return Sheet(setting, record, inputs, outputs, motion, scene, refusal)
+    outputs, refusal, delicate = _outputs(scene, asked)
+    return Sheet(setting, record, inputs, outputs, motion, scene, refusal, margins, delicate)
 
 
 def _motion(
@@ -182,23 +189,17 @@ def _motion(
         assert pose is not None
         drivers.append(condition(held, pose, node))
     for pose in drive.held:
-        drivers.append(condition(held, pose, record.given(_number(case, pose.datum))))
+        drivers.append(condition(held, pose, record.given(number_of(case, pose.datum))))
     drivers += [Turning(((body, 1.0),), 0.0) for body in drive.locked]
     turns = {name: record.input(name, sign) for name, sign in signs}
     inputs |= {name: node.index for name, node in turns.items()}
     return set_moving(held, order_of(held, drivers), turns)
 
 
-def _number(case: Case, datum: object):  # type: ignore[no-untyped-def]
-    from icsolve.figure.data import number_of
-
-    return number_of(case, datum)  # type: ignore[arg-type]
-
-
 def _outputs(
     scene: Scene, asked: Asked
-) -> tuple[dict[tuple[str, str], tuple[Scalar, ...]], SceneError | None]:
-    """Expressions of all that is asked, in case units."""
+) -> tuple[dict[tuple[str, str], tuple[Scalar, ...]], SceneError | None, bool]:
+    """Expressions of all that is asked, in case units; a refusal of every row; whether it is delicate."""
     ox, oy, scale = scene.frame
     out: dict[tuple[str, str], tuple[Scalar, ...]] = {}
     for name in asked.points:
@@ -206,7 +207,7 @@ def _outputs(
             x, y = scene.points[name]
             out["points", name] = (x / scale + ox, y / scale + oy)
     if not (asked.answers or asked.rates or asked.centres):
-        return out, None
+        return out, None, False
     found = statics(scene, asked.rates or bool(asked.centres))
     for name, value in found.answers.items():
         if asked.answers:
@@ -217,9 +218,4 @@ def _outputs(
         triple = centre(scene, found.motions, pair)
         if triple is not None:
             out["centres", f"{pair[0]}-{pair[1]}"] = triple
-    return out, found.refusal
-
-
-def is_input(record: Record, k: int) -> bool:
-    """Whether a node is an input."""
-    return record.nodes[k].op == Op.INPUT
+    return out, found.refusal, found.delicate

@@ -6,7 +6,7 @@ it is in the other rows, or where the answer nearly vanishes. The others are wha
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -15,10 +15,14 @@ import numpy.typing as npt
 from icsolve.arithmetic import Scalar
 from icsolve.turn.program import Sheet
 from icsolve.turn.record import Op, Traced
-from icsolve.turn.replay import BLOCK, Array, Code
+from icsolve.turn.replay import BLOCK, Array, Code, live
 
 SMALL = 1e-7
 """Below this fraction of its size elsewhere a divisor or radicand makes its row doubtful."""
+CLOSE = 1e-7
+"""Below this a margin of the figure makes its row doubtful (normalised)."""
+AGREED = 1e-9
+"""Conditions that were not needed to place the links are met to this (normalised)."""
 FAINT = 1e-9
 """Below this fraction of its size elsewhere an answer may be zero."""
 STEEP = 2.0
@@ -50,7 +54,10 @@ class Runner:
         self.roots = [record.roots[k] for k in alive if k in record.roots]
         self.divisors = _divisors(record.nodes, alive)
         self.faint = [n for n, (key, _, _) in enumerate(self.moving) if key[0] == "answers"]
-        self.code = Code(record, [*wanted, *(root.radicand for root in self.roots), *self.divisors])
+        self.margins = sheet.margins
+        self.checks = _living(sheet, alive)
+        watched = [*(root.radicand for root in self.roots), *self.divisors, *self.margins, *self.checks]
+        self.code = Code(record, [*wanted, *watched])
         self.typical = np.array([abs(record.nodes[k].value) for k in self.divisors])
         self.deep = np.array([record.nodes[root.radicand].value for root in self.roots])
 
@@ -82,29 +89,43 @@ class Runner:
 
     def _watch(self, found: list[Array], last: list[Array]) -> tuple[Rows, bool, list[Array]]:
         """Rows of a block to look at again; whether a radicand may vanish between its rows."""
-        bad: list[Rows] = []
+        ends = (len(self.moving), len(self.roots), len(self.divisors), len(self.margins), len(self.checks))
+        cuts = np.cumsum(ends)
+        radicands, divisors = found[cuts[0] : cuts[1]], found[cuts[1] : cuts[2]]
         steep = False
-        count, roots = len(self.moving), len(self.roots)
+        bad: list[Rows] = []
         with np.errstate(all="ignore"):
-            for n, radicand in enumerate(found[count : count + roots]):
-                low, high = float(np.minimum.reduce(radicand)), float(np.maximum.reduce(radicand))
-                high = max(high, float(self.deep[n]))
-                if not low > SMALL * high:
-                    bad.append(np.flatnonzero(~(radicand > SMALL * high)))
-                step = float(np.abs(np.diff(radicand, prepend=last[n] if last else radicand[:1])).max())
-                steep = steep or low <= STEEP * step
-            for n, divisor in enumerate(found[count + roots :]):
+            for n, radicand in enumerate(radicands):
+                high = max(float(np.maximum.reduce(radicand)), float(self.deep[n]))
+                low = self._below(radicand, SMALL * high, bad)
+                step = np.abs(np.diff(radicand, prepend=last[n] if last else radicand[:1]))
+                steep = steep or low <= STEEP * float(np.maximum.reduce(step))
+            for n, divisor in enumerate(divisors):
                 size = np.abs(divisor)
-                typical = max(float(self.typical[n]), float(np.maximum.reduce(size)))
-                if not float(np.minimum.reduce(size)) > SMALL * typical:
-                    bad.append(np.flatnonzero(~(size > SMALL * typical)))
+                self._below(size, SMALL * max(float(self.typical[n]), float(np.maximum.reduce(size))), bad)
+            for margin in found[cuts[2] : cuts[3]]:
+                self._below(margin, CLOSE, bad)
+            for check in found[cuts[3] :]:
+                self._below(-np.abs(check), -AGREED, bad)
             for n in self.faint:
                 size = np.abs(found[n])
-                limit = FAINT * float(np.maximum.reduce(size))
-                if not float(np.minimum.reduce(size)) > limit:
-                    bad.append(np.flatnonzero(~(size > limit)))
-        ends = [radicand[-1:].copy() for radicand in found[count : count + roots]]
-        return np.unique(np.concatenate(bad)) if bad else np.empty(0, np.int64), steep, ends
+                self._below(size, FAINT * float(np.maximum.reduce(size)), bad)
+        again = np.unique(np.concatenate(bad)) if bad else np.empty(0, np.int64)
+        return again, steep, [radicand[-1:].copy() for radicand in radicands]
+
+    def _below(self, values: Array, limit: float, bad: list[Rows]) -> float:
+        """The least value; rows that are not above a limit are noted."""
+        low = float(np.minimum.reduce(values))
+        if not low > limit:
+            bad.append(np.flatnonzero(~(values > limit)))
+        return low
+
+
+def _living(sheet: Sheet, alive: Sequence[int]) -> list[int]:
+    """The checks of links that bear on what is asked."""
+    checks = sheet.motion.checks if sheet.motion else ()
+    known = set(alive)
+    return [k for k in checks if known.intersection(live(sheet.record, [k], ()))]
 
 
 def varies(value: Scalar) -> bool:

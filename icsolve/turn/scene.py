@@ -55,6 +55,11 @@ class Statics(NamedTuple):
     motions: motion.Motions
     refusal: SceneError | None
 
+    @property
+    def delicate(self) -> bool:
+        """Whether it moves only because its data are exact, or nearly so."""
+        return bool(self.motions.redundant or self.motions.slack)
+
 
 # --- a case in motion -----------------------------------------------------------------------------
 

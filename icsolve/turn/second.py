@@ -19,12 +19,14 @@ from icsolve.solve import solve
 from icsolve.turn.backward import SLICE, Backward
 from icsolve.turn.branches import TOUCH, live_roots
 from icsolve.turn.replay import Array, Code
-from icsolve.turn.runner import Found, Key, Rows, Runner, column
+from icsolve.turn.runner import AGREED, Found, Key, Rows, Runner, column
 
 OPEN = 1e-3
 """An answer whose bound is a larger fraction of it is not trusted."""
 WIDE = 4.0
 """A divisor within so many of its bounds may be zero."""
+ROUNDED = 1e-14
+"""A margin of the figure that is this little below zero is zero (normalised)."""
 MOST_SCENES = 2000
 """More doubtful rows than these are not solved one by one."""
 
@@ -45,7 +47,9 @@ WORDS = (
     Status.LOOSE,
     Status.AMBIGUOUS,
     Status.UNDERDETERMINED,
+    "holds",
 )
+"""The statuses of rows; ``holds``: with friction and no motion, the unknown holds over a range."""
 CODE = {word: n for n, word in enumerate(WORDS)}
 
 Codes = npt.NDArray[np.int8]
@@ -64,6 +68,8 @@ class Look(NamedTuple):
 def look_again(look: Look) -> None:
     """Settle doubtful rows: their status, and their values where there are some."""
     rows = look.found.doubtful[look.codes[look.found.doubtful] == 0]
+    _as_written(look, rows)
+    rows = rows[look.codes[rows] == 0]
     touching = _margins(look, rows)
     rows, touching = rows[look.codes[rows] == 0], touching[look.codes[rows] == 0]
     _flatten(look, rows, touching)
@@ -72,6 +78,17 @@ def look_again(look: Look) -> None:
     for row in doubtful[:MOST_SCENES]:
         _as_scene(look, int(row))
     look.codes[doubtful[MOST_SCENES:]] = CODE[Status.NEAR_SINGULAR]
+
+
+def _as_written(look: Look, rows: Rows) -> None:
+    """Mark the rows whose figure cannot assemble as if written so, or whose spare conditions are not met."""
+    margins, checks = look.runner.margins, look.runner.checks
+    if not (margins or checks) or not len(rows):
+        return
+    found = Code(look.runner.sheet.record, [*margins, *checks]).run(look.given(rows), len(rows))
+    for n, value in enumerate(found):
+        apart = ~(value >= -ROUNDED) if n < len(margins) else ~(np.abs(value) <= AGREED)
+        look.codes[rows[np.broadcast_to(apart, len(rows))]] = CODE[Status.CANNOT_ASSEMBLE]
 
 
 def _margins(look: Look, rows: Rows) -> Mask:

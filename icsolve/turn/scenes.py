@@ -1,0 +1,123 @@
+"""Rows that are solved one by one as scenes of their own: with friction, and families of figures that have
+no construction for all rows at once. Slower, and with every rule of a single scene."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from icsolve.answer import Answer
+from icsolve.case import Case
+from icsolve.errors import SceneError
+from icsolve.names import link_order
+from icsolve.solve import solve
+from icsolve.turn.ask import Columns
+from icsolve.turn.numbers import with_numbers
+from icsolve.turn.program import Asked
+from icsolve.turn.replay import Array
+from icsolve.turn.runner import Key, Rows
+from icsolve.turn.second import CODE, Codes
+
+OTHER = CODE["near-singular"]
+
+
+class Table:
+    """Rows filled one by one."""
+
+    def __init__(self, rows: int, asked: Asked) -> None:
+        self.rows, self.asked = rows, asked
+        self.codes: Codes = np.zeros(rows, dtype=np.int8)
+        self.values: dict[Key, Array] = {}
+        self.errors: dict[str, Array] = {}
+        self.holds: dict[str, Array] = {}
+
+    def put(self, kind: str, name: str, row: int, value: float | tuple[float, ...]) -> None:
+        """One value."""
+        shape = (self.rows,) if isinstance(value, float) else (self.rows, len(value))
+        self.values.setdefault((kind, name), np.full(shape, np.nan))[row] = value
+
+    def refuse(self, row: int, error: SceneError) -> None:
+        """A row without an answer."""
+        self.codes[row] = CODE.get(error.status, OTHER)
+
+    def take(self, rows: Rows, codes: Codes, tables: dict[str, dict[str, Array]], errors: dict[str, Array]) -> None:
+        """Rows that were swept together."""
+        self.codes[rows] = codes
+        for kind, arrays in tables.items():
+            for name, array in arrays.items():
+                whole = self.values.setdefault((kind, name), np.full((self.rows, *array.shape[1:]), np.nan))
+                whole[rows] = array
+        for name, array in errors.items():
+            self.errors.setdefault(name, np.full(self.rows, np.nan))[rows] = array
+
+    def fill(self, row: int, answer: Answer) -> None:
+        """All that is asked of a solved row."""
+        asked, case = self.asked, answer.case
+        for name, found in answer.answers.items() if asked.answers else ():
+            self.put("answers", name, row, float(found.value) if found.holds is None else np.nan)
+            self.errors.setdefault(name, np.full(self.rows, np.nan))[row] = (
+                np.nan if found.error is None else found.error
+            )
+            if found.holds is not None:
+                self.codes[row] = CODE["holds"]
+                self.holds.setdefault(name, np.full((self.rows, 2), np.nan))[row] = found.holds
+        for name in asked.points:
+            if name in answer.points:
+                self.put("points", name, row, answer.points[name])
+        for link, rate in (answer.rates or {}).items() if asked.rates else ():
+            if isinstance(rate, float):
+                self.put("rates", link, row, rate)
+        for pair in asked.centres:
+            triple = _triple(answer, pair)
+            if triple is not None:
+                first, second = sorted(pair, key=lambda link: link_order(case, link))
+                self.put("centres", f"{first}-{second}", row, triple)
+
+
+def _triple(answer: Answer, pair: tuple[str, str]) -> tuple[float, float, float] | None:
+    centre = answer.centres.get(pair)
+    if centre is None or centre.kind == "undetermined":
+        return None
+    if centre.kind == "at":
+        return (centre.place[0], centre.place[1], 1.0)
+    if centre.kind == "toward":
+        angle = np.radians(centre.place[0])
+        return (float(np.cos(angle)), float(np.sin(angle)), 0.0)
+    return (0.0, 0.0, 0.0)
+
+
+def solved(case: Case, asked: Asked) -> Answer:
+    """A row as a scene."""
+    return solve(case, rates=asked.rates, all_centres=bool(asked.centres), examine=bool(asked.points))
+
+
+def by_scenes(table: Table, rows: Iterable[int], case_of: Callable[[int], Case]) -> None:
+    """Solve rows as scenes."""
+    for row in rows:
+        try:
+            table.fill(row, solved(case_of(row), table.asked))
+        except SceneError as error:
+            table.refuse(row, error)
+
+
+# --- families that have no construction for all rows ----------------------------------------------
+
+
+def families(case: Case, columns: Columns, moving: Iterable[str]) -> Iterator[tuple[Case, Rows]]:
+    """For each set of reshaping numbers the case as if written so, near to the one before, and its rows."""
+    reshaping = [path for path in columns.paths if path not in set(moving)]
+    table = np.stack([columns.paths[path] for path in reshaping], axis=1)
+    sets, which = np.unique(table, axis=0, return_inverse=True)
+    near = dict(case.near)
+    for n, numbers in enumerate(sets):
+        changed = with_numbers(case, dict(zip(reshaping, map(float, numbers), strict=True)))
+        placed = replace(changed, near=near)
+        rows = np.flatnonzero(which.ravel() == n)
+        yield placed, rows
+        try:
+            answer = solve(placed, examine=True, bound=False)
+        except SceneError:
+            continue
+        near = {name: place for name, place in answer.points.items() if not name.startswith("@")}
