@@ -22,6 +22,7 @@ from icsolve.bodies.sliding import Slid, slid
 from icsolve.bodies.statics import Bodies, Solved, frictionless, refuse_doubt, with_tooth_forces
 from icsolve.bodies.ties import Position, Tie, ties_of
 from icsolve.bodies.values import Friction, Rubbing, Witness
+from icsolve.case import Gears
 from icsolve.errors import SceneError, Status
 from icsolve.figure import Frame
 from icsolve.power import Balance, Solution, is_unknown
@@ -114,15 +115,18 @@ def _statics(scene: Scene, ties: Sequence[Tie]) -> Statics:
         forces_of(statics)
     except LookupError as error:
         tie = ties[error.args[0]]
-        raise SceneError(Status.UNSUPPORTED, _shared(tie)) from None
+        raise SceneError(Status.UNSUPPORTED, _shared(tie, ties)) from None
     return statics
 
 
-def _shared(tie: Tie) -> str:
+def _shared(tie: Tie, ties: Sequence[Tie]) -> str:
+    remedy = "Take out `mu` there, or make the joints fewer (a pin in a slot in place of a slide)."
+    cause = "the joints are redundant and share the load by their fit"
+    if any(isinstance(other.joint, Gears) and other.joint.pressure_angle is None for other in ties):
+        cause, remedy = "it hangs on how hard teeth push apart", "Give the gears their `pressure angle`."
     return (
         f"the friction of links {tie.by} and {tie.on}{_place(tie)} depends on a force that equilibrium "
-        "leaves open: the joints are redundant and share the load by their fit. Take out `mu` there, or make "
-        "the joints fewer (a pin in a slot in place of a slide)."
+        f"leaves open: {cause}. {remedy}"
     )
 
 
@@ -235,7 +239,8 @@ def solved(scene: Scene, answer_with: Callable[[Mapping[str, float]], Answer], r
     answer = answer_with({root: 0.0})
     answers = {name: _held(scene, name, found, shown) for name, shown in answer.answers.items()}
     notes = (*answer.notes, *_said_at_rest(root, found))
-    return replace(answer, answers=answers, terms=(), advantage=None, notes=notes)
+    friction = Friction((), 0.0, 0.0, found.how, possible=found.possible)
+    return replace(answer, answers=answers, terms=(), advantage=None, notes=notes, friction=friction)
 
 
 def _held(scene: Scene, name: str, found: Held, shown: Found) -> Found:
@@ -262,12 +267,10 @@ def _said_at_rest(root: str, found: Held) -> Sequence[str]:
     for end, way in ((found.least, "small"), (found.most, "large")):
         if math.isinf(end):
             notes.append(f"no value of {root}, however {way}, moves it that way.")
-    for mine, slides in zip((found.least, found.most), found.sliding, strict=True):
-        if mine != slides and abs(mine - slides) > 1e-9 * max(abs(mine), abs(slides)):
+    for end, more in zip((found.least, found.most), found.possible, strict=True):
+        if end != more and abs(end - more) > 1e-9 * max(abs(end), abs(more)):
             notes.append(
-                f"between {slides:.6g} and {mine:.6g} it may hold or move: friction that is not at its limit "
-                "everywhere holds more than in impending motion."
+                f"from {end:.6g} to {more:.6g} it may still hold, if friction was left the other way round "
+                "at some joint (the end is that of impending motion)."
             )
-    if not found.how:
-        notes.append("that no other friction within its limits holds more is not proven.")
     return notes

@@ -1,8 +1,9 @@
 """Friction without a given motion: the values of the unknown load at which the mechanism holds still.
 
-The set of values for which an equilibrium exists with every friction within its limit. Its ends are
-the equilibria in which the mechanism is about to move one way and the other; that no other friction
-holds more is proven where the influence of the rubs on each other is small, else looked for.
+Its ends are the equilibria in which the mechanism is about to move one way and the other, as textbooks
+have them. Friction that is not at its limit everywhere, or that a history has left the other way round,
+can hold more: the set of values for which any equilibrium exists with every friction within its limit.
+Where the rubs have little influence on each other the two are proven to be one, else it is looked for.
 """
 
 from __future__ import annotations
@@ -12,13 +13,14 @@ from collections.abc import Sequence
 from itertools import product
 from typing import NamedTuple
 
-from icsolve.bodies.affine import at, contraction
+from icsolve.bodies.affine import at, contraction, is_sound
 from icsolve.bodies.continuation import followed, solutions, without_friction
 from icsolve.bodies.equilibrium import Statics
 from icsolve.bodies.reduction import Reduced, reduced
 
-PROVEN = "proven: no other friction within its limits holds more"
+PROVEN = "proven: no friction within its limits holds more"
 SEARCHED = "every combination of full friction was tried"
+IMPENDING = "only impending motion was looked at"
 MOST_TRIED = 10
 """More rubs have too many combinations of senses."""
 
@@ -26,13 +28,13 @@ MOST_TRIED = 10
 class Held(NamedTuple):
     """The interval, in case units; infinite where no value moves the mechanism that way.
 
-    ``sliding`` are the two ends by impending motion alone; ``how`` says how it is known that no other
-    friction holds more, '' where that is not known.
+    ``possible`` is the range in which friction within its limits can hold; ``how`` says how that was
+    found: only `PROVEN` is a proof.
     """
 
     least: float
     most: float
-    sliding: tuple[float, float]
+    possible: tuple[float, float]
     how: str
     self_locking: bool = False
 
@@ -42,39 +44,52 @@ def held(statics: Statics, senses: Sequence[float]) -> Held:
 
     Self-locking: it holds with the unknown at zero (against loads), or no value moves it one way.
     """
-    found = _held(statics, senses)
-    unbounded = math.isinf(found.least) or math.isinf(found.most)
-    idle = found.least <= 0.0 <= found.most and found.least < found.most
-    return found._replace(self_locking=unbounded or idle)
+    ends = [end for d in (1.0, -1.0) if (end := _end(statics, [d * s for s in senses])) is not None]
+    least, most = min(ends), max(ends)
+    unbounded = math.isinf(least) or math.isinf(most)
+    locks = unbounded or (least <= 0.0 <= most and least < most)
+    return Held(least, most, *_possible(statics, senses, (least, most)), locks)
 
 
-def _held(statics: Statics, senses: Sequence[float]) -> Held:
-    ends = [_end(statics, [d * sense for sense in senses]) for d in (1.0, -1.0)]
-    sliding = (min(ends), max(ends))
+def _possible(
+    statics: Statics, senses: Sequence[float], ends: tuple[float, float]
+) -> tuple[tuple[float, float], str]:
+    """The range in which friction within its limits can hold, and how that is known."""
     if _is_proven(statics, senses):
-        return Held(*sliding, sliding, PROVEN)
+        return ends, PROVEN
     if len(senses) > MOST_TRIED:
-        return Held(*sliding, sliding, "")
-    tried = [_end(statics, signs) for signs in product((1.0, -1.0), repeat=len(senses))]
-    return Held(min(*tried, *ends), max(*tried, *ends), sliding, SEARCHED)
+        return ends, IMPENDING
+    tried = [_end(statics, signs, True) for signs in product((1.0, -1.0), repeat=len(senses))]
+    sound = [*ends, *(end for end in tried if end is not None)]
+    return (min(sound), max(sound)), SEARCHED
 
 
-def _end(statics: Statics, senses: Sequence[float]) -> float:
-    """The unknown load at full friction of these senses; infinite where the forces grow without bound."""
+def _end(statics: Statics, senses: Sequence[float], pushing: bool = False) -> float | None:
+    """The unknown load at full friction of these senses; infinite where the forces grow without bound.
+
+    With ``pushing``, None where a contact would have to pull.
+    """
     equations = reduced(statics, senses)
     assert equations is not None
     if contraction(equations.equations) is not None:
         found = solutions(equations.equations)
         assert found.main is not None
-        return equations.load(found.main)[0] / statics.scale
+        return _value(statics, equations, found.main, pushing)
     y, share, grows = followed(equations.equations)
     if y is not None:
-        return equations.load(y)[0] / statics.scale
+        return _value(statics, equations, y, pushing)
     last = followed(equations.equations.scaled(0.999 * share))[0] or without_friction(equations.equations)
     change = sum(a * x for a, x in zip(equations.loads[0][1:], last, strict=True))
+    if pushing and not is_sound(equations.equations.scaled(0.999 * share), last):
+        return None
     if grows or _locks(equations):
         return math.copysign(math.inf, change)
     return (equations.loads[0][0] + 0.999 * share * change) / statics.scale
+
+
+def _value(statics: Statics, equations: Reduced, y: Sequence[float], pushing: bool) -> float | None:
+    sound = not pushing or is_sound(equations.equations, y)
+    return equations.load(y)[0] / statics.scale if sound else None
 
 
 def _locks(equations: Reduced) -> bool:

@@ -24,16 +24,18 @@ OPEN = 1e-9
 class Reduced(NamedTuple):
     """The equations of the rubs for given senses, and what turns their solution into loads.
 
-    ``loads`` has for each unknown load (scaled) an affine form in y, ``frictions`` for each rub.
+    ``loads`` has for each unknown load (scaled) an affine form in y; ``gains`` is the friction of each rub
+    over the size of its force.
     """
 
     equations: Lengths
     loads: tuple[Form, ...]
-    frictions: tuple[Form, ...]
+    gains: tuple[float, ...]
 
     def friction(self, y: Sequence[float]) -> tuple[float, ...]:
-        """Friction at every rub, on the tie's second link."""
-        return tuple(at(form, y) for form in self.frictions)
+        """Friction at every rub, on the tie's second link; a size below zero is rounding of zero."""
+        sizes = (max(at(form, y), 0.0) for form in self.equations.lengths)
+        return tuple(gain * size for gain, size in zip(self.gains, sizes, strict=True))
 
     def load(self, y: Sequence[float]) -> tuple[float, ...]:
         """Unknown loads, scaled."""
@@ -97,8 +99,7 @@ def reduced(statics: Statics, senses: Sequence[float]) -> Reduced | None:
         )
 
     vectors = [tuple(form(row) for row in rows) for rows in forces_of(statics)]
-    frictions = tuple(_alone(k, len(gains), gain) for k, gain in enumerate(gains))
-    return Reduced(fixed_point(vectors, _touching(statics)), tuple(map(form, loads)), frictions)
+    return Reduced(fixed_point(vectors, _touching(statics)), tuple(map(form, loads)), tuple(gains))
 
 
 def _without(row: Mapping[int, float], roots: Mapping[int, Row]) -> Row:
@@ -144,4 +145,6 @@ def reduced_workless(statics: Statics, senses: Sequence[float]) -> Reduced | Non
         return tuple(total)
 
     vectors = tuple(tuple(form(row) for row in rows) for rows in forces_of(statics))
-    return Reduced(Lengths(lengths, vectors, tuple(_touching(statics))), (_alone(most, n, 1.0),), frictions)
+    return Reduced(
+        Lengths(lengths, vectors, tuple(_touching(statics))), (_alone(most, n, 1.0),), tuple(gains)
+    )

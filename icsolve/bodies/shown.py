@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -45,6 +46,9 @@ def _reaction(reaction: Reaction) -> dict[str, Any]:
 
 
 def _friction(friction: Friction) -> dict[str, Any]:
+    if friction.possible is not None:
+        ends = [end if math.isfinite(end) else None for end in friction.possible]
+        return {"possible": ends, "how": friction.unique}
     return {
         "losses": friction.losses,
         "residual": friction.residual,

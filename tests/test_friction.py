@@ -1,0 +1,401 @@
+"""Friction: closed forms of the textbooks, limits and symmetries, and brute force over all senses.
+
+Closed forms hold to 1e-12 relative (a few roundings); against brute force, which follows Newton's method in
+least squares, the answers hold to 1e-9.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import pytest
+
+import icsolve
+import rubbing
+from icsolve.answer import Answer, Found
+from reference import frame_of, points_of
+
+EXACT = 1e-12
+LAW = 1e-9
+
+
+def solved(text: str, **options: Any) -> Answer:
+    """The answer to a case without its first line."""
+    return icsolve.solve(icsolve.load("icsolve: 1\n" + text), **options)
+
+
+def value(text: str, load: str) -> float:
+    return solved(text).answers[load].value
+
+
+def held(text: str, load: str) -> Found:
+    found = solved(text).answers[load]
+    assert found.holds is not None
+    return found
+
+
+def refused(text: str) -> icsolve.SceneError:
+    with pytest.raises(icsolve.SceneError) as caught:
+        solved(text)
+    return caught.value
+
+
+def exactly(number: float) -> Any:
+    return pytest.approx(number, rel=EXACT, abs=EXACT)
+
+
+# --- closed forms ----------------------------------------------------------------------------------
+
+
+def incline(alpha: float, mu: float, motion: str = "") -> str:
+    """A block of weight 100 on an incline, pushed along the horizontal."""
+    return f"""
+points: {{A: [0, 0]}}
+joints:
+  - {{slide: [2, 1], at: A, along: {alpha}, mu: {mu}}}
+loads:
+  W: {{weight: 100, link: 2, at: A}}
+  P: {{force: unknown, link: 2, at: A, angle: 0}}
+{motion}
+"""
+
+
+@pytest.mark.parametrize("alpha", [5.0, 20.0, 40.0])
+@pytest.mark.parametrize("mu", [0.05, 0.3])
+def test_block_on_an_incline_is_a_screw_unrolled(alpha: float, mu: float) -> None:
+    """P = W tan(alpha + phi) to raise, W tan(alpha - phi) to lower (square-threaded screw)."""
+    a, phi = math.radians(alpha), math.atan(mu)
+    up = f"motion: {{point: A, link: 2, speed: 1, angle: {alpha}}}"
+    down = f"motion: {{point: A, link: 2, speed: 1, angle: {alpha + 180}}}"
+    raising, lowering = 100 * math.tan(a + phi), 100 * math.tan(a - phi)
+    assert value(incline(alpha, mu, up), "P") == exactly(raising)
+    assert value(incline(alpha, mu, down), "P") == exactly(lowering)
+    found = held(incline(alpha, mu), "P")
+    assert found.holds == (exactly(lowering), exactly(raising))
+    assert found.self_locking == (phi > a)
+    answer = solved(incline(alpha, mu, up))
+    assert answer.friction is not None
+    assert answer.friction.efficiency == exactly(math.tan(a) / math.tan(a + phi))
+
+
+def test_no_force_raises_a_block_where_the_incline_and_the_angle_of_friction_make_a_right_angle() -> None:
+    up = "motion: {point: A, link: 2, speed: 1, angle: 50}"
+    assert refused(incline(50, 1.2, up)).status == "jam"
+    found = held(incline(50, 1.2), "P")
+    assert found.holds == (exactly(100 * math.tan(math.radians(50) - math.atan(1.2))), math.inf)
+    assert found.self_locking
+    assert solved(incline(50, 1.2)).to_dict()["answers"]["P"]["holds"][1] is None
+
+
+def wedge(alpha: float, mu: float, motion: str = "") -> str:
+    """A wedge on the floor that lifts a block along a wall; all three faces rub alike."""
+    return f"""
+points: {{A: [0, 0], B: [2, 1], K: [2, 0.5]}}
+joints:
+  - {{slide: [2, 1], at: A, along: 0, mu: {mu}}}
+  - {{contact: [2, 3], at: K, normal: {90 - alpha}, mu: {mu}}}
+  - {{slide: [3, 1], at: B, along: 90, mu: {mu}}}
+loads:
+  W: {{force: 100, link: 3, at: B, angle: 270}}
+  P: {{force: unknown, link: 2, at: A, angle: 0}}
+{motion}
+"""
+
+
+def wedging(alpha: float, mu: float, way: int) -> float:
+    """The push on the wedge in impending motion; drawn out below phi, the block leans on the other wall."""
+    a, phi = math.radians(alpha), math.atan(mu)
+    if way < 0 and a < phi:
+        return 100 * math.sin(a - 2 * phi) / math.cos(a)
+    return 100 * math.tan(a + way * 2 * phi)
+
+
+@pytest.mark.parametrize(("alpha", "mu"), [(10.0, 0.2), (25.0, 0.1), (11.3, 0.1), (11.5, 0.1)])
+def test_wedge(alpha: float, mu: float) -> None:
+    """P = W tan(alpha + 2 phi) to raise, W tan(alpha - 2 phi) to lower; 11.42 deg is 2 atan 0.1."""
+    phi = math.atan(mu)
+    right, left = (f"motion: {{point: A, link: 2, speed: 1, angle: {angle}}}" for angle in (0, 180))
+    raising, lowering = wedging(alpha, mu, 1), wedging(alpha, mu, -1)
+    assert value(wedge(alpha, mu, right), "P") == exactly(raising)
+    assert value(wedge(alpha, mu, left), "P") == exactly(lowering)
+    found = held(wedge(alpha, mu), "P")
+    assert found.holds == (exactly(lowering), exactly(raising))
+    assert found.self_locking == (2 * phi > math.radians(alpha))
+
+
+def lever(motion: str = "", mu: float = 0.4) -> str:
+    """A lever on a journal of radius 0.5: weight at 3 on the one side, force at 5 on the other."""
+    return f"""
+points: {{O: [0, 0], A: [-3, 0], B: [5, 0]}}
+joints:
+  - {{pin: [1, 2], at: O, mu: {mu}, radius: 0.5}}
+loads:
+  W: {{force: 80, link: 2, at: A, angle: 270}}
+  P: {{force: unknown, link: 2, at: B, angle: 270}}
+{motion}
+"""
+
+
+def test_friction_circle_of_one_journal() -> None:
+    """P (b - r) = W (a + r) with r = 0.5 sin(atan 0.4), the force of the journal being P + W."""
+    r = 0.5 * math.sin(math.atan(0.4))
+    lifting, sinking = 80 * (3 + r) / (5 - r), 80 * (3 - r) / (5 + r)
+    assert value(lever("motion: {link: 2, turns: cw}"), "P") == exactly(lifting)
+    assert value(lever("motion: {link: 2, turns: ccw}"), "P") == exactly(sinking)
+    assert held(lever(), "P").holds == (exactly(sinking), exactly(lifting))
+    answer = solved(lever("motion: {link: 2, turns: cw}"), reactions=True)
+    assert answer.reactions is not None
+    force = answer.reactions["F12"]
+    assert force.y == exactly(80 + lifting)
+    assert abs(force.moment or 0.0) == exactly(r * (80 + lifting))
+
+
+def slider_crank(motion: str, mu: float = 0.3, slide: str = "") -> str:
+    return f"""
+points: {{A: [0, 0], B: [1, 1.5], C: [6, 0]}}
+joints:
+  - {{pin: [1, 2], at: A, mu: {mu}, radius: 0.25}}
+  - {{pin: [2, 3], at: B, mu: {mu}, radius: 0.3}}
+  - {{pin: [3, 4], at: C, mu: {mu}, radius: 0.2}}
+  - {{slide: [4, 1], at: C, along: 0{slide}}}
+loads:
+  P: {{force: 500, link: 4, at: C, angle: 180}}
+  T: {{torque: unknown, link: 2}}
+{motion}
+"""
+
+
+def test_slider_crank_with_three_friction_circles() -> None:
+    """The coupler's force is tangent to two circles, the crank's to the third (graphical statics)."""
+    s = math.sin(math.atan(0.3))
+    beta, length = math.atan2(1.5, 5), math.hypot(5, 1.5)
+    # the crank turns cw and drives: C moves right against P, and the coupler turns ccw
+    for turns, rod, crank in (("cw", 1, -1), ("ccw", -1, 1)):
+        tilt = beta + rod * math.asin((0.3 + 0.2) * s / length)
+        force = 500 / math.cos(tilt)
+        fx, fy = -force * math.cos(tilt), force * math.sin(tilt)  # of the rod on the crank at B
+        torque = -(1 * fy - 1.5 * fx) - rod * 0.3 * s * force + crank * 0.25 * s * force
+        assert value(slider_crank(f"motion: {{link: 2, turns: {turns}}}"), "T") == exactly(torque)
+
+
+def drawer(length: float, motion: str = "motion: {point: C, link: 2, speed: 1, angle: 0}") -> str:
+    """A drawer pulled off its middle: the couple is carried by the two ends of its guide."""
+    return f"""
+points: {{C: [0, 0], H: [0, 0.6]}}
+joints:
+  - {{slide: [2, 1], at: C, along: 0, mu: 0.4, length: {length}}}
+loads:
+  W: {{force: 10, link: 2, at: C, angle: 180}}
+  P: {{force: unknown, link: 2, at: H, angle: 0}}
+{motion}
+"""
+
+
+def test_drawer_rubs_at_both_ends_and_jams_when_it_is_short() -> None:
+    """P = W / (1 - 2 mu e / l): no force opens it where l <= 2 mu e."""
+    assert value(drawer(1.5), "P") == exactly(10 / (1 - 2 * 0.4 * 0.6 / 1.5))
+    error = refused(drawer(0.47))
+    assert error.status == "jam"
+    assert "97.92 %" in str(error)  # 0.47 / (2 0.4 0.6)
+    assert held(drawer(0.47, ""), "P").holds[1] == math.inf  # type: ignore[index]
+
+
+def brake(c: float, turns: str, unknown: str) -> str:
+    """A shoe on a lever against a drum of radius 2; the friction line passes the lever's pivot at c."""
+    loads = {"P": "T: {torque: 60, link: 2}\n  P: {force: unknown, link: 3, at: H, angle: 270}"}
+    loads["T"] = "P: {force: 50, link: 3, at: H, angle: 270}\n  T: {torque: unknown, link: 2}"
+    return f"""
+points: {{O: [0, 0], A: [-3, {2 + c}], K: [0, 2], H: [5, 2]}}
+joints:
+  - {{pin: [1, 2], at: O}}
+  - {{pin: [1, 3], at: A}}
+  - {{contact: [2, 3], at: K, normal: 90, mu: 0.35}}
+loads:
+  {loads[unknown]}
+motion: {{link: 2, turns: {turns}}}
+"""
+
+
+def test_short_shoe_brake_by_its_actuating_force_which_does_no_work() -> None:
+    """N = T / (mu r); P a = N (b +- mu c), with a = 8, b = 3: self-energising one way (Shigley)."""
+    n = 60 / (0.35 * 2)
+    # the drum turns ccw and drags the shoe to the left, which draws the lever in: its pivot is above
+    assert value(brake(0.5, "ccw", "P"), "P") == exactly(n * (3 - 0.35 * 0.5) / 8)
+    assert refused(brake(0.5, "cw", "P")).status == "no-value"
+    assert value(brake(0.5, "ccw", "T"), "T") == exactly(0.35 * 2 * 50 * 8 / (3 - 0.35 * 0.5))
+    assert value(brake(0.5, "cw", "T"), "T") == exactly(-0.35 * 2 * 50 * 8 / (3 + 0.35 * 0.5))
+
+
+def test_self_locking_brake_jams() -> None:
+    """Where mu c > b the shoe draws itself in: no torque turns the drum that way."""
+    assert refused(brake(9.0, "ccw", "T")).status == "jam"
+    assert value(brake(9.0, "cw", "T"), "T") == exactly(-0.35 * 2 * 50 * 8 / (3 + 0.35 * 9.0))
+
+
+def test_force_that_presses_a_block_to_a_wall() -> None:
+    """It does no work; it holds the weight from W / mu up."""
+    text = """
+points: {A: [0, 0]}
+joints:
+  - {slide: [2, 1], at: A, along: 90, mu: 0.25}
+loads:
+  W: {weight: 30, link: 2, at: A}
+  P: {force: unknown, link: 2, at: A, angle: 0}
+"""
+    found = held(text, "P")
+    assert found.holds == (exactly(120), math.inf)
+    assert not found.self_locking
+    down = "motion: {point: A, link: 2, speed: 1, angle: 270}\n"
+    assert abs(value(text + down, "P")) == exactly(120)
+    assert refused(text + down.replace("270", "90")).status == "no-value"
+
+
+def test_ladder_on_a_rough_floor_and_wall() -> None:
+    """Push at the foot: N_B = (W/2 - mu N_B) cot(theta), P = N_B - mu (W - mu N_B) at the least."""
+    theta, mu, w = math.radians(50), 0.2, 100.0
+    x, y = 5 * math.cos(theta), 5 * math.sin(theta)
+    text = f"""
+points: {{A: [{-x}, 0], B: [0, {y}], G: [{-x / 2}, {y / 2}]}}
+joints:
+  - {{contact: [1, 2], at: A, normal: 90, mu: {mu}}}
+  - {{contact: [1, 2], at: B, normal: 180, mu: {mu}}}
+loads:
+  W: {{weight: {w}, link: 2, at: G}}
+  P: {{force: unknown, link: 2, at: A, angle: 0}}
+"""
+    cot = 1 / math.tan(theta)
+    for sense, end in ((1, 0), (-1, 1)):
+        m = sense * mu
+        n = w / 2 * cot / (1 + m * cot)
+        assert held(text, "P").holds[end] == exactly(n - m * (w - m * n))  # type: ignore[index]
+
+
+# --- limits and symmetries -------------------------------------------------------------------------
+
+
+def test_the_limit_of_little_friction_is_none() -> None:
+    free = value(slider_crank("", mu=0.0), "T")
+    for mu in (1e-3, 1e-6, 1e-9):
+        for turns in ("cw", "ccw"):
+            slow = value(slider_crank(f"motion: {{link: 2, turns: {turns}}}", mu, f", mu: {mu}"), "T")
+            assert slow == pytest.approx(free, rel=2 * mu)
+            assert slow != free
+
+
+def test_turning_the_loads_and_the_motion_round_turns_the_answer_round() -> None:
+    text = slider_crank("motion: {link: 2, turns: cw}", 0.3, ", mu: 0.3")
+    back = text.replace("force: 500", "force: -500").replace("cw", "ccw")
+    assert value(back, "T") == exactly(-value(text, "T"))
+
+
+def test_the_range_at_rest_ends_at_the_two_motions() -> None:
+    ends = [
+        value(slider_crank(f"motion: {{link: 2, turns: {t}}}", 0.3, ", mu: 0.3"), "T") for t in ("cw", "ccw")
+    ]
+    assert held(slider_crank("", 0.3, ", mu: 0.3"), "T").holds == tuple(map(exactly, sorted(ends)))
+
+
+def test_the_sum_of_power_is_zero_with_the_losses_counted() -> None:
+    answer = solved(slider_crank("motion: {link: 2, turns: cw, speed: 3}", 0.3, ", mu: 0.3"))
+    assert answer.friction is not None
+    largest = max(abs(term.power) for term in answer.terms)
+    assert sum(term.power for term in answer.terms) == pytest.approx(0.0, abs=EXACT * largest)
+    assert sum(rub.loss for rub in answer.friction.rubbing) == exactly(answer.friction.losses)
+    assert all(rub.loss > 0.0 for rub in answer.friction.rubbing)
+    assert answer.friction.efficiency == exactly(1 - answer.friction.losses / _power_in(answer))
+    assert answer.friction.residual < 1e-14
+    assert answer.friction.error < 1e-13
+
+
+def _power_in(answer: Answer) -> float:
+    return sum(term.power for term in answer.terms if term.power > 0.0 and " " not in term.load)
+
+
+# --- brute force -----------------------------------------------------------------------------------
+
+
+def check_against_brute_force(text: str, load: str) -> None:
+    """Both motions against the one of all 2^k combinations that takes power everywhere."""
+    for turns in ("cw", "ccw"):
+        case = icsolve.load(f"icsolve: 1\n{text}motion: {{link: 2, turns: {turns}}}\n")
+        points = points_of(case)
+        theirs = rubbing.against_the_motion(case, points, rubbing.motion_sense(case, points))
+        if theirs.unknowns is None:
+            assert refused(f"{text}motion: {{link: 2, turns: {turns}}}\n").status == "jam"
+            continue
+        mine = icsolve.solve(case, reactions=True)
+        assert mine.answers[load].value == pytest.approx(theirs.unknowns[load], rel=LAW)
+        assert mine.friction is not None
+        size = frame_of(case, points).size
+        assert all(rub.loss >= 0.0 for rub in mine.friction.rubbing)
+        sizes = [abs(rub.value) / (size if rub.kind == "pin" else 1.0) for rub in mine.friction.rubbing]
+        assert sorted(sizes) == pytest.approx(sorted(map(abs, theirs.friction or ())), rel=LAW)
+
+
+QUICK_RETURN = """
+points: {O2: [0, 0], A: [0.8, 1.1], O4: [0, -2.5], B: [1.2, 2.9], C: [4, 3.1], D: [6, 3.1]}
+joints:
+  - {pin: [1, 2], at: O2, mu: 0.15, radius: 0.3}
+  - {slot: [2, 3], at: A, along: [O4, A], mu: 0.25}
+  - {pin: [1, 3], at: O4, mu: 0.15, radius: 0.3}
+  - {pin: [3, 4], at: B, mu: 0.1, radius: 0.2}
+  - {pin: [4, 5], at: C, mu: 0.1, radius: 0.2}
+  - {slide: [5, 1], at: C, along: 0, mu: 0.2}
+loads:
+  F: {force: 300, link: 5, at: D, angle: 180}
+  T: {torque: unknown, link: 2}
+"""
+
+BLOCK = """
+points: {A: [0, 0], B: [1, 1.2], C: [4, 0], H: [4.5, 0.7]}
+joints:
+  - {pin: [1, 2], at: A, mu: 0.2, radius: 0.15}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C, mu: 0.2, radius: 0.15}
+  - {slide: [4, 1], at: C, along: 0, mu: 0.3, length: 1.1}
+loads:
+  P: {force: 40, link: 4, at: H, angle: 190}
+  T: {torque: unknown, link: 2}
+"""
+
+SIX_BAR = """
+points:
+  {A: [0, 0], B: [0.5, 1.4], C: [3.2, 2.4], D: [3.5, 0], E: [4.4, 2.9], F: [6.6, 2.2], G: [6.3, 0.2], H: [7, 3]}
+joints:
+  - {pin: [1, 2], at: A, mu: 0.25, radius: 0.2}
+  - {pin: [2, 3], at: B, mu: 0.25, radius: 0.2}
+  - {pin: [3, 4], at: C, mu: 0.2, radius: 0.2}
+  - {pin: [4, 1], at: D, mu: 0.2, radius: 0.25}
+  - {pin: [4, 5], at: E, mu: 0.15, radius: 0.2}
+  - {pin: [5, 6], at: F, mu: 0.15, radius: 0.2}
+  - {pin: [6, 1], at: G, mu: 0.25, radius: 0.25}
+loads:
+  F: {force: 200, link: 6, at: H, angle: 170}
+  W: {weight: 30, link: 5, at: F}
+  T: {torque: unknown, link: 2}
+"""
+
+
+@pytest.mark.parametrize("text", [QUICK_RETURN, BLOCK, SIX_BAR], ids=["quick return", "block", "six-bar"])
+def test_of_all_senses_the_one_that_the_rates_give(text: str) -> None:
+    check_against_brute_force(text, "T")
+
+
+@pytest.mark.parametrize("mu", [0.1, 0.17, 0.18, 0.3])
+def test_wedge_near_self_locking_by_brute_force(mu: float) -> None:
+    """A lever drives a wedge of 20 degrees, whose angle of friction goes through 10."""
+    text = f"""
+points: {{O: [-3, 0], L: [-3, 1], A: [0, 1], B: [2, 2], K: [2, 1.5]}}
+joints:
+  - {{pin: [1, 2], at: O}}
+  - {{slot: [4, 2], at: L, along: 90}}
+  - {{slide: [4, 1], at: A, along: 0, through: A, mu: {mu}}}
+  - {{contact: [4, 3], at: K, normal: 70, mu: {mu}}}
+  - {{slide: [3, 1], at: B, along: 90, mu: {mu}}}
+loads:
+  W: {{force: 100, link: 3, at: B, angle: 270}}
+  T: {{torque: unknown, link: 2, turns: cw}}
+"""
+    check_against_brute_force(text, "T")
+    assert held(text, "T").holds == tuple(exactly(wedging(20, mu, way)) for way in (-1, 1))
