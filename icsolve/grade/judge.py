@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from icsolve.grade.keys import AnyKey, Key, unit_factor
+from icsolve.grade.keys import AnyKey, Key
 from icsolve.grade.malrules import Wrong, message
 from icsolve.grade.senses import AGAINST, NEITHER
 from icsolve.grade.tolerance import SLACK
@@ -152,7 +152,8 @@ def _seen(
 def _unit_code(key: Key, written: Written) -> str:
     if written.unit is None:
         return "no-unit"
-    return "unit-case" if unit_factor(key, written.unit.unit) == 1.0 else "unit"
+    factor = key.factor(written.unit)
+    return "unit-case" if written.note and factor and _has_size(key, written.number * factor) else "unit"
 
 
 def _direction_code(key: Key, written: Written, sign: int | None) -> str:

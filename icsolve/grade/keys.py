@@ -196,6 +196,7 @@ def scalar_key(
 
     Raises NoKeyError where the answer has no such value, or the policy's tolerance does not fit it.
     """
+    _refuse_range(target, answer)
     try:
         (value,) = value_of(answer, target)
     except LookupError as error:
@@ -213,6 +214,17 @@ def scalar_key(
     return Key(
         question, value, unit_name, unit, half, senses, foreseen, policy, accepted, rule, {}, {}, width, plain
     )
+
+
+def _refuse_range(target: Target, answer: Answer) -> None:
+    """A load that holds over a range has not one right value."""
+    found = answer.answers.get(target.load) if isinstance(target, LoadIs) else None
+    if found is not None and found.holds is not None:
+        low, high = found.holds
+        raise NoKeyError(
+            f"{answer.case.name} holds with any value from {low:.6g} to {high:.6g} {found.unit}; "
+            "say which way it moves with 'motion:', and one value is right"
+        )
 
 
 def scaled_key(key: Key, factor: float) -> Key:

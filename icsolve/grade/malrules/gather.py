@@ -32,7 +32,8 @@ def resolve(case: Case | None) -> dict[str, float]:
     if case is None:
         return {}
     try:
-        return {name: found.value for name, found in solve(case, bound=False).answers.items()}
+        answers = solve(case, bound=False).answers
+        return {name: found.value for name, found in answers.items() if found.holds is None}
     except (IcsolveError, ArithmeticError):
         return {}
 

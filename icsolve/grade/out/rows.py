@@ -45,7 +45,7 @@ def _unsafe(cell: str) -> str:
 
 
 def by_student(path: str, graded: bool = True) -> Iterator[tuple[str, list[Row]]]:
-    """Each student's lines together; with ``graded`` without those that name no case or could not be graded."""
+    """Each student's lines together; with ``graded`` without those that could not be graded."""
     for student, rows in groupby(read_results(path), key=lambda row: row.student_id):
         yield student, [row for row in rows if not graded or row.code != NOT_GRADED]
 

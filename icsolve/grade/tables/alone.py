@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from icsolve.grade.tables.columns import Columns
 from icsolve.grade.tables.layout import Submission, identifier
-from icsolve.grade.tables.platforms import fields_of
+from icsolve.grade.tables.platforms import fields_of, padded
 from icsolve.grade.tables.text import Table
 
 _LINE = re.compile(r"\s*(?:[-*] )?([^=\s][^=]*?)(?:\s*=\s*|:\s+)(\S.*?)?\s*$")
@@ -21,8 +21,7 @@ def submissions(table: Table, columns: Columns, student: str) -> Iterator[Submis
     if columns.field("case") is not None and columns.field("answer") is not None:
         cells_of = fields_of(columns)
         for row in table.rows():
-            cells = [*row.cells[: len(columns.header)], *[""] * (len(columns.header) + 1 - len(row.cells))]
-            _, *texts = cells_of(cells)
+            _, *texts = cells_of(padded(row.cells, len(columns.header)))
             yield Submission._make((row.line, who, *texts, ""))
         return
     yield _of_line(1, table.delimiter.join(columns.header), who)

@@ -56,11 +56,16 @@ def _long(columns: Columns, kind: str) -> Layout:
     def read(row: Row) -> Sequence[Submission]:
         line, cells = row
         trouble = _wrong_width(cells, width)
-        cells = [*cells[:width], *[""] * (width + 1 - len(cells))]
-        student, *texts = cells_of(cells)
+        student, *texts = cells_of(padded(cells, width))
         return (Submission._make((line, (identifier(student),), *texts, trouble)),)
 
     return Layout(kind, read, cells_of=cells_of)
+
+
+def padded(cells: list[str], width: int) -> list[str]:
+    """The first ``width`` cells, empty ones where they are missing, and an empty one more."""
+    cells = cells[:width]
+    return cells + [""] * (width + 1 - len(cells))
 
 
 def _wrong_width(cells: Sequence[str], width: int) -> str:

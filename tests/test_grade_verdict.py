@@ -1,0 +1,230 @@
+"""Verdicts: number, unit and direction apart; tolerances, zeros, figures; marks as the course sets them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from grade_shell import CASES, Class
+
+ZERO = """\
+icsolve: 1
+points: {A: [0, 0], B: [2, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+loads:
+  P: {force: 100, link: 2, at: B, angle: 180}
+  T: {torque: unknown, link: 2}
+"""
+
+
+@pytest.fixture
+def a_class(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Class:
+    return Class(tmp_path, capsys)
+
+
+def test_one_percent_is_the_default_and_its_ends_count(a_class: Class) -> None:
+    """198 and 202 for 200: the band is closed, with room for rounding."""
+    assert a_class.verdicts("200", "198", "202", "197.9", "202.1") == [
+        "right",
+        "right",
+        "right",
+        "wrong",
+        "wrong",
+    ]
+
+
+def test_units_are_converted(a_class: Class) -> None:
+    answers = ("200 N*m", "0.2 kN·m", "20000 N·cm", "147.5 ft-lb", "1770 in-lb")
+    assert set(a_class.verdicts(*answers)) == {"right"}
+
+
+def test_a_right_number_in_a_wrong_unit_is_told_apart_from_a_wrong_number(a_class: Class) -> None:
+    for row in a_class.judge("200 kN*m", "200 N", "200 lbf*ft"):
+        assert (row["verdict"], row["code"]) == ("wrong", "unit")
+
+
+def test_a_missing_unit_is_assumed_required_or_ignored_as_the_course_says(a_class: Class) -> None:
+    assert a_class.verdicts("200") == ["right"]
+    a_class.course("unit: required\n")
+    assert [(r["verdict"], r["code"]) for r in a_class.judge("200", "200 N*m")] == [
+        ("wrong", "no-unit"),
+        ("right", ""),
+    ]
+    a_class.course("unit: ignored\n")
+    assert a_class.verdicts("200", "200 lbf", "0.2 kN*m", "150 ft-lb") == ["right", "right", "right", "wrong"]
+
+
+def test_capitals_of_a_unit_are_overlooked_or_refused(a_class: Class) -> None:
+    assert a_class.verdicts("0.2 KNm") == ["right"]
+    a_class.course("unit_case: refuse\n")
+    (row,) = a_class.judge("0.2 KNm")
+    assert (row["verdict"], row["code"]) == ("wrong", "unit-case")
+
+
+def test_a_direction_in_words_stands_for_the_sign(a_class: Class) -> None:
+    rows = a_class.judge("200 ccw", "200 cw", "-200", "200 N*m clockwise")
+    assert [row["verdict"] for row in rows] == ["right", "wrong", "wrong", "wrong"]
+    assert {row["code"] for row in rows[1:]} == {"sign"}
+
+
+def test_a_direction_lies_within_45_degrees_and_is_for_review_within_5_of_square(a_class: Class) -> None:
+    """The answer points to 0 degrees."""
+    angles = {0: "right", 45: "right", -45: "right", 46: "wrong", 84: "wrong", 85: "review", 90: "review"}
+    angles |= {95: "review", 96: "wrong", 135: "wrong", 180: "wrong", 270: "review"}
+    found = a_class.verdicts(*(f"100 N at {angle} deg" for angle in angles), case="pusher")
+    assert dict(zip(angles, found, strict=True)) == angles
+
+
+def test_directions_toward_points_and_sides(a_class: Class) -> None:
+    answers = {
+        "100 N to the right": "right", "100 N left": "wrong", "100 N up": "review",
+        "100 N toward G": "right", "100 N away from A": "right", "100 N toward A": "wrong",
+        "100 N toward Z": "review", "100 N in compression": "review", "100 N ccw": "wrong",
+    }  # fmt: skip
+    assert dict(zip(answers, a_class.verdicts(*answers, case="pusher"), strict=True)) == answers
+
+
+def test_a_course_can_require_or_ignore_the_direction(a_class: Class) -> None:
+    a_class.course("direction: required\n")
+    rows = a_class.judge("200", "200 ccw")
+    assert [(row["verdict"], row["code"]) for row in rows] == [("wrong", "no-direction"), ("right", "")]
+    a_class.course("direction: ignored\n")
+    assert a_class.verdicts("200", "-200", "200 cw") == ["right", "right", "right"]
+
+
+def test_a_true_zero_is_judged_against_the_loads_and_the_size(a_class: Class) -> None:
+    """100 N on a lever of 2 m: a thousandth of 200 N*m."""
+    a_class.case("zero", ZERO)
+    assert a_class.verdicts("0", "0.19", "-0.19 N*m cw", "0.21", case="zero") == [
+        "right",
+        "right",
+        "review",
+        "wrong",
+    ]
+    assert a_class.verdicts("0.19 ccw", "0.19 cw", case="zero") == ["right", "right"]
+
+
+def test_significant_figures_as_a_tolerance(a_class: Class) -> None:
+    """Three figures of 200: half a unit of the third, times 1.02."""
+    a_class.course("tolerance: 3 sf\n")
+    assert a_class.verdicts("200", "200.51", "199.49", "200.52") == ["right", "right", "right", "wrong"]
+
+
+def test_an_absolute_tolerance_has_its_own_unit(a_class: Class) -> None:
+    a_class.course("tolerance: 0.5 N*m\n")
+    assert a_class.verdicts("200.5", "200.6") == ["right", "wrong"]
+    a_class.course("cases: {lever: {tolerance: 0.002 kN*m}}\n")
+    assert a_class.verdicts("202", "202.1") == ["right", "wrong"]
+
+
+def test_a_cases_own_tolerance_goes_over_the_courses_and_a_questions_over_both(a_class: Class) -> None:
+    a_class.case("lever", Path(a_class.path("cases/lever.yaml")).read_text() + "tolerance: 5%\n")
+    a_class.course("tolerance: 2%\n")
+    assert a_class.verdicts("209", "211") == ["right", "wrong"]
+    assert a_class.verdicts("101.9", "102.1", case="pusher") == ["right", "wrong"]
+    a_class.course("tolerance: 2%\ncases: {lever: {tolerance: 10%}}\n")
+    assert a_class.verdicts("219") == ["right"]
+
+
+def test_a_tolerance_from_the_drawing_by_exact_sensitivities(a_class: Class) -> None:
+    """T = P (x_B - x_A): both may be off by 0.02 m, 4 N*m together."""
+    a_class.case("lever", Path(a_class.path("cases/lever.yaml")).read_text() + "tolerance: {drawing: 2 cm}\n")
+    rows = a_class.judge("200", "203.9", "204.1", "195.9")
+    assert [row["verdict"] for row in rows] == ["right", "right", "wrong", "wrong"]
+    assert "from 196.0 to 204.0 N*m" in rows[0]["feedback"]
+
+
+def test_too_few_written_figures(a_class: Class) -> None:
+    a_class.course("tolerance: 5%\nwritten_figures: at_least 3\n")
+    rows = a_class.judge("200", "2.0e2", "199.8", "0.20 kN*m")
+    assert [(row["verdict"], row["code"]) for row in rows] == [
+        ("right", ""), ("wrong", "figures"), ("right", ""), ("wrong", "figures"),
+    ]  # fmt: skip
+
+
+def test_part_credit_for_number_unit_and_direction(a_class: Class) -> None:
+    a_class.course("points: 10\ncredit: {number: 60%, unit: 20%, direction: 20%}\nunit: required\n")
+    rows = a_class.judge("200 N*m", "200", "-200 N*m", "-200", "150 N*m", "-150")
+    assert [row["score"] for row in rows] == ["10", "8", "8", "6", "4", "0"]
+    assert {row["max_score"] for row in rows} == {"10"}
+
+
+def test_credit_for_a_known_mistake(a_class: Class) -> None:
+    a_class.course("points: 4\nmalrules: {sign: 50%, half: 25%}\n")
+    assert [row["score"] for row in a_class.judge("-200", "100", "400")] == ["2", "1", "0"]
+
+
+def test_the_five_verdicts(a_class: Class) -> None:
+    answers = ("200", "150", "two hundred", "1,234", "")
+    assert a_class.verdicts(*answers) == ["right", "wrong", "invalid", "review", "missing"]
+
+
+def test_the_student_is_told_the_accepted_range_but_not_with_a_wrong_answer(a_class: Class) -> None:
+    right, wrong = a_class.judge("200", "150")
+    assert "from 198.0 to 202.0 N*m" in right["feedback"]
+    assert "within 1 % of the right value" in wrong["feedback"]
+    assert "198" not in wrong["feedback"]
+    a_class.course("reveal: yes\n")
+    assert "from 198.0 to 202.0 N*m" in a_class.judge("150")[0]["feedback"]
+
+
+def test_a_decimal_comma_is_settled_by_the_course(a_class: Class) -> None:
+    a_class.case("lever", Path(a_class.path("cases/lever.yaml")).read_text().replace("100", "617"))
+    for decimal, verdict in (("either", "review"), ("point", "right"), ("comma", "wrong")):
+        a_class.course(f"decimal: {decimal}\n")
+        assert a_class.verdicts("1,234") == [verdict]
+
+
+def test_intermediate_answers_are_graded_like_the_final_one(a_class: Class) -> None:
+    """Four-bar 13.8 of Waldron, Kinzel and Agrawal: I24 at (-1.5139, 0), w4/w2 = 0.3396."""
+    table = (
+        "student_id,case,answer\n"
+        'a,13_08_four_bar:I24,"(-1.51, 0)"\na,13_08_four_bar:w4/w2,0.34\na,13_08_four_bar:w4,0.34\n'
+        'b,13_08_four_bar:I24,"(0, -1.51)"\nb,13_08_four_bar:w4/w2,2.945\n'
+        'c,13_08_four_bar:I24,"(2.9444, 0) in"\nc,13_08_four_bar:w4/w2,-0.34\n'
+        'd,13_08_four_bar:I24,"(-38.5, 0) mm"\nd,13_08_four_bar:I24-A,1.51 in\n'
+        "e,13_08_four_bar:I24,at infinity toward 90\ne,13_08_four_bar:I24-A,nonsense\n"
+    )
+    file, cases = a_class.file("steps.csv", table), str(CASES / "ch13")
+    ran = a_class.run("grade", file, "--cases", cases, "-o", "-", "--quiet")
+    found = {(r["student_id"], r["case"].partition(":")[2]): (r["verdict"], r["code"]) for r in ran.rows()}
+    right = {what for (student, what), (verdict, _) in found.items() if student == "a" and verdict == "right"}
+    assert right >= {"I24", "w4/w2", "w4"}
+    assert found["b", "I24"] == ("wrong", "swapped")
+    assert found["b", "w4/w2"] == ("wrong", "inverse-ratio")
+    assert found["c", "I24"] == ("wrong", "wrong-ic")
+    assert found["c", "w4/w2"] == ("wrong", "sign")
+    assert found["d", "I24"] == ("right", "")
+    assert found["d", "I24-A"] == ("right", "")
+    assert found["e", "I24"][0] == "wrong"
+    assert found["e", "I24-A"] == ("invalid", "no-number")
+
+
+def test_an_error_carried_forward_is_recognised(a_class: Class) -> None:
+    """T2 = P * (arm about I14) * w4/w2: with a ratio 1.3 times too large the torque is so too."""
+    case, ratio, torque = "13_08_four_bar", 0.33957 * 1.3, 29.672200960383297 * 1.3
+    rows = (("a", f"{case}:w4/w2", ratio), ("a", case, torque), ("b", case, torque))
+    table = "student_id,case,answer\n" + "".join(f"{who},{what},{value}\n" for who, what, value in rows)
+    course = a_class.file("carried.yaml", "malrules: {carried: 100%}\n")
+    cases = str(CASES / "ch13")
+    file = a_class.file("a.csv", table)
+    ran = a_class.run("grade", file, "--cases", cases, "--course", course, "-o", "-", "-q")
+    first = ran.row("a", case)
+    assert (first["verdict"], first["code"].split()[0], first["score"]) == ("wrong", "carried", "1")
+    assert "w4/w2" in first["feedback"]
+    assert "carried" not in ran.row("b", case)["code"]
+
+
+def test_a_load_that_holds_over_a_range_is_no_question(a_class: Class) -> None:
+    a_class.case(
+        "block",
+        "icsolve: 1\npoints: {A: [0, 0]}\njoints:\n  - {slide: [2, 1], at: A, along: 0, mu: 0.2}\n"
+        "loads:\n  N: {force: 100, link: 2, at: A, angle: -90}\n"
+        "  P: {force: unknown, link: 2, at: A, angle: 0}\n",
+    )
+    ran = a_class.grade("student_id,case,answer\na,block,10\n")
+    assert ran.code == 1
+    assert "holds with any value from -20 to 20 N" in ran.err
+    assert ran.row("a", "block")["verdict"] == "review"
