@@ -22,10 +22,21 @@ def found_value(answer: Answer, target: ReactionIs | ArmIs | FrictionRadiusIs) -
     if isinstance(target, ArmIs):
         return _arm(answer, _reaction(answer, target.by, target.on, None), target.point)
     reaction = _reaction(answer, target.by, target.on, target.at)
-    value = {"": reaction.magnitude, "x": reaction.x, "y": reaction.y, "moment": reaction.moment}[target.part]
+    whole = {"": reaction.magnitude, "x": reaction.x, "y": reaction.y, "moment": reaction.moment}
+    value = whole[target.part] if target.part in whole else _share(reaction, target.part)
     if value is None:
         raise LookupError(f"it is not determined: {reaction.why}")
     return value
+
+
+def _share(reaction: Reaction, name: str) -> float | None:
+    """A share of the force by its name; None where the force is open."""
+    shares = dict(reaction.parts)
+    if name not in shares and (reaction.x is None or reaction.y is None):
+        return None
+    if name not in shares:
+        raise LookupError(f"a {reaction.kind} has no '{name}' share; it has {', '.join(shares) or 'none'}")
+    return shares[name]
 
 
 def _reaction(answer: Answer, by: str, on: str, at: str | None) -> Reaction:

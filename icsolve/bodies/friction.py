@@ -172,7 +172,7 @@ def _bodies(scene: Scene, solved: Solved, found: Slid, workless: bool) -> Bodies
     rubbing = _rubbing(scene, solved, found, senses)
     _refuse_power(rubbing)
     friction = Friction(rubbing, residual(terms), found.error, found.unique, sum(r.loss for r in rubbing))
-    notes = said_of(position, statics, reactions, names_by_tie(position.case, statics.ties))
+    notes = said_of(statics, reactions, names_by_tie(position.case, statics.ties))
     return Bodies(
         reactions, shown, residual(terms), (*notes, *_said(scene, statics, found, senses)), friction
     )

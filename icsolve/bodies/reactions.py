@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Mapping
 
@@ -13,6 +14,7 @@ from icsolve.bodies.values import Reaction, Reactions, names_of
 from icsolve.case import Belt, Case, Contact, Gears, KnownCentre, Slide, Slot
 from icsolve.figure import Frame, case_point
 from icsolve.names import ordered_pair
+from icsolve.plane import velocity
 
 UNIQUE = 1e-9
 """A share in what the joints leave open that is below this, of the largest, is none (rounding)."""
@@ -118,9 +120,26 @@ def _parts(position: Position, tie: Tie, x: float | None, y: float | None) -> tu
     if isinstance(tie.joint, Contact | Slot | Slide):
         nx, ny = next((u[0], u[1]) for u in tie.units if not u[2])
         normal = x * nx + y * ny
-        parts = (("normal", normal if isinstance(tie.joint, Contact) else abs(normal)),)
-        return (*parts, ("friction", abs(x * ny - y * nx))) if tie.joint.friction else parts
+        parts = [("normal", normal if isinstance(tie.joint, Contact) else abs(normal))]
+        parts += [("friction", abs(x * ny - y * nx))] if tie.joint.friction else []
+        angle = pressure_angle(position, tie) if isinstance(tie.joint, Contact) else None
+        return (*parts, ("pressure angle", angle)) if angle is not None else tuple(parts)
     return ()
+
+
+def pressure_angle(position: Position, tie: Tie) -> float | None:
+    """Degrees between the normal of a contact and the velocity of its second link there.
+
+    None where that link is at rest there, or has more than one motion.
+    """
+    motions = [
+        velocity(position.relative(position.case.ground, tie.on, m), tie.at) for m in range(position.mobility)
+    ]
+    fastest = max((abs(x) for ts in position.twists.values() for t in ts for x in t), default=0.0)
+    moving = [v for v in motions if math.hypot(*v) > 1e-12 * fastest]
+    nx, ny = tie.units[0][0], tie.units[0][1]
+    angles = [math.degrees(math.atan2(abs(x * ny - y * nx), abs(x * nx + y * ny))) for x, y in moving]
+    return angles[0] if angles and max(angles) - min(angles) < 1e-9 else None
 
 
 def _why(tie: Tie, kept: list[float | None]) -> str:

@@ -38,7 +38,7 @@ def _reaction(reaction: Reaction) -> dict[str, Any]:
         "magnitude": reaction.magnitude,
         "direction": reaction.direction,
         "joint": reaction.kind,
-        **dict(reaction.parts),
+        **{name.replace(" ", "_"): value for name, value in reaction.parts},
     }
     if None in (reaction.x, reaction.y, reaction.moment):
         entry["undetermined"] = reaction.why

@@ -12,8 +12,10 @@ from icsolve.arithmetic import FLOATS
 from icsolve.bodies import gears
 from icsolve.bodies.agreement import bounds_of, refuse_apart, unknowns_of, witnesses
 from icsolve.bodies.equilibrium import Statics, equilibrium, residual, terms_of
+from icsolve.bodies.imbalance import refuse_imbalance
 from icsolve.bodies.losses import efficiency, friction_terms
 from icsolve.bodies.reactions import is_unique, names_by_tie, reactions_of
+from icsolve.bodies.rubs import has_friction
 from icsolve.bodies.said import said_of
 from icsolve.bodies.sparse import Row
 from icsolve.bodies.ties import Position, Tie, ties_of
@@ -65,6 +67,8 @@ def structure(program: Program, refusal: SceneError) -> Answer:
     balance = Balance(wrenches(case, figure.frame, figure.points, FLOATS), (), ())
     points = {n: case_point(figure.frame, p) for n, p in figure.points.items() if not n.startswith("@")}
     said = "the links form a structure: nothing moves, and statics alone gives the reactions."
+    if has_friction(case):
+        said += " Friction is left out: a structure needs none."
     answer = Answer(case, points=points, mobility=0, notes=(*figure.notes, said), skipped=figure.skipped)
     return free_bodies(place, figure.frame, balance, {}).added_to(answer)
 
@@ -76,6 +80,8 @@ def free_bodies(
 
     Raises SceneError where the two disagree, and where teeth do not fit their pivots.
     """
+    if position.mobility and not any(is_unknown(w.load) for w in balance.wrenches):
+        refuse_imbalance(position, balance)
     ties = ties_of(position)
     gears.refuse_misfit(position.case, ties, position.points, position.scale)
     solved = frictionless(position, balance, ties)
@@ -85,7 +91,7 @@ def free_bodies(
     found = witnesses(power, solved.unknowns, bounds)
     refuse_apart(found, position.slack)
     reactions = reactions_of(position, frame, statics, parameters)
-    notes = said_of(position, statics, reactions, names_by_tie(position.case, statics.ties))
+    notes = said_of(statics, reactions, names_by_tie(position.case, statics.ties))
     return Bodies(reactions, found, residual(terms), notes)
 
 
