@@ -144,7 +144,7 @@ def _monad(group: Group, bases: Bases, pool: _Pool) -> Closed:
 def _dyad(group: Group, bases: Bases, pool: _Pool) -> Closed:
     (u, v), (outer_u, inner, outer_v), (a, c) = group.bodies, group.bonds, group.ends
     b1, b3, b2 = bases[outer_u][0], bases[inner][0], bases[outer_v][0]
-    o = _origin(b1, b3, b2)
+    o = _origin(b3, b1, b2)  # the inner pin is in every determinant: each is of differences then
     ta, tc = pool.now(a, o), pool.now(c, o)
     columns = (_seen(b1, o), _seen(b3, o), _seen(b2, o), subtract(tc, ta))
     d, s1, s2 = dyad_twists(*columns)
@@ -176,7 +176,7 @@ def _eliminated(group: Group, top: Topology, bases: Bases, pool: _Pool) -> Close
     ends = {body for k in group.bonds for body in (top.bonds[k].a, top.bonds[k].b)}
     roots = {body: pool.now(body, FRAME) for body in sorted(ends - set(group.bodies))}
     tree = span(top, group.bonds, roots, bases)
-    solved = null_space(loop_rows(top, tree, bases, roots), tree.columns + 1)
+    solved = null_space(loop_rows(top, tree, bases, roots), tree.columns + 1, unit=1.0)
     if len(solved.basis) != 1:
         return Closure(group, 0.0, (0.0,)), dict.fromkeys(group.bodies, ORIGIN), FRAME
     rates = solved.basis[0]
