@@ -129,11 +129,15 @@ class Slot(NamedTuple):
 
 
 class Roll(NamedTuple):
-    """Rolling without slip, in contact at ``at``; ``radii`` as the format says."""
+    """Rolling without slip, in contact at ``at``; ``radii`` as the format says.
+
+    With ``pressure_angle`` it rolls by teeth (a rack and its pinion).
+    """
 
     links: tuple[str, str]
     at: str
     radii: tuple[Number, Number] | None = None
+    pressure_angle: Number | None = None
 
 
 class Gears(NamedTuple):
@@ -325,7 +329,11 @@ class SpeedIs(NamedTuple):
 
 
 class ReactionIs(NamedTuple):
-    """Expected: part of the force of link ``by`` on link ``on``: '', 'x', 'y' or 'moment'."""
+    """Expected: part of the force of link ``by`` on link ``on``.
+
+    ``part`` is '' (its size), 'x', 'y', 'z', 'moment' (the couple), 'moment x', or a share of it by name:
+    'normal', 'thrust', 'tangential'.
+    """
 
     by: str
     on: str

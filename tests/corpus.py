@@ -148,6 +148,55 @@ loads:
   null: {force: .5, link: y, at: 12, angle: -.5e1}
 """
 
+IN_SPACE = """\
+icsolve: 1
+units: {length: in, force: lbf}
+gravity: {size: 9.8 m/s^2, along: -y}
+points:
+  A: [0, 0, 0]
+  B: [0, 0, 5 in]
+  C: [1, -.5, 2e-1]
+  G: [0, 0, 2.5]
+  H: [6, 0, 2.5]
+  K: {centroid: [A, C]}
+joints:
+  - {thrust: [1, 2], at: A, axis: z}
+  - {radial: [1, 2], at: B, axis: [0, 0, 1]}
+  - {hinge: [1, 3], at: H, axis: [A, B]}
+  - gears: [2, 3]
+    teeth: [31, 57]
+    at: [G, H]
+    axis: z
+    normal pressure angle: 25
+    helix angle: 30
+    hand: left
+  - {gears: [3, 1], teeth: 40, at: H, toward: -x, axis: -z, pressure angle: 20, module: 0.2}
+  - {gears: [2, 1], teeth: 40, at: G, toward: A, axis: z, pressure angle: 20, diametral pitch: 8}
+  - {ball: [2, 4], at: C}
+  - {weld: [4, 5], at: K}
+loads:
+  P: {force: [1, -2, 3 kip], link: 4, at: K}
+  Q: {force: unknown, link: 4, at: [1, 2, 3], toward: A}
+  R: {force: {like: Q, times: -1}, link: 5, at: C, along: [0, 3, 4], against: 2}
+  S: {spring: 40, free: 1, link: 4, at: C, against: 2, to: B}
+  T: {torque: 5 ft-lb, link: 2, along: -z}
+  U: {torque: [1, 2, 3], link: 3, against: 2}
+  V: {power: 150 hp, speed: 1500 rpm, link: 2, along: [A, B]}
+  W: {weight: 30, link: 4, at: K}
+  X: {mass: 2 kg, link: 5, at: C}
+  Y: {force: 3, link: 5, at: C, away: A}
+expect:
+  Q: 12.5 toward A
+  T: 5 about -z
+  F12@A: 3
+  F12z@A: {value: 3, within: 1%}
+  M13x: -4
+  thrust F12@A: 2
+  couple 2 F23: 7
+  h F24 A: 1
+  A-B: 5
+"""
+
 ALL = {
     "four bar": FOUR_BAR,
     "slider-crank": SLIDER_CRANK,
@@ -155,4 +204,5 @@ ALL = {
     "gears": GEARS,
     "cam and black box": CAM_AND_BLACK_BOX,
     "awkward names": AWKWARD_NAMES,
+    "in space": IN_SPACE,
 }

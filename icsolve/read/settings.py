@@ -6,6 +6,7 @@ from collections.abc import Mapping as Named
 
 from icsolve.case import Mark
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
+from icsolve.read.jointed import NAMES
 from icsolve.read.joints import KINDS
 from icsolve.read.loads import KEYS
 from icsolve.read.names import atoms
@@ -93,11 +94,12 @@ def _same(section: Mapping, parts: tuple[str, ...]) -> str | None:
 
 
 def _axis(node: Node, steps: list[str], text: str) -> str:
-    if type(node) is not Sequence or len(node.items) != 2:
-        return "it is not given by two coordinates"
-    if steps not in (["x"], ["y"]):
-        return "a coordinate is set as points.D.x or points.D.y"
-    index = "xy".index(steps[0])
+    if type(node) is not Sequence or len(node.items) not in (2, 3):
+        return "it is not given by its coordinates"
+    axes = "xyz"[: len(node.items)]
+    if len(steps) != 1 or steps[0] not in tuple(axes):
+        return f"a coordinate is set as {' or '.join(f'points.D.{axis}' for axis in axes)}"
+    index = axes.index(steps[0])
     node.items[index] = Scalar(text, True, node.items[index].mark)
     return ""
 
@@ -111,9 +113,9 @@ def _of_load(node: Node, steps: list[str], text: str) -> str:
     value = node.items[kind]
     if not steps:
         return _put(node, kind, text)
-    if type(value) is Sequence and steps in (["x"], ["y"]):
+    if type(value) is Sequence and steps in (["x"], ["y"], ["z"]):
         return _axis(value, steps, text)
-    if steps[0] in ("at", "slope", "to") and steps[0] in node.items and len(steps) == 2:
+    if steps[0] in ("at", "slope", "to", "along") and steps[0] in node.items and len(steps) == 2:
         return _axis(node.items[steps[0]], steps[1:], text)
     return _put(node, steps[0], text) if len(steps) == 1 and steps[0] not in KEYS else _FORM
 
@@ -154,7 +156,7 @@ def _of_that_key(joints: list[Mapping], key: str) -> list[Mapping]:
 def _labels(joint: Mapping) -> list[str]:
     """By what a joint can be called: its point, its links, both."""
     at = joint.items.get("at")
-    kind = next((key for key in KINDS if key in joint.items), "")
+    kind = next((key for key in joint.items if key in NAMES), "")
     links = joint.items.get(kind)
     names = [item.text for item in links.items if type(item) is Scalar] if type(links) is Sequence else []
     pair, turned = "-".join(names), "-".join(reversed(names))
