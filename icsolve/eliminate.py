@@ -25,8 +25,11 @@ class NullSpace(NamedTuple):
     dropped: float
 
 
-def null_space(rows: list[list[Scalar]], columns: int, zero: float = ZERO) -> NullSpace:
-    """All x with ``rows @ x = 0``; a pivot below ``zero`` times the number of rows counts as none."""
+def null_space(rows: list[list[Scalar]], columns: int, zero: float = ZERO, unit: float = 0.0) -> NullSpace:
+    """All x with ``rows @ x = 0``; a pivot below ``zero`` times the number of rows counts as none.
+
+    The pivots are measured by the first, and that by ``unit``: where all rows are rounding, none counts.
+    """
     work = [list(row) for row in rows]
     order = list(range(columns))
     limit = zero * max(len(work), 1)
@@ -35,7 +38,7 @@ def null_space(rows: list[list[Scalar]], columns: int, zero: float = ZERO) -> Nu
     dropped = 0.0
     while rank < min(len(work), columns):
         size, r, c = _largest(work, rank, columns)
-        fraction = size / (pivots[0] if pivots else size) if size else 0.0
+        fraction = size / (pivots[0] if pivots else max(size, unit)) if size else 0.0
         if fraction <= limit:
             dropped = fraction
             break

@@ -107,6 +107,6 @@ def all_motions(top: Topology, bases: Bases, zero: float = ZERO) -> LoopMotions:
     """Null space of the loop equations of the bonds in ``bases``, from the frame."""
     tree = span(top, sorted(bases), (top.ground,), bases)
     rows = [row[:-1] for row in loop_rows(top, tree, bases, {top.ground: ORIGIN})]
-    found = null_space(rows, tree.columns, zero)
+    found = null_space(rows, tree.columns, zero, 1.0)
     motions = [twists_on(tree, (*rates, 0.0), {top.ground: ORIGIN}) for rates in found.basis]
     return LoopMotions({body: tuple(m[body] for m in motions) for body in tree.branches}, found)

@@ -31,7 +31,7 @@ def goes_on(top: Topology, bases: Bases) -> bool | None:
         return None
     tree = span(top, sorted(bases), (top.ground,), bases)
     rows = [row[:-1] for row in loop_rows(top, tree, bases, {top.ground: ORIGIN})]
-    motion = null_space(rows, tree.columns).basis
+    motion = null_space(rows, tree.columns, unit=1.0).basis
     if len(motion) != 1:
         return None
     misfits: list[float] = []
@@ -41,7 +41,7 @@ def goes_on(top: Topology, bases: Bases) -> bool | None:
         )
         misfit = subtract(subtract(bb, ba), bracket(one, two))
         misfits += [pairing(wrench, misfit) for wrench in transmitted(bases[k])]
-    stresses = null_space([list(column) for column in zip(*rows, strict=True)], len(rows)).basis
+    stresses = null_space([list(column) for column in zip(*rows, strict=True)], len(rows), unit=1.0).basis
     return all(_idle(stress, misfits, motion[0]) for stress in stresses)
 
 

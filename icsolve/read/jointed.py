@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Container
 from collections.abc import Mapping as Table
+from itertools import chain, count
 from typing import TypeVar
 
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
@@ -89,11 +90,18 @@ def _joint(reading: Reading, node: Mapping, shared: Counter[str], kinds: Kinds[T
     pair = "-".join(links) if links else "?"
     at = _at(node)
     where = f"joints.{at}" if shared[at] == 1 and at else f"joints.{pair}@{at}" if at else f"joints.{pair}"
+    where = _unlike(where, reading.marks)  # two joints of one pair: a path has one value
     reading.marks[where] = node.mark
     keys, build = kinds[kind]
     entry = Entry(reading, node, where, f"the {kind} of {' and '.join(links)}" if links else f"a {kind}")
     entry.only(kind, *keys)
     return build(entry, links or ("?", "?"), bool(links))
+
+
+def _unlike(where: str, taken: Container[str]) -> str:
+    """The path, with ``#2``, ``#3`` ... behind it where another joint has it already."""
+    ways = chain((where,), (f"{where}#{n}" for n in count(2)))
+    return next(way for way in ways if way not in taken)
 
 
 def _kind(reading: Reading, node: Mapping, kinds: Kinds[T]) -> str | None:
