@@ -100,7 +100,8 @@ class Marker:
             self._add_missing(student, found)
         for entry, marked in found:
             marked.count += 1
-            yield Result(student, entry.item, entry.variant, entry.attempt, entry.line, marked)
+            variant = self._variant(entry) or entry.variant
+            yield Result(student, entry.item, variant, entry.attempt, entry.line, marked)
 
     def _add_missing(self, student: str, found: list[tuple[Entry, Marked]]) -> None:
         """What the student owes and did not answer."""
@@ -147,7 +148,7 @@ class Marker:
         self.ledger.note(self.path, line, reason)
 
     def _marked(self, entry: Entry) -> Marked:
-        variant = self.shelf.variant_of(entry.item, entry.student) if self.shelf.varied else ""
+        variant = self._variant(entry) + ("!" if self._is_others(entry) else "")
         key = (entry.item, variant, entry.answer, entry.unit, entry.direction)
         found = self._memory.get(key)
         if found is None or entry.trouble:
@@ -155,6 +156,15 @@ class Marker:
             if not entry.trouble:
                 self._remember(key, found)
         return found
+
+    def _variant(self, entry: Entry) -> str:
+        """The label of the student's own values; '' where the case has no variables."""
+        return self.shelf.variant_of(entry.item, entry.student) if self.shelf.varied else ""
+
+    def _is_others(self, entry: Entry) -> bool:
+        """Whether the answer says that it is to another variant than the student's."""
+        given = entry.variant.strip()
+        return bool(given) and self._variant(entry) not in ("", given)
 
     def _remember(self, key: tuple[str, str, str, str, str], marked: Marked) -> None:
         if len(self._memory) >= _MEMORY:
@@ -190,6 +200,8 @@ class Marker:
         except NoKeyError as error:
             self.ledger.note(self.path, entry.line, f"not graded: {error}", serious=True)
             return self._troubled(entry, str(error))
+        if self._is_others(entry):
+            return self._of_another(entry)
         if isinstance(key, PlaceKey):
             return self._place(entry, key)
         written = self.combined.read(entry.answer, entry.unit, entry.direction)
@@ -230,6 +242,12 @@ class Marker:
         marked = Marked(entry.item, entry.answer, judged, self._points(entry.item), f"Not graded: {why}")
         self._once(marked)
         return marked
+
+    def _of_another(self, entry: Entry) -> Marked:
+        """An answer to numbers that are not the student's: a person must say whose it is."""
+        judged = Judgement(IN_REVIEW, 0.0, (False, False, False), code="other-variant")
+        why = f"This is an answer to variant {entry.variant}; yours is {self._variant(entry)}."
+        return Marked(entry.item, entry.answer, judged, self._points(entry.item), why)
 
     def _points(self, item: str) -> float:
         return self.course.policy_of(item).points

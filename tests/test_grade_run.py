@@ -1,0 +1,293 @@
+"""The whole command: attempts, who is who, order, what is noted, and that nothing is overwritten."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import random
+from pathlib import Path
+
+import pytest
+
+from grade_bench import CASES, write_class
+from grade_shell import PRESS, Class
+from icsolve.grade.run import Job, Sinks, grade
+from icsolve.grade.store import Store
+
+
+@pytest.fixture
+def a_class(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Class:
+    return Class(tmp_path, capsys)
+
+
+ATTEMPTS = (
+    "student_id,case,answer,attempt,submitted_at\n"
+    "a,lever,200,2,2025-03-02T10:00:00Z\n"
+    "a,lever,150,3,2025-03-03T10:00:00Z\n"
+    "a,lever,100,1,2025-03-01T10:00:00Z\n"
+)
+
+
+@pytest.mark.parametrize(("which", "answer"), [("last", "150"), ("first", "100"), ("best", "200")])
+def test_the_last_first_or_best_attempt_counts(a_class: Class, which: str, answer: str) -> None:
+    ran = a_class.grade(ATTEMPTS, "--attempt", which)
+    assert [row["raw_answer"] for row in ran.rows()] == [answer]
+    assert ran.err == ""
+    a_class.course(f"attempt: {which}\n")
+    assert [row["raw_answer"] for row in a_class.grade(ATTEMPTS).rows()] == [answer]
+
+
+def test_times_tell_where_attempts_have_no_numbers(a_class: Class) -> None:
+    table = (
+        "student_id,case,answer,submitted_at\n"
+        "a,lever,150,1 March 2025 9:30 PM\n"
+        "a,lever,200,2025-03-02 10:00:00 UTC\n"
+        "a,lever,100,2025-03-02T11:00:00+02:00\n"
+    )
+    assert [row["raw_answer"] for row in a_class.grade(table).rows()] == ["200"]
+
+
+def test_rows_that_nothing_tells_apart_are_listed(a_class: Class) -> None:
+    ran = a_class.grade("student_id,case,answer\na,lever,150\nb,lever,1\na,lever,200\na,lever,210\n")
+    assert ran.row("a")["raw_answer"] == "210"
+    assert (
+        "answers.csv:2: the same student answers the same question again; the last row counts (and line 4)"
+        in ran.err
+    )
+
+
+def test_a_time_that_cant_be_read_is_noted(a_class: Class) -> None:
+    ran = a_class.grade("student_id,case,answer,submitted_at\na,lever,150,yesterday\na,lever,200,today\n")
+    assert ran.row("a")["raw_answer"] == "200"
+    assert "this time can't be read" in ran.err
+
+
+def test_students_are_matched_by_the_roster_and_nobody_is_dropped(a_class: Class) -> None:
+    roster = a_class.file(
+        "roster.csv", "student_id,email,first_name,last_name\n007,ann@x.test,Ann,Bee\n008,,Bob,Cee\n"
+    )
+    ran = a_class.grade("student_id,case,answer\nANN@x.test,lever,200\n7,lever,200\n", "--roster", roster)
+    assert [(r["student_id"], r["verdict"]) for r in ran.rows()] == [
+        ("007", "right"),
+        ("008", "missing"),
+        ("7", "right"),
+    ]
+    assert "'7' is not on the roster" in ran.err
+    assert "the roster has '007'" in ran.err
+
+
+def test_a_gradebook_serves_as_the_roster(a_class: Class) -> None:
+    roster = a_class.file(
+        "gradebook.csv",
+        "Student,ID,SIS User ID,SIS Login ID,Section,x (1)\n    Points Possible,,,,,1\n"
+        '"Bee, Ann",31,s-01,ann@x.test,A,\n',
+    )
+    ran = a_class.grade("student_id,case,answer\nann@x.test,lever,200\n", "--roster", roster)
+    assert [(r["student_id"], r["verdict"]) for r in ran.rows()] == [("s-01", "right")]
+
+
+def test_who_owes_an_answer_to_what_others_were_asked(a_class: Class) -> None:
+    table = "student_id,case,answer\na,lever,200\nb,pusher,100\n"
+    ran = a_class.grade(table)
+    assert [r["verdict"] for r in ran.rows()] == ["right", "missing", "missing", "right"]
+    shown = a_class.run("grade", str(a_class.path("answers.csv")), "--cases", str(a_class.path("cases")))
+    assert "no answer to lever: b" in shown.out
+    a_class.course("cases: {lever: {}}\n")
+    assert [(r["student_id"], r["case"]) for r in a_class.grade(table).rows()] == [
+        ("a", "lever"),
+        ("b", "lever"),
+        ("b", "pusher"),
+    ]
+
+
+def test_a_missing_case_and_one_without_an_answer_leave_the_others_alone(a_class: Class) -> None:
+    a_class.case("broken", "icsolve: 1\njoints:\n  - {pin: [1, 2], att: A}\n")
+    table = "student_id,case,answer\na,lever,200\na,nowhere,1\na,dead,1\na,broken,1\nb,dead,2\n"
+    ran = a_class.grade(table)
+    assert ran.code == 1
+    assert ran.row("a")["verdict"] == "right"
+    assert "answers.csv:3: there is no case 'nowhere'" in ran.err
+    assert "answers.csv:4: not graded: the case dead has no answer (dead-centre)" in ran.err
+    assert "(and line 6)" in ran.err
+    assert "broken.yaml:3:5: the pin of 1 and 2 needs 'at'" in ran.err
+    assert {
+        r["verdict"] for r in ran.rows() if r["case"] in ("nowhere", "dead", "broken") and r["raw_answer"]
+    } == {"review"}
+
+
+def test_a_case_with_several_unknowns_asks_which(a_class: Class) -> None:
+    a_class.case("two", (CASES / "linkages" / "five_bar.yaml").read_text())
+    ran = a_class.grade("student_id,case,answer\na,two,1\na,two:T12,-5.24\na,two:T15,11.75\na,two:X,1\n")
+    assert "the case two has 2 unknown loads; write two:T12 or two:T15" in ran.err
+    assert [ran.row("a", f"two:{name}")["verdict"] for name in ("T12", "T15")] == ["right", "right"]
+    assert "'X' names nothing in this case" in ran.err
+
+
+def test_two_files_of_one_name_are_no_case(a_class: Class) -> None:
+    (a_class.path("cases/deep")).mkdir()
+    a_class.case("deep/lever", a_class.path("cases/lever.yaml").read_text())
+    ran = a_class.grade("student_id,case,answer\na,lever,200\n")
+    assert ran.code == 1
+    assert "two files are the case lever" in ran.err
+
+
+def graded(table: str, folder: Path, jobs: int = 1, most: int | None = None) -> str:
+    """The results of a table; with ``most`` at most so many answers in memory."""
+    path = folder / "answers.csv"
+    path.write_text(table, encoding="utf-8")
+    out = io.StringIO()
+    with pytest.MonkeyPatch.context() as patch:
+        if most is not None:
+            patch.setattr(Store.__init__, "__defaults__", (most,))
+        grade(Job((str(path),), str(CASES), jobs=jobs), Sinks(out))
+    return out.getvalue()
+
+
+@pytest.fixture(scope="module")
+def large(tmp_path_factory: pytest.TempPathFactory) -> str:
+    path = tmp_path_factory.mktemp("large") / "class.csv"
+    write_class(path, 120)
+    return path.read_text(encoding="utf-8")
+
+
+def test_results_are_sorted_by_student_and_case(large: str, tmp_path: Path) -> None:
+    rows = [(row["student_id"], row["case"]) for row in csv.DictReader(io.StringIO(graded(large, tmp_path)))]
+    assert len(rows) == 120 * 25
+    assert rows == sorted(rows)
+
+
+def test_the_same_bytes_in_memory_on_disk_and_on_two_processes(large: str, tmp_path: Path) -> None:
+    once = graded(large, tmp_path)
+    assert graded(large, tmp_path) == once
+    assert graded(large, tmp_path, most=500) == once
+    assert graded(large, tmp_path, jobs=2, most=500) == once
+
+
+def test_the_same_bytes_with_the_rows_in_any_order(large: str, tmp_path: Path) -> None:
+    """Attempts and times tell which row is last."""
+    header, *rows = large.splitlines(keepends=True)
+    more = [row.replace(",2025-", ",2024-") for row in rows[:200]]
+    mixed = rows + more
+    random.Random(3).shuffle(mixed)
+    assert graded(header + "".join(mixed), tmp_path) == graded(header + "".join(rows + more), tmp_path)
+
+
+def test_nothing_is_overwritten_unless_asked(a_class: Class) -> None:
+    table = a_class.file("answers.csv", "student_id,case,answer\na,lever,200\n")
+    out = a_class.file("results.csv", "kept")
+    call = ("grade", table, "--cases", str(a_class.path("cases")), "-o", out)
+    ran = a_class.run(*call)
+    assert ran.code == 2
+    assert "is there already" in ran.err
+    assert Path(out).read_text() == "kept"
+    assert a_class.run(*call, "--force").code == 0
+    assert Path(out).read_text().startswith("student_id,case")
+    assert a_class.run(*call[:-1], table, "--force").code == 2
+    assert Path(table).read_text().startswith("student_id,case,answer")
+    assert {path.name for path in a_class.folder.iterdir()} == {"cases", "answers.csv", "results.csv"}
+
+
+def test_a_file_that_fails_halfway_leaves_nothing_under_its_name(a_class: Class) -> None:
+    table = a_class.file("answers.csv", "student_id,case\na,lever\n")
+    out = a_class.path("results.csv")
+    assert a_class.run("grade", table, "--cases", str(a_class.path("cases")), "-o", str(out)).code == 2
+    assert not out.exists()
+
+
+def test_json_lines_name_every_part_and_cause(a_class: Class) -> None:
+    lines = a_class.path("results.jsonl")
+    a_class.grade("student_id,case,answer\na,lever,-200\nb,lever,200\n", "--jsonl", str(lines))
+    wrong, right = (json.loads(line) for line in lines.read_text().splitlines())
+    assert wrong["schema"] == "icsolve/grade/1"
+    assert wrong["parts"] == {"number": True, "unit": True, "direction": False}
+    assert wrong["mistakes"] == [{"code": "sign", "where": ""}]
+    assert (right["verdict"], right["line"], right["value"]) == ("right", 3, 200.0)
+
+
+def test_the_summary_counts_marks_and_mistakes(a_class: Class) -> None:
+    answers = "".join(f"s{n},lever,{value}\n" for n, value in enumerate([200] * 5 + [-200] * 3 + [100, "x"]))
+    table = a_class.file("answers.csv", "student_id,case,answer\n" + answers)
+    page = a_class.path("summary.html")
+    ran = a_class.run("grade", table, "--cases", str(a_class.path("cases")), "--html", str(page))
+    assert ran.code == 0
+    assert "10 answers from 10 students" in ran.out
+    assert "lever: 5 right, 4 wrong, 1 invalid; mean 50%" in ran.out
+    assert "3 of 4 wrong answers: sign" in ran.out
+    html = page.read_text(encoding="utf-8")
+    assert '<td><code>sign</code></td><td class="n">3</td>' in html
+    assert html.count("<rect") == 3
+    assert "http" not in html.replace("http://www.w3.org", "")
+
+
+def test_a_course_file_that_is_wrong_says_where(a_class: Class) -> None:
+    a_class.course("tolerance: 200%\nunit: maybe\ncases:\n  lever: {ponts: 5}\nmalrules: {sine: 50%}\n")
+    ran = a_class.grade("student_id,case,answer\na,lever,200\n")
+    assert ran.code == 2
+    for said in (
+        "course.yaml:1:12:",
+        "course.yaml:2:7:",
+        "course.yaml:4:11:",
+        "did you mean 'points'",
+        "'sine'",
+    ):
+        assert said in ran.err
+
+
+def test_a_folder_that_is_not_there(a_class: Class) -> None:
+    table = a_class.file("answers.csv", "student_id,case,answer\na,lever,200\n")
+    ran = a_class.run("grade", table, "--cases", str(a_class.path("nowhere")))
+    assert ran.code == 2
+    assert "there is no such folder" in ran.err
+
+
+def test_several_files_are_one_class(a_class: Class) -> None:
+    first = a_class.file("first.csv", "student_id,case,answer\na,lever,200\n")
+    second = a_class.file("second.csv", "student_id;pusher\na;100\nb;100\n")
+    ran = a_class.run("grade", first, second, "--cases", str(a_class.path("cases")), "-o", "-", "-q")
+    assert [(r["student_id"], r["case"], r["verdict"]) for r in ran.rows()] == [
+        ("a", "lever", "right"),
+        ("a", "pusher", "right"),
+        ("b", "lever", "missing"),
+        ("b", "pusher", "right"),
+    ]
+
+
+def test_one_students_text_of_answers(a_class: Class) -> None:
+    """As an autograder gets it: no ids, a line a case."""
+    metadata = a_class.file("metadata.json", json.dumps({"users": [{"email": "ann@x.test", "name": "Ann"}]}))
+    text = "lever: 200 N*m ccw\n# a remark\npusher = -100\nwhat is this\n"
+    ran = a_class.grade(text, "--metadata", metadata, name="answers.txt")
+    assert [(r["student_id"], r["case"], r["verdict"]) for r in ran.rows()] == [
+        ("ann@x.test", "", "review"),
+        ("ann@x.test", "lever", "right"),
+        ("ann@x.test", "pusher", "wrong"),
+    ]
+    table = a_class.grade("case,answer\nlever,200\n", "--student", "ann")
+    assert [(r["student_id"], r["verdict"]) for r in table.rows()] == [("ann", "right")]
+
+
+def test_each_student_is_judged_by_the_key_of_their_own_variant(a_class: Class) -> None:
+    a_class.case("press", PRESS)
+    roster = a_class.file("roster.csv", "student_id\n" + "".join(f"{n:02d}\n" for n in range(12)))
+    cases, sheets = str(a_class.path("cases")), a_class.path("sheets")
+    a_class.run("variants", cases, "--roster", roster, "-o", str(sheets), "--no-figures", "-q")
+    with open(sheets / "press" / "key.csv", newline="") as file:
+        keys = list(csv.DictReader(file))
+    assert len({key["value"] for key in keys}) > 6
+    answers = "student_id,case,answer\n" + "".join(f"{k['student_id']},press,{k['value']}\n" for k in keys)
+    ran = a_class.grade(answers)
+    assert {r["verdict"] for r in ran.rows()} == {"right"}
+    assert [r["variant"] for r in ran.rows()] == [key["variant"] for key in keys]
+    swapped = "student_id,case,answer\n" + "".join(
+        f"{k['student_id']},press,{keys[n - 1]['value']}\n" for n, k in enumerate(keys)
+    )
+    assert sum(r["verdict"] == "wrong" for r in a_class.grade(swapped).rows()) >= 9
+    others = "student_id,case,answer,variant\n" + "".join(
+        f"{k['student_id']},press,{k['value']},{keys[n - 1]['variant']}\n" for n, k in enumerate(keys)
+    )
+    assert {r["code"] for r in a_class.grade(others).rows()} <= {"other-variant", ""}
+    halves = "student_id,case,answer\n" + "".join(
+        f"{k['student_id']},press,{float(k['value']) / 2}\n" for k in keys
+    )
+    assert {r["code"].split()[0] for r in a_class.grade(halves).rows()} == {"half"}
