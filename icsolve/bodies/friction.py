@@ -19,7 +19,7 @@ from icsolve.bodies.reduction import forces_of
 from icsolve.bodies.rubs import kind_of_rub, rates_of, rubs_of
 from icsolve.bodies.said import said_of
 from icsolve.bodies.sliding import Slid, slid
-from icsolve.bodies.statics import Bodies, Solved, frictionless, refuse_doubt, with_tooth_forces
+from icsolve.bodies.statics import Bodies, Solved, carrying_flanks, frictionless, on_flanks, refuse_doubt
 from icsolve.bodies.ties import Position, Tie, ties_of
 from icsolve.bodies.values import Friction, Rubbing, Witness
 from icsolve.case import Gears
@@ -65,7 +65,7 @@ def in_motion(scene: Scene) -> tuple[dict[str, float], Bodies]:
         slides.append(slid(statics, _senses(scene, statics).signs, workless))
         return Solved(statics, slides[-1].unknowns, slides[-1].friction)
 
-    solved = with_tooth_forces(scene.position, ties, solve)
+    solved = on_flanks(scene.position, ties, _flanks(scene, ties, workless), solve)
     return solved.unknowns, _bodies(scene, solved, slides[-1], workless)
 
 
@@ -81,13 +81,8 @@ def at_rest(scene: Scene) -> Held:
         )
         raise SceneError(Status.MOBILITY, message)
     ties, workless = _ties(scene), _is_workless(scene)
-    if not workless:
-        ties = frictionless(scene.position, scene.balance, ties).statics.ties
-    elif gears.meshes(ties):
-        raise SceneError(
-            Status.UNSUPPORTED, "which flanks of the teeth carry is open at rest: give `motion`."
-        )
-    statics = _statics(scene, ties)
+    flanks = _flanks(scene, ties, workless)
+    statics = _statics(scene, gears.with_flanks(scene.position, ties, flanks))
     senses = _senses(scene, statics).signs
     return pressed(statics, senses) if workless else held(statics, senses)
 
@@ -96,6 +91,20 @@ def _ties(scene: Scene) -> tuple[Tie, ...]:
     ties = ties_of(scene.position)
     gears.refuse_misfit(scene.position.case, ties, scene.position.points, scene.position.scale)
     return ties
+
+
+def _flanks(scene: Scene, ties: Sequence[Tie], workless: bool) -> Mapping[int, float]:
+    """The flanks of the teeth that carry without friction: friction seldom turns them."""
+    if not gears.meshes(ties):
+        return {}
+    if workless:
+        raise SceneError(
+            Status.UNSUPPORTED,
+            "the unknown load does no work, so which flanks of the teeth carry is open: put the unknown on a "
+            "link that "
+            "moves, or leave out the friction.",
+        )
+    return carrying_flanks(scene.position, ties, frictionless(scene.position, scene.balance, ties))
 
 
 def _is_workless(scene: Scene) -> bool:

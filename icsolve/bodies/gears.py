@@ -10,7 +10,7 @@ import math
 from collections.abc import Mapping, Sequence
 
 from icsolve.bodies.ties import Position, Tie
-from icsolve.case import Case, Gears
+from icsolve.case import Case, Gears, Pin, Roll
 from icsolve.errors import SceneError, Status
 from icsolve.plane import Point
 
@@ -19,41 +19,67 @@ MISFIT = 2e-3
 
 
 def meshes(ties: Sequence[Tie]) -> list[int]:
-    """The ties that are meshes of known pressure angle."""
-    return [t for t, tie in enumerate(ties) if _has_angle(tie)]
+    """The ties that are meshes of known pressure angle: gears, and rolling by teeth (a rack)."""
+    return [t for t, tie in enumerate(ties) if _has_teeth(tie)]
 
 
-def _has_angle(tie: Tie) -> bool:
-    return isinstance(tie.joint, Gears) and tie.joint.pressure_angle is not None and tie.pivots[0] != ""
+def _has_teeth(tie: Tie) -> bool:
+    if isinstance(tie.joint, Gears):
+        return tie.joint.pressure_angle is not None and tie.pivots[0] != ""
+    return isinstance(tie.joint, Roll) and tie.joint.pressure_angle is not None
 
 
 def with_flanks(position: Position, ties: Sequence[Tie], flanks: Mapping[int, float]) -> tuple[Tie, ...]:
     """The ties with the tooth force of each mesh along the line of action of the flank that carries.
 
-    ``flanks`` has the sign of the tangential force of each mesh; 0 leaves out the separating part.
+    ``flanks`` has the sign of the tangential force of each mesh; 0 leaves the two parts apart.
     """
-    return tuple(
-        _along_action(position, tie, flanks[t]) if t in flanks else tie for t, tie in enumerate(ties)
-    )
+    along = {t: _along_action(position, ties[t], flank) for t, flank in flanks.items()}
+    return tuple(along.get(t, tie) for t, tie in enumerate(ties))
 
 
 def _along_action(position: Position, tie: Tie, flank: float) -> Tie:
-    """One unit: a tangential force of 1 on the tie's link ``on``, with its separating part."""
-    assert isinstance(tie.joint, Gears) and tie.joint.pressure_angle is not None
+    """The tangential and the separating force; with a flank one unit: a tangential 1 with its share."""
+    assert isinstance(tie.joint, Gears | Roll) and tie.joint.pressure_angle is not None
     (tx, ty), (sx, sy) = tangent_and_separating(position, tie)
-    apart = abs(flank) * math.tan(math.radians(tie.joint.pressure_angle.value))
-    sign = flank or 1.0
-    return tie._replace(units=((sign * tx + apart * sx, sign * ty + apart * sy, 0.0),))
+    if not flank:
+        return tie._replace(units=((tx, ty, 0.0), (sx, sy, 0.0)))
+    apart = math.tan(math.radians(tie.joint.pressure_angle.value))
+    return tie._replace(units=((flank * tx + apart * sx, flank * ty + apart * sy, 0.0),))
 
 
 def tangent_and_separating(position: Position, tie: Tie) -> tuple[Point, Point]:
     """Unit vectors at the pitch point: the common tangent, and the separating force on link ``on``."""
+    if isinstance(tie.joint, Roll):
+        link, centre = _wheel(position, tie)
+        ex, ey = _unit(tie.at, centre)
+        return (-ey, ex), ((ex, ey) if link == tie.on else (-ex, -ey))
     a, b = (position.points[p] for p in tie.pivots)
     ex, ey = _unit(a, b)
     assert isinstance(tie.joint, Gears)
     internal_on = tie.joint.teeth[1].value < 0
-    separating = _unit(a, tie.at) if internal_on else _unit(tie.at, b)
-    return (-ey, ex), separating
+    return (-ey, ex), (_unit(a, tie.at) if internal_on else _unit(tie.at, b))
+
+
+def _wheel(position: Position, tie: Tie) -> tuple[str, Point]:
+    """The round link of a rolling contact (not a hollow one), and its centre: the pin at its radius."""
+    assert isinstance(tie.joint, Roll)
+    radii = tie.joint.radii or (None, None)
+    for link, radius in zip(tie.joint.links, radii, strict=True):
+        if link == position.case.ground or (radius is not None and radius.value <= 0.0):
+            continue
+        for joint in position.case.joints:
+            if isinstance(joint, Pin) and link in joint.links and joint.at != tie.joint.at:
+                centre = position.points[joint.at]
+                apart = math.dist(centre, tie.at) / position.scale
+                if radius is None or abs(apart - radius.value) <= MISFIT * radius.value:
+                    return link, centre
+    raise SceneError(
+        Status.UNSUPPORTED,
+        f"the teeth of links {tie.by} and {tie.on} need the pin of the round one: give `radii`, and the pin "
+        "at "
+        "that distance.",
+    )
 
 
 def _unit(a: Point, b: Point) -> Point:

@@ -58,7 +58,7 @@ def _named(position: Position, balance: Balance, motion: int, powers: Sequence[f
     link, rate = _first_turning(position, motion)
     working = [w.load.name for w, power in zip(balance.wrenches, powers, strict=True) if power]
     sense = "" if rate == 0.0 else " ccw" if rate * drive > 0.0 else " cw"
-    does = "turn" if rate else "move"
+    does = ("turn" if rate else "move") + ("s" if len(working) == 1 else "")
     return (
         f"the known loads do not balance: {listed(working)} {does} link {link}{sense}, so there are no "
         "reactions at rest. Make one of the loads `unknown`, or add one."

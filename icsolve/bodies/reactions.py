@@ -11,7 +11,7 @@ from icsolve.bodies.gears import tangent_and_separating
 from icsolve.bodies.sparse import Row
 from icsolve.bodies.ties import Force, Position, Tie, kind_of
 from icsolve.bodies.values import Reaction, Reactions, names_of
-from icsolve.case import Belt, Case, Contact, Gears, KnownCentre, Slide, Slot
+from icsolve.case import Belt, Case, Contact, Gears, KnownCentre, Roll, Slide, Slot
 from icsolve.figure import Frame, case_point
 from icsolve.names import ordered_pair
 from icsolve.plane import velocity
@@ -80,12 +80,10 @@ def _open_sizes(statics: Statics) -> dict[int, float]:
     return sizes
 
 
-def is_unique(statics: Statics, t: int) -> bool:
-    """Whether equilibrium determines all that a tie transmits."""
-    columns = range(statics.first[t], statics.first[t] + len(statics.ties[t].units))
-    sizes = _open_sizes(statics)
-    rows = [statics.general.of(column) for column in columns]
-    return all(abs(row.get(c, 0.0)) <= UNIQUE * size for row in rows for c, size in sizes.items())
+def is_unique(statics: Statics, t: int, unit: int) -> bool:
+    """Whether equilibrium determines a tie's force along one of its units."""
+    row = statics.general.of(statics.first[t] + unit)
+    return all(abs(row.get(c, 0.0)) <= UNIQUE * size for c, size in _open_sizes(statics).items())
 
 
 def _value(statics: Statics, row: Row, parameters: Mapping[int, float]) -> float:
@@ -114,7 +112,7 @@ def _parts(position: Position, tie: Tie, x: float | None, y: float | None) -> tu
     """Shares of a force in the directions that the joint is about."""
     if x is None or y is None:
         return ()
-    if isinstance(tie.joint, Gears):
+    if isinstance(tie.joint, Gears) or (isinstance(tie.joint, Roll) and tie.joint.pressure_angle is not None):
         (tx, ty), (sx, sy) = tangent_and_separating(position, tie)
         return (("tangential", abs(x * tx + y * ty)), ("separating", x * sx + y * sy))
     if isinstance(tie.joint, Contact | Slot | Slide):

@@ -113,6 +113,17 @@ def frictionless(position: Position, balance: Balance, ties: Sequence[Tie]) -> S
     return with_tooth_forces(position, ties, lambda flanked: _solved(position, balance, flanked))
 
 
+def carrying_flanks(position: Position, ties: Sequence[Tie], found: Solved) -> dict[int, float]:
+    """The flanks on which the tooth forces of a solution lie."""
+    flanks = {}
+    for t in gears.meshes(ties):
+        if len(found.statics.ties[t].units) == 1:
+            tangent, _ = gears.tangent_and_separating(position, ties[t])
+            x, y, _ = found.statics.ties[t].units[0]
+            flanks[t] = math.copysign(1.0, x * tangent[0] + y * tangent[1])
+    return flanks
+
+
 def _solved(position: Position, balance: Balance, ties: Sequence[Tie]) -> Solved:
     statics = equilibrium(position, ties, balance)
     refuse_doubt(position, statics)
@@ -141,23 +152,35 @@ MOST_TURNS = 4
 """Flanks are tried again where friction turns a tooth force."""
 
 
-def with_tooth_forces(
-    position: Position, ties: Sequence[Tie], solve: Callable[[Sequence[Tie]], Solved]
-) -> Solved:
-    """Solve with the tooth forces on the flanks that carry: found from the tangential forces alone first."""
-    flanks = dict.fromkeys(gears.meshes(ties), 0.0)
-    found = solve(gears.with_flanks(position, ties, flanks))
-    flanks = {t: flank for t, flank in flanks.items() if is_unique(found.statics, t)}
+Solve = Callable[[Sequence[Tie]], Solved]
+
+
+def with_tooth_forces(position: Position, ties: Sequence[Tie], solve: Solve) -> Solved:
+    """Solve with the tooth forces on the flanks that carry.
+
+    The tangential forces are found first, with the separating ones open. Where equilibrium determines
+    both parts of a force (wheels that no bearing keeps apart), it needs no pressure angle.
+    """
+    meshes = gears.meshes(ties)
+    if not meshes:
+        return solve(ties)
+    found = solve(gears.with_flanks(position, ties, dict.fromkeys(meshes, 0.0)))
+    flanks = {t: carrying(found, t) for t in meshes if is_unique(found.statics, t, 0)}
+    flanks = {t: flank for t, flank in flanks.items() if not is_unique(found.statics, t, 1)}
+    return on_flanks(position, ties, flanks, solve)
+
+
+def on_flanks(position: Position, ties: Sequence[Tie], flanks: Mapping[int, float], solve: Solve) -> Solved:
+    """Solve with tooth forces on these flanks first; where a force pulls, on the other one."""
     for _ in range(MOST_TURNS):
-        turned = {t: _carrying(found, t) * (flank or 1.0) for t, flank in flanks.items()}
+        found = solve(gears.with_flanks(position, ties, flanks))
+        turned = {t: flank * carrying(found, t) for t, flank in flanks.items()}
         if turned == flanks:
             break
         flanks = turned
-        found = solve(gears.with_flanks(position, ties, flanks))
     return found
 
 
-def _carrying(found: Solved, t: int) -> float:
-    """Sign of the force in a mesh along its unit."""
-    value = found.statics.value(found.statics.first[t], found.parameters)
-    return 0.0 if value == 0.0 else math.copysign(1.0, value)
+def carrying(found: Solved, t: int) -> float:
+    """Sign of the force in a mesh along its first unit."""
+    return math.copysign(1.0, found.statics.value(found.statics.first[t], found.parameters))

@@ -106,7 +106,15 @@ def _roll(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
     radii = _radii(entry) if entry.has("radii") else None
     if radii and max(radius.value for radius in radii) <= 0.0:
         entry.refuse(entry.mark("radii"), f"one of the radii of {entry.what} should be greater than zero")
-    return Roll(_two(links), at, radii) if at and whole else None
+    angle = _pressure_angle(entry)
+    return Roll(_two(links), at, radii, angle) if at and whole else None
+
+
+def _pressure_angle(entry: Entry) -> Number | None:
+    angle = entry.number("pressure angle", "angle", "positive")
+    if angle is not None and angle.value >= 90.0:
+        entry.refuse(entry.mark("pressure angle"), "a pressure angle is less than 90 degrees")
+    return angle
 
 
 def _radii(entry: Entry) -> tuple[Number, Number] | None:
@@ -117,9 +125,7 @@ def _gears(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
     teeth = _teeth(entry)
     carrier = _carrier(entry, links)
     entry.one_of(("diametral pitch", "module"))
-    angle = entry.number("pressure angle", "angle", "positive")
-    if angle is not None and angle.value >= 90.0:
-        entry.refuse(entry.mark("pressure angle"), "a pressure angle is less than 90 degrees")
+    angle = _pressure_angle(entry)
     pitch = entry.number("diametral pitch", "pitch", "positive")
     module = entry.number("module", "length", "positive")
     return Gears(_two(links), teeth, carrier, angle, pitch, module) if teeth and whole else None
@@ -191,7 +197,7 @@ KINDS: Kinds[Joint] = {
     "pin": (("at", "mu", "radius"), _pin),
     "slide": (("at", "along", "through", "mu", "length"), _slide),
     "slot": (("at", "along", "through", "mu"), _slot),
-    "roll": (("at", "radii"), _roll),
+    "roll": (("at", "radii", "pressure angle"), _roll),
     "gears": (("teeth", "carrier", "pressure angle", "diametral pitch", "module"), _gears),
     "belt": (("radii", "carrier", "crossed"), _belt),
     "contact": (("at", "normal", "mu"), _contact),
