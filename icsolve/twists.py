@@ -176,6 +176,8 @@ def _eliminated(group: Group, top: Topology, bases: Bases, pool: _Pool) -> Close
     ends = {body for k in group.bonds for body in (top.bonds[k].a, top.bonds[k].b)}
     roots = {body: pool.now(body, FRAME) for body in sorted(ends - set(group.bodies))}
     tree = span(top, group.bonds, roots, bases)
+    if not ends <= tree.branches.keys():  # part of it hangs on nothing known: all joints at once then
+        return Closure(group, 0.0, (0.0,)), dict.fromkeys(group.bodies, ORIGIN), FRAME
     solved = null_space(loop_rows(top, tree, bases, roots), tree.columns + 1, unit=1.0)
     if len(solved.basis) != 1:
         return Closure(group, 0.0, (0.0,)), dict.fromkeys(group.bodies, ORIGIN), FRAME
