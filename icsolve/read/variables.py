@@ -113,7 +113,7 @@ def substitute(
         if name not in names:
             problems.refuse(section, f"there is no variable {shown(name)}{suggestion(name, names)}")
     values = first_values(variables) | dict(given)
-    used: set[str] = set()
+    used = _misread(root, names)
     for key, node in root.items.items():
         if key not in _LEFT_OUT:
             root.items[key] = _put_in(node, values, used, problems, key in _TEXTS)
@@ -122,6 +122,12 @@ def substitute(
             problems.refuse(section, f"the variable {name} is used nowhere; write ${name} where it stands")
     if variables:
         _tell(root, values)
+
+
+def _misread(root: Mapping, names: list[str]) -> set[str]:
+    """Variables that stand in the section but can't be read, of which nothing more is to be said."""
+    section = root.items.get("variables")
+    return set(section.items) - set(names) if type(section) is Mapping else set()
 
 
 def _tell(root: Mapping, values: dict[str, str]) -> None:
@@ -145,8 +151,9 @@ def _put_in(node: Node, values: dict[str, str], used: set[str], problems: Proble
         return node
     unknown = [name for name in names if name not in values]
     if unknown:
-        problems.refuse(node.mark, f"there is no variable ${unknown[0]}{suggestion(unknown[0], values)}")
-        return node
+        if unknown[0] not in used:
+            problems.refuse(node.mark, f"there is no variable ${unknown[0]}{suggestion(unknown[0], values)}")
+        return Scalar("1", node.plain, node.mark)
     used.update(() if free else names)
     try:
         text = with_texts(node.text, values) if free else replaced(node.text, values)

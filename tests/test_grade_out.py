@@ -1,0 +1,324 @@
+"""Results and questions for platforms, each against the form that the platform documents."""
+
+from __future__ import annotations
+
+import base64
+import csv
+import io
+import json
+import os
+import re
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import pytest
+
+from grade_shell import CASES, PRESS, Class
+
+ANSWERS = (
+    "student_id,case,answer\n"
+    "007,lever,200 N*m ccw\n007,pusher,-100\n"
+    '008,lever,"1,234"\n008,pusher,nonsense\n'
+    "009,lever,\n009,nowhere,5\n"
+)
+ROSTER = (
+    "student_id,email,first_name,last_name,section\n"
+    "007,ann@x.test,Ann,Bee,A\n008,bob@x.test,Bob,Cee,A\n009,,=Cy,Dee,B\n"
+)
+
+
+@pytest.fixture
+def a_class(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Class:
+    return Class(tmp_path, capsys)
+
+
+def written(a_class: Class, kind: str, name: str, *options: str, answers: str = ANSWERS) -> Path:
+    """The file that `--write` makes of these answers."""
+    roster = a_class.file("roster.csv", ROSTER)
+    out = a_class.path(name)
+    ran = a_class.grade(answers, "--write", f"{kind}={out}", "--roster", roster, *options)
+    assert ran.code in (0, 1)
+    return out
+
+
+def table(path: Path, **options: Any) -> list[list[str]]:
+    return list(csv.reader(io.StringIO(path.read_text(encoding="utf-8")), **options))
+
+
+STATUS = {"passed", "failed"}
+VISIBLE = {"hidden", "after_due_date", "after_published", "visible"}
+FORMATS = {"text", "html", "simple_format", "md", "ansi"}
+
+
+def check_gradescope(entry: dict[str, Any]) -> None:
+    """``results.json`` as Gradescope's autograder specification gives it."""
+    known = {"score", "execution_time", "output", "output_format", "test_output_format", "test_name_format"}
+    known |= {"visibility", "stdout_visibility", "extra_data", "leaderboard", "tests"}
+    assert set(entry) <= known
+    assert isinstance(entry["score"], int | float)
+    assert {entry["visibility"], entry["stdout_visibility"]} <= VISIBLE
+    assert entry["output_format"] in FORMATS
+    fields = {
+        "score",
+        "max_score",
+        "status",
+        "name",
+        "name_format",
+        "number",
+        "output",
+        "output_format",
+        "tags",
+    }
+    for test in entry["tests"]:
+        assert set(test) <= fields | {"visibility", "extra_data"}
+        assert isinstance(test["score"], int | float) and isinstance(test["max_score"], int | float)
+        assert test["status"] in STATUS and test["visibility"] in VISIBLE
+        assert isinstance(test["number"], str) and all(isinstance(tag, str) for tag in test["tags"])
+    assert entry["score"] == pytest.approx(sum(test["score"] for test in entry["tests"]))
+
+
+def test_gradescope_results_of_each_student(a_class: Class) -> None:
+    folder = written(a_class, "gradescope", "gs")
+    assert {path.name for path in folder.iterdir()} == {"007.json", "008.json", "009.json"}
+    for path in folder.iterdir():
+        check_gradescope(json.loads(path.read_text()))
+    ann = json.loads((folder / "007.json").read_text())
+    assert [(test["name"], test["status"], test["score"]) for test in ann["tests"]] == [
+        ("lever", "passed", 1.0),
+        ("pusher", "failed", 0.0),
+    ]
+    assert ann["tests"][1]["tags"] == ["wrong", "sign"]
+
+
+def test_the_autograder_zip_runs_as_gradescope_runs_it(a_class: Class, tmp_path: Path) -> None:
+    archive = a_class.path("autograder.zip")
+    a_class.course("cases: {lever: {points: 5}, pusher: {points: 5}}\n")
+    cases = str(a_class.path("cases"))
+    assert a_class.run("export", "gradescope-zip", cases, "-o", str(archive)).code == 0
+    first = archive.read_bytes()
+    a_class.run("export", "gradescope-zip", cases, "-o", str(archive), "--force")
+    assert archive.read_bytes() == first
+    base = tmp_path / "autograder"
+    with zipfile.ZipFile(archive) as zipped:
+        assert {"setup.sh", "run_autograder", "cases/lever.yaml", "cases/course.yaml"} <= set(
+            zipped.namelist()
+        )
+        assert all(zipped.getinfo(n).external_attr >> 16 & 0o111 for n in ("setup.sh", "run_autograder"))
+        zipped.extractall(base / "source")
+    (base / "submission").mkdir()
+    (base / "submission" / "answers.txt").write_text("lever: 200 N*m ccw\npusher: -100\n")
+    metadata = {"users": [{"email": "ann@x.test"}], "created_at": "2025-03-01T10:00:00Z"}
+    (base / "submission_metadata.json").write_text(json.dumps(metadata))
+    root = str(Path(__file__).parent.parent)
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    environment = {**os.environ, "AUTOGRADER": str(base), "PATH": path, "PYTHONPATH": root}
+    subprocess.run(["bash", str(base / "source" / "run_autograder")], env=environment, check=False)
+    entry = json.loads((base / "results" / "results.json").read_text())
+    check_gradescope(entry)
+    assert entry["score"] == 5.0
+
+
+def test_the_canvas_gradebook(a_class: Class) -> None:
+    rows = table(written(a_class, "canvas", "canvas.csv"))
+    assert rows[0] == ["Student", "ID", "SIS User ID", "SIS Login ID", "Section", "lever", "pusher"]
+    assert rows[1] == ["    Points Possible", "", "", "", "", "1", "1"]
+    assert rows[2] == ["Bee, Ann", "", "007", "ann@x.test", "A", "1", "0"]
+    assert rows[4][0] == "Dee, =Cy"
+
+
+def test_the_teachers_own_canvas_export_is_filled(a_class: Class) -> None:
+    template = a_class.file(
+        "export.csv",
+        "Student,ID,SIS User ID,SIS Login ID,Section,lever (991)\n    Points Possible,,,,,1.0\n"
+        '"Bee, Ann",31,007,ann,A,\n"Cee, Bob",32,,bob@x.test,A,0.5\n"Other, One",33,x,x,A,0.25\n',
+    )
+    rows = table(written(a_class, "canvas", "canvas.csv", "--template", template))
+    assert rows[0] == ["Student", "ID", "SIS User ID", "SIS Login ID", "Section", "lever (991)", "pusher"]
+    assert [row[5:] for row in rows[1:]] == [["1.0", "1"], ["1", "0"], ["0", "0"], ["0.25", ""]]
+
+
+def test_moodles_worksheet_has_grade_and_comment_always(a_class: Class) -> None:
+    """An import of comments alone wipes the grades."""
+    header, *rows = table(written(a_class, "moodle", "moodle.csv"))
+    assert header == (
+        "Identifier,Full name,Email address,Status,Grade,Maximum Grade,Grade can be changed,"
+        "Last modified (submission),Last modified (grade),Feedback comments"
+    ).split(",")
+    assert [row[:2] + row[4:6] for row in rows] == [
+        ["007", "Ann Bee", "1", "2"],
+        ["008", "Bob Cee", "0", "2"],
+        ["009", "'=Cy Dee", "0", "2"],
+    ]
+    assert all(row[4] and row[-1] for row in rows)
+
+
+def test_the_teachers_own_worksheet_in_german_is_filled(a_class: Class) -> None:
+    template = a_class.file(
+        "blatt.csv",
+        "ID;Vollständiger Name;E-Mail-Adresse;Status;Bewertung;Bestwertung;Feedback als Kommentar\n"
+        "Teilnehmer/in 123;Ann Bee;ann@x.test;;;10,00;\nTeilnehmer/in 124;Zoe;zoe@x.test;;;10,00;\n",
+    )
+    _, ann, zoe = table(written(a_class, "moodle", "moodle.csv", "--template", template), delimiter=";")
+    assert ann[:2] == ["Teilnehmer/in 123", "Ann Bee"]
+    assert ann[4] == "5,00"
+    assert "lever: right" in ann[6]
+    assert zoe[4:] == ["", "10,00", ""]
+
+
+def test_prairielearn_results_and_scores(a_class: Class) -> None:
+    folder = written(a_class, "prairielearn", "pl")
+    ann, bob = (json.loads((folder / f"{name}.json").read_text()) for name in ("007", "008"))
+    for entry in (ann, bob):
+        assert set(entry) <= {"gradable", "score", "message", "output", "images", "format_errors", "tests"}
+        assert 0.0 <= entry["score"] <= 1.0
+        for test in entry["tests"]:
+            assert set(test) == {"name", "description", "points", "max_points", "message", "output"}
+    assert (ann["gradable"], ann["score"]) == (True, 0.5)
+    assert bob["gradable"] is False
+    assert bob["format_errors"][0].startswith("pusher: ")
+    rows = table(written(a_class, "prairielearn-csv", "pl.csv"))
+    assert rows[0] == ["uid", "instance", "qid", "score_perc", "feedback"]
+    assert rows[1][:4] == ["007", "1", "lever", "100"]
+
+
+def test_the_prairielearn_question_grades_by_itself(a_class: Class, monkeypatch: pytest.MonkeyPatch) -> None:
+    a_class.case("press", PRESS)
+    folder = a_class.path("elements")
+    assert a_class.run("export", "prairielearn", str(a_class.path("cases")), "-o", str(folder)).code == 1
+    info = json.loads((folder / "press" / "info.json").read_text())
+    assert {"uuid", "title", "topic", "type"} <= set(info)
+    assert re.fullmatch(r"[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}", info["uuid"])
+    assert (folder / "press" / "clientFilesQuestion" / "figure.svg").read_text().startswith("<svg")
+    scope: dict[str, Any] = {"__file__": str(folder / "press" / "server.py")}
+    exec((folder / "press" / "server.py").read_text(), scope)
+    data: dict[str, Any] = {"variant_seed": "77", "params": {}, "correct_answers": {}}
+    data |= {"submitted_answers": {}, "format_errors": {}, "partial_scores": {}}
+    scope["generate"](data)
+    assert set(data["params"]) >= {"P", "a", "given", "asked"}
+    data["submitted_answers"]["answer"] = data["correct_answers"]["answer"]
+    scope["parse"](data)
+    scope["grade"](data)
+    assert (data["score"], data["format_errors"]) == (1.0, {})
+    value = float(data["correct_answers"]["answer"].split()[0])
+    data["submitted_answers"]["answer"] = f"{-value}"
+    scope["grade"](data)
+    assert data["partial_scores"]["answer"]["score"] == 0.0
+    assert "sense" in data["partial_scores"]["answer"]["feedback"]
+    data["submitted_answers"]["answer"] = "five"
+    scope["parse"](data)
+    assert "answer" in data["format_errors"]
+
+
+def test_junit(a_class: Class) -> None:
+    root = ElementTree.fromstring(written(a_class, "junit", "report.xml").read_text(encoding="utf-8"))
+    assert root.tag == "testsuites"
+    assert {key: root.get(key) for key in ("tests", "failures", "errors", "skipped")} == {
+        "tests": "7", "failures": "1", "errors": "1", "skipped": "4",
+    }  # fmt: skip
+    for suite in root:
+        assert suite.tag == "testsuite"
+        cases = list(suite)
+        assert len(cases) == int(suite.get("tests") or -1)
+        assert sum(case.find("failure") is not None for case in cases) == int(suite.get("failures") or 0)
+        assert all(case.get("name") and case.get("classname") for case in cases)
+
+
+def moodle(a_class: Class, cases: str, *options: str) -> ElementTree.Element:
+    out = a_class.path("quiz.xml")
+    a_class.run("export", "moodle-xml", cases, "-o", str(out), "--force", *options)
+    return ElementTree.fromstring(out.read_text(encoding="utf-8"))
+
+
+FRACTIONS = (
+    "100 90 83.33333 80 75 70 66.66667 60 50 40 33.33333 30 25 20 16.66667 14.28571 12.5 11.11111 10 5 0"
+).split()
+
+
+def test_moodle_questions_with_tolerances_units_and_wrong_answers(a_class: Class) -> None:
+    a_class.course("malrules: {sign: 50%, half: 34%}\nunit: required\npoints: 3\n")
+    category, *questions = moodle(a_class, str(a_class.path("cases")))
+    assert category.find("category/text").text == "$course$/icsolve"  # type: ignore[union-attr]
+    assert [q.findtext("name/text") for q in questions] == ["lever", "pusher"]
+    (lever, _) = questions
+    assert lever.get("type") == "numerical"
+    tags = "name questiontext generalfeedback defaultgrade penalty hidden answer units".split()
+    assert set(tags) <= {child.tag for child in lever}
+    answers = lever.findall("answer")
+    assert all(answer.get("fraction") in FRACTIONS for answer in answers)
+    right, *wrong, rest = [(a.get("fraction"), a.findtext("text"), a.findtext("tolerance")) for a in answers]
+    assert right == ("100", "200", "2.0000002")
+    assert ("50", "-200", "2.0000002") in wrong
+    assert ("33.33333", "100", "1.0000001") in wrong
+    assert rest == ("0", "*", "0")
+    assert lever.findtext("defaultgrade") == "3"
+    assert lever.findtext("unitgradingtype") == "1"
+    units = {
+        u.findtext("unit_name"): float(u.findtext("multiplier") or 0) for u in lever.findall("units/unit")
+    }
+    assert units["N*m"] == 1.0
+    assert units["kN*m"] == pytest.approx(0.001)
+    assert units["lbf*ft"] == pytest.approx(0.7375621)
+    assert all(len(name or "") <= 50 for name in units)
+
+
+def test_no_wrong_answer_of_a_moodle_question_swallows_the_right_one(a_class: Class) -> None:
+    """Moodle takes the first row that matches, and rows may not take each other's answers."""
+    for question in moodle(a_class, str(CASES / "ch13"), "--no-figures")[1:]:
+        rows = [
+            (float(a.findtext("text") or 0), float(a.findtext("tolerance") or 0))
+            for a in question.findall("answer")[:-1]
+        ]
+        right, half = rows[0]
+        assert half == pytest.approx(0.01 * abs(right), rel=1e-6)
+        assert all(abs(value - right) > half for value, _ in rows[1:])
+
+
+def test_the_figure_of_a_question_is_in_the_file_and_shows_no_answer(a_class: Class) -> None:
+    (question,) = moodle(a_class, str(CASES / "ch13" / "13_08_four_bar.yaml"))[1:]
+    file = question.find("questiontext/file")
+    assert file is not None and file.get("encoding") == "base64"
+    picture = base64.b64decode(file.text or "").decode("utf-8")
+    assert "@@PLUGINFILE@@/figure.svg" in (question.findtext("questiontext/text") or "")
+    assert "T12 = ?" in picture
+    assert "29.67" not in picture
+
+
+def test_variants_become_questions_of_their_own(a_class: Class) -> None:
+    a_class.case("press", PRESS)
+    path = str(a_class.path("cases/press.yaml"))
+    questions = moodle(a_class, path, "--no-figures", "--count", "4")[1:]
+    assert [q.findtext("name/text") for q in questions] == [f"press v{n}" for n in (1, 2, 3, 4)]
+    assert len({q.findtext("answer/text") for q in questions}) > 1
+
+
+def test_gift(a_class: Class) -> None:
+    """``{#=%100%value:tolerance#feedback ...}`` with its own characters escaped."""
+    out = a_class.path("quiz.gift")
+    a_class.run("export", "gift", str(a_class.path("cases/lever.yaml")), "-o", str(out))
+    text = out.read_text(encoding="utf-8")
+    category, question = text.strip().split("\n\n")
+    assert category == "$CATEGORY: $course$/icsolve"
+    found = re.fullmatch(r"::lever::(.*) \{#\n(.*)\n####(.*)\n\}", question, re.DOTALL)
+    assert found is not None
+    for part in (found.group(1), found.group(3)):
+        assert not re.search(r"(?<!\\)[~=#{}:]", part)
+    rows = [
+        re.fullmatch(r"=%([\d.]+)%(-?[\d.e+-]+):([\d.e+-]+)#(.*)", row) for row in found.group(2).split("\n")
+    ]
+    assert all(rows)
+    assert [row.groups()[:3] for row in rows[:2] if row] == [
+        ("100", "200", "2.0000002"),
+        ("0", "-200", "2.0000002"),
+    ]
+    assert not any(re.search(r"(?<!\\)[~=#{}:]", row.group(4)) for row in rows if row)
+
+
+def test_an_unknown_kind_is_refused(a_class: Class) -> None:
+    ran = a_class.grade(ANSWERS, "--write", f"brightspace={a_class.path('x')}")
+    assert ran.code == 2
+    assert "there is no such kind" in ran.err
+    assert a_class.run("export", "qti", str(a_class.path("cases")), "-o", "x").code == 2

@@ -1,0 +1,136 @@
+"""Variants: values by hash, the same everywhere; fair tasks only; keys that are those of the case itself."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import pytest
+
+import icsolve
+from grade_shell import PRESS, Class
+from icsolve.case import Variable
+from icsolve.grade.course import Course
+from icsolve.grade.shelf import Shelf
+from icsolve.grade.variants import Varied, drawn, label
+
+VARIABLES = (Variable("P", start="100", stop="500", step="10"), Variable("a", choices=("1.5", "2", "2.5")))
+
+
+@pytest.fixture
+def a_class(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Class:
+    found = Class(tmp_path, capsys)
+    found.case("press", PRESS)
+    return found
+
+
+def varied(a_class: Class, seed: str = "0") -> Varied:
+    found = Shelf(a_class.path("cases"), Course(seed=seed)).variation("press")
+    assert found is not None
+    return found
+
+
+def test_values_follow_from_case_student_and_seed_alone() -> None:
+    """SHA-256 of the five texts: these values are to come out on every machine and in every version."""
+    assert drawn("press", VARIABLES, "0007", "2025", 0) == {"P": "310", "a": "1.5"}
+    assert drawn("press", VARIABLES, "0007", "2025", 1) != drawn("press", VARIABLES, "0007", "2025", 2)
+    assert label("press", {"P": "490", "a": "2"}) == label("press", {"P": "490", "a": "2"})
+    assert len(label("press", {"P": "490", "a": "2"})) == 8
+
+
+def test_every_value_is_drawn_about_equally_often() -> None:
+    """A chi-square of 41 values over 4100 students stays below its 99.9 % quantile, 73.4."""
+    counts: dict[str, int] = {}
+    for n in range(4100):
+        value = drawn("press", VARIABLES, str(n), "", 0)["P"]
+        counts[value] = counts.get(value, 0) + 1
+    assert set(counts) == {str(p) for p in range(100, 501, 10)}
+    assert sum((count - 100) ** 2 / 100 for count in counts.values()) < 73.4
+
+
+def test_another_seed_gives_other_values(a_class: Class) -> None:
+    first, second = varied(a_class, "a"), varied(a_class, "b")
+    students = [str(n) for n in range(40)]
+    assert sum(first.draw(s) == second.draw(s) for s in students) < 10
+    assert [first.draw(s) for s in students] == [varied(a_class, "a").draw(s) for s in students]
+
+
+def test_a_key_is_what_the_case_gives_with_those_values(a_class: Class) -> None:
+    shelf = Shelf(a_class.path("cases"), Course())
+    found = shelf.variation("press")
+    assert found is not None
+    for n in range(30):
+        draw = found.draw(str(n))
+        settings = {f"variables.{name}": value for name, value in draw.values.items()}
+        answer = icsolve.solve(icsolve.load(a_class.path("cases/press.yaml"), settings))
+        key = shelf.key("press", str(n))
+        assert key.value == pytest.approx(answer.answers["T12"].value, rel=1e-13)  # type: ignore[union-attr]
+
+
+def test_loads_that_do_not_grow_alike_are_solved_each(a_class: Class) -> None:
+    text = PRESS.replace("  T12:", "  W: {weight: 50, link: 3, at: C}\n  T12:")
+    a_class.case("press", text)
+    test_a_key_is_what_the_case_gives_with_those_values(a_class)
+
+
+def test_only_variants_that_assemble_and_are_far_from_a_dead_centre(a_class: Class) -> None:
+    """With AB from 1 to 2.5 at 0 to 60 degrees the coupler and rocker stretch out, or do not meet."""
+    text = PRESS.replace(
+        "a: {choices: [1, 1.25, 1.5]}", "a: {range: [0.2, 2.6], step: 0.2}\n  phi: {range: [0, 60], step: 2}"
+    )
+    a_class.case("press", text.replace("AB: 60", "AB: $phi"))
+    found = varied(a_class)
+    for n in range(60):
+        values = found.draw(str(n)).values
+        settings = {f"variables.{name}": value for name, value in values.items()}
+        answer = icsolve.solve(icsolve.load(a_class.path("cases/press.yaml"), settings))
+        assert abs(answer.answers["T12"].value) < 20.0 * float(values["P"])
+    assert any(figure is None for figure in found._figures.values())
+
+
+def test_a_case_none_of_whose_variants_suits_says_so(a_class: Class) -> None:
+    a_class.case("press", PRESS.replace("[1, 1.25, 1.5]", "[7, 8]"))
+    roster = a_class.file("roster.csv", "student_id\n1\n2\n")
+    ran = a_class.run(
+        "variants", str(a_class.path("cases")), "--roster", roster, "-o", str(a_class.path("out"))
+    )
+    assert ran.code == 1
+    assert "1: none of 60 variants of press suits" in ran.err
+
+
+def test_sheets_keys_and_figures_of_a_class(a_class: Class) -> None:
+    roster = a_class.file(
+        "roster.csv", "student_id,email,first_name,last_name\n007,a@x.test,Ann,Bee\n../8,,Bob,Cee\n"
+    )
+    out = a_class.path("out")
+    cases = str(a_class.path("cases"))
+    ran = a_class.run("variants", cases, "--roster", roster, "-o", str(out), "-q")
+    assert ran.code == 0
+    with open(out / "press" / "values.csv", newline="") as file:
+        values = list(csv.DictReader(file))
+    assert [row["student_id"] for row in values] == ["007", "../8"]
+    assert set(values[0]) == {"student_id", "email", "variant", "P", "a"}
+    with open(out / "press" / "key.csv", newline="") as file:
+        key = next(csv.DictReader(file))
+    assert key["unit"] == "lbf*in"
+    assert key["sense"] in ("cw", "ccw")
+    assert float(key["from"]) < abs(float(key["value"])) < float(key["to"])
+    figure = (out / "press" / "figures" / f"{values[0]['variant']}.svg").read_text()
+    assert "T12 = ?" in figure
+    sheets = sorted(path.name for path in (out / "press" / "sheets").iterdir())
+    assert sheets[0].startswith("007") or sheets[1].startswith("007")
+    assert all(path.parent == out / "press" / "sheets" for path in (out / "press" / "sheets").iterdir())
+    sheet = (out / "press" / "sheets" / "007.html").read_text()
+    assert f"{values[0]['P']} lbf" in sheet
+    assert key["value"][:6].lstrip("-") not in sheet
+    assert a_class.run("variants", cases, "--roster", roster, "-o", str(out), "-q").code == 2
+
+
+def test_a_folder_without_variables_says_what_they_look_like(a_class: Class) -> None:
+    a_class.path("cases/press.yaml").unlink()
+    roster = a_class.file("roster.csv", "student_id\n1\n")
+    ran = a_class.run(
+        "variants", str(a_class.path("cases")), "--roster", roster, "-o", str(a_class.path("out"))
+    )
+    assert ran.code == 2
+    assert "variables: {P: {range: [100, 500], step: 10}}" in ran.err
