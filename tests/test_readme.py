@@ -10,6 +10,8 @@ from __future__ import annotations
 import doctest
 import re
 import shlex
+import subprocess
+import sys
 from pathlib import Path
 from typing import NamedTuple
 
@@ -23,7 +25,8 @@ from icsolve.errors import Status
 from icsolve.read.build import SECTIONS
 from icsolve.templates import kinds
 
-README = (Path(__file__).parent.parent / "README.md").read_text(encoding="utf-8")
+ROOT = Path(__file__).parent.parent
+README = (ROOT / "README.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```$", README, re.DOTALL | re.MULTILINE)
 
 
@@ -174,3 +177,18 @@ def test_exactly_two_commands_get_a_stranger_going() -> None:
     assert len(commands_given) == 2
     assert commands_given[0].endswith("icsolve check cases/")
     assert commands_given[1].endswith("pytest")
+
+
+def test_the_table_of_the_24_problems_is_what_the_command_prints() -> None:
+    table = README.partition("<!-- the 24 problems -->")[2].partition("<!-- /the 24 problems -->")[0]
+    cases = ROOT / "cases" / "ch13"
+    printed = subprocess.run(
+        [sys.executable, "-m", "icsolve", "check", "--table", str(cases)],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert table.strip() == printed.stdout.strip()
+    problems = {int(name[3:5]) for name in re.findall(r"^\| (13_[0-9]{2})_", table, re.MULTILINE)}
+    assert problems == set(range(1, 25))

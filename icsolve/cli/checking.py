@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING
 
 import click
 
 from icsolve.check import AGREES, DISAGREES, ERRATUM, NOT_EXAMINED, Row, compare, wanted
+from icsolve.check_table import HEADER, table_row
 from icsolve.cli.options import CASES, JSON, SET
 from icsolve.cli.run import DONE, NO_ANSWER, complain, for_each, on_stderr
 from icsolve.cli.solving import print_json
+from icsolve.sentences import plural
 
 if TYPE_CHECKING:
     from icsolve.case import Case
@@ -21,8 +23,9 @@ if TYPE_CHECKING:
 @click.command("check")
 @CASES
 @JSON
+@click.option("--table", "as_table", is_flag=True, help="A Markdown table, a row a case.")
 @SET
-def check_command(cases: tuple[str, ...], as_json: bool, settings: dict[str, str]) -> int:
+def check_command(cases: tuple[str, ...], as_json: bool, as_table: bool, settings: dict[str, str]) -> int:
     """Solve cases and compare with the values under `expect`, a line a value.
 
     \b
@@ -30,7 +33,7 @@ def check_command(cases: tuple[str, ...], as_json: bool, settings: dict[str, str
 
     Exit status: 1 where a value disagrees or a case has no answer; an erratum must not agree.
     """
-    return check_cases(cases, as_json, settings)
+    return check_cases(cases, _print_json if as_json else _print_row if as_table else _print_lines, settings)
 
 
 @click.command("validate")
@@ -41,9 +44,14 @@ def validate_command(cases: tuple[str, ...], settings: dict[str, str]) -> int:
     return for_each(cases, _validate, settings=settings)
 
 
-def check_cases(cases: tuple[str, ...], as_json: bool, settings: Mapping[str, str]) -> int:
+Printer = Callable[["Case", str, list[Row]], None]
+
+
+def check_cases(cases: tuple[str, ...], show: Printer, settings: Mapping[str, str]) -> int:
     """Compare the published values of every case; returns the exit status."""
     tally: Counter[str] = Counter()
+    if show is _print_row:
+        click.echo(HEADER)
     files = 0
 
     def work(case: Case, path: str) -> int:
@@ -51,7 +59,7 @@ def check_cases(cases: tuple[str, ...], as_json: bool, settings: Mapping[str, st
         files += 1
         rows = _rows(case)
         tally.update(row.verdict for row in rows)
-        _print_rows(case, path, rows, as_json)
+        show(case, path, rows)
         return NO_ANSWER if any(row.verdict == DISAGREES for row in rows) else DONE
 
     def refuse(case: Case, path: str, error: SceneError) -> None:
@@ -72,11 +80,16 @@ def _rows(case: Case) -> list[Row]:
     return compare(solve(case, all_centres=centres, rates=rates, examine=True, reactions=reactions))
 
 
-def _print_rows(case: Case, path: str, rows: list[Row], as_json: bool) -> None:
-    if as_json:
-        values = [row._asdict() for row in rows]
-        print_json({"schema": "icsolve/check/1", "case": case.name, "values": values})
-        return
+def _print_json(case: Case, path: str, rows: list[Row]) -> None:
+    values = [row._asdict() for row in rows]
+    print_json({"schema": "icsolve/check/1", "case": case.name, "values": values})
+
+
+def _print_row(case: Case, path: str, rows: list[Row]) -> None:
+    click.echo(table_row(case, rows))
+
+
+def _print_lines(case: Case, path: str, rows: list[Row]) -> None:
     for row in rows:
         click.echo(f"{path}: {_line(row)}")
     if not rows:
@@ -103,7 +116,8 @@ def _validate(case: Case, path: str) -> int:
 
     answer = solve(case, examine=True)
     mobility = "" if answer.mobility is None else f", mobility {answer.mobility}"
-    click.echo(f"{path}: valid: {len(case.links)} links, {len(case.joints)} joints{mobility}")
+    count = f"{plural(len(case.links), 'link')}, {plural(len(case.joints), 'joint')}"
+    click.echo(f"{path}: valid: {count}{mobility}")
     for sentence in (*answer.notes, *answer.skipped):
         click.echo(f"  {sentence}")
     return DONE
