@@ -206,9 +206,18 @@ def _results(options: dict[str, Any], force: bool) -> Iterator[tuple[IO[str] | N
 
 @contextmanager
 def _progress(quiet: bool) -> Iterator[Any]:
-    """Steps of long work on a terminal."""
+    """A bar for work that takes more than a second, on a terminal only."""
+    import time
+
     shown = not quiet and sys.stderr.isatty()
-    yield (lambda what: click.echo(f"\r\033[K{what}", nl=False, err=True)) if shown else (lambda what: None)
+    start = time.monotonic()
+
+    def show(what: str, share: float) -> None:
+        if shown and time.monotonic() - start > 1.0:
+            bar = "#" * round(30 * min(share, 1.0))
+            click.echo(f"\r\033[K{what[:40]:40} [{bar:30}] {min(share, 1.0):4.0%}", nl=False, err=True)
+
+    yield show
     if shown:
         click.echo("\r\033[K", nl=False, err=True)
 

@@ -77,10 +77,17 @@ class Sinks(NamedTuple):
     jsonl: IO[str] | None = None
 
 
-Progress = Callable[[str], None]
+Progress = Callable[[str, float], None]
+"""Told what is being done, and how much of it is, from 0 to 1."""
+_STEP = 5000
+"""Results between two reports of progress."""
 
 
-def grade(job: Job, sinks: Sinks, progress: Progress = lambda what: None) -> Graded:
+def silent(what: str, share: float) -> None:
+    """No report."""
+
+
+def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
     """Grade all submissions of a job; results go to the sinks, sorted by student and question.
 
     Raises HeaderError, ValueError or OSError where a file can't be used at all.
@@ -95,13 +102,12 @@ def grade(job: Job, sinks: Sinks, progress: Progress = lambda what: None) -> Gra
         stack.callback(store.close)
         intake = Intake(store, shelf, ledger, roster, job.student)
         paths = expand(job.submissions)
-        for path in paths:
-            progress(f"reading {path}")
+        for n, path in enumerate(paths):
+            progress(f"reading {path}", n / len(paths))
             intake.read(path, job.course.columns)
         folder = stack.enter_context(tempfile.TemporaryDirectory(prefix="icsolve-grade-"))
         parts = list(_parts(job, intake, roster, store.path, ", ".join(paths), folder, sinks))
-        progress(f"judging {intake.count} answers")
-        found = list(_done(parts, shelf, store))
+        found = list(_done(parts, shelf, store, lambda n: progress("judging", n / max(intake.count, 1))))
         _join(parts, sinks)
         for _, notes, _ in found:
             ledger.extend(notes)
@@ -175,10 +181,11 @@ def _is_final(shelf: Shelf, question: str) -> bool:
 Outcome = tuple[dict[str, Counts], list[Noted], dict[str, list[str]]]
 
 
-def _done(parts: list[Part], shelf: Shelf, store: Store) -> Iterable[Outcome]:
+def _done(parts: list[Part], shelf: Shelf, store: Store, report: Callable[[int], None]) -> Iterable[Outcome]:
     """Each part's outcome: of one part here, of several in as many processes."""
+    report(0)
     if len(parts) == 1:
-        return [_judged(parts[0], shelf, store.sorted())]
+        return [_judged(parts[0], shelf, store.sorted(), report)]
     from concurrent.futures import ProcessPoolExecutor
 
     with ProcessPoolExecutor(len(parts)) as pool:
@@ -195,7 +202,9 @@ def work(part: Part) -> Outcome:
         disk.close()
 
 
-def _judged(part: Part, shelf: Shelf, entries: Iterator[Entry]) -> Outcome:
+def _judged(
+    part: Part, shelf: Shelf, entries: Iterator[Entry], report: Callable[[int], None] = lambda n: None
+) -> Outcome:
     """Judge sorted entries; results go to the part's own files."""
     ledger = Ledger()
     marker = Marker(shelf, part.job.course, ledger, part.path, part.questions)
@@ -204,7 +213,9 @@ def _judged(part: Part, shelf: Shelf, entries: Iterator[Entry]) -> Outcome:
         jsonl = (
             stack.enter_context(open(part.jsonl, "w", encoding="utf-8", newline="")) if part.jsonl else None
         )
-        for result in marker.results(entries, part.students):
+        for n, result in enumerate(marker.results(entries, part.students), 1):
+            if not n % _STEP:
+                report(n)
             if csv is not None:
                 csv.write(line(result))
             if jsonl is not None:

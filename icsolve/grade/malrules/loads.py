@@ -10,8 +10,8 @@ from icsolve.case import Load
 from icsolve.grade.malrules.changed import Resolve, known_loads, scaled, turned, with_load
 from icsolve.grade.malrules.messages import Wrong
 
-Many = dict[str, list[Wrong]]
-"""Wrong answers by the unknown that they are given for."""
+_NOTHING = 1e-9
+"""A component below this part of the other is rounding."""
 
 
 def load_wrongs(answer: Answer, resolve: Resolve) -> Iterator[tuple[str, Wrong]]:
@@ -53,6 +53,8 @@ def _component(
         if name not in base or name not in quarter:
             continue
         along, across = value - base[name], quarter[name] - base[name]
+        if abs(across) <= _NOTHING * abs(along):
+            continue  # along its velocity: nothing to leave out, and sine for cosine leaves the load out
         yield name, Wrong("no-cos", base[name] + math.copysign(math.hypot(along, across), along), load.name)
         yield name, Wrong("sin-cos", base[name] + math.copysign(across, along), load.name)
         yield name, Wrong("sin-cos", base[name] - math.copysign(across, along), load.name)

@@ -1,0 +1,118 @@
+"""Scale: judging beside the mere reading of the file; `ICSOLVE_FULL=1` runs the full sizes."""
+
+from __future__ import annotations
+
+import csv
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from grade_bench import CASES, floor, write_class
+from grade_shell import PRESS
+from icsolve.grade.course import Course
+from icsolve.grade.judge import judge
+from icsolve.grade.keys import Key
+from icsolve.grade.shelf import Shelf
+from icsolve.grade.written import Reader
+
+FULL = bool(os.environ.get("ICSOLVE_FULL"))
+STUDENTS = 4000 if FULL else 800
+"""times 25 cases"""
+ROOT = Path(__file__).parent.parent
+
+
+@pytest.fixture(scope="module")
+def table(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("scale") / "class.csv"
+    write_class(path, STUDENTS)
+    return path
+
+
+def command(*arguments: str) -> tuple[float, int]:
+    """CPU seconds and kilobytes at most of a command, with those that it starts."""
+    script = (
+        "import resource,subprocess,sys;code=subprocess.run(sys.argv[1:]).returncode;"
+        "u=resource.getrusage(resource.RUSAGE_CHILDREN);print(u.ru_utime+u.ru_stime,u.ru_maxrss,code)"
+    )
+    run = [sys.executable, "-c", script, sys.executable, "-m", "icsolve", *arguments]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    ran = subprocess.run(run, capture_output=True, text=True, check=True, env=environment)
+    seconds, kilobytes, code = ran.stdout.split()
+    assert code == "0", ran.stderr
+    return float(seconds), int(kilobytes)
+
+
+def test_judging_alone_takes_at_most_five_times_the_reading(table: Path) -> None:
+    """Reading by Python's csv, and float on the numbers; no verdict is remembered."""
+    with open(table, encoding="utf-8", newline="") as file:
+        rows = list(csv.reader(file))[1:]
+    shelf, reader = Shelf(CASES, Course()), Reader()
+    keys = {name: shelf.key(name) for name in {row[1] for row in rows}}
+    for key in keys.values():
+        assert isinstance(key, Key)
+        key.wrongs.near(0.0)
+    best = float("inf")
+    for _ in range(3):
+        start = time.process_time()
+        for row in rows:
+            judge(keys[row[1]], reader.read(row[2]))  # type: ignore[arg-type]
+        best = min(best, time.process_time() - start)
+    assert best <= 5.0 * floor(table)
+
+
+@pytest.mark.skipif(not FULL, reason="100,000 answers; set ICSOLVE_FULL=1")
+def test_the_whole_command_takes_at_most_25_times_the_reading(table: Path, tmp_path: Path) -> None:
+    out = tmp_path / "results.csv"
+    best = min(
+        command("grade", str(table), "--cases", str(CASES), "-o", str(out), "--force", "-q")[0]
+        for _ in range(3)
+    )
+    assert best <= 25.0 * floor(table)
+
+
+@pytest.mark.skipif(not FULL, reason="a million answers; set ICSOLVE_FULL=1")
+def test_a_million_answers_in_under_400_megabytes(tmp_path: Path) -> None:
+    table, out = tmp_path / "class.csv", tmp_path / "results.csv"
+    write_class(table, 40_000)
+    _, kilobytes = command("grade", str(table), "--cases", str(CASES), "-o", str(out), "-q")
+    assert kilobytes < 400_000
+    with open(out, encoding="utf-8") as file:
+        assert sum(1 for _ in file) > 999_000
+
+
+def test_memory_does_not_grow_with_the_answers(tmp_path: Path) -> None:
+    """Twice the answers, the same memory: what is judged is counted and forgotten."""
+    if not FULL:
+        pytest.skip("300,000 answers; set ICSOLVE_FULL=1")
+    sizes = []
+    for students in (6_000, 12_000):
+        table = tmp_path / f"{students}.csv"
+        write_class(table, students)
+        sizes.append(
+            command(
+                "grade", str(table), "--cases", str(CASES), "-o", str(tmp_path / f"{students}.out"), "-q"
+            )[1]
+        )
+    assert sizes[1] < 1.25 * sizes[0]
+
+
+def test_variants_of_a_four_bar_with_values_and_keys(tmp_path: Path) -> None:
+    """3,000 students in under 2 s of this machine; in CI 300, of which the figures are the same."""
+    students = 3000 if FULL else 300
+    (tmp_path / "cases").mkdir()
+    ranges = "a: {choices: [1, 1.25, 1.5]}\n  phi: {range: [40, 80], step: 1}"
+    text = PRESS.replace("a: {choices: [1, 1.25, 1.5]}", ranges).replace("AB: 60", "AB: $phi")
+    (tmp_path / "cases" / "press.yaml").write_text(text)
+    roster = tmp_path / "roster.csv"
+    roster.write_text("student_id\n" + "".join(f"{n:05d}\n" for n in range(students)))
+    out = tmp_path / "out"
+    seconds, _ = command(
+        "variants", str(tmp_path / "cases"), "--roster", str(roster), "-o", str(out), "--no-figures", "-q"
+    )
+    with open(out / "press" / "key.csv", newline="") as file:
+        assert len(list(csv.DictReader(file))) == students
+    assert seconds < 2.0
