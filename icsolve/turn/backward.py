@@ -1,27 +1,34 @@
 """Bounds of the rounding errors of every row: the backward pass of `icsolve.tape`, on arrays.
 
 The weight of a value (the derivative of the result by it) times its own rounding error, summed over all
-values that lead to the result. Values that are the same in every row bring the bound of their own
-errors; a group that Newton's method solved brings those of its equations.
+values that lead to the result. In a product, a quotient or a root the relative errors of the factors
+weigh the same and are counted together. Values that are the same in every row bring the bound of
+their own errors; a group that Newton's method solved brings those of its equations.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from icsolve.tape import TURN_NOISE, UNIT
 from icsolve.turn.constraints import RADIAN
+from icsolve.turn.noise import ANGLE_NOISE, still_noise
 from icsolve.turn.record import Op, Record, Traced
-from icsolve.turn.replay import Array, Code, operands
+from icsolve.turn.replay import Array, Code, Step, operands
 from icsolve.turn.together import Together
 
 SLICE = 1024
-"""Rows of one pass: every value of them fits the second-level cache."""
-ANGLE_NOISE = 4.0 * UNIT
-ROUNDED = (Op.ADD, Op.SUB, Op.MUL, Op.DIV, Op.SQRT)
+"""Rows of one pass; fewer where there are very many values."""
+MANY = 600
+
+FACTORED = (Op.MUL, Op.DIV, Op.SQRT, Op.NEG)
+"""Operations whose operands' relative errors are those of the result."""
+
+Weight = tuple[Array, float]
+"""An array and a sign."""
 
 
 class Passed(NamedTuple):
@@ -34,7 +41,8 @@ class Passed(NamedTuple):
 class Backward:
     """Backward passes over a record from some of its nodes.
 
-    ``exact`` are inputs that carry no rounding: signs, guesses, counts of turns.
+    ``exact`` are inputs that carry no rounding: signs, guesses, counts of turns. At most ``rows`` rows
+    go through at once.
     """
 
     def __init__(
@@ -43,22 +51,24 @@ class Backward:
         self.record, self.targets, self.exact = record, targets, frozenset(exact)
         self.groups = {min(group.solved): group for group in groups}
         self.member = {k: group for group in groups for k in group.solved}
-        self.nodes = self._reached(targets)
-        guesses = {g: s for group in groups for g, s in zip(group.guesses, group.solved, strict=True)}
-        self.guesses = {g: s for g, s in guesses.items() if g in self.nodes}
-        self.code = Code(record, sorted(self.nodes), keep=True)
+        nodes = self.reached(targets)
+        self.guesses = {
+            g: s for group in groups for g, s in zip(group.guesses, group.solved, strict=True) if g in nodes
+        }
+        self.code = Code(record, sorted(nodes), keep=True)
+        self.rows = SLICE if len(nodes) < MANY else SLICE // 4
         self._still: dict[int, float] = {}
+        self._passes: dict[tuple[int, int], _Pass] = {}
 
-    def _reached(self, targets: Iterable[int]) -> set[int]:
+    def reached(self, targets: Iterable[int]) -> set[int]:
         """The nodes that vary and lead to the targets, through groups as well."""
         seen: set[int] = set()
         stack = [k for k in targets if self.record.nodes[k].row]
         while stack:
             k = stack.pop()
-            if k in seen:
-                continue
-            seen.add(k)
-            stack += [n for n in self._behind(k) if self.record.nodes[n].row]
+            if k not in seen:
+                seen.add(k)
+                stack += [n for n in self._behind(k) if self.record.nodes[n].row]
         return seen
 
     def _behind(self, k: int) -> Iterable[int]:
@@ -71,111 +81,252 @@ class Backward:
         parts = (*group.residuals, *(v for row in group.derivatives for v in row))
         return [*(v.index for v in parts if isinstance(v, Traced)), *group.solved, *group.guesses]
 
+    def noise(self, k: int) -> float:
+        """Bound of the error of a value that is the same in every row."""
+        if k not in self._still:
+            self._still[k] = still_noise(self.record, k)
+        return self._still[k]
+
     def run(self, given: Mapping[int, Array], rows: int) -> list[Passed]:
-        """Bounds of the targets for the given inputs (of at most ``SLICE`` rows)."""
-        values = {**given, **{g: given[s] for g, s in self.guesses.items()}}
-        self.code.run(values, rows)
+        """Bounds of the targets for the given inputs."""
+        self.code.run({**given, **{g: given[s] for g, s in self.guesses.items()}}, rows)
         with np.errstate(all="ignore"):
             return [self._passed(target, rows) for target in self.targets]
 
     def _passed(self, target: int, rows: int) -> Passed:
         if not self.record.nodes[target].row:
-            return Passed(np.full(rows, self._noise(target)), {})
-        weights: dict[int, Array] = {target: np.ones(rows)}
-        bound, units, by = np.zeros(rows), np.zeros(rows), {}
-        for k in sorted(self._reached((target,)), reverse=True):
-            if k in self.groups:
-                self._through(self.groups[k], weights, rows)
-            w = weights.pop(k, None)
-            if w is None:
-                continue
-            if self.record.nodes[k].op == Op.INPUT:
-                by[k] = w
-            self._own(k, w, rows, units, bound)
-            self._spread(k, w, rows, weights, bound)
-        return Passed(bound + UNIT * units, by)
+            return Passed(np.full(rows, self.noise(target)), {})
+        room = self.code.bound(rows)[1].shape[1]
+        if (target, room) not in self._passes:
+            self._passes[target, room] = _Pass(self, target, room)
+        return self._passes[target, room].run(rows)
 
-    def _own(self, k: int, w: Array, rows: int, units: Array, bound: Array) -> None:
-        """The error of a value's own rounding."""
+    def value(self, k: int, rows: int) -> Array:
+        """A node's value in the last run."""
+        return self.code.value(k, rows)
+
+
+class _Pass:
+    """One target's pass as straight-line steps on buffers of so many rows."""
+
+    def __init__(self, backward: Backward, target: int, room: int) -> None:
+        self.backward, self.record, self.room = backward, backward.record, room
+        self.steps: list[Step] = []
+        self.weights: dict[int, Weight] = {}
+        self.by: dict[int, Weight] = {}
+        self.factors: list[float] = []
+        self.free: list[Array] = []
+        self.holders: dict[int, int] = {}
+        nodes = sorted(backward.reached((target,)), reverse=True)
+        self.merged = _merged(self.record, nodes)
+        self.products = np.empty((3 * len(nodes) + 3, room))
+        self.weights[target] = self._held((np.ones(room), 1.0), forever=True)
+        for k in nodes:
+            self._node(k)
+        self.products = self.products[: len(self.factors)]
+        self.row = np.array(self.factors)
+
+    def run(self, rows: int) -> Passed:
+        """The bound of every row, and the weights of the inputs."""
+        for function, arguments in self.steps:
+            function(*arguments)
+        np.abs(self.products, self.products)
+        by = {k: sign * w[:rows] for k, (w, sign) in self.by.items()}
+        return Passed((self.row @ self.products)[:rows], by)
+
+    # --- buffers ----------------------------------------------------------------------------------
+
+    def _fresh(self) -> Array:
+        return self.free.pop() if self.free else np.empty(self.room)
+
+    def _held(self, weight: Weight, forever: bool = False) -> Weight:
+        """A weight that one more node has."""
+        key = id(weight[0])
+        self.holders[key] = self.holders.get(key, 0) + 1 + (1 << 30) * forever
+        return weight
+
+    def _released(self, weight: Weight) -> None:
+        """A weight that one node less has: its buffer may be free."""
+        key = id(weight[0])
+        self.holders[key] -= 1
+        if not self.holders[key]:
+            self.free.append(weight[0])
+
+    def _do(self, function: Callable[..., Any], *arguments: Any) -> None:
+        self.steps.append((function, arguments))
+
+    # --- the nodes, last to first -----------------------------------------------------------------
+
+    def _node(self, k: int) -> None:
+        if k in self.backward.groups:
+            self._group(self.backward.groups[k])
+        weight = self.weights.pop(k, None)
+        if weight is None:
+            return
         node = self.record.nodes[k]
-        if node.op in ROUNDED and not self._shifted(k):
-            units += np.abs(w * self.code.value(k, rows))
-        elif node.op in (Op.COS, Op.SIN):
-            bound += TURN_NOISE * np.abs(w * self.code.value(k, rows))
-        elif node.op == Op.ANGLE:
-            bound += ANGLE_NOISE * 180.0 * np.abs(w)
-        elif node.op == Op.INPUT and k not in self.exact:
-            units += np.abs(w * self.code.value(k, rows))
-
-    def _shifted(self, k: int) -> bool:
-        """A product with a power of two rounds nothing."""
-        node = self.record.nodes[k]
-        if node.op not in (Op.MUL, Op.DIV):
-            return False
-        factors = (node.a, node.b) if node.op == Op.MUL else (node.b,)
-        return any(self._power(n) for n in factors)
-
-    def _power(self, n: int) -> bool:
-        node = self.record.nodes[n]
-        return node.op == Op.CONST and abs(np.frexp(node.value)[0]) == 0.5
-
-    def _spread(self, k: int, w: Array, rows: int, weights: dict[int, Array], bound: Array) -> None:
-        """Pass a weight on to what a value was made of."""
-        for n, part in self._parts(k, w, rows):
+        if node.op == Op.INPUT:
+            self.by[k] = self._held(weight, forever=True)
+        if k not in self.merged:
+            self._error(self._share(k), weight, self._value(k))
+        if node.op == Op.ANGLE:
+            self._error(ANGLE_NOISE, weight, None)
+        for n, part in self._parts(k, weight):
             if self.record.nodes[n].row:
-                weights[n] = weights[n] + part if n in weights else part
-            else:
-                noise = self._noise(n)
-                if noise:
-                    bound += noise * np.abs(part)
+                self._add(n, part)
+            elif node.op in (Op.ADD, Op.SUB) or not self.record.nodes[n].value:
+                self._error(self.backward.noise(n), part, None)
+        self._released(weight)
 
-    def _parts(self, k: int, w: Array, rows: int) -> Iterable[tuple[int, Array]]:
-        node, value = self.record.nodes[k], self.code.value
+    def _error(self, factor: float, weight: Weight, value: Array | None) -> None:
+        """A term of the bound: a factor times the weight (times a value)."""
+        if not factor:
+            return
+        out = self.products[len(self.factors)]
+        self.factors.append(factor)
+        if value is None:
+            self._do(np.copyto, out, weight[0])
+        else:
+            self._do(np.multiply, weight[0], value, out)
+
+    def _share(self, k: int) -> float:
+        """Relative error of a value, with that of the factors that are counted with it."""
+        node = self.record.nodes[k]
+        if not node.row:
+            return self.backward.noise(k) / abs(node.value) if node.value else 0.0
+        if node.op == Op.INPUT:
+            return 0.0 if k in self.backward.exact or k in self.backward.member else UNIT
+        if node.op in (Op.COS, Op.SIN):
+            return TURN_NOISE
+        own = 0.0 if node.op in (Op.NEG, Op.ANGLE, Op.NEAREST) or _shifted(self.record, k) else UNIT
+        if node.op in FACTORED:
+            part = 0.5 if node.op == Op.SQRT else 1.0
+            own += part * sum(self._share(n) for n in operands(self.record, k) if self._counted(n))
+        return own
+
+    def _counted(self, n: int) -> bool:
+        return n in self.merged or not self.record.nodes[n].row
+
+    def _add(self, k: int, weight: Weight) -> None:
+        """One more part of a node's weight."""
+        known = self.weights.get(k)
+        if known is None:
+            self.weights[k] = self._held(weight)
+            return
+        out = self._fresh()
+        self._do(np.add if known[1] == weight[1] else np.subtract, known[0], weight[0], out)
+        self._released(known)
+        if not self.holders.get(id(weight[0])):
+            self.free.append(weight[0])
+        self.weights[k] = self._held((out, known[1]))
+
+    def _value(self, k: int) -> Array:
+        return self.backward.code.place_of(k, self.room)
+
+    def _times(self, weight: Weight, value: Array, sign: float = 1.0, factor: float = 1.0) -> Weight:
+        """A weight times a value (and a factor) in a buffer of its own."""
+        out = self._fresh()
+        self._do(np.multiply, weight[0], value, out)
+        if factor != 1.0:
+            self._do(np.multiply, out, factor, out)
+        return (out, sign * weight[1])
+
+    def _over(self, weight: Weight, value: Array) -> Weight:
+        out = self._fresh()
+        self._do(np.divide, weight[0], value, out)
+        return (out, weight[1])
+
+    def _parts(self, k: int, weight: Weight) -> list[tuple[int, Weight]]:
+        """The weights of what a node was made of."""
+        node = self.record.nodes[k]
         a, b = node.a, node.b
         match node.op:
             case Op.ADD:
-                return ((a, w), (b, w))
+                return [(a, weight), (b, weight)]
             case Op.SUB:
-                return ((a, w), (b, -w))
+                return [(a, weight), (b, (weight[0], -weight[1]))]
             case Op.MUL:
-                return ((a, w * value(b, rows)), (b, w * value(a, rows)))
+                pairs = ((a, b), (b, a))
+                return [(m, self._times(weight, self._value(n))) for m, n in pairs if self._asked(m)]
             case Op.DIV:
-                part = w / value(b, rows)
-                return ((a, part), (b, -part * value(k, rows)))
+                part = self._over(weight, self._value(b))
+                rest = [(b, self._times(part, self._value(k), -1.0))] if self._asked(b) else []
+                return [*rest, (a, part)]
             case Op.NEG:
-                return ((a, -w),)
+                return [(a, (weight[0], -weight[1]))]
             case Op.SQRT:
-                return ((a, 0.5 * w / value(k, rows)),)
+                half = self._over(weight, self._value(k))
+                self._do(np.multiply, half[0], 0.5, half[0])
+                return [(a, half)]
             case Op.COS:
-                return ((a, -RADIAN * w * value(k + 1, rows)),)
+                return [(a, self._times(weight, self._value(k + 1), -1.0, RADIAN))]
             case Op.SIN:
-                return ((a, RADIAN * w * value(b, rows)),)
+                return [(a, self._times(weight, self._value(b), 1.0, RADIAN))]
             case Op.ANGLE:
-                x, y = value(a, rows), value(b, rows)
-                size = (x * x + y * y) * RADIAN
-                return ((a, -w * y / size), (b, w * x / size))
-        return ()
+                return self._of_angle(a, b, weight)
+        return []
 
-    def _through(self, group: Together, weights: dict[int, Array], rows: int) -> None:
+    def _asked(self, k: int) -> bool:
+        """Whether a node needs a weight: it varies, or is a zero with an error."""
+        node = self.record.nodes[k]
+        return node.row or (not node.value and bool(self.backward.noise(k)))
+
+    def _of_angle(self, a: int, b: int, weight: Weight) -> list[tuple[int, Weight]]:
+        x, y = self._value(a), self._value(b)
+        size, square = np.empty(self.room), np.empty(self.room)
+        self._do(np.multiply, x, x, size)
+        self._do(np.multiply, y, y, square)
+        self._do(np.add, size, square, size)
+        self._do(np.multiply, size, RADIAN, size)
+        part = self._over(weight, size)
+        return [(a, self._times(part, y, -1.0)), (b, self._times(part, x))]
+
+    def _group(self, group: Together) -> None:
         """Through a solved group: the weights of its equations (implicit differentiation)."""
-        w = np.stack([weights.get(k, np.zeros(rows)) for k in group.solved], axis=1)
-        w[:, 2::3] /= RADIAN
+        mine = [self.weights.get(k) for k in group.solved]
+        if not any(mine):
+            return
         flat = [v for row in group.derivatives for v in row]
-        j = np.empty((rows, len(flat)))
-        for n, v in enumerate(flat):
-            j[:, n] = self.code.value(v.index, rows) if isinstance(v, Traced) else v
-        j = j.reshape(rows, len(group.residuals), len(group.solved))
-        back = adjoint(j, w)
+        values = [self._value(v.index) if isinstance(v, Traced) else v for v in flat]
+        outs = np.empty((len(group.residuals), self.room))
+        self._do(_implicit, mine, values, (self.room, len(group.residuals), len(group.solved)), outs)
         for n, residual in enumerate(group.residuals):
             if isinstance(residual, Traced):
-                k, part = residual.index, -back[:, n]
-                weights[k] = weights[k] + part if k in weights else part
+                self._add(residual.index, self._held((outs[n], -1.0), forever=True))
 
-    def _noise(self, k: int) -> float:
-        """Bound of the error of a value that is the same in every row."""
-        if k not in self._still:
-            self._still[k] = still_bound(self.record, k)
-        return self._still[k]
+
+def _implicit(mine: list[Weight | None], values: list[Array | float], shape: tuple[int, int, int], outs: Array) -> None:
+    """Weights of the equations of a group from those of its unknowns (degrees in every third)."""
+    w = np.zeros((shape[0], shape[2]))
+    for n, weight in enumerate(mine):
+        if weight is not None:
+            w[:, n] = weight[0] * weight[1]
+    w[:, 2::3] /= RADIAN
+    j = np.empty((shape[0], len(values)))
+    for n, value in enumerate(values):
+        j[:, n] = value
+    outs[:] = adjoint(j.reshape(shape), w).T
+
+
+def _shifted(record: Record, k: int) -> bool:
+    """A product with a power of two rounds nothing."""
+    node = record.nodes[k]
+    if node.op not in (Op.MUL, Op.DIV):
+        return False
+    factors = (node.a, node.b) if node.op == Op.MUL else (node.b,)
+    constants = (record.nodes[n] for n in factors)
+    return any(n.op == Op.CONST and abs(np.frexp(n.value)[0]) == 0.5 for n in constants)
+
+
+def _merged(record: Record, nodes: Sequence[int]) -> set[int]:
+    """Nodes that are a factor of one product and nothing else: their relative error is counted with its."""
+    count: dict[int, int] = {}
+    factor: set[int] = set()
+    for k in nodes:
+        for n in operands(record, k):
+            count[n] = count.get(n, 0) + 1
+            if record.nodes[k].op in FACTORED:
+                factor.add(n)
+    return {n for n in factor if count[n] == 1 and record.nodes[n].op not in (Op.ANGLE, Op.NEAREST)}
 
 
 def adjoint(j: Array, w: Array) -> Array:
@@ -186,49 +337,4 @@ def adjoint(j: Array, w: Array) -> Array:
             return np.linalg.solve(turned, w[:, :, None])[:, :, 0]
         return (j @ np.linalg.solve(turned @ j, w[:, :, None]))[:, :, 0]
     except np.linalg.LinAlgError:
-        return (np.swapaxes(np.linalg.pinv(j), 1, 2) @ w[:, :, None])[:, :, 0]
-
-
-def still_bound(record: Record, target: int) -> float:
-    """The backward pass over values that are the same in every row."""
-    nodes, weights = record.nodes, {target: 1.0}
-    bound = 0.0
-    for k in range(target, -1, -1):
-        w = weights.pop(k, 0.0)
-        if not w:
-            continue
-        node = nodes[k]
-        exact = node.op in (Op.CONST, Op.NEG, Op.NEAREST)
-        noise = node.noise if node.op == Op.CONST else 0.0 if exact else UNIT * abs(node.value)
-        if node.op in (Op.COS, Op.SIN, Op.ANGLE):
-            noise = 180.0 * ANGLE_NOISE if node.op == Op.ANGLE else TURN_NOISE * abs(node.value)
-        bound += abs(w) * noise
-        for n, part in _still_parts(record, k, w):
-            weights[n] = weights.get(n, 0.0) + part
-    return bound
-
-
-def _still_parts(record: Record, k: int, w: float) -> Iterable[tuple[int, float]]:
-    node, nodes = record.nodes[k], record.nodes
-    a, b = nodes[node.a].value, nodes[node.b].value
-    match node.op:
-        case Op.ADD:
-            return ((node.a, w), (node.b, w))
-        case Op.SUB:
-            return ((node.a, w), (node.b, -w))
-        case Op.MUL:
-            return ((node.a, w * b), (node.b, w * a))
-        case Op.DIV:
-            return ((node.a, w / b), (node.b, -w * node.value / b)) if b else ()
-        case Op.NEG:
-            return ((node.a, -w),)
-        case Op.SQRT:
-            return ((node.a, 0.5 * w / node.value),) if node.value else ()
-        case Op.COS:
-            return ((node.a, -RADIAN * w * nodes[k + 1].value),)
-        case Op.SIN:
-            return ((node.a, RADIAN * w * b),)
-        case Op.ANGLE:
-            size = (a * a + b * b) * RADIAN
-            return ((node.a, -w * b / size), (node.b, w * a / size)) if size else ()
-    return ()
+        return (np.swapaxes(np.linalg.pinv(np.nan_to_num(j)), 1, 2) @ w[:, :, None])[:, :, 0]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from functools import lru_cache
 from typing import Any
 
 from icsolve.case import Case, ForceVector, Number
@@ -15,7 +16,8 @@ _FORM = "a path is like angles.AB, lengths.AB, points.D.x, loads.P, loads.P.angl
 _SECTIONS = ("points", "lengths", "angles", "joints", "loads", "motion", "gravity")
 
 
-def numbers_of(case: Case) -> dict[str, Number]:
+@lru_cache(maxsize=64)
+def numbers_of(case: Case) -> Mapping[str, Number]:
     """Every number that may be varied, by its path."""
     parts = (case.points, case.lengths, case.angles, case.joints, case.loads, case.motion, case.gravity)
     return {number.path: number for part in parts for number in _walk(part)}

@@ -15,7 +15,7 @@ from icsolve.turn.ask import Columns
 from icsolve.turn.branches import Followed, follow, live_roots, signs_of
 from icsolve.turn.numbers import numbers_of
 from icsolve.turn.program import Sheet, Signs
-from icsolve.turn.replay import BLOCK, Array, Code, live
+from icsolve.turn.replay import BLOCK, Array, Code
 from icsolve.turn.runner import STEEP, Found, Rows, Runner
 from icsolve.turn.start import Start
 from icsolve.turn.way import Mask, State, Way, written_state
@@ -67,25 +67,16 @@ class Parts:
         """Every row in some part."""
         runner = self.start.runner()
         sheet, rows = runner.sheet, np.arange(self.columns.rows)
-        bearing = self._bearing(sheet)
+        bearing = [name for name in runner.bearing if name in self.arrays]
         if not bearing:
             yield Part(runner, rows)
             return
         moving = (*self.start.links, *self.start.setting.drive.moving)
         main = next(name for name in (*moving, *bearing) if name in bearing)
         others = [name for name in bearing if name != main]
-        left = rows if _sequential(sheet) else (yield from self._at_once(runner, main, others))
+        left = rows if runner.sequential else (yield from self._at_once(runner, main, others))
         for alike in self._alike(left, others):
             yield self._followed(sheet, main, others, alike)
-
-    def _bearing(self, sheet: Sheet) -> list[str]:
-        """The varied inputs on which branches, groups and counted turns hang."""
-        if sheet.motion is None:
-            return []
-        if _sequential(sheet):
-            return [name for name in sheet.inputs if name in self.arrays]
-        behind = set(live(sheet.record, [root.radicand for root in live_roots(sheet)], ()))
-        return [name for name, k in sheet.inputs.items() if k in behind and name in self.arrays]
 
     # --- at once ----------------------------------------------------------------------------------
 
@@ -114,8 +105,7 @@ class Parts:
 
     def _clear(self, sheet: Sheet, names: list[str]) -> Mask:
         """Rows on whose straight way from the position as written no branch comes near a change point."""
-        roots = live_roots(sheet)
-        code = Code(sheet.record, [root.radicand for root in roots])
+        code = Code(sheet.record, [root.radicand for root in live_roots(sheet)])
         clear = np.ones(self.columns.rows, dtype=bool)
         step = max(1, 4 * BLOCK // GLANCES)
         share = np.linspace(0.0, 1.0, GLANCES)
@@ -166,11 +156,6 @@ class Parts:
         way = Way({**base, **here, main: 0.0}, {main: 1.0}, self._written(main), widest, 360.0 if angle else None)
         followed = follow(self.start.sheet, self.start.sheet(_changed(sheet, state)), way, state, places)
         return Part(self.start.runner(signs_of(followed.sheet)), rows, followed, places)
-
-
-def _sequential(sheet: Sheet) -> bool:
-    """Whether states have to be followed."""
-    return sheet.motion is not None and bool(sheet.motion.groups or sheet.record.counted)
 
 
 def _changed(sheet: Sheet, state: State) -> Signs:

@@ -156,6 +156,10 @@ class Code:
                 function(*arguments)
         return [self._cut(k, buffers, rows) for k in self.wanted]
 
+    def place_of(self, k: int, room: int) -> Array:
+        """The whole buffer of a node (or its number) in runs of so many rows."""
+        return self._value(k, self.bound(room)[1])
+
     def _cut(self, k: int, buffers: Array, rows: int) -> Array:
         value = self._value(k, buffers)
         return value[:rows] if value.ndim else value
@@ -165,28 +169,29 @@ class Code:
         return self._cut(k, self.bound(rows)[1], rows)
 
 
-def turn(degrees: Array, cosine: Array | None, sine: Array | None, c: Array, s: Array) -> None:
-    """Cosine and sine of angles in degrees, exact at multiples of 90; ``c`` and ``s`` are scratch.
+def turn(degrees: Array, cosine: Array | None, sine: Array | None, a: Array, b: Array) -> None:
+    """Cosine and sine of angles in degrees, exact at multiples of 90; ``a`` and ``b`` are scratch.
 
-    As `icsolve.arithmetic.turn_of`: reduced exactly to within 45 degrees of an axis before pi is met.
+    As `icsolve.arithmetic.turn_of`: reduced exactly to r within 45 degrees of an axis before pi is met.
+    With m quarter turns (-2 to 2) the cosine is ``cos r (1 - |m|) + sin r m (|m| - 2)``, and cos r is
+    the root of ``(1 - sin r)(1 + sin r)``, which loses nothing so near to 1.
     """
     if degrees.size == 1:
         _turn_one(float(degrees.flat[0]), cosine, sine)
         return
-    quarter = np.rint(np.divide(degrees, 90.0, c), c)
-    rest = np.subtract(degrees, np.multiply(quarter, 90.0, s), s)
-    rest = np.multiply(rest, np.pi / 180.0, s)
-    which = quarter.astype(np.int64) & 3
-    c, s = np.cos(rest, c), np.sin(rest, s)
-    odd, back, down = (which & 1).astype(bool), (which & 2).astype(bool), (which == 1) | (which == 2)
+    c, s = np.empty_like(a), np.empty_like(a)
+    quarters = np.rint(np.divide(degrees, 90.0, a), a)
+    np.subtract(degrees, np.multiply(quarters, 90.0, b), s)
+    np.sin(np.multiply(s, np.pi / 180.0, s), s)
+    np.sqrt(np.multiply(np.subtract(1.0, s, b), np.add(s, 1.0, c), c), c)
+    quarters -= np.multiply(np.rint(np.multiply(quarters, 0.25, b), b), 4.0, b)
+    across = np.subtract(np.abs(quarters, b), 2.0, b)
+    quarters *= across
+    along = np.negative(np.add(across, 1.0, b), b)
     if cosine is not None:
-        np.copyto(cosine, c)
-        np.copyto(cosine, s, where=odd)
-        np.negative(cosine, cosine, where=down)
+        np.add(np.multiply(c, along, cosine), s * quarters, cosine)
     if sine is not None:
-        np.copyto(sine, s)
-        np.copyto(sine, c, where=odd)
-        np.negative(sine, sine, where=back)
+        np.subtract(np.multiply(s, along, sine), c * quarters, sine)
 
 
 def _turn_one(degrees: float, cosine: Array | None, sine: Array | None) -> None:

@@ -7,12 +7,14 @@ it is in the other rows, or where the answer nearly vanishes. The others are wha
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from icsolve.arithmetic import Scalar
+from icsolve.turn.backward import Backward
 from icsolve.turn.program import Sheet
 from icsolve.turn.record import Op, Traced
 from icsolve.turn.replay import BLOCK, Array, Code, live
@@ -61,6 +63,47 @@ class Runner:
         self.typical = np.array([abs(record.nodes[k].value) for k in self.divisors])
         self.deep = np.array([record.nodes[root.radicand].value for root in self.roots])
 
+    @cached_property
+    def sequential(self) -> bool:
+        """Whether states have to be followed from row to row."""
+        motion = self.sheet.motion
+        return motion is not None and bool(motion.groups or self.sheet.record.counted)
+
+    @cached_property
+    def bearing(self) -> tuple[str, ...]:
+        """The inputs on which branches, groups and counted turns hang."""
+        sheet = self.sheet
+        if sheet.motion is None:
+            return ()
+        if self.sequential:
+            return tuple(sheet.inputs)
+        behind = set(live(sheet.record, [root.radicand for root in self.roots], ()))
+        return tuple(name for name, k in sheet.inputs.items() if k in behind)
+
+    @cached_property
+    def answers(self) -> list[tuple[Key, int]]:
+        """The answers that vary, and their nodes."""
+        return [(key, index) for key, _, index in self.moving if key[0] == "answers"]
+
+    @cached_property
+    def bounds(self) -> Backward:
+        """Backward passes from the answers."""
+        return self.passes([index for _, index in self.answers])
+
+    @cached_property
+    def doubts(self) -> Backward:
+        """Backward passes from the answers, then from what is divided by."""
+        return self.passes([*(index for _, index in self.answers), *self.divisors])
+
+    def passes(self, targets: Sequence[int]) -> Backward:
+        """Backward passes from some nodes."""
+        sheet = self.sheet
+        groups = sheet.motion.groups if sheet.motion else ()
+        exact = [k for name, k in sheet.inputs.items() if name.startswith(("branch ", "swing "))]
+        exact += [guess.index for guess, _ in sheet.record.counted.values()]
+        exact += [k for group in groups for k in (*group.guesses, *group.solved)]
+        return Backward(sheet.record, targets, groups, exact)
+
     def empty(self, rows: int) -> dict[Key, Array]:
         """Arrays for the outputs; those that are the same in every row are filled."""
         values = {
@@ -74,7 +117,7 @@ class Runner:
     def run(self, given: Mapping[int, Array], rows: int) -> Found:
         """All rows; ``given`` has an array or one number for every input."""
         values, doubtful, touching = self.empty(rows), [], False
-        last: list[Array] = []
+        last: list[float] = []
         for start in range(0, rows, BLOCK):
             stop = min(start + BLOCK, rows)
             here = {k: v[start:stop] if v.ndim else v for k, v in given.items()}
@@ -87,7 +130,7 @@ class Runner:
                 doubtful.append(again + start)
         return Found(values, np.concatenate(doubtful) if doubtful else np.empty(0, np.int64), touching)
 
-    def _watch(self, found: list[Array], last: list[Array]) -> tuple[Rows, bool, list[Array]]:
+    def _watch(self, found: list[Array], last: list[float]) -> tuple[Rows, bool, list[float]]:
         """Rows of a block to look at again; whether a radicand may vanish between its rows."""
         ends = (len(self.moving), len(self.roots), len(self.divisors), len(self.margins), len(self.checks))
         cuts = np.cumsum(ends)
@@ -98,8 +141,7 @@ class Runner:
             for n, radicand in enumerate(radicands):
                 high = max(float(np.maximum.reduce(radicand)), float(self.deep[n]))
                 low = self._below(radicand, SMALL * high, bad)
-                step = np.abs(np.diff(radicand, prepend=last[n] if last else radicand[:1]))
-                steep = steep or low <= STEEP * float(np.maximum.reduce(step))
+                steep = steep or low <= STEEP * _step(radicand, last[n] if last else None)
             for n, divisor in enumerate(divisors):
                 size = np.abs(divisor)
                 self._below(size, SMALL * max(float(self.typical[n]), float(np.maximum.reduce(size))), bad)
@@ -111,7 +153,7 @@ class Runner:
                 size = np.abs(found[n])
                 self._below(size, FAINT * float(np.maximum.reduce(size)), bad)
         again = np.unique(np.concatenate(bad)) if bad else np.empty(0, np.int64)
-        return again, steep, [radicand[-1:].copy() for radicand in radicands]
+        return again, steep, [float(radicand[-1]) for radicand in radicands]
 
     def _below(self, values: Array, limit: float, bad: list[Rows]) -> float:
         """The least value; rows that are not above a limit are noted."""
@@ -119,6 +161,13 @@ class Runner:
         if not low > limit:
             bad.append(np.flatnonzero(~(values > limit)))
         return low
+
+
+def _step(radicand: Array, before: float | None) -> float:
+    """The largest step from row to row, that from the last block too."""
+    step = radicand[1:] - radicand[:-1]
+    largest = float(np.maximum.reduce(np.abs(step, step))) if len(step) else 0.0
+    return largest if before is None else max(largest, abs(float(radicand[0]) - before))
 
 
 def _living(sheet: Sheet, alive: Sequence[int]) -> list[int]:

@@ -16,7 +16,6 @@ from icsolve.answer import Answer
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.solve import solve
-from icsolve.turn.backward import SLICE, Backward
 from icsolve.turn.branches import TOUCH, live_roots
 from icsolve.turn.replay import Array, Code
 from icsolve.turn.runner import AGREED, Found, Key, Rows, Runner, column
@@ -127,37 +126,26 @@ def _against_bounds(look: Look, rows: Rows) -> Mask:
     """Rows in which something that is divided by may be zero, or an answer is left open by rounding;
     an answer within its own bound becomes zero."""
     runner = look.runner
-    answers = [(key, index) for key, _, index in runner.moving if key[0] == "answers"]
-    targets = [*(index for _, index in answers), *runner.divisors]
+    answers, passes = runner.answers, runner.doubts
     unsure = np.zeros(len(rows), dtype=bool)
-    if not targets:
+    if not passes.targets:
         return unsure
-    passes = backward(runner, targets)
-    for start in range(0, len(rows), SLICE):
-        some = rows[start : start + SLICE]
+    for start in range(0, len(rows), passes.rows):
+        here = slice(start, start + passes.rows)
+        some = rows[here]
         bounds = passes.run(look.given(some), len(some))
         with np.errstate(all="ignore"):
             for target, passed in zip(runner.divisors, bounds[len(answers) :], strict=True):
-                size = np.abs(passes.code.value(target, len(some)))
-                unsure[start : start + SLICE] |= ~(size > WIDE * passed.bound)
+                size = np.abs(passes.value(target, len(some)))
+                unsure[here] |= ~(size > WIDE * passed.bound)
             for (key, _), passed in zip(answers, bounds, strict=False):
                 value = look.found.values[key][some]
                 inside = np.abs(value) <= passed.bound
                 loose = ~inside & ~(passed.bound <= OPEN * np.abs(value))
-                settled = inside & ~unsure[start : start + SLICE]
+                settled = inside & ~unsure[here]
                 look.found.values[key][some[settled]] = 0.0
-                unsure[start : start + SLICE] |= loose
+                unsure[here] |= loose
     return unsure
-
-
-def backward(runner: Runner, targets: list[int]) -> Backward:
-    """Backward passes over the runner's record."""
-    sheet = runner.sheet
-    groups = sheet.motion.groups if sheet.motion else ()
-    exact = [k for name, k in sheet.inputs.items() if name.startswith(("branch ", "swing "))]
-    exact += [guess.index for guess, _ in sheet.record.counted.values()]
-    exact += [k for group in groups for k in (*group.guesses, *group.solved)]
-    return Backward(sheet.record, targets, groups, exact)
 
 
 def _as_scene(look: Look, row: int) -> None:
@@ -183,4 +171,4 @@ def _motions(look: Look, row: int, answer: Answer) -> None:
                 look.found.values[kind, name][row] = rate
 
 
-__all__ = ["CODE", "WORDS", "Codes", "Key", "Look", "backward", "look_again"]
+__all__ = ["CODE", "WORDS", "Codes", "Key", "Look", "look_again"]

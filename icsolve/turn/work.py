@@ -13,7 +13,7 @@ from icsolve.turn.parts import Part, Parts
 from icsolve.turn.replay import BLOCK, Array
 from icsolve.turn.rows import RowCases
 from icsolve.turn.runner import Found, Key
-from icsolve.turn.second import CODE, SLICE, Look, backward, look_again
+from icsolve.turn.second import CODE, Look, look_again
 from icsolve.turn.start import Start
 
 CHUNK = 16 * BLOCK
@@ -107,15 +107,17 @@ class Work:
         for key, _, _ in part.runner.still:
             if key[0] == "answers":
                 self.errors.setdefault(key[1], np.zeros(self.columns.rows))
-        answers = [(key[1], index) for key, _, index in part.runner.moving if key[0] == "answers"]
-        if not answers:
+        passes, count = part.runner.bounds, len(part.rows)
+        if not passes.targets:
             return
-        passes = backward(part.runner, [index for _, index in answers])
-        for start in range(0, len(part.rows), SLICE):
-            some = part.some(np.arange(start, min(start + SLICE, len(part.rows))))
-            given, _ = self.parts.given(some)
-            for (name, _), passed in zip(answers, passes.run(given, len(some.rows)), strict=True):
-                self.errors.setdefault(name, np.empty(self.columns.rows))[some.rows] = passed.bound
+        names = [key[1] for key, _ in part.runner.answers]
+        tables = [self.errors.setdefault(name, np.empty(self.columns.rows)) for name in names]
+        given, _ = self.parts.given(part)
+        for start in range(0, count, passes.rows):
+            here = slice(start, min(start + passes.rows, count))
+            found = passes.run({k: v[here] if v.ndim else v for k, v in given.items()}, here.stop - start)
+            for table, passed in zip(tables, found, strict=True):
+                table[part.rows[here]] = passed.bound
 
     def _passed(self, part: Part) -> None:
         """Say at which rows change points were passed, and what was not reached."""
