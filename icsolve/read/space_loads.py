@@ -70,7 +70,8 @@ def _components(entry: Entry, kind: str, dimension: str) -> tuple[Number, Number
 def _heading(entry: Entry) -> Heading | None:
     key = entry.one_of(HEADINGS)
     if key is None:
-        entry.refuse(entry.node.mark, f"{entry.what} needs its direction: {', '.join(HEADINGS)}")
+        if not _ELSEWHERE.keys() & entry.node.keys.keys():  # a direction of the plane has its own message
+            entry.refuse(entry.node.mark, f"{entry.what} needs its direction: {', '.join(HEADINGS)}")
         return None
     if key == "along":
         return axis(entry, "along", "its direction")

@@ -37,7 +37,8 @@ def ties_of(case: Case, figure: Figure) -> tuple[Tie, ...]:
 
     Raises SceneError where an axis has no direction, gears do not fit, or hinges are out of line.
     """
-    ties = tuple(_tie(joint, figure) for joint in in_case(case).joints)
+    lines = (case.marks.get(f"joints[{n}]", (0, 0))[0] for n, _ in enumerate(in_case(case).joints))
+    ties = tuple(_tie(joint, figure, line) for joint, line in zip(in_case(case).joints, lines, strict=True))
     _refuse_out_of_line(ties, figure)
     return ties
 
@@ -47,11 +48,12 @@ def kind_of(joint: Joint) -> str:
     return type(joint).__name__.lower()
 
 
-def _tie(joint: Joint, figure: Figure) -> Tie:
+def _tie(joint: Joint, figure: Figure, line: int) -> Tie:
     by, on = joint.links
-    what = f"the {kind_of(joint)} of links {by} and {on}"
+    where = f" (line {line})" if line else ""
     if isinstance(joint, Gears):
-        return _meshing(joint, figure, f"gears {by} and {on}", what)
+        return _meshing(joint, figure, f"gears {by} and {on}{where}")
+    what = f"the {kind_of(joint)} of links {by} and {on}{where}"
     axis = ZERO
     if isinstance(joint, Radial | Thrust | Hinge):
         axis = direction(joint.axis, figure.places, f"the axis of {what}")
@@ -74,9 +76,9 @@ def _units(joint: Joint, axis: Vec) -> tuple[Wrench, ...]:
     raise TypeError(type(joint).__name__)
 
 
-def _meshing(joint: Gears, figure: Figure, what: str, joined: str) -> Tie:
+def _meshing(joint: Gears, figure: Figure, what: str) -> Tie:
     """The tangential part alone; which flank carries shows the rest (`flanked`)."""
-    axis = direction(joint.axis, figure.places, f"the axis of {joined}")
+    axis = direction(joint.axis, figure.places, f"the axis of {what}")
     mesh = mesh_of(joint, axis, figure.places, what)
     at = figure.frame.normalised(mesh.at)
     where = joint.centres[joint.links.index(mesh.on)] if joint.toward is None else joint.centres[0]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 
 from icsolve.case import Case
@@ -79,8 +80,11 @@ def _driven(figure: Figure, motions: Motions, loads: Sequence[Wrenched], balance
 
 
 def driven_motion(figure: Figure, motions: Motions, loads: Sequence[Wrenched], balance: Balance) -> str:
-    """The motion that the loads drive, by that of the first loaded link that takes part."""
-    motion = combined(motions, balance.unbalanced)
+    """The motion that the loads drive most, by that of the first loaded link that takes part."""
+    rests = zip(balance.unbalanced, balance.left, strict=True)
+    shares = [rest / most if rest else 0.0 for rest, (_, most) in rests]
+    most = max(range(len(shares)), key=lambda m: abs(shares[m]))
+    motion = combined((motions[most],), (math.copysign(1.0, shares[most]),))
     link = moving(motion, [w.load.link for w in loads])
     return motion_words(link, motion, figure)
 

@@ -1,0 +1,133 @@
+"""Equilibrium in space written apart: all six components of every joint, less what its kind cannot carry.
+
+Nothing of icsolve is used but the values of a case. The moments are all about the origin, the system is
+dense, and the SVD says what it determines.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from icsolve import Case
+from icsolve.case import Centroid
+from icsolve.space.case import Along, Ball, Force, ForceVector, Hinge, Line, Radial, Thrust, Torque, Vector
+
+Array = npt.NDArray[np.float64]
+
+
+class Solution(NamedTuple):
+    """For each joint its six components (force, couple about its point), and which are determined.
+
+    ``loads`` are the unknown loads by name; NaN where open. ``rest`` is what is left of the equations, as a
+    fraction of the loads.
+    """
+
+    joints: list[Array]
+    determined: list[npt.NDArray[np.bool_]]
+    loads: dict[str, float]
+    rest: float
+
+
+def place(case: Case, name: str) -> Array:
+    """A point's coordinates."""
+    assert case.space is not None
+    given = case.space.points[name]
+    if isinstance(given, Centroid):
+        return np.mean([place(case, other) for other in given.of], axis=0)
+    return np.array([number.value for number in given])
+
+
+def along(case: Case, axis: object) -> Array:
+    """Unit vector of an axis."""
+    if isinstance(axis, Along):
+        vector = np.eye(3)["xyz".index(axis.word[-1])] * (-1.0 if axis.word.startswith("-") else 1.0)
+    elif isinstance(axis, Vector):
+        vector = np.array([number.value for number in axis])
+    else:
+        assert isinstance(axis, Line)
+        vector = place(case, axis.b) - place(case, axis.a)
+    return vector / np.linalg.norm(vector)
+
+
+def solve(case: Case) -> Solution:
+    """All joints of a case without gears, and its unknown forces and torques along axes."""
+    assert case.space is not None
+    links = [link for link in case.links if link != case.ground]
+    row_of = {link: 6 * n for n, link in enumerate(links)}
+    joints, loads = case.space.joints, case.space.loads
+    unknown = [load for load in loads if isinstance(load, Force | Torque) and load.value is None]
+    columns = 6 * len(joints) + len(unknown)
+    rows, right = [np.zeros((6 * len(links), columns))], [np.zeros(6 * len(links))]
+    for n, joint in enumerate(joints):
+        spread = wrench_matrix(place(case, joint.at))
+        for link, sign in ((joint.links[1], 1.0), (joint.links[0], -1.0)):
+            if link in row_of:
+                rows[0][row_of[link] : row_of[link] + 6, 6 * n : 6 * n + 6] += sign * spread
+        for limit in limits(case, joint):
+            row = np.zeros((1, columns))
+            row[0, 6 * n : 6 * n + 6] = limit
+            rows.append(row)
+            right.append(np.zeros(1))
+    for load in loads:
+        wrench = load_wrench(case, load)
+        for link, sign in ((load.link, 1.0), (getattr(load, "against", None) or case.ground, -1.0)):
+            if link not in row_of:
+                continue
+            if load in unknown:
+                column = 6 * len(joints) + unknown.index(load)  # type: ignore[arg-type]
+                rows[0][row_of[link] : row_of[link] + 6, column] += sign * wrench
+            else:
+                right[0][row_of[link] : row_of[link] + 6] -= sign * wrench
+    return solved(np.vstack(rows), np.concatenate(right), len(joints), [load.name for load in unknown])
+
+
+def solved(matrix: Array, right: Array, joints: int, names: list[str]) -> Solution:
+    """Least squares, with what the null space leaves open."""
+    u, sizes, vt = np.linalg.svd(matrix)
+    rank = int(np.sum(sizes > 1e-10 * sizes[0]))
+    x = vt[:rank].T @ ((u[:, :rank].T @ right) / sizes[:rank])
+    rest = float(np.max(np.abs(matrix @ x - right)) / (np.max(np.abs(right)) or 1.0))
+    is_open = np.any(np.abs(vt[rank:]) > 1e-9, axis=0)
+    loads = {
+        name: float("nan") if is_open[6 * joints + n] else float(x[6 * joints + n])
+        for n, name in enumerate(names)
+    }
+    parts = [slice(6 * n, 6 * n + 6) for n in range(joints)]
+    return Solution([x[part] for part in parts], [~is_open[part] for part in parts], loads, rest)
+
+
+def wrench_matrix(p: Array) -> Array:
+    """A force and couple at p to force and moment about the origin."""
+    x, y, z = p
+    spread = np.eye(6)
+    spread[3:, :3] = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    return spread
+
+
+def limits(case: Case, joint: object) -> list[Array]:
+    """What a joint cannot carry, as rows whose product with its components is zero."""
+    couples = [np.eye(6)[k] for k in (3, 4, 5)]
+    if isinstance(joint, Ball | Thrust):
+        return couples
+    if isinstance(joint, Radial):
+        return [*couples, np.concatenate([along(case, joint.axis), np.zeros(3)])]
+    if isinstance(joint, Hinge):
+        return [np.concatenate([np.zeros(3), along(case, joint.axis)])]
+    return []
+
+
+def load_wrench(case: Case, load: object) -> Array:
+    """Force and moment about the origin; of an unknown load for a number of 1."""
+    if isinstance(load, Torque):
+        size = 1.0 if load.value is None else load.value.value  # type: ignore[union-attr]
+        return np.concatenate([np.zeros(3), size * along(case, load.heading)])
+    if isinstance(load, ForceVector):
+        force = np.array([part.value for part in load.parts])
+    else:
+        assert isinstance(load, Force)
+        size = 1.0 if load.value is None else load.value.value  # type: ignore[union-attr]
+        force = size * along(case, load.heading)
+    return np.concatenate([force, np.cross(place(case, load.at), force)])
