@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from itertools import product
+from random import Random
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -16,6 +17,7 @@ import numpy as np
 import equilibrium
 from icsolve import case as c
 from reference import DOUBLE, Motions, Points, along, frame_of, motions
+from transcribe import Scene
 
 STEPS = 25
 
@@ -159,3 +161,22 @@ def motion_sense(case: c.Case, points: Points) -> float:
     (motion,) = motions(case, points).basis
     turns = float(motion[given.link][2])
     return math.copysign(1.0, turns) * (-1.0 if given.turns == "cw" else 1.0)
+
+
+def roughened(rng: Random, scene: Scene, most: int) -> Scene:
+    """A scene with friction at random joints, in at most so many places."""
+    joints = [dict(joint) for joint in scene["joints"]]
+    left = most
+    for joint in rng.sample(joints, len(joints)):
+        kind = next(iter(joint))
+        places = len(joint["pin"]) - 1 if kind == "pin" else 1
+        if kind not in ("pin", "slide", "slot", "contact") or places > left:
+            continue
+        left -= places
+        joint["mu"] = round(rng.choice([rng.uniform(0.05, 0.3), rng.uniform(0.05, 0.9)]), 3)
+        if kind == "pin":
+            joint["radius"] = round(rng.uniform(0.05, 0.5), 3)
+        if kind == "slide" and left and rng.random() < 0.4:
+            joint["length"] = round(rng.uniform(0.5, 3), 3)
+            left -= 1
+    return {**scene, "joints": joints}

@@ -7,15 +7,20 @@ least squares, the answers hold to 1e-9.
 from __future__ import annotations
 
 import math
+import os
+from random import Random
 from typing import Any
 
 import pytest
 
 import icsolve
 import rubbing
+import transcribe
+from growth import random_mechanism
 from icsolve.answer import Answer, Found
-from reference import frame_of, points_of
+from reference import frame_of, motions, points_of
 
+MORE = 20 if os.environ.get("ICSOLVE_FULL") == "1" else 1
 EXACT = 1e-12
 LAW = 1e-9
 
@@ -312,6 +317,83 @@ def _power_in(answer: Answer) -> float:
     return sum(term.power for term in answer.terms if term.power > 0.0 and " " not in term.load)
 
 
+def test_two_values_where_a_guide_can_press_from_either_side() -> None:
+    """Drawn down an incline steeper than 90 - phi: P = W tan(alpha - phi), or hung from it, W tan(alpha + phi)."""
+    down = incline(50, 1.2, "motion: {point: A, link: 2, speed: 1, angle: 230}")
+    answer, phi = solved(down), math.atan(1.2)
+    assert answer.answers["P"].value == exactly(100 * math.tan(math.radians(50) - phi))
+    other = 100 * math.tan(math.radians(50) + phi)
+    assert any(f"other values of P too: {other:.6g}" in note for note in answer.notes)
+
+
+def test_a_joint_that_is_at_rest_in_the_motion_does_not_rub() -> None:
+    """With the crank square to the slide the coupler only translates: nothing turns at C."""
+    text = """
+points: {A: [0, 0], B: [0, 1], C: [3, 0]}
+joints:
+  - {pin: [1, 2], at: A, mu: 0.2, radius: 0.1}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C%s}
+  - {slide: [4, 1], at: C, along: 0}
+loads:
+  P: {force: 10, link: 4, at: C, angle: 180}
+  T: {torque: unknown, link: 2}
+motion: {link: 2, turns: cw}
+"""
+    rough = solved(text % ", mu: 0.5, radius: 0.2")
+    assert rough.answers["T"].value == value(text % "", "T")
+    assert any("3-4 at C does not rub in this motion" in note for note in rough.notes)
+
+
+TWO = """
+points: {A: [0, 0], B: [5, 0]}
+joints:
+  - {slide: [2, 1], at: A, along: 20, mu: 0.3}
+  - {slide: [3, 1], at: B, along: 35, mu: 0.1}
+loads:
+  W: {weight: 100, link: 2, at: A}
+  V: {weight: 50, link: 3, at: B}
+  P: {force: unknown, link: 2, at: A, angle: 0}
+  Q: {force: unknown, link: 3, at: B, angle: 0}
+"""
+
+
+def test_two_degrees_of_freedom_need_two_motions() -> None:
+    up, down = "{point: A, link: 2, speed: 1, angle: 20}", "{point: B, link: 3, speed: 1, angle: 215}"
+    answer = solved(f"{TWO}motion: [{up}, {down}]\n")
+    assert answer.answers["P"].value == exactly(100 * math.tan(math.radians(20) + math.atan(0.3)))
+    assert answer.answers["Q"].value == exactly(50 * math.tan(math.radians(35) - math.atan(0.1)))
+    assert refused(TWO).status == "mobility"
+    assert "open" in str(refused(f"{TWO}motion: {up}\n"))
+
+
+def test_friction_has_no_part_where_nothing_is_unknown() -> None:
+    text = incline(20, 0.3).replace("unknown", "30")
+    answer = solved(text)
+    assert answer.rates == {"2": 0.0, "1": 0.0}
+    assert answer.friction is None
+    with pytest.raises(icsolve.SceneError) as caught:
+        solved(text, reactions=True)
+    assert caught.value.status == "unbalanced"
+
+
+def test_the_sense_of_a_passive_freedom_is_open() -> None:
+    text = """
+points: {A: [0, 0], C: [0, 3], K: [-0.6, 2.2]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {slide: [3, 1], at: C, along: 90}
+  - {pin: [3, 4], at: C, mu: 0.2, radius: 0.1}
+  - {contact: [2, 4], at: K, normal: 53.13010235415598}
+loads:
+  W: {weight: 10, link: 3, at: C}
+  T: {torque: unknown, link: 2}
+motion: {link: 2, turns: ccw}
+"""
+    assert "links 3 and 4 at C is open" in str(refused(text))
+    assert solved(text.replace("mu: 0.2", "mu: 0")).answers["T"].value != 0.0
+
+
 # --- brute force -----------------------------------------------------------------------------------
 
 
@@ -361,7 +443,8 @@ loads:
 
 SIX_BAR = """
 points:
-  {A: [0, 0], B: [0.5, 1.4], C: [3.2, 2.4], D: [3.5, 0], E: [4.4, 2.9], F: [6.6, 2.2], G: [6.3, 0.2], H: [7, 3]}
+  {A: [0, 0], B: [0.5, 1.4], C: [3.2, 2.4], D: [3.5, 0], E: [4.4, 2.9], F: [6.6, 2.2], G: [6.3, 0.2],
+   H: [7, 3]}
 joints:
   - {pin: [1, 2], at: A, mu: 0.25, radius: 0.2}
   - {pin: [2, 3], at: B, mu: 0.25, radius: 0.2}
@@ -399,3 +482,63 @@ loads:
 """
     check_against_brute_force(text, "T")
     assert held(text, "T").holds == tuple(exactly(wedging(20, mu, way)) for way in (-1, 1))
+
+
+def turning(case: Any) -> str | None:
+    """A link that turns in the one motion of a mechanism; None where there is none."""
+    (motion,) = motions(case, points_of(case)).basis
+    fastest = max(abs(float(part)) for twist in motion.values() for part in twist)
+    return next((q for q in case.links if abs(float(motion[q][2])) > 1e-3 * fastest), None)
+
+
+def check_random(seed: int) -> str:
+    """A random mechanism with four rubs: both motions against brute force, and the range at rest."""
+    rng = Random(seed)
+    text = transcribe.text(rubbing.roughened(rng, random_mechanism(rng), 4))
+    case = icsolve.load(text)
+    points, driven = points_of(case), turning(case)
+    if driven is None:
+        return "nothing turns"
+    ends = []
+    for turns in ("ccw", "cw"):
+        case = icsolve.load(f"{text}motion: {{link: {driven}, turns: {turns}}}\n")
+        try:
+            mine = icsolve.solve(case, reactions=True)
+        except icsolve.SceneError as error:
+            if error.status != "jam":
+                return error.status
+            ends.append(math.inf)
+            continue
+        if any("does not rub" in note for note in mine.notes):
+            return "at rest"
+        theirs = rubbing.against_the_motion(case, points, rubbing.motion_sense(case, points))
+        assert theirs.unknowns is not None, text
+        assert mine.answers["U"].value == pytest.approx(theirs.unknowns["U"], rel=1e-8), text
+        check_laws(mine)
+        ends.append(mine.answers["U"].value)
+    least, most = icsolve.solve(icsolve.load(text)).answers["U"].holds or (0.0, 0.0)
+    finite = sorted(end for end in ends if math.isfinite(end))
+    assert [end for end in (least, most) if math.isfinite(end)] == pytest.approx(finite, rel=1e-9), text
+    free = icsolve.solve(icsolve.load(text.replace("mu: 0.", "mu: 0.0000000000000"))).answers["U"].holds
+    assert free is not None and least <= sum(free) / 2 <= most, text
+    return "jams" if len(finite) < 2 else "checked"
+
+
+def check_laws(answer: Answer) -> None:
+    """Friction takes power everywhere, the sum of power is zero, and no more comes out than goes in."""
+    assert answer.friction is not None
+    largest = max(abs(term.power) for term in answer.terms)
+    assert abs(sum(term.power for term in answer.terms)) <= 1e-9 * largest
+    assert all(rub.loss >= 0.0 for rub in answer.friction.rubbing)
+    assert all(abs(rub.value) <= rub.limit * (1 + 1e-12) for rub in answer.friction.rubbing)
+    assert answer.friction.residual < 1e-11
+    if answer.friction.efficiency is not None:
+        assert -1e-12 <= answer.friction.efficiency <= 1 + 1e-12
+    (w,) = answer.witnesses
+    assert abs(w.difference) <= w.bound
+
+
+def test_random_mechanisms_by_brute_force() -> None:
+    found = [check_random(seed) for seed in range(900, 900 + 16 * MORE)]
+    assert found.count("checked") > len(found) // 4
+    assert set(found) <= {"checked", "jams", "at rest", "nothing turns", "unsupported"}

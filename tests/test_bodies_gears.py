@@ -1,0 +1,178 @@
+"""Tooth forces and the loads on bearings, against the formulas of machine design and problem 13.23.
+
+A tooth force has a tangential part T / r and a separating part (T / r) tan(phi); tolerance 1e-12.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import pytest
+
+import icsolve
+from icsolve.answer import Answer
+from icsolve.bodies.values import Reaction
+
+TAN = math.tan(math.radians(20))
+
+
+def solved(text: str) -> Answer:
+    return icsolve.solve(icsolve.load("icsolve: 1\n" + text), reactions=True)
+
+
+def force(answer: Answer, name: str) -> Reaction:
+    assert answer.reactions is not None
+    return answer.reactions[name]
+
+
+def is_force(reaction: Reaction, x: float, y: float) -> bool:
+    return (reaction.x, reaction.y) == (exactly(x), exactly(y))
+
+
+def exactly(number: float) -> Any:
+    return pytest.approx(number, rel=1e-12, abs=1e-12)
+
+
+def digits(text: str) -> Any:
+    return pytest.approx(float(text), rel=0, abs=0.5 * 10.0 ** -len(text.partition(".")[2]))
+
+
+def pair(apart: float = 2.75, tooth: str = "pressure angle: 20, diametral pitch: 16") -> str:
+    return f"""
+units: {{length: in, force: lbf}}
+points: {{O2: [0, 0], O3: [0, {apart}]}}
+joints:
+  - {{pin: [1, 2], at: O2}}
+  - {{pin: [1, 3], at: O3}}
+  - {{gears: [2, 3], teeth: [31, 57], {tooth}}}
+loads:
+  T3: {{torque: 500 lbf*ft, link: 3}}
+  T2: {{torque: unknown, link: 2}}
+"""
+
+
+def test_13_23_spur_gears() -> None:
+    """Recomputed values of the source document's problem 13.23; in print they are 12 times too small."""
+    answer = solved(pair())
+    assert answer.answers["T2"].value / 12 == digits("271.93")
+    tooth = force(answer, "F23")
+    assert dict(tooth.parts) == {"tangential": digits("3368.4"), "separating": digits("1226.0")}
+    assert tooth.magnitude == digits("3584.6")
+    assert force(answer, "F13").magnitude == force(answer, "F12").magnitude == digits("3584.6")
+
+
+def test_the_separating_force_pushes_gears_apart_whichever_flank_carries() -> None:
+    for text in (pair(), pair().replace("torque: 500", "torque: -500")):
+        tooth = force(solved(text), "F23")
+        assert tooth.y == digits("1226.0")  # the wheel is above the pinion
+
+
+def test_teeth_that_do_not_fit_their_pivots_are_refused_with_the_line() -> None:
+    with pytest.raises(icsolve.SceneError, match="gears 2 and 3 \\(line 8\\) do not fit") as caught:
+        solved(pair(2.8))
+    assert caught.value.status == "inconsistent"
+    assert "2.75 in" in str(caught.value)
+
+
+def test_without_a_pressure_angle_the_bearing_loads_are_open_and_the_torque_is_not() -> None:
+    answer = solved(pair(tooth="diametral pitch: 16"))
+    tooth = force(answer, "F23")
+    assert (tooth.x, tooth.y) == (digits("-3368.4"), None)
+    assert "pressure angle" in tooth.why
+    assert any("`pressure angle`" in note for note in answer.notes)
+
+
+def test_idler_of_a_train_carries_both_tooth_forces() -> None:
+    answer = solved("""
+points: {A: [0, 0], B: [3, 0], C: [3, 4]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [1, 3], at: B}
+  - {pin: [1, 4], at: C}
+  - {gears: [2, 3], teeth: [20, 40], pressure angle: 20}
+  - {gears: [3, 4], teeth: [40, 40], pressure angle: 20}
+loads:
+  T2: {torque: 10, link: 2}
+  T4: {torque: unknown, link: 4}
+""")
+    assert answer.answers["T4"].value == exactly(-20)
+    assert is_force(force(answer, "F23"), 10 * TAN, 10)
+    assert is_force(force(answer, "F34"), 10, 10 * TAN)
+    assert is_force(force(answer, "F13"), 10 - 10 * TAN, 10 * TAN - 10)
+
+
+def test_epicyclic_with_a_fixed_annulus() -> None:
+    """Sun 20, planet 10, annulus 40: the planet's pin carries both tangential forces, no separating one."""
+    answer = solved("""
+points: {O: [0, 0], P: [0, 3]}
+joints:
+  - {pin: [1, 2, 4], at: O}
+  - {pin: [4, 3], at: P}
+  - {gears: [2, 3], teeth: [20, 10], pressure angle: 20}
+  - {gears: [3, 1], teeth: [10, -40], pressure angle: 20}
+loads:
+  T2: {torque: 10, link: 2}
+  T4: {torque: unknown, link: 4}
+""")
+    assert answer.answers["T4"].value == exactly(-30)
+    assert is_force(force(answer, "F23"), -5, 5 * TAN)
+    assert is_force(force(answer, "F13"), -5, -5 * TAN)  # the annulus presses the planet inward
+    assert is_force(force(answer, "F34"), -10, 0)
+    assert is_force(force(answer, "F12"), -5, 5 * TAN)
+
+
+def test_internal_gear_is_pushed_outward() -> None:
+    answer = solved("""
+points: {A: [0, 0], B: [2, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [1, 3], at: B}
+  - {gears: [2, 3], teeth: [60, -100], pressure angle: 20}
+loads:
+  T2: {torque: 30, link: 2}
+  T3: {torque: unknown, link: 3}
+""")
+    assert answer.answers["T3"].value == exactly(-50)
+    tooth = force(answer, "F23")
+    assert tooth.at == (exactly(-3), exactly(0))
+    assert is_force(tooth, -10 * TAN, -10)  # the pitch point is at the left, and outward is left
+
+
+RACK = """
+points: {O: [0, 1.5], P: [0, 0], R: [3, -0.5]}
+joints:
+  - {pin: [1, 2], at: O}
+  - {slide: [3, 1], at: R, along: 0}
+  - {roll: [2, 3], at: P, radii: [1.5, 0], pressure angle: 20}
+loads:
+  F: {force: 100, link: 3, at: R, angle: 180}
+  T2: {torque: unknown, link: 2}
+"""
+
+
+def test_rack_is_pressed_to_its_guide() -> None:
+    answer = solved(RACK)
+    assert answer.answers["T2"].value == exactly(150)
+    assert is_force(force(answer, "F23"), 100, -100 * TAN)
+    assert is_force(force(answer, "F13"), 0, 100 * TAN)
+    assert force(answer, "F13").moment == exactly(0.5 * 100 - 3 * 100 * TAN)
+
+
+def test_rack_without_a_pressure_angle_leaves_the_pressure_open() -> None:
+    answer = solved(RACK.replace(", pressure angle: 20", ""))
+    assert force(answer, "F23").x == exactly(100)
+    assert force(answer, "F23").y is None
+    assert force(answer, "F13").x == exactly(0)
+
+
+def test_friction_of_a_gear_bearing_needs_the_pressure_angle() -> None:
+    rubbing = pair().replace("at: O3", "at: O3, mu: 0.1, radius: 0.5") + "motion: {link: 2, turns: ccw}\n"
+    with pytest.raises(icsolve.SceneError, match="Give the gears their `pressure angle`"):
+        solved(rubbing.replace("pressure angle: 20, ", ""))
+    # the wheel's bearing carries the tooth force; its friction adds mu R sin to the load torque
+    r = 0.5 * math.sin(math.atan(0.1))
+    wheel = 57 / 32
+    tangential = -6000 / (wheel + math.copysign(r, -1) / math.cos(math.radians(20)))
+    answer = solved(rubbing)
+    assert abs(dict(force(answer, "F23").parts)["tangential"]) == exactly(abs(tangential))

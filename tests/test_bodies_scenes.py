@@ -1,0 +1,353 @@
+"""Reactions scene by scene: structures, redundant joints, welds, names, contacts that part, black boxes."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from typing import Any
+
+import numpy as np
+import pytest
+
+import icsolve
+from equilibrium import push
+from icsolve.answer import Answer
+from icsolve.bodies.values import Reaction
+
+
+def solved(text: str, **options: Any) -> Answer:
+    return icsolve.solve(icsolve.load("icsolve: 1\n" + text), reactions=True, **options)
+
+
+def force(answer: Answer, name: str) -> Reaction:
+    assert answer.reactions is not None
+    return answer.reactions[name]
+
+
+def parts(answer: Answer, name: str) -> tuple[float | None, float | None, float | None]:
+    found = force(answer, name)
+    return found.x, found.y, found.moment
+
+
+def exactly(number: float) -> Any:
+    return pytest.approx(number, rel=1e-12, abs=1e-12)
+
+
+def near(*numbers: float) -> tuple[Any, ...]:
+    return tuple(map(exactly, numbers))
+
+
+# --- structures ------------------------------------------------------------------------------------
+
+BRACKET = """
+points: {A: [0, 0], B: [3, 0], C: [0, 3]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [1, 3], at: C}
+loads:
+  W: {weight: 10, link: 2, at: B}
+"""
+
+
+def test_structure_is_statics_alone() -> None:
+    """A wall bracket: the strut pushes, the tie pulls with W sqrt 2."""
+    answer = solved(BRACKET)
+    assert (answer.status, answer.mobility, answer.answers) == ("ok", 0, {})
+    assert parts(answer, "F12") == near(10, 0, 0)
+    assert parts(answer, "F23") == near(10, -10, 0)
+    assert force(answer, "F13").magnitude == exactly(10 * 2**0.5)
+    assert "structure" in answer.notes[-1]
+
+
+def test_structure_without_reactions_asked_is_refused_as_before() -> None:
+    with pytest.raises(icsolve.SceneError) as caught:
+        icsolve.solve(icsolve.load("icsolve: 1\n" + BRACKET))
+    assert caught.value.status == "structure"
+
+
+def test_nothing_determines_an_unknown_load_of_a_structure() -> None:
+    with pytest.raises(icsolve.SceneError, match="any value of the unknown load is carried") as caught:
+        solved(BRACKET.replace("weight: 10", "weight: unknown"))
+    assert caught.value.status == "structure"
+
+
+def test_a_frame_with_a_pulled_rope() -> None:
+    """Hibbeler's way: two members on two supports, four equations for each pin, solved here by hand."""
+    answer = solved("""
+points: {A: [0, 0], B: [2, 3], C: [4, 0], D: [1, 1.5]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [1, 3], at: C}
+loads:
+  P: {force: [6, 0], link: 2, at: D}
+""")
+    # about A of both: 4 Cy = -6 1.5 ... ; about B of member 3: its force lies along CB
+    assert parts(answer, "F13") == near(-1.5, 2.25, 0)
+    assert parts(answer, "F12") == near(-4.5, -2.25, 0)
+
+
+def test_redundant_joints_leave_open_only_what_they_share() -> None:
+    answer = solved("""
+points: {A: [0, 0], B: [3, 0], C: [1, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [1, 2], at: B}
+loads:
+  W: {weight: 9, link: 2, at: C}
+""")
+    assert parts(answer, "F1-2@A") == (None, exactly(6), exactly(0))
+    assert parts(answer, "F1-2@B") == (None, exactly(3), exactly(0))
+    assert "F1-2@A and F1-2@B" in answer.notes[-1]
+    shown = answer.to_dict()["reactions"]["F1-2@A"]
+    assert (shown["x"], shown["magnitude"]) == (None, None)
+    assert "equilibrium alone" in shown["undetermined"]
+    json.dumps(answer.to_dict(), allow_nan=False)
+
+
+def test_wedge_has_unique_forces_and_open_couples() -> None:
+    answer = solved("""
+points: {A: [0, 0], C: [2, 1], B: [2, 3]}
+joints:
+  - {slide: [2, 1], at: A, along: 0}
+  - {slide: [3, 2], at: C, along: 165}
+  - {slide: [3, 1], at: B, along: 90}
+loads:
+  W: {force: 100, link: 3, at: B, angle: 270}
+  P: {force: unknown, link: 2, at: A, angle: 0}
+""")
+    assert force(answer, "F12").y == exactly(100)
+    assert [force(answer, n).moment for n in ("F12", "F23", "F13")] == [None] * 3
+    assert "the couples of F12, F23 and F13" in answer.notes[-1]
+
+
+# --- welds, several links on a pin, names ----------------------------------------------------------
+
+
+def test_weld_carries_a_couple_about_the_point_that_is_said() -> None:
+    text = """
+points: {A: [0, 0], B: [2, 0], C: [5, 0]}
+joints:
+  - {weld: [1, 2], at: A}
+  - {weld: [2, 3]%s}
+loads:
+  W: {weight: 10, link: 3, at: C}
+  M: {torque: 7, link: 3}
+"""
+    answer = solved(text % ", at: B")
+    assert parts(answer, "F12") == near(0, 10, 50 - 7)
+    assert parts(answer, "F23") == near(0, 10, 30 - 7)
+    somewhere = solved(text % "")
+    found = force(somewhere, "F23")
+    assert found.where in {"A", "C"}
+    assert found.moment == exactly((5 - found.at[0]) * 10 - 7)
+
+
+def test_pin_of_several_links_is_carried_by_the_first_named() -> None:
+    answer = solved("""
+points: {A: [0, 0], B: [4, 0], C: [2, 3], E: [2, 5]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [1, 3], at: B}
+  - {pin: [2, 3, 4], at: C}
+  - {slot: [4, 1], at: E, along: 90}
+loads:
+  W: {weight: 12, link: 4, at: C}
+""")
+    assert set(answer.reactions or ()) == {"F12", "F13", "F23", "F24", "F14"}
+    assert parts(answer, "F24") == near(0, 12, 0)
+    assert parts(answer, "F23") == near(4, -6, 0)
+    assert parts(answer, "F13") == near(-4, 6, 0)
+
+
+def test_names_of_forces_take_either_order() -> None:
+    answer = solved(BRACKET)
+    assert force(answer, "F32") == force(answer, "F23").reversed()
+    assert force(answer, "F3-2") == force(answer, "F32")
+    with pytest.raises(KeyError):
+        force(answer, "F45")
+    words = (
+        BRACKET.replace("[1, 2]", "[1, strut]").replace("[2, 3]", "[14, strut]").replace("[1, 3]", "[1, 14]")
+    )
+    assert set(solved(words.replace("link: 2", "link: strut")).reactions or ()) == {
+        "F1-strut",
+        "F14-strut",
+        "F1-14",
+    }
+
+
+# --- mechanisms ------------------------------------------------------------------------------------
+
+WATT = """
+points:
+  {A: [0, 0], B: [0.5, 1.5], C: [3, 2.5], D: [4, 0], E: [3.5, 3.5], F: [6, 3], G: [6.5, 0],
+   S: [2, 2], T: [5, 4]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {pin: [1, 4], at: D}
+  - {pin: [4, 5], at: E}
+  - {pin: [5, 6], at: F}
+  - {pin: [1, 6], at: G}
+loads:
+  W2: {weight: 3, link: 2, at: B}
+  W3: {weight: 8, link: 3, at: S}
+  W4: {weight: 6, link: 4, at: E}
+  W5: {weight: 5, link: 5, at: T}
+  W6: {weight: 4, link: 6, at: F}
+  T: {torque: unknown, link: 2}
+"""
+STEPHENSON = WATT.replace("{pin: [4, 5], at: E}", "{pin: [3, 5], at: E}").replace(
+    "link: 4, at: E", "link: 4, at: C"
+)
+
+
+@pytest.mark.parametrize("text", [WATT, STEPHENSON], ids=["Watt", "Stephenson"])
+def test_six_bars_under_gravity_against_a_dense_system(text: str) -> None:
+    """Fifteen equations written out joint by joint, solved by numpy; every reaction to 1e-9."""
+    case = icsolve.load("icsolve: 1\n" + text)
+    at = {name: (p.x.value, p.y.value) for name, p in case.points.items()}  # type: ignore[union-attr]
+    pins = [(int(j.links[0]), int(j.links[1]), at[j.at]) for j in case.joints]  # type: ignore[union-attr,arg-type]
+    a, b = np.zeros((15, 15)), np.zeros(15)
+    for k, (i, j, p) in enumerate(pins):
+        for side, direction in enumerate(((1.0, 0.0), (0.0, 1.0))):
+            for link, sign in ((i, -1.0), (j, 1.0)):
+                if link != 1:
+                    a[3 * link - 6 : 3 * link - 3, 2 * k + side] += sign * np.array(push(p, direction))
+    a[2, 14] = 1.0
+    for load in case.loads[:-1]:
+        row = 3 * int(load.link) - 6
+        b[row : row + 3] -= np.array(push(at[load.at], (0.0, -load.value.value)))  # type: ignore[union-attr]
+    x = np.linalg.solve(a, b)
+    answer = icsolve.solve(case, reactions=True)
+    assert answer.answers["T"].value == pytest.approx(x[14], rel=1e-9)
+    for k, (i, j, _) in enumerate(pins):
+        found = force(answer, f"F{i}{j}")
+        assert (found.x, found.y) == (
+            pytest.approx(x[2 * k], rel=1e-9),
+            pytest.approx(x[2 * k + 1], rel=1e-9),
+        )
+
+
+def test_known_loads_that_balance_have_reactions() -> None:
+    text = """
+points: {O: [0, 0], A: [-2, 0], B: [3, 0]}
+joints:
+  - {pin: [1, 2], at: O}
+loads:
+  W: {weight: 30, link: 2, at: A}
+  V: {weight: %s, link: 2, at: B}
+"""
+    assert parts(solved(text % 20), "F12") == near(0, 50, 0)
+    with pytest.raises(icsolve.SceneError, match="W and V turn link 2 cw") as caught:
+        solved(text % 21)
+    assert caught.value.status == "unbalanced"
+    assert parts(solved(text.replace("30", "30.0") % "20.0"), "F12") == near(0, 50, 0)
+
+
+def test_loads_balance_to_the_digits_in_which_they_are_given() -> None:
+    """T = 29.672 in print for 29.67219 (problem 13.8)."""
+    text = """
+points: {A: [0, 0], B: [-.30782, .84572], C: [2.2, 2.60424], D: [2.9444, 0], E: [3.4489, .87382]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {pin: [1, 4], at: D}
+loads:
+  P: {force: 100, link: 4, at: E, angle: 0}
+  T12: {torque: %s, link: 2}
+"""
+    known, found = solved(text % 29.672), solved(text % "unknown")
+    for name in ("F12", "F23", "F34", "F14"):
+        assert parts(known, name)[0] == pytest.approx(parts(found, name)[0], rel=1e-4)
+    with pytest.raises(icsolve.SceneError):
+        solved(text % 30.2)
+
+
+CAM = """
+points: {A: [0, 0], K: [1, 2], C: [5, 2.5], H: [3, 2.5]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [1, 3], at: C}
+  - {contact: [2, 3], at: K, normal: 80}
+loads:
+  F: {force: 10, link: 3, at: H, angle: %s}
+  T: {torque: unknown, link: 2}
+"""
+
+
+def test_contact_that_would_have_to_pull_is_said_to_be_lost() -> None:
+    pressed, pulled = solved(CAM % 270), solved(CAM % 90)
+    assert dict(force(pressed, "F23").parts)["normal"] > 0.0
+    assert not any("lost" in note for note in pressed.notes)
+    assert any("contact of links 2 and 3 at K is lost" in note for note in pulled.notes)
+    assert not any("lost" in note for note in icsolve.solve(icsolve.load("icsolve: 1\n" + CAM % 90)).notes)
+
+
+def test_pressure_angle_of_a_cam() -> None:
+    """The normal at 80 degrees; K on the follower moves square to CK, at 90 + atan(0.5 / 4) degrees."""
+    angle = dict(force(solved(CAM % 270), "F23").parts)["pressure angle"]
+    assert angle == exactly(10 + float(np.degrees(np.arctan(0.125))))
+    assert solved(CAM % 270).to_dict()["reactions"]["F23"]["pressure_angle"] == angle
+
+
+def test_belt_leaves_its_pull_open() -> None:
+    answer = solved("""
+points: {A: [0, 0], B: [10, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [1, 3], at: B}
+  - {belt: [2, 3], radii: [2, 2]}
+loads:
+  T2: {torque: 10, link: 2}
+  T3: {torque: unknown, link: 3}
+""")
+    assert "slack strand" in force(answer, "F23").why
+    assert answer.answers["T3"].value == exactly(-10)
+    assert any("initial tension" in note for note in answer.notes)
+
+
+def test_forces_far_from_the_origin_and_in_a_long_chain_lose_nothing() -> None:
+    """Fifty four-bars in series: the last bearing as in one by itself, with the torque that reaches it."""
+    loops = 50
+    points, joints = ["A0: [0, 0]"], ["{pin: [1, 2], at: A0}"]
+    for k in range(loops):
+        x, crank, rod, rocker = 10 * k, 2 * k + 2, 2 * k + 3, 2 * k + 4
+        points += [f"B{k}: [{x}, 2]", f"C{k}: [{x + 9}, 2.5]", f"A{k + 1}: [{x + 10}, 0]"]
+        joints += [f"{{pin: [{crank}, {rod}], at: B{k}}}", f"{{pin: [{rod}, {rocker}], at: C{k}}}"]
+        joints += [f"{{pin: [1, {rocker}], at: A{k + 1}}}"]
+    head = f"points: {{{', '.join(points)}}}\njoints:\n" + "".join(f"  - {j}\n" for j in joints)
+    loads = f"T: {{torque: 5, link: {2 * loops + 2}}}\n  Q: {{torque: unknown, link: 2}}"
+    answer = solved(f"{head}loads:\n  {loads}\n")
+    (w,) = answer.witnesses
+    assert abs(w.difference) <= w.bound <= 1e-9 * abs(w.power)
+    last = force(answer, f"F1-{2 * loops + 2}")
+    rod = np.array([9.0, 0.5]) / np.hypot(9, 0.5)
+    arm = np.array([-1.0, 2.5])
+    size = 5 / (arm[0] * rod[1] - arm[1] * rod[0])
+    assert (last.x, last.y) == (
+        pytest.approx(size * rod[0], rel=1e-9),
+        pytest.approx(size * rod[1], rel=1e-9),
+    )
+
+
+# --- only when asked -------------------------------------------------------------------------------
+
+
+def test_a_plain_solve_does_none_of_this_work(tmp_path: Any) -> None:
+    path = tmp_path / "watt.yaml"
+    path.write_text("icsolve: 1\n" + WATT)
+    check = "import sys; assert not any(name.startswith('icsolve.bodies') for name in sys.modules)"
+    code = f"import icsolve; a = icsolve.solve(icsolve.load({str(path)!r})); a.to_dict(); {check}"
+    subprocess.run([sys.executable, "-c", code], check=True)
+
+
+def test_reactions_need_no_numpy(tmp_path: Any) -> None:
+    path = tmp_path / "watt.yaml"
+    path.write_text("icsolve: 1\n" + WATT)
+    code = f"import sys, icsolve; icsolve.solve(icsolve.load({str(path)!r}), reactions=True).to_dict(); "
+    subprocess.run([sys.executable, "-c", code + "assert 'numpy' not in sys.modules"], check=True)
