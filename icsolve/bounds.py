@@ -14,6 +14,7 @@ from typing import NamedTuple
 from icsolve import verdicts
 from icsolve.answer import Centre
 from icsolve.arithmetic import Scalar
+from icsolve.centres import direction_of
 from icsolve.errors import SceneError, Status
 from icsolve.plane import Triple, subtract, velocity
 from icsolve.program import Outcome, Program, evaluate
@@ -176,25 +177,29 @@ def _reference(scene: Bounded, speed: Speed) -> Scalar:
     return size if speed.divisor > 0 else -size
 
 
-def centre_error(scene: Bounded, centre: Centre) -> float | None:
-    """Bound on the place (case units) or direction (degrees) of a centre; None where none is proven.
+def bounded_centre(scene: Bounded, centre: Centre) -> Centre:
+    """A centre with the bound on its place (case units) or direction (degrees), where one is proven.
 
     It is the bound of the relative twist's centre, and how far the place that is shown (which lines
-    may have given) lies from it.
+    may have given) lies from it. A centre whose weight vanishes within its bound lies at infinity.
     """
     if centre.kind not in ("at", "toward") or scene.outcome.motions.mobility != 1:
-        return None
+        return centre
     i, j = centre.pair
     twists = scene.outcome.motions.twists
     x, y, w = subtract(twists[j][0], twists[i][0])
+    found = centre.by in ("construction", "loop equations")
+    if centre.kind == "at" and found and abs(w) <= scene.of(w):
+        centre = centre._replace(kind="toward", place=(direction_of(float(x), float(y)),))
     if centre.kind == "toward":
         small, large = (x, y) if abs(x) < abs(y) else (y, x)
-        return scene.of(small / large) * DEGREES + UNIT * 180.0 if large != 0.0 else None
+        error = scene.of(small / large) * DEGREES + UNIT * 180.0 if large != 0.0 else None
+        return centre._replace(error=error)
     if w == 0.0:
-        return None
+        return centre
     px, py, (ox, oy, scale) = x / w, y / w, scene.program.figure.frame
     apart = abs(float(px) / scale + ox - centre.place[0]) + abs(float(py) / scale + oy - centre.place[1])
-    return apart + (scene.of(px) + scene.of(py)) / scale
+    return centre._replace(error=apart + (scene.of(px) + scene.of(py)) / scale)
 
 
 DEGREES = 57.29577951308232

@@ -136,13 +136,18 @@ class CentreFinder:
         x, y, w = known.point
         lines = tuple(tuple(self._names(end) for end in line.ends) for line in known.lines)
         if abs(w) <= max(16 * ROUNDING, min(4 * known.error, 1e-10)) * max(abs(x), abs(y)):
-            toward = math.degrees(math.atan2(y, x)) % 180.0
-            return Centre(pair, "toward", (0.0 if toward == 180.0 else toward,), known.by, lines)
+            return Centre(pair, "toward", (direction_of(x, y),), known.by, lines)
         place = (x / w / self.frame.scale + self.frame.ox, y / w / self.frame.scale + self.frame.oy)
         return Centre(pair, "at", (place[0] + 0.0, place[1] + 0.0), known.by, lines)
 
     def _names(self, pair: BodyPair) -> Pair:
         return ordered_pair(self.case, self.top.members[pair[0]][0], self.top.members[pair[1]][0])
+
+
+def direction_of(x: float, y: float) -> float:
+    """Direction of a point at infinity, degrees in [0, 180)."""
+    toward = math.degrees(math.atan2(y, x)) % 180.0
+    return 0.0 if toward == 180.0 else toward
 
 
 def _agree(known: Known, twist: Triple, slack: float) -> bool:

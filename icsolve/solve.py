@@ -20,8 +20,8 @@ from icsolve.arithmetic import FLOATS
 from icsolve.bounds import (
     Bounded,
     Value,
+    bounded_centre,
     bounded_values,
-    centre_error,
     evaluate_bounded,
     floats,
     plain,
@@ -173,7 +173,7 @@ class _Parts:
         found = finder.find(pairs, self.outcome.motions.slack)
         if self.scene is None:
             return found
-        return {pair: c._replace(error=centre_error(self.scene, c)) for pair, c in found.items()}
+        return {pair: bounded_centre(self.scene, centre) for pair, centre in found.items()}
 
 
 def _with_bodies(parts: _Parts) -> Answer:

@@ -90,7 +90,7 @@ def _combined(rows: list[Row], motions: int) -> Speed:
     with_target = [vector for vector in found.basis if abs(vector[-1]) > 1e-9]
     if not with_target:
         message = "the motions given contradict each other: no motion has all of them."
-        raise SceneError(Status.MOBILITY, message)
+        raise SceneError(Status.INCONSISTENT, message)
     first = with_target[0]
     particular = tuple(v / first[-1] for v in first[:-1])
     rest = [v for v in found.basis if v is not first]

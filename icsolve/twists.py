@@ -135,10 +135,10 @@ def _monad(group: Group, bases: Bases, pool: _Pool) -> Closed:
     o = _origin(basis, line[0])
     ta, tc = pool.now(a, o), pool.now(c, o)
     here = _seen(basis, o)
-    join = cross(_seen(line[0], o), _seen(line[1], o))
+    first, second = _seen(line[0], o), _seen(line[1], o)
     r = subtract(tc, ta)
-    d, s = monad_twist(here, join, r)
-    return Closure(group, d, (s,), (join, here, r)), {body: blend(d, ta, s, here)}, o
+    d, s = monad_twist(here, cross(first, second), r)
+    return Closure(group, d, (s,), (first, second, here, r)), {body: blend(d, ta, s, here)}, o
 
 
 def _dyad(group: Group, bases: Bases, pool: _Pool) -> Closed:
@@ -214,17 +214,13 @@ def is_dead(closure: Closure) -> bool:
 
 def rate_sizes(closure: Closure) -> tuple[float, ...]:
     """For each numerator the products that it is summed from."""
-    if len(closure.columns) == 3:
-        join, _, r = closure.columns
-        return (products(join, r),)
     b1, b3, b2, r = closure.columns
+    if closure.group.kind == "monad":
+        return (products(b1, b3, r),)
     return (products(r, b3, b2), products(b1, b3, r))
 
 
 def products(*columns: Triple) -> float:
-    """Sum of the absolute values of the products in a scalar product, or in a determinant."""
-    (a, b, c), (d, e, f), *last = (tuple(map(abs, column)) for column in columns)
-    if not last:
-        return float(a * d + b * e + c * f)
-    ((g, h, i),) = last
+    """Sum of the absolute values of the products in the determinant of three columns."""
+    (a, b, c), (d, e, f), (g, h, i) = (tuple(map(abs, column)) for column in columns)
     return float(a * (e * i + f * h) + b * (f * g + d * i) + c * (d * h + e * g))
