@@ -19,7 +19,7 @@ from icsolve import case as c
 from reference import DOUBLE, Motions, Points, along, frame_of, motions
 from transcribe import Scene
 
-STEPS = 25
+STEPS = 12
 
 
 class Place(NamedTuple):

