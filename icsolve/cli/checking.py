@@ -116,7 +116,8 @@ def _validate(case: Case, path: str) -> int:
 
     answer = solve(case, examine=True)
     mobility = "" if answer.mobility is None else f", mobility {answer.mobility}"
-    count = f"{plural(len(case.links), 'link')}, {plural(len(case.joints), 'joint')}"
+    joints = len(case.joints if case.space is None else case.space.joints)
+    count = f"{plural(len(case.links), 'link')}, {plural(joints, 'joint')}"
     click.echo(f"{path}: valid: {count}{mobility}")
     for sentence in (*answer.notes, *answer.skipped):
         click.echo(f"  {sentence}")

@@ -10,7 +10,7 @@ from typing import NamedTuple
 from icsolve import speeds
 from icsolve.answer import Answer, Centre
 from icsolve.case import Case, Coordinates, Pair
-from icsolve.errors import SceneError
+from icsolve.errors import SceneError, Status
 from icsolve.figure import Frame, case_point, solve_figure
 from icsolve.names import ordered_pair
 from icsolve.plane import Point, Triple
@@ -65,6 +65,9 @@ STILL = 1e-12
 
 def known_of(case: Case, *, reactions: bool = False) -> Known:
     """Solve a case as far as it goes; never raises `SceneError`."""
+    if case.space is not None:
+        said = "a case in space is solved and checked; only planar ones are drawn and explained."
+        return Known(case, None, SceneError(Status.UNSUPPORTED, said), None, {}, {}, 0.0)
     answer, refusal = _solved(case, reactions)
     whole = _whole(case) or _whole(replace(case, loads=(), expect=(), motion=())) or answer
     points = _points(case, whole)
