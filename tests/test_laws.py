@@ -102,7 +102,13 @@ def test_changes_at_mobility_2(seed: int) -> None:
     compare(scene, transforms.rigid_motion(scene, rng.uniform(-180, 180), mechanisms.spot(rng, 30)))
     compare(scene, transforms.mirror(scene))
     compare(scene, transforms.reordered(scene, order))
-    compare(scene, transforms.scaled(scene, rng.choice([-20, 5])))
+    scaled, effect = transforms.scaled(scene, rng.choice([-20, 5]))
+    compare(scene, (scaled, effect))
+    kinds_of_unknown = {name: next(iter(scene["loads"][name])) for name in "UV"}
+    if "spring" not in kinds_of_unknown.values():  # a stiffness's column has another dimension: other pivots
+        old, new = solved(scene).answers, solved(scaled).answers
+        for name, kind in kinds_of_unknown.items():
+            assert new[name].value == effect.factor.get(kind, 1.0) * old[name].value, told(scene)
 
 
 def test_rates_of_another_frame_are_differences(scenes: list[Scene]) -> None:
