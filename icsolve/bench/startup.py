@@ -1,0 +1,64 @@
+"""Start-up: the CPU time of the whole process, cold, against what its imports cost."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from typing import NamedTuple
+
+from icsolve.bench.closed import FOUR_BAR_CASE
+
+
+class Start(NamedTuple):
+    """A process and the least CPU seconds that it took."""
+
+    name: str
+    seconds: float
+
+
+BARE = ("python -c pass", ["-c", "pass"])
+IMPORTS = ("python -c 'import click, yaml'", ["-c", "import click, yaml"])
+
+
+def starts(rounds: int = 7) -> list[Start]:
+    """Bare Python, the two packages that the command needs, and the command on one case, in turn."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "four-bar.yaml")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(FOUR_BAR_CASE)
+        command = ("icsolve solve four-bar.yaml", ["-m", "icsolve", "solve", path])
+        runs = (BARE, IMPORTS, command)
+        best = dict.fromkeys((name for name, _ in runs), float("inf"))
+        for _ in range(rounds):
+            for name, arguments in runs:
+                best[name] = min(best[name], _cpu([sys.executable, *arguments]))
+    return [Start(name, seconds) for name, seconds in best.items()]
+
+
+def _cpu(command: list[str]) -> float:
+    """User and system seconds of a child process; its wall time where the system does not tell them."""
+    try:
+        from resource import RUSAGE_CHILDREN, getrusage
+    except ImportError:
+        start = time.perf_counter()
+        subprocess.run(command, capture_output=True, check=True)
+        return time.perf_counter() - start
+    before = getrusage(RUSAGE_CHILDREN)
+    subprocess.run(command, capture_output=True, check=True)
+    after = getrusage(RUSAGE_CHILDREN)
+    return (after.ru_utime - before.ru_utime) + (after.ru_stime - before.ru_stime)
+
+
+def peak_memory(code: str) -> float | None:
+    """Largest resident memory in MB of a Python process that runs some code; None where it is not told."""
+    tail = "import resource; print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)"
+    ran = subprocess.run(
+        [sys.executable, "-c", f"{code}\n{tail}"], capture_output=True, text=True, check=False
+    )
+    if ran.returncode:
+        return None
+    kilobytes = int(ran.stdout.split()[-1])
+    return kilobytes / (1024.0**2 if sys.platform == "darwin" else 1024.0)

@@ -1,0 +1,79 @@
+"""`icsolve bench`."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from contextlib import suppress
+
+import click
+
+from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain
+
+
+@click.command("bench")
+@click.option(
+    "--stress", is_flag=True, help="The stress catalogue: scenes that break solvers, with their verdicts."
+)
+@click.option("--full", is_flag=True, help="Hold the laws on all their scenes: about a quarter of an hour.")
+@click.option(
+    "-o",
+    "--output",
+    metavar="FILE",
+    default="icsolve-bench.svg",
+    show_default=True,
+    help="Where the work-precision diagram goes.",
+)
+def bench_command(stress: bool, full: bool, output: str) -> int:
+    """Measure run time against error, and print Markdown.
+
+    \b
+    icsolve bench                   two minutes; needs mpmath (the extra icsolve[bench])
+    icsolve bench --stress          every scene of the stress catalogue and its verdict
+
+    Exit status: 1 where a verdict of the catalogue is not the one asked, 2 where it can't run.
+    """
+    return _stress() if stress else _bench(full, output)
+
+
+def _stress() -> int:
+    from icsolve.bench.report import stress
+
+    text, wrong = stress()
+    click.echo(text)
+    complain("every verdict is the one asked" if not wrong else f"{wrong} verdicts are not the ones asked")
+    return NO_ANSWER if wrong else DONE
+
+
+def _bench(full: bool, output: str) -> int:
+    try:
+        import mpmath  # noqa: F401
+    except ImportError:
+        complain("icsolve bench needs mpmath for its sixty digits: pip install 'icsolve[bench]'")
+        return UNREADABLE
+    from icsolve.bench.picture import picture
+    from icsolve.bench.report import run
+
+    scores = run(full, click.echo)
+    return _write(picture(scores), output)
+
+
+def _write(text: str, path: str) -> int:
+    """Write a file whole, or leave what was there."""
+    try:
+        folder = os.path.dirname(os.path.abspath(path))
+        handle, name = tempfile.mkstemp(dir=folder, suffix=".svg")
+        try:
+            with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
+                file.write(text)
+            os.chmod(name, 0o644)
+            os.replace(name, path)
+        except OSError:
+            with suppress(OSError):
+                os.remove(name)
+            raise
+    except OSError as error:
+        complain(f"icsolve bench: {path} can't be written: {error.strerror}")
+        return UNREADABLE
+    complain(f"wrote {path}")
+    return DONE
