@@ -28,10 +28,15 @@ def structure(top: Topology) -> str:
     bodies = len(top.members) - 1
     constraints = sum(bond.constraints for bond in top.bonds)
     return (
-        f"the links form a structure: {plural(bodies, 'moving link')} have 3 x {bodies} freedoms, and the "
-        f"joints take {constraints}. Nothing moves, so power gives no equation. Take out a joint or a link "
+        f"the links form a structure: 3 x {bodies} freedoms of {plural(bodies, 'link')} beside the frame, of "
+        f"which the joints take {constraints}. Nothing moves, so power gives no equation. Take out a joint or a link "
         "to make it move, or ask for its reactions by statics (`--reactions`)."
     )
+
+
+def on_the_frame(load: str, link: str) -> str:
+    """An unknown load that acts between the frame and itself."""
+    return f"{load} acts on link {link}, which never moves: it does no work. Put it on a moving link."
 
 
 def near_structure(last: float) -> str:

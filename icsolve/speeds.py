@@ -100,6 +100,9 @@ def _combined(rows: list[Row], motions: int) -> Speed:
 
 def _row(given: Given, case: Case, twists: Twists, frame: Frame, points: Mapping[str, Point]) -> Row:
     """The condition that a given motion puts on the coefficients."""
+    if given.link == case.ground:
+        message = f"link {given.link} is the frame and has no motion: give the motion of another link."
+        raise SceneError(Status.INCONSISTENT, message)
     link = twists[given.link]
     if given.point is not None:
         return _point_row(given, link, fastest(twists), frame, points[given.point])

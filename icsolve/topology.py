@@ -133,7 +133,7 @@ def _pivots(joint: Gears | Belt, body_of: dict[str, int], pins: dict[str, list[i
     names = f"{kind} {joint.links[0]} and {joint.links[1]}"
     if not found:
         raise SceneError(
-            Status.UNSUPPORTED,
+            Status.INCONSISTENT,
             f"the {names} have no common carrier: pin both, each at a point of its own, to one link "
             "(the frame or an arm) and they can turn about those pins.",
         )

@@ -37,8 +37,8 @@ def refuse_no_direction(case: Case, top: Topology, points: Points) -> None:
         if ends and ends[0] in points and ends[1] in points and points[ends[0]] == points[ends[1]]:
             raise SceneError(
                 Status.INCONSISTENT,
-                f"{what} has no direction: {sentences.listed(ends)} lie at one place. Give it by an angle, "
-                "or correct the points.",
+                f"there is no direction for {what}: {sentences.listed(ends)} lie at one place. Give it by an "
+                "angle, or correct the points.",
             )
 
 
@@ -77,6 +77,8 @@ def _no_work(
 ) -> SceneError:
     """An unknown that does no work: a dead centre, no value, or any value."""
     culprit = next(w for w in balance.wrenches if w.load.name == solution.culprit)
+    if culprit.load.link == culprit.against:
+        return SceneError(Status.ANY_VALUE, sentences.on_the_frame(culprit.load.name, culprit.load.link))
     largest = max(abs(x) for ts in motions.twists.values() for t in ts for x in t)
     on, off = motions.twists[culprit.load.link], motions.twists[culprit.against]
     apart = max(abs(x - y) for a, b in zip(on, off, strict=True) for x, y in zip(a, b, strict=True))

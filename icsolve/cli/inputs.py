@@ -28,6 +28,10 @@ class Source(NamedTuple):
         from icsolve.read import read_file, read_text
 
         if self.path == STDIN:
+            if sys.stdin is None:
+                from icsolve.errors import CaseError, Problem
+
+                raise CaseError([Problem(STDIN, 1, 1, "standard input is closed")])
             text = sys.stdin.buffer.read(_LARGEST).decode("utf-8-sig", "surrogateescape")
             return read_text(text, STDIN, settings)
         return read_file(self.path, settings)

@@ -45,8 +45,8 @@ def write_template(kind: str, output: str | None) -> int:
     """Print or write the case of a kind; never over a file that is there."""
     if kind not in kinds():
         suggestion = nearest(kind)
-        hint = f"; did you mean {suggestion}?" if suggestion else ""
-        complain(f"icsolve new: there is no kind {kind!r}{hint} `icsolve new` lists the kinds")
+        hint = f"did you mean {suggestion}? " if suggestion else ""
+        complain(f"icsolve new: there is no kind {kind!r}; {hint}`icsolve new` lists the kinds")
         return UNREADABLE
     if output is None or output == "-":
         click.echo(template(kind), nl=False)
