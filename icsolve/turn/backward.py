@@ -158,8 +158,10 @@ class _Pass:
     # --- the nodes, last to first -----------------------------------------------------------------
 
     def _node(self, k: int) -> None:
-        if k in self.backward.groups:
-            self._group(self.backward.groups[k])
+        if k in self.backward.member:
+            if k in self.backward.groups:
+                self._group(self.backward.groups[k])
+            return
         weight = self.weights.pop(k, None)
         if weight is None:
             return
@@ -194,7 +196,7 @@ class _Pass:
         if not node.row:
             return self.backward.noise(k) / abs(node.value) if node.value else 0.0
         if node.op == Op.INPUT:
-            return 0.0 if k in self.backward.exact or k in self.backward.member else UNIT
+            return 0.0 if k in self.backward.exact else UNIT
         if node.op in (Op.COS, Op.SIN):
             return TURN_NOISE
         own = 0.0 if node.op in (Op.NEG, Op.ANGLE, Op.NEAREST) or _shifted(self.record, k) else UNIT

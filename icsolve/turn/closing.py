@@ -7,7 +7,7 @@ the smallest set of links that their conditions determine goes to Newton's metho
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from typing import NamedTuple
 
 from icsolve.errors import SceneError, Status
@@ -76,10 +76,19 @@ Closing = Turn | Hang | Hold | Meet | Swing | Newton
 
 
 class Order:
-    """The closings as they are found; ``full`` bodies are placed, ``turned`` have their rotation."""
+    """The closings as they are found; ``full`` bodies are placed, ``turned`` have their rotation.
 
-    def __init__(self, shape: Shape, spots: dict[int, list[Spot]], constraints: list[Constraint]) -> None:
-        self.shape, self.spots, self.constraints = shape, spots, constraints
+    A point in ``near`` may be where two loci only touch as written: `near` tells which way it goes on.
+    """
+
+    def __init__(
+        self,
+        shape: Shape,
+        spots: dict[int, list[Spot]],
+        constraints: list[Constraint],
+        near: Collection[str] = (),
+    ) -> None:
+        self.shape, self.spots, self.constraints, self.near = shape, spots, constraints, near
         self.full, self.turned = {shape.ground}, {shape.ground}
         self.located = {shape.one(spot) for spot in spots.get(shape.ground, ())}
         self.steps: list[Closing] = []
@@ -195,7 +204,7 @@ class Order:
                     found = self._crossing(one, first, second)
                     if best is None or found > best[0]:
                         best = (found, Meet(one, (first, second)))
-        if best is not None and best[0] > TOUCHING:
+        if best is not None and (best[0] > TOUCHING or best[1].spot[1] in self.near):
             yield best[1]
         elif best is not None:
             self.nearest = best[1].spot[1]

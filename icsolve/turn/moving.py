@@ -7,7 +7,8 @@ from typing import NamedTuple
 
 from icsolve.arithmetic import Scalar
 from icsolve.figure.board import Board
-from icsolve.turn.closing import Closing, Hang, Hold, Meet, Newton, Order, Swing, Turn
+from icsolve.plane import Point
+from icsolve.turn.closing import TOUCHING, Closing, Hang, Hold, Meet, Newton, Order, Swing, Turn
 from icsolve.turn.constraints import (
     RADIAN,
     Constraint,
@@ -20,7 +21,7 @@ from icsolve.turn.constraints import (
 )
 from icsolve.turn.loci import locus, reference
 from icsolve.turn.mechanism import Mechanism
-from icsolve.turn.meeting import meet, side, swung
+from icsolve.turn.meeting import Locus, meet, side, sine, swung
 from icsolve.turn.poses import Moved, Rotation, Spot, dot, minus, square
 from icsolve.turn.record import Traced
 from icsolve.turn.smallest import smallest
@@ -53,7 +54,7 @@ def order_of(mechanism: Mechanism, drivers: list[Constraint]) -> Order:
     for constraint in constraints:
         if isinstance(constraint, Immovable):
             raise constraint.refusal
-    order = Order(mechanism.shape, mechanism.spots, constraints)
+    order = Order(mechanism.shape, mechanism.spots, constraints, mechanism.case.near)
     while True:
         while order.advance():
             pass
@@ -189,12 +190,21 @@ class _Run:
     def _meet(self, step: Meet) -> None:
         one, two = (locus(self.shape, self.moved, by) for by in step.loci)
         first, second = (reference(self.shape, by, step.spot) for by in step.loci)
-        x, y = self.shape.ref[step.spot[1]]
-        written = side(first, second, (float(x), float(y)))
+        written = side(first, second, self._written(step.spot[1], first, second))
         name = f"branch {step.spot[0]} {step.spot[1]}"
         place = meet(self.record, one, two, self.signs.get(name, written))
         self._branch(name, written)
         self.moved.located[self.shape.one(step.spot)] = place
+
+    def _written(self, name: str, first: Locus, second: Locus) -> Point:
+        """Where a spot is as written; where its loci only touch there, where `near` would have it."""
+        x, y = self.shape.ref[name]
+        at = (float(x), float(y))
+        near = self.mechanism.case.near.get(name)
+        if near is None or sine(first, second, at) > TOUCHING:
+            return at
+        ox, oy, scale = self.mechanism.frame
+        return ((near[0] - ox) * scale, (near[1] - oy) * scale)
 
     def _swing(self, step: Swing) -> None:
         line, c, moved = step.by.line, step.by, self.moved

@@ -247,9 +247,9 @@ class Record:
             return b
         one, two = self.lifted(a), self.lifted(b)
         if self.nodes[two.index].op == Op.NEG:
-            return self.subtract(one, self._at(self.nodes[two.index].a))
+            return self.subtract(one, self.at(self.nodes[two.index].a))
         if self.nodes[one.index].op == Op.NEG:
-            return self.subtract(two, self._at(self.nodes[one.index].a))
+            return self.subtract(two, self.at(self.nodes[one.index].a))
         first, second = sorted((one.index, two.index))
         return self._put(Op.ADD, first, second, one.value + two.value, one.row or two.row)
 
@@ -263,7 +263,7 @@ class Record:
         if one.index == two.index:
             return 0.0
         if self.nodes[two.index].op == Op.NEG:
-            return self.add(one, self._at(self.nodes[two.index].a))
+            return self.add(one, self.at(self.nodes[two.index].a))
         return self._put(Op.SUB, one.index, two.index, one.value - two.value, one.row or two.row)
 
     def multiply(self, a: Scalar, b: Scalar) -> Scalar:
@@ -297,7 +297,7 @@ class Record:
             return -a
         node = self.nodes[a.index]
         if node.op == Op.NEG:
-            return self._at(node.a)
+            return self.at(node.a)
         if node.op == Op.SUB:
             return self._put(Op.SUB, node.b, node.a, -a.value, a.row)
         return self._put(Op.NEG, a.index, 0, -a.value, a.row)
@@ -306,7 +306,8 @@ class Record:
         """A number as a node of this record."""
         return value if isinstance(value, Traced) else self._constant(float(value), 0.0, "exact")
 
-    def _at(self, index: int) -> Traced:
+    def at(self, index: int) -> Traced:
+        """The number at a node."""
         return Traced(self, index, self.nodes[index].value, self.nodes[index].row)
 
     def _put(self, op: Op, a: int, b: int, value: float, row: bool) -> Traced:

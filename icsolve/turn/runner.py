@@ -95,6 +95,12 @@ class Runner:
         """Backward passes from the answers, then from what is divided by."""
         return self.passes([*(index for _, index in self.answers), *self.divisors])
 
+    @cached_property
+    def places(self) -> Backward:
+        """Backward passes from the (normalised) places of all points."""
+        values = (v for p in self.sheet.scene.points.values() for v in p)
+        return self.passes(sorted({v.index for v in values if isinstance(v, Traced) and v.row}))
+
     def passes(self, targets: Sequence[int]) -> Backward:
         """Backward passes from some nodes."""
         sheet = self.sheet

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -11,6 +11,7 @@ from icsolve.arithmetic import Scalar
 from icsolve.case import (
     Belt,
     Case,
+    Centroid,
     Force,
     ForceVector,
     Gears,
@@ -72,6 +73,9 @@ class _Writer:
         self.record, self.body_of = mechanism.shape.record, mechanism.top.body_of
         self.points = {name: moved.place(spot) for name, spot in mechanism.owners.items()}
         self.points |= {name: contact.place(moved) for name, contact in mechanism.contacts.items()}
+        for name, place in mechanism.case.points.items():
+            if isinstance(place, Centroid) and name not in self.points and set(place.of) <= self.points.keys():
+                self.points[name] = _mean([self.points[p] for p in place.of])
 
     def on(self, spot: Spot) -> str:
         """A name for the point as this body carries it."""
@@ -117,6 +121,13 @@ class _Writer:
             return load._replace(heading=Slope(record.stand(run, x), record.stand(rise, y)))
         assert isinstance(load.heading, Number)
         return load._replace(heading=record.direct(load.heading, product(z, record.turn(load.heading))))
+
+
+def _mean(places: Sequence[Point]) -> Point:
+    x, y = places[0]
+    for px, py in places[1:]:
+        x, y = x + px, y + py
+    return (x / float(len(places)), y / float(len(places)))
 
 
 def moved_scene(mechanism: Mechanism, moved: Moved) -> Scene:

@@ -26,6 +26,8 @@ WIDE = 4.0
 """A divisor within so many of its bounds may be zero."""
 ROUNDED = 1e-14
 """A margin of the figure that is this little below zero is zero (normalised)."""
+PLACED = 1e-11
+"""A row whose points have larger bounds (normalised) is not decided by a scene of its own."""
 MOST_SCENES = 2000
 """More doubtful rows than these are not solved one by one."""
 
@@ -72,11 +74,36 @@ def look_again(look: Look) -> None:
     touching = _margins(look, rows)
     rows, touching = rows[look.codes[rows] == 0], touching[look.codes[rows] == 0]
     _flatten(look, rows, touching)
-    open_rows = _against_bounds(look, rows) | touching.any(axis=1)
-    doubtful = rows[open_rows]
+    flat = touching.any(axis=1)
+    singular, loose = _against_bounds(look, rows)
+    loose &= ~flat
+    doubtful = rows[singular | loose | flat]
     for row in doubtful[:MOST_SCENES]:
         _as_scene(look, int(row))
-    look.codes[doubtful[MOST_SCENES:]] = CODE[Status.NEAR_SINGULAR]
+    left = np.concatenate([doubtful[MOST_SCENES:], rows[loose], _adrift(look, rows[singular & ~flat])])
+    _silence(look, left[look.codes[left] == 0], Status.NEAR_SINGULAR)
+
+
+def _adrift(look: Look, rows: Rows) -> Rows:
+    """Rows whose places are not known well enough for a scene of their own to decide them."""
+    rows = rows[look.codes[rows] == 0]
+    if not rows.size:
+        return rows
+    passes = look.runner.places
+    off = np.zeros(len(rows), dtype=bool)
+    for start in range(0, len(rows), passes.rows):
+        here = slice(start, start + passes.rows)
+        for passed in passes.run(look.given(rows[here]), len(rows[here])):
+            off[here] |= ~(passed.bound <= PLACED)
+    return rows[off]
+
+
+def _silence(look: Look, rows: Rows, status: str) -> None:
+    """Rows that have no answer."""
+    look.codes[rows] = CODE.get(status, CODE[Status.NEAR_SINGULAR])
+    for key, array in look.found.values.items():
+        if key[0] == "answers":
+            array[rows] = np.nan
 
 
 def _as_written(look: Look, rows: Rows) -> None:
@@ -122,30 +149,27 @@ def _flatten(look: Look, rows: Rows, touching: Mask) -> None:
             column(look.found.values[key], part)[some] = array
 
 
-def _against_bounds(look: Look, rows: Rows) -> Mask:
-    """Rows in which something that is divided by may be zero, or an answer is left open by rounding;
+def _against_bounds(look: Look, rows: Rows) -> tuple[Mask, Mask]:
+    """Rows in which something that is divided by may be zero, and those whose answer rounding leaves open;
     an answer within its own bound becomes zero."""
     runner = look.runner
     answers, passes = runner.answers, runner.doubts
-    unsure = np.zeros(len(rows), dtype=bool)
+    singular, loose = np.zeros(len(rows), dtype=bool), np.zeros(len(rows), dtype=bool)
     if not passes.targets:
-        return unsure
+        return singular, loose
     for start in range(0, len(rows), passes.rows):
         here = slice(start, start + passes.rows)
         some = rows[here]
         bounds = passes.run(look.given(some), len(some))
         with np.errstate(all="ignore"):
             for target, passed in zip(runner.divisors, bounds[len(answers) :], strict=True):
-                size = np.abs(passes.value(target, len(some)))
-                unsure[here] |= ~(size > WIDE * passed.bound)
+                singular[here] |= ~(np.abs(passes.value(target, len(some))) > WIDE * passed.bound)
             for (key, _), passed in zip(answers, bounds, strict=False):
                 value = look.found.values[key][some]
                 inside = np.abs(value) <= passed.bound
-                loose = ~inside & ~(passed.bound <= OPEN * np.abs(value))
-                settled = inside & ~unsure[here]
-                look.found.values[key][some[settled]] = 0.0
-                unsure[here] |= loose
-    return unsure
+                look.found.values[key][some[inside & ~singular[here]]] = 0.0
+                loose[here] |= ~inside & ~(passed.bound <= OPEN * np.abs(value))
+    return singular, loose
 
 
 def _as_scene(look: Look, row: int) -> None:
@@ -155,7 +179,7 @@ def _as_scene(look: Look, row: int) -> None:
         rates = any(key[0] in ("rates", "centres") for key in outputs)
         answer = solve(look.case_of(row), rates=rates, all_centres=rates)
     except SceneError as error:
-        look.codes[row] = CODE.get(error.status, CODE[Status.NEAR_SINGULAR])
+        _silence(look, np.array([row]), error.status)
         return
     for key in outputs:
         if key[0] == "answers" and key[1] in answer.answers:

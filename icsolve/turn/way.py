@@ -27,6 +27,7 @@ FAR = 0.35
 BENT = 0.25
 """How far a solution may lie from where the last steps pointed, as a part of the move."""
 TRIALS = 64
+HALVINGS = 30
 QUICK = 6
 """Rounds of Newton's method that a step may take."""
 
@@ -99,8 +100,9 @@ class Track:
         self.groups = [(group, Solver(record, group)) for group in motion.groups]
         self.counted = list(record.counted.values())
         self.turning = Code(record, [record.lifted(value).index for _, value in self.counted])
-        self.breaks: list[float] = []
-        """places at which a group goes through a singular position and on"""
+        self.breaks: list[tuple[float, float]] = []
+        """steps in which a group goes through a singular position and on"""
+        self.senses: dict[float, Array] = {}
         self.stretches = self._followed(reach) if self.groups or self.counted else []
 
     # --- inputs -----------------------------------------------------------------------------------
@@ -111,11 +113,36 @@ class Track:
         if self.stretches:
             q, turns, good = self._between(s)
             solved, _, right = self._solved(given, q, turns)
-            good &= right
+            solved = np.where(right[:, None], solved, q)
+            good &= right | self.singular(s)
             given = {**given, **self._state(solved, turns)}
         elif self.groups or self.counted:
             good[:] = False
         return given, good
+
+    def singular(self, s: Array) -> Mask:
+        """Which places lie in a step through a singular position."""
+        found = np.zeros(len(s), dtype=bool)
+        for one, two in self.breaks:
+            found |= (s > min(one, two)) & (s < max(one, two))
+        return found
+
+    def passages(self) -> list[float]:
+        """The singular positions that groups go through."""
+        return [self._passage(one, two) for one, two in self.breaks]
+
+    def _passage(self, one: float, two: float) -> float:
+        sense = self.senses[one]
+        for _ in range(HALVINGS):
+            middle = np.array([(one + two) / 2.0])
+            q, turns, _ = self._between(middle)
+            given = self._plain(middle)
+            q, turns, _ = self._solved(given, q, turns)
+            if np.array_equal(self._senses(given, q, turns), sense):
+                one = float(middle[0])
+            else:
+                two = float(middle[0])
+        return (one + two) / 2.0
 
     def _plain(self, s: Array) -> dict[int, Array]:
         """Inputs and signs."""
@@ -172,6 +199,7 @@ class Track:
         if not good[0]:
             return []
         first = (self.way.start, q[0], turns[0])
+        self.senses[self.way.start] = self._senses(self._plain(at), q, turns)
         down, up = self._steps(first, reach[0]), self._steps(first, reach[1])
         steps = [*reversed(down[1:]), *up]
         more = [
@@ -226,11 +254,30 @@ class Track:
             guess, ahead = _cubic(known.s, known.q, at), _cubic(known.s, known.turns, at)
             found, counted, good = self._solved(self._plain(at), guess, ahead, QUICK)
             if good[0] and _near(q, guess[0], found[0], len(steps) > 1) and _counts(turns, counted[0]):
+                self._orient(s, there, at, found, counted)
                 steps.append((there, found[0], counted[0]))
                 h = min(1.5 * h, widest)
             else:
                 h /= 2.0
         return steps
+
+    def _orient(self, s: float, there: float, at: Array, q: Array, turns: Array) -> None:
+        """Note a singular position between two steps: the groups' determinants change sign there."""
+        now = self._senses(self._plain(at), q, turns)
+        if s in self.senses and not np.array_equal(self.senses[s], now):
+            self.breaks.append((s, there))
+        self.senses[there] = now
+
+    def _senses(self, given: Mapping[int, Array], q: Array, turns: Array) -> Array:
+        """Signs of the determinants of the groups at one place."""
+        signs, first = [], 0
+        for group, solver in self.groups:
+            last = first + len(group.solved)
+            _, j = solver.system({**given, **self._state(q, turns)}, q[:, first:last])
+            if j.shape[1] == j.shape[2]:
+                signs.append(np.linalg.slogdet(j[0])[0])
+            first = last
+        return np.array(signs)
 
     # --- between steps ----------------------------------------------------------------------------
 

@@ -15,7 +15,12 @@ from icsolve.turn.rows import RowCases
 from icsolve.turn.runner import Found, Key
 from icsolve.turn.second import CODE, Look, look_again
 from icsolve.turn.start import Start
+from icsolve.turn.way import Way
 
+AT = 1e-7
+"""A row that is this near to a change point (as a part of the longest step) is at it."""
+ROUGHLY = 1e-6
+"""The same for a change point of a group, whose place is known to the root of rounding only."""
 CHUNK = 16 * BLOCK
 """Rows whose followed states are held at once."""
 
@@ -65,6 +70,7 @@ class Work:
                 given, good = self.parts.given(chunk)
                 found = part.runner.run(given, len(chunk.rows))
                 self.codes[chunk.rows[~good]] = CODE[Status.CANNOT_ASSEMBLE]
+                found = _with_singular(chunk, found)
             self._settle(chunk, found)
             self._bounds(chunk)
             for key, array in found.values.items():
@@ -123,20 +129,37 @@ class Work:
         """Say at which rows change points were passed, and what was not reached."""
         if part.followed is None:
             return
-        way, at = part.followed.track.way, part.places
-        (name,) = way.slope
+        for touch in part.followed.track.passages():
+            self._change(part, touch, ROUGHLY)
         for passing in part.followed.passed.values():
             for touch in passing.touches:
-                beyond = at > touch if touch >= way.start else at < touch
-                if beyond.any():
-                    nearest = np.abs(at - touch)[beyond].min()
-                    rows = part.rows[beyond & (np.abs(at - touch) == nearest)]
-                    self.codes[rows[self.codes[rows] == 0]] = CODE[Status.CHANGE_POINT]
+                self._change(part, touch)
             for gap in passing.gaps:
-                self.notes.append(
-                    f"at {self.columns.names[name]} = {gap:.6g} the links do not reach, in less than a row: beyond, the "
-                    "branch of the position as written is kept, though no motion leads there."
-                )
+                self._gap(part.followed.track.way, gap)
+
+    def _change(self, part: Part, touch: float, near: float = AT) -> None:
+        """Mark the row at a change point (it has no answer), else the first one beyond."""
+        assert part.followed is not None
+        way, at = part.followed.track.way, part.places
+        beyond = at > touch if touch >= way.start else at < touch
+        there = np.abs(at - touch) <= near * way.widest
+        if there.any():
+            beyond = there
+            for key, array in self.values.items():
+                if key[0] == "answers":
+                    array[part.rows[there]] = np.nan
+        if beyond.any():
+            nearest = np.abs(at - touch)[beyond].min()
+            rows = part.rows[beyond & (np.abs(at - touch) == nearest)]
+            plain = (self.codes[rows] == 0) | (self.codes[rows] == CODE[Status.NEAR_SINGULAR])
+            self.codes[rows[plain]] = CODE[Status.CHANGE_POINT]
+
+    def _gap(self, way: Way, gap: float) -> None:
+        (name,) = way.slope
+        self.notes.append(
+            f"at {self.columns.names[name]} = {gap:.6g} the links do not reach, in less than a row: beyond, the branch of "
+            "the position as written is kept, though no motion leads there."
+        )
 
     # --- tables -----------------------------------------------------------------------------------
 
@@ -156,6 +179,14 @@ class Work:
         for array in self.errors.values():
             array[self.silent["error"]] = np.nan
         return {**tables, "error": self.errors}
+
+
+def _with_singular(part: Part, found: Found) -> Found:
+    """Rows in a step through a singular position are doubtful, too."""
+    if part.followed is None:
+        return found
+    singular = np.flatnonzero(part.followed.track.singular(part.places))
+    return found._replace(doubtful=np.union1d(found.doubtful, singular)) if singular.size else found
 
 
 def _in_order(part: Part) -> bool:
