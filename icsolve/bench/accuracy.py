@@ -13,7 +13,7 @@ from icsolve.bench.families import Family
 from icsolve.bench.laws import LOST
 from icsolve.bench.methods import Method
 from icsolve.bench.reference import Truth, truth
-from icsolve.bench.rivals import Drawn, Failed, drawn
+from icsolve.bench.rivals import Drawn, Failed, OtherData, drawn
 from icsolve.errors import SceneError
 from icsolve.read import load
 
@@ -67,6 +67,8 @@ def scored(method: Method, family: Family, known: Iterable[Known]) -> Score:
             value, seconds = _timed(method, scene)
         except SceneError:
             refused += 1
+            continue
+        except OtherData:
             continue
         except (Failed, ArithmeticError, ValueError, TypeError, StopIteration):
             failed += 1

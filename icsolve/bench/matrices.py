@@ -8,7 +8,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve import power
-from icsolve.bench.rivals import Drawn, Failed, Posed, balanced, posed
+from icsolve.bench.rivals import Drawn, Failed, OtherData, Posed, balanced, posed
 from icsolve.case import Case, Coordinates
 from icsolve.joints import transmitted
 from icsolve.plane import Point, Triple
@@ -65,7 +65,7 @@ def by_free_bodies(scene: Drawn, normalised: bool) -> float:
 def by_newton(scene: Drawn, normalised: bool) -> float:
     """The pins of a four-bar from its lengths by Newton's method, started at ``near``; then SVD."""
     if scene.raw:
-        raise Failed("only for figures that are given by lengths")
+        raise OtherData("only for figures that are given by lengths")
     return by_svd(scene._replace(raw=_assembled(scene.case)), normalised)
 
 

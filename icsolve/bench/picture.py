@@ -50,9 +50,8 @@ def picture(scores: Iterable[Score]) -> str:
 
 def _panel(left: float, axis: Axis, by_method: dict[str, list[Score]]) -> list[str]:
     bottom = TOP + HEIGHT
-    parts = [
-        f'<rect x="{left:g}" y="{TOP:g}" width="{WIDTH + 60:g}" height="{HEIGHT:g}" fill="none" stroke="#999"/>'
-    ]
+    size = f'width="{WIDTH + 60:g}" height="{HEIGHT:g}"'
+    parts = [f'<rect x="{left:g}" y="{TOP:g}" {size} fill="none" stroke="#999"/>']
     for power in range(int(axis.low), int(axis.high) + 1, 2):
         x = left + _share(axis, 10.0**power) * WIDTH
         parts.append(f'<path d="M{x:.1f} {TOP:g}V{bottom:g}" stroke="#eee"/>')

@@ -24,6 +24,10 @@ class Failed(Exception):
     """A method that has no answer for a scene."""
 
 
+class OtherData(Exception):
+    """A method for figures that are given in another way."""
+
+
 class Drawn(NamedTuple):
     """A case to be solved by any method: its points as they were read; empty where lengths are given."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import tempfile
 from collections.abc import Callable
 from typing import NamedTuple
@@ -41,9 +42,9 @@ def full_turns(positions: int, seconds: float) -> list[Timed]:
         return [_timed(mechanism, positions, seconds / len(MECHANISMS), library) for mechanism in MECHANISMS]
 
 
-def _timed(mechanism: Turning, positions: int, seconds: float, library: object) -> Timed:
-    degrees: Array = 60.0 + np.arange(positions) * (360.0 / positions)
-    radians, out = np.radians(degrees), np.empty(positions)
+def _timed(mechanism: Turning, positions: int, seconds: float, library: ctypes.CDLL | None) -> Timed:
+    degrees: Array = np.linspace(60.0, 420.0, positions, endpoint=False)
+    radians, out = np.asarray(np.radians(degrees), dtype=np.float64), np.empty(positions)
     case = load(mechanism.case)
     calls: list[Callable[[], object]] = [
         lambda: mechanism.by_hand(radians),

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 Call = Callable[[], object]
 
 
-def least(calls: Sequence[Call], seconds: float, batch: float = 2e-4) -> list[float]:
+def least(calls: Sequence[Call], seconds: float, batch: float = 2e-3) -> list[float]:
     """Seconds a call of each, the least over batches in turn; about so many seconds in all."""
     sizes = [max(1, int(batch / _once(call))) for call in calls]
     best = [float("inf")] * len(calls)
