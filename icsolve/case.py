@@ -140,8 +140,18 @@ class Roll(NamedTuple):
     pressure_angle: Number | None = None
 
 
+class Helix(NamedTuple):
+    """Helical teeth: their angle with the axis; the span of each shaft's bearings, where it is given."""
+
+    angle: Number
+    span: Number | None = None
+
+
 class Gears(NamedTuple):
-    """A mesh; negative ``teeth`` are internal. The pivots are pins to one carrier."""
+    """A mesh; negative ``teeth`` are internal. The pivots are pins to one carrier.
+
+    Pressure angle, pitch and module are those in the plane of the wheels.
+    """
 
     links: tuple[str, str]
     teeth: tuple[Number, Number]
@@ -149,6 +159,7 @@ class Gears(NamedTuple):
     pressure_angle: Number | None = None
     diametral_pitch: Number | None = None
     module: Number | None = None
+    helix: Helix | None = None
 
 
 class Belt(NamedTuple):

@@ -7,6 +7,7 @@ stand where. What ties one section to another (a link that no joint has) only th
 from __future__ import annotations
 
 from icsolve.read.expect import KEYS as EXPECTED
+from icsolve.read.joints import HELICAL
 from icsolve.read.loads import HEADINGS, KEYS
 from icsolve.schema_space import definitions as definitions_of_space
 from icsolve.schema_space import directed
@@ -127,7 +128,8 @@ def _joints() -> dict[str, tuple[Schema, list[str]]]:
     mu = {"mu": ref("number")}
     guide = {"along": {"anyOf": [ref("quantity"), links(2)]}, "through": ref("name")}
     carrier = {"carrier": ref("name")}
-    tooth = {key: ref("quantity") for key in ("pressure angle", "diametral pitch", "module")}
+    tooth = {key: ref("quantity") for key in ("pressure angle", "diametral pitch", "module", *HELICAL)}
+    tooth["hand"] = {"enum": ["right", "left"]}
     crossed = {"crossed": {"enum": [True, False, "true", "false"]}}
     return {
         "pin": ({**at, **mu, "radius": ref("quantity")}, ["at"]),

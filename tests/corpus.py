@@ -148,6 +148,16 @@ loads:
   null: {force: .5, link: y, at: 12, angle: -.5e1}
 """
 
+HELICAL = """\
+icsolve: 1
+points: {A: [0, 0], B: [3, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [1, 3], at: B}
+  - {gears: [2, 3], teeth: [9, 12], normal pressure angle: 20, helix angle: 30, bearing span: 1}
+  - {gears: [2, 3], teeth: [9, 12], transverse pressure angle: 20, helix angle: 30, normal module: 2 mm}
+"""
+
 IN_SPACE = """\
 icsolve: 1
 units: {length: in, force: lbf}
@@ -204,5 +214,6 @@ ALL = {
     "gears": GEARS,
     "cam and black box": CAM_AND_BLACK_BOX,
     "awkward names": AWKWARD_NAMES,
+    "helical": HELICAL,
     "in space": IN_SPACE,
 }

@@ -228,7 +228,9 @@ GEAR_CHANGES = {
     "radii: [3, 5]": ("radii: [3, -5]", "greater than zero"),
     "crossed: true": ("crossed: yes", "should be true or false"),
     "radii: [1.5, 0]": ("radii: [0, -1]", "greater than zero"),
-    "teeth: [31, 57], ": ("teeth: [31, 57], helix angle: 9, ", "'helix angle' is not yet supported"),
+    "teeth: [31, 57], ": ("teeth: [31, 57], helix angle: 9, ", "whether it is the 'normal pressure angle'"),
+    "pressure angle: 20": ("normal pressure angle: 20", "needs 'helix angle'"),
+    "[31, -92], ": ("[31, -92], helix angle: 95, transverse pressure angle: 20, ", "less than 90 degrees"),
 }
 
 

@@ -14,6 +14,7 @@ import pytest
 from icsolve import Answer, load, solve
 from icsolve.check import AGREES, compare
 from icsolve.cli import main
+from icsolve.construction import known_of
 from icsolve.errors import CaseError, SceneError
 from icsolve.space.values import Reaction
 from icsolve.text import answer_text
@@ -344,6 +345,35 @@ def test_normal_and_transverse_sections_say_the_same_teeth() -> None:
     assert reaction(first, "F23").force == pytest.approx(reaction(second, "F23").force, rel=1e-12)
 
 
+def test_helical_gears_of_a_planar_case_are_those_of_space() -> None:
+    """What the plane cannot show, the axial force and its couples, stands with the tooth force."""
+    text = """\
+icsolve: 1
+units: {length: mm, force: N, torque: N*m}
+points: {A: [0, 0], B: [90, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [1, 3], at: B}
+  - gears: [2, 3]
+    teeth: [20, 40]
+    normal pressure angle: 20
+    normal module: 2.598076211353316
+    helix angle: 30
+    bearing span: 100
+loads: {T2: {torque: 30, link: 2}, T3: {torque: unknown, link: 3}}
+expect: {tangential F23: 1000.0, axial F23: 577.4, couple 3 F23: 34.64, bearing 2 F23: 173.2}
+"""
+    answer = solve(load(text), reactions=True)
+    assert [row.verdict for row in compare(answer)] == [AGREES] * 4
+    assert answer.reactions is not None
+    flat, deep = answer.reactions["F23"], reaction(mesh("[20, 40]", HELICAL), "F23")
+    assert (flat.x, flat.y) == pytest.approx(deep.force[:2], rel=1e-12)
+    shares = dict(deep.parts)
+    assert dict(flat.parts) == pytest.approx({name: shares[name] for name, _ in flat.parts}, rel=1e-12)
+    with pytest.raises(SceneError, match="do not fit"):
+        solve(load(text.replace("normal module", "transverse module")), reactions=True)
+
+
 def test_teeth_that_do_not_fit_their_centres_are_refused_with_their_line() -> None:
     with pytest.raises(SceneError, match=r"gears 2 and 3 \(line 15\) do not fit.* 105 apart.* 90 apart"):
         mesh("[20, 50]", "pressure angle: 20\n    module: 3")
@@ -553,3 +583,6 @@ def test_what_is_for_the_plane_alone_is_refused_in_words() -> None:
     answer = solve(load(SHAFT))
     with pytest.raises(SceneError, match="planar cases only"):
         dict(answer.sensitivities)
+    refusal = known_of(answer.case).refusal
+    assert refusal is not None
+    assert "only planar ones are drawn" in str(refusal)

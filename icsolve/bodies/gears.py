@@ -61,6 +61,24 @@ def tangent_and_separating(position: Position, tie: Tie) -> tuple[Point, Point]:
     return (-ey, ex), (_unit(a, tie.at) if internal_on else _unit(tie.at, b))
 
 
+def axial_shares(position: Position, tie: Tie, tangential: float) -> tuple[tuple[str, float], ...]:
+    """Of helical teeth the axial force, square to the plane, and the couple that it makes about each wheel.
+
+    Where the span of the bearings is given, ``bearing`` is what each carries more for that couple.
+    """
+    helix = tie.joint.helix if isinstance(tie.joint, Gears) else None
+    if helix is None:
+        return ()
+    axial = tangential * math.tan(math.radians(helix.angle.value))
+    parts = [("axial", axial)]
+    for link, pivot in zip(tie.joint.links, tie.pivots, strict=True):
+        couple = axial * math.dist(position.points[pivot], tie.at) / position.scale
+        parts.append((f"couple {link}", couple * position.case.units.torque_per_force_length))
+        if helix.span is not None:
+            parts.append((f"bearing {link}", couple / helix.span.value))
+    return tuple(parts)
+
+
 def _wheel(position: Position, tie: Tie) -> tuple[str, Point]:
     """The round link of a rolling contact (not a hollow one), and its centre: the pin at its radius."""
     assert isinstance(tie.joint, Roll)

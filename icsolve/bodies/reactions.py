@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Mapping
 
 from icsolve.bodies.equilibrium import Statics
-from icsolve.bodies.gears import tangent_and_separating
+from icsolve.bodies.gears import axial_shares, tangent_and_separating
 from icsolve.bodies.sparse import Row
 from icsolve.bodies.ties import Force, Position, Tie, kind_of
 from icsolve.bodies.values import Reaction, Reactions, names_of
@@ -114,7 +114,9 @@ def _parts(position: Position, tie: Tie, x: float | None, y: float | None) -> tu
         return ()
     if isinstance(tie.joint, Gears) or (isinstance(tie.joint, Roll) and tie.joint.pressure_angle is not None):
         (tx, ty), (sx, sy) = tangent_and_separating(position, tie)
-        return (("tangential", abs(x * tx + y * ty)), ("separating", x * sx + y * sy))
+        tangential = abs(x * tx + y * ty)
+        shares = (("tangential", tangential), ("separating", x * sx + y * sy))
+        return (*shares, *axial_shares(position, tie, tangential))
     if isinstance(tie.joint, Contact | Slot | Slide):
         nx, ny = next((u[0], u[1]) for u in tie.units if not u[2])
         normal = x * nx + y * ny

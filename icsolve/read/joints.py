@@ -23,6 +23,11 @@ from icsolve.read.jointed import Kinds, read_list
 from icsolve.read.reading import Reading
 
 Pair = tuple[str, str]
+HELICAL = (
+    *("helix angle", "hand", "bearing span", "normal pressure angle", "transverse pressure angle"),
+    *("normal diametral pitch", "transverse diametral pitch", "normal module", "transverse module"),
+)
+"""What gears take besides where their teeth are helical."""
 
 
 def read_joints(reading: Reading, section: Sequence) -> tuple[Joint, ...]:
@@ -124,6 +129,11 @@ def _radii(entry: Entry) -> tuple[Number, Number] | None:
 def _gears(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
     teeth = _teeth(entry)
     carrier = _carrier(entry, links)
+    if any(key in HELICAL for key in entry.node.items):
+        from icsolve.read.teeth import read_helical
+
+        form = read_helical(entry)
+        return Gears(_two(links), teeth, carrier, *form) if teeth and form and whole else None
     entry.one_of(("diametral pitch", "module"))
     angle = _pressure_angle(entry)
     pitch = entry.number("diametral pitch", "pitch", "positive")
@@ -198,7 +208,7 @@ KINDS: Kinds[Joint] = {
     "slide": (("at", "along", "through", "mu", "length"), _slide),
     "slot": (("at", "along", "through", "mu"), _slot),
     "roll": (("at", "radii", "pressure angle"), _roll),
-    "gears": (("teeth", "carrier", "pressure angle", "diametral pitch", "module"), _gears),
+    "gears": (("teeth", "carrier", "pressure angle", "diametral pitch", "module", *HELICAL), _gears),
     "belt": (("radii", "carrier", "crossed"), _belt),
     "contact": (("at", "normal", "mu"), _contact),
     "centre": (("at", "toward"), _centre),

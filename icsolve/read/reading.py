@@ -11,7 +11,7 @@ from icsolve.read.problems import Problems, shown, suggestion
 from icsolve.read.syntax import missing_space
 from icsolve.units import Unit
 
-RESERVED = ("profile", "helix angle")
+RESERVED = ("profile",)
 """Keys of later versions."""
 
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
-from icsolve.case import Number
+from icsolve.case import Helix, Number
 from icsolve.read.entry import Entry
 from icsolve.space.case import Teeth
+from icsolve.space.teeth import transverse_angle
 
 SECTIONS = ("", "normal ", "transverse ")
 ANGLES = tuple(f"{section}pressure angle" for section in SECTIONS)
@@ -16,7 +18,26 @@ KEYS = (*ANGLES, *PITCHES, *MODULES, "helix angle", "hand")
 """What a mesh takes for the form of its teeth."""
 
 
-def read_teeth(entry: Entry, pitch_needed: bool) -> Teeth | None:
+Transverse = tuple[Number, Number | None, Number | None, Helix | None]
+"""Pressure angle, diametral pitch and module in the plane of the wheel, and the helix."""
+
+
+def read_helical(entry: Entry) -> Transverse | None:
+    """The teeth of a mesh of the plane; what is given in the normal section is turned into the plane."""
+    entry.need("helix angle", "the angle of the teeth with the axis, in degrees")
+    teeth = read_teeth(entry, False, False)
+    span = entry.number("bearing span", "length", "positive")
+    if teeth is None or teeth.helix_angle is None or (span is None and entry.has("bearing span")):
+        return None
+    angle, helix = math.degrees(transverse_angle(teeth)), Helix(teeth.helix_angle, span)
+    cosine = math.cos(math.radians(teeth.helix_angle.value)) if teeth.normal_pitch else 1.0
+    pitch, module = teeth.diametral_pitch, teeth.module
+    pitch = pitch and pitch._replace(value=pitch.value * cosine, half=pitch.half * cosine)
+    module = module and module._replace(value=module.value / cosine, half=module.half / cosine)
+    return teeth.pressure_angle._replace(value=angle), pitch, module, helix
+
+
+def read_teeth(entry: Entry, pitch_needed: bool, hand_needed: bool = True) -> Teeth | None:
     """The teeth of a mesh; None, with the reason noted, where they can't be read.
 
     With a helix angle the pressure angle and the pitch say in which section they are meant: square to the
@@ -29,7 +50,7 @@ def read_teeth(entry: Entry, pitch_needed: bool) -> Teeth | None:
         entry.need(
             "diametral pitch", "or 'module': it gives the pitch circle of a gear whose mate is not shown"
         )
-    helix, hand = _helix(entry)
+    helix, hand = _helix(entry, hand_needed)
     good = (helix is not None) == entry.has("helix angle") and (hand is not None) == entry.has("hand")
     for key in (angle_key, pitch_key):
         good = _section_is_clear(entry, key) and good
@@ -41,12 +62,12 @@ def read_teeth(entry: Entry, pitch_needed: bool) -> Teeth | None:
     return Teeth(angle, is_normal[0], helix, hand or "right", pitch, module, is_normal[1])
 
 
-def _helix(entry: Entry) -> tuple[Number | None, str | None]:
+def _helix(entry: Entry, hand_needed: bool) -> tuple[Number | None, str | None]:
     helix = _acute(entry, "helix angle", "not negative")
     hand = entry.word("hand", ("right", "left"))
-    if entry.has("helix angle") and not entry.has("hand"):
+    if hand_needed and entry.has("helix angle") and not entry.has("hand"):
         entry.need("hand", "of the helix of the gear named first, right or left")
-    if entry.has("hand") and not entry.has("helix angle"):
+    if hand_needed and entry.has("hand") and not entry.has("helix angle"):
         entry.need("helix angle", "the angle of the teeth with the axis, in degrees")
     return helix, hand
 
