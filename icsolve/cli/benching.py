@@ -51,29 +51,29 @@ def _bench(full: bool, output: str) -> int:
     except ImportError:
         complain("icsolve bench needs mpmath for its sixty digits: pip install 'icsolve[bench]'")
         return UNREADABLE
+    try:
+        handle, draft = tempfile.mkstemp(dir=os.path.dirname(os.path.abspath(output)), suffix=".svg")
+    except OSError as error:
+        return _cannot_write(output, error)
     from icsolve.bench.picture import picture
     from icsolve.bench.report import run
 
-    scores = run(full, click.echo)
-    return _write(picture(scores), output)
-
-
-def _write(text: str, path: str) -> int:
-    """Write a file whole, or leave what was there."""
     try:
-        folder = os.path.dirname(os.path.abspath(path))
-        handle, name = tempfile.mkstemp(dir=folder, suffix=".svg")
-        try:
-            with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
-                file.write(text)
-            os.chmod(name, 0o644)
-            os.replace(name, path)
-        except OSError:
-            with suppress(OSError):
-                os.remove(name)
-            raise
+        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
+            file.write(picture(run(full, click.echo)))
+        os.chmod(draft, 0o644)
+        os.replace(draft, output)
     except OSError as error:
-        complain(f"icsolve bench: {path} can't be written: {error.strerror}")
-        return UNREADABLE
-    complain(f"wrote {path}")
+        if isinstance(error, BrokenPipeError):
+            raise
+        return _cannot_write(output, error)
+    finally:
+        with suppress(OSError):
+            os.remove(draft)
+    complain(f"wrote {output}")
     return DONE
+
+
+def _cannot_write(path: str, error: OSError) -> int:
+    complain(f"icsolve bench: {path} can't be written: {error.strerror}")
+    return UNREADABLE

@@ -1,0 +1,195 @@
+"""The benchmark measures what it says: rivals that solve, closed forms that agree, laws on a sample."""
+
+from __future__ import annotations
+
+import math
+import shutil
+import sys
+from pathlib import Path
+from random import Random
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+import icsolve
+from icsolve.bench import report
+from icsolve.bench.accuracy import Score, scenes, scored
+from icsolve.bench.closed import FOUR_BAR, MECHANISMS, Turning, compiled, in_c
+from icsolve.bench.families import BOUNDED, FAMILIES, Family, all_joints, linkage
+from icsolve.bench.kernels import componentwise, written_out
+from icsolve.bench.laws import Law, bounds, forward
+from icsolve.bench.methods import METHODS, Method
+from icsolve.bench.picture import picture
+from icsolve.bench.timing import least
+from icsolve.cli.commands import icsolve as command
+
+BY_NAME = {family.name: family for family in FAMILIES}
+
+
+# --- the rivals are no straw men -------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("method", METHODS, ids=lambda method: method.name)
+@pytest.mark.parametrize(
+    "name", ["four-bar", "Watt", "Stephenson", "from lengths", "chain of 12", "parallel"]
+)
+def test_every_method_solves_what_it_is_made_for(method: Method, name: str) -> None:
+    """Far from dead centres and the origin all agree with sixty digits to eight digits or more."""
+    score = scored(method, BY_NAME[name], list(scenes(BY_NAME[name], 6)))
+    assert score.failed == score.refused == 0
+    assert score.micros > 0 or (method.name == "Newton and SVD" and name != "from lengths")
+    assert not score.error > 1e-8
+
+
+@pytest.mark.parametrize("method", [m for m in METHODS if m.name != "Newton and SVD"], ids=lambda m: m.name)
+def test_all_kinds_of_joints_are_solved_by_every_method(method: Method) -> None:
+    """But now and then by slopes, where two centres lie on one upright line."""
+    score = scored(method, BY_NAME["all joints"], list(scenes(BY_NAME["all joints"], 12)))
+    assert score.failed <= (2 if method.name == "slope and intercept" else 0)
+    assert not score.error > 1e-8
+
+
+def test_kennedy_alone_stalls_at_the_double_butterfly_and_icsolve_does_not() -> None:
+    family = BY_NAME["double butterfly"]
+    known = list(scenes(family, 3))
+    by_name = {method.name: scored(method, family, known) for method in METHODS}
+    assert by_name["homogeneous, normalised"].failed == 3
+    assert by_name["icsolve"].failed == 0
+    assert by_name["icsolve"].per_unit < 4
+
+
+def test_what_is_close_to_singular_is_refused_not_failed() -> None:
+    family = BY_NAME["toggle 1e-15"]
+    score = scored(METHODS[1], family, list(scenes(family, 5)))
+    assert (score.refused, score.failed) == (score.scenes, 0)
+
+
+# --- closed forms ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("mechanism", MECHANISMS, ids=lambda m: m.name)
+def test_the_closed_form_by_hand_is_what_solve_gives(mechanism: Turning) -> None:
+    for degrees in (60.0, 61.5, 75.0):
+        case = icsolve.load(mechanism.case.replace("AB: 60", f"AB: {degrees}"))
+        by_hand = mechanism.by_hand(np.array([math.radians(degrees)]))[0]
+        assert icsolve.solve(case).answers["T2"].value == pytest.approx(by_hand, rel=1e-12)
+
+
+@pytest.mark.skipif(not (shutil.which("cc") or shutil.which("gcc")), reason="no C compiler")
+@pytest.mark.parametrize("mechanism", MECHANISMS, ids=lambda m: m.name)
+def test_the_closed_form_in_c_is_that_by_hand(mechanism: Turning, tmp_path: Path) -> None:
+    library = compiled(str(tmp_path))
+    assert library is not None
+    angle, out = np.linspace(0.0, 6.0, 100), np.empty(100)
+    in_c(library, mechanism, angle, out)()
+    assert out == pytest.approx(mechanism.by_hand(angle), rel=1e-13)
+
+
+def test_the_bare_kernels_are_the_same_scene() -> None:
+    a, b, c, d, torque = FOUR_BAR
+    one, two = componentwise(d, a, b, c, 60.0, torque), written_out(d, a, b, c, 60.0, torque)
+    assert one[1] == pytest.approx(two[1], rel=1e-14)
+    assert one[1] == pytest.approx(icsolve.solve(icsolve.load(MECHANISMS[0].case)).answers["T2"].value)
+    assert one[0][0] / one[0][2] == pytest.approx(two[0][0] / two[0][2], rel=1e-14)
+
+
+# --- laws ------------------------------------------------------------------------------------------
+
+
+def check(laws: list[Law], median: float) -> None:
+    """No scene breaks the law, and there are scenes; a median is of ten scenes or more."""
+    for law in laws:
+        assert law.scenes > 0, law
+        assert law.broken == 0, law
+        assert law.median <= median or law.scenes < 10, law
+
+
+def test_the_forward_error_on_random_six_bars() -> None:
+    """At most 4 (kappa + 1) u against the doubles as read; `icsolve bench --full` holds it on 10,000."""
+    check(forward(60), 1.0)
+
+
+def test_the_bound_on_scenes_of_all_joint_kinds() -> None:
+    """Never broken against the decimals, and in the median at most 100 times the error; 100,000 in full."""
+    check(bounds(50), 100.0)
+
+
+def test_a_broken_law_is_counted() -> None:
+    from icsolve.bench.laws import held
+
+    found = held(lambda case: -5.0, [Family("any", linkage("01 12 23 03"))], 3)
+    assert found == [Law("any", 3, 3, 5.0, 5.0)]
+
+
+def test_families_are_drawn_the_same_again_and_have_answers() -> None:
+    for family in (*FAMILIES, *BOUNDED):
+        assert family.draw(Random("seed")) == family.draw(Random("seed"))
+    texts = "".join(all_joints(Random(k)) for k in range(60))
+    for kind in ("slot", "contact", "slide", "gears", "belt", "roll", "centre"):
+        assert f"{kind}:" in texts
+
+
+# --- what is printed -------------------------------------------------------------------------------
+
+
+def test_the_picture_draws_every_method_and_its_failures() -> None:
+    scores = [
+        Score("good", "easy", 1e-16, 0.5, 40.0, 0, 0, 9),
+        Score("good", "hard", 1e-9, 0.5, 50.0, 0, 0, 9),
+        Score("bad", "easy", 1e-14, 10.0, 400.0, 0, 0, 9),
+        Score("bad", "hard", math.nan, math.nan, 500.0, 9, 0, 9),
+    ]
+    root = ElementTree.fromstring(picture(scores))
+    text = "".join(root.itertext())
+    assert len([e for e in root.iter() if e.tag.endswith("polyline")]) == 4
+    assert len([e for e in root.iter() if e.tag.endswith("circle")]) == 2 * 3 + 2
+    assert text.count("bad, hard: error nan, 500 us, 9 of 9 without an answer") == 2
+
+
+def test_least_gives_seconds_a_call() -> None:
+    short, long = least([lambda: sum(range(10)), lambda: sum(range(10_000))], 0.1)
+    assert 0 < 20 * short < long < 1
+
+
+def test_the_whole_benchmark_in_small(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(report, "USUAL", report.Effort(2, 4, 4, 0.02, 1))
+    monkeypatch.setattr(report, "FAMILIES", FAMILIES[:4])
+    monkeypatch.setattr("icsolve.bench.sweeps.MILLION", 10_000)
+    ran = CliRunner().invoke(command, ["bench", "-o", str(tmp_path / "plot.svg")], standalone_mode=False)
+    assert ran.return_value == 0
+    for heading in ("One scene", "A full turn", "Other programs", "Start-up", "Time", "Laws"):
+        assert f"\n## {heading}" in ran.stdout
+    assert "| Watt |" in ran.stdout
+    assert ElementTree.parse(tmp_path / "plot.svg").getroot().tag.endswith("svg")
+
+
+def test_the_stress_catalogue_is_printed_with_its_verdicts(monkeypatch: pytest.MonkeyPatch) -> None:
+    from icsolve.bench import catalogue
+    from icsolve.bench.stress import answered
+
+    few = [entry for entry in catalogue.CATALOGUE if entry.number in ("1", "5")]
+    monkeypatch.setattr(catalogue, "CATALOGUE", few)
+    ran = CliRunner().invoke(command, ["bench", "--stress"], standalone_mode=False)
+    assert (ran.return_value, "every verdict is the one asked" in ran.stderr) == (0, True)
+    assert "| 5 | coupler and rocker in line, unknown on the crank | dead-centre" in ran.stdout
+    monkeypatch.setattr(catalogue, "CATALOGUE", [few[0]._replace(asked=answered({"M1": 1.0}))])
+    ran = CliRunner().invoke(command, ["bench", "--stress"], standalone_mode=False)
+    assert ran.return_value == 1
+    assert "WRONG (M1 = -0.538" in ran.stdout
+
+
+def test_without_mpmath_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "mpmath", None)
+    ran = CliRunner().invoke(command, ["bench"], standalone_mode=False)
+    assert ran.return_value == 2
+    assert "icsolve[bench]" in ran.stderr
+
+
+def test_where_no_picture_can_be_written_nothing_is_measured(tmp_path: Path) -> None:
+    target = tmp_path / "no folder" / "plot.svg"
+    ran = CliRunner().invoke(command, ["bench", "-o", str(target)], standalone_mode=False)
+    assert ran.return_value == 2
+    assert "can't be written" in ran.stderr
+    assert ran.stdout == ""
