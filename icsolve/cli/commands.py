@@ -19,6 +19,7 @@ VERBS = {
     "variants": "varying",
     "export": "exporting",
     "draw": "drawing",
+    "sweep": "sweeping",
     "bench": "benching",
 }
 """Each verb, and the room beside this one that has its click command (``solve_command``)."""

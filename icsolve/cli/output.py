@@ -34,7 +34,7 @@ def _same(a: str, b: str) -> bool:
         return os.path.realpath(a) == os.path.realpath(b)
 
 
-def write_output(verb: str, text: str, path: str | None, inputs: Iterable[str] = ()) -> int:
+def write_output(verb: str, text: str | bytes, path: str | None, inputs: Iterable[str] = ()) -> int:
     """Write to a file, or to standard output for None and ``-``; returns the exit status.
 
     The file appears whole or not at all; an input is refused, and what can't be written is said.
@@ -53,17 +53,18 @@ def write_output(verb: str, text: str, path: str | None, inputs: Iterable[str] =
     return DONE
 
 
-def _replace(text: str, path: str) -> None:
+def _replace(text: str | bytes, path: str) -> None:
     """Put a whole file in place of what is there; a device or pipe is written to."""
+    content = text.encode("utf-8") if isinstance(text, str) else text
     real = os.path.realpath(path)
     if os.path.lexists(real) and not os.path.isfile(real):
-        with open(real, "w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
+        with open(real, "wb") as file:
+            file.write(content)
         return
     draft = f"{real}.{os.getpid()}.part"
     try:
-        with open(draft, "x", encoding="utf-8", newline="\n") as file:
-            file.write(text)
+        with open(draft, "xb") as file:
+            file.write(content)
         os.replace(draft, real)
     except BaseException:
         if os.path.exists(draft):

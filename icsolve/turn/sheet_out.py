@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import math
 from collections.abc import Callable, Iterator
 
 import numpy as np
@@ -60,10 +61,10 @@ FORMATS: dict[str, Callable[[Sweep], str | bytes]] = {".csv": as_csv, ".jsonl": 
 def _cells(column: Column) -> Iterator[str]:
     if column.dtype.kind != "f":
         return iter(column.tolist())
-    return ("" if value != value else repr(value + 0.0) for value in column.tolist())
+    return ("" if math.isnan(value) else repr(value + 0.0) for value in column.tolist())
 
 
 def _values(column: Column) -> Iterator[float | str | None]:
     if column.dtype.kind != "f":
         return iter(column.tolist())
-    return (None if value != value else value + 0.0 for value in column.tolist())
+    return (None if math.isnan(value) else value + 0.0 for value in column.tolist())
