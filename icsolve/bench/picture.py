@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Sequence
 from html import escape
+from statistics import median
 from typing import NamedTuple
 
 from icsolve.bench.accuracy import Score
+from icsolve.bench.laws import FORWARD
 
 COLOURS = ("#0072b2", "#004c80", "#d55e00", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#666666", "#a6761d")
 WIDTH, HEIGHT, LEFT, TOP, GAP = 430.0, 360.0, 60.0, 50.0, 90.0
@@ -16,17 +18,18 @@ TIMES = (1.0, 6.0)
 
 
 class Axis(NamedTuple):
-    """A panel's x: what of a score it shows, its name, and log10 of its ends."""
+    """A panel's x: what of a score it shows, its name, log10 of its ends, and a limit to be drawn."""
 
     of: Callable[[Score], float]
     name: str
     low: float
     high: float
+    limit: float | None = None
 
 
 PANELS = (
     Axis(lambda score: score.error, "worst relative error of a family", -17.0, 1.0),
-    Axis(lambda score: score.per_unit, "worst error over (kappa + 1) u", -3.0, 15.0),
+    Axis(lambda score: score.per_unit, "worst error over (kappa + 1) u", -3.0, 15.0, FORWARD),
 )
 
 
@@ -52,7 +55,7 @@ def _panel(left: float, axis: Axis, by_method: dict[str, list[Score]]) -> list[s
     bottom = TOP + HEIGHT
     size = f'width="{WIDTH + 60:g}" height="{HEIGHT:g}"'
     parts = [f'<rect x="{left:g}" y="{TOP:g}" {size} fill="none" stroke="#999"/>']
-    for power in range(int(axis.low), int(axis.high) + 1, 2):
+    for power in range(int(axis.low), int(axis.high), 2):
         x = left + _share(axis, 10.0**power) * WIDTH
         parts.append(f'<path d="M{x:.1f} {TOP:g}V{bottom:g}" stroke="#eee"/>')
         parts.append(_text(x, bottom + 16, f"1e{power}", "middle"))
@@ -62,6 +65,10 @@ def _panel(left: float, axis: Axis, by_method: dict[str, list[Score]]) -> list[s
         parts.append(_text(left - 6, y + 4, _duration(power), "end"))
     parts.append(f'<path d="M{left + WIDTH:g} {TOP:g}v{HEIGHT:g}" stroke="#999" stroke-dasharray="4 3"/>')
     parts.append(_text(left + WIDTH + 30, bottom + 16, "no answer", "middle"))
+    if axis.limit is not None:
+        x = left + _share(axis, axis.limit) * WIDTH
+        parts.append(f'<path d="M{x:.1f} {TOP:g}v{HEIGHT:g}" stroke="#0072b2" stroke-dasharray="2 3"/>')
+        parts.append(_text(x + 4, TOP + 14, f"the law: {axis.limit:g}"))
     parts.append(_text(left + WIDTH / 2, bottom + 36, axis.name, "middle"))
     for colour, scores in zip(COLOURS, by_method.values(), strict=False):
         parts += _curve(left, axis, scores, colour)
@@ -73,12 +80,13 @@ def _curve(left: float, axis: Axis, scores: Sequence[Score], colour: str) -> lis
     solved = sorted((s for s in scores if axis.of(s) >= 0.0 and s.micros > 0.0), key=axis.of)
     places = [(left + _share(axis, axis.of(s)) * WIDTH, _height(s.micros), s) for s in solved]
     line = " ".join(f"{x:.1f},{y:.1f}" for x, y, _ in places)
-    parts = [f'<polyline points="{line}" fill="none" stroke="{colour}" stroke-opacity="0.45"/>']
+    parts = [f'<polyline points="{line}" fill="none" stroke="{colour}" stroke-opacity="0.3"/>']
     for x, y, score in places:
-        parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3" fill="{colour}">{_title(score)}</circle>')
+        r = 4 if score.method.startswith("icsolve") else 2.5
+        parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{r}" fill="{colour}">{_title(score)}</circle>')
+    usual = median([s.micros for s in scores if s.micros > 0.0] or [10.0 ** TIMES[0]])
     for n, score in enumerate(s for s in scores if s.failed):
-        x = left + WIDTH + 6 + 48 * ((7 * n + COLOURS.index(colour)) % 10) / 10
-        y = _height(score.micros if score.micros > 0.0 else 10.0 ** TIMES[1])
+        x, y = left + WIDTH + 8 + 11 * (n % 5), _height(usual) - 10 * (n // 5)
         parts.append(
             f'<path d="M{x - 3:.1f} {y - 3:.1f}l6 6m0 -6l-6 6" stroke="{colour}" stroke-width="1.6">'
             f"{_title(score)}</path>"

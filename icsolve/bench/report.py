@@ -94,8 +94,8 @@ def _score(score: Score) -> str:
 
 
 def method_times(scores: Sequence[Score]) -> str:
-    """Median time of each method on a four-bar, a six-bar and a chain of fifty."""
-    families = ("four-bar", "Stephenson", "double butterfly", "chain of 50")
+    """Median time of each method on mechanisms of more and more links."""
+    families = ("four-bar", "from lengths", "Stephenson", "double butterfly", "chain of 50")
     by_key = {(score.method, score.family): score.micros for score in scores}
     methods = dict.fromkeys(score.method for score in scores)
     rows = [[m, *(_micros(by_key.get((m, family))) for family in families)] for m in methods]
