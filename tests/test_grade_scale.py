@@ -87,9 +87,9 @@ def test_a_million_answers_in_under_400_megabytes(tmp_path: Path) -> None:
 def test_memory_does_not_grow_with_the_answers(tmp_path: Path) -> None:
     """Twice the answers, the same memory: what is judged is counted and forgotten."""
     if not FULL:
-        pytest.skip("300,000 answers; set ICSOLVE_FULL=1")
+        pytest.skip("600,000 answers; set ICSOLVE_FULL=1")
     sizes = []
-    for students in (6_000, 12_000):
+    for students in (12_000, 24_000):
         table = tmp_path / f"{students}.csv"
         write_class(table, students)
         sizes.append(

@@ -224,6 +224,8 @@ def _progress(quiet: bool) -> Iterator[Any]:
 
 def _further(graded: Graded, job: Job, results: str, options: dict[str, Any]) -> None:
     """The files for platforms, made from the results."""
+    if not options["writes"]:
+        return
     from icsolve.grade.out.write import KINDS, Order, write
     from icsolve.grade.people import read_roster
 

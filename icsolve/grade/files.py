@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import IO
@@ -25,14 +24,12 @@ def whole_file(path: str, force: bool, binary: bool = False) -> Iterator[IO[str]
     check_free(path, force)
     folder = os.path.dirname(os.path.abspath(path))
     os.makedirs(folder, exist_ok=True)
-    descriptor, temporary = tempfile.mkstemp(prefix=".icsolve-", dir=folder)
-    os.close(descriptor)
+    temporary = os.path.join(folder, f".{os.path.basename(path)}.{os.getpid()}.part")
     try:
         mode = "wb" if binary else "w"
         encoding, newline = (None, None) if binary else ("utf-8", "")
         with open(temporary, mode, encoding=encoding, newline=newline) as file:
             yield file
-        os.chmod(temporary, 0o666 & ~_umask())
         check_free(path, force)
         os.replace(temporary, path)
     except BaseException:
@@ -45,9 +42,3 @@ def write_whole(path: str, data: str | bytes, force: bool) -> None:
     """Write a file at once."""
     with whole_file(path, force, binary=isinstance(data, bytes)) as file:
         file.write(data)  # type: ignore[arg-type]
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

@@ -10,7 +10,7 @@ from icsolve.grade.carried import Intermediate, carried
 from icsolve.grade.course import Course
 from icsolve.grade.judge import IN_REVIEW, WRONG, Judgement, feedback, judge, share_of
 from icsolve.grade.judge_place import judge_place
-from icsolve.grade.keys import AnyKey, Key, NoKeyError, PlaceKey
+from icsolve.grade.keys import AnyKey, Key, NoKeyError, PlaceKey, unit_factor
 from icsolve.grade.ledger import Ledger
 from icsolve.grade.malrules import Wrong
 from icsolve.grade.marked import Marked, Result
@@ -100,7 +100,7 @@ class Marker:
             self._add_missing(student, found)
         for entry, marked in found:
             marked.count += 1
-            variant = self._variant(entry) or entry.variant
+            variant = (self._variant(entry) if self.shelf.varied else "") or entry.variant
             yield Result(student, entry.item, variant, entry.attempt, entry.line, marked)
 
     def _add_missing(self, student: str, found: list[tuple[Entry, Marked]]) -> None:
@@ -148,28 +148,27 @@ class Marker:
         self.ledger.note(self.path, line, reason)
 
     def _marked(self, entry: Entry) -> Marked:
-        variant = self._variant(entry) + ("!" if self._is_others(entry) else "")
+        if entry.trouble:
+            return self._troubled(entry, entry.trouble)
+        variant = ""
+        if self.shelf.varied:
+            variant = self._variant(entry) + ("!" if self._is_others(entry) else "")
         key = (entry.item, variant, entry.answer, entry.unit, entry.direction)
         found = self._memory.get(key)
-        if found is None or entry.trouble:
-            found = self._judged(entry)
-            if not entry.trouble:
-                self._remember(key, found)
+        if found is None:
+            if len(self._memory) >= _MEMORY:
+                self.counted()
+            found = self._memory[key] = self._judged(entry)
         return found
 
     def _variant(self, entry: Entry) -> str:
         """The label of the student's own values; '' where the case has no variables."""
-        return self.shelf.variant_of(entry.item, entry.student) if self.shelf.varied else ""
+        return self.shelf.variant_of(entry.item, entry.student)
 
     def _is_others(self, entry: Entry) -> bool:
         """Whether the answer says that it is to another variant than the student's."""
         given = entry.variant.strip()
         return bool(given) and self._variant(entry) not in ("", given)
-
-    def _remember(self, key: tuple[str, str, str, str, str], marked: Marked) -> None:
-        if len(self._memory) >= _MEMORY:
-            self.counted()
-        self._memory[key] = marked
 
     def _once(self, marked: Marked) -> None:
         """Keep until it is counted what is not in the memory."""
@@ -193,28 +192,20 @@ class Marker:
         return (key.value, key.half) if isinstance(key, Key) else None
 
     def _judged(self, entry: Entry) -> Marked:
-        if entry.trouble:
-            return self._troubled(entry, entry.trouble)
         try:
             key = self._key(entry)
         except NoKeyError as error:
             self.ledger.note(self.path, entry.line, f"not graded: {error}", serious=True)
             return self._troubled(entry, str(error))
-        if self._is_others(entry):
+        if self.shelf.varied and self._is_others(entry):
             return self._of_another(entry)
         if isinstance(key, PlaceKey):
             return self._place(entry, key)
         written = self.combined.read(entry.answer, entry.unit, entry.direction)
         judged = judge(key, written)
-        marked = Marked(
-            entry.item, entry.answer, judged, key.policy.points, feedback(key, judged, self.course.reveal)
-        )
-        if not written.flag:
-            marked.value = written.number
-            marked.unit = written.unit.name if written.unit else ""
-            marked.direction = written.direction.words if written.direction else ""
-            marked.given = (judged.value or 0.0,)
-        return marked
+        told = feedback(key, judged, self.course.reveal)
+        read = None if written.flag else written
+        return Marked(entry.item, entry.answer, judged, key.policy.points, told, read)
 
     def _key(self, entry: Entry) -> AnyKey:
         """The key of a question: the student's own, where the case has variables."""
@@ -228,12 +219,12 @@ class Marker:
     def _place(self, entry: Entry, key: PlaceKey) -> Marked:
         written = read_place(f"{entry.answer} {entry.unit}".strip())
         judged = judge_place(key, written)
-        marked = Marked(
-            entry.item, entry.answer, judged, key.policy.points, feedback(key, judged, self.course.reveal)
-        )
-        if not written.flag:
-            marked.unit = written.unit.name if written.unit else ""
-            marked.given = (written.x, written.y) if written.toward is None else ()
+        told = feedback(key, judged, self.course.reveal)
+        marked = Marked(entry.item, entry.answer, judged, key.policy.points, told)
+        if not written.flag and written.toward is None:
+            factor = unit_factor(key, written.unit.unit) if written.unit is not None else 1.0
+            marked.place = (written.x * (factor or 1.0), written.y * (factor or 1.0))
+            marked.place_unit = written.unit
         return marked
 
     def _troubled(self, entry: Entry, why: str) -> Marked:
@@ -310,7 +301,6 @@ class Marker:
             share=max(share_of(key, before.judged.parts, mistakes), before.judged.share),
         )
         text = feedback(key, judged, self.course.reveal)
-        again = Marked(before.item, before.raw, judged, before.points, text)
-        again.value, again.unit, again.direction = before.value, before.unit, before.direction
+        again = Marked(before.item, before.raw, judged, before.points, text, before.written)
         self._once(again)
         return again

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from functools import lru_cache
 from typing import Any
@@ -60,10 +59,18 @@ def tail(marked: Marked) -> str:
         judged = marked.judged
         off = "" if judged.off is None else f"{judged.off:.3g}"
         score = "0" if not judged.share else _score(judged.share * marked.points)
-        read = f"{number(marked.value)},{_cached(marked.unit)},{_cached(marked.direction)}"
+        read = _read(marked)
         marks = f"{judged.verdict},{score},{_score(marked.points)},{off},{judged.code}"
         marked.tail = f"{cell(marked.raw)},{read},{marks},{_cached(marked.text)}\n"
     return marked.tail
+
+
+def _read(marked: Marked) -> str:
+    """Value, unit and direction as they were read."""
+    if marked.written is None:
+        return f",{_cached(marked.unit)},"
+    value, unit, way, _, _, _ = marked.written
+    return f"{number(value)},{_cached(unit.name) if unit else ''},{_cached(way.words) if way else ''}"
 
 
 def line(result: Result) -> str:
@@ -72,7 +79,7 @@ def line(result: Result) -> str:
     if not attempt.isalnum():
         attempt = cell(attempt)
     rest = marked.tail or tail(marked)
-    return f"{_cached(student)},{_cached(item)},{cell(variant)},{attempt},{rest}"
+    return f"{_cached(student)},{_cached(item)},{variant and cell(variant)},{attempt},{rest}"
 
 
 def record(result: Result) -> dict[str, Any]:
@@ -107,4 +114,6 @@ def record(result: Result) -> dict[str, Any]:
 
 def json_line(result: Result) -> str:
     """The object on one line."""
+    import json
+
     return json.dumps(record(result), allow_nan=False, ensure_ascii=False) + "\n"

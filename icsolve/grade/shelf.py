@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 from icsolve.case import Case
 from icsolve.errors import CaseError, SceneError
@@ -11,7 +12,9 @@ from icsolve.grade.course import Course
 from icsolve.grade.keys import AnyKey, NoKeyError
 from icsolve.grade.questions import canonical
 from icsolve.grade.solved import Solved
-from icsolve.grade.variants.varied import Varied
+
+if TYPE_CHECKING:
+    from icsolve.grade.variants.varied import Varied
 
 
 class Shelf:
@@ -54,13 +57,15 @@ class Shelf:
             found = self._solved[name] = self._made(name)
         if isinstance(found, NoKeyError):
             raise found
-        return found.solved(student) if isinstance(found, Varied) else found
+        return found if isinstance(found, Solved) else found.solved(student)
 
     def _made(self, name: str) -> Solved | Varied | NoKeyError:
         try:
             case = self.read(name)
             if not case.variables:
                 return Solved(case, self.course)
+            from icsolve.grade.variants.varied import Varied
+
             self.varied = True
             return Varied(name, self.text(name), self.paths[name], self.course)
         except SceneError as error:
@@ -73,7 +78,7 @@ class Shelf:
         found = self._solved.get(name)
         if found is None:
             found = self._solved[name] = self._made(name)
-        return found if isinstance(found, Varied) else None
+        return found if not isinstance(found, Solved | NoKeyError) else None
 
     def read(self, name: str) -> Case:
         """The case of that name.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-import tempfile
+from bisect import bisect_left
 from collections.abc import Iterable, Iterator
 from itertools import islice
 from typing import NamedTuple
@@ -63,12 +63,14 @@ class Store:
         """The file on disk that another process can read; '' while all is in memory."""
         return self._disk.path if self._disk is not None else ""
 
-    def sorted(self) -> Iterator[Entry]:
-        """All entries by student, question and line."""
+    def sorted(self, since: str | None = None, until: str | None = None) -> Iterator[Entry]:
+        """Entries by student, question and line, of the students from ``since`` on, before ``until``."""
         if self._disk is not None:
-            return self._disk.sorted()
+            return self._disk.sorted(since, until)
         self._few.sort()
-        return iter(self._few)
+        first = bisect_left(self._few, (since,)) if since is not None else 0
+        last = bisect_left(self._few, (until,)) if until is not None else len(self._few)
+        return islice(self._few, first, last)
 
     def close(self) -> None:
         """Forget all, and delete the file."""
@@ -80,10 +82,11 @@ class Disk:
     """A temporary database of entries; with a ``path`` one that another process has written."""
 
     def __init__(self, path: str = "") -> None:
-        self._folder = None if path else tempfile.TemporaryDirectory(prefix="icsolve-grade-")
-        self.path = path or os.path.join(self._folder.name if self._folder else "", "answers.sqlite")
         import sqlite3
+        from tempfile import TemporaryDirectory
 
+        self._folder = None if path else TemporaryDirectory(prefix="icsolve-grade-")
+        self.path = path or os.path.join(self._folder.name if self._folder else "", "answers.sqlite")
         self._database = sqlite3.connect(self.path, isolation_level=None)
         for pragma in ("journal_mode=off", "synchronous=off", "cache_size=-20000", "temp_store=file"):
             self._database.execute(f"pragma {pragma}")

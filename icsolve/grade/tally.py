@@ -50,24 +50,31 @@ class Tally:
 
     def add(self, marked: Iterable[Marked]) -> None:
         """Count answers, each as often as it was given; its own count starts again."""
+        items: dict[str, list[Marked]] = {}
         for m in marked:
             if m.count:
-                before = self.counts.get(m.item) or empty()
-                self.counts[m.item] = _with(before, m, self._band(m.item))
-                m.count = 0
+                items.setdefault(m.item, []).append(m)
+        for item, own in items.items():
+            self.counts[item] = _with(self.counts.get(item) or empty(), own, self._band(item))
 
 
-def _with(counts: Counts, m: Marked, band: tuple[float, float] | None) -> Counts:
-    judged, n = m.judged, m.count
-    counts.verdicts[judged.verdict] += n
-    if judged.verdict == "wrong":
-        counts.mistakes[judged.mistakes[0].code if judged.mistakes else ""] += n
-    elif judged.verdict in ("invalid", "review"):
-        counts.unread[judged.code] += n
-    if judged.value is not None and band is not None:
-        counts.bins[bin_of(judged.value, *band)] += n
-    score = counts.score + n * judged.share * m.points
-    return counts._replace(score=score, max_score=counts.max_score + n * m.points)
+def _with(counts: Counts, marked: list[Marked], band: tuple[float, float] | None) -> Counts:
+    """The counts of a question with more answers to it."""
+    verdicts, mistakes, bins, unread, score, most = counts
+    for m in marked:
+        judged, n = m.judged, m.count
+        verdict, share, _, value, _, code, causes = judged
+        verdicts[verdict] += n
+        if verdict == "wrong":
+            mistakes[causes[0].code if causes else ""] += n
+        elif verdict in ("invalid", "review"):
+            unread[code] += n
+        if value is not None and band is not None:
+            bins[bin_of(value, *band)] += n
+        score += n * share * m.points
+        most += n * m.points
+        m.count = 0
+    return Counts(verdicts, mistakes, bins, unread, score, most)
 
 
 def added(parts: Iterable[dict[str, Counts]]) -> dict[str, Counts]:

@@ -6,8 +6,8 @@ import base64
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator
+from html import escape
 from typing import NamedTuple
-from xml.sax.saxutils import escape
 
 from icsolve.grade.keys import Key
 from icsolve.grade.malrules import Wrong, message
@@ -181,4 +181,4 @@ def _number(value: float) -> str:
 
 
 def _text(text: str) -> str:
-    return escape("".join(c if c >= " " else " " for c in text))
+    return escape("".join(c if c >= " " else " " for c in text), quote=False)

@@ -93,6 +93,13 @@ class Reader:
 
     def read(self, text: str) -> Written:
         """The reading of an answer's text."""
+        if text[-1:].isdigit() and "_" not in text and self.decimal != "comma":
+            try:
+                number = float(text)
+            except ValueError:
+                return self.slowly(text)
+            if number - number == 0.0:
+                return Written(number, None, None, text)
         quick = _QUICK.match(text)
         if quick is not None and self.decimal != "comma":
             digits, rest = quick.groups()

@@ -27,18 +27,19 @@ class Combined:
         written = self.reader.read(answer)
         if (not unit and not way) or written.flag:
             return written
-        word = self._unit(unit)
-        direction = self._direction(way)
-        flag = _unit_flag(written, word) or _direction_flag(written, direction)
+        number, own_unit, own_way, digits, _, note = written
+        word, direction = self._unit(unit), self._direction(way)
+        flag = _unit_flag(own_unit, word) or _direction_flag(number, own_way, direction)
         if flag:
             return flagged(flag)
-        found_unit = written.unit if word is None else word
-        found_way = written.direction if direction is None else direction
-        note = written.note or (word.note if isinstance(word, UnitWord) else "")
-        return Written(written.number, found_unit, found_way, written.digits, "", note)  # type: ignore[arg-type]
+        if word is not None:
+            own_unit, note = word, note or word.note  # type: ignore[assignment, union-attr]
+        return Written(number, own_unit, direction or own_way, digits, "", note)  # type: ignore[arg-type]
 
     def _unit(self, text: str) -> UnitWord | str | None:
         """The unit of its own column; a flag where it is none."""
+        if not text:
+            return None
         if text not in self._units:
             if len(self._units) >= _MOST:
                 self._units.clear()
@@ -47,6 +48,8 @@ class Combined:
         return self._units[text]
 
     def _direction(self, text: str) -> Direction | str | None:
+        if not text:
+            return None
         if text not in self._directions:
             if len(self._directions) >= _MOST:
                 self._directions.clear()
@@ -57,24 +60,23 @@ class Combined:
         return self._directions[text]
 
 
-def _unit_flag(written: Written, word: UnitWord | str | None) -> str:
-    if isinstance(word, str):
-        return word
+def _unit_flag(own: UnitWord | None, word: UnitWord | str | None) -> str:
+    """What is against a unit in a column of its own: it is none, or ambiguous, or the answer has another."""
     if word is None:
         return ""
-    if word.note == AMBIGUOUS_UNIT:
+    if isinstance(word, str):
+        return word
+    if word.note == AMBIGUOUS_UNIT or (own is not None and own.unit != word.unit):
         return AMBIGUOUS_UNIT
-    return AMBIGUOUS_UNIT if written.unit is not None and written.unit.unit != word.unit else ""
+    return ""
 
 
-def _direction_flag(written: Written, way: Direction | str | None) -> str:
-    if isinstance(way, str):
-        return way
+def _direction_flag(number: float, own: Direction | None, way: Direction | str | None) -> str:
     if way is None:
         return ""
-    if way.flag or written.number < 0.0 or (written.direction is not None and written.direction != way):
-        return AMBIGUOUS_DIRECTION
-    return ""
+    if isinstance(way, str):
+        return way
+    return AMBIGUOUS_DIRECTION if way.flag or number < 0.0 or (own is not None and own != way) else ""
 
 
 __all__ = ["MISSING", "Combined"]

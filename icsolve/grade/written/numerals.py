@@ -190,7 +190,7 @@ def _over(text: str, found: Numeral, decimal: str) -> Numeral:
 
 def figures(digits: str) -> tuple[int, int]:
     """Least and most significant figures that a numeral may have: ``100`` has 1 to 3; (0, 0) for none."""
-    mantissa = re.split("[eE]", digits.lstrip("+-"))[0]
+    mantissa = re.split("[eE]", digits.strip().lstrip("+-"))[0]
     whole, point, part = mantissa.partition(".")
     counted = (whole + part).lstrip("0")
     if point or not counted:

@@ -1,0 +1,290 @@
+"""Worked solutions: every printed equation is taken back from the text and computed again.
+
+A side of an equation that has numbers alone is evaluated, and all such sides of one equation must agree
+to what the printed digits leave open: each number is moved by a unit of its last significant digit (or of
+the figure's, for coordinates), and what that makes of the side is its tolerance.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Iterable
+from pathlib import Path
+from random import Random
+from xml.etree import ElementTree
+
+import pytest
+
+import icsolve
+import loading
+import mechanisms
+import transcribe
+from growth import random_mechanism
+from icsolve.case import Case
+from icsolve.construction import known_of
+from icsolve.explain import explain
+from test_draw import DEAD_CENTRE, FOUR_BAR, HOSTILE
+
+ROOT = Path(__file__).parent.parent
+LIBRARY = ROOT / "cases"
+FILES = {path.relative_to(LIBRARY).as_posix(): path for path in sorted(LIBRARY.rglob("*.yaml"))}
+DIGITS = 6
+NUMERAL = re.compile(r"(?<![\w.])\d+(?:\.\d+)?(?:e[+-]\d+)?(?![\w.])")
+
+# --- reading equations back ------------------------------------------------------------------------
+
+
+def sin(degrees: float) -> float:
+    return math.sin(math.radians(degrees))
+
+
+def cos(degrees: float) -> float:
+    return math.cos(math.radians(degrees))
+
+
+FUNCTIONS = {"sin": sin, "cos": cos, "sqrt": lambda x: math.sqrt(max(x, 0.0)), "__builtins__": {}}
+
+
+def text_equations(text: str) -> list[list[str]]:
+    """The sides of the equations of a text, in Python: those that have numbers alone."""
+    lines = [line.strip() for line in text.splitlines() if line.startswith("    ") and " = " in line]
+    return [[python_of_text(side) for side in line.split(" = ")] for line in lines]
+
+
+def python_of_text(side: str) -> str:
+    """``100 x sin(30 deg) / 2 lbf*in`` without its unit, in Python; '' where it has symbols."""
+    side = re.sub(r"(?<=\d) [A-Za-z][A-Za-z*/^0-9-]*$", "", side)
+    side = side.replace(" deg", "").replace(" x ", " * ").replace("^2", "**2")
+    return side if only_numbers(side) else ""
+
+
+def only_numbers(side: str) -> bool:
+    bare = re.sub(r"sqrt|sin|cos", "", NUMERAL.sub("", side))
+    return not re.search(r"[A-Za-z|_]", bare)
+
+
+def latex_equations(text: str) -> list[list[str]]:
+    """The same of displayed LaTeX."""
+    return [
+        [python_of_latex(side) for side in one.split(" = ")]
+        for one in re.findall(r"^\$\$ (.*) \$\$$", text, re.M)
+    ]
+
+
+def python_of_latex(side: str) -> str:
+    """LaTeX in Python; '' where it has symbols."""
+    side = re.sub(r"\\ \\mathrm\{.*?\}$", "", side)
+    side = re.sub(r" \\cdot 10\^\{(-?\d+)\}", lambda m: f"e{int(m[1]):+03d}", side)
+    side = side.replace(r"\left(", "(").replace(r"\right)", ")").replace(r"^\circ", "")
+    while r"\frac" in side:
+        side = opened(side, r"\frac", "(({0}) / ({1}))", 2)
+    while r"\sqrt" in side:
+        side = opened(side, r"\sqrt", "root({0})", 1)
+    side = side.replace("^{2}", "**2").replace("root", "sqrt")
+    side = re.sub(r"\\(sin|cos) (-?[\d.]+)", r"\1(\2)", side)
+    side = re.sub(r"\\(sin|cos)\(", r"\1(", side).replace(r"\cdot", "*")
+    return side if only_numbers(side) and "\\" not in side else ""
+
+
+def opened(text: str, command: str, form: str, count: int) -> str:
+    """A LaTeX command with braces, written in Python."""
+    start = text.index(command)
+    at = start + len(command)
+    groups = []
+    for _ in range(count):
+        depth, end = 0, at
+        while True:
+            depth += {"{": 1, "}": -1}.get(text[end], 0)
+            end += 1
+            if depth == 0:
+                break
+        groups.append(text[at + 1 : end - 1])
+        at = end
+    return text[:start] + form.format(*groups) + text[at:]
+
+
+def value(side: str) -> float:
+    return float(eval(side, dict(FUNCTIONS)))
+
+
+def tolerance(side: str, size: float) -> float:
+    """What a unit in the last shown digit of each number makes of a side."""
+    middle, total = value(side), 0.0
+    for found in NUMERAL.finditer(side):
+        if side[: found.start()].endswith("**"):
+            continue
+        x = float(found[0])
+        unit = 10.0 ** (math.floor(math.log10(max(abs(x), 1e-300))) + 1 - DIGITS)
+        unit = max(unit, 10.0 ** (math.floor(math.log10(size)) + 1 - DIGITS)) if x != round(x) else unit
+        changed = f"{side[: found.start()]}({x!r} + {unit!r}){side[found.end() :]}"
+        total += abs(value(changed) - middle)
+    return total
+
+
+def check(equations: Iterable[list[str]], size: float) -> int:
+    """All numeric sides of each equation agree; returns how many equations had two or more."""
+    checked = 0
+    for sides in equations:
+        numeric = [side for side in sides if side]
+        for side in numeric[1:]:
+            room = 1.01 * (tolerance(numeric[0], size) + tolerance(side, size))
+            assert abs(value(side) - value(numeric[0])) <= room, f"{numeric[0]} is not {side}"
+        checked += len(numeric) > 1
+    return checked
+
+
+# --- the laws ----------------------------------------------------------------------------------------
+
+
+def explained(case: Case, **options: bool) -> dict[str, str]:
+    known = known_of(case, reactions=True)
+    return {form: explain(case, form, DIGITS, known=known, **options) for form in ("text", "md", "html")}
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_every_printed_equation_recomputes(name: str) -> None:
+    case = icsolve.load(FILES[name])
+    said = explained(case, bodies=True)
+    size = known_of(case).size or 1.0
+    counts = {check(text_equations(said["text"]), size), check(latex_equations(said["md"]), size)}
+    assert len(counts) == 1, "text and LaTeX have the same equations"
+    assert counts.pop() >= 1
+    well_formed(said["html"])
+
+
+def well_formed(html: str) -> None:
+    """HTML that is XML too, so that nothing in it is left open."""
+    body = html.partition("<body>")[2].partition("</body>")[0]
+    ElementTree.fromstring(f"<body>{body}</body>")
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_the_last_equation_is_the_answer(name: str) -> None:
+    """The unknown of the last solved line has the value that `solve` gives, to the digits shown."""
+    case = icsolve.load(FILES[name])
+    text = explain(case, digits=DIGITS)
+    for load, found in icsolve.solve(case).answers.items():
+        lines = re.findall(rf"^    {re.escape(load)} = .*$", text, re.M)
+        if lines:
+            last = re.search(r"= (-?[\d.e+-]+)[^=]*$", lines[-1])
+            assert last and float(last[1]) == pytest.approx(found.value, rel=1e-5)
+        assert f"{abs(found.value):.6g} {found.unit}" in text
+
+
+@pytest.mark.parametrize("block", range(5))
+def test_equations_of_random_mechanisms_recompute(block: int) -> None:
+    for seed in range(20 * block, 20 * block + 20):
+        kind = mechanisms.ALL[seed % len(mechanisms.ALL)]
+        scene = loading.drawn(seed % 40, kind) if seed % 2 else random_mechanism(Random(seed))
+        case = icsolve.load(transcribe.text(scene))
+        assert check(text_equations(explain(case, digits=DIGITS)), known_of(case).size or 1.0) >= 1
+
+
+def test_a_wrong_number_would_be_noticed() -> None:
+    text = explain(icsolve.load(FILES["ch13/13_08_four_bar.yaml"]))
+    assert check(text_equations(text), 3.0) >= 4
+    with pytest.raises(AssertionError, match="is not"):
+        check(text_equations(text.replace("0.339569", "0.339596")), 3.0)
+
+
+# --- the order and the words ---------------------------------------------------------------------------
+
+
+def headings(text: str) -> list[str]:
+    return re.findall(r"^(.+)\n-+$", text, re.M)
+
+
+def test_the_order_is_the_textbooks() -> None:
+    """Problem 13.6 of Waldron, Kinzel and Agrawal."""
+    text = explain(icsolve.load(FILES["ch13/13_06_six_bar_slider.yaml"]))
+    assert headings(text) == [
+        "Given", "Asked", "Centres by inspection", "Centres by construction", "Ratios of the speeds", "Power",
+        "Answer", "Check by free bodies",
+    ]  # fmt: skip
+    order = [
+        text.index(part)
+        for part in ("1. I24 =", "2. I46 =", "3. I26 =", "v6 / w2 = |I12 I26|", "P16 = 2.70421 lbf")
+    ]
+    assert order == sorted(order)
+    assert "on the line I12 I16 (links 1, 2, 6), and on the line I24 I46 (links 2, 4, 6)" in " ".join(
+        text.split()
+    )
+
+
+def test_the_sense_of_an_answer_is_told_in_words() -> None:
+    text = " ".join(explain(icsolve.load(FILES["ch13/13_07_slider_crank.yaml"])).split())
+    assert "T12 = 26.8815 lbf*in, clockwise; the minus in the equation says" in text
+
+
+def test_coaxial_gears_go_by_a_link_between() -> None:
+    """Sun and arm turn about one axle, where their three centres coincide: the planet links them."""
+    text = explain(icsolve.load(FILES["gears/epicyclic_train.yaml"]))
+    assert "w3 / w4 = -|I14 I34| / |I13 I34| = -42 / 18" in text
+    assert "w2 / w3 = -|I13 I23| / |I12 I23| = -36 / 24" in text
+
+
+def test_two_freedoms_have_two_equations() -> None:
+    text = explain(icsolve.load(FILES["linkages/five_bar.yaml"]))
+    assert "Motion 1: link 2 turns at 1 rad/s" in text and "Motion 2: link 5 turns at 1 rad/s" in text
+
+
+def test_free_bodies_have_three_equations_a_link() -> None:
+    """13.2: F34 (58.16, 208.8) N."""
+    text = explain(icsolve.load(FILES["ch13/13_02_four_bar_free_bodies.yaml"]), bodies=True)
+    for link in "234":
+        part = text.partition(f"Equilibrium of link {link}\n")[2].partition("\n\n")[0]
+        assert [head in part for head in ("Forces along x:", "Forces along y:", "Moments about")] == [
+            True
+        ] * 3
+    assert re.search(r"F34 +pin at B +58\.1\d+ +208\.\d+", text)
+
+
+def test_markdown_has_latex() -> None:
+    text = explain(icsolve.load(FILES["ch13/13_08_four_bar.yaml"]), "md")
+    assert (
+        r"$$ \frac{\omega_{4}}{\omega_{2}} = \frac{\overline{I_{12}\,I_{24}}}{\overline{I_{14}\,I_{24}}}"
+        in text
+    )
+
+
+def test_html_has_mathml_and_the_figure_and_loads_nothing() -> None:
+    html = explain(icsolve.load(FILES["ch13/13_08_four_bar.yaml"]), "html")
+    assert "<msub><mi>\N{GREEK SMALL LETTER OMEGA}</mi><mtext>4</mtext></msub>" in html
+    assert '<g id="centre-2-4">' in html
+    assert not re.search(r"(src|href)=|url\(|@import|<script", html)
+
+
+@pytest.mark.parametrize("digits", [3, 10])
+def test_digits_are_those_asked_for(digits: int) -> None:
+    text = explain(icsolve.load(FILES["ch13/13_08_four_bar.yaml"]), digits=digits)
+    answer = icsolve.solve(icsolve.load(FILES["ch13/13_08_four_bar.yaml"])).answers["T12"].value
+    assert f"T12 = {answer:.{digits}g} lbf*in, counterclockwise" in text
+
+
+# --- bad input ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("text", [FOUR_BAR.format(title="too long", crank=20), DEAD_CENTRE])
+def test_a_case_without_an_answer_is_explained_as_far_as_it_goes(text: str) -> None:
+    case = icsolve.load(text)
+    said = explained(case)
+    assert headings(said["text"])[0] == "Given" and headings(said["text"])[-1] == "No answer"
+    with pytest.raises(icsolve.SceneError) as refused:
+        icsolve.solve(case)
+    assert " ".join(refused.value.message.split())[1:] in " ".join(said["text"].split())
+    well_formed(said["html"])
+
+
+@pytest.mark.parametrize("title", HOSTILE)
+def test_text_stays_text(title: str) -> None:
+    case = icsolve.load(
+        FOUR_BAR.format(title=title, crank=1) + f"\nsource: {title}\nreconstructed: {title}\n"
+    )
+    said = explained(case)
+    well_formed(said["html"])
+    assert "<script" not in said["html"]
+    words: Callable[[str], str] = lambda text: "".join(text.split())  # noqa: E731
+    lead = said["md"].partition("\n\n## ")[0]
+    assert not re.search(r"(?<!\\)[<>$`|]", lead)
+    assert words(case.title) in words(re.sub(r"\\(.)", r"\1", lead))
