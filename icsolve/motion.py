@@ -51,7 +51,7 @@ def by_plan(plan: Plan, top: Topology, points: Points, arithmetic: Arithmetic) -
     """The one motion by the groups of the plan; None where a group is singular."""
     bases = {k: freedoms(top.bonds[k], points, arithmetic) for k in plan.bonds}
     found = run(plan, top, bases)
-    if any(is_singular(closure) for closure in found.closures):
+    if any(map(is_singular, found.closures)):
         return None
     frame = found.twists.get(top.ground)
     twists: dict[str, tuple[Triple, ...]] = {}

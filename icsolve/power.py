@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from itertools import chain
 from typing import NamedTuple
 
 from icsolve.arithmetic import Arithmetic, Scalar, magnitude
@@ -151,7 +150,7 @@ def balance(all_wrenches: Sequence[Wrench], twists: Mapping[str, Sequence[Triple
     factors, sizes = [], []
     for m in range(motions):
         row, scale = [], []
-        fastest = max(map(magnitude, chain.from_iterable(ts[m] for ts in twists.values())), default=0.0)
+        fastest = max([magnitude(x) for ts in twists.values() for x in ts[m]], default=0.0)
         for w in all_wrenches:
             on, off = twists[w.load.link][m], twists[w.against][m]
             relative = (on[0] - off[0], on[1] - off[1], on[2] - off[2])
@@ -184,7 +183,8 @@ def solve_balance(b: Balance, arithmetic: Arithmetic) -> Solution:
     shares = [_share(w, unknown, place, scale, arithmetic) for w in b.wrenches]
     columns = len(unknown) + 1
     rows = [_row(shares, b.factors[m], b.sizes[m], columns, arithmetic) for m in range(len(b.factors))]
-    idle = tuple(m for m, row in enumerate(rows) if all(value == 0.0 for value in row))
+    still = [0.0] * columns
+    idle = tuple([m for m, row in enumerate(rows) if row == still])
     return _solved(rows, list(place), idle, [(scale, w.measure) for w in unknown])
 
 

@@ -72,14 +72,13 @@ class _Pool:
         suffix: list[Scalar] = [1.0]
         for factor in reversed(self.factors):
             suffix.append(suffix[-1] * factor)
-        last = len(self.factors)
-        result = {}
-        for body, (twist, own, level) in self.held.items():
-            if twist is ORIGIN:
+        last, result = len(self.factors), {}
+        for body, (twist, (ox, oy), level) in self.held.items():
+            if twist is not ORIGIN:
+                x, y, w = twist if level == last else times(suffix[last - level], twist)
+                result[body] = (x + w * ox, y + w * oy, w)
+            else:
                 result[body] = ORIGIN
-                continue
-            x, y, w = twist if level == last else times(suffix[last - level], twist)
-            result[body] = (x + w * own[0], y + w * own[1], w)
         return result
 
 
