@@ -29,8 +29,8 @@ def structure(top: Topology) -> str:
     constraints = sum(bond.constraints for bond in top.bonds)
     return (
         f"the links form a structure: 3 x {bodies} freedoms of {plural(bodies, 'link')} beside the frame, of "
-        f"which the joints take {constraints}. Nothing moves, so power gives no equation. Take out a joint or a link "
-        "to make it move, or ask for its reactions by statics (`--reactions`)."
+        f"which the joints take {constraints}. Nothing moves, so power gives no equation. Take out a joint "
+        "or a link to make it move, or ask for its reactions by statics (`--reactions`)."
     )
 
 
@@ -120,9 +120,10 @@ def _place(bond: Bond) -> str:
 
 
 def _normal(bond: Bond) -> str:
-    if isinstance(bond.joint, Slot):
-        return f"the normal to the slot at {bond.joint.at}"
-    return f"the common normal at {bond.joint.at}" if isinstance(bond.joint, Contact) else ""
+    if not isinstance(bond.joint, Slot | Contact) or bond.joint.at.startswith("@"):
+        return ""
+    what = "the normal to the slot" if isinstance(bond.joint, Slot) else "the common normal"
+    return f"{what} at {bond.joint.at}"
 
 
 def workless(load: str, link: str, at_rest: bool, others_work: bool, why: str) -> str:
@@ -157,8 +158,8 @@ def wrong_count(mobility: int, unknowns: int, idle: int) -> str:
     missing = active - unknowns
     return (
         f"the mechanism has {plural(active, 'degree')} of freedom but {plural(unknowns, 'unknown load')}: it "
-        f"would not stay in equilibrium. Add {plural(missing, 'unknown load')}, or {plural(missing, 'joint')} "
-        "to lock it."
+        f"would not stay in equilibrium. Add {plural(missing, 'unknown load')}, or "
+        f"{plural(missing, 'joint')} to lock it."
     )
 
 

@@ -1,0 +1,82 @@
+"""Redundant joints: a mechanism that goes on moving, or a structure that yields for an instant."""
+
+from __future__ import annotations
+
+from random import Random
+
+import pytest
+
+import icsolve
+from icsolve.plane import Triple, add
+from icsolve.second_order import bracket
+
+MOVES, BINDS = "goes on moving to second order", "only for an instant"
+
+
+def note(text: str) -> str:
+    """What the answer says of its redundant joints."""
+    return " ".join(icsolve.solve(icsolve.load(text)).notes)
+
+
+def rod_on_three_guides(third: str, along: str) -> str:
+    """A rod on blocks at (3, 0) and (0, 4) that slide on the axes, and a third block on it."""
+    return (
+        "icsolve: 1\n"
+        f"points: {{O: [0, 0], A: [3, 0], B: [0, 4], C: [{third}]}}\n"
+        "joints:\n"
+        "  - {slide: [2, 1], at: A, along: 0}\n  - {pin: [2, 5], at: A}\n"
+        "  - {slide: [3, 1], at: B, along: 90}\n  - {pin: [3, 5], at: B}\n"
+        f"  - {{slide: [4, 1], at: C, along: {along}}}\n  - {{pin: [4, 5], at: C}}\n"
+        "loads:\n"
+        "  P: {force: 1, link: 2, at: A, angle: 0}\n  Q: {force: unknown, link: 3, at: B, angle: 90}\n"
+    )
+
+
+def test_cardan_circles_a_third_point_of_the_small_circle_runs_straight() -> None:
+    """The circle on A and B through O: its point (2.2, -0.4) moves on the line through O for ever."""
+    assert MOVES in note(rod_on_three_guides("2.2, -0.4", "[O, C]"))
+
+
+def test_another_point_of_the_rod_runs_straight_for_an_instant_only() -> None:
+    """(1, 1): its guide is square to the ray from the centre (3, 4), as its velocity is."""
+    text = rod_on_three_guides("1, 1", "[C, D]").replace("C: [1, 1]", "C: [1, 1], D: [4, -1]")
+    assert BINDS in note(text)
+
+
+def pinned(points: str, pairs: str) -> str:
+    """Links pinned two by two at A, B, C, ..., a torque on the last link, another to find on link 2."""
+    names = [chr(65 + k) for k in range(len(pairs.split()))]
+    places = ", ".join(f"{n}: [{p}]" for n, p in zip(names, points.split("; "), strict=True))
+    both = zip(names, pairs.split(), strict=True)
+    joints = "".join(f"  - {{pin: [{pair[0]}, {pair[1]}], at: {n}}}\n" for n, pair in both)
+    last = max(pairs.replace(" ", ""))
+    return (
+        f"icsolve: 1\npoints: {{{places}}}\njoints:\n{joints}"
+        f"loads: {{K: {{torque: 1, link: {last}}}, U: {{torque: unknown, link: 2}}}}\n"
+    )
+
+
+def test_a_truss_of_two_bars_in_line_gives_way_for_an_instant() -> None:
+    assert BINDS in note(pinned("0, 0; 4, 0; 1, 0", "12 13 23"))
+
+
+@pytest.mark.parametrize("ends", ["1, 2; 3, 2; 6, 2", "-2, 1; 0, 1; 3, 1"])
+def test_parallel_cranks_go_on(ends: str) -> None:
+    """Three equal parallel cranks on one coupler (links 2, 3, 4 and 5)."""
+    assert MOVES in note(pinned(f"0, 0; 2, 0; 5, 0; {ends}", "12 13 14 25 35 45"))
+
+
+def test_cranks_parallel_but_unequal_bind() -> None:
+    """All three crank ends move alike for an instant: the coupler translates, and then cannot."""
+    assert BINDS in note(pinned("0, 0; 2, 0; 5, -1; 1, 2; 3, 2; 6.5, 2", "12 13 14 25 35 45"))
+
+
+def test_the_bracket_of_three_twists_keeps_jacobis_identity() -> None:
+    rng = Random(1)
+    a, b, c = ((rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-1, 1)) for _ in range(3))
+    cycles = (bracket(a, bracket(b, c)), bracket(b, bracket(c, a)), bracket(c, bracket(a, b)))
+    total: Triple = (0.0, 0.0, 0.0)
+    for one in cycles:
+        total = add(total, one)
+    assert total == pytest.approx((0.0, 0.0, 0.0), abs=1e-15)
+    assert bracket(a, b) == pytest.approx(tuple(-x for x in bracket(b, a)))
