@@ -8,6 +8,7 @@ becomes a ``mechanism`` of links that keep their shapes; ``drivers`` says what t
 
 from __future__ import annotations
 
-from icsolve.turn.sweeping import Sweep, sweep
+from icsolve.turn.sweeping import sweep
+from icsolve.turn.swept import Sweep
 
 __all__ = ["Sweep", "sweep"]

@@ -53,7 +53,9 @@ def columns_of(
         raise ValueError("nothing is varied: give vary={'angles.AB': values} or drive={'2': degrees}")
     arrays = {key: _column(key[1], value) for key, value in asked.items()}
     rows = max(len(a) if a.ndim else 1 for a in arrays.values())
-    paths, links, names = {}, {}, {}
+    paths: dict[str, Array] = {}
+    links: dict[str, Array] = {}
+    names: dict[str, str] = {}
     for (kind, name), array in arrays.items():
         if array.ndim and len(array) != rows:
             raise ValueError(f"{shown(name)} has {len(array)} values where another has {rows}")
@@ -73,7 +75,9 @@ def _path(case: Case, name: str) -> str:
 def _column(name: str, values: npt.ArrayLike) -> Array:
     array = np.asarray(values, dtype=np.float64)
     if array.ndim > 1:
-        raise ValueError(f"the values of {shown(name)} should be one row of numbers, not {array.ndim} dimensions")
+        raise ValueError(
+            f"the values of {shown(name)} should be one row of numbers, not {array.ndim} dimensions"
+        )
     if not array.size:
         raise ValueError(f"there are no values for {shown(name)}")
     if not np.isfinite(array).all():
@@ -107,7 +111,8 @@ def wanted_of(case: Case, want: tuple[str, ...]) -> Wanted:
     for word in want:
         kind, dot, name = word.partition(".")
         if kind not in WORDS or (dot and kind not in ("points", "centres")):
-            raise ValueError(f"{shown(word)} can't be wanted{suggestion(word, WORDS) or '; one of ' + ', '.join(WORDS)}")
+            likely = suggestion(word, WORDS) or f"; one of {', '.join(WORDS)}"
+            raise ValueError(f"{shown(word)} can't be wanted{likely}")
         kinds.add(kind)
         if kind == "points":
             points.update(dict.fromkeys(_points(case, name) if dot else shown_points(case)))

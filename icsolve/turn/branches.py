@@ -15,7 +15,8 @@ import numpy as np
 from icsolve.turn.program import Sheet, Signs
 from icsolve.turn.record import Root, Traced
 from icsolve.turn.replay import BLOCK, Array, Code, live
-from icsolve.turn.way import State, Track, Way
+from icsolve.turn.track import Track
+from icsolve.turn.way import State, Way
 
 TOUCH = 64 * 2.0**-53
 """Margins below this fraction of their terms are zero (rounding of shapes, twice squared)."""

@@ -146,14 +146,16 @@ class Order:
     def _turns(self) -> Iterator[Turn]:
         for c in self.constraints:
             left = [body for body in c.bodies if body not in self.turned]
-            if len(left) != 1:
+            if len(left) != 1 or not isinstance(c, Turning | Pointed | RolledStraight | RolledRound):
                 continue
-            if isinstance(c, Turning | Pointed):
+            if self._tells(c):
                 yield Turn(left[0], c)
-            elif isinstance(c, RolledStraight) and c.line.body in self.full and self.known(c.centre):
-                yield Turn(left[0], c)
-            elif isinstance(c, RolledRound) and self.known(c.one) and self.known(c.two):
-                yield Turn(left[0], c)
+
+    def _tells(self, c: Turning | Pointed | RolledStraight | RolledRound) -> bool:
+        """Whether a condition tells the one rotation in it that is not known."""
+        if isinstance(c, RolledStraight):
+            return c.line.body in self.full and self.known(c.centre)
+        return not isinstance(c, RolledRound) or (self.known(c.one) and self.known(c.two))
 
     def _hangs(self) -> Iterator[Hang]:
         for body in self._open():
@@ -254,6 +256,6 @@ def touching(name: str) -> SceneError:
     """The refusal of a position as written in which a pin could go on in two ways."""
     return SceneError(
         Status.CHANGE_POINT,
-        f"the position as written is a limit or a change point: at {name} the links are in line, and nothing says "
-        "which way it goes on. Write the case in another position.",
+        f"the position as written is a limit or a change point: at {name} the links are in line, and nothing "
+        "says which way it goes on. Write the case in another position.",
     )

@@ -60,7 +60,8 @@ def find(case: Case, columns: Columns, query: Query) -> list[Spot]:
         raise ValueError("positions are found along one varied number")
     start = start_of(case, columns, Asked())
     if start.one_by_one:
-        raise SceneError(Status.UNSUPPORTED, "positions cannot be found where each row is a scene of its own.")
+        why = "positions cannot be found where each row has to be solved as a scene of its own."
+        raise SceneError(Status.UNSUPPORTED, why)
     work = Work(start, columns, False)
     work.run()
     found = [spot for part in work.done for spot in _Search(work, part, names[0], query).spots()]
@@ -85,7 +86,7 @@ class _Search:
         key = ("answers", load)
         if key not in self.sheet.outputs:
             names = [name for kind, name in self.sheet.outputs if kind == "answers"]
-            raise ValueError(f"{load or 'an answer'} is not an unknown load of this case; unknown: {', '.join(names)}")
+            raise ValueError(f"{load or 'an answer'} is no unknown load of this case ({', '.join(names)})")
         (answer,) = self.sheet.outputs[key]
         if self.query.kind == "value":
             yield from self._values(answer, load)
@@ -108,7 +109,7 @@ class _Search:
         return {**given, self.input: at}
 
     def evaluator(self, value: Scalar) -> Callable[[Array], Array]:
-        """A value on the record as a function of the varied number; not a number where it does not assemble."""
+        """A value as a function of the varied number; not a number where the links do not assemble."""
         if not isinstance(value, Traced) or not value.row:
             return lambda at: np.full(len(at), float(value))
         roots = [root.radicand for root in self.part.runner.roots]
@@ -150,7 +151,9 @@ class _Search:
         if not np.isfinite(given[self.input][0]):
             return None
         numbers = {path: float(a[self.part.rows[0]]) for path, a in self.work.columns.paths.items()}
-        return RowCases(self.sheet).at(given, {**numbers, **({self.name: at} if self.name in numbers else {})})
+        if self.name in numbers:
+            numbers[self.name] = at
+        return RowCases(self.sheet).at(given, numbers)
 
     # --- kinds ------------------------------------------------------------------------------------
 
@@ -165,21 +168,35 @@ class _Search:
         """Where the unknown does no work, where the links reach their limit, where branches meet."""
         _, bottom = fraction(self.record, answer)
         evaluate = self.evaluator(bottom)
+        changes = list(self._change_points())
+        yield from (Spot(at, "change-point", None) for at in changes)
         for at in self._zeros(evaluate):
-            yield Spot(at, "dead", None)
+            if all(abs(at - other) > MERGED * max(1.0, abs(at)) for other in changes):
+                yield Spot(at, "dead", None)
         yield from (Spot(at, "limit", self.answer(at, load)) for at in self._limits(evaluate))
-        if self.part.followed is not None:
-            low, high = self.places[0], self.places[-1]
-            for passing in self.part.followed.passed.values():
-                yield from (Spot(at, "change-point", None) for at in passing.touches if low <= at <= high)
+
+    def _change_points(self) -> Iterator[float]:
+        """Where branches meet: their radicands are lowest there, so their slopes change sign."""
+        if self.part.followed is None:
+            return
+        names = self.sheet.motion.branches if self.sheet.motion else {}
+        seen: list[float] = []
+        for root in self.part.runner.roots:
+            passing = self.part.followed.passed.get(names[root.node])
+            slope = self.slope(self.record.at(root.radicand))
+            for at in passing.touches if passing else ():
+                near = next(self._closed(slope, at - NEAR, at + NEAR), at)
+                if self.places[0] <= near <= self.places[-1] and all(abs(near - s) > NEAR for s in seen):
+                    seen.append(near)
+                    yield near
 
     def _peaks(self, answer: Scalar, load: str) -> Iterator[Spot]:
         """Where the size of the answer is larger than on both sides."""
         if not isinstance(answer, Traced) or not answer.row:
             return
         _, bottom = fraction(self.record, answer)
-        size, below, slope = np.abs(self.evaluator(answer)(self.places)), self.evaluator(bottom), self.slope(answer)
-        poles = np.sign(below(self.places))
+        size, slope = np.abs(self.evaluator(answer)(self.places)), self.slope(answer)
+        poles = np.sign(self.evaluator(bottom)(self.places))
         for k in range(1, len(self.places) - 1):
             around = slice(k - 1, k + 2)
             if not (size[k] > size[k - 1] and size[k] >= size[k + 1]) or abs(poles[around].sum()) != 3.0:
@@ -225,6 +242,10 @@ class _Search:
             yield low if good[k] else high
 
 
+NEAR = 1e-4
+"""A change point is closed in from this far on both sides."""
+MERGED = 1e-6
+"""A pole that is this near to a change point is that."""
 TINY = 1e-14
 """A row at which a value is below this fraction of its largest is at its zero."""
 

@@ -86,4 +86,3 @@ def reference(shape: Shape, by: By, spot: Spot) -> Locus:
 
 def _floats(p: Point) -> Point:
     return (float(p[0]), float(p[1]))
-

@@ -6,7 +6,21 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
 from icsolve.arithmetic import FLOATS, Scalar
-from icsolve.case import Belt, Case, Centroid, Contact, Gears, Guide, Joint, KnownCentre, Pin, Roll, Slide, Slot
+from icsolve.case import (
+    Belt,
+    Case,
+    Centroid,
+    Contact,
+    Gears,
+    Guide,
+    Joint,
+    KnownCentre,
+    Pin,
+    Roll,
+    Slide,
+    Slot,
+    Toward,
+)
 from icsolve.errors import SceneError, Status
 from icsolve.figure.frame import Frame
 from icsolve.joints import guide_direction, joint_freedoms, transmitted
@@ -77,18 +91,20 @@ def _refusal(joint: Contact | KnownCentre) -> SceneError:
     names = " and ".join(joint.links)
     if isinstance(joint, Contact):
         why = (
-            f"the contact of links {names} at {joint.at} cannot be moved: its profile is not known beyond the position "
-            "as written. Vary a load, or put joints in its place that describe the profile."
+            f"the contact of links {names} at {joint.at} cannot be moved: its profile is not known beyond "
+            "the position as written. Vary a load, or put joints in its place that describe the profile."
         )
     else:
         why = (
-            f"the given centre of links {names} cannot be moved: it holds in the position as written only. Put the "
-            "joints between the two links in its place."
+            f"the given centre of links {names} cannot be moved: it holds in the position as written only. "
+            "Put the joints between the two links in its place."
         )
     return SceneError(Status.UNSUPPORTED, why)
 
 
-def _immovable(joint: Joint, top: Topology, ref: Mapping[str, Point], refusal: SceneError) -> Iterator[Immovable]:
+def _immovable(
+    joint: Joint, top: Topology, ref: Mapping[str, Point], refusal: SceneError
+) -> Iterator[Immovable]:
     """What such a joint transmits in the position as written."""
     ends = (top.body_of[joint.links[0]], top.body_of[joint.links[1]])
     if ends[0] != ends[1]:
@@ -122,8 +138,9 @@ def _inferred(case: Case, name: str, spots: Mapping[int, Iterable[Spot]], top: T
     ):
         return None
     for load in case.loads:
-        if getattr(getattr(load, "heading", None), "point", None) == name and getattr(load, "against", None):
-            return top.body_of[load.against or case.ground]
+        heading, against = getattr(load, "heading", None), getattr(load, "against", None)
+        if isinstance(heading, Toward) and heading.point == name and against is not None:
+            return top.body_of[against]
     tied: set[str] = set()
     for datum in (*case.lengths, *case.angles):
         names = {getattr(datum, key) for key in ("a", "at", "b") if hasattr(datum, key)}

@@ -1,4 +1,4 @@
-"""A mechanism in motion on a record: the closings run in order, each place as an expression of the drivers."""
+"""A mechanism in motion on a record: the closings run in order, each place an expression of the drivers."""
 
 from __future__ import annotations
 

@@ -18,7 +18,8 @@ from icsolve.turn.program import Sheet, Signs
 from icsolve.turn.replay import BLOCK, Array, Code
 from icsolve.turn.runner import STEEP, Found, Rows, Runner
 from icsolve.turn.start import Start
-from icsolve.turn.way import Mask, State, Way, written_state
+from icsolve.turn.track import Mask
+from icsolve.turn.way import State, Way, written_state
 
 FEW = 64
 """So few rows are always followed from the position as written."""
@@ -36,7 +37,7 @@ class Part(NamedTuple):
     runner: Runner
     rows: Rows
     followed: Followed | None = None
-    places: Array = np.empty(0)  # noqa: RUF009
+    places: Array = np.empty(0)
     found: Found | None = None
     """what was found already"""
 
@@ -74,34 +75,28 @@ class Parts:
         moving = (*self.start.links, *self.start.setting.drive.moving)
         main = next(name for name in (*moving, *bearing) if name in bearing)
         others = [name for name in bearing if name != main]
-        left = rows if runner.sequential else (yield from self._at_once(runner, main, others))
+        at_once, left = (None, rows) if runner.sequential else self._at_once(runner, main, others)
+        if at_once is not None:
+            yield at_once
         for alike in self._alike(left, others):
             yield self._followed(sheet, main, others, alike)
 
     # --- at once ----------------------------------------------------------------------------------
 
-    def _at_once(self, runner: Runner, main: str, others: list[str]) -> Iterator[Part]:
-        """Run what can be run at once; returns the rows that are left."""
+    def _at_once(self, runner: Runner, main: str, others: list[str]) -> tuple[Part | None, Rows]:
+        """What can be run at once, and the rows that are left."""
         rows = np.arange(self.columns.rows)
         if others:
             clear = self._clear(runner.sheet, [main, *others])
-            if clear.any():
-                yield Part(runner, rows[clear])
-            return rows[~clear]
+            return (Part(runner, rows[clear]) if clear.any() else None), rows[~clear]
         at = self.arrays[main]
         order = rows if bool(np.all(at[1:] >= at[:-1])) else np.argsort(at, kind="stable")
-        low, high = at[order[0]], at[order[-1]]
-        if len(at) < FEW or not low <= self._written(main) <= high:
-            return rows
-        part = Part(runner, order)
+        if len(at) < FEW or not at[order[0]] <= self._written(main) <= at[order[-1]]:
+            return None, rows
         inputs = runner.sheet.inputs
-        in_order = order is rows
-        given = {inputs[name]: a if in_order else a[order] for name, a in self.arrays.items()}
+        given = {inputs[name]: a if order is rows else a[order] for name, a in self.arrays.items()}
         found = runner.run(given, len(at))
-        if found.touching:
-            return rows
-        yield part._replace(found=found)
-        return rows[:0]
+        return (None, rows) if found.touching else (Part(runner, order, found=found), rows[:0])
 
     def _clear(self, sheet: Sheet, names: list[str]) -> Mask:
         """Rows on whose straight way from the position as written no branch comes near a change point."""
@@ -153,7 +148,8 @@ class Parts:
             state = first.track.end(1.0)
         places, angle = self.arrays[main][rows], self._is_angle(main)
         widest = WIDEST if angle else PART / self.start.setting.figure.frame.scale
-        way = Way({**base, **here, main: 0.0}, {main: 1.0}, self._written(main), widest, 360.0 if angle else None)
+        others_here = {**base, **here, main: 0.0}
+        way = Way(others_here, {main: 1.0}, self._written(main), widest, 360.0 if angle else None)
         followed = follow(self.start.sheet, self.start.sheet(_changed(sheet, state)), way, state, places)
         return Part(self.start.runner(signs_of(followed.sheet)), rows, followed, places)
 

@@ -18,13 +18,13 @@ from icsolve.figure.data import names_of, number_of
 from icsolve.plane import Point
 from icsolve.topology import Topology, topology
 from icsolve.turn.constraints import Constraint, Turning
-from icsolve.turn.drivers import Drive, condition, drive_of, pose_of, turning
+from icsolve.turn.drivers import Drive, drive_of
 from icsolve.turn.mechanism import Mechanism, mechanism
 from icsolve.turn.moving import Motion, order_of, set_moving
 from icsolve.turn.numbers import find_number, numbers_of
-from icsolve.turn.record import Record, Traced
+from icsolve.turn.posing import condition, pose_of, turning
+from icsolve.turn.record import Record, varies
 from icsolve.turn.scene import Scene, centre, moved_scene, rates, statics
-
 
 Signs = tuple[tuple[str, float], ...]
 """Branches whose sign is an input, with their sign as written."""
@@ -114,7 +114,7 @@ def _poses(case: Case, figure: Figure, path: str) -> bool:
     record = Record()
     record.vary[path] = record.input(path, numbers_of(case)[path].value)
     placed = place(figure, case, record).points
-    moved = {name for name, p in placed.items() if any(isinstance(v, Traced) and v.row for v in p)}
+    moved = {name for name, p in placed.items() if any(map(varies, p))}
     return not moved or any(getattr(joint, "at", None) in moved for joint in case.joints)
 
 
@@ -138,8 +138,8 @@ def sheet_of(setting: Setting, asked: Asked, signs: Signs = ()) -> Sheet:
             return sheet
     raise refusal or SceneError(
         Status.CHANGE_POINT,
-        "the position as written is a limit: the mechanism assembles there, but not beside it. Write the case in "
-        "another position.",
+        "the position as written is a limit: the mechanism assembles there, but not beside it. Write the "
+        "case in another position.",
     )
 
 
@@ -154,7 +154,7 @@ def _sheet(setting: Setting, asked: Asked, nudge: float, signs: Signs) -> Sheet:
             record.vary[path], inputs[path] = node, node.index
     placed = place(setting.figure, case, record)
     ref = placed.points
-    margins = tuple(m.index for step in placed.margins for m in step if isinstance(m, Traced) and m.row)
+    margins = tuple(m.index for step in placed.margins.values() for m in step if varies(m))
     names = {name: ref[name] for name in setting.figure.points}
     if setting.moves:
         motion = _motion(setting, record, names, nudge, inputs, signs)

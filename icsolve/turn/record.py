@@ -237,7 +237,7 @@ class Record:
 
     def vanishes(self, value: Scalar, size: float) -> bool:
         """Zero in every row, as its value in this one tells."""
-        return abs(value) <= ROUNDING_NOISE * size
+        return bool(abs(value) <= ROUNDING_NOISE * size)
 
     def add(self, a: Scalar, b: Scalar) -> Scalar:
         """a + b"""
@@ -317,6 +317,11 @@ class Record:
             self.nodes.append(Node(op, a, b, value, row))
             self._known[op, a, b] = found
         return found
+
+
+def varies(value: Scalar) -> bool:
+    """Whether a value differs from row to row."""
+    return isinstance(value, Traced) and value.row
 
 
 def _is(value: Any, constant: float) -> bool:

@@ -139,9 +139,8 @@ class Code:
                 yield turn, (self._value(node.a, buffers), *outs, buffers[-2], buffers[-1])
 
     def _value(self, k: int, buffers: Array) -> Array:
-        if k in self.place:
-            return buffers[self.place[k]]
-        return np.array(self.record.nodes[k].value)
+        found: Array = buffers[self.place[k]] if k in self.place else np.array(self.record.nodes[k].value)
+        return found
 
     def run(self, given: Mapping[int, Array], rows: int) -> list[Array]:
         """The wanted nodes for the given ones (each of so many rows, or one number).

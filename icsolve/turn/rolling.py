@@ -67,19 +67,21 @@ def rolling(joint: Roll, sides: tuple[Side, Side], ref: Mapping[str, Point]) -> 
     """
     a, b = sides
     if joint.radii is None:
-        raise _refusal(joint, "it has no `radii`, and without them nothing says how the contact moves on. Add them")
+        raise _refusal(joint, "without `radii` nothing says how the contact moves on. Add them")
     if float(a.radius) == 0.0 and float(b.radius) == 0.0:
-        raise _refusal(joint, "both of its `radii` are 0: two straight links cannot roll on one another. Correct them")
+        raise _refusal(
+            joint, "both `radii` are 0, and straight links cannot roll on one another. Correct them"
+        )
     contact = ref[joint.at]
     found = _centres(joint, (a, b), ref)
     normal = _normal(joint, (a, b), found, ref)
     centres: dict[str, Point] = {}
     spots = []
     for side, name, sense in ((a, found[0], -1.0), (b, found[1], 1.0)):
+        own = name or f"@centre of {side.link} on {joint.at}"
         if name is None:
-            name = f"@centre of {side.link} on {joint.at}"
-            centres[name] = plus(contact, scaled(sense * side.radius, normal))
-        spots.append((side.body, name))
+            centres[own] = plus(contact, scaled(sense * side.radius, normal))
+        spots.append((side.body, own))
     places = {**ref, **centres}
     if float(a.radius) == 0.0 or float(b.radius) == 0.0:
         return _on_flank(a, b, (spots[0], spots[1]), normal, contact, places, centres)
@@ -119,7 +121,9 @@ def _on_round(sides: tuple[Side, Side], spots: tuple[Spot, Spot], centres: dict[
     return Rolling(conditions, Contact(spots[0], radii[0], None, spots[1], whole), centres)
 
 
-def _centres(joint: Roll, sides: tuple[Side, Side], ref: Mapping[str, Point]) -> tuple[str | None, str | None]:
+def _centres(
+    joint: Roll, sides: tuple[Side, Side], ref: Mapping[str, Point]
+) -> tuple[str | None, str | None]:
     """A point of each round link that lies at its radius from the contact; None where there is none."""
     at = ref[joint.at]
     one, two = (_options(side, joint.at, at, ref) for side in sides)
@@ -131,9 +135,8 @@ def _centres(joint: Roll, sides: tuple[Side, Side], ref: Mapping[str, Point]) ->
         return None, _only(joint, sides[1], two)
     assert joint.radii is not None
     link, radius = next((s.link, n) for s, n in zip(sides, joint.radii, strict=True) if n.value != 0.0)
-    raise _refusal(
-        joint, f"no point of link {link} lies {abs(radius.value):g} from {joint.at}. Name its centre, under `links`"
-    )
+    off = f"no point of link {link} lies {abs(radius.value):g} from {joint.at}"
+    raise _refusal(joint, f"{off}. Name its centre, under `links`")
 
 
 def _only(joint: Roll, side: Side, options: list[str]) -> str:
@@ -143,8 +146,8 @@ def _only(joint: Roll, side: Side, options: list[str]) -> str:
         return named[0]
     raise _refusal(
         joint,
-        f"{' and '.join(named)} of link {side.link} both lie at its radius from {joint.at}, and nothing says which is "
-        "the centre. Name the centre of the other link too, under `links`, or take one of them out",
+        f"{' and '.join(named)} of link {side.link} both lie at its radius from {joint.at}, and nothing says "
+        "which is the centre. Name the centre of the other link too, under `links`, or take one of them out",
     )
 
 
@@ -182,5 +185,5 @@ def _normal(
 
 
 def _refusal(joint: Roll, why: str) -> SceneError:
-    names = " and ".join(joint.links)
-    return SceneError(Status.UNSUPPORTED, f"the rolling of links {names} at {joint.at} cannot be moved: {why}.")
+    what = f"the rolling of links {' and '.join(joint.links)} at {joint.at}"
+    return SceneError(Status.UNSUPPORTED, f"{what} cannot be moved: {why}.")

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from icsolve.arithmetic import Scalar
-from icsolve.case import Case, Coordinates, Number
+from icsolve.case import Case, Centroid, Coordinates, Number
 from icsolve.turn.numbers import with_numbers
 from icsolve.turn.program import Sheet
 from icsolve.turn.record import Record, Traced
@@ -25,8 +25,8 @@ class RowCases:
         self.points = dict(self.scene.points)
         self.directions = {own.path: (c, s) for own, c, s in record.directions.values()}
         self.numbers = {path: value for path, value in record.vary.items() if path.endswith("@")}
-        flat = [*(v for p in self.points.values() for v in p), *(v for d in self.directions.values() for v in d)]
-        self.flat = [*flat, *self.numbers.values()]
+        pairs = (*self.points.values(), *self.directions.values())
+        self.flat = [*(v for pair in pairs for v in pair), *self.numbers.values()]
         self.code = Code(record, [_index(record, v) for v in self.flat])
 
     def at(self, given: Mapping[int, Array], values: Mapping[str, float]) -> Case:
@@ -42,11 +42,10 @@ class RowCases:
 
     def _case(self, points: Mapping[str, tuple[float, float]], values: Mapping[str, float]) -> Case:
         case = with_numbers(self.scene.case, values)
-        placed = {name: Coordinates(_exact(x, f"points.{name}.x"), _exact(y, f"points.{name}.y")) for name, (x, y) in points.items()}
+        placed: dict[str, Coordinates | Centroid] = {n: _coordinates(n, *at) for n, at in points.items()}
         motion = tuple(m._replace(angle=None) if m.point else m for m in case.motion)
-        return replace(
-            case, points=placed, lengths=(), angles=(), near={}, motion=motion, expect=(), carries=self._carried()
-        )
+        case = replace(case, lengths=(), angles=(), near={}, motion=motion, expect=())
+        return replace(case, points=placed, carries=self._carried())
 
     def _carried(self) -> dict[str, tuple[str, ...]]:
         return {
@@ -57,6 +56,10 @@ class RowCases:
 
 def _index(record: Record, value: Scalar) -> int:
     return value.index if isinstance(value, Traced) else record.lifted(value).index
+
+
+def _coordinates(name: str, x: float, y: float) -> Coordinates:
+    return Coordinates(_exact(x, f"points.{name}.x"), _exact(y, f"points.{name}.y"))
 
 
 def _exact(value: float, path: str) -> Number:

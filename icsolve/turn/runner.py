@@ -13,10 +13,9 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from icsolve.arithmetic import Scalar
 from icsolve.turn.backward import Backward
 from icsolve.turn.program import Sheet
-from icsolve.turn.record import Op, Traced
+from icsolve.turn.record import Node, Op, varies
 from icsolve.turn.replay import BLOCK, Array, Code, live
 
 SMALL = 1e-7
@@ -48,7 +47,7 @@ class Runner:
     def __init__(self, sheet: Sheet) -> None:
         self.sheet = sheet
         record = sheet.record
-        flat = [(key, part, value) for key, values in sheet.outputs.items() for part, value in enumerate(values)]
+        flat = [(key, part, v) for key, values in sheet.outputs.items() for part, v in enumerate(values)]
         self.still = [(key, part, float(v)) for key, part, v in flat if not varies(v)]
         self.moving = [(key, part, v.index) for key, part, v in flat if varies(v)]
         wanted = [index for _, _, index in self.moving]
@@ -99,7 +98,7 @@ class Runner:
     def places(self) -> Backward:
         """Backward passes from the (normalised) places of all points."""
         values = (v for p in self.sheet.scene.points.values() for v in p)
-        return self.passes(sorted({v.index for v in values if isinstance(v, Traced) and v.row}))
+        return self.passes(sorted({v.index for v in values if varies(v)}))
 
     def passes(self, targets: Sequence[int]) -> Backward:
         """Backward passes from some nodes."""
@@ -183,17 +182,12 @@ def _living(sheet: Sheet, alive: Sequence[int]) -> list[int]:
     return [k for k in checks if known.intersection(live(sheet.record, [k], ()))]
 
 
-def varies(value: Scalar) -> bool:
-    """Whether an output differs from row to row."""
-    return isinstance(value, Traced) and value.row
-
-
 def column(array: Array, part: int) -> Array:
     """One part of an output's array."""
     return array if array.ndim == 1 else array[:, part]
 
 
-def _divisors(nodes, alive: list[int]) -> list[int]:  # type: ignore[no-untyped-def]
+def _divisors(nodes: Sequence[Node], alive: Sequence[int]) -> list[int]:
     """What is divided by and varies."""
     found = {nodes[k].b for k in alive if nodes[k].op == Op.DIV and nodes[nodes[k].b].row}
     return sorted(found)

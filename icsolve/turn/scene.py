@@ -29,6 +29,7 @@ from icsolve.case import (
 from icsolve.errors import SceneError
 from icsolve.figure.frame import Frame
 from icsolve.joints import freedoms, pitch_point
+from icsolve.names import ordered_pair
 from icsolve.plan import make_plan
 from icsolve.plane import Point, Triple, subtract
 from icsolve.topology import Topology, topology
@@ -74,8 +75,8 @@ class _Writer:
         self.points = {name: moved.place(spot) for name, spot in mechanism.owners.items()}
         self.points |= {name: contact.place(moved) for name, contact in mechanism.contacts.items()}
         for name, place in mechanism.case.points.items():
-            if isinstance(place, Centroid) and name not in self.points and set(place.of) <= self.points.keys():
-                self.points[name] = _mean([self.points[p] for p in place.of])
+            if isinstance(place, Centroid) and set(place.of) <= self.points.keys():
+                self.points.setdefault(name, _mean([self.points[p] for p in place.of]))
 
     def on(self, spot: Spot) -> str:
         """A name for the point as this body carries it."""
@@ -143,7 +144,7 @@ def moved_scene(mechanism: Mechanism, moved: Moved) -> Scene:
 
 
 def statics(scene: Scene, everything: bool) -> Statics:
-    """Unknown loads and twists of the scene on the record; ``everything`` asks for the twist of every link."""
+    """Unknown loads and twists of the scene on the record; with ``everything`` the twist of every link."""
     case, top = scene.case, scene.top
     links = {link for load in case.loads for link in (load.link, power.reacting(case, load))}
     unknown = any(power.is_unknown(load) for load in case.loads)
@@ -156,9 +157,7 @@ def statics(scene: Scene, everything: bool) -> Statics:
         verdicts.refuse_unbalanced(case, top, motions, balance, solution)
     except SceneError as error:
         return Statics({}, motions, error)
-    answers = {
-        w.load.name: w.ratio * solution.values[w.root] for w in wrenches if w.root in solution.values
-    }
+    answers = {w.load.name: w.ratio * solution.values[w.root] for w in wrenches if w.root in solution.values}
     return Statics(answers, motions, None)
 
 
@@ -247,8 +246,6 @@ def _own(scene: Scene, pair: Pair) -> Triple | None:
 
 def pairs(case: Case) -> Iterable[Pair]:
     """All pairs of links, in the order in which they are named."""
-    from icsolve.centres import ordered_pair
-
     links = list(case.links)
     if all(link.isdigit() for link in links):
         links.sort(key=int)

@@ -19,6 +19,7 @@ from icsolve.turn.program import Asked
 from icsolve.turn.replay import Array
 from icsolve.turn.runner import Key, Rows
 from icsolve.turn.second import CODE, Codes
+from icsolve.turn.swept import Sweep
 
 OTHER = CODE["near-singular"]
 
@@ -42,14 +43,20 @@ class Table:
         """A row without an answer."""
         self.codes[row] = CODE.get(error.status, OTHER)
 
-    def take(self, rows: Rows, codes: Codes, tables: dict[str, dict[str, Array]], errors: dict[str, Array]) -> None:
+    def take(self, rows: Rows, part: Sweep) -> None:
         """Rows that were swept together."""
-        self.codes[rows] = codes
+        self.codes[rows] = part.codes
+        tables = {
+            "answers": part.answers,
+            "points": part.points,
+            "centres": part.centres,
+            "rates": part.rates,
+        }
         for kind, arrays in tables.items():
             for name, array in arrays.items():
                 whole = self.values.setdefault((kind, name), np.full((self.rows, *array.shape[1:]), np.nan))
                 whole[rows] = array
-        for name, array in errors.items():
+        for name, array in part.error.items():
             self.errors.setdefault(name, np.full(self.rows, np.nan))[rows] = array
 
     def fill(self, row: int, answer: Answer) -> None:
@@ -74,6 +81,32 @@ class Table:
             if triple is not None:
                 first, second = sorted(pair, key=lambda link: link_order(case, link))
                 self.put("centres", f"{first}-{second}", row, triple)
+
+    def sweep(
+        self,
+        case: Case,
+        vary: dict[str, Array],
+        error: bool,
+        notes: tuple[str, ...],
+        case_of: Callable[[int], Case],
+    ) -> Sweep:
+        """The table as a sweep."""
+        kinds: dict[str, dict[str, Array]] = {"answers": {}, "points": {}, "centres": {}, "rates": {}}
+        for (kind, name), array in self.values.items():
+            kinds[kind][name] = array
+        return Sweep(
+            case,
+            vary,
+            kinds["answers"],
+            self.errors if error else {},
+            kinds["points"],
+            kinds["centres"],
+            kinds["rates"],
+            self.holds,
+            notes,
+            self.codes,
+            case_of,
+        )
 
 
 def _triple(answer: Answer, pair: tuple[str, str]) -> tuple[float, float, float] | None:

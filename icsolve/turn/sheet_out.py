@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from icsolve.turn.sweeping import Sweep
+from icsolve.turn.swept import Sweep
 
 Column = np.ndarray
 

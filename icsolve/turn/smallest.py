@@ -143,8 +143,8 @@ def _refusal(mechanism: Mechanism, order: Order, left: Sequence[int]) -> SceneEr
         return touching(order.nearest)
     return SceneError(
         Status.MOBILITY,
-        f"nothing drives {plural} {listed(names)}: the mechanism has more freedoms than numbers that move it. Vary "
-        "another angle or length too, or turn another link.",
+        f"nothing drives {plural} {listed(names)}: the mechanism has more freedoms than numbers that move "
+        "it. Vary another angle or length too, or turn another link.",
     )
 
 

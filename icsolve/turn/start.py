@@ -106,7 +106,7 @@ def _checked(start: Start) -> Start:
 
 def _shapes(path: str) -> bool:
     """Whether a number is one of the figure or of a joint."""
-    return path.split(".")[0] in ("points", "lengths", "angles", "joints")
+    return path.split(".", maxsplit=1)[0] in ("points", "lengths", "angles", "joints")
 
 
 def _elsewhere(start: Start, columns: Columns, refusal: SceneError) -> Start:
@@ -117,13 +117,14 @@ def _elsewhere(start: Start, columns: Columns, refusal: SceneError) -> Start:
         except SceneError:
             continue
         said = ", ".join(f"{columns.names[path]} = {value:.6g}" for path, value in values.items())
-        return found._replace(note=f"the case as written is no position to start from; the first row that is: {said}.")
+        note = f"the case as written is no position to start from; the first row that is: {said}."
+        return found._replace(note=note)
     raise refusal
 
 
 def _candidates(columns: Columns) -> Iterator[dict[str, float]]:
     """Rows in order of their values: the first ones, then some over the whole range."""
-    order = np.lexsort([a for a in reversed(list(columns.paths.values()))])
+    order = np.lexsort(list(columns.paths.values())[::-1])
     spread = order[:: max(1, len(order) // MOST_TRIED)]
     for row in spread:
         yield {path: float(a[row]) for path, a in columns.paths.items()}

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
-from functools import cached_property
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -17,63 +15,13 @@ from icsolve.turn.numbers import with_numbers
 from icsolve.turn.program import Asked
 from icsolve.turn.replay import Array
 from icsolve.turn.scenes import Table, by_scenes, families
-from icsolve.turn.second import CODE, WORDS, Codes
+from icsolve.turn.second import CODE
 from icsolve.turn.start import Start, start_of
+from icsolve.turn.swept import Sweep
 from icsolve.turn.work import Work
 from icsolve.verdicts import rubs
 
-
-@dataclass(frozen=True, eq=False)
-class Sweep:
-    """The rows of a sweep; n is their number. Arrays that were not wanted are not there.
-
-    Attributes
-    ----------
-    vary : the varied numbers by path, and the turnings of driven links by link, (n,)
-    answers : unknown loads by name, (n,) [case units]; not a number where the status is another than
-        ok, or change-point for a row beyond one that was passed
-    error : bounds of the absolute rounding errors of the answers, (n,)
-    points : places, (n, 2) [case length]
-    centres : relative centres as homogeneous coordinates, (n, 3): (x, y, w) at (x/w, y/w), at infinity
-        toward (x, y) where w is zero; all zero where the two links have no relative motion
-    rates : angular velocities of the links, (n,) [rad/s, or scaled as in one scene]
-    holds : with friction and no motion, the ranges in which unknown loads hold, (n, 2)
-    notes : sentences about the sweep
-    """
-
-    case: Case
-    vary: dict[str, Array]
-    answers: dict[str, Array] = field(default_factory=dict)
-    error: dict[str, Array] = field(default_factory=dict)
-    points: dict[str, Array] = field(default_factory=dict)
-    centres: dict[str, Array] = field(default_factory=dict)
-    rates: dict[str, Array] = field(default_factory=dict)
-    holds: dict[str, Array] = field(default_factory=dict)
-    notes: tuple[str, ...] = ()
-    codes: Codes = field(default_factory=lambda: np.empty(0, np.int8))
-    _case_of: Callable[[int], Case] | None = None
-
-    def __len__(self) -> int:
-        return len(self.codes)
-
-    @cached_property
-    def status(self) -> npt.NDArray[np.str_]:
-        """The status of every row in words, (n,)."""
-        if not self.codes.any():
-            return np.full(len(self.codes), WORDS[0])
-        return np.array(WORDS)[self.codes]
-
-    def case_of(self, row: int) -> Case:
-        """The case of a row, as `icsolve.solve` takes it: its points by coordinates.
-
-        In a family of figures: the case as if written so. Raises ValueError where the links do not
-        assemble.
-        """
-        if self.status[row] == Status.CANNOT_ASSEMBLE:
-            raise ValueError(f"row {row} does not assemble")
-        if self._case_of is None:
-            return with_numbers(self.case, {path: float(array[row]) for path, array in self.vary.items()})
-        return self._case_of(row)
+BY_SCENES = "with friction each row is solved as a scene of its own."
 
 
 def sweep(
@@ -115,9 +63,18 @@ def sweep(
     work = Work(start, columns, wanted.error)
     work.run()
     tables = work.tables()
-    if not wanted.asked.rates:
-        tables["rates"] = {}
-    return Sweep(case, _shown(columns), **tables, notes=tuple(work.notes), codes=work.codes, _case_of=work.case_of)
+    return Sweep(
+        start.case,
+        _shown(columns),
+        tables.answers,
+        tables.error,
+        tables.points,
+        tables.centres,
+        tables.rates if wanted.asked.rates else {},
+        notes=tuple(work.notes),
+        codes=work.codes,
+        _case_of=work.case_of,
+    )
 
 
 def _rubbing(start: Start, columns: Columns, wanted: Wanted) -> Sweep:
@@ -129,38 +86,31 @@ def _rubbing(start: Start, columns: Columns, wanted: Wanted) -> Sweep:
     table.codes[:] = np.where(work.codes == CODE[Status.CHANGE_POINT], 0, work.codes)
     by_scenes(table, np.flatnonzero(table.codes == 0).tolist(), work.case_of)
     table.codes[:] = np.where(table.codes == 0, work.codes, table.codes)
-    return _swept(start, columns, wanted, table, (*work.notes, BY_SCENES), work.case_of)
-
-
-BY_SCENES = "with friction each row is solved as a scene of its own."
+    return table.sweep(start.case, _shown(columns), wanted.error, (*work.notes, BY_SCENES), work.case_of)
 
 
 def _family(start: Start, columns: Columns, wanted: Wanted) -> Sweep:
     """A family of figures without a construction for all: each solved as if written so."""
     table, moving = Table(columns.rows, wanted.asked), start.setting.drive.moving
     notes: dict[str, None] = dict.fromkeys([start.note] if start.note else [])
+
+    def case_of(row: int) -> Case:
+        return with_numbers(start.case, {path: float(a[row]) for path, a in columns.paths.items()})
+
     for case, rows in families(start.case, columns, moving):
         if not moving and not columns.links:
             by_scenes(table, rows.tolist(), lambda _, case=case: case)  # type: ignore[misc]
             continue
+        vary = {path: columns.paths[path][rows] for path in moving}
+        drive = {link: array[rows] for link, array in columns.links.items()}
         try:
-            part = sweep(case, {p: columns.paths[p][rows] for p in moving}, wanted.words, drive={k: a[rows] for k, a in columns.links.items()})
+            part = sweep(case, vary, wanted.words, drive=drive)
         except SceneError as error:
             table.codes[rows] = CODE.get(error.status, CODE[Status.NEAR_SINGULAR])
             continue
         notes |= dict.fromkeys(part.notes)
-        table.take(rows, part.codes, {"answers": part.answers, "points": part.points, "centres": part.centres, "rates": part.rates}, part.error)
-    return _swept(start, columns, wanted, table, tuple(notes), None)
-
-
-def _swept(
-    start: Start, columns: Columns, wanted: Wanted, table: Table, notes: tuple[str, ...], case_of: Callable[[int], Case] | None
-) -> Sweep:
-    tables: dict[str, dict[str, Array]] = {"answers": {}, "points": {}, "centres": {}, "rates": {}}
-    for (kind, name), array in table.values.items():
-        tables[kind][name] = array
-    error = table.errors if wanted.error else {}
-    return Sweep(start.case, _shown(columns), **tables, error=error, holds=table.holds, notes=notes, codes=table.codes, _case_of=case_of)
+        table.take(rows, part)
+    return table.sweep(start.case, _shown(columns), wanted.error, tuple(notes), case_of)
 
 
 def _told(case: Case, asked: Asked) -> Asked:

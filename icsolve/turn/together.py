@@ -6,7 +6,7 @@ inputs of their own, on which all that follows hangs.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +15,7 @@ from icsolve.arithmetic import Scalar
 from icsolve.figure.board import Board
 from icsolve.plane import Point
 from icsolve.turn.closing import Newton
-from icsolve.turn.constraints import RADIAN, Rows
+from icsolve.turn.constraints import RADIAN, Row, Rows
 from icsolve.turn.mechanism import Mechanism
 from icsolve.turn.poses import Moved, Rotation, Spot, minus, plus, product
 from icsolve.turn.record import Op, Record, Traced
@@ -106,7 +106,7 @@ def settled(mechanism: Mechanism, moved: Moved, step: Newton, number: int) -> To
     )
 
 
-def _equations(mechanism: Mechanism, moved: Moved, step: Newton, guess: Guess, board: Board):  # type: ignore[no-untyped-def]
+def _equations(mechanism: Mechanism, moved: Moved, step: Newton, guess: Guess, board: Board) -> Iterator[Row]:
     rows = Rows(mechanism.shape, guess, dict(guess.bases), board)
     return equations(mechanism, rows, step.constraints, moved)
 
@@ -117,7 +117,8 @@ def _at_record(record: Record, group: Together) -> Array:
     env = {k: np.array([node.value]) for k, node in enumerate(record.nodes) if node.op == Op.INPUT}
     start = np.array([[record.nodes[k].value for k in group.guesses]])
     q, good = solver.solve(env, start)
-    return q[0] if good[0] else start[0]
+    found: Array = q[0] if good[0] else start[0]
+    return found
 
 
 class Solver:
@@ -152,9 +153,10 @@ class Solver:
             turned = np.swapaxes(j, 1, 2)
             f, j = (turned @ f[:, :, None])[:, :, 0], turned @ j
         try:
-            return np.linalg.solve(j, f[:, :, None])[:, :, 0]
+            found = np.linalg.solve(j, f[:, :, None])
         except np.linalg.LinAlgError:
-            return (np.linalg.pinv(j) @ f[:, :, None])[:, :, 0]
+            found = np.linalg.pinv(np.nan_to_num(j)) @ f[:, :, None]
+        return np.asarray(found[:, :, 0], dtype=np.float64)
 
     def solve(self, env: Mapping[int, Array], start: Array, rounds: int = ROUNDS) -> tuple[Array, Array]:
         """Solutions from a start (rows, unknowns), and whether each row has one."""

@@ -1,37 +1,14 @@
-"""The way from the position as written to the rows: what is followed along it, never found from nowhere.
-
-Groups that Newton's method places and turns that are counted are followed in steps, each from the last
-ones, so that rows between two steps start from near their solution and stay on the branch. Signs of
-branches change where `branches` found them to.
-"""
+"""The way from the position as written to the rows, and what is to be followed along it."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-import numpy.typing as npt
 
-from icsolve.turn.constraints import RADIAN
 from icsolve.turn.program import Sheet
-from icsolve.turn.replay import Array, Code
-from icsolve.turn.together import ROUNDS, Solver
-
-FIRST = 2.0**-5
-"""The first step, as a part of the longest."""
-SHORTEST = 2.0**-16
-"""A way that needs shorter steps, as a part of the longest, has come to a limit."""
-FAR = 0.35
-"""The longest move (normalised, radians) that one step may bring."""
-BENT = 0.25
-"""How far a solution may lie from where the last steps pointed, as a part of the move."""
-TRIALS = 64
-HALVINGS = 30
-QUICK = 6
-"""Rounds of Newton's method that a step may take."""
-
-Mask = npt.NDArray[np.bool_]
+from icsolve.turn.replay import Array
 
 
 class Way(NamedTuple):
@@ -61,19 +38,6 @@ class State(NamedTuple):
     signs: dict[str, float]
 
 
-Step = tuple[float, Array, Array]
-"""A place on the way, the unknowns of the groups there, and the counted turns."""
-
-
-class Stretch(NamedTuple):
-    """Steps without a break: places in order, and the state at each."""
-
-    s: Array
-    q: Array
-    turns: Array
-
-
-
 def written_state(sheet: Sheet) -> State:
     """The state in the position as written."""
     motion = sheet.motion
@@ -88,256 +52,10 @@ def written_state(sheet: Sheet) -> State:
     return State(np.array(q), np.zeros(len(sheet.record.counted)), dict(motion.written))
 
 
-class Track:
-    """A way that is followed from a state; ``touches`` has the places at which branches change."""
-
-    def __init__(
-        self, sheet: Sheet, way: Way, start: State, touches: Mapping[str, Sequence[float]], reach: tuple[float, float]
-    ) -> None:
-        self.sheet, self.way, self.start, self.touches = sheet, way, start, touches
-        record, motion = sheet.record, sheet.motion
-        assert motion is not None
-        self.groups = [(group, Solver(record, group)) for group in motion.groups]
-        self.counted = list(record.counted.values())
-        self.turning = Code(record, [record.lifted(value).index for _, value in self.counted])
-        self.breaks: list[tuple[float, float]] = []
-        """steps in which a group goes through a singular position and on"""
-        self.senses: dict[float, Array] = {}
-        self.stretches = self._followed(reach) if self.groups or self.counted else []
-
-    # --- inputs -----------------------------------------------------------------------------------
-
-    def given(self, s: Array) -> tuple[dict[int, Array], Mask]:
-        """All inputs at places of the way, and at which of them the groups have a solution."""
-        given, good = self._plain(s), np.ones(len(s), dtype=bool)
-        if self.stretches:
-            q, turns, good = self._between(s)
-            solved, _, right = self._solved(given, q, turns)
-            solved = np.where(right[:, None], solved, q)
-            good &= right | self.singular(s)
-            given = {**given, **self._state(solved, turns)}
-        elif self.groups or self.counted:
-            good[:] = False
-        return given, good
-
-    def singular(self, s: Array) -> Mask:
-        """Which places lie in a step through a singular position."""
-        found = np.zeros(len(s), dtype=bool)
-        for one, two in self.breaks:
-            found |= (s > min(one, two)) & (s < max(one, two))
-        return found
-
-    def passages(self) -> list[float]:
-        """The singular positions that groups go through."""
-        return [self._passage(one, two) for one, two in self.breaks]
-
-    def _passage(self, one: float, two: float) -> float:
-        sense = self.senses[one]
-        for _ in range(HALVINGS):
-            middle = np.array([(one + two) / 2.0])
-            q, turns, _ = self._between(middle)
-            given = self._plain(middle)
-            q, turns, _ = self._solved(given, q, turns)
-            if np.array_equal(self._senses(given, q, turns), sense):
-                one = float(middle[0])
-            else:
-                two = float(middle[0])
-        return (one + two) / 2.0
-
-    def _plain(self, s: Array) -> dict[int, Array]:
-        """Inputs and signs."""
-        given = self.way.inputs(self.sheet, s)
-        for name in self.sheet.motion.written if self.sheet.motion else ():
-            if name in self.sheet.inputs:
-                sign = self.start.signs[name] * flips(s, self.way.start, self.touches.get(name, ()))
-                given[self.sheet.inputs[name]] = sign
-        return given
-
-    def _state(self, q: Array, turns: Array) -> dict[int, Array]:
-        columns = [k for group, _ in self.groups for k in group.solved]
-        given = {k: q[:, n] for n, k in enumerate(columns)}
-        return {**given, **{guess.index: turns[:, n] for n, (guess, _) in enumerate(self.counted)}}
-
-    def end(self, s: float) -> State:
-        """The state at a place."""
-        at = np.array([s])
-        signs = {
-            name: sign * float(flips(at, self.way.start, self.touches.get(name, ()))[0])
-            for name, sign in self.start.signs.items()
-        }
-        if not self.stretches:
-            return State(self.start.q, self.start.turns, signs)
-        q, turns, _ = self._between(at)
-        given = self._plain(at)
-        q, turns, _ = self._solved(given, q, turns)
-        return State(q[0], turns[0], signs)
-
-    # --- steps ------------------------------------------------------------------------------------
-
-    def _solved(
-        self, given: Mapping[int, Array], q: Array, turns: Array, rounds: int = ROUNDS
-    ) -> tuple[Array, Array, Mask]:
-        """Solutions of all groups from a guess, the turns counted on, and where it went well."""
-        rows = len(q)
-        good, found = np.ones(rows, dtype=bool), q.copy()
-        first = 0
-        for group, solver in self.groups:
-            last = first + len(group.solved)
-            env = {**given, **self._state(found, turns)}
-            found[:, first:last], right = solver.solve(env, q[:, first:last], rounds)
-            good &= right
-            first = last
-        if self.counted:
-            values = self.turning.run({**given, **self._state(found, turns)}, rows)
-            turns = np.stack([np.broadcast_to(v, rows) for v in values], axis=1)
-        return found, turns, good
-
-    def _followed(self, reach: tuple[float, float]) -> list[Stretch]:
-        """Stretches from the start to both ends of the reach."""
-        at = np.array([self.way.start])
-        q, turns, good = self._solved(self._plain(at), self.start.q[None, :], self.start.turns[None, :])
-        if not good[0]:
-            return []
-        first = (self.way.start, q[0], turns[0])
-        self.senses[self.way.start] = self._senses(self._plain(at), q, turns)
-        down, up = self._steps(first, reach[0]), self._steps(first, reach[1])
-        steps = [*reversed(down[1:]), *up]
-        more = [
-            stretch
-            for last, end in ((down[-1], reach[0]), (up[-1], reach[1]))
-            for stretch in self._beyond(last, end, steps)
-        ]
-        return sorted([_stretch(steps), *more], key=lambda stretch: float(stretch.s[0]))
-
-    def _beyond(self, last: Step, end: float, known: Sequence[Step]) -> Iterator[Stretch]:
-        """Stretches beyond a limit, where it is as it was a turn before."""
-        while abs(last[0] - end) > self.way.widest * SHORTEST:
-            again = self._again(last, end, known)
-            if again is None:
-                break
-            back, on = self._steps(again, last[0]), self._steps(again, end)
-            yield _stretch(sorted([*back[1:], *on], key=lambda step: step[0]))
-            last = on[-1]
-
-    def _again(self, last: Step, end: float, steps: Sequence[Step]) -> Step | None:
-        """The first place beyond a limit that is a whole turn from one of the steps: there it is as before.
-
-        Elsewhere beyond a limit the links may assemble, but no motion leads there.
-        """
-        if self.way.period is None:
-            return None
-        sense = 1.0 if end >= last[0] else -1.0
-        trials = np.linspace(last[0], end, TRIALS)[1:]
-        known = _stretch(sorted(steps, key=lambda step: step[0]))
-        back = trials - sense * self.way.period * np.ceil(np.abs(trials - last[0]) / self.way.period)
-        inside = (back >= known.s[0]) & (back <= known.s[-1])
-        if not inside.any():
-            return None
-        trials, back = trials[inside], back[inside]
-        guess, ahead = _cubic(known.s, known.q, back), _cubic(known.s, known.turns, back)
-        found, counted, good = self._solved(self._plain(trials), guess, ahead, QUICK)
-        for k in np.flatnonzero(good):
-            if _near(guess[k], guess[k], found[k], False):
-                return (float(trials[k]), found[k], counted[k])
-        return None
-
-    def _steps(self, first: Step, end: float) -> list[Step]:
-        """Steps toward an end, as far as they go."""
-        steps, widest = [first], self.way.widest
-        sense = 1.0 if end >= first[0] else -1.0
-        h = widest * FIRST
-        while sense * (end - steps[-1][0]) > 0.0 and h > widest * SHORTEST:
-            s, q, turns = steps[-1]
-            there = s + sense * min(h, sense * (end - s))
-            at = np.array([there])
-            known = _stretch(steps[-4:])
-            guess, ahead = _cubic(known.s, known.q, at), _cubic(known.s, known.turns, at)
-            found, counted, good = self._solved(self._plain(at), guess, ahead, QUICK)
-            if good[0] and _near(q, guess[0], found[0], len(steps) > 1) and _counts(turns, counted[0]):
-                self._orient(s, there, at, found, counted)
-                steps.append((there, found[0], counted[0]))
-                h = min(1.5 * h, widest)
-            else:
-                h /= 2.0
-        return steps
-
-    def _orient(self, s: float, there: float, at: Array, q: Array, turns: Array) -> None:
-        """Note a singular position between two steps: the groups' determinants change sign there."""
-        now = self._senses(self._plain(at), q, turns)
-        if s in self.senses and not np.array_equal(self.senses[s], now):
-            self.breaks.append((s, there))
-        self.senses[there] = now
-
-    def _senses(self, given: Mapping[int, Array], q: Array, turns: Array) -> Array:
-        """Signs of the determinants of the groups at one place."""
-        signs, first = [], 0
-        for group, solver in self.groups:
-            last = first + len(group.solved)
-            _, j = solver.system({**given, **self._state(q, turns)}, q[:, first:last])
-            if j.shape[1] == j.shape[2]:
-                signs.append(np.linalg.slogdet(j[0])[0])
-            first = last
-        return np.array(signs)
-
-    # --- between steps ----------------------------------------------------------------------------
-
-    def _between(self, s: Array) -> tuple[Array, Array, Mask]:
-        """States between the steps, by the cubic through the four nearest."""
-        q = np.full((len(s), self.start.q.size), np.nan)
-        turns = np.zeros((len(s), self.start.turns.size))
-        good = np.zeros(len(s), dtype=bool)
-        slack = self.way.widest * SHORTEST * 16.0
-        for stretch in self.stretches:
-            here = (s >= stretch.s[0] - slack) & (s <= stretch.s[-1] + slack)
-            if here.any():
-                at = np.clip(s[here], stretch.s[0], stretch.s[-1])
-                q[here] = _cubic(stretch.s, stretch.q, at)
-                turns[here] = _cubic(stretch.s, stretch.turns, at)
-                good |= here
-        q[~good] = self.start.q
-        return q, turns, good
-
-
-def _near(q: Array, guess: Array, found: Array, pointed: bool) -> bool:
-    """Whether a step went on where the last ones pointed."""
-    if not q.size:
-        return True
-    unit = np.ones_like(q)
-    unit[2::3] = RADIAN
-    move, off = float(np.abs((found - q) * unit).max()), float(np.abs((found - guess) * unit).max())
-    return move <= FAR and (not pointed or off <= BENT * move + 1e-6)
-
-
-def _counts(turns: Array, found: Array) -> bool:
-    """Whether no counted angle may have missed a turn."""
-    return bool(np.all(np.abs(found - turns) < 60.0))
-
-
-def _stretch(steps: Sequence[Step]) -> Stretch:
-    return Stretch(
-        np.array([s for s, _, _ in steps]), np.array([q for _, q, _ in steps]), np.array([t for _, _, t in steps])
-    )
-
-
-def _cubic(known: Array, values: Array, at: Array) -> Array:
-    """Lagrange's polynomial through the four (or as many as there are) nearest places."""
-    count = min(4, len(known))
-    first = np.clip(np.searchsorted(known, at) - count // 2, 0, len(known) - count)
-    nodes = [known[first + n] for n in range(count)]
-    total = np.zeros((len(at), values.shape[1]))
-    for n in range(count):
-        weight = np.ones(len(at))
-        for m in range(count):
-            if m != n:
-                weight *= (at - nodes[m]) / (nodes[n] - nodes[m])
-        total += weight[:, None] * values[first + n]
-    return total
-
-
 def flips(at: Array, start: float, touches: Sequence[float]) -> Array:
     """+1 or -1: the sign after the touches between the start and each place."""
     if not len(touches):
         return np.ones_like(at)
     ordered = np.sort(np.array(touches))
     passed = np.searchsorted(ordered, at) - np.searchsorted(ordered, start)
-    return 1.0 - 2.0 * (passed & 1)
+    return np.asarray(1.0 - 2.0 * (passed & 1), dtype=np.float64)

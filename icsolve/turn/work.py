@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 
@@ -23,6 +24,20 @@ ROUGHLY = 1e-6
 """The same for a change point of a group, whose place is known to the root of rounding only."""
 CHUNK = 16 * BLOCK
 """Rows whose followed states are held at once."""
+
+
+class Tables(NamedTuple):
+    """Arrays by name, of each kind."""
+
+    answers: dict[str, Array]
+    points: dict[str, Array]
+    centres: dict[str, Array]
+    rates: dict[str, Array]
+    error: dict[str, Array]
+
+    def of(self, kind: str) -> dict[str, Array]:
+        """The arrays of a kind."""
+        return dict(zip(self._fields, self, strict=True))[kind]
 
 
 class Work:
@@ -157,8 +172,8 @@ class Work:
     def _gap(self, way: Way, gap: float) -> None:
         (name,) = way.slope
         self.notes.append(
-            f"at {self.columns.names[name]} = {gap:.6g} the links do not reach, in less than a row: beyond, the branch of "
-            "the position as written is kept, though no motion leads there."
+            f"at {self.columns.names[name]} = {gap:.6g} the links do not reach, in less than a row: beyond, "
+            "the branch of the position as written is kept, though no motion leads there."
         )
 
     # --- tables -----------------------------------------------------------------------------------
@@ -170,15 +185,15 @@ class Work:
         none = (self.codes != 0) & (self.codes != CODE[Status.CHANGE_POINT])
         return {"answers": none, "error": none, "points": apart, "centres": apart, "rates": apart}
 
-    def tables(self) -> dict[str, dict[str, Array]]:
+    def tables(self) -> Tables:
         """The arrays by kind, not a number where a row has no value."""
-        tables: dict[str, dict[str, Array]] = {"answers": {}, "points": {}, "centres": {}, "rates": {}}
+        tables = Tables({}, {}, {}, {}, self.errors)
         for (kind, name), array in self.values.items():
             array[self.silent[kind]] = np.nan
-            tables[kind][name] = array
+            tables.of(kind)[name] = array
         for array in self.errors.values():
             array[self.silent["error"]] = np.nan
-        return {**tables, "error": self.errors}
+        return tables
 
 
 def _with_singular(part: Part, found: Found) -> Found:

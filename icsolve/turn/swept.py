@@ -1,0 +1,72 @@
+"""The rows of a sweep as arrays."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+
+from icsolve.case import Case
+from icsolve.errors import Status
+from icsolve.turn.replay import Array
+from icsolve.turn.second import WORDS, Codes
+
+
+@dataclass(frozen=True, eq=False)
+class Sweep:
+    """The rows of a sweep; n is their number. Arrays that were not wanted are not there.
+
+    Attributes
+    ----------
+    vary : the varied numbers by path, and the turnings of driven links by link, (n,)
+    answers : unknown loads by name, (n,) [case units]; not a number where the status is another than
+        ok, or change-point for a row beyond one that was passed
+    error : bounds of the absolute rounding errors of the answers, (n,)
+    points : places, (n, 2) [case length]
+    centres : relative centres as homogeneous coordinates, (n, 3): (x, y, w) at (x/w, y/w), at infinity
+        toward (x, y) where w is zero; all zero where the two links have no relative motion
+    rates : angular velocities of the links, (n,) [rad/s, or scaled as in one scene]
+    holds : with friction and no motion, the ranges in which unknown loads hold, (n, 2)
+    notes : sentences about the sweep
+    """
+
+    case: Case
+    vary: dict[str, Array]
+    answers: dict[str, Array] = field(default_factory=dict)
+    error: dict[str, Array] = field(default_factory=dict)
+    points: dict[str, Array] = field(default_factory=dict)
+    centres: dict[str, Array] = field(default_factory=dict)
+    rates: dict[str, Array] = field(default_factory=dict)
+    holds: dict[str, Array] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+    codes: Codes = field(default_factory=lambda: np.empty(0, np.int8))
+    _case_of: Callable[[int], Case] | None = None
+
+    def __len__(self) -> int:
+        return len(self.codes)
+
+    @cached_property
+    def status(self) -> npt.NDArray[np.str_]:
+        """The status of every row in words, (n,)."""
+        if not self.codes.any():
+            return np.full(len(self.codes), WORDS[0])
+        return np.array(WORDS)[self.codes]
+
+    def case_of(self, row: int) -> Case:
+        """The case of a row, as `icsolve.solve` takes it: its points by coordinates.
+
+        In a family of figures: the case as if written so. Raises ValueError where the links do not
+        assemble.
+        """
+        if self._case_of is None or self.status[row] == Status.CANNOT_ASSEMBLE:
+            raise ValueError(f"row {row} does not assemble")
+        return self._case_of(row)
+
+    @property
+    def kinds(self) -> dict[str, dict[str, Array]]:
+        """The arrays of each kind."""
+        kinds = (("answers", self.answers), ("points", self.points), ("centres", self.centres))
+        return dict((*kinds, ("rates", self.rates)))
