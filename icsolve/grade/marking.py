@@ -6,17 +6,15 @@ from collections.abc import Iterable, Iterator
 from itertools import chain, groupby, islice, pairwise
 from operator import itemgetter
 
-from icsolve.grade.carried import Intermediate, carried
+from icsolve.grade.carrying import Carrying
 from icsolve.grade.course import Course
-from icsolve.grade.judge import IN_REVIEW, WRONG, Judgement, feedback, judge, share_of
+from icsolve.grade.judge import IN_REVIEW, Judgement, feedback, judge
 from icsolve.grade.judge_place import judge_place
 from icsolve.grade.keys import AnyKey, Key, NoKeyError, PlaceKey, unit_factor
 from icsolve.grade.ledger import Ledger
-from icsolve.grade.malrules import Wrong
 from icsolve.grade.marked import Marked, Result
 from icsolve.grade.moments import NEVER, attempt_number, moment
 from icsolve.grade.shelf import Shelf
-from icsolve.grade.solved import Solved
 from icsolve.grade.store import Entry
 from icsolve.grade.tally import Counts, Tally
 from icsolve.grade.written import MISSING, Reader
@@ -50,6 +48,7 @@ class Marker:
         self.owing: dict[str, list[str]] = {}
         """of each question the first students who gave no answer"""
         self.tally = Tally(self._band)
+        self._carrying = Carrying(shelf, course.reveal, self._once)
 
     def results(self, entries: Iterable[Entry], students: Iterable[str] = ()) -> Iterator[Result]:
         """The results of sorted entries, and of sorted ``students`` who may have given none."""
@@ -95,7 +94,7 @@ class Marker:
         """One student's results, with what is missing, in order of the questions."""
         found = [(entry, self._marked(entry)) for entry in chosen]
         if any(":" in entry.item for entry in chosen):
-            found = self._carried(found)
+            found = self._carrying.looked_at(found)
         if student:
             self._add_missing(student, found)
         for entry, marked in found:
@@ -249,58 +248,3 @@ class Marker:
             judged = Judgement(MISSING, 0.0, (False, False, False), code=MISSING)
             found = self._missing[item] = Marked(item, "", judged, self._points(item), "No answer was given.")
         return found
-
-    def _carried(self, found: list[tuple[Entry, Marked]]) -> list[tuple[Entry, Marked]]:
-        """A wrong final answer looked at again where its student has a wrong intermediate one."""
-        marked = {entry.item: (entry, m) for entry, m in found}
-        wrong = [item for item, (_, m) in marked.items() if ":" in item and m.judged.verdict == WRONG]
-        for case in dict.fromkeys(item.partition(":")[0] for item in wrong):
-            final = marked.get(case)
-            if final is None or final[1].judged.verdict != WRONG or final[1].judged.value is None:
-                continue
-            solved = self.shelf.solved(case, final[0].student)
-            steps = [
-                self._step(solved, item, marked[item][1]) for item in wrong if item.startswith(f"{case}:")
-            ]
-            again = self._again(solved, final, [step for step in steps if step is not None])
-            if again is not None:
-                marked[case] = (final[0], again)
-        return list(marked.values())
-
-    def _step(self, solved: Solved, item: str, marked: Marked) -> Intermediate | None:
-        try:
-            key: AnyKey = solved.key(item)
-        except NoKeyError:
-            return None
-        right = key.place if isinstance(key, PlaceKey) else (key.value,)
-        if len(marked.given) != len(right):
-            return None
-        return Intermediate(item.partition(":")[2], solved.target(item), right, marked.given)
-
-    def _again(self, solved: Solved, final: tuple[Entry, Marked], steps: list[Intermediate]) -> Marked | None:
-        """The final answer as one that follows from the wrong steps; None where it does not."""
-        entry, before = final
-        key, target = solved.key(entry.item), solved.target(entry.item)
-        value = before.judged.value
-        assert isinstance(key, Key) and value is not None
-        reach = key.wrongs.reach
-        name = getattr(target, "load", "")
-        for unscaled in carried(solved.answer, name, steps):
-            wrong = unscaled._replace(value=unscaled.value * solved.scale)
-            close = abs(value - wrong.value) <= reach * abs(wrong.value)
-            if close and abs(wrong.value - key.value) > key.half:
-                return self._with_cause(key, before, wrong)
-        return None
-
-    def _with_cause(self, key: Key, before: Marked, wrong: Wrong) -> Marked:
-        others = tuple(m for m in before.judged.mistakes if m.code != "near-miss")
-        mistakes = (wrong, *others)[:3]
-        judged = before.judged._replace(
-            mistakes=mistakes,
-            code=" ".join(m.code for m in mistakes),
-            share=max(share_of(key, before.judged.parts, mistakes), before.judged.share),
-        )
-        text = feedback(key, judged, self.course.reveal)
-        again = Marked(before.item, before.raw, judged, before.points, text, before.written)
-        self._once(again)
-        return again

@@ -5,7 +5,7 @@ from __future__ import annotations
 from copy import copy
 
 from icsolve.answer import Answer
-from icsolve.case import Case, CentreIs, LoadIs, Target
+from icsolve.case import Case, CentreIs, LoadIs, ReactionIs, Target
 from icsolve.errors import SceneError
 from icsolve.grade.course import Course
 from icsolve.grade.keys import AnyKey, Key, place_key, scalar_key, scaled_key
@@ -55,7 +55,7 @@ class Solved:
         target = self.target(question)
         if self._base is not None:
             key = self._base.key(question)
-            return scaled_key(key, self.scale) if isinstance(target, LoadIs) and isinstance(key, Key) else key
+            return self._with_scale(key, target)
         policy = self.course.policy_of(question, self.case.tolerance)
         answer = self.answer
         if isinstance(target, CentreIs):
@@ -64,6 +64,11 @@ class Solved:
             return scalar_key(question, target, answer, policy, lambda: self._of_load(target.load))
         own = solved_for(self.case, target)
         return scalar_key(question, target, own, policy, lambda: target_wrongs(own, target))
+
+    def _with_scale(self, key: AnyKey, target: Target) -> AnyKey:
+        """Loads and reactions grow with the loads; ratios and places do not."""
+        grows = isinstance(target, LoadIs | ReactionIs) and isinstance(key, Key)
+        return scaled_key(key, self.scale) if grows else key  # type: ignore[arg-type]
 
     def _of_load(self, name: str) -> list[Wrong]:
         """The wrong answers of one unknown; those of all are computed together, once."""

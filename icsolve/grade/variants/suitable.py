@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from icsolve.answer import Answer
-from icsolve.case import Number
-from icsolve.grade.keys import NoKeyError, size_of
 from icsolve.grade.malrules.centres import centre_wrongs
 from icsolve.grade.malrules.gather import resolve
 from icsolve.grade.malrules.loads import load_wrongs
 from icsolve.grade.malrules.messages import Wrong
+from icsolve.grade.scales import size_of
 from icsolve.sensitivity import band
 
 _DRAWING = 1e-3
@@ -55,6 +54,3 @@ def _wrongs(answer: Answer) -> list[tuple[str, Wrong]]:
         (name,) = answer.answers
         found += [(name, wrong) for wrong in centre_wrongs(answer, name)]
     return [(name, wrong) for name, wrong in found if name in answer.answers]
-
-
-__all__ = ["NoKeyError", "Number", "far_from_dead_centres", "swallowed"]
