@@ -22,8 +22,8 @@ from icsolve.turn.constraints import (
 from icsolve.turn.loci import locus, reference
 from icsolve.turn.mechanism import Mechanism
 from icsolve.turn.meeting import Locus, meet, side, sine, swung
-from icsolve.turn.poses import Moved, Rotation, Spot, dot, minus, square
-from icsolve.turn.record import Traced
+from icsolve.turn.poses import Moved, Rotation, Spot, dot, minus, scaled, square
+from icsolve.turn.record import Traced, varies
 from icsolve.turn.smallest import smallest
 from icsolve.turn.together import Together, settled
 
@@ -216,11 +216,19 @@ class _Run:
             h = h - dot(normal, minus(self.shape.ref[c.spot[1]], self.shape.ref[step.aim[1]]))
         written = minus(self.shape.ref[step.aim[1]], self.shape.ref[step.pivot[1]])
         sign = 1.0 if float(dot(line.along, written)) >= 0.0 else -1.0
-        zero = 0.0 if abs(float(h)) <= FLUSH and not getattr(h, "row", False) else h
-        rotation = Rotation(swung(self.record, e, line.along, zero, self.signs.get(name, sign)))
+        rotation = Rotation(self._swung(e, line.along, h, self.signs.get(name, sign)))
         self._branch(name, sign)
         for body in step.bodies:
             moved.rotations[body] = rotation
+
+    def _swung(self, e: Point, along: Point, h: Scalar, sign: Scalar) -> Point:
+        """The rotation of a swing; a line that passes its pivot by rounding only passes through it."""
+        if varies(h) or abs(float(h)) > FLUSH:
+            return swung(self.record, e, along, h, sign)
+        z = swung(self.record, e, along, 0.0, sign)
+        if isinstance(h, float) and h == 0.0:
+            return z
+        return scaled(self.record.about(1.0, FLUSH), z)
 
     def _branch(self, name: str, written: float) -> None:
         """The roots that were new belong to the branch of this name."""
@@ -240,5 +248,5 @@ class _Run:
             self._placed(body, group.bases[body], tuple(self.mechanism.spots[body]))
 
 
-FLUSH = 1e-13
+FLUSH = 1e-15
 """A line that passes its pivot by less than this passes through it (rounding; normalised)."""

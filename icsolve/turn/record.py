@@ -144,7 +144,9 @@ class Record:
         if held is not None:
             return held
         noise = decimal_noise(number)
-        return self._constant(number.value, noise, number.path) if noise else number.value
+        if not noise and number.value in (0.0, 1.0, -1.0):
+            return number.value
+        return self._constant(number.value, noise, number.path)
 
     def turn(self, number: Number) -> tuple[Scalar, Scalar]:
         """Cosine and sine of an angle of the case (degrees)."""
@@ -154,12 +156,11 @@ class Record:
     def turned(self, degrees: Scalar) -> tuple[Scalar, Scalar]:
         """Cosine and sine of an angle in degrees."""
         c, s = turn_of(float(degrees))
-        if not isinstance(degrees, Traced):
-            if abs(c) in (0.0, 1.0):
-                return c, s
-            degrees = self._constant(degrees, 0.0, "exact")
-        cos = self._put(Op.COS, degrees.index, 0, c, degrees.row)
-        return cos, self._put(Op.SIN, degrees.index, cos.index, s, degrees.row)
+        if abs(c) in (0.0, 1.0) and not varies(degrees) and self._is_exact(degrees):
+            return c, s
+        angle = self.lifted(degrees)
+        cos = self._put(Op.COS, angle.index, 0, c, angle.row)
+        return cos, self._put(Op.SIN, angle.index, cos.index, s, angle.row)
 
     def direct(self, number: Number, direction: tuple[Scalar, Scalar]) -> Number:
         """A number that stands for a direction which moves with a link."""
@@ -180,9 +181,9 @@ class Record:
         self.inputs[name] = found
         return found
 
-    def constant(self, value: float) -> Traced:
-        """An exact number as a node."""
-        return self._constant(value, 0.0, "exact")
+    def about(self, value: float, noise: float) -> Traced:
+        """A constant that is known to within some noise."""
+        return self._constant(value, noise, f"about {noise!r}")
 
     def _constant(self, value: float, noise: float, name: str) -> Traced:
         found = self._constants.get((value, name))
@@ -310,13 +311,30 @@ class Record:
         """The number at a node."""
         return Traced(self, index, self.nodes[index].value, self.nodes[index].row)
 
-    def _put(self, op: Op, a: int, b: int, value: float, row: bool) -> Traced:
+    def _put(self, op: Op, a: int, b: int, value: float, row: bool) -> Scalar:
+        """A new value; two exact numbers that cancel leave nothing."""
+        if value == 0.0 and not row and op in (Op.ADD, Op.SUB) and self._exact(a) and self._exact(b):
+            return 0.0
         found = self._known.get((op, a, b))
         if found is None:
             found = Traced(self, len(self.nodes), value, row)
             self.nodes.append(Node(op, a, b, value, row))
             self._known[op, a, b] = found
         return found
+
+    def _is_exact(self, value: Scalar) -> bool:
+        return not isinstance(value, Traced) or self._exact(value.index)
+
+    def _exact(self, k: int) -> bool:
+        """Whether a number was given and is exact, or a multiple of one by a power of two."""
+        node = self.nodes[k]
+        if node.op == Op.MUL and not node.row:
+            return (
+                self._exact(node.a)
+                and self._exact(node.b)
+                and abs(math.frexp(self.nodes[node.b].value)[0]) == 0.5
+            )
+        return node.op == Op.CONST and not node.noise
 
 
 def varies(value: Scalar) -> bool:

@@ -15,7 +15,7 @@ from icsolve.turn.poses import Places, Spot, minus, plus, scaled, square
 
 NEAR = 2e-3
 """A centre may miss its radius by this fraction of it."""
-ROUNDED = 1e-12
+ROUNDED = 1e-14
 """A distance that misses the given one by no more is the given one, rounded (normalised)."""
 
 Sizes = tuple[float, float]
