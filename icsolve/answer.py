@@ -162,3 +162,15 @@ class Answer:
         from icsolve.result import to_dict
 
         return to_dict(self)
+
+    def _repr_svg_(self) -> str:
+        """The figure, for notebooks."""
+        from icsolve.draw import draw
+
+        return draw(self.case)
+
+    def _repr_markdown_(self) -> str:
+        """The worked solution with LaTeX formulas, for notebooks."""
+        from icsolve.explain import explain
+
+        return explain(self.case, "md")

@@ -18,6 +18,7 @@ VERBS = {
     "grade": "grading",
     "variants": "varying",
     "export": "exporting",
+    "explain": "explaining",
     "draw": "drawing",
     "sweep": "sweeping",
     "bench": "benching",

@@ -9,7 +9,7 @@ import click
 
 from icsolve.cli.options import SET
 from icsolve.cli.output import OUTPUT, one_source, write_output
-from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, for_each, on_stderr
+from icsolve.cli.run import NO_ANSWER, UNREADABLE, for_each, on_stderr
 
 if TYPE_CHECKING:
     from icsolve.case import Case
@@ -60,6 +60,6 @@ def draw_case(
         if known.refusal is not None:
             on_stderr(case, path, known.refusal)
             return max(code, NO_ANSWER)
-        return code or DONE
+        return code
 
     return for_each([argument], work, settings=settings)

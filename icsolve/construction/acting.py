@@ -18,7 +18,8 @@ from icsolve.sense import unit_of
 class Acting(NamedTuple):
     """A load as it acts on ``link``; the opposite acts on ``against``.
 
-    ``value`` is its number in ``unit`` (None where it was not found), ``gain`` the force (force times
+    ``value`` is its number in ``unit`` (None where it was not found, or where it ``holds`` over a range),
+    ``gain`` the force (force times
     length for a torque) per unit of it, ``direction`` the unit vector of a force of positive value;
     ``at`` the point's place, None for a torque.
     """
@@ -32,6 +33,7 @@ class Acting(NamedTuple):
     value: float | None
     unit: str
     unknown: bool
+    holds: tuple[float, float] | None = None
 
     @property
     def force(self) -> Point:
@@ -65,14 +67,16 @@ def _like(load: Load) -> str | None:
 
 
 def _acting(known: Known, w: Wrench) -> Acting:
-    number, answers = known_value(w), {} if known.answer is None else known.answer.answers
+    number = known_value(w)
+    found = None if known.answer is None else known.answer.answers.get(w.load.name)
+    holds = None if found is None else found.holds
     if number is not None:
         value: float | None = float(w.ratio) * number
     else:
-        value = answers[w.load.name].value if w.load.name in answers else None
+        value = None if found is None or holds is not None else found.value
     torque = isinstance(w.load, Torque)
     at = None if isinstance(w.load, Torque) else known.points[w.load.at]
     gain = float(w.gain) * (float(w.unit[2]) if torque else 1.0)
     direction = (0.0, 0.0) if torque else (float(w.unit[1]), -float(w.unit[0]))
     unit = unit_of(w.load, known.case)
-    return Acting(w.load, w.load.link, w.against, at, direction, gain, value, unit, number is None)
+    return Acting(w.load, w.load.link, w.against, at, direction, gain, value, unit, number is None, holds)

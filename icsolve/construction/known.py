@@ -10,7 +10,7 @@ from typing import NamedTuple
 from icsolve import speeds
 from icsolve.answer import Answer, Centre
 from icsolve.case import Case, Coordinates, Pair
-from icsolve.errors import SceneError, Status
+from icsolve.errors import SceneError
 from icsolve.figure import Frame, case_point, solve_figure
 from icsolve.names import ordered_pair
 from icsolve.plane import Point, Triple
@@ -23,8 +23,8 @@ class Known(NamedTuple):
 
     ``answer`` is None where the scene has none; ``refusal`` then says why. ``whole`` has all centres,
     rates and velocities (where it has no answer, those of the mechanism without its loads; None where
-    nothing is known to move). ``points`` has the hidden ones too. ``twists`` are the links' motions
-    ``omega * (x, y, 1)``, those only that the case determines; ``size`` is the figure's.
+    nothing is known to move, and of a case in space). ``points`` has the hidden ones too. ``twists`` are
+    the links' motions ``omega * (x, y, 1)``, those only that the case determines; ``size`` is the figure's.
     """
 
     case: Case
@@ -65,10 +65,9 @@ STILL = 1e-12
 
 def known_of(case: Case, *, reactions: bool = False) -> Known:
     """Solve a case as far as it goes; never raises `SceneError`."""
-    if case.space is not None:
-        said = "a case in space is solved and checked; only planar ones are drawn and explained."
-        return Known(case, None, SceneError(Status.UNSUPPORTED, said), None, {}, {}, 0.0)
     answer, refusal = _solved(case, reactions)
+    if case.space is not None:
+        return Known(case, answer, refusal, None, {}, {}, 0.0)
     whole = _whole(case) or _whole(replace(case, loads=(), expect=(), motion=())) or answer
     points = _points(case, whole)
     twists = _twists(whole.case) if whole is not None else {}

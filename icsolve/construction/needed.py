@@ -34,8 +34,8 @@ def needed_pairs(known: Known) -> list[Pair]:
     if ratios is None:
         shown = known.answer or known.whole
         return [] if shown is None else list(shown.centres)
-    own = [(load.link, reacting(case, load)) for load in case.loads]
-    return list(dict.fromkeys((*(known.pair(a, b) for a, b in own if a != b), *ratios.pairs)))
+    own = [known.pair(link, case.ground) for link in loaded_links(case) if not known.rests(link)]
+    return list(dict.fromkeys((*own, *ratios.pairs)))
 
 
 def needed_steps(known: Known) -> tuple[Step, ...]:

@@ -15,7 +15,6 @@ from typing import NamedTuple
 from icsolve.answer import Centre
 from icsolve.case import Pair
 from icsolve.construction.known import Known
-from icsolve.plane import Point
 
 APART = 1e-6
 """Two centres nearer than this, of the figure's size, give no ratio."""
@@ -27,8 +26,8 @@ class Ratio(NamedTuple):
     ``kind``: ``turns`` (both turn: ``value`` is w / w), ``alike`` (their centre is at infinity: one rate),
     ``slides`` (speed of the link's translation over the other's rate), ``drives`` (rate over the speed of
     a translation), ``glides`` (two translations: speed over speed), ``one`` (welded: they move as one).
-    A speed is positive along `heading_of` its link. ``pairs`` are the centres that it reads: of the other
-    with the frame, of the link with the frame, and of the two.
+    A speed is positive as the link moves when the reference does at +1. ``pairs`` are the centres that
+    it reads: of the other with the frame, of the link with the frame, and of the two.
     """
 
     link: str
@@ -39,19 +38,16 @@ class Ratio(NamedTuple):
 
 
 class Ratios(NamedTuple):
-    """``reference`` is the link from which all the others follow, in order."""
+    """``reference`` is the link from which all the others follow, in order.
+
+    ``rates`` has for each link its rate, or its speed along ``headings`` (degrees) where it slides, when
+    the reference has 1.
+    """
 
     reference: str
     ratios: tuple[Ratio, ...]
-
-    def rate(self, link: str) -> float:
-        """Rate or speed of a link where the reference has 1."""
-        value = 1.0
-        while link != self.reference:
-            step = next(ratio for ratio in self.ratios if ratio.link == link)
-            value *= step.value
-            link = step.of
-        return value
+    rates: dict[str, float]
+    headings: dict[str, float]
 
     @property
     def pairs(self) -> list[Pair]:
@@ -72,12 +68,27 @@ def ratios_of(known: Known, links: Sequence[str]) -> Ratios | None:
     best: tuple[float, Ratios] | None = None
     for reference in dict.fromkeys((*turning, *moving)):
         found = _reach(known, reference, moving)
-        preferred = 0.0 if reference in moving else 1.5
+        preferred = (0.0 if known.turns(reference) else 2.0) if reference in moving else 1.5
         if found is not None and (best is None or found[0] + preferred < best[0]):
-            best = (found[0] + preferred, Ratios(reference, found[1]))
-        if best is not None and best[0] <= preferred + len(moving) - 1 and reference in moving:
-            break
+            best = (found[0] + preferred, _gathered(known, reference, found[1]))
     return None if best is None else best[1]
+
+
+def _gathered(known: Known, reference: str, ratios: tuple[Ratio, ...]) -> Ratios:
+    sign = _sign(known, reference)
+    rates, headings = {reference: 1.0}, {}
+    for ratio in ratios:
+        rates[ratio.link] = rates[ratio.of] * ratio.value
+    for link in rates:
+        if not known.turns(link):
+            x, y, _ = known.twists[link]
+            headings[link] = math.degrees(math.atan2(-sign * x, sign * y)) % 360.0
+    return Ratios(reference, ratios, rates, headings)
+
+
+def _sign(known: Known, reference: str) -> float:
+    """1 or -1: the sense in which the reference turns in the motion that is meant."""
+    return math.copysign(1.0, known.twists[reference][2]) if known.turns(reference) else 1.0
 
 
 def _reach(known: Known, start: str, targets: Sequence[str]) -> tuple[float, tuple[Ratio, ...]] | None:
@@ -86,6 +97,7 @@ def _reach(known: Known, start: str, targets: Sequence[str]) -> tuple[float, tup
     by: dict[str, Ratio] = {}
     heap: list[tuple[float, int, str, Ratio | None]] = [(0.0, 0, start, None)]
     missing = set(targets)
+    sign = _sign(known, start)
     while heap and missing:
         cost, _, link, ratio = heapq.heappop(heap)
         if link in costs:
@@ -95,7 +107,7 @@ def _reach(known: Known, start: str, targets: Sequence[str]) -> tuple[float, tup
         if ratio is not None:
             by[link] = ratio
         for other in known.case.links:
-            step = None if other in costs else ratio_between(known, link, other)
+            step = None if other in costs else ratio_between(known, link, other, sign)
             if step is not None:
                 heapq.heappush(heap, (cost + _cost(known, step), len(heap) + len(costs), other, step))
     if missing:
@@ -124,15 +136,11 @@ def _cost(known: Known, ratio: Ratio) -> float:
     return 1.0 + 0.25 * made - 0.05 * math.log10(max(small, 1e-12))
 
 
-def heading_of(known: Known, link: str) -> Point:
-    """Unit vector along which a translating link moves: its velocity in the motion that is meant."""
-    x, y, _ = known.twists[link]
-    size = math.hypot(x, y)
-    return (y / size, -x / size)
+def ratio_between(known: Known, of: str, link: str, sign: float = 1.0) -> Ratio | None:
+    """The motion of ``link`` from that of ``of``, where their three centres are apart.
 
-
-def ratio_between(known: Known, of: str, link: str) -> Ratio | None:
-    """The motion of ``link`` from that of ``of``, where their three centres are apart."""
+    ``sign`` is that of the reference's rate in the motion that is meant.
+    """
     ground = known.case.ground
     if link in (of, ground) or not {of, link} <= set(known.twists) or known.rests(of) or known.rests(link):
         return None
@@ -143,19 +151,19 @@ def ratio_between(known: Known, of: str, link: str) -> Ratio | None:
     if any(centre is None or centre.kind not in ("at", "toward") for centre in centres):
         return None
     first, second, common = (centre for centre in centres if centre is not None)
-    found = _kind_and_value(known, of, link, (first, second, common))
+    found = _kind_and_value(known, of, link, (first, second, common), sign)
     return None if found is None else Ratio(link, of, found[0], pairs, found[1])
 
 
 def _kind_and_value(
-    known: Known, of: str, link: str, centres: tuple[Centre, Centre, Centre]
+    known: Known, of: str, link: str, centres: tuple[Centre, Centre, Centre], sign: float
 ) -> tuple[str, float] | None:
     first, second, common = centres
     least = APART * known.size
-    speeds = [_speed(known, name) for name in (of, link)]
+    speeds = [_speed(known, name, sign) for name in (of, link)]
     value = speeds[1] / speeds[0]
     if not known.turns(of) and not known.turns(link):
-        return ("glides", value) if common.kind == "toward" else None
+        return ("glides", value) if common.kind == "toward" and not _all_parallel(centres) else None
     if common.kind == "toward":
         return ("alike", 1.0) if known.turns(of) and known.turns(link) else None
     arms = [c for c in (first, second) if c.kind == "at"]
@@ -166,7 +174,13 @@ def _kind_and_value(
     return "drives", value
 
 
-def _speed(known: Known, link: str) -> float:
+def _all_parallel(centres: tuple[Centre, Centre, Centre]) -> bool:
+    """Whether three centres at infinity lie in one direction: two links that slide along one line."""
+    first, _, common = (centre.place[0] for centre in centres)
+    return abs(math.sin(math.radians(first - common))) < APART
+
+
+def _speed(known: Known, link: str, sign: float) -> float:
     """Rate of a link that turns, speed of one that slides."""
     x, y, w = known.twists[link]
-    return w if w != 0.0 else math.hypot(x, y)
+    return sign * w if w != 0.0 else math.hypot(x, y)

@@ -20,7 +20,7 @@ from icsolve.draw.marks import Box, Disc, Group, Mark, Point, Run, Stroke, Text,
 from icsolve.draw.place import Label, Soft
 from icsolve.draw.scene import Part, Scene, around, together
 from icsolve.draw.shapes import nearest
-from icsolve.draw.words import centre_runs, name_runs, quantity
+from icsolve.draw.words import force_runs, name_runs, quantity
 
 LONGEST = 78.0
 """The largest force of all links."""
@@ -57,7 +57,7 @@ def body_panels(scene: Scene, left: float, top: float, width: float) -> list[Mar
     panels = [_panel(scene, link, some, largest) for link, some in pushes.items()]
     return [
         Text((left, top + 4.0), (Run("Free bodies, forces to one scale"),), "t-note", 12.5, "start"),
-        *_rows(panels, left, top + 24.0, width),
+        *rows_of(panels, left, top + 24.0, width),
     ]
 
 
@@ -66,7 +66,7 @@ def _smaller(scene: Scene) -> Scene:
     return scene._replace(view=view, at={name: view.at(p) for name, p in scene.known.points.items()})
 
 
-def _rows(panels: Iterable[list[Mark]], left: float, top: float, width: float) -> Iterable[Mark]:
+def rows_of(panels: Iterable[list[Mark]], left: float, top: float, width: float) -> Iterable[Mark]:
     """Panels beside and below each other."""
     x, y, lowest = left, top, top
     for panel in panels:
@@ -91,7 +91,7 @@ def _pushes(scene: Scene, link: str) -> Iterable[Push]:
 
 def _reaction(scene: Scene, name: str, reaction: Reaction) -> Push:
     at = scene.view.at(reaction.at)
-    runs = (Run("F"), centre_runs(reaction.by, reaction.on)[1])
+    runs = force_runs(name, reaction.by, reaction.on, reaction.where)
     words = f"reaction-{name}-on-{reaction.on}"
     if reaction.x is None or reaction.y is None or reaction.moment is None:
         return Push(words, (*runs, Run(" = ?")), "reaction", at, (0.0, 0.0), 0.0)

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from icsolve.construction import Known, Step
+from icsolve.construction.words import range_words, sense_words
 from icsolve.draw.marks import Group, Mark, Run, Text, bounds
 from icsolve.draw.svg import runs_of
 from icsolve.draw.words import figure_number, quantity, wrapped
@@ -14,8 +15,6 @@ from icsolve.names import pair_name
 TITLE, NOTE = 17.0, 12.5
 NARROWEST = 420.0
 """Captions are set at least so wide."""
-
-_WORDS = {"ccw": "counterclockwise", "cw": "clockwise"}
 
 
 def captioned(known: Known, marks: Sequence[Mark], steps: Sequence[Step], step: int | None) -> list[Mark]:
@@ -55,16 +54,12 @@ def answer_sentences(known: Known) -> list[str]:
         return []
     found = []
     for name, value in known.answer.answers.items():
-        sense = sense_words(value.sense)
+        if value.holds is not None:
+            found.append(f"{name} {range_words(value, figure_number)}")
+            continue
+        sense = sense_words(value.sense, figure_number)
         found.append(f"{name} = {quantity(abs(value.value), value.unit)}" + (f", {sense}" if sense else ""))
     return found
-
-
-def sense_words(sense: str) -> str:
-    """``ccw`` spelt out, ``at 339.778 deg`` with the digits of a figure."""
-    if sense.startswith("at ") and sense.endswith(" deg"):
-        return f"at {figure_number(float(sense[3:-4]))}°"
-    return _WORDS.get(sense, sense)
 
 
 def step_sentence(known: Known, steps: Sequence[Step], number: int) -> str:

@@ -15,7 +15,7 @@ from icsolve.draw.marks import Group, Mark, Point, Run, Stroke, plain_text
 from icsolve.draw.place import Label, Soft
 from icsolve.draw.scene import Part, Scene
 from icsolve.draw.view import along, unit
-from icsolve.draw.words import name_runs, quantity
+from icsolve.draw.words import figure_number, name_runs, quantity, unit_word
 
 ARROW = 56.0
 """Length of a load's arrow."""
@@ -47,6 +47,9 @@ def kind_of(acting: Acting) -> str:
 def load_words(acting: Acting) -> tuple[Run, ...]:
     """``T_12 = 33.76 lbf·in cw``."""
     name = name_runs(acting.load.name)
+    if acting.holds is not None:
+        ends = (figure_number(end) if math.isfinite(end) else "∞" for end in acting.holds)
+        return (*name, Run(f": {' to '.join(ends)} {unit_word(acting.unit)}"))
     if acting.value is None:
         return (*name, Run(" = ?"))
     text = f" = {quantity(abs(acting.value), acting.unit)}"

@@ -21,7 +21,8 @@ class Drawing(NamedTuple):
 
     ``centres`` is ``needed``, ``all`` or ``none``; ``step`` cuts the construction after so many
     centres found; ``circle`` adds the Kennedy circle, ``velocities`` the velocities of the points,
-    ``bodies`` the free-body diagrams of all links.
+    ``bodies`` the free-body diagrams of all links. Without ``captions`` title and answer are left to the
+    page around it.
     """
 
     centres: str = "needed"
@@ -29,6 +30,7 @@ class Drawing(NamedTuple):
     circle: bool = False
     velocities: bool = False
     bodies: bool = False
+    captions: bool = True
 
 
 PLAIN = Drawing()
@@ -40,20 +42,38 @@ def draw(case: Case, drawing: Drawing = PLAIN, known: Known | None = None) -> st
     A case that has no answer is drawn as far as it is known, with the reason below.
     """
     known = known or known_of(case, reactions=drawing.bodies)
-    steps = steps_shown(known, drawing)
-    scene = scene_of(known, steps)
-    marks = figure_marks(scene, steps, velocities=drawing.velocities)
-    marks += _beside(scene, steps, drawing, marks)
-    marks += _under(scene, drawing, marks)
-    marks = captioned(known, marks, steps, drawing.step)
+    marks, steps = _in_space(known, drawing) if case.space is not None else _in_plane(known, drawing)
+    if drawing.captions or not marks:
+        marks = captioned(known, marks, steps, drawing.step)
     left, top, right, bottom = bounds(marks)
     view = (left - PAD, top - PAD, right + PAD, bottom + PAD)
     return document(marks, view, known.title, description(known))
 
 
+def _in_space(known: Known, drawing: Drawing) -> tuple[list[Mark], tuple[Step, ...]]:
+    """The figure of a case in space, which has no centres."""
+    from icsolve.draw.space import space_marks, space_panels
+
+    sketch, marks = space_marks(known)
+    if drawing.bodies:
+        left, _, right, bottom = bounds(marks)
+        marks += space_panels(known, sketch, left, bottom + 30.0, max(right - left, 760.0))
+    return marks, ()
+
+
+def _in_plane(known: Known, drawing: Drawing) -> tuple[list[Mark], tuple[Step, ...]]:
+    """Figure, circle and free bodies of a case in the plane."""
+    steps = steps_shown(known, drawing)
+    scene = scene_of(known, steps)
+    marks = figure_marks(scene, steps, velocities=drawing.velocities)
+    marks += _beside(scene, steps, drawing, marks)
+    marks += _under(scene, drawing, marks)
+    return marks, steps
+
+
 def steps_shown(known: Known, drawing: Drawing) -> tuple[Step, ...]:
     """The centres to draw, in order."""
-    if drawing.centres == "none" or known.whole is None:
+    if drawing.centres == "none" or known.whole is None or known.case.space is not None:
         return ()
     steps = all_steps(known) if drawing.centres == "all" else needed_steps(known)
     return tuple(s for s in steps if drawing.step is None or s.number <= drawing.step)

@@ -53,6 +53,12 @@ def centre_runs(a: str, b: str) -> tuple[Run, ...]:
     return (Run("I"), Run(low, True))
 
 
+def force_runs(name: str, by: str, on: str, where: str) -> tuple[Run, Run]:
+    """F with the links low, and the joint's point where the pair has several joints."""
+    low = centre_runs(by, on)[1].text
+    return (Run("F"), Run(f"{low}@{where}" if "@" in name else low, True))
+
+
 def wrapped(text: str, size: float, width: float) -> list[str]:
     """A text in lines of a width; a word that is longer than a line is cut."""
     lines: list[str] = []

@@ -1,0 +1,114 @@
+"""What a drawing or an explanation reads of a case in space: places, ties, loads with their numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from icsolve.case import Case
+from icsolve.construction.known import Known
+from icsolve.errors import SceneError
+from icsolve.space.case import Torque, TorqueVector
+from icsolve.space.figure import Figure, figure_of, in_case
+from icsolve.space.loading import wrenched
+from icsolve.space.shown import unit_of
+from icsolve.space.ties import Tie, ties_of
+from icsolve.space.vectors import Vec, times
+
+
+class Push(NamedTuple):
+    """A load in space, case units: force and couple on ``link`` at ``at`` (None for a couple alone), their
+    opposites on ``against``; ``value`` its number (None where it was not found)."""
+
+    name: str
+    link: str
+    against: str
+    at: Vec | None
+    where: str
+    direction: Vec
+    force: Vec
+    couple: Vec
+    value: float | None
+    unit: str
+    unknown: bool
+
+
+class InSpace(NamedTuple):
+    """A case in space as far as it is known."""
+
+    case: Case
+    places: Mapping[str, Vec]
+    ties: tuple[Tie, ...]
+    loads: tuple[Push, ...]
+    figure: Figure | None
+
+    def at(self, tie: Tie) -> Vec:
+        """The place of a joint, case units."""
+        return tie.at if self.figure is None else self.figure.frame.shown(tie.at)
+
+    def carried(self, link: str) -> list[Vec]:
+        """Where a link has joints and loads; each place once."""
+        found = [self.at(tie) for tie in self.ties if link in (tie.by, tie.on) and not tie.mesh]
+        found += [
+            self.places[c] for j in in_case(self.case).joints for c in _centres(j, link) if c in self.places
+        ]
+        found += [p.at for p in self.loads if p.at is not None and p.link == link]
+        return list(dict.fromkeys(found))
+
+
+def _centres(joint: object, link: str) -> tuple[str, ...]:
+    """The centre of a gear on a link."""
+    links: tuple[str, ...] = getattr(joint, "links", ())
+    centres: tuple[str, ...] = getattr(joint, "centres", ())
+    return tuple(c for other, c in zip(links, centres, strict=False) if other == link)
+
+
+def in_space(known: Known) -> InSpace:
+    """The parts of a case in space; nothing where even its points are refused."""
+    case = known.case
+    try:
+        figure = figure_of(in_case(case))
+    except SceneError:
+        return InSpace(case, {}, (), (), None)
+    try:
+        ties = ties_of(case, figure)
+    except SceneError:
+        ties = ()
+    return InSpace(case, figure.places, ties, _loads(known, figure), figure)
+
+
+def _loads(known: Known, figure: Figure) -> tuple[Push, ...]:
+    try:
+        loads = wrenched(known.case, figure)
+    except SceneError:
+        return ()
+    answers = {} if known.answer is None else known.answer.answers
+    found = []
+    for w in loads:
+        load = w.load
+        value = w.ratio * w.known if w.known is not None else None
+        if value is None and load.name in answers:
+            value = answers[load.name].value
+        turned = isinstance(load, Torque | TorqueVector)
+        gain = w.gain / figure.frame.scale if turned else w.gain
+        force, couple = (times((value or 0.0) * gain, part) for part in w.unit)
+        at = None if isinstance(load, Torque | TorqueVector) else figure.places[load.at]
+        where = "" if isinstance(load, Torque | TorqueVector) else load.at
+        direction = w.unit[1] if turned else w.unit[0]
+        unit = unit_of(load, known.case)
+        found.append(
+            Push(
+                load.name,
+                load.link,
+                w.against,
+                at,
+                where,
+                direction,
+                force,
+                couple,
+                value,
+                unit,
+                w.known is None,
+            )
+        )
+    return tuple(found)

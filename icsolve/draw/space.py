@@ -1,0 +1,352 @@
+"""A case in space, seen from above and aside: shafts and members, bearings, gears, loads.
+
+Couples are arrows with two heads along their axis, by the right-hand rule.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from itertools import pairwise
+from typing import NamedTuple
+
+import shapely
+
+from icsolve.construction import Known
+from icsolve.construction.spatial import InSpace, Push, in_space
+from icsolve.draw.arrows import arrow, head
+from icsolve.draw.figure import with_labels
+from icsolve.draw.marks import (
+    Area,
+    Box,
+    Disc,
+    Group,
+    Mark,
+    Point,
+    Run,
+    Stroke,
+    Text,
+    bounds,
+    moved,
+    plain_text,
+)
+from icsolve.draw.place import Label, Soft
+from icsolve.draw.scene import HALF, PIN, Part, around, together
+from icsolve.draw.shapes import area, bar, hatched, joined, plate, tilted
+from icsolve.draw.view import View, along, unit, view_of
+from icsolve.draw.words import force_runs, name_runs, quantity
+from icsolve.space.ties import Tie, kind_of
+from icsolve.space.vectors import AXES, Vec, add, cross, dot, size, sub, times
+
+TURN, RISE = math.radians(32.0), math.radians(24.0)
+"""Where the picture is seen from: turned about z, and raised."""
+RIGHT: Vec = (math.cos(TURN), math.sin(TURN), 0.0)
+UP: Vec = (-math.sin(RISE) * math.sin(TURN), math.sin(RISE) * math.cos(TURN), math.cos(RISE))
+ARROW = 58.0
+LEAST = 13.0
+EDGE_ON = 0.22
+"""A direction of which the picture shows less than this fraction points at the reader, or away."""
+
+
+def flat(p: Vec) -> Point:
+    """A place as the picture has it, y up."""
+    return (dot(p, RIGHT), dot(p, UP))
+
+
+class Sketch(NamedTuple):
+    """A case in space in a view."""
+
+    scene: InSpace
+    view: View
+
+    def at(self, p: Vec) -> Point:
+        """A place in the picture."""
+        return self.view.at(flat(p))
+
+
+def space_marks(known: Known) -> tuple[Sketch, list[Mark]]:
+    """The figure of a case in space."""
+    scene = in_space(known)
+    used = [p for link in scene.case.links for p in scene.carried(link)]
+    points = [flat(p) for p in (*used, *(q for ring in _rings(scene).values() for q in ring))]
+    extent = max((math.dist(p, q) for p in points for q in points), default=0.0)
+    sketch = Sketch(scene, view_of([(*p, *p) for p in points], (), extent))
+    solid = joined([_outline(sketch, link) for link in _moving(scene)] or [shapely.Polygon()])
+    parts = [*(_link(sketch, link) for link in _moving(scene))]
+    parts += [part for tie in scene.ties for part in _joint(sketch, tie)]
+    parts += [_load(sketch, push, solid, n) for n, push in enumerate(scene.loads)]
+    parts += _letters(sketch)
+    marks = with_labels(together(parts), sketch.view.window)
+    return sketch, [*marks, _triad(bounds(marks))]
+
+
+def _moving(scene: InSpace) -> list[str]:
+    return [link for link in scene.case.links if link != scene.case.ground]
+
+
+def _rings(scene: InSpace) -> dict[tuple[str, int], list[Vec]]:
+    """The pitch circles of gears, by link and number."""
+    rings = {}
+    for n, tie in enumerate(scene.ties):
+        mesh = tie.mesh
+        centres: tuple[str, ...] = getattr(tie.joint, "centres", ())
+        if mesh is None or any(c not in scene.places for c in centres):
+            continue
+        for link, centre, radius in zip(tie.joint.links, centres, mesh.radii, strict=False):
+            rings[(link, n)] = _circle(scene.places[centre], mesh.axis, radius)
+    return rings
+
+
+def _circle(centre: Vec, axis: Vec, radius: float) -> list[Vec]:
+    first = cross(axis, min(AXES, key=lambda e: abs(dot(e, axis))))
+    first = times(1.0 / size(first), first)
+    second = cross(axis, first)
+    angles = (2.0 * math.pi * k / 48 for k in range(48))
+    return [
+        add(centre, add(times(radius * math.cos(a), first), times(radius * math.sin(a), second)))
+        for a in angles
+    ]
+
+
+def _axis(scene: InSpace, link: str) -> tuple[Vec, Vec] | None:
+    """A point and the direction of the line of a link's bearings or hinge."""
+    for tie in scene.ties:
+        if link in (tie.by, tie.on) and not tie.mesh and size(tie.axis) > 0.5:
+            return scene.at(tie), tie.axis
+    return None
+
+
+def _bones(scene: InSpace, link: str) -> list[tuple[Vec, Vec]]:
+    """The lines of a link's members: its shaft, and arms from there to its other points."""
+    points = scene.carried(link)
+    line = _axis(scene, link)
+    if line is None:
+        return list(pairwise(points))
+    start, axis = line
+    feet = [add(start, times(dot(sub(p, start), axis), axis)) for p in points]
+    heights = sorted((dot(sub(foot, start), axis), foot) for foot in feet)
+    bones = [(heights[0][1], heights[-1][1])] if heights[-1][0] - heights[0][0] > 0.0 else []
+    return [
+        *bones,
+        *((foot, p) for foot, p in zip(feet, points, strict=True) if size(sub(foot, p)) > 1e-9 * size(p)),
+    ]
+
+
+def _outline(sketch: Sketch, link: str) -> shapely.Geometry:
+    shapes = [bar([sketch.at(a), sketch.at(b)], HALF) for a, b in _bones(sketch.scene, link)]
+    if _axis(sketch.scene, link) is None and len(sketch.scene.carried(link)) > 2:
+        shapes = [plate([sketch.at(p) for p in sketch.scene.carried(link)], HALF)]
+    return joined(shapes) if shapes else shapely.Polygon()
+
+
+def _link(sketch: Sketch, link: str) -> Part:
+    shape = _outline(sketch, link)
+    wheels = [ring for (owner, _), ring in _rings(sketch.scene).items() if owner == link]
+    marks: list[Mark] = [Area((tuple(sketch.at(p) for p in ring),), "wheel") for ring in wheels]
+    marks += [] if shape.is_empty else [area(shape, "body")]
+    soft = [] if shape.is_empty else [Soft(shape, 1.6)]
+    soft += [Soft(shapely.LinearRing([sketch.at(p) for p in ring]), 1.5) for ring in wheels]
+    bones = [(sketch.at(a), sketch.at(b)) for a, b in _bones(sketch.scene, link)]
+    anchors = [((a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0) for a, b in bones]
+    anchors += [sketch.at(p) for p in sketch.scene.carried(link)]
+    group = Group(f"link-{link}", "", tuple(marks), f"link {link}")
+    label = Label(f"number-{link}", (Run(link),), "t-link", 12.0, tuple(anchors[:8]), 10.0, badge=True)
+    return Part((group,) if marks else (), tuple(soft), (), (label,) if anchors else ())
+
+
+def _joint(sketch: Sketch, tie: Tie) -> Iterable[Part]:
+    """A bearing as a sleeve along its axis, a ball as a ring, a weld as a square; the frame's are hatched."""
+    if tie.mesh is not None:
+        return
+    p, name = sketch.at(sketch.scene.at(tie)), f"joint-{kind_of(tie.joint)}-{tie.where}-{tie.by}-{tie.on}"
+    u = _seen(tie.axis)
+    if size(tie.axis) > 0.5:
+        symbol: Mark = area(tilted(p, unit(*u), max(24.0 * math.hypot(*u), 12.0), 17.0), "block")
+    elif kind_of(tie.joint) == "weld":
+        symbol = area(shapely.box(p[0] - 4.0, p[1] - 4.0, p[0] + 4.0, p[1] + 4.0), "pin")
+    else:
+        symbol = Disc(p, PIN, "pin")
+    marks: list[Mark] = [symbol]
+    soft: list[Soft] = []
+    if sketch.scene.case.ground in (tie.by, tie.on):
+        ends = (p[0] - 15.0, p[1] + 12.0), (p[0] + 15.0, p[1] + 12.0)
+        marks += hatched(ends[0], ends[1], 1.0)
+        soft.append(Soft(shapely.box(p[0] - 15.0, p[1] + 8.0, p[0] + 15.0, p[1] + 20.0), 1.5))
+    yield Part(
+        (Group(name, "", tuple(marks), f"{kind_of(tie.joint)} of {tie.by} and {tie.on}"),),
+        tuple(soft),
+        (around(p, 8.0),),
+    )
+
+
+def _seen(direction: Vec) -> Point:
+    """A direction in the picture (y down), shorter as it points at the reader."""
+    x, y = flat(direction)
+    return (x, -y)
+
+
+def _load(sketch: Sketch, push: Push, solid: shapely.Geometry, n: int) -> Part:
+    kind = "unknown" if push.unknown else "known"
+    sign = -1.0 if (push.value or 0.0) < 0.0 else 1.0
+    at = _acts_at(sketch, push)
+    value = "?" if push.value is None else quantity(abs(push.value), push.unit)
+    runs = (*name_runs(push.name), Run(f" = {value}"))
+    marks, far = _vector(at, times(sign, push.direction), ARROW, kind, solid, double=push.at is None)
+    soft = (_along_arrow(at, far),)
+    label = Label(f"label-{push.name}", runs, f"t-{kind}", 14.0, (far, at), 7.0)
+    return Part((Group(f"load-{push.name}", "", marks, plain_text(runs)),), soft, (), (label,))
+
+
+def _along_arrow(at: Point, far: Point) -> Soft:
+    """The room of an arrow, and a little beyond its end."""
+    shape = shapely.Point(at) if at == far else shapely.LineString([at, far])
+    return Soft(shape.buffer(9.0, quad_segs=1), 4.0)
+
+
+def _acts_at(sketch: Sketch, push: Push) -> Point:
+    if push.at is not None:
+        return sketch.at(push.at)
+    line = _axis(sketch.scene, push.link)
+    carried = sketch.scene.carried(push.link)
+    if line is not None:
+        ends = [sketch.at(b) for _, b in _bones(sketch.scene, push.link)[:1]]
+        return ends[0] if ends else sketch.at(line[0])
+    return sketch.at(carried[0]) if carried else (0.0, 0.0)
+
+
+def _vector(
+    at: Point, direction: Vec, length: float, kind: str, solid: shapely.Geometry, *, double: bool = False
+) -> tuple[tuple[Mark, ...], Point]:
+    """An arrow from or onto a point, and its far end; one that points at the reader is a dot in a ring."""
+    seen = _seen(direction)
+    share = math.hypot(*seen)
+    if share < EDGE_ON:
+        toward = dot(direction, cross(RIGHT, UP)) > 0.0
+        inner: list[Mark] = [Disc(at, 2.0, f"{kind}-head")]
+        if not toward:
+            inner = [Stroke(((at[0] - 5, at[1] - 5), (at[0] + 5, at[1] + 5)), kind)]
+            inner.append(Stroke(((at[0] - 5, at[1] + 5), (at[0] + 5, at[1] - 5)), kind))
+        return (Disc(at, 8.0, kind), *inner), at
+    u = unit(*seen)
+    reach = max(length * share, LEAST)
+    ways = [(along(at, u, -8.0 - reach), along(at, u, -8.0)), (along(at, u, 8.0), along(at, u, 8.0 + reach))]
+    tail, tip = min(
+        ways,
+        key=lambda w: float(shapely.area(shapely.intersection(shapely.LineString(w).buffer(6.0), solid))),
+    )
+    marks = arrow(tail, tip, kind)
+    if double:
+        marks = (*marks, head(along(tip, u, -9.0), u, f"{kind}-head"))
+    return marks, max((tail, tip), key=lambda p: math.dist(p, at))
+
+
+def _letters(sketch: Sketch) -> list[Part]:
+    """The names of the points that links carry."""
+    scene = sketch.scene
+    used = {p for link in scene.case.links for p in scene.carried(link)}
+    jointed = {tie.where for tie in scene.ties if not tie.mesh}
+    parts = []
+    for name, place in scene.places.items():
+        if place in used and not name.startswith("@"):
+            p = sketch.at(place)
+            label = Label(
+                f"point-{name}", name_runs(name), "t-point", 15.0, (p,), 9.0 if name in jointed else 5.0
+            )
+            dot_mark = () if name in jointed else (Disc(p, 2.2, "dot"),)
+            parts.append(Part(dot_mark, (), (around(p, 2.6),), (label,)))
+    return parts
+
+
+def _triad(box: Box) -> Group:
+    """The directions of the axes, at the lower left of the figure."""
+    origin = (box[0] + 8.0, box[3] + 56.0)
+    marks: list[Mark] = []
+    for name, axis in zip("xyz", AXES, strict=True):
+        u = _seen(axis)
+        tip = (origin[0] + 34.0 * u[0], origin[1] + 34.0 * u[1])
+        marks += arrow(origin, tip, "far", 7.0)
+        marks.append(Text(along(tip, unit(*u), 9.0), (Run(name),), "t-note", 12.0))
+    return Group("axes", "", tuple(marks), "the axes")
+
+
+def space_panels(known: Known, sketch: Sketch, left: float, top: float, width: float) -> list[Mark]:
+    """Every link by itself with the forces and couples on it, forces to one scale."""
+    from icsolve.draw.bodies import GAP, rows_of
+
+    spatial = known.answer.spatial if known.answer is not None else None
+    if spatial is None:
+        return []
+    pushes = {link: list(_pushes(sketch, known, link)) for link in _moving(sketch.scene)}
+    largest = max((size(f) for some in pushes.values() for _, _, f, _, _ in some), default=0.0) or 1.0
+    panels = [_panel(sketch, link, some, largest) for link, some in pushes.items()]
+    title = Text((left, top + 4.0), (Run("Free bodies, forces to one scale"),), "t-note", 12.5, "start")
+    return [title, *rows_of(panels, left, top + GAP, width)]
+
+
+On = tuple[str, tuple[Run, ...], Vec, Vec, tuple[str, Vec]]
+
+
+def _pushes(sketch: Sketch, known: Known, link: str) -> Iterable[On]:
+    """Name, words, force, couple, and kind with place, of all that acts on a link."""
+    assert known.answer is not None and known.answer.spatial is not None
+    units = known.case.units
+    for name, reaction in known.answer.spatial.reactions.items():
+        if link not in (reaction.by, reaction.on):
+            continue
+        r = reaction if reaction.on == link else reaction.reversed()
+        low = force_runs(name, r.by, r.on, r.where)
+        words = "?" if r.magnitude is None else quantity(r.magnitude, units.force)
+        force = (r.force[0] or 0.0, r.force[1] or 0.0, r.force[2] or 0.0)
+        couple = (r.couple[0] or 0.0, r.couple[1] or 0.0, r.couple[2] or 0.0)
+        text: tuple[Run, ...] = (*low, Run(f" = {words}"))
+        if r.moment:
+            text = (*text, Run(f", M = {quantity(r.moment, units.torque)}"))
+        yield f"reaction-{name}-on-{r.on}", text, force, couple, ("reaction", r.at)
+    for push in sketch.scene.loads:
+        if link in (push.link, push.against):
+            sign = 1.0 if link == push.link else -1.0
+            runs = (
+                *name_runs(push.name),
+                Run(" = ?" if push.value is None else f" = {quantity(abs(push.value), push.unit)}"),
+            )
+            carried = sketch.scene.carried(link)
+            place = push.at or (carried[0] if carried else (0.0, 0.0, 0.0))
+            kind = "unknown" if push.unknown else "known"
+            yield (
+                f"body-load-{push.name}-on-{link}",
+                runs,
+                times(sign, push.force),
+                times(sign, push.couple),
+                (kind, place),
+            )
+
+
+def _panel(sketch: Sketch, link: str, pushes: Sequence[On], largest: float) -> list[Mark]:
+    part = _link(sketch, link)
+    solid = _outline(sketch, link)
+    parts = [part]
+    for name, words, force, couple, (kind, place) in pushes:
+        at = sketch.at(place)
+        marks: tuple[Mark, ...] = ()
+        far, soft = at, []
+        if size(force) > 1e-9 * largest:
+            direction = times(1.0 / size(force), force)
+            marks, far = _vector(at, direction, ARROW * size(force) / largest, kind, solid)
+            soft.append(_along_arrow(at, far))
+        if size(couple):
+            more, end = _vector(at, times(1.0 / size(couple), couple), 0.6 * ARROW, kind, solid, double=True)
+            marks, far = (*marks, *more), (far if far != at else end)
+            soft.append(_along_arrow(at, end))
+        label = Label(f"label-{name}", words, f"t-{kind}", 12.5, (far, at), 7.0)
+        group = (Group(name, "", marks, plain_text(words)),) if marks else ()
+        parts.append(Part(group, tuple(soft), (around(at, 2.8),), (label,)))
+    window = bounds(together(parts).marks)
+    found = [_renamed(link, mark) for mark in with_labels(together(parts), window)]
+    return [moved(Group(f"body-{link}", "", tuple(found), f"link {link} by itself"), 0.0, 0.0)]
+
+
+def _renamed(link: str, mark: Mark) -> Mark:
+    own = ("reaction-", "body-", "label-reaction", "label-body")
+    if isinstance(mark, Group) and mark.name and not mark.name.startswith(own):
+        return mark._replace(name=f"free-{link}-{mark.name}")
+    return mark

@@ -1,0 +1,41 @@
+"""The worked solution of a case, as a textbook has it: given and asked, the centres, the ratios of speeds,
+the equation of power, the answer, its check by free bodies. As text, Markdown with LaTeX, or HTML."""
+
+from __future__ import annotations
+
+from icsolve.case import Case
+from icsolve.construction import Known, known_of
+from icsolve.explain.solution import solution
+
+FORMATS = ("text", "md", "html")
+
+
+def explain(
+    case: Case, form: str = "text", digits: int = 6, *, bodies: bool = False, known: Known | None = None
+) -> str:
+    """The worked solution of a case; one without an answer is explained as far as it goes, with the reason.
+
+    Parameters
+    ----------
+    form : ``text``, ``md`` or ``html``
+    digits : significant digits of the numbers shown
+    bodies : the three equations of every link, and the reactions, too
+    known : what is known of the case, where that was found before (with reactions, for the check)
+    """
+    known = known or known_of(case, reactions=True)
+    document = solution(known, digits, bodies=bodies)
+    if form == "text":
+        from icsolve.explain.as_text import text_of
+
+        return text_of(document)
+    if form == "md":
+        from icsolve.explain.as_markdown import markdown_of
+
+        return markdown_of(document)
+    from icsolve.draw import Drawing, draw
+    from icsolve.explain.as_html import html_of
+
+    return html_of(document, draw(case, Drawing(bodies=bodies, captions=False), known))
+
+
+__all__ = ["FORMATS", "explain"]

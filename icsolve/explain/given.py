@@ -1,0 +1,185 @@
+"""What a problem gives, and what it asks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from icsolve.case import (
+    Belt,
+    Case,
+    Contact,
+    Coordinates,
+    Force,
+    ForceVector,
+    Gears,
+    Joint,
+    KnownCentre,
+    Like,
+    Load,
+    Number,
+    Pin,
+    Roll,
+    Slide,
+    Slope,
+    Slot,
+    Spring,
+    Torque,
+    Toward,
+    Weight,
+    Weld,
+)
+from icsolve.construction import Known
+from icsolve.explain.document import Block, Inline, Items, Section, Table, words
+from icsolve.explain.numbers import Figures, load_name, point_words
+from icsolve.power import is_unknown, reacting
+from icsolve.sentences import listed
+
+
+def given_section(known: Known, figures: Figures) -> Section:
+    """Links and joints, the points, the loads, and the question."""
+    case = known.case
+    others = [link for link in case.links if link != case.ground]
+    blocks: list[Block] = [
+        words(f"The frame is link {case.ground}; link{_s(others)} {listed(others)} move{_verb(others)}.")
+    ]
+    blocks.append(Items(tuple((joint_words(joint),) for joint in case.joints)))
+    blocks += _points(known, figures)
+    known_loads = [load for load in case.loads if not is_unknown(load)]
+    if known_loads:
+        blocks.append(words("Loads:"))
+        blocks.append(Items(tuple(_load(known, figures, load) for load in known_loads)))
+    blocks += [words(*_motion(m.link, m.point, m.speed and m.speed.digits, m.turns)) for m in case.motion]
+    return Section("Given", tuple(blocks))
+
+
+def asked_section(known: Known, figures: Figures) -> Section:
+    """What is to be found."""
+    case = known.case
+    unknown = [load for load in case.loads if is_unknown(load)]
+    if not unknown:
+        return Section("Asked", (words("The instant centres, and how fast the links move."),))
+    entries = tuple(_load(known, figures, load) for load in unknown)
+    count = "is the load that holds" if len(unknown) == 1 else "are the loads that hold"
+    return Section(
+        "Asked", (words(f"What {count} the mechanism in equilibrium in this position?"), Items(entries))
+    )
+
+
+def _s(items: list[str]) -> str:
+    return "" if len(items) == 1 else "s"
+
+
+def _verb(items: list[str]) -> str:
+    return "s" if len(items) == 1 else ""
+
+
+def joint_words(joint: Joint) -> str:
+    """A joint in words."""
+    links = listed(joint.links)
+    at = getattr(joint, "at", None)
+    where = f" at {at}" if at and not at.startswith("@") else ""
+    match joint:
+        case Pin():
+            return f"a pin joins links {links}{where}"
+        case Slide():
+            return f"link {joint.links[0]} slides on link {joint.links[1]}{where}{_along(joint)}"
+        case Slot():
+            pin, slot = joint.links
+            return f"a pin of link {pin} runs in a slot of link {slot}{where}{_along(joint)}"
+        case Roll():
+            return f"links {links} roll on each other without slip{where}"
+        case Gears():
+            teeth = " and ".join(n.digits.lstrip("-") for n in joint.teeth)
+            kind = ", internal" if any(n.value < 0 for n in joint.teeth) else ""
+            return f"links {links} are gears with {teeth} teeth{kind}"
+        case Belt():
+            return f"a {'crossed ' if joint.crossed else ''}belt runs over links {links}"
+        case Contact():
+            return f"links {links} touch{where}, with the common normal at {joint.normal.digits} deg"
+        case KnownCentre():
+            return f"the centre of links {links} is known"
+        case Weld():
+            return f"links {links} are welded together{where}"
+
+
+def _along(joint: Slide | Slot) -> str:
+    guide = joint.guide
+    if guide.angle is not None:
+        return f", along {guide.angle.digits} deg"
+    assert guide.ends is not None
+    return (
+        f", along {guide.ends[0]}{guide.ends[1]}"
+        if all(len(e) == 1 for e in guide.ends)
+        else (f", along {guide.ends[0]}-{guide.ends[1]}")
+    )
+
+
+def _points(known: Known, figures: Figures) -> list[Block]:
+    """A table of the points: those that the case gives by coordinates, and those that follow."""
+    rows = []
+    order = dict.fromkeys((*known.case.points, *known.points))
+    for name in order:
+        if name.startswith("@") or name not in known.points:
+            continue
+        place = known.points[name]
+        data = known.case.points.get(name)
+        given = isinstance(data, Coordinates) and None not in data
+        x, y = (figures.length(c).digits for c in place)
+        rows.append(((name,), (x,), (y,), ("given" if given else "from the figure's data",)))
+    unit = known.case.units.length
+    return [Table(("point", f"x, {unit}", f"y, {unit}", ""), tuple(rows))] if rows else []
+
+
+def _load(known: Known, figures: Figures, load: Load) -> tuple[Inline, ...]:
+    """A load as a sentence."""
+    case = known.case
+    against = reacting(case, load)
+    between = "" if against == case.ground else f", against link {against}"
+    at = getattr(load, "at", "")
+    where = f" at {at}" if at else ""
+    if at.startswith("@"):
+        where = f" at {point_words(figures, known.points[at])}" if at in known.points else ""
+    return (
+        load_name(load.name),
+        f": {_kind(case, load)} on link {load.link}{where}{_heading(load)}{between}",
+    )
+
+
+def _kind(case: Case, load: Load) -> str:
+    """What a load is, with its number where it has one."""
+    if isinstance(load, ForceVector):
+        return f"a force ({load.x.digits}, {load.y.digits}) {case.units.force}"
+    unit = {Torque: case.units.torque, Spring: f"{case.units.force}/{case.units.length}"}.get(
+        type(load), case.units.force
+    )
+    kind = {Force: "force", Torque: "torque", Spring: "spring", Weight: "weight"}[type(load)]
+    if isinstance(load, Weight) and load.mass:
+        kind, unit = "mass", "kg"
+    if load.value is None:
+        return "the stiffness of a spring" if isinstance(load, Spring) else f"the {kind}"
+    if isinstance(load.value, Like):
+        times = "" if load.value.times is None else f"{load.value.times.digits} times "
+        return f"a {kind}, {times}as large as {load.value.load},"
+    return f"a {kind} of {load.value.value:.6g} {unit}"
+
+
+def _heading(load: Load) -> str:
+    if isinstance(load, Torque):
+        return ", counterclockwise" if load.turns == "ccw" else ", clockwise"
+    if isinstance(load, Spring):
+        end = "a fixed point" if load.to.startswith("@") else load.to
+        return f" to {end}, free length {load.free.value:.6g}"
+    if not isinstance(load, Force):
+        return ""
+    match load.heading:
+        case Toward(point, away):
+            return f", {'away from' if away else 'toward'} {point}"
+        case Slope(run, rise):
+            return f", with slope {run.digits} : {rise.digits}"
+        case Number(digits=digits):
+            return f", at {digits} deg"
+
+
+def _motion(link: str, point: str | None, speed: str | None, turns: str | None) -> Iterable[Inline]:
+    what = f"Point {point} of link {link} moves" if point else f"Link {link} turns"
+    yield what + (f" at {speed}" if speed else "") + (f", {turns}" if turns else "") + "."

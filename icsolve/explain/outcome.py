@@ -1,0 +1,125 @@
+"""The answer in words, its check by free bodies, the rates where they are asked, and what was left out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from icsolve.answer import Found
+from icsolve.case import Torque
+from icsolve.construction import Known
+from icsolve.construction.words import SENSES, range_words
+from icsolve.explain.document import Block, Inline, Items, Section, Table, words
+from icsolve.explain.formula import Name, Quotient
+from icsolve.explain.numbers import Figures, load_name, rate_name
+
+
+def answer_section(known: Known, figures: Figures) -> Iterable[Section]:
+    """Each unknown with its unit and sense in words, and the mechanical advantage."""
+    answer = known.answer
+    if answer is None:
+        return
+    if answer.answers:
+        entries = tuple(_found(known, figures, name, found) for name, found in answer.answers.items())
+        blocks: list[Block] = [Items(entries)]
+        blocks += _advantage(known, figures)
+        yield Section("Answer", tuple(blocks))
+    elif known.whole is not None:
+        yield from rates_section(known, figures)
+
+
+def _found(known: Known, figures: Figures, name: str, found: Found) -> tuple[Inline, ...]:
+    if found.holds is not None:
+        return (load_name(name), f" {range_words(found, lambda value: figures.number(value).digits)}.")
+    sense = SENSES.get(found.sense, found.sense)
+    size = figures.quantity(abs(found.value), found.unit)
+    said = f", {sense}" if sense else ""
+    load = next((load for load in known.case.loads if load.name == name), None)
+    if found.value < 0.0 and not isinstance(load, Torque):
+        said += "; the minus in the equation says that it acts against the direction that the case gives"
+    elif found.value < 0.0:
+        said += "; the minus in the equation says that it turns against its positive sense"
+    return (load_name(name), " = ", size, f"{said}.")
+
+
+def _advantage(known: Known, figures: Figures) -> Iterable[Block]:
+    answer = known.answer
+    if answer is None or answer.advantage is None:
+        return
+    loads = [term.load for term in answer.terms if " " not in term.load]
+    top = next(iter(answer.answers))
+    bottom = next(name for name in loads if name not in answer.answers)
+    units = {term.load: term.unit for term in answer.terms}
+    kind = "The mechanical advantage" if units[top] == units[bottom] else "For one unit of the known load"
+    unit = "" if units[top] == units[bottom] else f"{units[top]} per {units[bottom]}"
+    ratio = Quotient(load_name(top), load_name(bottom))
+    yield words(f"{kind}: ", ratio, " = ", figures.quantity(answer.advantage, unit), ".")
+
+
+def rates_section(known: Known, figures: Figures) -> Iterable[Section]:
+    """How fast the links turn, and the points move."""
+    whole = known.whole
+    if whole is None or whole.rates is None:
+        return
+    timed = any(motion.speed is not None for motion in known.case.motion)
+    unit = "rad/s" if timed else "scaled"
+    rows: list[tuple[tuple[Inline, ...], ...]] = []
+    for link, rate in whole.rates.items():
+        value = f"left open: {rate}" if isinstance(rate, str) else figures.number(rate)
+        rows.append(((rate_name(link),), (value,)))
+    blocks: list[Block] = [
+        Table(("link", f"angular velocity, {unit}, counterclockwise positive"), tuple(rows))
+    ]
+    blocks += _velocities(known, figures, timed)
+    yield Section("Speeds", tuple(blocks))
+
+
+def _velocities(known: Known, figures: Figures, timed: bool) -> Iterable[Block]:
+    whole = known.whole
+    if whole is None or not whole.velocities:
+        return
+    unit = f"{known.case.units.length}/s" if timed else "scaled"
+    rows: list[tuple[tuple[Inline, ...], ...]] = []
+    for (point, link), v in whole.velocities.items():
+        if isinstance(v, str) or point.startswith("@"):
+            continue
+        rows.append(((f"{point} on {link}",), (figures.number(v[0]),), (figures.number(v[1]),)))
+    if rows:
+        yield Table(("point", f"x, {unit}", f"y, {unit}"), tuple(rows))
+
+
+def check_section(known: Known, figures: Figures) -> Iterable[Section]:
+    """The unknown loads a second time, by the equilibrium of every link."""
+    answer = known.answer
+    if answer is None or not answer.witnesses:
+        return
+    entries: list[tuple[Inline, ...]] = []
+    units = {name: found.unit for name, found in answer.answers.items()}
+    for w in answer.witnesses:
+        off = f"{abs(w.difference):.1g}"
+        entries.append((
+            load_name(w.load), " = ", figures.quantity(w.bodies, units.get(w.load, "")),
+            f" by free bodies alone; power gave the same but for {off}.",
+        ))  # fmt: skip
+    said = words("The equations of equilibrium of all links, without power or centres, give:")
+    yield Section("Check by free bodies", (said, Items(tuple(entries))))
+
+
+def left_out(known: Known) -> Iterable[Section]:
+    """Notes, and what the answer did not need."""
+    answer = known.answer
+    notes = () if answer is None else answer.notes
+    skipped = () if answer is None else answer.skipped
+    entries: list[tuple[Inline, ...]] = [(sentence(note),) for note in notes]
+    if skipped:
+        entries.append((f"Not examined, as the answer does not need it: {'; '.join(skipped)}.",))
+    if entries:
+        yield Section("Remarks", (Items(tuple(entries)),))
+
+
+def sentence(text: str) -> str:
+    """With a capital and a full stop."""
+    text = text[:1].upper() + text[1:]
+    return text if text.endswith((".", "!", "?")) else f"{text}."
+
+
+__all__ = ["Name", "answer_section", "check_section", "left_out", "rates_section", "sentence"]

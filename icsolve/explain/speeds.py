@@ -1,0 +1,141 @@
+"""The ratios of speeds that an answer needs, each with its distances."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+
+from icsolve.construction import Known, Ratio, Ratios
+from icsolve.explain.document import Block, Section, formula, words
+from icsolve.explain.formula import Expr, Name, Num, Quotient, Root, Span, Square, Sum, Trig, minus
+from icsolve.explain.numbers import Figures, centre_name, rate_name, speed_name
+
+
+def ratio_section(known: Known, figures: Figures, ratios: Ratios) -> Section | None:
+    """How the other links move beside the reference; None where nothing follows."""
+    blocks = [block for ratio in ratios.ratios for block in _blocks(known, figures, ratios, ratio)]
+    blocks += _carried(figures, ratios)
+    return Section("Ratios of the speeds", tuple(blocks)) if blocks else None
+
+
+def motion_name(known: Known, link: str) -> Name:
+    """The rate of a link that turns, the speed of one that slides."""
+    return rate_name(link) if known.turns(link) else speed_name(link)
+
+
+def _blocks(known: Known, figures: Figures, ratios: Ratios, ratio: Ratio) -> Iterable[Block]:
+    own, other, common = (centre_name(known, pair) for pair in ratio.pairs)
+    left = Quotient(motion_name(known, ratio.link), motion_name(known, ratio.of))
+    value = figures.number(ratio.value)
+    match ratio.kind:
+        case "one":
+            yield words(f"Links {ratio.of} and {ratio.link} are welded: they move as one.")
+        case "alike":
+            yield words("", common, f" is at infinity: links {ratio.of} and {ratio.link} turn alike.")
+            yield formula(left, value)
+        case "turns":
+            yield words(
+                "",
+                common,
+                f" is a point of links {ratio.of} and {ratio.link}, with one velocity; {_sense(ratio)}.",
+            )
+            yield from _distances(known, figures, (own, common, other), ratio)
+            spans: Expr = Quotient(Span(own, common), Span(other, common))
+            numbers = Quotient(*(_measured(known, figures, ratio, n) for n in (0, 1)))
+            yield formula(left, _signed(spans, ratio), _signed(numbers, ratio), value)
+        case "slides":
+            yield words(
+                f"Link {ratio.link} slides, so all of it moves as ",
+                common,
+                f" does: {_heading(figures, ratios, ratio.link)}.",
+            )
+            yield from _distances(known, figures, (own, common), ratio)
+            yield formula(left, _signed(Span(own, common), ratio), figures.distance(ratio.value))
+        case "drives":
+            yield words(
+                "",
+                common,
+                f" of link {ratio.link} moves as link {ratio.of}: {_heading(figures, ratios, ratio.of)}.",
+            )
+            yield from _distances(known, figures, (other, common), ratio)
+            spans = Quotient(Num("1"), Span(other, common))
+            numbers = Quotient(Num("1"), _measured(known, figures, ratio, 1))
+            yield formula(left, _signed(spans, ratio), _signed(numbers, ratio), value)
+        case "glides":
+            yield from _gliding(known, figures, ratios, ratio, left)
+
+
+def _measured(known: Known, figures: Figures, ratio: Ratio, n: int) -> Num:
+    """The distance of the common centre from that of the other link (0) or of the link (1) with the frame."""
+    return figures.number(math.dist(place(known, ratio.pairs[n]), place(known, ratio.pairs[2])))
+
+
+def _sense(ratio: Ratio) -> str:
+    if ratio.value > 0.0:
+        return "it lies outside the other two centres, so both turn in one sense"
+    return "it lies between the other two centres, so they turn in opposite senses"
+
+
+def _heading(figures: Figures, ratios: Ratios, link: str) -> str:
+    heading = figures.number(ratios.headings[link]).digits
+    return f"at {heading} deg where the speed of link {ratios.reference} is positive"
+
+
+def _signed(expression: Expr, ratio: Ratio) -> Expr:
+    return minus(expression) if ratio.value < 0.0 else expression
+
+
+def _distances(known: Known, figures: Figures, names: tuple[Name, ...], ratio: Ratio) -> Iterable[Block]:
+    """The distance of the common centre from each of the others, from the coordinates."""
+    pairs = dict(zip((centre_name(known, pair) for pair in ratio.pairs), ratio.pairs, strict=True))
+    common = names[1]
+    for end in (names[0], *names[2:]):
+        a, b = place(known, pairs[end]), place(known, pairs[common])
+        yield formula(Span(end, common), distance(figures, a, b), figures.distance(math.dist(a, b)))
+
+
+def place(known: Known, pair: tuple[str, str]) -> tuple[float, float]:
+    """Coordinates of a finite centre."""
+    centre = known.centre(*pair)
+    assert centre is not None and centre.kind == "at"
+    return (centre.place[0], centre.place[1])
+
+
+def distance(figures: Figures, a: tuple[float, float], b: tuple[float, float]) -> Expr:
+    """The root of the squares of the differences."""
+    squares = tuple((1, Square(difference(figures, q, p))) for p, q in zip(a, b, strict=True))
+    return Root(Sum(squares))
+
+
+def difference(figures: Figures, to: float, start: float) -> Expr:
+    """One coordinate less another."""
+    return Sum(((1, figures.length(to)), (-1, figures.length(start))))
+
+
+def _gliding(known: Known, figures: Figures, ratios: Ratios, ratio: Ratio, left: Expr) -> Iterable[Block]:
+    """Two translations: their parts across the direction in which one slides on the other are equal."""
+    centre = known.centre(*ratio.pairs[2])
+    assert centre is not None
+    along = (centre.place[0] + 90.0) % 180.0
+    headings = [ratios.headings[link] for link in (ratio.of, ratio.link)]
+    yield words(
+        f"Link {ratio.of} slides at {figures.number(headings[0]).digits} deg, link {ratio.link} at "
+        f"{figures.number(headings[1]).digits} deg, and each on the other along "
+        f"{figures.number(along).digits} deg: "
+        "across that direction they move alike."
+    )
+    sines = [Trig("sin", Sum(((1, figures.number(h)), (-1, figures.number(along))))) for h in headings]
+    yield formula(left, Quotient(sines[0], sines[1]), figures.number(ratio.value))
+
+
+def _carried(figures: Figures, ratios: Ratios) -> Iterable[Block]:
+    """Ratios to the reference where they follow in several steps."""
+    values: Mapping[str, Ratio] = {ratio.link: ratio for ratio in ratios.ratios}
+    for ratio in ratios.ratios:
+        if ratio.of == ratios.reference or values[ratio.of].kind == "one":
+            continue
+        yield words(
+            f"So where link {ratios.reference} has 1, link {ratio.link} has "
+            f"{figures.number(ratios.rates[ratio.of]).digits} x {figures.number(ratio.value).digits} = "
+            f"{figures.number(ratios.rates[ratio.link]).digits}."
+        )
