@@ -267,6 +267,27 @@ def test_one_students_text_of_answers(a_class: Class) -> None:
     assert [(r["student_id"], r["verdict"]) for r in table.rows()] == [("ann", "right")]
 
 
+def test_gradescopes_export_of_what_each_student_handed_in(a_class: Class) -> None:
+    export = a_class.path("assignment_77_export")
+    for number, text in (("1", "lever: 200\n"), ("2", "case,answer\nlever,-200\n"), ("3", "")):
+        (export / f"submission_{number}").mkdir(parents=True)
+        name = "answers.csv" if "," in text else "answers.txt"
+        if text:
+            (export / f"submission_{number}" / name).write_text(text)
+    who = "".join(
+        f"submission_{n}:\n  :submitters:\n  - :name: {name}\n    :sid: '{sid}'\n    :email: {name}@x.test\n"
+        for n, name, sid in ((1, "Ann", "007"), (2, "Bob", ""), (3, "Cy", "009"))
+    )
+    (export / "submission_metadata.yml").write_text(who)
+    ran = a_class.run("grade", str(export), "--cases", str(a_class.path("cases")), "-o", "-", "-q")
+    assert [(r["student_id"], r["verdict"]) for r in ran.rows()] == [
+        ("007", "right"),
+        ("Bob@x.test", "wrong"),
+    ]
+    (export / "submission_metadata.yml").write_text("a: [\n")
+    assert a_class.run("grade", str(export), "--cases", str(a_class.path("cases"))).code == 2
+
+
 def test_each_student_is_judged_by_the_key_of_their_own_variant(a_class: Class) -> None:
     a_class.case("press", PRESS)
     roster = a_class.file("roster.csv", "student_id\n" + "".join(f"{n:02d}\n" for n in range(12)))

@@ -11,6 +11,7 @@ from icsolve.grade.shelf import Shelf
 from icsolve.grade.store import Entry, Store
 from icsolve.grade.tables import Columns, HeaderError, Layout, Submission, Table, recognise
 from icsolve.grade.tables.alone import submissions
+from icsolve.grade.tables.submissions import METADATA, exported
 
 _LONGEST = 500
 """Characters of an answer that are kept; the reader takes far fewer."""
@@ -20,15 +21,11 @@ _LONGEST_NAME = 200
 class Intake:
     """Takes files in; remembers what questions were asked and who answered."""
 
-    def __init__(
-        self, store: Store, shelf: Shelf, ledger: Ledger, roster: Roster | None, student: str = ""
-    ) -> None:
+    def __init__(self, store: Store, shelf: Shelf, ledger: Ledger, roster: Roster | None) -> None:
         self.store = store
         self.shelf = shelf
         self.ledger = ledger
         self.roster = roster
-        self.student = student
-        """whose all answers are; '' where the files say"""
         self.questions: dict[str, None] = {}
         self.columns: set[str] = set()
         """questions with a column of their own"""
@@ -38,18 +35,22 @@ class Intake:
         self._people: dict[tuple[str, ...], str] = {}
         self._path = ""
 
-    def read(self, path: str, mapping: Iterable[tuple[str, str]]) -> None:
-        """Take in one file.
+    def read(self, path: str, mapping: Iterable[tuple[str, str]], student: str = "") -> None:
+        """Take in one file; all of it is of ``student``, if one is given.
 
         Raises HeaderError or ValueError where the file can't be used, with a sentence; OSError.
         """
         self._path = path
+        if student and not os.path.isfile(path):
+            self._matched((student,))
+            self.ledger.note(path, 0, f"{student} handed in no file of answers")
+            return
         with open(path, "rb") as file:
             table = Table(file, lambda line, why: self.ledger.note(path, line, why))
             columns = Columns(table.header, mapping, self.shelf.find)
             entries: Iterator[Entry]
-            if self.student:
-                entries = map(self._entry, submissions(table, columns, self.student))
+            if student:
+                entries = map(self._entry, submissions(table, columns, student))
             else:
                 layout = recognise(columns)
                 for note in layout.notes:
@@ -132,13 +133,18 @@ class Intake:
         return found
 
 
-def expand(paths: Iterable[str]) -> list[str]:
-    """Files, and the CSV files of folders, in order."""
-    found: list[str] = []
+def expand(paths: Iterable[str]) -> list[tuple[str, str]]:
+    """Files of answers in order, each with the student whose it is ('': it says so itself).
+
+    A folder stands for its CSV and text files; Gradescope's export for what each student handed in.
+    """
+    found: list[tuple[str, str]] = []
     for path in paths:
-        if os.path.isdir(path):
-            names = sorted(n for n in os.listdir(path) if n.lower().endswith((".csv", ".tsv", ".txt")))
-            found += [os.path.join(path, name) for name in names]
+        if not os.path.isdir(path):
+            found.append((path, ""))
+        elif os.path.isfile(os.path.join(path, METADATA)):
+            found += exported(path)
         else:
-            found.append(path)
+            names = sorted(n for n in os.listdir(path) if n.lower().endswith((".csv", ".tsv", ".txt")))
+            found += [(os.path.join(path, name), "") for name in names]
     return found

@@ -80,21 +80,27 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
     roster = read_roster(job.roster, lambda at, why: ledger.note(job.roster, at, why)) if job.roster else None
     store = Store()
     try:
-        intake = Intake(store, shelf, ledger, roster, job.student)
+        intake = Intake(store, shelf, ledger, roster)
         paths = expand(job.submissions)
-        for n, path in enumerate(paths):
+        for n, (path, student) in enumerate(paths):
             progress(f"reading {path}", n / len(paths))
-            intake.read(path, job.course.columns)
+            intake.read(path, job.course.columns, student or job.student)
         questions = tuple(sorted(set(job.course.questions) or _asked(intake)))
         students = sorted(set(intake.students) | set(roster.people if roster is not None else ()))
         parts = divided(questions, students, intake.count, job.jobs)
         if sinks.csv is not None:
             sinks.csv.write(HEADER + "\n")
-        work = Work(job.course, shelf, store, ", ".join(paths))
+        work = Work(job.course, shelf, store, _shown(paths))
         found = judged(parts, work, sinks, lambda n: progress("judging", n / intake.count))
     finally:
         store.close()
     return _graded(found, ledger, shelf, intake.count, len(students))
+
+
+def _shown(paths: list[tuple[str, str]]) -> str:
+    """The files of answers, for messages."""
+    names = [path for path, _ in paths]
+    return ", ".join(names) if len(names) < 4 else f"{names[0]} and {len(names) - 1} other files"
 
 
 def _graded(found: list[Outcome], ledger: Ledger, shelf: Shelf, rows: int, students: int) -> Graded:
