@@ -280,10 +280,9 @@ def test_gradescopes_export_of_what_each_student_handed_in(a_class: Class) -> No
     )
     (export / "submission_metadata.yml").write_text(who)
     ran = a_class.run("grade", str(export), "--cases", str(a_class.path("cases")), "-o", "-", "-q")
-    assert [(r["student_id"], r["verdict"]) for r in ran.rows()] == [
-        ("007", "right"),
-        ("Bob@x.test", "wrong"),
-    ]
+    verdicts = [(r["student_id"], r["verdict"]) for r in ran.rows()]
+    assert verdicts == [("007", "right"), ("009", "missing"), ("Bob@x.test", "wrong")]
+    assert "submission_3: 009 handed in no file of answers" in ran.err
     (export / "submission_metadata.yml").write_text("a: [\n")
     assert a_class.run("grade", str(export), "--cases", str(a_class.path("cases"))).code == 2
 
