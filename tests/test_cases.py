@@ -57,7 +57,10 @@ def case(request: pytest.FixtureRequest) -> Case:
 
 def test_published_values_agree_or_are_errata(case: Case) -> None:
     want = wanted(case)
-    rows = compare(solve(case, all_centres=want.all_centres, rates=want.rates, examine=True, reactions=want.reactions))
+    found = solve(
+        case, all_centres=want.all_centres, rates=want.rates, examine=True, reactions=want.reactions
+    )
+    rows = compare(found)
     assert rows
     assert [row for row in rows if row.verdict not in (AGREES, ERRATUM)] == []
 

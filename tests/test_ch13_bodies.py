@@ -104,7 +104,7 @@ def test_13_17_and_13_18_without_their_friction(name: str, free: str) -> None:
 
 
 def test_13_16_as_printed_has_the_slider_friction_along_its_slip() -> None:
-    """By hand, with the circles of radius 0.12: F cos(b) - mu |F sin(b)| ... = P with the slip turned round."""
+    """By hand, with the circles of radius 0.12: F cos(b) - mu |F sin(b)| = P with the slip turned."""
     answer = solved("13_16_slider_crank_with_friction")
     b, c = answer.points["B"], answer.points["C"]
     beta = math.atan2(c[1] - b[1], c[0] - b[0])

@@ -95,10 +95,11 @@ class Turned:
         if isinstance(along, list):
             a, b = (self.written[name] for name in along)
             return (b - a) / abs(b - a), self.written[joint.get("through", along[0])]
-        return complex(math.cos(math.radians(along)), math.sin(math.radians(along))), self.written[joint.get("through", at)]
+        heading = complex(math.cos(math.radians(along)), math.sin(math.radians(along)))
+        return heading, self.written[joint.get("through", at)]
 
     def wheels(self) -> float:
-        """The largest slip of gears and belts: degrees by which their turnings do not fit, seen from the carrier."""
+        """The largest slip of gears and belts: degrees by which their turnings do not fit."""
         worst = 0.0
         for joint in self.scene["joints"]:
             kind = next(iter(joint))
@@ -119,7 +120,7 @@ class Turned:
         return min(around[0] & around[1] - {a, b})
 
     def speeds(self, v: Array) -> float:
-        """The largest disagreement of differences from row to row (of the place of every point, of the angle of
+        """The largest disagreement of differences from row to row (of every point's place, of the angle of
         every link) with centres and rates, over the largest; rows an even step of ``v`` apart."""
         step = float(v[1] - v[0])
         frame = str(self.scene.get("ground", 1))
@@ -128,7 +129,8 @@ class Turned:
         rates = {link: self.sweep.rates[link][2:-2] for link in links}
         pace = _pace(turning, rates)
         largest = max(float(np.nanmax(np.abs(p))) for p in rates.values())
-        worst = max(float(np.nanmax(np.abs(turning[k] - pace * rates[k]) / (np.abs(pace) * largest))) for k in links)
+        gaps = (np.abs(turning[k] - pace * rates[k]) / (np.abs(pace) * largest) for k in links)
+        worst = max(float(np.nanmax(gap)) for gap in gaps)
         for link in links:
             x, y, w = self._centre(frame, link)
             for k in "ab":
