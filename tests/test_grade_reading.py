@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import math
 import re
 from fractions import Fraction
 from pathlib import Path
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from icsolve.grade.written import Reader
+from icsolve.grade.written.place import read_place
 
 CORPUS = Path(__file__).parent / "data" / "answers.tsv"
 
@@ -40,3 +44,78 @@ def test_an_answer_is_read_as_the_corpus_says(row: tuple[str, ...]) -> None:
     assert (read.unit.name if read.unit else "") == unit
     assert (read.direction.words if read.direction else "") == direction
     assert read.number == pytest.approx(float(Fraction(number)), rel=1e-15, abs=0.0)
+
+
+PIECES = st.sampled_from(
+    "412.7 412,7 1,234 1/3 10^2 e2 x × 10 - − + . , N kN lb·ft N*m in ft ° deg ccw cw down left at toward"
+    " A ( ) [ ] = : % √ pi T C to the x y above below axis \t \u2009 \u00a0 ½ ² ↓ → ± ~ { } \\ $ ^".split(" ")
+)
+
+
+JOINED = st.lists(PIECES, max_size=9)
+
+
+@given(st.one_of(st.text(max_size=60), JOINED.map("".join), JOINED.map(" ".join)))
+@settings(max_examples=600)
+def test_any_text_is_read_or_flagged(text: str) -> None:
+    """Nothing raises, and what is read is a finite number."""
+    read = Reader().read(text)
+    assert math.isfinite(read.number)
+    assert not read.flag or (read.unit is None and read.direction is None)
+    read_place(text)
+
+
+@given(
+    st.floats(1e-6, 1e9),
+    st.sampled_from(["", " N", "N", " kN·m", " lbf*in", " ft-lb", " rad/s"]),
+    st.sampled_from(["", " down", " (ccw)", " to the left", " at 30 deg"]),
+    st.sampled_from(["{:.6g}", "{:.4e}", "{:.3f}", "{!r}"]),
+)
+def test_a_number_is_read_as_it_is_written(value: float, unit: str, way: str, form: str) -> None:
+    text = form.format(value)
+    read = Reader().read(text + unit + way)
+    assert (read.flag, read.number) == ("", float(text))
+    assert bool(read.unit) == bool(unit)
+    assert bool(read.direction) == bool(way)
+    slow = Reader().slowly(text + unit + way)
+    assert slow._replace(digits="") == read._replace(digits="")
+
+
+@pytest.mark.parametrize(
+    ("text", "place"),
+    [
+        ("(0.9, 1.2)", (0.9, 1.2)),
+        ("[0.9, 1.2] m", (0.9, 1.2)),
+        ("0.9, 1.2", (0.9, 1.2)),
+        ("0.9 1.2", (0.9, 1.2)),
+        ("0,9; 1,2", (0.9, 1.2)),
+        ("x = -0.9, y = 1.2 in", (-0.9, 1.2)),
+        ("I24 = (−1.51, 0)", (-1.51, 0.0)),
+        ("(0.9 mm, 1.2 mm)", (0.9, 1.2)),
+        ("{9e-1, 1.2}", (0.9, 1.2)),
+    ],
+)
+def test_places(text: str, place: tuple[float, float]) -> None:
+    read = read_place(text)
+    assert (read.flag, read.x, read.y) == ("", *place)
+
+
+@pytest.mark.parametrize(
+    ("text", "flag"),
+    [
+        ("0,9, 1,2", "ambiguous-number"),
+        ("0.9", "unread"),
+        ("1 2 3", "two-values"),
+        ("here", "no-number"),
+        ("", "missing"),
+        ("(0.9 mm, 1.2 m)", "unread"),
+    ],
+)
+def test_what_is_no_place(text: str, flag: str) -> None:
+    assert read_place(text).flag == flag
+
+
+def test_places_at_infinity() -> None:
+    assert read_place("at infinity toward 90 deg").toward == 90.0
+    assert read_place("∞, 30°").toward == 30.0
+    assert math.isnan(read_place("infinity").toward or 0.0)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import random
 from pathlib import Path
 
 import pytest
@@ -280,3 +281,27 @@ def test_a_file_that_is_no_table_of_answers(a_class: Class, data: bytes, said: s
 
 def test_excels_own_first_line(a_class: Class) -> None:
     assert a_class.grade("sep=;\nstudent_id;case;answer\na;lever;200,0\n").row("a")["verdict"] == "right"
+
+
+def test_damaged_files_never_break_the_command(a_class: Class) -> None:
+    """A table with bytes changed, cut out and repeated at random: graded or refused, and said so."""
+    rng = random.Random(11)
+    rows = "".join(f's{n:02d},lever,"{200 + n} N·m ccw",{n % 3},2025-03-0{1 + n % 9}\r\n' for n in range(40))
+    whole = ("student_id,case,answer,attempt,submitted_at\r\n" + rows).encode()
+    for _ in range(120):
+        data = bytearray(whole)
+        for _ in range(rng.randrange(1, 12)):
+            at = rng.randrange(len(data))
+            damage = rng.choice(("byte", "cut", "again", "quote", "nul"))
+            if damage == "byte":
+                data[at] = rng.randrange(256)
+            elif damage == "cut":
+                del data[at : at + rng.randrange(40)]
+            elif damage == "again":
+                data[at:at] = data[at : at + rng.randrange(60)]
+            else:
+                data[at:at] = b'"' if damage == "quote" else b"\0"
+            data = data or bytearray(b",")
+        ran = a_class.grade(bytes(data))
+        assert ran.code in (0, 1, 2), ran.err
+        assert ran.code != 2 or ran.err

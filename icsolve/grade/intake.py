@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import io
 import os
+import sys
 from collections.abc import Callable, Iterable, Iterator
+from typing import IO
 
 from icsolve.grade.ledger import Ledger
 from icsolve.grade.people import Roster
@@ -41,11 +44,11 @@ class Intake:
         Raises HeaderError or ValueError where the file can't be used, with a sentence; OSError.
         """
         self._path = path
-        if student and not os.path.isfile(path):
+        if student and os.path.isdir(path):
             self._matched((student,))
             self.ledger.note(path, 0, f"{student} handed in no file of answers")
             return
-        with open(path, "rb") as file:
+        with _opened(path) as file:
             table = Table(file, lambda line, why: self.ledger.note(path, line, why))
             columns = Columns(table.header, mapping, self.shelf.find)
             entries: Iterator[Entry]
@@ -131,6 +134,11 @@ class Intake:
         if len(self._items) < 100_000:
             self._items[text] = found
         return found
+
+
+def _opened(path: str) -> IO[bytes]:
+    """A file; ``-`` is standard input."""
+    return io.BytesIO(sys.stdin.buffer.read()) if path == "-" else open(path, "rb")
 
 
 def expand(paths: Iterable[str]) -> list[tuple[str, str]]:

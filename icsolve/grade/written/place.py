@@ -19,7 +19,8 @@ _OTHER = re.compile(
     rf"{_X}{_COMMA_NUMBER}{_UNIT}(?: ?; ?| ?\| ?| and | )(?:and )?{_Y}{_COMMA_NUMBER}{_UNIT}$", re.IGNORECASE
 )
 _FAR = re.compile(
-    r"(?:is )?(?:at |to )?(?:inf|infinity|infinite|∞|oo|unendlich)(?:ly far)?\b\.?[ ,]*(.*)$", re.IGNORECASE
+    r"(?:is )?(?:at |to )?(?:inf|infinity|infinite|∞|oo|unendlich)(?:ly far)?(?![a-z])\.?[ ,]*(.*)$",
+    re.IGNORECASE,
 )
 _TOWARD = re.compile(
     rf"(?:in direction|in the direction|direction|towards?|at|along|:|=)? ?{_NUMBER} ?(?:deg|degrees|°)?$",
