@@ -19,7 +19,8 @@ from icsolve import case as c
 from reference import DOUBLE, Motions, Points, along, frame_of, motions
 from transcribe import Scene
 
-STEPS = 12
+STEPS = 15
+CAREFUL = 100
 
 
 class Place(NamedTuple):
@@ -93,8 +94,11 @@ def _power(wrench: Any, twist: Any) -> float:
     return float(wrench[0] * y - wrench[1] * x + wrench[2] * w)
 
 
-def combinations(case: c.Case, points: Points) -> list[Combination]:
-    """All 2^k combinations of senses, solved."""
+Senses = tuple[float, ...]
+
+
+def combinations(case: c.Case, points: Points, of: list[Senses] | None = None) -> list[Combination]:
+    """All 2^k combinations of senses (or only these), solved."""
     places = places_of(case, points)
     a, b, unknowns = equilibrium.equations(case, points)
     row = {n: 3 * k for k, n in enumerate(n for n in case.links if n != case.ground)}
@@ -104,8 +108,8 @@ def combinations(case: c.Case, points: Points) -> list[Combination]:
             if link in row:
                 columns[row[link] : row[link] + 3, k] += sign * place.wrench
     found = []
-    for senses in product((1.0, -1.0), repeat=len(places)):
-        x = _followed(a, b, columns, places, senses)
+    for senses in of or product((1.0, -1.0), repeat=len(places)):
+        x = _followed(a, b, columns, places, senses, CAREFUL if of else STEPS)
         if x is None:
             found.append(Combination(senses, None, None))
             continue
@@ -118,12 +122,12 @@ def combinations(case: c.Case, points: Points) -> list[Combination]:
     return found
 
 
-def _followed(a: Any, b: Any, columns: Any, places: list[Place], senses: tuple[float, ...]) -> Any:
+def _followed(a: Any, b: Any, columns: Any, places: list[Place], senses: Senses, steps: int) -> Any:
     """The solution at full friction of these senses, followed from none; None where it is lost."""
     x = np.linalg.lstsq(a, b, rcond=1e-12)[0]
     first = np.abs(x).max()
-    for share in np.linspace(0.0, 1.0, STEPS + 1)[1:]:
-        for _ in range(40):
+    for share in np.linspace(0.0, 1.0, steps + 1)[1:]:
+        for _ in range(15):
             rest, slope = a @ x - b, a.copy()
             for k, (s, place) in enumerate(zip(senses, places, strict=True)):
                 v = place.force @ x
@@ -141,14 +145,17 @@ def _followed(a: Any, b: Any, columns: Any, places: list[Place], senses: tuple[f
     return x
 
 
-def against_the_motion(case: c.Case, points: Points, sense: float) -> Combination:
-    """The one combination whose friction takes power everywhere in the motion (times ``sense``)."""
-    found = motions(case, points)
-    speeds = [sense * rate for rate in rates(found, places_of(case, points))]
+def against_the_motion(case: c.Case, points: Points, sense: float, every: bool = True) -> Combination:
+    """The one combination whose friction takes power everywhere in the motion (times ``sense``).
+
+    Without ``every`` only that one is solved, the others are taken to give power somewhere.
+    """
+    speeds = [sense * rate for rate in rates(motions(case, points), places_of(case, points))]
     assert min(map(abs, speeds), default=1.0) > 1e-9 * max(map(abs, speeds), default=1.0), "a rub is at rest"
+    right = tuple(math.copysign(1.0, rate) for rate in speeds)
     takes = [
         each
-        for each in combinations(case, points)
+        for each in combinations(case, points, None if every else [right])
         if all(s * rate > 0.0 for s, rate in zip(each.senses, speeds, strict=True))
     ]
     (only,) = takes

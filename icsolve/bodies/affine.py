@@ -72,7 +72,7 @@ def slopes(equations: Lengths, y: Sequence[float]) -> list[list[float]]:
     for form, forms in zip(equations.lengths, equations.vectors, strict=True):
         v = vector(forms, y)
         size = math.hypot(*v)
-        unit = [part / size for part in v] if size else [1.0] + [0.0] * (len(v) - 1)
+        unit = [part / size for part in v] if size else [1.0, 0.0][: len(v)]
         rows.append(
             [p - sum(u * f[j + 1] for u, f in zip(unit, forms, strict=True)) for j, p in enumerate(form[1:])]
         )
@@ -83,11 +83,11 @@ MOST_STEPS = 60
 ROUNDING = 2.0**-52
 
 
-def newton(equations: Lengths, start: Sequence[float]) -> tuple[float, ...] | None:
+def newton(equations: Lengths, start: Sequence[float], most: int = MOST_STEPS) -> tuple[float, ...] | None:
     """Newton's method on the piecewise smooth equations; None where it does not settle."""
     y = list(start)
     before = math.inf
-    for _ in range(MOST_STEPS):
+    for _ in range(most):
         g = misfits(equations, y)
         size = max(map(abs, g), default=0.0)
         if size <= 4.0 * ROUNDING * scale_at(equations, y) or (

@@ -18,9 +18,14 @@ Y = tuple[float, ...]
 
 CONTRACTS = "the friction equations contract: Banach's theorem gives one solution and no other"
 COUNTED = "all solutions were counted"
-ESCAPED = 1e9
-"""Forces that grow beyond this many times those without friction grow without bound."""
-SHORTEST = 1e-8
+LONGEST = 0.125
+FINE = 1e-6
+"""How closely the share of friction is found at which forces grow without bound."""
+SHORTEST = 1e-7
+STEPS = 8
+"""A good prediction needs fewer of Newton's steps."""
+NEAR = 0.05
+"""A prediction that is corrected by more was too far, of the sum of the sizes."""
 
 
 class Solutions(NamedTuple):
@@ -73,51 +78,62 @@ def without_friction(equations: Lengths) -> Y:
 
 
 def followed(equations: Lengths) -> tuple[Y | None, float, bool]:
-    """The frictionless solution followed to full friction: its end, how far it came, if it grew away."""
-    y, share, step = without_friction(equations), 0.0, 0.1
-    first = max(y, default=0.0) or 1.0
+    """The frictionless solution followed to full friction: its end, how far it came, if it grew away.
+
+    In homogeneous coordinates (z, w) with y = z / w, so that forces without bound are a point like others:
+    there w passes through zero.
+    """
+    first = max(without_friction(equations), default=0.0)
+    if not first:
+        return without_friction(equations), 1.0, False
+    z: Y = (*(size / first for size in without_friction(equations)), 1.0)
+    share, step = 0.0, LONGEST
     while share < 1.0:
         ahead = min(1.0, share + step)
-        moved = _moved(equations, y, share, ahead)
+        moved = _moved(equations, first, z, share, ahead)
+        if moved is not None and moved[-1] <= 0.0:
+            if step < FINE:
+                return None, share, True
+            moved = None
         if moved is None:
             step /= 2.0
             if step < SHORTEST:
-                return None, share, _grows(equations, y, share, first)
+                return None, share, False
             continue
-        y, share, step = moved, ahead, min(0.1, 2.0 * step)
-        if max(y, default=0.0) > ESCAPED * first:
-            return None, share, True
-    return y, 1.0, False
+        z, share, step = moved, ahead, min(LONGEST, 2.0 * step)
+    return tuple(part * first / z[-1] for part in z[:-1]), 1.0, False
 
 
-def _grows(equations: Lengths, y: Y, share: float, first: float) -> bool:
-    """Whether the solution ends because it grows without bound, rather than meets another one."""
-    change = _tangent(equations.scaled(share), equations, y)
-    size = max(y, default=0.0)
-    return size > 1e4 * first or (change is not None and max(map(abs, change)) * SHORTEST > 0.1 * size)
-
-
-def _moved(equations: Lengths, y: Y, share: float, ahead: float) -> Y | None:
+def _moved(equations: Lengths, first: float, z: Y, share: float, ahead: float) -> Y | None:
     """The solution a step on: predicted along the tangent, corrected; None where the step was too long."""
-    target = equations.scaled(ahead)
-    change = _tangent(equations.scaled(share), equations, y)
-    start = y if change is None else tuple(a + (ahead - share) * b for a, b in zip(y, change, strict=True))
-    found = newton(target, start)
-    if found is None or min(found, default=0.0) < -1e-10 * scale_at(target, found):
+    change = _tangent(equations, first, z, share)
+    start = z if change is None else tuple(a + (ahead - share) * b for a, b in zip(z, change, strict=True))
+    found = newton(_homogeneous(equations, first, ahead), start, STEPS)
+    if found is None or min(found[:-1], default=0.0) < -1e-10:
         return None
-    reach = 0.3 * (max(y, default=0.0) or 1.0)
-    if max((abs(a - b) for a, b in zip(found, y, strict=True)), default=0.0) > reach:
-        return None
-    off = max((abs(a - b) for a, b in zip(found, start, strict=True)), default=0.0)
-    return found if off <= 0.1 * reach else None
+    off = max(abs(a - b) for a, b in zip(found, start, strict=True))
+    return found if off <= NEAR else None
 
 
-def _tangent(here: Lengths, whole: Lengths, y: Y) -> list[float] | None:
+def _homogeneous(equations: Lengths, first: float, share: float) -> Lengths:
+    """z_k = |w a_k / first + share B_k z| and, to fix the scale, sum of z + w = sum of the first ones + 1."""
+    n = len(equations.vectors)
+    vectors = tuple(
+        tuple((0.0, *(share * a for a in form[1:]), form[0] / first) for form in forms)
+        for forms in equations.vectors
+    )
+    lengths = tuple(tuple(float(j == k + 1) for j in range(n + 2)) for k in range(n))
+    whole = 1.0 + sum(without_friction(equations)) / first
+    return Lengths((*lengths, (-whole, *[1.0] * (n + 1))), (*vectors, ()), (*equations.touching, False))
+
+
+def _tangent(equations: Lengths, first: float, z: Y, share: float) -> list[float] | None:
     """Derivative of the solution by the share of friction."""
+    here = _homogeneous(equations, first, share)
     right = []
-    for now, forms in zip(here.vectors, whole.vectors, strict=True):
-        v = vector(now, y)
+    for now, forms in zip(here.vectors, equations.vectors, strict=False):
+        v = vector(now, z)
         size = math.hypot(*v) or 1.0
-        slope = [sum(a * x for a, x in zip(form[1:], y, strict=True)) for form in forms]
+        slope = [sum(a * x for a, x in zip(form[1:], z, strict=False)) for form in forms]
         right.append(sum(a * b for a, b in zip(v, slope, strict=True)) / size)
-    return solve_square(slopes(here, y), right)
+    return solve_square(slopes(here, z), [*right, 0.0])

@@ -21,7 +21,7 @@ from icsolve.bodies.reduction import Reduced, reduced
 PROVEN = "proven: no friction within its limits holds more"
 SEARCHED = "every combination of full friction was tried"
 IMPENDING = "only impending motion was looked at"
-MOST_TRIED = 10
+MOST_TRIED = 6
 """More rubs have too many combinations of senses."""
 
 

@@ -19,6 +19,8 @@ from icsolve.bodies.ties import is_touching
 
 OPEN = 1e-9
 """A share of a force in what the joints leave open that is below this is none (rounding)."""
+NOTHING = 1e-13
+"""A force of the known loads below this fraction of the largest in any joint is none (rounding)."""
 
 
 class Reduced(NamedTuple):
@@ -91,14 +93,14 @@ def reduced(statics: Statics, senses: Sequence[float]) -> Reduced | None:
     gains = [-sense * rub.limit for sense, rub in zip(senses, statics.rubs, strict=True)]
     roots = {statics.root(n): row for n, row in enumerate(loads)}
 
-    def form(row: Mapping[int, float]) -> Form:
+    def form(row: Mapping[int, float], least: float = 0.0) -> Form:
         whole = _without(row, roots)
-        return (
-            whole.get(statics.known, 0.0),
-            *(g * whole.get(statics.rub(k), 0.0) for k, g in enumerate(gains)),
-        )
+        known = whole.get(statics.known, 0.0)
+        friction = (g * whole.get(statics.rub(k), 0.0) for k, g in enumerate(gains))
+        return (known if abs(known) > least else 0.0, *friction)
 
-    vectors = [tuple(form(row) for row in rows) for rows in forces_of(statics)]
+    least = NOTHING * max((abs(form(row)[0]) for row in statics.general.solved.values()), default=0.0)
+    vectors = [tuple(form(row, least) for row in rows) for rows in forces_of(statics)]
     return Reduced(fixed_point(vectors, _touching(statics)), tuple(map(form, loads)), tuple(gains))
 
 

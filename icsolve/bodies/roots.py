@@ -17,8 +17,8 @@ from icsolve.bodies.affine import Form, Lengths, at, is_sound, newton, scale_at
 from icsolve.bodies.linear import solve_square
 from icsolve.bodies.paths import quadric_roots
 
-MOST_RUBS = 10
-MOST_PINS = 5
+MOST_RUBS = 6
+MOST_PINS = 4
 """More than these have too many combinations to try."""
 
 
