@@ -82,8 +82,8 @@ class Turned:
             block, guide = (str(link) for link in joint[kind])
             line, through = self._line(joint)
             place = self.carried(block, joint["at"])
-            off = ((place - self.carried(guide, through)) / (self.z[guide] * line)).imag
-            worst = max(worst, float(np.abs(off[self.ok]).max()))
+            off = (place - self.carried(guide, through)) * np.conj(self.z[guide] * line)
+            worst = max(worst, float(np.abs(off.imag[self.ok]).max()))
             if kind == "slide":
                 turned = np.abs(self.z[block] - self.z[guide])[self.ok]
                 worst = max(worst, float(turned.max()))
@@ -120,17 +120,16 @@ class Turned:
         return min(around[0] & around[1] - {a, b})
 
     def speeds(self, v: Array) -> float:
-        """The largest disagreement of differences from row to row (of every point's place, of the angle of
-        every link) with centres and rates, over the largest; rows an even step of ``v`` apart."""
+        """The largest disagreement of centres and rates with differences from row to row, over the largest:
+        the turning of every link, and the way of two points of it. Rows are an even step of ``v`` apart."""
         step = float(v[1] - v[0])
         frame = str(self.scene.get("ground", 1))
         links = [link for link in self.z if link != frame]
         turning = {link: _slope(np.unwrap(np.angle(self.z[link])), step) for link in links}
         rates = {link: self.sweep.rates[link][2:-2] for link in links}
         pace = _pace(turning, rates)
-        largest = max(float(np.nanmax(np.abs(p))) for p in rates.values())
-        gaps = (np.abs(turning[k] - pace * rates[k]) / (np.abs(pace) * largest) for k in links)
-        worst = max(float(np.nanmax(gap)) for gap in gaps)
+        largest = np.abs(pace) * max(float(np.nanmax(np.abs(p))) for p in rates.values())
+        worst = max(float(np.nanmax(np.abs(turning[k] - pace * rates[k]) / largest)) for k in links)
         for link in links:
             x, y, w = self._centre(frame, link)
             for k in "ab":
@@ -140,6 +139,23 @@ class Turned:
                 size = np.hypot(x - w * p.real, y - w * p.imag) * np.abs(moved) + 1e-6
                 worst = max(worst, float(np.nanmax(np.abs(square) / size)))
         return worst
+
+    def slips(self, v: Array) -> float:
+        """The largest velocity of slip where two links roll, over the speed of the contact's links."""
+        step, worst = float(v[1] - v[0]), 0.0
+        for joint in self.scene["joints"]:
+            if "roll" in joint:
+                contact = self.point(joint["at"])[2:-2]
+                a, b = (self._velocity(str(link), contact, step) for link in joint["roll"])
+                size = float(np.abs(self._velocity(str(joint["roll"][0]), contact + 1.0, step)).max())
+                worst = max(worst, float(np.abs(a - b).max()) / size)
+        return worst
+
+    def _velocity(self, link: str, at: Any, step: float) -> Any:
+        """Of the point of a link that is at a place, by differences from row to row."""
+        own = self.point(f"x{link}a")
+        turning = _slope(np.unwrap(np.angle(self.z[link])), step)
+        return _slope(own, step) + 1j * turning * (at - own[2:-2])
 
     def _centre(self, frame: str, link: str) -> tuple[Array, Array, Array]:
         key = f"{frame}-{link}" if f"{frame}-{link}" in self.sweep.centres else f"{link}-{frame}"

@@ -8,16 +8,17 @@ is a change of sign between rows, and is closed in from there.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from typing import NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
 from icsolve.arithmetic import Scalar
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.solve import solve
-from icsolve.turn.ask import Columns
+from icsolve.turn.ask import columns_of
 from icsolve.turn.backward import Backward
 from icsolve.turn.parts import Part
 from icsolve.turn.program import Asked
@@ -26,6 +27,7 @@ from icsolve.turn.replay import Array, Code
 from icsolve.turn.rows import RowCases
 from icsolve.turn.start import start_of
 from icsolve.turn.work import Work
+from icsolve.verdicts import rubs
 
 SECTIONS = 64
 ROUNDS = 12
@@ -49,23 +51,41 @@ class Query(NamedTuple):
     value: float = 0.0
 
 
-def find(case: Case, columns: Columns, query: Query) -> list[Spot]:
+def find(
+    case: Case,
+    vary: Mapping[str, npt.ArrayLike] | None,
+    query: Query,
+    *,
+    drive: Mapping[str, npt.ArrayLike] | None = None,
+) -> list[Spot]:
     """The positions in a sweep along one number, in order.
 
-    Raises SceneError where rows can only be solved one by one, ValueError where several numbers vary or
-    the load is not an unknown one.
+    Parameters
+    ----------
+    case, vary, drive : as for `icsolve.sweep`; the values are the rows between which is looked
+    query : what to look for
+
+    Raises
+    ------
+    CaseError
+        For a path that the case does not have.
+    SceneError
+        Where the case cannot be moved so, or rows can only be solved one by one.
+    ValueError
+        Where several numbers vary, or the load is not an unknown one.
     """
+    columns = columns_of(case, vary, drive)
     names = [name for name, array in columns.arrays.items() if np.ptp(array) > 0.0]
     if len(names) != 1:
         raise ValueError("positions are found along one varied number")
     start = start_of(case, columns, Asked())
-    if start.one_by_one:
+    if start.one_by_one or rubs(case):
         why = "positions cannot be found where each row has to be solved as a scene of its own."
         raise SceneError(Status.UNSUPPORTED, why)
     work = Work(start, columns, False)
     work.run()
-    found = [spot for part in work.done for spot in _Search(work, part, names[0], query).spots()]
-    return sorted(found)
+    spots = (spot for part in work.done for spot in _Search(work, part, names[0], query).spots())
+    return sorted(spots, key=lambda spot: (spot.at, spot.kind))
 
 
 class _Search:

@@ -4,12 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from icsolve.arithmetic import Scalar
 from icsolve.tape import TURN_NOISE, UNIT
 from icsolve.turn.constraints import RADIAN
-from icsolve.turn.record import Op, Record
+from icsolve.turn.record import Op, Record, Traced
 
 ANGLE_NOISE = 720.0 * UNIT
 """Error of an angle that an arc tangent gives, degrees."""
+
+
+def noise_of(record: Record, value: Scalar) -> float:
+    """Bound on the error of an expression that is the same in every row."""
+    return still_noise(record, value.index) if isinstance(value, Traced) else 0.0
 
 
 def still_noise(record: Record, target: int) -> float:

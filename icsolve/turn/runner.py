@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.turn.backward import Backward
+from icsolve.turn.noise import noise_of
 from icsolve.turn.program import Sheet
 from icsolve.turn.record import Node, Op, varies
 from icsolve.turn.replay import BLOCK, Array, Code, live
@@ -78,6 +79,13 @@ class Runner:
             return tuple(sheet.inputs)
         behind = set(live(sheet.record, [root.radicand for root in self.roots], ()))
         return tuple(name for name, k in sheet.inputs.items() if k in behind)
+
+    @cached_property
+    def constants(self) -> dict[str, float]:
+        """Bounds of the answers that are the same in every row."""
+        outputs = self.sheet.outputs
+        same = {key[1]: outputs[key][0] for key, _, _ in self.still if key[0] == "answers"}
+        return {name: noise_of(self.sheet.record, value) for name, value in same.items()}
 
     @cached_property
     def answers(self) -> list[tuple[Key, int]]:

@@ -125,9 +125,8 @@ class Work:
         """Bounds of the answers of a part's rows."""
         if not self.error:
             return
-        for key, _, _ in part.runner.still:
-            if key[0] == "answers":
-                self.errors.setdefault(key[1], np.zeros(self.columns.rows))
+        for name, noise in part.runner.constants.items():
+            self.errors.setdefault(name, np.empty(self.columns.rows))[part.rows] = noise
         passes, count = part.runner.bounds, len(part.rows)
         if not passes.targets:
             return

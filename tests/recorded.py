@@ -1,0 +1,111 @@
+"""A sweep's record run in sixty digits, on the decimals of the case: what its bounds are held against."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from mpmath import mp, mpf
+
+import icsolve
+from icsolve.case import Case
+from icsolve.turn.numbers import numbers_of
+from icsolve.turn.program import Sheet
+from icsolve.turn.record import Op, Traced
+from icsolve.turn.together import Together
+
+mp.dps = 60
+RADIAN = mp.pi / 180
+
+
+class InSixtyDigits:
+    """The values of a sheet's nodes for one row; groups are solved by Newton's method from the row's own."""
+
+    def __init__(self, sheet: Sheet, row: dict[int, float]) -> None:
+        self.sheet, self.record = sheet, sheet.record
+        self.constants = self._decimals(sheet.setting.case)
+        self.values: dict[int, Any] = {k: mpf(float(v)) for k, v in row.items()}
+        for group in sheet.motion.groups if sheet.motion else ():
+            self._solve(group)
+
+    def _decimals(self, case: Case) -> dict[int, Any]:
+        """What the constants of the record are in the file."""
+        numbers = numbers_of(case)
+        found = {}
+        for (value, name), traced in self.record._constants.items():
+            plain = name in numbers and numbers[name].factor == 1.0
+            found[traced.index] = mpf(numbers[name].digits) if plain else mpf(value)
+        return found
+
+    def of(self, k: int) -> Any:
+        """The value of a node."""
+        stack = [k]
+        while stack:
+            n = stack[-1]
+            node = self.record.nodes[n]
+            need = [] if node.op in (Op.INPUT, Op.CONST) else [node.a]
+            need += [node.b] if node.op in (Op.ADD, Op.SUB, Op.MUL, Op.DIV, Op.ANGLE) else []
+            missing = [m for m in need if m not in self.values]
+            if missing:
+                stack += missing
+                continue
+            stack.pop()
+            if n not in self.values:
+                self.values[n] = self._value(n)
+        return self.values[k]
+
+    def _value(self, n: int) -> Any:
+        node = self.record.nodes[n]
+        a, b = self.values.get(node.a), self.values.get(node.b)
+        match node.op:
+            case Op.CONST:
+                return self.constants[n]
+            case Op.ADD:
+                return a + b
+            case Op.SUB:
+                return a - b
+            case Op.MUL:
+                return a * b
+            case Op.DIV:
+                return a / b
+            case Op.NEG:
+                return -a
+            case Op.SQRT:
+                return mp.sqrt(max(a, mpf(0)))
+            case Op.COS:
+                return mp.cos(a * RADIAN)
+            case Op.SIN:
+                return mp.sin(a * RADIAN)
+            case Op.ANGLE:
+                return mp.atan2(b, a) / RADIAN
+            case Op.NEAREST:
+                return mp.nint(a)
+        raise AssertionError(node)
+
+    def _solve(self, group: Together) -> None:
+        """Newton's method to the last digit; the unknowns of a body are x, y and degrees."""
+        guess = [self.values[k] for k in group.solved]
+        for _ in range(8):
+            self.values = {k: v for k, v in self.values.items() if self.record.nodes[k].op == Op.INPUT}
+            self.values.update(zip(group.guesses, guess, strict=True))
+            f = mp.matrix([self._or_float(v) for v in group.residuals])
+            j = mp.matrix([[self._or_float(v) for v in row] for row in group.derivatives])
+            move = mp.lu_solve(j, f)
+            units = (1, 1, RADIAN)
+            guess = [g - m / units[n % 3] for n, (g, m) in enumerate(zip(guess, move, strict=True))]
+        self.values = {k: v for k, v in self.values.items() if self.record.nodes[k].op == Op.INPUT}
+        self.values.update(zip(group.solved, guess, strict=True))
+
+    def _or_float(self, value: Any) -> Any:
+        return self.of(value.index) if isinstance(value, Traced) else mpf(float(value))
+
+
+def truth(case: Case, sweep: icsolve.Sweep, name: str, row: int) -> Any:
+    """An answer of a row in sixty digits, on the decimals of the case and the doubles that are varied."""
+    work = sweep._case_of.__self__  # type: ignore[union-attr]
+    part = next(p for p in work.done if row in p.rows)
+    one = part.some(np.flatnonzero(part.rows == row))
+    given = {k: float(np.ravel(v)[0]) for k, v in work.parts.given(one)[0].items()}
+    (value,) = part.runner.sheet.outputs["answers", name]
+    exact = InSixtyDigits(part.runner.sheet, given)
+    return exact.of(value.index) if isinstance(value, Traced) else mpf(float(value))

@@ -1,0 +1,173 @@
+"""Sweeps of mechanisms of all kinds of joints: every row is looked at in three independent ways.
+
+The links keep their shapes and stay on their own guides; centres and rates are those by which the points
+go from row to row; and each row, as a scene by coordinates, has the answer of the sweep. CI draws a few
+random mechanisms, `ICSOLVE_FULL=1` twenty times as many.
+"""
+
+from __future__ import annotations
+
+import os
+from random import Random
+from typing import Any
+
+import numpy as np
+import pytest
+
+import full_turns
+import icsolve
+import mechanisms
+import transcribe
+from growth import random_mechanism
+from loading import drawn, sound
+from transcribe import Scene
+from turned import Array, Turned, traced
+
+MORE = 20 if os.environ.get("ICSOLVE_FULL") == "1" else 1
+SHAPE = 1e-12
+"""Of a link's points and guides, in figures of size ten: rounding, with room for links that are far off."""
+ALL = ("answers", "status", "error", "points", "centres", "rates")
+
+
+def swept(scene: Scene, link: str, degrees: Array, seed: int = 1) -> Turned:
+    """A sweep of a scene, its driving link turned, with two more points on every link."""
+    scene = traced(scene, Random(seed))
+    case = icsolve.load(transcribe.text(scene))
+    return Turned(scene, icsolve.sweep(case, want=ALL, drive={link: degrees}))
+
+
+def check_rows(turned: Turned, rows: range) -> None:
+    """Rows of the sweep agree with the solver on scenes given by their points alone, within both bounds."""
+    sweep = turned.sweep
+    for k in rows:
+        if sweep.status[k] != "ok":
+            continue
+        answer = icsolve.solve(icsolve.load(transcribe.text(turned.row(k))))
+        for name, found in answer.answers.items():
+            assert found.error is not None
+            room = found.error + sweep.error[name][k]
+            assert abs(found.value - sweep.answers[name][k]) <= room, transcribe.text(turned.row(k))
+
+
+# --- full turns ------------------------------------------------------------------------------------
+
+
+@full_turns.EVERY
+def test_a_full_turn_keeps_every_link_and_joint(name: str, scene: Scene, link: str, period: float) -> None:
+    """Steps of half a degree: differences of fourth order are good to 1e-4 where links move fastest."""
+    degrees = np.linspace(0.0, period, int(2 * period) + 1)
+    turned = swept(scene, link, degrees)
+    assert (turned.sweep.status == "ok").all()
+    assert turned.shapes() < SHAPE
+    assert turned.guides() < SHAPE
+    assert turned.wheels() < 1e-10
+    assert turned.speeds(degrees) < 1e-4
+    assert turned.slips(degrees) < 1e-4
+    check_rows(turned, range(0, len(degrees), len(degrees) // 12))
+
+
+@full_turns.EVERY
+def test_after_a_period_all_is_as_it_was(name: str, scene: Scene, link: str, period: float) -> None:
+    """Also where wheels carry their rotation on: three turns of a 40-tooth crank are two of a 60-tooth one.
+    A rack does not come back."""
+    if scene is full_turns.RACK:
+        return
+    case = icsolve.load(transcribe.text(scene))
+    sweep = icsolve.sweep(case, want=ALL, drive={link: np.array([0.0, 90.0, 180.0, 270.0, period])})
+    for table in (sweep.answers, sweep.points, sweep.rates):
+        for key, array in table.items():
+            assert array[-1] == pytest.approx(array[0], rel=1e-9, abs=1e-9), key
+
+
+def test_two_gears_turn_in_the_ratio_of_their_teeth() -> None:
+    """The driven crank is at -2/3 of the first's turning, whole turns too, from the position as written."""
+    degrees = np.linspace(-720.0, 1440.0, 721)
+    turned = swept(full_turns.GEARED, "2", degrees)
+    assert turned.angle("5") - turned.angle("5")[240] == pytest.approx(-degrees * 2 / 3, abs=1e-9)
+
+
+def test_a_rolling_disk_turns_by_its_way_over_its_radius() -> None:
+    degrees = np.linspace(0.0, 360.0, 361)
+    turned = swept(full_turns.DISK, "2", degrees)
+    way = turned.point("C") - turned.point("C")[0]
+    assert np.abs(way.imag).max() < 1e-13
+    assert np.radians(turned.angle("4") - turned.angle("4")[0]) == pytest.approx(-way.real, abs=1e-12)
+    assert np.abs(turned.point("P") - (turned.point("C") - 1j)).max() < 1e-13
+
+
+def test_order_of_rows_and_other_rows_do_not_matter() -> None:
+    """A row is the same whichever rows are asked with it, and in whatever order."""
+    for _, scene, link, period in full_turns.ALL:
+        case = icsolve.load(transcribe.text(scene))
+        degrees = np.linspace(0.0, period, 97)
+        whole = icsolve.sweep(case, want=ALL, drive={link: degrees})
+        shuffled = np.random.default_rng(1).permutation(97)
+        some = icsolve.sweep(case, want=ALL, drive={link: degrees[shuffled][:30]})
+        assert (some.status == whole.status[shuffled][:30]).all()
+        for name, array in some.answers.items():
+            assert array == pytest.approx(whole.answers[name][shuffled][:30], rel=1e-9)
+
+
+# --- random mechanisms ------------------------------------------------------------------------------
+
+
+def plain(scene: Scene, seed: int) -> Scene | None:
+    """The scene with joints that can be moved in the place of contacts, given centres and bare rolling."""
+    points, joints = dict(scene["points"]), []
+    for n, joint in enumerate(scene["joints"]):
+        joints.append(_plain(joint, n, points, seed))
+    changed = scene | {"points": points, "joints": joints}
+    return changed if sound(changed) else None
+
+
+def _plain(joint: dict[str, Any], n: int, points: dict[str, Any], seed: int) -> dict[str, Any]:
+    if "contact" in joint:
+        return {"slot": joint["contact"], "at": joint["at"], "along": joint["normal"] + 90}
+    if "roll" in joint:
+        return {"pin": joint["roll"], "at": joint["at"]}
+    if "centre" not in joint:
+        return joint
+    at = joint.get("at", mechanisms.spot(Random(n + seed)))
+    if not isinstance(at, str):
+        points[f"Z{n}"] = at
+        at = f"Z{n}"
+    if "toward" in joint:
+        return {"slide": joint["centre"], "at": at, "along": joint["toward"] + 90}
+    return {"pin": joint["centre"], "at": at}
+
+
+def check_short_sweep(scene: Scene, seed: int) -> bool:
+    """A few degrees to both sides; False where no link can drive."""
+    degrees = np.arange(-2.0, 2.01, 0.05)
+    for link in [k for k in transcribe.case(scene).links if k != "1"]:
+        try:
+            turned = swept(scene, link, degrees, seed)
+        except icsolve.SceneError:
+            continue
+        if not turned.ok.any():
+            continue
+        assert set(turned.sweep.status) <= {"ok", "cannot-assemble"}
+        assert turned.shapes() < 1e-10, transcribe.text(scene)
+        assert turned.guides() < 1e-10, transcribe.text(scene)
+        assert turned.wheels() < 1e-9, transcribe.text(scene)
+        check_rows(turned, range(0, len(degrees), 27))
+        return True
+    return False
+
+
+STILL = ("cam", "black_box", "three_centres", "rolling_disk", "rack")
+"""Kinds that are known in one position only: contacts, given centres, rolling without radii."""
+
+
+@pytest.mark.parametrize("generator", [g for g in mechanisms.ALL if g.__name__ not in STILL])
+def test_named_mechanisms_with_random_dimensions(generator: mechanisms.Generator) -> None:
+    for seed in range(MORE):
+        assert check_short_sweep(drawn(seed, generator), seed)
+
+
+def test_random_mechanisms_of_all_kinds_of_joints() -> None:
+    done = 0
+    for seed in range(40 * MORE):
+        scene = plain(random_mechanism(Random(seed)), seed)
+        done += scene is not None and check_short_sweep(scene, seed)
+    assert done >= 30 * MORE

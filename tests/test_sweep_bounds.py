@@ -1,0 +1,138 @@
+"""Bounds of a sweep's answers hold against sixty digits on the decimals of the case, row by row.
+
+The record that the sweep replays is run again in mpmath; groups that Newton's method placed are solved to
+the last digit. Pessimism: at most 100 in the median, as for one scene.
+"""
+
+from __future__ import annotations
+
+import os
+from random import Random
+
+import numpy as np
+import pytest
+
+import full_turns
+import icsolve
+import mechanisms
+import transcribe
+from figures import from_lengths
+from growth import random_mechanism
+from loading import drawn
+from recorded import truth
+from test_sweep import STILL, plain
+
+MORE = 20 if os.environ.get("ICSOLVE_FULL") == "1" else 1
+
+
+def pessimism(case: icsolve.Case, sweep: icsolve.Sweep, rows: range) -> list[float]:
+    """Bound over true error of every answer in some rows; a bound below the error fails."""
+    found = []
+    for name in sweep.answers:
+        for row in rows:
+            if sweep.status[row] != "ok":
+                continue
+            bound = sweep.error[name][row]
+            error = float(abs(truth(case, sweep, name, row) - sweep.answers[name][row]))
+            assert error <= bound, (name, row)
+            if error > 0.0:
+                found.append(bound / error)
+    return found
+
+
+def bounded(case: icsolve.Case, degrees: np.ndarray, **vary: object) -> icsolve.Sweep | None:
+    """A sweep with bounds by the first link that can drive; None where none can."""
+    for link in [k for k in case.links if k != case.ground]:
+        try:
+            return icsolve.sweep(case, want=("answers", "error"), drive={link: degrees})
+        except icsolve.SceneError:
+            continue
+    return None
+
+
+@full_turns.EVERY
+def test_on_full_turns(name: str, scene: transcribe.Scene, link: str, period: float) -> None:
+    case = icsolve.load(transcribe.text(scene))
+    sweep = icsolve.sweep(case, want=("answers", "error"), drive={link: np.linspace(0.3, period, 97)})
+    found = pessimism(case, sweep, range(0, 97, 8))
+    assert not found or np.median(found) < 100.0
+
+
+def test_on_random_mechanisms() -> None:
+    found: list[float] = []
+    for generator in (g for g in mechanisms.ALL if g.__name__ not in STILL):
+        for seed in range(MORE):
+            case = icsolve.load(transcribe.text(drawn(seed, generator)))
+            sweep = bounded(case, np.linspace(-7.3, 8.1, 23))
+            assert sweep is not None
+            found += pessimism(case, sweep, range(0, 23, 4))
+    for seed in range(25 * MORE):
+        scene = plain(random_mechanism(Random(seed)), seed)
+        sweep = bounded(icsolve.load(transcribe.text(scene)), np.linspace(-2.3, 3.1, 11)) if scene else None
+        found += pessimism(sweep.case, sweep, range(0, 11, 5)) if sweep else []
+    assert len(found) > 150
+    assert np.median(found) < 100.0
+
+
+def test_on_figures_by_lengths() -> None:
+    """Chains of four-bars and the like whose figure is constructed: the bounds hold from the decimals on."""
+    found: list[float] = []
+    for generator in (mechanisms.four_bar, mechanisms.watt, mechanisms.slider_crank, mechanisms.three_loops):
+        for seed in range(3 * MORE):
+            case = icsolve.load(transcribe.text(from_lengths(drawn(seed, generator), Random(seed))))
+            sweep = bounded(case, np.linspace(-4.3, 5.1, 9))
+            found += pessimism(case, sweep, range(0, 9, 2)) if sweep else []
+    assert len(found) > 40
+    assert np.median(found) < 100.0
+
+
+def test_a_family_has_bounds_too() -> None:
+    text = """icsolve: 1
+points: {A: [0, 0], C: [unknown, 0.3]}
+lengths: {AB: 0.7, BC: 2.1}
+angles: {AB: 41.3}
+near: {C: [2.5, 0.3]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {slide: [4, 1], at: C, along: 0}
+loads: {P: {force: 20, link: 4, at: C, angle: 180}, T: {torque: unknown, link: 2}}
+"""
+    case = icsolve.load(text)
+    values = np.linspace(1.3, 3.7, 25)
+    sweep = icsolve.sweep(case, {"lengths.BC": values}, ("answers", "error"))
+    for k in range(0, 25, 6):
+        one = icsolve.solve(icsolve.load(text, settings={"lengths.BC": repr(float(values[k]))}))
+        found = one.answers["T"]
+        assert found.error is not None
+        assert abs(found.value - sweep.answers["T"][k]) <= found.error + sweep.error["T"][k]
+    assert pessimism(case, sweep, range(0, 25, 6))
+
+
+def test_rows_near_a_limit_have_large_bounds_that_hold() -> None:
+    """A rocker that drives, ever nearer to the end of its reach: the rod's place is lost like a root."""
+    text = """icsolve: 1
+points: {A: [0, 0], D: [4, 0]}
+lengths: {AB: 1, BC: 3.5, CD: 2.5}
+angles: {DC: 100}
+near: {B: [0.5, 0.9]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {pin: [4, 1], at: D}]
+loads: {T14: {torque: 10, link: 4}, T12: {torque: unknown, link: 2}}
+"""
+    case = icsolve.load(text)
+    limit = 95.73917047726678
+    sweep = icsolve.sweep(case, {"angles.DC": limit + 10.0 ** -np.arange(0.0, 13.0)}, ("answers", "error"))
+    assert pessimism(case, sweep, range(13))
+    ok = sweep.status == "ok"
+    assert (np.diff((sweep.error["T12"] / np.abs(sweep.answers["T12"]))[ok][2:]) > 0.0).all()
+
+
+def test_bounds_cost_few_operations_and_change_no_answer() -> None:
+    case = icsolve.load(transcribe.text(full_turns.FOUR_BAR))
+    degrees = np.linspace(0.0, 360.0, 1001)
+    plain_one = icsolve.sweep(case, drive={"2": degrees})
+    with_bounds = icsolve.sweep(case, want=("answers", "error"), drive={"2": degrees})
+    assert (plain_one.answers["U"] == with_bounds.answers["U"]).all()
+    assert plain_one.error == {}
+    assert with_bounds.error["U"] == pytest.approx(1e-14, abs=1e-12)
