@@ -11,6 +11,7 @@ from icsolve.case import Case, Pair
 
 if TYPE_CHECKING:
     from icsolve.bodies.values import Friction, Reactions, Witness
+    from icsolve.profile.found import Touching
     from icsolve.space.values import Spatial
 
 
@@ -154,6 +155,8 @@ class Answer:
     witnesses: tuple[Witness, ...] = ()
     """the unknown loads by power and by free bodies, where reactions were asked"""
     friction: Friction | None = None
+    touching: tuple[Touching, ...] = ()
+    """the contacts that profiles gave"""
     spatial: Spatial | None = None
     """reactions and points of a case in space, which has no others"""
 

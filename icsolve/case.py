@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
+    from icsolve.profile.case import Profiles
     from icsolve.space.case import Space
 
 Mark = tuple[int, int]
@@ -447,6 +448,8 @@ class Case:
     """m/s^2, along -y"""
     tolerance: Tolerance | None = None
     variables: tuple[Variable, ...] = ()
+    profiles: "Profiles | None" = None
+    """shapes of cams and followers, and the contacts that they place; these are not among the joints"""
     space: "Space | None" = None
     """figure, joints and loads where the points have three coordinates; those of the plane are then empty"""
     marks: dict[str, Mark] = field(default_factory=dict)

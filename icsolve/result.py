@@ -34,6 +34,7 @@ def to_dict(answer: Answer) -> dict[str, Any]:
         "answers": {name: _found(found) for name, found in answer.answers.items()},
         "centres": {pair_name(case, pair): _centre(case, c) for pair, c in answer.centres.items()},
         **_motion(answer),
+        **_contacts(answer),
         **_bodies(answer),
         "points": {name: _numbers(place) for name, place in _places(answer).items()},
         "errors": _errors(answer),
@@ -107,6 +108,14 @@ def _motion(answer: Answer) -> dict[str, Any]:
             if not point.startswith("@")
         }
     return shown
+
+
+def _contacts(answer: Answer) -> dict[str, Any]:
+    """The contacts that profiles gave, by their links."""
+    if not answer.touching:
+        return {}
+    shown = {"-".join(one.links): one._asdict() for one in answer.touching}
+    return {"contacts": {name: {k: v for k, v in one.items() if k != "links"} for name, one in shown.items()}}
 
 
 def _places(answer: Answer) -> Mapping[str, tuple[float, ...]]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from icsolve.read.expect import KEYS as EXPECTED
 from icsolve.read.joints import HELICAL
 from icsolve.read.loads import HEADINGS, KEYS
+from icsolve.schema_profile import profiles
 from icsolve.schema_space import definitions as definitions_of_space
 from icsolve.schema_space import directed
 from icsolve.shapes import Schema, links, list_of, mapping, pattern, ref
@@ -75,6 +76,7 @@ def _sections() -> Schema:
         "links": _named(list_of(ref("name"), 0)),
         "joints": list_of({"anyOf": [ref("joint"), ref("joint in space")]}, 1),
         "loads": _named({"anyOf": [ref("load"), ref("load in space")]}),
+        "profile": {**_named({"anyOf": profiles(_QUANTITY)}), "description": "shapes of cams and of their followers"},
         "motion": {"anyOf": [ref("motion"), list_of(ref("motion"), 0), {"type": "null"}]},
         "expect": _named({"anyOf": [_value(), ref("published")]}, "^.+$"),
         "tolerance": {"anyOf": [ref("quantity"), _tolerance(), {"type": "null"}]},
@@ -138,7 +140,7 @@ def _joints() -> dict[str, tuple[Schema, list[str]]]:
         "roll": ({**at, "radii": ref("pair"), "pressure angle": ref("quantity")}, ["at"]),
         "gears": ({"teeth": list_of(ref("number"), 2, 2), **carrier, **tooth}, ["teeth"]),
         "belt": ({"radii": ref("pair"), **carrier, **crossed}, ["radii"]),
-        "contact": ({**at, "normal": ref("quantity"), **mu}, ["at", "normal"]),
+        "contact": ({**at, "normal": ref("quantity"), **mu}, []),
         "centre": ({"at": ref("place"), "toward": ref("quantity")}, []),
         "weld": (at, []),
     }

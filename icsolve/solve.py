@@ -79,6 +79,11 @@ def solve(
         from icsolve.space.solve import solve_space
 
         return solve_space(case)
+    if case.profiles is not None:
+        from icsolve.profile.solving import solve_touching
+
+        asked = {"all_centres": all_centres, "rates": rates, "examine": examine}
+        return solve_touching(case, **asked, bound=bound, reactions=reactions)
     want, rubbing = _wanted(case, Want(all_centres, rates, examine, reactions))
     program = prepare(case, want)
     try:

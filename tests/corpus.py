@@ -158,6 +158,28 @@ joints:
   - {gears: [2, 3], teeth: [9, 12], transverse pressure angle: 20, helix angle: 30, normal module: 2 mm}
 """
 
+PROFILES = """\
+icsolve: 1
+units: {length: mm, force: N}
+points: {A: [0, 0], B: [40, 0], C: [20, 30], D: [0, 80], E: [60, 5], F: [100, 0], G: [200, 0], H: [300, 0]}
+profile:
+  2: {polygon: [A, B, [22, 31], C]}
+  3: {knife: D}
+  4: {arcs: [{centre: F, radius: 20, from: 90, to: E}, {centre: [110, 0], from: A, to: -30 deg, turns: cw}]}
+  5: {roller: [100, 90], radius: 5 mm}
+  6: {about: G, zero: [G, H], radii: {0: 20, 90: 25, 180: 30 mm, -90: 25}, turns: cw}
+  7: {flat: H, along: 30}
+  8: {circle: H, radius: 12}
+  9: {flat: G, along: [D, G]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {contact: [2, 3]}
+  - {contact: [5, 4], mu: 0.1}
+  - {contact: [6, 7], normal: 80}
+  - {contact: [8, 9]}
+  - {slide: [3, 1], at: D, along: 90}
+"""
+
 IN_SPACE = """\
 icsolve: 1
 units: {length: in, force: lbf}
@@ -215,5 +237,6 @@ ALL = {
     "cam and black box": CAM_AND_BLACK_BOX,
     "awkward names": AWKWARD_NAMES,
     "helical": HELICAL,
+    "profiles": PROFILES,
     "in space": IN_SPACE,
 }

@@ -80,7 +80,7 @@ CHANGES = {
     # sections and keys
     "section that does not exist": ("lengths:", "lenghts:", 9, 1, "did you mean 'lengths'?"),
     "later version": ("icsolve: 1", "icsolve: 2", 1, 10, "version '2' of the format is not known"),
-    "reserved section": ("near: ", "profile: 1\nnear: ", 11, 1, "'profile' is not yet supported"),
+    "profile of nothing": ("near: ", "profile: 1\nnear: ", 11, 10, "'profile' should be a mapping"),
     "section of the wrong form": ("{C: [3.5, 2.4]}", "C", 11, 10, "'near' should be a mapping"),
     "unit of the wrong kind": ("{length: in", "{length: lbf", 4, 17, "'lbf' is a force, not a length"),
     "unknown unit of the case": ("{length: in", "{length: inchs", 4, 17, "did you mean 'inches'?"),
@@ -125,7 +125,7 @@ CHANGES = {
     "two kinds": ("{pin: [1, 2]", "{pin: [1, 2], weld: [1, 2]", 14, 19, "a joint is of one kind"),
     "joint that is a text": ("{pin: [1, 2], at: A}", "pin 1 2", 14, 5, "a joint should be a mapping"),
     "spatial joint": ("{pin: [1", "{ball: [1", 14, 6, "a 'ball' is a joint in space, and the points"),
-    "cam profile": ("at: A}", "at: A, profile: x}", 14, 26, "'profile' is not yet supported"),
+    "profile of a joint": ("at: A}", "at: A, profile: x}", 14, 26, "the pin of 1 and 2 has no key 'profile'"),
     "pin without a point": (", at: A}", "}", 14, 5, "needs 'at'"),
     "pin at coordinates": ("at: A}", "at: [0, 0]}", 14, 23, "coordinates stand in 'points'"),
     "slide without a direction": ("pin: [1", "slide: [1", 14, 5, "needs 'along'"),

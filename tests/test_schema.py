@@ -19,7 +19,7 @@ from trees import document, tree, typed
 SCHEMA = schema()
 CASES = sorted((Path(__file__).parent.parent / "cases").rglob("*.yaml"))
 TEMPLATES = sorted((Path(__file__).parent.parent / "icsolve" / "templates").glob("*.yaml"))
-NAMED = {"points", "lengths", "angles", "near", "links", "loads", "expect"}
+NAMED = {"points", "lengths", "angles", "near", "links", "loads", "profile", "expect"}
 
 
 def reads(text: str) -> bool:

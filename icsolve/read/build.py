@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from icsolve.case import (
     Case,
@@ -36,6 +36,9 @@ from icsolve.read.problems import Problems, shown
 from icsolve.read.quantities import measures, number
 from icsolve.read.reading import Reading
 
+if TYPE_CHECKING:
+    from icsolve.profile.case import Profiles
+
 SECTIONS = (
     "icsolve",
     "title",
@@ -51,6 +54,7 @@ SECTIONS = (
     "links",
     "joints",
     "loads",
+    "profile",
     "motion",
     "expect",
     "tolerance",
@@ -62,6 +66,7 @@ _FORMS = {
     "lengths": "as in {AB: 1}",
     "angles": "as in {AB: 60}",
     "near": "as in {C: [3.5, 2.4]}",
+    "profile": "as in {2: {circle: C, radius: 40}, 3: {flat: G, along: 0}}",
     "links": "as in {3: [G, H]}",
     "loads": "as in {P: {force: 100, link: 4, at: E, angle: 180}}",
     "expect": "as in {T12: 29.67 ccw}",
@@ -80,6 +85,7 @@ class _Parts(NamedTuple):
     lengths: tuple[Length, ...]
     angles: tuple[Direction | Corner, ...]
     expect: tuple[Expected, ...]
+    profiles: Profiles | None
 
 
 def build(root: Mapping, problems: Problems, name: str) -> Case:
@@ -120,7 +126,10 @@ def _is_in_space(root: Mapping) -> bool:
 
 def _parts(reading: Reading, root: Mapping) -> _Parts:
     """Joints, loads and points first: their names tell how a key such as AB is read."""
+    section = root.items.get("profile")
+    reading.profiled = set(section.items) if type(section) is Mapping else set()
     joints = _joints(reading, root)
+    profiles = _profiles(reading, root) if section is not None else None
     loads = read_loads(reading, section_of(reading, root, "loads"))
     points = read_points(reading, section_of(reading, root, "points"))
     links = read_carried(reading, section_of(reading, root, "links"))
@@ -132,7 +141,8 @@ def _parts(reading: Reading, root: Mapping) -> _Parts:
     named = reading.given | set(reading.used)
     published = section_of(reading, root, "expect")
     expect = read_expect(reading, published, named) if readable(root, "loads") else ()
-    return _Parts(joints, loads, {**points, **reading.hidden}, links, near, motion, lengths, angles, expect)
+    points = {**points, **reading.hidden}
+    return _Parts(joints, loads, points, links, near, motion, lengths, angles, expect, profiles)
 
 
 def check_version(root: Mapping, problems: Problems) -> None:
@@ -171,6 +181,12 @@ def _joints(reading: Reading, root: Mapping) -> tuple[Joint, ...]:
     else:
         reading.refuse(node.mark, "'joints' should be a list, each item as in - {pin: [1, 2], at: B}")
     return ()
+
+
+def _profiles(reading: Reading, root: Mapping) -> Profiles | None:
+    from icsolve.read.profiles import read_profiles
+
+    return read_profiles(reading, section_of(reading, root, "profile"))
 
 
 def ground_of(reading: Reading, root: Mapping) -> str:
@@ -236,11 +252,22 @@ def _case(
         loads=parts.loads,
         motion=parts.motion,
         expect=parts.expect,
-        carries=carried(links, ground, parts.joints, parts.loads, parts.links, parts.motion),
+        carries=carried(links, ground, parts.joints, parts.loads, _shaped(parts), parts.motion),
         gravity=_gravity(reading, root) or Case.gravity,
         tolerance=tolerance_of_case(reading, root),
+        profiles=parts.profiles,
         marks=reading.marks,
     )
+
+
+def _shaped(parts: _Parts) -> dict[str, tuple[str, ...]]:
+    """Further points of links: those of ``links:``, and those of profiles."""
+    if parts.profiles is None:
+        return parts.links
+    from icsolve.profile.case import points_of
+
+    shapes = parts.profiles.shapes
+    return parts.links | {link: (*parts.links.get(link, ()), *points_of(s)) for link, s in shapes.items()}
 
 
 def carried(

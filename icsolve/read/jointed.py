@@ -68,6 +68,7 @@ def read_list(reading: Reading, section: Sequence, kinds: Kinds[T], example: str
     found = []
     for index, item in enumerate(section.items):
         reading.marks[f"joints[{index}]"] = item.mark
+        reading.joint_number = index
         node = reading.mapping(item, "a joint", f"as in {example}")
         joint = _joint(reading, node, shared, kinds) if node is not None else None
         if joint is not None:

@@ -179,12 +179,24 @@ def _belt(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
 
 
 def _contact(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
+    if whole and not entry.has("at") and {*links} <= entry.reading.profiled:
+        _touch(entry, links)
+        return None
     at = _needed_point(entry, "the point of contact")
     into = f" from {links[0]} into {links[1]}" if whole else ""
     entry.need("normal", f"the direction of the common normal in degrees{into}")
     normal = entry.number("normal", "angle")
     friction = _friction(entry)
     return Contact(_two(links), at, normal, friction) if at and normal is not None and whole else None
+
+
+def _touch(entry: Entry, links: tuple[str, ...]) -> None:
+    """A contact whose place the profiles of its links give; it stands apart from the joints until then."""
+    from icsolve.profile.case import Touch
+
+    normal = entry.number("normal", "angle")
+    touch = Touch(_two(links), entry.reading.joint_number, normal, _friction(entry))
+    entry.reading.touches.append((touch, entry.node.mark))
 
 
 def _centre(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
 from icsolve.case import Coordinates, Mark
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
@@ -11,7 +12,10 @@ from icsolve.read.problems import Problems, shown, suggestion
 from icsolve.read.syntax import missing_space
 from icsolve.units import Unit
 
-RESERVED = ("profile",)
+if TYPE_CHECKING:
+    from icsolve.profile.case import Touch
+
+RESERVED: tuple[str, ...] = ()
 """Keys of later versions."""
 
 
@@ -22,7 +26,8 @@ class Reading:
     read at all; ``used`` the points that something needs, each with the place of its first use;
     ``given`` the points that coordinates, lengths, angles or guides involve; ``hidden`` the points
     that a load or centre gives by coordinates; ``kinds`` the kind of each load by its name. ``axes`` are
-    those along which a force has components, ``couples`` those about which a couple has.
+    those along which a force has components, ``couples`` those about which a couple has. ``profiled`` are the
+    links under ``profile``, ``touches`` the contacts whose places the profiles give.
     """
 
     axes = "xy"
@@ -39,6 +44,9 @@ class Reading:
         self.on_guides: list[str] = []
         self.hidden: dict[str, Coordinates] = {}
         self.kinds: dict[str, str] = {}
+        self.joint_number = 0
+        self.profiled: set[str] = set()
+        self.touches: list[tuple[Touch, Mark]] = []
 
     def refuse(self, mark: Mark, message: str) -> None:
         """Note a problem."""

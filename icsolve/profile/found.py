@@ -1,0 +1,190 @@
+"""A case with profiles to the same case with its contacts where they are."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import NamedTuple
+
+from icsolve.case import Case, Contact, Coordinates, Number
+from icsolve.errors import SceneError, Status
+from icsolve.profile.case import Flat, Follower, Knife, Profiles, Roller, Shape, Touch, points_of
+from icsolve.profile.curve import Curve
+from icsolve.profile.freedom import Missing, Places, guided, missing, places_of
+from icsolve.profile.lift import Freedom, Turn, Way, ways
+from icsolve.profile.pieces import Point
+from icsolve.profile.shapes import Body, body_of, placed
+from icsolve.profile.touching import Meeting, gap_of, meeting_of
+from icsolve.profile.words import corner_refusal, left_open, never_meets, piece_words, several_ways
+
+FITS = 2e-3
+"""A follower whose place is given may miss the profile by this fraction of the profile's size."""
+CLEARLY = 0.9
+"""A way is meant where it is nearer to `near` than this fraction of the distance of the next."""
+
+
+class Touching(NamedTuple):
+    """Where two links touch: the point, and the normal in degrees from the first link into the second.
+
+    ``on`` says which part of the profile; ``pressure_angle`` is in degrees, None where the follower is not
+    guided by the frame; ``note`` is a sentence about what an interpolated profile leaves open.
+    """
+
+    links: tuple[str, str]
+    at: Point
+    normal: float
+    on: str
+    pressure_angle: float | None
+    note: str = ""
+
+
+class Found(NamedTuple):
+    """The case with plain contacts, and what was found of each."""
+
+    case: Case
+    touching: tuple[Touching, ...]
+    used: frozenset[str]
+    """the points that profiles name"""
+
+
+def found(case: Case) -> Found:
+    """The contacts of a case with profiles.
+
+    Raises SceneError where a profile crosses itself, a follower never meets it or does so in several ways,
+    and where the figure is not determined.
+    """
+    assert case.profiles is not None
+    current = replace(case, profiles=None)
+    touching = []
+    for touch in case.profiles.touches:
+        current, one = _Contact(case, case.profiles, touch, current).found()
+        touching.append(one)
+    used = (name for shape in case.profiles.shapes.values() for name in points_of(shape))
+    return Found(current, tuple(touching), frozenset(used))
+
+
+class _Contact:
+    """One contact while it is looked for; ``case`` has the contacts that were found before."""
+
+    def __init__(self, original: Case, profiles: Profiles, touch: Touch, case: Case) -> None:
+        self.touch, self.case = touch, case
+        a, b = touch.links
+        self.cam, self.link = (b, a) if isinstance(profiles.shapes[a], Flat | Roller | Knife) else (a, b)
+        shape, follower = profiles.shapes[self.cam], profiles.shapes[self.link]
+        assert isinstance(follower, Flat | Roller | Knife) and not isinstance(shape, Flat | Roller | Knife)
+        self.shape: Shape = shape
+        self.follower: Follower = follower
+        line = original.marks.get(f"profile.{self.cam}", (0, 0))[0]
+        self.profile = f"the profile of link {self.cam}" + (f" (line {line})" if line else "")
+        self.what = f"link {self.link} on {self.profile}"
+
+    def found(self) -> tuple[Case, Touching]:
+        """The case with this contact, and what was found of it."""
+        own = points_of(self.shape)
+        curve = placed(self.shape, places_of(self.case, own), self.profile)
+        try:
+            body = self.body(places_of(self.case, points_of(self.follower)))
+        except SceneError as refusal:
+            if refusal.status != Status.UNDERDETERMINED:
+                raise
+            self.case, way = self.followed(curve, refusal)
+            side = way.side
+            body = self.body(places_of(self.case, points_of(self.follower)))
+        else:
+            side = min((1.0, -1.0), key=lambda side: abs(gap_of(curve, body, side)[0]))
+        meeting = meeting_of(curve, body, side, self.what)
+        if abs(meeting.gap) > FITS * curve.size:
+            raise SceneError(Status.CANNOT_ASSEMBLE, never_meets(self.what, body.kind, meeting.gap))
+        return self.contact(curve, meeting)
+
+    def body(self, places: Places) -> Body:
+        """The follower with its points at these places."""
+        return body_of(self.follower, places, f"link {self.link}")
+
+    def followed(self, curve: Curve, refusal: SceneError) -> tuple[Case, Way]:
+        """The case with the follower where it touches."""
+        guide = guided(self.case, self.link)
+        if guide is None:
+            raise refusal
+        names = points_of(self.follower)
+        datum = missing(self.case, self.link, names, guide.freedom)
+        trial = datum.given(self.case, 0.0, guide.freedom)
+        body = self.body(places_of(trial, names))
+        all_ways = ways(curve, body, guide.freedom)
+        if not all_ways:
+            raise SceneError(Status.CANNOT_ASSEMBLE, never_meets(self.what, body.kind, None))
+        chosen = self.meant(all_ways, guide.freedom, datum, trial)
+        return datum.given(self.case, chosen.by, guide.freedom), chosen
+
+    def meant(self, all_ways: list[Way], freedom: Freedom, datum: Missing, trial: Case) -> Way:
+        """The way that `near` means, or the only one."""
+        if len(all_ways) == 1:
+            return all_ways[0]
+        own = (*points_of(self.follower), *self.case.carries.get(self.link, ()))
+        names = [name for name in dict.fromkeys(own) if name in self.case.near]
+        start = places_of(trial, tuple(names) or (datum.point,))
+        off = sorted((self.off(way, freedom, start), n) for n, way in enumerate(all_ways))
+        if not names or off[0][0] > CLEARLY * off[1][0]:
+            here = places_of(trial, (datum.point,))[datum.point]
+            ends = [_moved(freedom, way.by, here) for way in all_ways]
+            raise SceneError(Status.AMBIGUOUS, several_ways(self.what, datum.point, ends, bool(names)))
+        return all_ways[off[0][1]]
+
+    def off(self, way: Way, freedom: Freedom, start: Places) -> float:
+        """How far a way is from where `near` says."""
+        near = self.case.near
+        return math.fsum(math.dist(_moved(freedom, way.by, p), near.get(n, p)) for n, p in start.items())
+
+    def contact(self, curve: Curve, meeting: Meeting) -> tuple[Case, Touching]:
+        """The case with a plain contact in the place of this one."""
+        nx, ny = self.normal(meeting)
+        sign = 1.0 if self.touch.links[0] == self.cam else -1.0
+        degrees = math.degrees(math.atan2(sign * ny, sign * nx))
+        hidden = f"@{'-'.join(self.touch.links)}.{self.touch.place}"
+        at = meeting.foot.point
+        path = f"profile.{self.cam}.{self.link}"
+        x, y, normal = (
+            Number(value, 0.0, f"{path}.{key}", repr(value))
+            for key, value in (("x", at[0]), ("y", at[1]), ("normal", degrees))
+        )
+        joint = Contact(self.touch.links, hidden, normal, self.touch.friction)
+        joints = (*self.case.joints[: self.touch.place], joint, *self.case.joints[self.touch.place :])
+        case = replace(self.case, joints=joints, points={**self.case.points, hidden: Coordinates(x, y)})
+        note = left_open(self.shape, curve, meeting.foot, self.profile)
+        on = piece_words(self.shape, curve, meeting.foot)
+        return case, Touching(self.touch.links, at, degrees % 360.0, on, self.pressure(at, (nx, ny)), note)
+
+    def normal(self, meeting: Meeting) -> Point:
+        """The normal from the profile into the follower."""
+        if len(meeting.normals) == 1:
+            return meeting.normals[0]
+        before, after = (math.degrees(math.atan2(y, x)) for x, y in meeting.normals)
+        spread = (after - before) % 360.0
+        given = self.touch.normal
+        if given is not None:
+            inward = 0.0 if self.touch.links[0] == self.cam else 180.0
+            turned = (given.value + inward - before) % 360.0
+            if min(turned, 360.0 - turned) < 1e-9 or turned <= spread + 1e-9:
+                angle = math.radians(before + turned)
+                return (math.cos(angle), math.sin(angle))
+        raise SceneError(Status.UNSUPPORTED, corner_refusal(self.what, before, spread, given))
+
+    def pressure(self, at: Point, normal: Point) -> float | None:
+        """Degrees between the normal and the motion of the follower there, where the frame guides it."""
+        guide = guided(self.case, self.link)
+        if guide is None or guide.against != self.case.ground:
+            return None
+        x, y = _motion(guide.freedom, at)
+        along, across = x * normal[0] + y * normal[1], x * normal[1] - y * normal[0]
+        return math.degrees(math.atan2(abs(across), abs(along)))
+
+
+def _motion(freedom: Freedom, at: Point) -> Point:
+    """The direction in which a point of the follower moves."""
+    if isinstance(freedom, Turn):
+        return (freedom.about[1] - at[1], at[0] - freedom.about[0])
+    return freedom.along
+
+
+def _moved(freedom: Freedom, by: float, p: Point) -> Point:
+    return freedom.moved(Body("", p), by).at

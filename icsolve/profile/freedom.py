@@ -1,0 +1,118 @@
+"""How the joints of a follower let it move against a link that stands, and the datum that is missing."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import NamedTuple
+
+from icsolve.arithmetic import turn_of
+from icsolve.case import Case, Coordinates, Direction, Number, Pin, Slide
+from icsolve.errors import SceneError, Status
+from icsolve.figure import case_point, solve_figure
+from icsolve.profile.lift import Freedom, Shift, Turn
+from icsolve.profile.pieces import Point, unit
+
+Places = dict[str, Point]
+
+
+class Guided(NamedTuple):
+    """A follower's freedom, and the link against which it has it."""
+
+    freedom: Freedom
+    against: str
+
+
+def places_of(case: Case, names: tuple[str, ...]) -> Places:
+    """Points of the figure, in case units.
+
+    Raises SceneError as `icsolve.figure.solve_figure`.
+    """
+    figure = solve_figure(case, names)
+    return {name: case_point(figure.frame, figure.points[name]) for name in names}
+
+
+def guided(case: Case, link: str) -> Guided | None:
+    """How a link is guided: by a slide, or by a pin whose place is known; None where neither is."""
+    for joint in case.joints:
+        if link not in joint.links or not isinstance(joint, Pin | Slide):
+            continue
+        against = next(other for other in joint.links if other != link)
+        try:
+            freedom = _freedom(case, joint)
+        except SceneError:
+            continue
+        return Guided(freedom, against)
+    return None
+
+
+def _freedom(case: Case, joint: Pin | Slide) -> Freedom:
+    if isinstance(joint, Pin):
+        return Turn(places_of(case, (joint.at,))[joint.at])
+    guide = joint.guide
+    if guide.angle is not None:
+        return Shift(turn_of(guide.angle.value))
+    assert guide.ends is not None
+    (ax, ay), (bx, by) = places_of(case, guide.ends).values()
+    return Shift(unit(bx - ax, by - ay))
+
+
+class Missing(NamedTuple):
+    """The datum that fixes a follower: the direction of a point from its pivot, or one of its coordinates."""
+
+    point: str
+    pivot: str
+    axis: int
+    trial: float
+
+    def given(self, case: Case, by: float, freedom: Freedom) -> Case:
+        """The case with the datum as it is after the follower has moved."""
+        if isinstance(freedom, Turn):
+            value = self.trial + math.degrees(by)
+            datum = Direction(self.pivot, self.point, self.number(value))
+            return replace(case, angles=(*case.angles, datum))
+        value = self.trial + by * freedom.along[self.axis]
+        old = case.points.get(self.point)
+        kept = old if isinstance(old, Coordinates) else Coordinates(None, None)
+        number = self.number(value)
+        point = kept._replace(y=number) if self.axis else kept._replace(x=number)
+        return replace(case, points={**case.points, self.point: point})
+
+    def number(self, value: float) -> Number:
+        """A number that the profile gives."""
+        return Number(value, 0.0, f"profile.{self.point}", repr(value))
+
+
+def missing(case: Case, link: str, points: tuple[str, ...], freedom: Freedom) -> Missing:
+    """Which datum to try, and where to start.
+
+    Raises SceneError where the follower has no point that could carry it.
+    """
+    if isinstance(freedom, Shift):
+        axis = 0 if abs(freedom.along[0]) > abs(freedom.along[1]) else 1
+        return Missing(points[0], "", axis, case.near.get(points[0], (0.0, 0.0))[axis])
+    pivot = next(
+        joint.at
+        for joint in case.joints
+        if isinstance(joint, Pin) and link in joint.links and _is_at(case, joint.at, freedom.about)
+    )
+    arm = next((p for p in (*points, *case.carries.get(link, ())) if p != pivot), None)
+    if arm is None:
+        raise SceneError(
+            Status.UNDERDETERMINED,
+            f"link {link} has no point besides its pin {pivot} by which its face could be turned. Give the "
+            "face by two points, `along: [D, E]`.",
+        )
+    x, y = case.near.get(arm, (freedom.about[0] + 1.0, freedom.about[1]))
+    return Missing(arm, pivot, 0, math.degrees(math.atan2(y - freedom.about[1], x - freedom.about[0])))
+
+
+def _is_at(case: Case, name: str, place: Point) -> bool:
+    try:
+        return places_of(case, (name,))[name] == place
+    except SceneError:
+        return False
+
+
+__all__ = ["Guided", "Mapping", "Missing", "Places", "guided", "missing", "places_of"]

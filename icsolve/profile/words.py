@@ -1,0 +1,86 @@
+"""Sentences about profiles."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from icsolve.case import Number
+from icsolve.profile.case import Arcs, Circle, Polygon, Radii, Shape
+from icsolve.profile.curve import Curve, Foot
+from icsolve.profile.pieces import Bow, Point, Polar
+from icsolve.profile.shapes import table_spline
+from icsolve.sentences import listed
+
+
+def never_meets(what: str, kind: str, gap: float | None) -> str:
+    """A follower that is apart from its profile, or in it; None: wherever it moves."""
+    if gap is None:
+        return (
+            f"{what}: the {kind} never meets the profile, wherever its guide or pin lets it go. Correct the "
+            "guide, the arm or the profile."
+        )
+    how = f"is {gap:.6g} away from" if gap > 0.0 else f"lies {-gap:.6g} inside"
+    return (
+        f"{what}: the {kind} {how} the profile in this position. Leave the follower's place open, so that "
+        "the contact gives it, or correct it."
+    )
+
+
+def several_ways(what: str, point: str, places: Sequence[Point], pointed: bool) -> str:
+    """A follower that can touch in several positions."""
+    shown = listed(f"({x:.4g}, {y:.4g})" for x, y in places)
+    hint = f"give `near: {{{point}: [...]}}` for one of them"
+    if pointed:
+        hint = "move `near` to the one that is meant"
+    return f"{what} can touch it in {len(places)} ways, with {point} at {shown}: {hint}."
+
+
+def corner_refusal(what: str, before: float, spread: float, given: Number | None) -> str:
+    """A knife edge on a corner."""
+    low, high = before % 360.0, (before + spread) % 360.0
+    said = "which of them it is, the profile leaves open"
+    if given is not None:
+        said = f"the normal {given.digits} is not one of them"
+    return (
+        f"{what}: the knife edge stands on a corner, whose normals go from {low:.6g} to {high:.6g} deg; "
+        f"{said}. Give the contact a `normal` between them, or take a position beside it."
+    )
+
+
+def piece_words(shape: Shape, curve: Curve, foot: Foot) -> str:
+    """Which part of a profile a place is on, counted ccw from where the case starts it."""
+    if isinstance(shape, Circle):
+        return "circle"
+    if foot.is_corner:
+        return "corner"
+    if isinstance(shape, Polygon):
+        return "edge"
+    piece = curve.pieces[foot.piece]
+    if isinstance(shape, Arcs) and isinstance(piece, Bow):
+        return f"arc of radius {piece.radius:.6g}"
+    return "line between arcs" if isinstance(shape, Arcs) else "spline"
+
+
+def left_open(shape: Shape, curve: Curve, foot: Foot, what: str) -> str:
+    """What the interpolation of a table leaves open at a place; '' for exact profiles."""
+    piece = curve.pieces[foot.piece]
+    if not isinstance(shape, Radii) or not isinstance(piece, Polar):
+        return ""
+    angle = piece.angle(foot.u)
+    table = [(a.value, r.value) for a, r in shape.table]
+    nearest = min(table, key=lambda pair: abs(math.remainder(math.radians(pair[0]) - angle, 2.0 * math.pi)))
+    said = f"{what} is a periodic cubic spline through {len(table)} radii"
+    if len(table) < 5:
+        return f"{said}: too few to tell how far it can be trusted between them."
+    other = piece._replace(radius=table_spline([pair for pair in table if pair != nearest]))
+    (x, y), (u, v) = piece.at(foot.u), other.at(foot.u)
+    turned = math.degrees(abs(_angle(piece.tangent(foot.u), other.tangent(foot.u))))
+    return (
+        f"{said}: without the one nearest to the contact it would lie {math.hypot(x - u, y - v):.2g} away "
+        f"there, with its normal turned by {turned:.2g} deg."
+    )
+
+
+def _angle(a: Point, b: Point) -> float:
+    return math.atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1])
