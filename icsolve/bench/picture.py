@@ -11,9 +11,12 @@ from typing import NamedTuple
 from icsolve.bench.accuracy import Score
 from icsolve.bench.laws import FORWARD
 
-COLOURS = ("#0072b2", "#004c80", "#d55e00", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#666666", "#a6761d")
+COLOURS = (
+    "#0072b2", "#004c80", "#d55e00", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#666666", "#a6761d",
+    "#7b3294", "#c2a5cf", "#111111", "#b2182b",
+)  # fmt: skip
 WIDTH, HEIGHT, LEFT, TOP, GAP = 430.0, 360.0, 60.0, 50.0, 90.0
-TIMES = (1.0, 6.0)
+TIMES = (-2.0, 6.0)
 """log10 of the microseconds at the bottom and at the top."""
 
 
@@ -43,7 +46,7 @@ def picture(scores: Iterable[Score]) -> str:
         f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {TOP + HEIGHT + 150:g}" '
         'font-family="sans-serif" font-size="12">',
         '<rect width="100%" height="100%" fill="white"/>',
-        _text(LEFT, 24, "Run time against error: one mark a family of scenes, one curve a method", size=15),
+        _text(LEFT, 24, "Run time of a scene against error: one mark a family, one curve a method", size=15),
     ]
     for n, axis in enumerate(PANELS):
         parts += _panel(LEFT + n * (LEFT + WIDTH + GAP), axis, by_method)
@@ -103,7 +106,7 @@ def _title(score: Score) -> str:
 def _legend(methods: Iterable[str]) -> list[str]:
     parts = []
     for n, (colour, method) in enumerate(zip(COLOURS, methods, strict=False)):
-        x, y = LEFT + 220.0 * (n % 5), TOP + HEIGHT + 70.0 + 24.0 * (n // 5)
+        x, y = LEFT + 220.0 * (n % 5), TOP + HEIGHT + 64.0 + 22.0 * (n // 5)
         parts.append(f'<circle cx="{x:g}" cy="{y - 4:g}" r="5" fill="{colour}"/>')
         parts.append(_text(x + 12, y, method))
     parts.append(
@@ -124,7 +127,7 @@ def _height(micros: float) -> float:
 
 
 def _duration(power: int) -> str:
-    return f"{10 ** (power % 3)} {('us', 'ms', 's')[power // 3]}"
+    return f"{10 ** (power % 3)} {('ns', 'us', 'ms', 's')[power // 3 + 1]}"
 
 
 def _text(x: float, y: float, words: str, anchor: str = "start", size: int = 12) -> str:

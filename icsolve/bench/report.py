@@ -6,13 +6,16 @@ import os
 import platform
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from icsolve.bench.accuracy import Score, scenes, scored
 from icsolve.bench.closed import FOUR_BAR, FOUR_BAR_CASE
 from icsolve.bench.families import FAMILIES
 from icsolve.bench.laws import FORWARD, PESSIMISM, Law, bounds, forward
 from icsolve.bench.timing import least
+
+if TYPE_CHECKING:
+    from icsolve.bench.sweeps import Timed
 
 
 class Effort(NamedTuple):
@@ -97,7 +100,7 @@ def method_times(scores: Sequence[Score]) -> str:
     """Median time of each method on mechanisms of more and more links."""
     families = ("four-bar", "from lengths", "Stephenson", "double butterfly", "chain of 50")
     by_key = {(score.method, score.family): score.micros for score in scores}
-    methods = dict.fromkeys(score.method for score in scores)
+    methods = dict.fromkeys(score.method for score in scores if score.family in families[1:])
     rows = [[m, *(_micros(by_key.get((m, family))) for family in families)] for m in methods]
     return table(("median us a scene", *families), rows)
 
@@ -123,38 +126,46 @@ def _laws(name: str, found: Sequence[Law]) -> str:
     return table((name, "scenes", "broken", "median", "worst"), [*rows, total])
 
 
-def full_turn(effort: Effort) -> str:
+def full_turn(effort: Effort, keep: list[Score]) -> str:
     """Sweeps against hand-written numpy and C, at 3600 and a million positions."""
-    from icsolve.bench.sweeps import MILLION, TURN, Timed, full_turns, memory
+    from icsolve.bench.sweeps import BOUNDED, BY_HAND, IN_C, MILLION, SWEPT, TURN, full_turns, memory
 
-    def row(t: Timed) -> list[str]:
-        c = f"{1e3 * t.in_c:.3g}" if t.in_c else "no compiler"
-        over_c = f"{t.swept / t.in_c:.1f}" if t.in_c else "-"
-        times = [f"{1e3 * seconds:.3g}" for seconds in (t.by_hand, t.swept, t.bounded)]
-        ratios = [f"{t.swept / t.by_hand:.1f}", over_c, f"{t.bounded / t.swept:.1f}"]
-        return [t.name, str(t.positions), times[0], c, *times[1:], *ratios, f"{t.error:.1e}"]
+    def row(name: str, by: dict[str, Timed]) -> list[str]:
+        times = [f"{1e3 * by[m].seconds:.3g}" if m in by else "-" for m in (BY_HAND, IN_C, SWEPT, BOUNDED)]
+        pairs = ((SWEPT, BY_HAND), (SWEPT, IN_C), (BOUNDED, SWEPT))
+        ratios = [f"{by[a].seconds / by[b].seconds:.1f}" if b in by else "-" for a, b in pairs]
+        return [name, str(by[SWEPT].positions), *times, *ratios, f"{by[SWEPT].error:.1e}"]
 
-    head = ("ms", "positions", "numpy by hand", "C -O3", "sweep", "sweep with bounds")
-    ratios = ("sweep / numpy", "sweep / C", "bounds / sweep", "worst error")
-    rows = [row(t) for n in (TURN, MILLION) for t in full_turns(n, 3.0 * effort.seconds)]
+    rows = []
+    for positions in (TURN, MILLION):
+        for name, by in full_turns(positions, 3.0 * effort.seconds).items():
+            rows.append(row(name, by))
+            keep += [_as_score(timed) for timed in by.values() if positions == TURN]
     used = memory()
     said = "" if used is None else f"\n\nA million positions of the four-bar take a process of {used:.0f} MB."
+    head = ("ms", "positions", BY_HAND, IN_C, "sweep", "sweep with bounds")
+    ratios = ("sweep / numpy", "sweep / C", "bounds / sweep", "worst error")
     return table((*head, *ratios), rows) + said
+
+
+def _as_score(t: Timed) -> Score:
+    """A full turn as one family of scenes."""
+    return Score(t.method, t.mechanism, t.error, t.per_unit, 1e6 * t.seconds / t.positions, 0, 0, t.positions)
 
 
 def peers(effort: Effort) -> str:
     """The same full turn by other programs."""
     from icsolve.bench.peers import PEERS, POSITIONS, ran
-    from icsolve.bench.sweeps import full_turns
+    from icsolve.bench.sweeps import SWEPT, full_turns
 
-    own = full_turns(POSITIONS, effort.seconds)[0]
-    rows = [["icsolve", "torque", f"{1e3 * own.swept:.3g}", "1", f"{own.error:.1e}"]]
+    own = next(iter(full_turns(POSITIONS, effort.seconds).values()))[SWEPT]
+    rows = [["icsolve", "torque", f"{1e3 * own.seconds:.3g}", "1", f"{own.error:.1e}"]]
     for peer in PEERS:
         found = ran(peer)
         if found.why:
             rows.append([found.name, found.gives, "-", "-", found.why])
         else:
-            times = f"{found.seconds / own.swept:.0f}"
+            times = f"{found.seconds / own.seconds:.0f}"
             rows.append([found.name, found.gives, f"{1e3 * found.seconds:.3g}", times, f"{found.error:.1e}"])
     return table((f"four-bar, {POSITIONS} positions", "gives", "ms", "x icsolve", "worst error"), rows)
 
@@ -190,7 +201,7 @@ def run(full: bool, say: Callable[[str], None]) -> list[Score]:
     scores: list[Score] = []
     say(f"# icsolve bench\n\n{machine()}\n")
     say(f"## One scene, in process\n\n{one_scene(effort)}\n")
-    say(f"## A full turn\n\n{full_turn(effort)}\n")
+    say(f"## A full turn\n\n{full_turn(effort, scores)}\n")
     say(f"## Other programs\n\n{peers(effort)}\n")
     say(f"## Start-up\n\n{start_up(effort)}\n")
     say("## Error over (kappa + 1) u, the worst of a family\n")
