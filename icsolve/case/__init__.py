@@ -1,0 +1,158 @@
+"""What a case says: frozen values, one representation of a mechanism from the file to the answer.
+
+Every number is in case units (lengths, forces, and torques as force times length unless
+``units.torque`` says otherwise; angles in degrees, angular speeds in rad/s, masses in kg,
+times in s). Points are named; a position that a load or a centre gives by coordinates has a
+hidden name that starts with ``@``.
+"""
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from icsolve.case.expected import (
+    ArmIs,
+    CentreIs,
+    DistanceIs,
+    Expected,
+    FrictionRadiusIs,
+    LoadIs,
+    Pair,
+    RateIs,
+    RatioIs,
+    ReactionIs,
+    SpeedIs,
+    Target,
+    Tolerance,
+    Variable,
+)
+from icsolve.case.figure import (
+    Centroid,
+    Coordinates,
+    Corner,
+    Direction,
+    Guide,
+    Length,
+    Mark,
+    Number,
+    Units,
+)
+from icsolve.case.joints import (
+    Belt,
+    Contact,
+    Friction,
+    Gears,
+    Helix,
+    Joint,
+    KnownCentre,
+    Pin,
+    Roll,
+    Slide,
+    Slot,
+    Weld,
+)
+from icsolve.case.loads import (
+    Force,
+    ForceVector,
+    Heading,
+    Like,
+    Load,
+    Magnitude,
+    Motion,
+    Slope,
+    Spring,
+    Torque,
+    Toward,
+    Weight,
+)
+
+if TYPE_CHECKING:
+    from icsolve.profile.case import Profiles
+    from icsolve.space.case import Space
+
+__all__ = [
+    "ArmIs",
+    "Belt",
+    "Case",
+    "CentreIs",
+    "Centroid",
+    "Contact",
+    "Coordinates",
+    "Corner",
+    "Direction",
+    "DistanceIs",
+    "Expected",
+    "Force",
+    "ForceVector",
+    "Friction",
+    "FrictionRadiusIs",
+    "Gears",
+    "Guide",
+    "Heading",
+    "Helix",
+    "Joint",
+    "KnownCentre",
+    "Length",
+    "Like",
+    "Load",
+    "LoadIs",
+    "Magnitude",
+    "Mark",
+    "Motion",
+    "Number",
+    "Pair",
+    "Pin",
+    "RateIs",
+    "RatioIs",
+    "ReactionIs",
+    "Roll",
+    "Slide",
+    "Slope",
+    "Slot",
+    "SpeedIs",
+    "Spring",
+    "Target",
+    "Tolerance",
+    "Torque",
+    "Toward",
+    "Units",
+    "Variable",
+    "Weight",
+    "Weld",
+]
+
+
+@dataclass(frozen=True, eq=False)
+class Case:
+    """One mechanism in one position, as its file gives it.
+
+    ``links`` are in the order of first mention in the joints, the frame among them; ``carries``
+    has for each link the points that its joints, loads and ``links:`` put on it; ``marks`` the
+    line and column of every path.
+    """
+
+    name: str = "case"
+    path: str = "<text>"
+    title: str = ""
+    source: str = ""
+    reconstructed: str = ""
+    units: Units = Units()
+    ground: str = "1"
+    links: tuple[str, ...] = ()
+    points: dict[str, Coordinates | Centroid] = field(default_factory=dict)
+    lengths: tuple[Length, ...] = ()
+    angles: tuple[Direction | Corner, ...] = ()
+    near: dict[str, tuple[float, float]] = field(default_factory=dict)
+    joints: tuple[Joint, ...] = ()
+    loads: tuple[Load, ...] = ()
+    motion: tuple[Motion, ...] = ()
+    expect: tuple[Expected, ...] = ()
+    carries: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    gravity: Number = Number(9.81, 0.005, "gravity", "9.81")
+    """m/s^2, along -y"""
+    tolerance: Tolerance | None = None
+    variables: tuple[Variable, ...] = ()
+    profiles: "Profiles | None" = None
+    """shapes of cams and followers, and the contacts that they place; these are not among the joints"""
+    space: "Space | None" = None
+    """figure, joints and loads where the points have three coordinates; those of the plane are then empty"""
+    marks: dict[str, Mark] = field(default_factory=dict)

@@ -1,0 +1,84 @@
+"""What places a figure: numbers with their decimals, units, points, lengths, angles, guide lines."""
+
+from typing import NamedTuple
+
+Mark = tuple[int, int]
+"""Line and column of a key or value in its file, both from 1."""
+
+
+class Number(NamedTuple):
+    """A number that the case gives.
+
+    ``value`` is the nearest double in case units, ``half`` half a unit of the last decimal
+    that was written (case units), ``path`` its place (``lengths.AB``, ``loads.P.angle``),
+    ``digits`` the numeral as written and ``factor`` case units per written unit.
+    """
+
+    value: float
+    half: float
+    path: str
+    digits: str
+    factor: float = 1.0
+
+
+class Units(NamedTuple):
+    """Unit names in which bare numbers stand and answers are given."""
+
+    length: str = "m"
+    force: str = "N"
+    torque: str = "N*m"
+    torque_per_force_length: float = 1.0
+    """How many ``torque`` units make one ``force * length``."""
+    force_per_newton: float = 1.0
+    """How many ``force`` units make one newton: a mass in kg times gravity in m/s^2, in ``force``."""
+    length_per_metre: float = 1.0
+
+
+class Coordinates(NamedTuple):
+    """A point by its coordinates; None stands for ``unknown``."""
+
+    x: Number | None
+    y: Number | None
+
+
+class Centroid(NamedTuple):
+    """A point as the mean of others."""
+
+    of: tuple[str, ...]
+
+
+class Length(NamedTuple):
+    """Distance between two points."""
+
+    a: str
+    b: str
+    value: Number
+
+
+class Direction(NamedTuple):
+    """Direction from a to b, degrees ccw from +x."""
+
+    a: str
+    b: str
+    value: Number
+
+
+class Corner(NamedTuple):
+    """Angle at ``at`` from the arm to ``a`` to the arm to ``b``, degrees ccw."""
+
+    a: str
+    at: str
+    b: str
+    value: Number
+
+
+class Guide(NamedTuple):
+    """A guide line: by ``angle`` (degrees, modulo 180) or by two of its points ``ends``.
+
+    ``through`` is a point of the line; None with ``ends`` means the line of the ends, None with
+    ``angle`` means the joint's own point.
+    """
+
+    angle: Number | None
+    ends: tuple[str, str] | None
+    through: str | None
