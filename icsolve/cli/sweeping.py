@@ -67,12 +67,14 @@ def _values(span: str) -> list[float] | None:
 @click.option("--points", is_flag=True, help="The places of the points too.")
 @click.option("--centres", is_flag=True, help="All instant centres too, homogeneous.")
 @click.option("--rates", is_flag=True, help="The angular velocities of the links too.")
+@click.option("--plot", metavar="SVG", help="The answers over the range, as a picture, into this file.")
 @SET
 def sweep_command(
     case: str,
     vary: tuple[tuple[str, list[float]], ...],
     drive: tuple[tuple[str, list[float]], ...],
     output: str | None,
+    plot: str | None,
     settings: dict[str, str],
     **more: bool,
 ) -> int:
@@ -81,6 +83,7 @@ def sweep_command(
     \b
     icsolve sweep press.yaml --vary angles.AB=0:360:1 -o turn.csv
     icsolve sweep press.yaml --drive 2=0:360:1 --vary loads.P=50:150:50 -o turn.npz
+    icsolve sweep press.yaml --vary angles.AB=0:360:1 --plot turn.svg
 
     The ending of FILE says the form: .csv, .jsonl, .npz. A row without an answer has its status.
     Exit status: 1 where no row has an answer.
@@ -94,6 +97,8 @@ def sweep_command(
         return UNREADABLE
     if not one_source("sweep", case):
         return UNREADABLE
+    if plot is not None and not _plottable(plot, len(vary) + len(drive)):
+        return UNREADABLE
     want = ("answers", "status", *(word for word, asked in more.items() if asked))
 
     def work(read: Case, path: str) -> int:
@@ -102,10 +107,27 @@ def sweep_command(
         found = _swept(read, vary, drive, want)
         for note in found.notes:
             complain(f"{path}: {note}")
-        code = write_output("sweep", FORMATS[suffix](found), output, [case])
+        code = DONE
+        if plot is not None:
+            from icsolve.draw.swept import sweep_svg
+
+            code = write_output("sweep", sweep_svg(found), plot, [case])
+        if plot is None or output is not None:
+            code = max(code, write_output("sweep", FORMATS[suffix](found), output, [case]))
         return code or (DONE if (found.status == "ok").any() else NO_ANSWER)
 
     return for_each([case], work, settings=settings)
+
+
+def _plottable(path: str, ranges: int) -> bool:
+    """Whether a picture can be made of so many ranges, under such a name; says what is wrong."""
+    if path != "-" and Path(path).suffix.lower() != ".svg":
+        complain(f"icsolve sweep: {path} should end in .svg, which is what --plot writes")
+        return False
+    if ranges != 1:
+        complain("icsolve sweep: --plot draws the answers over one range: give one --vary or --drive")
+        return False
+    return True
 
 
 def _swept(

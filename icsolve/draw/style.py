@@ -65,6 +65,7 @@ _RULES: tuple[tuple[str, Ink | None, Ink | None, str], ...] = (
     ("plot-2", UNKNOWN, None, "stroke-width:1.8;stroke-linejoin:round;stroke-dasharray:8 3"),
     ("plot-3", MOTION, None, "stroke-width:1.8;stroke-linejoin:round;stroke-dasharray:2.5 2.5"),
     ("asymptote", UNKNOWN, None, "stroke-width:1;stroke-dasharray:3 4"),
+    ("shade", None, MUTED, "fill-opacity:0.18"),
     ("grid", MUTED, None, "stroke-width:0.4;stroke-opacity:0.5"),
     ("badge", LINE, PAPER, "stroke-width:1"),
 )  # fmt: skip
