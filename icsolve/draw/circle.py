@@ -22,8 +22,11 @@ SIZE = 11.5
 """Font size of the link names and of the order."""
 
 
-def circle_marks(known: Known, steps: Sequence[Step], at: Point, lit: int | None = None) -> list[Mark]:
-    """The diagram with its upper left corner at a point; ``lit`` is the step whose triangles are filled."""
+def circle_marks(
+    known: Known, steps: Sequence[Step], at: Point, lit: int | None = None, *, each: bool = False
+) -> list[Mark]:
+    """The diagram with its upper left corner at a point; ``lit`` is the step whose triangles are filled, with
+    ``each`` they are there for every step, in groups."""
     steps = [*_inspected(known, steps), *steps]
     links = sorted(known.case.links, key=lambda link: link_order(known.case, link))
     reach = max(text_width(link, SIZE) / 2.0 + 5.0 for link in links)
@@ -32,8 +35,10 @@ def circle_marks(known: Known, steps: Sequence[Step], at: Point, lit: int | None
     centre = (at[0] + radius + node, at[1] + radius + node + 22.0)
     places = _places(links, centre, radius)
     chords = Part(tuple(mark for step in steps for mark in _chord(known, places, step)))
-    now = [step for step in steps if step.number and step.number == lit]
+    now = [step for step in steps if step.number and (each or step.number == lit)]
     triangles = [mark for step in now for mark in _triangles(places, step)]
+    if each:
+        triangles = [_of_step(f"closed-{s.number}", s, _triangles(places, s)) for s in now]
     numbers = Part(
         soft=tuple(Soft(shapely.LineString([places[a], places[b]]), 0.5) for a, b in _pairs(steps)),
         solid=tuple(around(p, node) for p in places.values()),
@@ -82,6 +87,10 @@ def _triangles(places: dict[str, Point], step: Step) -> list[Mark]:
         if len(corners) == 3:
             marks.append(Area((tuple(places[link] for link in corners),), "lit"))
     return marks
+
+
+def _of_step(name: str, step: Step, marks: Sequence[Mark]) -> Group:
+    return Group(name, "", tuple(marks), "", (("data-step", str(step.number)),))
 
 
 def _order(places: dict[str, Point], step: Step) -> Label:

@@ -88,8 +88,9 @@ def _turns_left(u: Point, v: Point) -> bool:
 def _rail(scene: Scene, joint: Slide | Slot, links: shapely.Geometry) -> Part:
     """A hatched rail beside a block; two beside a pin that runs in a slot of the frame."""
     p, u = scene.at[joint.at], guide_in_picture(scene, joint)
+    first, last = scene.ends(joint.links[1], scene.known.points[joint.at], p, u, 0.0)
     if u[0] < 0.0 or (u[0] == 0.0 and u[1] > 0.0):
-        u = (-u[0], -u[1])
+        u, first, last = (-u[0], -u[1]), last, first
     v = (-u[1], u[0])
     sides: tuple[float, ...] = (1.0, -1.0)
     if isinstance(joint, Slide):
@@ -99,9 +100,10 @@ def _rail(scene: Scene, joint: Slide | Slot, links: shapely.Geometry) -> Part:
         offset, reach = PIN + 1.5, SLOT
     marks: list[Mark] = []
     for side in sides:
-        middle = along(p, v, side * offset)
-        marks += hatched(along(middle, u, -reach), along(middle, u, reach), side)
-    ends = tuple(along(along(p, u, s * (reach - 6.0)), v, sides[0] * (offset + 5.0)) for s in (1.0, -1.0))
+        start, end = (along(q, v, side * offset) for q in (first, last))
+        marks += hatched(along(start, u, -reach), along(end, u, reach), side)
+    beyond = (along(last, u, reach - 6.0), along(first, u, 6.0 - reach))
+    ends = tuple(along(q, v, sides[0] * (offset + 5.0)) for q in beyond)
     rails = [mark.points for mark in marks if isinstance(mark, Stroke) and mark.kind == "frame"]
     lines = [Soft(_band(points), 1.5) for points in rails]
     return Part(tuple(marks), tuple(lines), (), (Label("", (), "", 0.0, ends, 0.0),))
@@ -121,7 +123,7 @@ def _surface(scene: Scene, edge: Edge) -> Part:
     """Level ground on which something rolls or rubs."""
     at, n = scene.view.at(edge.at), (edge.normal[0], -edge.normal[1])
     u = (-n[1], n[0])
-    ends = (along(at, u, -74.0), along(at, u, 74.0))
+    ends = scene.ends(edge.link, edge.at, at, u, 74.0)
     marks = hatched(ends[0], ends[1], 1.0 if _turns_left(u, (-n[0], -n[1])) else -1.0)
     beside = tuple(along(end, n, -5.0) for end in ends)
     return Part(tuple(marks), (Soft(_band(ends), 1.5),), (), (Label("", (), "", 0.0, beside, 0.0),))
@@ -196,11 +198,12 @@ def joint_parts(scene: Scene) -> list[Part]:
         if marks:
             at = scene.at[getattr(joint, "at", "")]
             reach = PIN + 1.0 if isinstance(joint, Pin | Slot | Slide) else 4.0
-            parts.append(Part((Group(_name(joint), "", tuple(marks)),), (), (around(at, reach),)))
+            parts.append(Part((Group(joint_name(joint), "", tuple(marks)),), (), (around(at, reach),)))
     return parts
 
 
-def _name(joint: Joint) -> str:
+def joint_name(joint: Joint) -> str:
+    """The id of a joint's symbol."""
     at = (getattr(joint, "at", None) or "").replace("@", "at-")
     return "-".join(("joint", type(joint).__name__.lower(), at, *joint.links))
 

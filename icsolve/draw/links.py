@@ -40,8 +40,7 @@ def body_of(scene: Scene, link: str) -> Body:
     """The outline of a link that moves (or of a black box, dashed)."""
     points = _own_points(scene, link)
     blocks = tuple(_blocks(scene, link))
-    slots = list(_slots(scene, link))
-    levers = [(along(p, u, -SLOT), along(p, u, SLOT)) for p, u in slots]
+    levers = list(_slots(scene, link))
     rods = list(_rods(scene, link))
     wheels = tuple(
         Disc(scene.view.at(w.centre), w.radius * scene.view.scale, "wheel" if w.kind == "gear" else "body")
@@ -55,7 +54,7 @@ def body_of(scene: Scene, link: str) -> Body:
     if dashed:
         parts = [plate(points, 4.0)] if len(points) != 2 else [bar(points, 0.01)]
     shape = joined(parts) if parts else None
-    holes = tuple(bar([along(p, u, 12.0 - SLOT), along(p, u, SLOT - 12.0)], PIN + 0.8) for p, u in slots)
+    holes = tuple(bar(_inside(ends), PIN + 0.8) for ends in levers)
     return Body(link, shape, wheels, blocks, holes, _anchors(points, rods, wheels, shape), dashed)
 
 
@@ -87,13 +86,21 @@ def _rods(scene: Scene, link: str) -> Iterable[tuple[Point, Point]]:
     for joint in _joints_of(scene, link, Slide, 1):
         assert isinstance(joint, Slide)
         p, u = scene.at[joint.at], guide_in_picture(scene, joint)
-        yield along(p, u, -RAIL), along(p, u, RAIL)
+        yield scene.ends(link, scene.known.points[joint.at], p, u, RAIL)
 
 
 def _slots(scene: Scene, link: str) -> Iterable[tuple[Point, Point]]:
     for joint in _joints_of(scene, link, Slot, 1):
         assert isinstance(joint, Slot)
-        yield scene.at[joint.at], guide_in_picture(scene, joint)
+        p, u = scene.at[joint.at], guide_in_picture(scene, joint)
+        yield scene.ends(link, scene.known.points[joint.at], p, u, SLOT)
+
+
+def _inside(lever: tuple[Point, Point]) -> list[Point]:
+    """The ends of the hole in a slotted lever."""
+    a, b = lever
+    u = unit(b[0] - a[0], b[1] - a[1])
+    return [along(a, u, 12.0), along(b, u, -12.0)]
 
 
 def _frame_of_points(
@@ -150,7 +157,9 @@ def _edges(scene: Scene, link: str, points: list[Point]) -> Iterable[shapely.Geo
         if edge.link != link:
             continue
         at, n = scene.view.at(edge.at), (edge.normal[0], -edge.normal[1])
-        face = tilted(along(at, n, -4.5), (-n[1], n[0]), 84.0, 9.0)
+        first, last = scene.ends(link, edge.at, at, (-n[1], n[0]), 42.0)
+        middle = ((first[0] + last[0]) / 2.0, (first[1] + last[1]) / 2.0)
+        face = tilted(along(middle, n, -4.5), (-n[1], n[0]), math.dist(first, last), 9.0)
         yield face
         if points:
             near = min(points, key=lambda p: math.dist(p, at))

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from types import MappingProxyType
 from typing import NamedTuple
 
 from icsolve.case import Case, Contact, Joint, KnownCentre, Pin, Roll, Slide, Slot, Spring, Weld
 from icsolve.construction import Known
 from icsolve.draw.marks import Box, Mark, Point
 from icsolve.draw.place import Label, Soft
-from icsolve.draw.view import View
+from icsolve.draw.view import View, along
 from icsolve.draw.wheels import Round
 
 PIN = 5.0
@@ -25,17 +26,27 @@ SLOT = 34.0
 
 
 class Scene(NamedTuple):
-    """A known scene in a view; ``at`` has its points in picture units."""
+    """A known scene in a view; ``at`` has its points in picture units.
+
+    ``travel`` is how far a joint's place goes along its guide, back (negative) and forth along the guide's
+    direction in the picture, by the guide's link and the joint's place: rails and rods reach so much farther.
+    """
 
     known: Known
     view: View
     at: Mapping[str, Point]
     round: Round
+    travel: Mapping[tuple[str, Point], tuple[float, float]] = MappingProxyType({})
 
     @property
     def case(self) -> Case:
         """The case."""
         return self.known.case
+
+    def ends(self, link: str, place: Point, p: Point, u: Point, reach: float) -> tuple[Point, Point]:
+        """The ends of a guide of a link along u about p, the picture of ``place``."""
+        back, forth = self.travel.get((link, place), (0.0, 0.0))
+        return along(p, u, back - reach), along(p, u, forth + reach)
 
     def joints(self) -> Iterable[Joint]:
         """The joints whose points can be placed."""

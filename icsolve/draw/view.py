@@ -33,8 +33,10 @@ class View(NamedTuple):
         return left <= p[0] <= right and top <= p[1] <= bottom
 
 
-def view_of(mechanism: Sequence[Box], centres: Iterable[Point], size: float) -> View:
-    """The view of a mechanism (rectangles in case units) and of those centres that are not far."""
+def view_of(
+    mechanism: Sequence[Box], centres: Iterable[Point], size: float, room: Point = (WIDTH, HEIGHT)
+) -> View:
+    """The view of a mechanism (rectangles in case units) and of those centres that are not far, in a room."""
     left, low, right, high = _grown(mechanism) if mechanism else (0.0, 0.0, 0.0, 0.0)
     span = max(right - left, high - low, 0.2 * size) or 1.0
     middle = ((left + right) / 2.0, (low + high) / 2.0)
@@ -43,7 +45,7 @@ def view_of(mechanism: Sequence[Box], centres: Iterable[Point], size: float) -> 
         if max(wider[2] - wider[0], wider[3] - wider[1]) <= NEAR * span:
             left, low, right, high = wider
     width, height = max(right - left, 1e-9 * span), max(high - low, 1e-9 * span)
-    scale = min(WIDTH / width, HEIGHT / height, 0.75 * max(WIDTH, HEIGHT) / (0.4 * span))
+    scale = min(room[0] / width, room[1] / height, 0.75 * max(room) / (0.4 * span))
     half = (width * scale / 2.0 + MARGIN, height * scale / 2.0 + MARGIN)
     return View(scale, ((left + right) / 2.0, (low + high) / 2.0), (-half[0], -half[1], *half))
 
