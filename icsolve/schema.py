@@ -76,7 +76,10 @@ def _sections() -> Schema:
         "links": _named(list_of(ref("name"), 0)),
         "joints": list_of({"anyOf": [ref("joint"), ref("joint in space")]}, 1),
         "loads": _named({"anyOf": [ref("load"), ref("load in space")]}),
-        "profile": {**_named({"anyOf": profiles(_QUANTITY)}), "description": "shapes of cams and of their followers"},
+        "profile": {
+            **_named({"anyOf": profiles(_QUANTITY)}),
+            "description": "shapes of cams and of their followers",
+        },
         "motion": {"anyOf": [ref("motion"), list_of(ref("motion"), 0), {"type": "null"}]},
         "expect": _named({"anyOf": [_value(), ref("published")]}, "^.+$"),
         "tolerance": {"anyOf": [ref("quantity"), _tolerance(), {"type": "null"}]},

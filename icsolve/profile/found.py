@@ -10,7 +10,7 @@ from icsolve.case import Case, Contact, Coordinates, Number
 from icsolve.errors import SceneError, Status
 from icsolve.profile.case import Flat, Follower, Knife, Profiles, Roller, Shape, Touch, points_of
 from icsolve.profile.curve import Curve
-from icsolve.profile.freedom import Missing, Places, guided, missing, places_of
+from icsolve.profile.freedom import Missing, Places, along_data, guided, missing, places_of
 from icsolve.profile.lift import Freedom, Turn, Way, ways
 from icsolve.profile.pieces import Point
 from icsolve.profile.shapes import Body, body_of, placed
@@ -108,13 +108,14 @@ class _Contact:
             raise refusal
         names = points_of(self.follower)
         datum = missing(self.case, self.link, names, guide.freedom)
-        trial = datum.given(self.case, 0.0, guide.freedom)
+        freedom = along_data(self.case, names, datum, guide.freedom, self.link)
+        trial = datum.given(self.case, 0.0, freedom)
         body = self.body(places_of(trial, names))
-        all_ways = ways(curve, body, guide.freedom)
+        all_ways = ways(curve, body, freedom)
         if not all_ways:
             raise SceneError(Status.CANNOT_ASSEMBLE, never_meets(self.what, body.kind, None))
-        chosen = self.meant(all_ways, guide.freedom, datum, trial)
-        return datum.given(self.case, chosen.by, guide.freedom), chosen
+        chosen = self.meant(all_ways, freedom, datum, trial)
+        return datum.given(self.case, chosen.by, freedom), chosen
 
     def meant(self, all_ways: list[Way], freedom: Freedom, datum: Missing, trial: Case) -> Way:
         """The way that `near` means, or the only one."""

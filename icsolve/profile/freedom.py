@@ -108,6 +108,27 @@ def missing(case: Case, link: str, points: tuple[str, ...], freedom: Freedom) ->
     return Missing(arm, pivot, 0, math.degrees(math.atan2(y - freedom.about[1], x - freedom.about[0])))
 
 
+def along_data(case: Case, names: tuple[str, ...], datum: Missing, freedom: Freedom, link: str) -> Freedom:
+    """The way in which the data let a follower slide: a coordinate that they give may lead beside its guide.
+
+    Raises SceneError where they let it turn as well.
+    """
+    if isinstance(freedom, Turn):
+        return freedom
+    unit_way = tuple(float(axis == datum.axis) for axis in (0, 1))
+    there = datum.given(case, 1.0, Shift((unit_way[0], unit_way[1])))
+    first, second = (places_of(one, names) for one in (datum.given(case, 0.0, freedom), there))
+    moves = [(second[n][0] - first[n][0], second[n][1] - first[n][1]) for n in names]
+    x, y = moves[0]
+    if any(math.dist(move, moves[0]) > 1e-9 * math.hypot(x, y) for move in moves):
+        raise SceneError(
+            Status.UNDERDETERMINED,
+            f"the data of link {link} do not say how it slides: give its points by lengths and angles from "
+            "one of them.",
+        )
+    return Shift(unit(x, y))
+
+
 def _is_at(case: Case, name: str, place: Point) -> bool:
     try:
         return places_of(case, (name,))[name] == place
