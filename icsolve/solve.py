@@ -79,7 +79,7 @@ def solve(
         from icsolve.space.solve import solve_space
 
         return solve_space(case)
-    if case.profiles is not None:
+    if case.profiles is not None and case.profiles.touches:
         from icsolve.profile.solving import solve_touching
 
         asked = {"all_centres": all_centres, "rates": rates, "examine": examine}
@@ -94,7 +94,7 @@ def solve(
             return _structure(program, error)
         raise
     if rubbing:
-        return _with_friction(_Parts(program, plain(outcome), {}, None), reactions)
+        return _with_friction(_Parts(program, outcome, {}, scene), reactions)
     verdicts.refuse_unbalanced(case, program.top, outcome.motions, outcome.balance, outcome.solution)
     values = bounded_values(scene) if scene else unbounded_values(outcome)
     parts = _Parts(program, outcome, values, scene)
@@ -192,17 +192,18 @@ def _with_bodies(parts: _Parts) -> Answer:
 
 def _with_friction(parts: _Parts, reactions: bool) -> Answer:
     """The answer with friction, from free bodies; its motion or the range in which it holds."""
-    from icsolve.bodies.friction import WHY, Scene, solved
+    from icsolve.bodies.friction import solved
+    from icsolve.bodies.rubbing import Scene
 
-    def answer_with(values: Mapping[str, float]) -> Answer:
-        parts.unknowns = {root: Value(value, None, WHY) for root, value in values.items()}
+    def answer_with(values: Mapping[str, Value]) -> Answer:
+        parts.unknowns = dict(values)
         return parts.answer()
 
     top, outcome = parts.program.top, parts.outcome
     if not verdicts.is_workless(outcome.motions, outcome.solution):
         verdicts.refuse_unbalanced(parts.case, top, outcome.motions, outcome.balance, outcome.solution)
     scene = Scene(_position(parts), parts.figure.frame, outcome.balance, outcome.solution, parts.speed)
-    return solved(scene, answer_with, reactions)
+    return solved(scene._replace(traced=parts.scene), answer_with, reactions)
 
 
 def _position(parts: _Parts) -> Position:

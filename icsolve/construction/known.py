@@ -68,6 +68,10 @@ def known_of(case: Case, *, reactions: bool = False) -> Known:
     answer, refusal = _solved(case, reactions)
     if case.space is not None:
         return Known(case, answer, refusal, None, {}, {}, 0.0)
+    if case.profiles is not None:
+        from icsolve.profile.solving import placed
+
+        case = placed(case)
     whole = _whole(case) or _whole(replace(case, loads=(), expect=(), motion=())) or answer
     points = _points(case, whole)
     twists = _twists(whole.case) if whole is not None else {}

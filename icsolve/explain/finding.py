@@ -112,5 +112,6 @@ def _normal(known: Known, pair: Pair) -> str:
     for joint in known.case.joints:
         if set(pair) <= set(joint.links) and isinstance(joint, Slot | Contact):
             what = "normal of the slot" if isinstance(joint, Slot) else "common normal"
-            return f"{what} at {joint.at}"
+            hidden = joint.at.startswith("@")
+            return f"{what} of links {' and '.join(joint.links)}" if hidden else f"{what} at {joint.at}"
     return "common normal of the joint"

@@ -95,6 +95,9 @@ def joint_words(joint: Joint) -> str:
         case Belt():
             return f"a {'crossed ' if joint.crossed else ''}belt runs over links {links}"
         case Contact():
+            if joint.at.startswith("@"):
+                normal = f"{joint.normal.value:.6g}"
+                return f"the profiles of links {links} touch, with the common normal at {normal} deg"
             return f"links {links} touch{where}, with the common normal at {joint.normal.digits} deg"
         case KnownCentre():
             return f"the centre of links {links} is known"

@@ -90,7 +90,8 @@ class Touch(NamedTuple):
 
 
 class Profiles(NamedTuple):
-    """The profiles of a case by link, and the contacts that they make."""
+    """The profiles of a case by link, and the contacts that they have still to place: none where these are
+    among the joints."""
 
     shapes: dict[str, Shape | Follower]
     touches: tuple[Touch, ...]

@@ -10,7 +10,7 @@ from icsolve.case import Case, Contact, Coordinates, Number
 from icsolve.errors import SceneError, Status
 from icsolve.profile.case import Flat, Follower, Knife, Profiles, Roller, Shape, Touch, points_of
 from icsolve.profile.curve import Curve
-from icsolve.profile.freedom import Missing, Places, along_data, guided, missing, places_of
+from icsolve.profile.freedom import Missing, Places, along_data, carrier, guided, missing, places_of
 from icsolve.profile.lift import Freedom, Turn, Way, ways
 from icsolve.profile.pieces import Point
 from icsolve.profile.shapes import Body, body_of, placed
@@ -27,7 +27,8 @@ class Touching(NamedTuple):
     """Where two links touch: the point, and the normal in degrees from the first link into the second.
 
     ``on`` says which part of the profile; ``pressure_angle`` is in degrees, None where the follower is not
-    guided by the frame; ``note`` is a sentence about what an interpolated profile leaves open.
+    guided by the frame; ``note`` is a sentence about what an interpolated profile leaves open. ``force`` is
+    the normal force, None where it is not determined; the contact is ``lost`` where it would have to pull.
     """
 
     links: tuple[str, str]
@@ -36,6 +37,8 @@ class Touching(NamedTuple):
     on: str
     pressure_angle: float | None
     note: str = ""
+    force: float | None = None
+    lost: bool = False
 
 
 class Found(NamedTuple):
@@ -54,7 +57,7 @@ def found(case: Case) -> Found:
     and where the figure is not determined.
     """
     assert case.profiles is not None
-    current = replace(case, profiles=None)
+    current = replace(case, profiles=case.profiles._replace(touches=()))
     touching = []
     for touch in case.profiles.touches:
         current, one = _Contact(case, case.profiles, touch, current).found()
@@ -74,14 +77,16 @@ class _Contact:
         assert isinstance(follower, Flat | Roller | Knife) and not isinstance(shape, Flat | Roller | Knife)
         self.shape: Shape = shape
         self.follower: Follower = follower
-        line = original.marks.get(f"profile.{self.cam}", (0, 0))[0]
-        self.profile = f"the profile of link {self.cam}" + (f" (line {line})" if line else "")
-        self.what = f"link {self.link} on {self.profile}"
+        self.guided = carrier(case, self.link, follower)
+        mark = original.marks.get(f"profile.{self.cam}")
+        self.profile = f"the profile of link {self.cam}"
+        self.where = self.profile + (f" ({original.path}:{mark[0]}:{mark[1]})" if mark else "")
+        self.what = f"link {self.link} on {self.where}"
 
     def found(self) -> tuple[Case, Touching]:
         """The case with this contact, and what was found of it."""
         own = points_of(self.shape)
-        curve = placed(self.shape, places_of(self.case, own), self.profile)
+        curve = placed(self.shape, places_of(self.case, own), self.where)
         try:
             body = self.body(places_of(self.case, points_of(self.follower)))
         except SceneError as refusal:
@@ -103,12 +108,12 @@ class _Contact:
 
     def followed(self, curve: Curve, refusal: SceneError) -> tuple[Case, Way]:
         """The case with the follower where it touches."""
-        guide = guided(self.case, self.link)
+        guide = guided(self.case, self.guided)
         if guide is None:
             raise refusal
         names = points_of(self.follower)
-        datum = missing(self.case, self.link, names, guide.freedom)
-        freedom = along_data(self.case, names, datum, guide.freedom, self.link)
+        datum = missing(self.case, self.guided, names, guide.freedom)
+        freedom = along_data(self.case, names, datum, guide.freedom, self.guided)
         trial = datum.given(self.case, 0.0, freedom)
         body = self.body(places_of(trial, names))
         all_ways = ways(curve, body, freedom)
@@ -121,7 +126,7 @@ class _Contact:
         """The way that `near` means, or the only one."""
         if len(all_ways) == 1:
             return all_ways[0]
-        own = (*points_of(self.follower), *self.case.carries.get(self.link, ()))
+        own = (*points_of(self.follower), *self.case.carries.get(self.guided, ()))
         names = [name for name in dict.fromkeys(own) if name in self.case.near]
         start = places_of(trial, tuple(names) or (datum.point,))
         off = sorted((self.off(way, freedom, start), n) for n, way in enumerate(all_ways))
@@ -172,7 +177,7 @@ class _Contact:
 
     def pressure(self, at: Point, normal: Point) -> float | None:
         """Degrees between the normal and the motion of the follower there, where the frame guides it."""
-        guide = guided(self.case, self.link)
+        guide = guided(self.case, self.guided)
         if guide is None or guide.against != self.case.ground:
             return None
         x, y = _motion(guide.freedom, at)

@@ -11,6 +11,7 @@ from icsolve.arithmetic import turn_of
 from icsolve.case import Case, Coordinates, Direction, Number, Pin, Slide
 from icsolve.errors import SceneError, Status
 from icsolve.figure import case_point, solve_figure
+from icsolve.profile.case import Follower, Roller
 from icsolve.profile.lift import Freedom, Shift, Turn
 from icsolve.profile.pieces import Point, unit
 
@@ -31,6 +32,14 @@ def places_of(case: Case, names: tuple[str, ...]) -> Places:
     """
     figure = solve_figure(case, names)
     return {name: case_point(figure.frame, figure.points[name]) for name in names}
+
+
+def carrier(case: Case, link: str, follower: Follower) -> str:
+    """The link by whose guide a follower moves: that on which a roller of its own turns, else itself."""
+    for joint in case.joints if isinstance(follower, Roller) else ():
+        if isinstance(joint, Pin) and link in joint.links and joint.at == follower.at:
+            return next(other for other in joint.links if other != link)
+    return link
 
 
 def guided(case: Case, link: str) -> Guided | None:

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
 from icsolve.answer import Answer, Deferred
-from icsolve.case import Case
+from icsolve.bodies.values import Reactions, names_of
+from icsolve.case import Case, Contact
 from icsolve.errors import SceneError, Status
-from icsolve.profile.found import Touching, found
-from icsolve.sentences import listed
+from icsolve.power import is_unknown
+from icsolve.profile.found import Found, Touching, found
+from icsolve.profile.words import contact_said, lost_said
 
 WHY = "its contacts are found on profiles, of which no bound is proven"
 
@@ -19,10 +22,9 @@ def solve_touching(case: Case, **options: Any) -> Answer:
 
     Raises SceneError as `icsolve.solve`, and where no contact can be found.
     """
-    from icsolve.solve import solve
-
     known = found(case)
-    answer = solve(known.case, **options)
+    answer, reactions = _solved(known.case, options)
+    touching = tuple(_pressed(one, known.case, reactions) for one in known.touching)
     return replace(
         answer,
         case=case,
@@ -31,9 +33,54 @@ def solve_touching(case: Case, **options: Any) -> Answer:
         errors={},
         sensitivities=Deferred(_no_sensitivities),
         skipped=tuple(name for name in answer.skipped if name not in known.used),
-        notes=(*answer.notes, *(said for one in known.touching for said in _said(one))),
-        touching=known.touching,
+        notes=(*answer.notes, *_notes(touching, bool(options.get("reactions")))),
+        touching=touching,
     )
+
+
+def placed(case: Case) -> Case:
+    """A case whose contacts are where its profiles put them; the same case where it has no profiles, or where
+    they place none."""
+    if case.profiles is None or not case.profiles.touches:
+        return case
+    try:
+        return found(case).case
+    except SceneError:
+        return case
+
+
+def _solved(case: Case, options: Mapping[str, Any]) -> tuple[Answer, Reactions | None]:
+    """The answer, and the reactions, which tell whether a contact pulls, where there is a load to find."""
+    from icsolve.solve import solve
+
+    if options.get("reactions") or not any(map(is_unknown, case.loads)):
+        answer = solve(case, **options)
+        return answer, answer.reactions
+    answer = solve(case, **options)
+    try:
+        return answer, solve(case, bound=False, reactions=True).reactions
+    except SceneError:
+        return answer, None
+
+
+def _pressed(one: Touching, case: Case, reactions: Reactions | None) -> Touching:
+    """A contact with its normal force, where the reactions determine it."""
+    if reactions is None:
+        return one
+    hidden = next(j.at for j in case.joints if isinstance(j, Contact) and j.links == one.links)
+    force = None
+    for name in names_of(*one.links, hidden):
+        if name in reactions:
+            force = dict(reactions[name].parts).get("normal")
+            break
+    return one._replace(force=force, lost=force is not None and force < 0.0)
+
+
+def _notes(touching: tuple[Touching, ...], reactions: bool) -> tuple[str, ...]:
+    """What is said of the contacts; with reactions, a lost one is said with them."""
+    said = [contact_said(one) for one in touching] + [one.note for one in touching if one.note]
+    lost = [lost_said(one) for one in touching if one.lost and not reactions]
+    return (*said, *lost)
 
 
 def _no_sensitivities() -> dict[str, dict[str, float]]:
@@ -44,13 +91,4 @@ def _no_sensitivities() -> dict[str, dict[str, float]]:
     )
 
 
-def _said(one: Touching) -> list[str]:
-    x, y = one.at
-    pressure = "" if one.pressure_angle is None else f", pressure angle {one.pressure_angle:.6g} deg"
-    place = f"({x:.6g}, {y:.6g}), {_article(one.on)}, normal {one.normal:.6g} deg"
-    said = f"links {listed(one.links)} touch at {place}{pressure}."
-    return [said, one.note] if one.note else [said]
-
-
-def _article(on: str) -> str:
-    return f"on {'an' if on[0] in 'aeiou' else 'the' if on in ('circle', 'spline') else 'a'} {on}"
+__all__ = ["Found", "placed", "solve_touching"]

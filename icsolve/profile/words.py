@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from icsolve.case import Number
 from icsolve.profile.case import Arcs, Circle, Polygon, Radii, Shape
@@ -11,6 +12,9 @@ from icsolve.profile.curve import Curve, Foot
 from icsolve.profile.pieces import Bow, Point, Polar
 from icsolve.profile.shapes import table_spline
 from icsolve.sentences import listed
+
+if TYPE_CHECKING:
+    from icsolve.profile.found import Touching
 
 
 def never_meets(what: str, kind: str, gap: float | None) -> str:
@@ -84,3 +88,23 @@ def left_open(shape: Shape, curve: Curve, foot: Foot, what: str) -> str:
 
 def _angle(a: Point, b: Point) -> float:
     return math.atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1])
+
+
+def contact_said(one: Touching) -> str:
+    """Where two links touch."""
+    x, y = one.at
+    pressure = "" if one.pressure_angle is None else f", pressure angle {one.pressure_angle:.6g} deg"
+    place = f"({x:.6g}, {y:.6g}), {_article(one.on)}, normal {one.normal:.6g} deg"
+    return f"links {listed(one.links)} touch at {place}{pressure}."
+
+
+def lost_said(one: Touching) -> str:
+    """A contact that would have to pull."""
+    return (
+        f"the contact of links {listed(one.links)} is lost: its normal force would have to pull "
+        f"({one.force:.6g}). The links part there."
+    )
+
+
+def _article(on: str) -> str:
+    return f"on {'an' if on[0] in 'aeiou' else 'the' if on in ('circle', 'spline') else 'a'} {on}"
