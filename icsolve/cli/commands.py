@@ -20,6 +20,7 @@ VERBS = {
     "export": "exporting",
     "explain": "explaining",
     "draw": "drawing",
+    "gallery": "showing",
     "sweep": "sweeping",
     "bench": "benching",
 }

@@ -61,7 +61,7 @@ def explain_case(
 
         known = known_of(case, reactions=True)
         text = explain(case, form, digits, bodies=bodies, known=known)
-        code = write_output("explain", text, output, [argument])
+        code = write_output("explain", text.encode("utf-8", "backslashreplace"), output, [argument])
         if known.refusal is not None:
             on_stderr(case, path, known.refusal)
             return max(code, NO_ANSWER)

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from html import escape
 
+from icsolve.draw.svg import escaped
 from icsolve.explain.document import Block, Document, Formula, Inline, Items, Section, Table, Words
 from icsolve.explain.mathml import mathml, mathml_equation
 
@@ -23,19 +23,19 @@ figure{margin:1rem 0}svg{max-width:100%;height:auto}
 
 def html_of(document: Document, figure: str = "") -> str:
     """A whole page; ``figure`` is an SVG drawing."""
-    lead = "".join(f'<p class="lead">{escape(text)}</p>\n' for text in document.lead)
+    lead = "".join(f'<p class="lead">{escaped(text)}</p>\n' for text in document.lead)
     picture = f"<figure>{figure}</figure>\n" if figure else ""
     body = "".join(part for section in document.sections for part in _section(section))
     return (
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width,initial-scale=1">\n'
-        f"<title>{escape(document.title)}</title>\n<style>{STYLE}</style></head>\n<body><main>\n"
-        f"<h1>{escape(document.title)}</h1>\n{lead}{picture}{body}</main></body></html>\n"
+        f"<title>{escaped(document.title)}</title>\n<style>{STYLE}</style></head>\n<body><main>\n"
+        f"<h1>{escaped(document.title)}</h1>\n{lead}{picture}{body}</main></body></html>\n"
     )
 
 
 def _section(section: Section) -> Iterable[str]:
-    yield f"<section><h2>{escape(section.title)}</h2>\n"
+    yield f"<section><h2>{escaped(section.title)}</h2>\n"
     for block in section.blocks:
         yield _block(block)
     yield "</section>\n"
@@ -51,11 +51,11 @@ def _block(block: Block) -> str:
             tag = "ol" if block.numbered else "ul"
             return f"<{tag}>{''.join(f'<li>{inline(entry)}</li>' for entry in block.entries)}</{tag}>\n"
         case Table():
-            head = "".join(f"<th>{escape(cell)}</th>" for cell in block.heading)
+            head = "".join(f"<th>{escaped(cell)}</th>" for cell in block.heading)
             rows = "".join(f"<tr>{''.join(f'<td>{inline(c)}</td>' for c in row)}</tr>" for row in block.rows)
             return f"<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>\n"
 
 
 def inline(parts: Sequence[Inline]) -> str:
     """Words and symbols on one line."""
-    return "".join(escape(p) if isinstance(p, str) else f"<math>{mathml(p)}</math>" for p in parts)
+    return "".join(escaped(p) if isinstance(p, str) else f"<math>{mathml(p)}</math>" for p in parts)
