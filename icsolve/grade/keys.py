@@ -26,6 +26,7 @@ from icsolve.grade.scales import (
     parsed_unit,
     size_of,
     unit_of_target,
+    width_of,
     zero_width,
 )
 from icsolve.grade.senses import Senses, senses_of
@@ -114,11 +115,44 @@ def scalar_key(
         value = 0.0
     width = own_width(policy.tolerance, target, answer, unit, unit_name)
     half = half_width(policy.tolerance, value, width, zero)
-    foreseen, senses = Wrongs(wrongs, value, half), _senses(target, answer)
-    accepted, rule = range_in_words(value, half, unit_name), in_words(policy.tolerance)
+    senses = _senses(target, answer)
+    return _key(question, value, (unit_name, unit), (half, width), senses, policy, wrongs)
+
+
+def simple_key(
+    question: str,
+    value: float,
+    unit_name: str,
+    policy: Policy,
+    senses: Senses,
+    wrongs: Callable[[], Iterable[Wrong]],
+) -> Key:
+    """The key of a value other than zero, without a tolerance from the drawing.
+
+    Raises NoKeyError where the tolerance is in a unit of another kind.
+    """
+    unit = parsed_unit(unit_name)
+    width = width_of(policy.tolerance, unit, unit_name)
+    half = half_width(policy.tolerance, value, width, 0.0)
+    return _key(question, value, (unit_name, unit), (half, width), senses, policy, wrongs)
+
+
+def _key(
+    question: str,
+    value: float,
+    unit: tuple[str, Unit],
+    widths: tuple[float, float],
+    senses: Senses,
+    policy: Policy,
+    wrongs: Callable[[], Iterable[Wrong]],
+) -> Key:
+    """A key with what follows from its value, unit, and half and own width."""
+    half, width = widths
+    accepted, rule = range_in_words(value, half, unit[0]), in_words(policy.tolerance)
     plain = _is_plain(policy) and value != 0.0 and senses.any
+    foreseen = Wrongs(wrongs, value, half)
     return Key(
-        question, value, unit_name, unit, half, senses, foreseen, policy, accepted, rule, {}, {}, width, plain
+        question, value, *unit, half, senses, foreseen, policy, accepted, rule, {}, {}, width, plain
     )
 
 

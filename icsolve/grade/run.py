@@ -87,6 +87,8 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
             intake.read(path, job.course.columns, student or job.student)
         questions = tuple(sorted(set(job.course.questions) or _asked(intake)))
         students = sorted(set(intake.students) | set(roster.people if roster is not None else ()))
+        progress("drawing variants", 0.0)
+        shelf.foresee(intake.questions, students)
         parts = divided(questions, students, intake.count, job.jobs)
         if sinks.csv is not None:
             sinks.csv.write(HEADER + "\n")

@@ -132,14 +132,19 @@ def own_width(tolerance: Tolerance, target: Target, answer: Answer, unit: Unit, 
     Raises NoKeyError where the width is in a unit of another kind, or the drawing says nothing of the target.
     """
     drawn = _drawn(tolerance.drawing, target, answer) if tolerance.drawing else 0.0
+    return max(width_of(tolerance, unit, unit_name), drawn)
+
+
+def width_of(tolerance: Tolerance, unit: Unit, unit_name: str) -> float:
+    """A tolerance's absolute width in the answer's unit. Raises NoKeyError where it is of another kind."""
     if not tolerance.unit:
-        return max(tolerance.absolute, drawn)
+        return tolerance.absolute
     found = unit_word(tolerance.unit)
     factor = factors_between(found.unit, unit) if found is not None else None
     if factor is None:
         said = f"the tolerance {tolerance.absolute:g} {tolerance.unit}"
         raise NoKeyError(f"{said} does not fit an answer in {unit_name or 'no unit'}")
-    return max(tolerance.absolute * factor, drawn)
+    return tolerance.absolute * factor
 
 
 def _drawn(accuracy: str, target: Target, answer: Answer) -> float:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Collection, Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from icsolve.case import Case
@@ -80,6 +80,13 @@ class Shelf:
             found = self._solved[name] = self._made(name)
         return found if not isinstance(found, Solved | NoKeyError) else None
 
+    def foresee(self, questions: Iterable[str], students: Collection[str]) -> None:
+        """Draw for all students at once what the questions' cases leave to be drawn."""
+        for name in dict.fromkeys(question.partition(":")[0] for question in questions):
+            varied = self.variation(name) if name in self.paths else None
+            if varied is not None:
+                varied.foresee(students)
+
     def read(self, name: str) -> Case:
         """The case of that name.
 
@@ -103,7 +110,9 @@ class Shelf:
 
         Raises NoKeyError.
         """
-        return self.solved(question.partition(":")[0], student).key(question)
+        name = question.partition(":")[0]
+        varied = self.variation(name)
+        return varied.key(question, student) if varied is not None else self.solved(name).key(question)
 
     def variant_of(self, question: str, student: str) -> str:
         """The label of the student's values; '' for a case without variables."""

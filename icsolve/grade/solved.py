@@ -24,7 +24,6 @@ class Solved:
         self.answer = solved(case, bound)
         self.scale = 1.0
         """by what the loads, and so the answers, are larger than in ``answer``"""
-        self.swallowed: frozenset[tuple[str, str, str]] = frozenset()
         self._base: Solved | None = None
         self._keys: dict[str, AnyKey] = {}
         self._wrongs: dict[str, list[Wrong]] | None = None

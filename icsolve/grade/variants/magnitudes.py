@@ -26,8 +26,9 @@ class Magnitudes:
         inside = {name for written in self._texts.values() for name in names_in(written)}
         self.names = frozenset(inside - _elsewhere(root, {node.mark for node in numbers.values()}))
         self._units = {load.name: unit_of(load, case) for load in case.loads if load.name in self._texts}
+        self._written = [(load.name, number_of(load)) for load in case.loads]
 
-    def loads(self, case: Case, values: Mapping[str, str]) -> dict[str, float]:
+    def loads(self, values: Mapping[str, str]) -> dict[str, float]:
         """The numbers of the loads that depend on variables, in case units."""
         found = {}
         for name, written in self._texts.items():
@@ -38,15 +39,15 @@ class Magnitudes:
             found[name] = converted(numeral, parse_unit(unit), own) if unit else float(numeral.digits)
         return found
 
-    def factor(self, case: Case, values: Mapping[str, str]) -> float | None:
-        """By what all known loads are larger than in ``case``; None where they do not grow alike."""
-        new = self.loads(case, values)
+    def factor(self, base: Mapping[str, str], values: Mapping[str, str]) -> float | None:
+        """By what all known loads are larger than with other values; None where they do not grow alike."""
+        old, new = self.loads(base), self.loads(values)
         ratios = set()
-        for load in case.loads:
-            before = number_of(load)
+        for name, written in self._written:
+            before = old.get(name, written)
             if before is None:
                 continue
-            after = new.get(load.name, before)
+            after = new.get(name, before)
             if before == 0.0 or after == 0.0:
                 return None
             ratios.add(after / before)

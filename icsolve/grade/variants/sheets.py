@@ -12,7 +12,7 @@ from icsolve.grade.keys import AnyKey, Key, NoKeyError
 from icsolve.grade.out.wording import asked, given
 from icsolve.grade.people import Person
 from icsolve.grade.questions import unknowns
-from icsolve.grade.results import number, safe
+from icsolve.grade.results import safe
 from icsolve.grade.solved import Solved
 from icsolve.grade.variants.varied import Draw, Varied
 
@@ -26,7 +26,9 @@ class Task(NamedTuple):
 
 def tasks(varied: Varied, people: Iterable[Person]) -> Iterator[Task | NoKeyError]:
     """Every student's variant; the error of one for whom none suits."""
-    for person in people:
+    found = list(people)
+    varied.foresee(person.student_id for person in found)
+    for person in found:
         try:
             yield Task(person, varied.draw(person.student_id))
         except NoKeyError as error:
@@ -51,13 +53,12 @@ def key_csv(varied: Varied, found: Iterable[Task]) -> str:
     table = csv.writer(out, lineterminator="\n")
     table.writerow(["student_id", "variant", "case", "value", "unit", "sense", "from", "to"])
     for person, draw in found:
-        solved = varied.solved(person.student_id)
         for question in questions(varied):
-            key = solved.key(question)
+            key = varied.key(question, person.student_id)
             assert isinstance(key, Key)
-            low, high = abs(key.value) - key.half, abs(key.value) + key.half
-            cells = (draw.label, question, number(key.value), key.unit_name, sense(solved, question))
-            table.writerow([safe(person.student_id), *cells, f"{max(low, 0.0):.10g}", f"{high:.10g}"])
+            low, high = max(abs(key.value) - key.half, 0.0), abs(key.value) + key.half
+            cells = (draw.label, question, f"{key.value:.12g}", key.unit_name, sense(varied, draw, key))
+            table.writerow([safe(person.student_id), *cells, f"{low:.10g}", f"{high:.10g}"])
     return out.getvalue()
 
 
@@ -67,9 +68,12 @@ def questions(varied: Varied) -> list[str]:
     return [varied.name] if len(names) == 1 else [f"{varied.name}:{name}" for name in names]
 
 
-def sense(solved: Solved, question: str) -> str:
+def sense(varied: Varied, draw: Draw, key: Key) -> str:
     """The answer's sense in words."""
-    name = getattr(solved.target(question), "load", "")
+    if key.senses.turn:
+        return "ccw" if key.value * key.senses.turn > 0.0 else "cw"
+    solved = varied.task(draw)
+    name = getattr(solved.target(key.question), "load", "")
     found = solved.answer.answers.get(name)
     return found.sense if found is not None else ""
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 from icsolve.answer import Answer
 from icsolve.grade.malrules.centres import centre_wrongs
 from icsolve.grade.malrules.gather import resolve
@@ -10,12 +12,31 @@ from icsolve.grade.malrules.messages import Wrong
 from icsolve.grade.scales import size_of
 from icsolve.sensitivity import band
 
-_DRAWING = 1e-3
+DRAWING = 1e-3
 """Part of the mechanism's size by which every point may be off."""
-_SWING = 0.1
+SWING = 0.1
 """Part of itself by which an answer may change for it; near a dead centre it changes more."""
-_APART = 0.02
+APART = 0.02
 """Part of itself by which an answer and a wrong one differ at least."""
+
+
+Mistake = tuple[str, str, str]
+"""The unknown, the code, and where the mistake sits."""
+
+
+class Seen(NamedTuple):
+    """A variant looked at: whether it is far from dead centres, and the mistakes that it would not show;
+    its answer, if it was looked at in a sweep."""
+
+    far: bool
+    swallowed: frozenset[Mistake]
+    value: float | None = None
+
+
+def looked_at(answer: Answer) -> Seen:
+    """A variant that was solved with its bound."""
+    far = far_from_dead_centres(answer)
+    return Seen(far, swallowed(answer) if far else frozenset())
 
 
 def far_from_dead_centres(answer: Answer) -> bool:
@@ -23,23 +44,23 @@ def far_from_dead_centres(answer: Answer) -> bool:
 
     ``answer`` has been solved with its bound, whose backward pass gives the sensitivities.
     """
-    width = _DRAWING * size_of(answer)
+    width = DRAWING * size_of(answer)
     for name, found in answer.answers.items():
         try:
             swing = band(answer, name, width)
         except KeyError:
             continue
-        if found.value == 0.0 or not swing <= _SWING * abs(found.value):
+        if found.value == 0.0 or not swing <= SWING * abs(found.value):
             return False
     return True
 
 
-def swallowed(answer: Answer) -> frozenset[tuple[str, str, str]]:
+def swallowed(answer: Answer) -> frozenset[Mistake]:
     """The mistakes that this variant would not show: their answers are as good as the right one."""
     found = set()
     for name, wrong in _wrongs(answer):
         right = answer.answers[name].value
-        if abs(wrong.value - right) <= _APART * abs(right):
+        if abs(wrong.value - right) <= APART * abs(right):
             found.add((name, wrong.code, wrong.where))
     return frozenset(found)
 

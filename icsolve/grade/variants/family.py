@@ -1,0 +1,210 @@
+"""The variants of one case as one sweep: a family of figures built in the same way, all rows at once.
+
+Each row is what the case gives with those numbers, by the kernels and the construction of one scene. Only
+figures whose every branch `near` picks are taken, and a row in which the pick is not plain, or where
+anything comes near zero, is left to be solved as a scene of its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from icsolve.answer import Answer
+from icsolve.case import Case, Corner, Force, Load, Torque, Weight
+from icsolve.figure import Figure, solve_figure
+from icsolve.figure.group import Group
+from icsolve.figure.loci import is_round
+from icsolve.figure.order import order_of
+from icsolve.figure.steps import Meet
+from icsolve.grade.variants.written import Array, UnsuitedError, as_written
+from icsolve.names import pair_name
+from icsolve.power import is_unknown
+from icsolve.topology import topology
+from icsolve.turn.drivers import Drive
+from icsolve.turn.program import Asked, Setting, sheet_of, wanted_points
+from icsolve.turn.runner import Runner
+from icsolve.turn.scene import pairs
+from icsolve.verdicts import rubs
+
+PLAIN = 0.98
+"""The place that is taken lies nearer to `near` than the other one by this factor at least."""
+
+Columns = Mapping[str, Array]
+Mask = npt.NDArray[np.bool_]
+
+
+class Rows(NamedTuple):
+    """What a family gives: the unknown, points (n, 2), centres (n, 3) and rates by name; ``clear`` rows hold.
+
+    ``points`` have what has coordinates only, too; a centre or rate that is the same for all is an array
+    all the same.
+    """
+
+    value: Array
+    points: dict[str, Array]
+    centres: dict[str, Array]
+    rates: dict[str, Array]
+    clear: Mask
+
+
+class Family:
+    """The figures of ``case``, which was solved to ``answer``, for other numbers at the paths of its loads
+    and its figure."""
+
+    def __init__(self, case: Case, answer: Answer) -> None:
+        """Raises UnsuitedError, SceneError."""
+        self.case = case
+        self.unknown = _only_unknown(case, answer)
+        self.numbers = {path: number.value for path, number in as_written(case).items()}
+        self.named = tuple(answer.points)
+        self.figure = _built(case)
+        self.runner = self._runner(self.figure, full=True)
+        self.others = [(step.target, self._other_place(n)) for n, step in self._forks()]
+        self.flat = {
+            angle.value.path: angle.value.value % 180.0 == 0.0
+            for angle in case.angles
+            if isinstance(angle, Corner)
+        }
+
+    def run(self, columns: Columns, rows: int) -> Rows:
+        """All rows."""
+        found = self.runner.run(self.given(self.runner, columns), rows)
+        clear = np.ones(rows, dtype=bool)
+        clear[found.doubtful] = False
+        value = found.values["answers", self.unknown]
+        kinds: dict[str, dict[str, Array]] = {"answers": {}, "points": {}, "centres": {}, "rates": {}}
+        for (kind, name), array in found.values.items():
+            kinds[kind][name] = array
+        with np.errstate(all="ignore"):
+            clear &= np.isfinite(value) & (value != 0.0)
+            clear &= self._picked(kinds["points"], columns, rows) & self._as_built(columns, rows)
+        return Rows(value, kinds["points"], kinds["centres"], kinds["rates"], clear)
+
+    def values(self, columns: Columns, rows: int) -> Array:
+        """The unknown alone."""
+        return self.runner.run(self.given(self.runner, columns), rows).values["answers", self.unknown]
+
+    def slopes(self, columns: Columns, rows: int) -> dict[str, Array]:
+        """Derivatives of the unknown by every number, by path."""
+        passes = self.runner.bounds
+        given, names = self.given(self.runner, columns), {k: n for n, k in self.runner.sheet.inputs.items()}
+        out = {name: np.zeros(rows) for name in names.values()}
+        for start in range(0, rows, passes.rows):
+            here = slice(start, min(start + passes.rows, rows))
+            (passed,) = passes.run(
+                {k: v[here] if v.ndim else v for k, v in given.items()}, here.stop - start
+            )
+            for k, slope in passed.by.items():
+                if k in names:
+                    out[names[k]][here] = slope
+        return out
+
+    def number(self, path: str, columns: Columns, rows: int) -> Array:
+        """A number in each row."""
+        return np.broadcast_to(columns[path] if path in columns else self.numbers[path], rows)
+
+    def given(self, runner: Runner, columns: Columns) -> dict[int, Array]:
+        """The inputs of a runner: what varies by row, and single numbers."""
+        inputs = runner.sheet.inputs
+        return {k: np.asarray(columns[p] if p in columns else self.numbers[p]) for p, k in inputs.items()}
+
+    def with_loads(self, loads: tuple[Load, ...]) -> Runner:
+        """A runner of the same figure under other loads, for the unknown alone."""
+        from dataclasses import replace
+
+        return self._runner(self.figure, full=False, case=replace(self.case, loads=loads))
+
+    # --- making -----------------------------------------------------------------------------------
+
+    def _runner(self, figure: Figure, full: bool, case: Case | None = None, points: str = "") -> Runner:
+        case = case or self.case
+        paths = tuple(as_written(case))
+        setting = Setting(case, topology(case), figure, paths, (), Drive((), (), ()))
+        asked = Asked(answers=not points, points=(points,) if points else ())
+        if full:
+            asked = Asked(True, tuple(figure.points), tuple(pairs(case)), True)
+        sheet = sheet_of(setting, asked)
+        if sheet.refusal is not None or sheet.delicate:
+            raise UnsuitedError("the mechanism moves only because its data are exact")
+        return Runner(sheet)
+
+    def _forks(self) -> list[tuple[int, Meet]]:
+        steps = enumerate(self.figure.steps)
+        return [(n, step) for n, step in steps if isinstance(step, Meet) and is_round(step.second)]
+
+    def _other_place(self, n: int) -> Runner:
+        """The figure with the other place of one step."""
+        steps = list(self.figure.steps)
+        step = steps[n]
+        assert isinstance(step, Meet) and isinstance(step.target, str)
+        steps[n] = step._replace(sign=-step.sign)
+        return self._runner(self.figure._replace(steps=tuple(steps)), full=False, points=step.target)
+
+    # --- rows -------------------------------------------------------------------------------------
+
+    def _picked(self, points: Mapping[str, Array], columns: Columns, rows: int) -> Mask:
+        """Rows in which `near` picks the places as in the case itself."""
+        clear = np.ones(rows, dtype=bool)
+        for target, runner in self.others:
+            assert isinstance(target, str)
+            other = runner.run(self.given(runner, columns), rows).values["points", target]
+            near = np.array(self.case.near[target])
+            own = np.hypot(*(points[target] - near).T)
+            clear &= own < PLAIN * np.hypot(*(other - near).T)
+        return clear
+
+    def _as_built(self, columns: Columns, rows: int) -> Mask:
+        """Rows that are constructed as the case itself: corners as flat as there, lengths above zero."""
+        clear = np.ones(rows, dtype=bool)
+        for path, array in columns.items():
+            if path.startswith("lengths."):
+                clear &= array > 0.0
+            elif path.startswith("loads.") and not path.endswith(".angle"):
+                clear &= array != 0.0
+            elif path in self.flat:
+                clear &= (array % 180.0 == 0.0) == self.flat[path]
+        return clear
+
+    def centres_of(self, rows: Rows, link: str) -> dict[str, Array]:
+        """Homogeneous centres of a link that are not at infinity, by the other link."""
+        found = {}
+        for other in self.case.links:
+            name = pair_name(self.case, (link, other)) if other != link else ""
+            if name in rows.centres and rows.centres[name][:, 2].any():
+                found[other] = rows.centres[name]
+        return found
+
+
+def _only_unknown(case: Case, answer: Answer) -> str:
+    """The one unknown of a smooth mechanism under loads that a sum of power of plain terms balances."""
+    unknown = [load.name for load in case.loads if is_unknown(load)]
+    plain = all(
+        isinstance(load, Torque | Force) or (isinstance(load, Weight) and not load.mass)
+        for load in case.loads
+    )
+    if case.space is not None or case.profiles is not None or case.motion or rubs(case):
+        raise UnsuitedError("a case of its own kind")
+    if len(unknown) != 1 or list(answer.answers) != unknown or not plain or answer.mobility != 1:
+        raise UnsuitedError("not one unknown under plain loads")
+    return unknown[0]
+
+
+def _built(case: Case) -> Figure:
+    """The figure, if it is constructed step by step, of no more data than it needs, by `near` alone."""
+    goal = wanted_points(case)
+    figure = solve_figure(case, goal)
+    order = order_of(case, list(figure.points))
+    spare = set(order.facts.data) - order.used()
+    if spare or figure.notes or figure.skipped:
+        raise UnsuitedError("data are compared with each other")
+    for step in figure.steps:
+        if isinstance(step, Group):
+            raise UnsuitedError("points that only all their data together determine")
+        if isinstance(step, Meet) and is_round(step.second) and not (step.sign and step.target in case.near):
+            raise UnsuitedError("a branch that `near` does not pick")
+    return figure
+

@@ -1,0 +1,104 @@
+"""Variants taken together in one sweep: the answers, keys and verdicts of single scenes, row by row."""
+
+from __future__ import annotations
+
+import random
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import icsolve
+from grade_shell import PRESS
+from icsolve.errors import IcsolveError
+from icsolve.grade.course import Course
+from icsolve.grade.people import Person
+from icsolve.grade.solved import Solved
+from icsolve.grade.variants import Varied
+from icsolve.grade.variants.family import Family
+from icsolve.grade.variants.sheets import Task, key_csv, tasks
+from icsolve.grade.variants.suitable import looked_at
+from icsolve.grade.variants.together import look
+from icsolve.grade.variants.written import UnsuitedError, as_written
+from icsolve.turn.numbers import with_numbers
+
+CASES = sorted((Path(__file__).parent.parent / "cases").rglob("*.yaml"))
+ROWS = 8
+MANY = PRESS.replace(
+    "a: {choices: [1, 1.25, 1.5]}", "a: {range: [0.5, 2], step: 0.01}\n  phi: {range: [20, 90], step: 0.1}"
+).replace("AB: 60", "AB: $phi")
+
+
+def families() -> list[tuple[Path, Family]]:
+    """The cases of the library whose variants can be taken together."""
+    found = []
+    for path in CASES:
+        try:
+            case = icsolve.load(path)
+            found.append((path, Family(case, Solved(case, Course(), bound=True).answer)))
+        except (IcsolveError, UnsuitedError):
+            continue
+    return found
+
+
+def test_other_numbers_in_every_case_of_the_library_swept_and_solved_one_by_one() -> None:
+    """Every length, angle and load up to a quarter larger or smaller: the same answer to 1e-11, the same
+    verdict on dead centres, and the same mistakes that would not show."""
+    found, compared = families(), 0
+    for path, family in found:
+        rng = random.Random(path.stem)
+        columns = {
+            name: np.array([float(f"{value * rng.uniform(0.75, 1.25):.4g}") for _ in range(ROWS)])
+            for name, value in family.numbers.items()
+            if value and not name.startswith("points")
+        }
+        for row, seen in enumerate(look(family, columns, ROWS)):
+            if seen is None:
+                continue  # left to a scene of its own
+            case = with_numbers(family.case, {name: float(a[row]) for name, a in columns.items()})
+            answer = Solved(case, Course(), bound=True).answer
+            alone = looked_at(answer)
+            assert seen.value == pytest.approx(answer.answers[family.unknown].value, rel=1e-11), path
+            assert (seen.far, seen.swallowed if alone.far else alone.swallowed) == alone[:2], path
+            compared += 1
+    assert len(found) > 30
+    assert compared > 200
+
+
+def test_numbers_of_the_case_are_all_inputs_of_its_family() -> None:
+    case = icsolve.load(PRESS)
+    family = Family(case, Solved(case, Course(), bound=True).answer)
+    assert family.numbers.keys() == as_written(case).keys()
+
+
+WITH_WEIGHT = MANY.replace("  T12:", "  W: {weight: 50, link: 3, at: C}\n  T12:")
+
+
+@pytest.mark.parametrize("text", [MANY, WITH_WEIGHT], ids=["all loads alike", "with a weight"])
+def test_a_class_drawn_in_one_sweep_has_the_variants_and_keys_of_one_by_one(text: str) -> None:
+    students = [f"{n:04d}" for n in range(120)]
+    swept, alone = (Varied("press", text, "press.yaml", Course()) for _ in range(2))
+    found = [task for task in tasks(swept, map(Person, students)) if isinstance(task, Task)]
+    assert [task.draw for task in found] == [alone.draw(student) for student in students]
+    assert not swept._tasks
+    assert any(seen is not None and seen.value is not None for seen in swept._seen.values())
+    one_by_one = [Task(Person(student), alone.draw(student)) for student in students]
+    assert key_csv(swept, found) == key_csv(alone, one_by_one)
+    assert alone._tasks
+
+
+def test_a_variable_in_something_else_than_a_number_is_taken_one_by_one() -> None:
+    text = PRESS.replace("near: {C: [3.5, 2.4]}", "near: {C: [3.5, 2.4 + 0*$a]}")
+    varied = Varied("press", text, "press.yaml", Course())
+    varied.foresee(map(str, range(20)))
+    assert varied._together is None
+    assert varied.draw("3") == Varied("press", PRESS, "press.yaml", Course()).draw("3")
+
+
+def test_loads_that_cancel_in_some_variants_are_not_given() -> None:
+    """T12 balances 100 and Q at the same point, the other way: with Q = 100 nothing is left to find."""
+    text = PRESS.replace("P: {range: [100, 500], step: 10}", "P: {choices: [100]}\n  Q: {choices: [50, 100]}")
+    text = text.replace("  T12:", "  Q: {force: $Q, link: 4, at: E, angle: 0}\n  T12:")
+    varied = Varied("press", text, "press.yaml", Course())
+    drawn = {varied.draw(str(n)).values["Q"] for n in range(30)}
+    assert drawn == {"50"}
