@@ -10,7 +10,6 @@ from statistics import median
 from typing import NamedTuple
 
 from icsolve.bench.families import Family
-from icsolve.bench.laws import LOST
 from icsolve.bench.methods import Method
 from icsolve.bench.reference import Truth, truth
 from icsolve.bench.rivals import Drawn, Failed, OtherData, drawn
@@ -24,8 +23,9 @@ WRONG = 0.1
 class Score(NamedTuple):
     """A method on a family.
 
-    ``error`` and ``per_unit`` (the error over (kappa + 1) u) are the worst, ``micros`` the median time
-    of a scene; ``failed`` counts scenes without an answer or with a wrong one, of ``scenes``.
+    ``error`` and ``per_unit`` (the error over (kappa + 1) u) are the worst where there is an answer,
+    ``micros`` the median time of a scene (where all are lost: until that shows); ``failed`` counts
+    scenes without an answer or with a wrong one, ``refused`` those refused with a cause, of ``scenes``.
     """
 
     method: str
@@ -58,40 +58,49 @@ def scenes(family: Family, count: int) -> Iterator[Known]:
 
 
 def scored(method: Method, family: Family, known: Iterable[Known]) -> Score:
-    """Run a method on the scenes of a family."""
-    errors, units, times = [], [], []
-    failed = refused = count = 0
+    """Run a method on the scenes of a family; where it is made for other data it has no scenes."""
+    errors, units, times, lost = [], [], [], []
+    refused = 0
     for scene, true in known:
-        count += 1
         try:
-            value, seconds = _timed(method, scene)
-        except SceneError:
-            refused += 1
-            continue
+            tried = _tried(method, scene)
         except OtherData:
             continue
-        except (Failed, ArithmeticError, ValueError, TypeError, StopIteration):
-            failed += 1
-            continue
-        error = true.error(value) if math.isfinite(value) else math.inf
-        if true.kappa * 2.0**-53 > LOST:
-            continue
-        times.append(seconds)
+        error = true.error(tried.value) if math.isfinite(tried.value) else math.inf
         if error > WRONG:
-            failed += 1
+            refused += tried.refused
+            lost.append(tried.seconds)
             continue
+        times.append(tried.seconds)
         errors.append(error)
         units.append(true.per_unit(error))
     worst, unit = max(errors, default=math.nan), max(units, default=math.nan)
-    micros = 1e6 * median(times) if times else math.nan
-    return Score(method.name, family.name, worst, unit, micros, failed, refused, count)
+    micros = 1e6 * median(times or lost or [math.nan])
+    count = len(times) + len(lost)
+    return Score(method.name, family.name, worst, unit, micros, len(lost) - refused, refused, count)
 
 
-def _timed(method: Method, scene: Drawn) -> tuple[float, float]:
-    """The value, and the better time of two runs."""
-    best = math.inf
+class Tried(NamedTuple):
+    """A value (nan without one), its seconds, and whether the scene was refused with a cause."""
+
+    value: float
+    seconds: float
+    refused: bool
+
+
+def _tried(method: Method, scene: Drawn) -> Tried:
+    """The better time of two runs; one that ends without an answer takes time too.
+
+    Raises OtherData where the method is made for figures given in another way.
+    """
+    best, value, refused = math.inf, math.nan, False
     for _ in range(2):
         start = time.perf_counter()
-        value = method.run(scene)
+        try:
+            value = float(method.run(scene))
+        except SceneError:
+            refused = True
+        except (Failed, ArithmeticError, ValueError, TypeError, StopIteration):
+            pass
         best = min(best, time.perf_counter() - start)
-    return float(value), best
+    return Tried(value, best, refused)

@@ -1,4 +1,5 @@
-"""Two laws held against sixty digits: the forward error, and the error bound."""
+"""Laws held on random scenes: the forward error and the error bound against sixty digits, and that a
+scale of a power of two changes no bit."""
 
 from __future__ import annotations
 
@@ -10,8 +11,9 @@ from typing import NamedTuple
 
 from icsolve.bench.families import BOUNDED, SIX_BARS, Draw, Family, all_joints
 from icsolve.bench.reference import AsWritten, truth
+from icsolve.bench.scaled import scaled
 from icsolve.case import Case
-from icsolve.errors import SceneError, Status
+from icsolve.errors import SceneError
 from icsolve.program import Want, evaluate, prepare
 from icsolve.read import load
 from icsolve.solve import solve
@@ -20,8 +22,8 @@ FORWARD = 4.0
 """Forward error over (kappa + 1) u that no scene may exceed."""
 PESSIMISM = 100.0
 """Bound over error that a median may have."""
-LOST = 1e-2
-"""Scenes of which the doubles leave less than this are not told from the singular one beside them."""
+SCALES = (-37, 11)
+"""Powers of two for lengths and for loads."""
 SCENES_A_JOB = 50
 
 
@@ -46,8 +48,6 @@ def forward_error(case: Case) -> float:
     """Forward error on the doubles as read, in units of (kappa + 1) u."""
     true = truth(case)
     value = solve(case, bound=False).answers["U"].value
-    if true.kappa * 2.0**-53 > LOST:
-        raise SceneError(Status.NEAR_SINGULAR, "the doubles do not tell the scene from a singular one")
     ratio = true.per_unit(true.error(value))
     return ratio if ratio <= FORWARD else -ratio
 
@@ -61,6 +61,16 @@ def bound_over_error(case: Case) -> float:
     assert found.error is not None
     ratio = found.error / max(float(true), abs(found.value) * 2.0**-53, math.ulp(0.0))
     return ratio if true <= found.error else -ratio
+
+
+def bits_kept(case: Case) -> float:
+    """1 where lengths and loads times powers of two give the same bits of the value; else -1."""
+    value = solve(case, bound=False).answers["U"].value
+    try:
+        other = solve(scaled(case, *SCALES), bound=False).answers["U"].value
+    except SceneError:
+        return -1.0
+    return 1.0 if other == math.ldexp(value, SCALES[1]) else -1.0
 
 
 FORWARD_FAMILIES = (*SIX_BARS, Family("six-bars of all joints", all_joints))
@@ -116,3 +126,8 @@ def forward(scenes: int, jobs: int = 1) -> list[Law]:
 def bounds(scenes: int, jobs: int = 1) -> list[Law]:
     """The error bound on random scenes of all joint kinds."""
     return held(bound_over_error, BOUNDED, scenes, jobs)
+
+
+def bits(scenes: int, jobs: int = 1) -> list[Law]:
+    """Powers of two, on scenes of all joint kinds and on figures from lengths."""
+    return held(bits_kept, BOUNDED, scenes, jobs)

@@ -26,9 +26,12 @@ def _bounded(scene: Drawn) -> float:
     return solve(scene.case).answers["U"].value
 
 
+OWN = ("icsolve", "icsolve with bound")
+"""The names of our own, the one with bounds last."""
+
 METHODS: tuple[Method, ...] = (
-    Method("icsolve", _icsolve),
-    Method("icsolve with bound", _bounded),
+    Method(OWN[0], _icsolve),
+    Method(OWN[1], _bounded),
     Method("slope and intercept", lambda scene: closed(scene, Cartesian(), False)),
     Method("homogeneous, raw", lambda scene: closed(scene, Homogeneous(), False)),
     Method("homogeneous, normalised", lambda scene: closed(scene, Homogeneous(), True)),

@@ -21,11 +21,13 @@ POSITIONS = 3600
 
 
 class Peer(NamedTuple):
-    """Another program: what it gives, and a call that makes the full turn ready to be run."""
+    """Another program: what it gives, a call that makes the full turn ready to be run, and whether it
+    is compiled by numba where that is installed."""
 
     package: str
     gives: str
     prepare: Callable[[Array], Callable[[], Array]]
+    compiles: bool = False
 
 
 class Ran(NamedTuple):
@@ -148,14 +150,14 @@ PEERS = (
     Peer("kinepy", TORQUE, _kinepy),
     Peer("sympy", TORQUE, _sympy),
     Peer("scipy", TORQUE, _scipy),
-    Peer("pylinkage", PLACES, _pylinkage),
+    Peer("pylinkage", PLACES, _pylinkage, compiles=True),
 )
 
 
 def ran(peer: Peer, rounds: int = 3) -> Ran:
     """Run a peer's full turn; what goes wrong with it is told, not raised."""
     try:
-        name = f"{peer.package} {version(peer.package)}"
+        name = _named(peer)
     except PackageNotFoundError:
         return Ran(peer.package, peer.gives, math.nan, math.nan, "not installed")
     angle: Array = np.linspace(0.0, 2.0 * np.pi, POSITIONS, endpoint=False)
@@ -167,6 +169,17 @@ def ran(peer: Peer, rounds: int = 3) -> Ran:
     except Exception as error:  # another program's failure is its own
         return Ran(name, peer.gives, math.nan, math.nan, f"{type(error).__name__}: {error}"[:80])
     return Ran(name, peer.gives, seconds, _error(peer, angle, found))
+
+
+def _named(peer: Peer) -> str:
+    """A peer with its version; one that compiles where numba is there, with that.
+
+    Raises PackageNotFoundError.
+    """
+    name = f"{peer.package} {version(peer.package)}"
+    with contextlib.suppress(PackageNotFoundError):
+        return f"{name} with numba {version('numba')}" if peer.compiles else name
+    return name
 
 
 def _timed(run: Callable[[], Array]) -> float:

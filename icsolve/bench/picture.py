@@ -1,134 +1,190 @@
-"""The work-precision diagram: error on x, time on y, one curve a method, failures drawn."""
+"""The work-precision diagram: error across, time up, one curve a method; what fails is drawn too.
+
+Above two panels for single scenes, a mark a family: the relative error, which a bad scene spoils for
+every method, and the error over (kappa + 1) u, which tells what the method itself loses. Below a full turn.
+"""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable, Sequence
-from html import escape
-from statistics import median
+from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from icsolve.bench.accuracy import Score
+from icsolve.bench.axes import Names, Panel, around, frame, line, spread, strip_for_failures, text
 from icsolve.bench.laws import FORWARD
+from icsolve.bench.marks import GREY, STYLE, Style, mark, styled
 
-COLOURS = (
-    "#0072b2", "#004c80", "#d55e00", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#666666", "#a6761d",
-    "#7b3294", "#c2a5cf", "#111111", "#b2182b",
-)  # fmt: skip
-WIDTH, HEIGHT, LEFT, TOP, GAP = 430.0, 360.0, 60.0, 50.0, 90.0
-TIMES = (-2.0, 6.0)
-"""log10 of the microseconds at the bottom and at the top."""
-
-
-class Axis(NamedTuple):
-    """A panel's x: what of a score it shows, its name, log10 of its ends, and a limit to be drawn."""
-
-    of: Callable[[Score], float]
-    name: str
-    low: float
-    high: float
-    limit: float | None = None
+WIDTH, HEIGHT = 1080.0, 985.0
+LEFT, RIGHT = 92.0, 622.0
+ABOVE, BELOW = 96.0, 568.0
+SIZE = (434.0, 330.0)
+LARGE = "chain"
+"""Families of long mechanisms, whose time is that of their length: a curve of their own, dashed."""
+TITLE = "Run time against error: one curve a method, one mark a family of scenes"
+SCENE, POSITION = "median time of a scene, warm", "time of one position"
 
 
-PANELS = (
-    Axis(lambda score: score.error, "worst relative error of a family", -17.0, 1.0),
-    Axis(lambda score: score.per_unit, "worst error over (kappa + 1) u", -3.0, 15.0, FORWARD),
+class Measure(NamedTuple):
+    """What is drawn across: its words, and whether it is the error over (kappa + 1) u."""
+
+    names: Names
+    per_unit: bool
+
+    def of(self, score: Score) -> float:
+        """The worst error of a family."""
+        return score.per_unit if self.per_unit else score.error
+
+
+RELATIVE = Measure(
+    Names("One scene: error of the answer", "worst relative error of a family", SCENE, 4), False
+)
+LOSS = Measure(
+    Names("One scene: what the method loses", "worst error / ((κ + 1) u) of a family", SCENE, 4), True
+)
+TURN = Measure(
+    Names("A full turn of 3600 positions", "worst relative error of the torque", POSITION, 1), False
 )
 
 
-def picture(scores: Iterable[Score]) -> str:
-    """The diagram as SVG; a family on which a method fails stands in the column at the right."""
-    by_method: dict[str, list[Score]] = {}
-    for score in scores:
-        by_method.setdefault(score.method, []).append(score)
-    width = 2 * (LEFT + WIDTH + GAP)
+def picture(scenes: Sequence[Score], turns: Sequence[Score], absent: Sequence[str]) -> str:
+    """The SVG: scores of methods on families of single scenes, of full turns, and what did not run."""
+    styles = styled(dict.fromkeys(score.method for score in scenes if score.scenes))
     parts = [
-        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width:g} {TOP + HEIGHT + 150:g}" '
-        'font-family="sans-serif" font-size="12">',
-        '<rect width="100%" height="100%" fill="white"/>',
-        _text(LEFT, 24, "Run time of a scene against error: one mark a family, one curve a method", size=15),
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {WIDTH:g} {HEIGHT:g}" '
+        'font-family="Helvetica, Arial, DejaVu Sans, sans-serif" font-size="13">',
+        STYLE,
+        f'<rect class="paper" width="{WIDTH:g}" height="{HEIGHT:g}"/>',
+        text(24, 36, TITLE, kind="title"),
+        *_scenes(LEFT, RELATIVE, scenes, styles),
+        *_scenes(RIGHT, LOSS, scenes, styles),
+        *_turns(turns),
+        *_legend(styles, scenes, absent),
+        "</svg>",
     ]
-    for n, axis in enumerate(PANELS):
-        parts += _panel(LEFT + n * (LEFT + WIDTH + GAP), axis, by_method)
-    parts += _legend(by_method)
-    return "\n".join([*parts, "</svg>\n"])
+    return "\n".join(parts) + "\n"
 
 
-def _panel(left: float, axis: Axis, by_method: dict[str, list[Score]]) -> list[str]:
-    bottom = TOP + HEIGHT
-    size = f'width="{WIDTH + 60:g}" height="{HEIGHT:g}"'
-    parts = [f'<rect x="{left:g}" y="{TOP:g}" {size} fill="none" stroke="#999"/>']
-    for power in range(int(axis.low), int(axis.high), 2):
-        x = left + _share(axis, 10.0**power) * WIDTH
-        parts.append(f'<path d="M{x:.1f} {TOP:g}V{bottom:g}" stroke="#eee"/>')
-        parts.append(_text(x, bottom + 16, f"1e{power}", "middle"))
-    for power in range(int(TIMES[0]), int(TIMES[1]) + 1):
-        y = _height(10.0**power)
-        parts.append(f'<path d="M{left:g} {y:.1f}h{WIDTH + 60:g}" stroke="#eee"/>')
-        parts.append(_text(left - 6, y + 4, _duration(power), "end"))
-    parts.append(f'<path d="M{left + WIDTH:g} {TOP:g}v{HEIGHT:g}" stroke="#999" stroke-dasharray="4 3"/>')
-    parts.append(_text(left + WIDTH + 30, bottom + 16, "no answer", "middle"))
-    if axis.limit is not None:
-        x = left + _share(axis, axis.limit) * WIDTH
-        parts.append(f'<path d="M{x:.1f} {TOP:g}v{HEIGHT:g}" stroke="#0072b2" stroke-dasharray="2 3"/>')
-        parts.append(_text(x + 4, TOP + 14, f"the law: {axis.limit:g}"))
-    parts.append(_text(left + WIDTH / 2, bottom + 36, axis.name, "middle"))
-    for colour, scores in zip(COLOURS, by_method.values(), strict=False):
-        parts += _curve(left, axis, scores, colour)
-    return parts
+# --- single scenes ---------------------------------------------------------------------------------
 
 
-def _curve(left: float, axis: Axis, scores: Sequence[Score], colour: str) -> list[str]:
-    """Families by their error, and those with failures beyond the dashed line."""
-    solved = sorted((s for s in scores if axis.of(s) >= 0.0 and s.micros > 0.0), key=axis.of)
-    places = [(left + _share(axis, axis.of(s)) * WIDTH, _height(s.micros), s) for s in solved]
-    line = " ".join(f"{x:.1f},{y:.1f}" for x, y, _ in places)
-    parts = [f'<polyline points="{line}" fill="none" stroke="{colour}" stroke-opacity="0.3"/>']
-    for x, y, score in places:
-        r = 4 if score.method.startswith("icsolve") else 2.5
-        parts.append(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{r}" fill="{colour}">{_title(score)}</circle>')
-    usual = median([s.micros for s in scores if s.micros > 0.0] or [10.0 ** TIMES[0]])
-    for n, score in enumerate(s for s in scores if s.failed):
-        x, y = left + WIDTH + 8 + 11 * (n % 5), _height(usual) - 10 * (n // 5)
-        parts.append(
-            f'<path d="M{x - 3:.1f} {y - 3:.1f}l6 6m0 -6l-6 6" stroke="{colour}" stroke-width="1.6">'
-            f"{_title(score)}</path>"
+def _scenes(x: float, measure: Measure, scores: Sequence[Score], styles: dict[str, Style]) -> Iterator[str]:
+    panel = Panel(x, ABOVE, *SIZE, around(measure.of(s) for s in scores), around(s.micros for s in scores))
+    yield from frame(panel, measure.names)
+    yield from strip_for_failures(panel)
+    if measure.per_unit:
+        at = panel.place(FORWARD, 1.0)[0]
+        yield line(at, ABOVE, at, ABOVE + SIZE[1], "limit")
+        yield text(at + 6, ABOVE + 18, f"promised: at most {FORWARD:g}", kind="note")
+    for n, (method, style) in reversed(list(enumerate(styles.items()))):
+        own = sorted(
+            (s for s in scores if s.method == method and s.scenes), key=lambda s: (measure.of(s), s.micros)
         )
-    return parts
+        found = [s for s in own if measure.of(s) >= 0.0]
+        long = [s for s in found if LARGE in s.family]
+        yield _curve(panel, measure, [s for s in found if s not in long], style)
+        yield _curve(panel, measure, long, style, ' stroke-dasharray="3 3"')
+        for score in found:
+            yield mark(style, *panel.place(measure.of(score), score.micros), _said(score, measure))
+        yield from _lost(panel, (n + 0.5) / len(styles), own, style, measure)
 
 
-def _title(score: Score) -> str:
-    failed = f", {score.failed} of {score.scenes} without an answer" if score.failed else ""
-    words = f"{score.method}, {score.family}: error {score.error:.1e}, {score.micros:.3g} us{failed}"
-    return f"<title>{escape(words)}</title>"
-
-
-def _legend(methods: Iterable[str]) -> list[str]:
-    parts = []
-    for n, (colour, method) in enumerate(zip(COLOURS, methods, strict=False)):
-        x, y = LEFT + 220.0 * (n % 5), TOP + HEIGHT + 64.0 + 22.0 * (n // 5)
-        parts.append(f'<circle cx="{x:g}" cy="{y - 4:g}" r="5" fill="{colour}"/>')
-        parts.append(_text(x + 12, y, method))
-    parts.append(
-        _text(LEFT, TOP + HEIGHT + 124, "A cross: a family with scenes that the method does not solve.")
+def _curve(
+    panel: Panel, measure: Measure, scores: Iterable[Score], style: Style, dashed: str = ""
+) -> str:
+    points = " ".join("{:.1f},{:.1f}".format(*panel.place(measure.of(s), s.micros)) for s in scores)
+    return (
+        f'<polyline points="{points}" fill="none" stroke="{style.colour}" stroke-width="{style.width:g}" '
+        f'stroke-opacity="0.5"{dashed}/>'
     )
-    return parts
 
 
-def _share(axis: Axis, value: float) -> float:
-    """Where a value stands along an axis, from 0 to 1."""
-    power = math.log10(max(value, 1e-300))
-    return (min(max(power, axis.low), axis.high) - axis.low) / (axis.high - axis.low)
+def _lost(
+    panel: Panel, share: float, scores: Iterable[Score], style: Style, measure: Measure
+) -> Iterator[str]:
+    """A cross for a family with failures, a ring for one with refusals, in the method's own column."""
+    x = panel.x + panel.width - panel.strip * (1.0 - share)
+    for score in scores:
+        y = panel.level(score.micros)
+        if score.failed:
+            yield mark(style._replace(shape="cross"), x, y, _said(score, measure))
+        if score.refused:
+            yield mark(style._replace(shape="ring"), x, y, _said(score, measure))
 
 
-def _height(micros: float) -> float:
-    low, high = TIMES
-    return TOP + HEIGHT * (1.0 - (min(max(math.log10(micros), low), high) - low) / (high - low))
+def _said(score: Score, measure: Measure) -> str:
+    parts = [f"{score.method}, {score.family}: error {measure.of(score):.2g}, {score.micros:.3g} µs"]
+    parts += [f"{score.failed} of {score.scenes} without an answer"] if score.failed else []
+    parts += [f"{score.refused} of {score.scenes} refused"] if score.refused else []
+    return "; ".join(parts)
 
 
-def _duration(power: int) -> str:
-    return f"{10 ** (power % 3)} {('ns', 'us', 'ms', 's')[power // 3 + 1]}"
+# --- a full turn -----------------------------------------------------------------------------------
+
+End = tuple[str, float, float]
+"""A method and the last mark of its curve."""
+LABELS = 178.0
+"""Width of the names at the right of the lower panel."""
+KINDS = ("disc", "square", "triangle")
 
 
-def _text(x: float, y: float, words: str, anchor: str = "start", size: int = 12) -> str:
-    return f'<text x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}" font-size="{size}">{escape(words)}</text>'
+def _turns(scores: Sequence[Score]) -> Iterator[str]:
+    """Marks by mechanism, each curve with its name."""
+    if not scores:
+        return
+    across, up = around(s.error for s in scores), around(s.micros for s in scores)
+    panel = Panel(LEFT, BELOW, *SIZE, across, up, LABELS)
+    yield from frame(panel, TURN.names)
+    styles = styled(dict.fromkeys(s.method for s in scores), GREY)
+    shapes = dict(zip(dict.fromkeys(s.family for s in scores), KINDS, strict=False))
+    ends: list[End] = []
+    for method, style in styles.items():
+        own = sorted((s for s in scores if s.method == method), key=lambda s: (s.micros, s.error))
+        yield _curve(panel, TURN, own, style)
+        for score in own:
+            shaped = style._replace(shape=shapes.get(score.family, "disc"))
+            yield mark(shaped, *panel.place(score.error, score.micros), _said(score, TURN))
+        ends.append((method, *max(panel.place(s.error, s.micros) for s in own)))
+    yield from _labels(panel, ends, styles)
+    for k, (family, shape) in enumerate(shapes.items()):
+        x, y = LEFT + 140.0 * k, BELOW + SIZE[1] + 66.0
+        yield mark(Style(GREY[0], shape, 4.5, 1.0), x + 6, y - 4, family)
+        yield text(x + 18, y, family)
+
+
+def _labels(panel: Panel, ends: Iterable[End], styles: dict[str, Style]) -> Iterator[str]:
+    """The name of each curve in a column at the right, tied to its last mark."""
+    by_height = sorted(ends, key=lambda end: end[2])
+    heights = spread([y for _, _, y in by_height], 17.0, panel.y + 12, panel.y + panel.height - 8)
+    column = panel.x + panel.width - panel.strip + 18
+    for (method, x, y), height in zip(by_height, heights, strict=True):
+        colour = styles[method].colour
+        yield f'<path d="M{x + 7:.1f} {y:.1f}L{column - 5:.1f} {height:.1f}" stroke="{colour}" class="tie"/>'
+        yield text(column, height + 4, method)
+
+
+# --- what the marks mean ---------------------------------------------------------------------------
+
+READING = (
+    "Further left is more accurate, further down is faster.",
+    "×  a family with scenes that the method does not solve, or gets",
+    "\u2003 wrong by more than 10 %, in the method's own column",
+    "○  a family with scenes that are refused, with the cause",
+    "Dashed: long chains, of 12 and of 50 four-bars.",
+    "κ: sensitivity of the scene itself; u = 2⁻⁵³. An error of about",
+    "(κ + 1) u is the best that a method can promise. Truth: 60 digits.",
+)
+
+
+def _legend(styles: dict[str, Style], scenes: Sequence[Score], absent: Sequence[str]) -> Iterator[str]:
+    yield text(RIGHT, BELOW - 14, "One scene: the methods", kind="head")
+    y = BELOW + 14
+    for n, (method, style) in enumerate(styles.items()):
+        x, y = RIGHT + 8 + 220.0 * (n % 2), BELOW + 14 + 24.0 * (n // 2)
+        yield mark(style, x, y - 4, method)
+        yield text(x + 16, y, method)
+    families = len({score.family for score in scenes})
+    count = max((s.scenes for s in scenes), default=0)
+    lines = [f"{families} families of up to {count} random scenes each.", *READING]
+    lines += [f"Not in the full turn: {words}." for words in absent]
+    for k, words in enumerate(lines):
+        yield text(RIGHT, y + 38 + 21.0 * k, words, kind="note")

@@ -21,6 +21,7 @@ class Start(NamedTuple):
 
 BARE = ("python -c pass", ["-c", "pass"])
 IMPORTS = ("python -c 'import click, yaml'", ["-c", "import click, yaml"])
+COMMAND = "icsolve solve four-bar.yaml"
 
 
 def starts(rounds: int = 7) -> list[Start]:
@@ -29,7 +30,7 @@ def starts(rounds: int = 7) -> list[Start]:
         path = os.path.join(folder, "four-bar.yaml")
         with open(path, "w", encoding="utf-8") as file:
             file.write(FOUR_BAR_CASE)
-        command = ("icsolve solve four-bar.yaml", ["-m", "icsolve", "solve", path])
+        command = (COMMAND, ["-m", "icsolve", "solve", path])
         runs = (BARE, IMPORTS, command)
         best = dict.fromkeys((name for name, _ in runs), float("inf"))
         for _, arguments in runs:

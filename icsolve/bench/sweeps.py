@@ -19,7 +19,7 @@ from icsolve.turn import sweep
 
 TURN, MILLION = 3600, 1_000_000
 PATH = "angles.AB"
-SWEPT, BOUNDED, BY_HAND, IN_C = "icsolve, sweep", "icsolve, sweep with bounds", "numpy by hand", "C -O3"
+SWEPT, BOUNDED, BY_HAND, IN_C = "icsolve sweep", "icsolve sweep, bounds", "numpy by hand", "C -O3"
 SAMPLE = 24
 """Positions of a turn at which the torque is known to sixty digits."""
 

@@ -1,0 +1,37 @@
+"""How much is measured, and what is kept of it beside the tables."""
+
+from __future__ import annotations
+
+import os
+from typing import NamedTuple
+
+from icsolve.bench.accuracy import Score
+from icsolve.bench.gates import Gate
+
+
+class Effort(NamedTuple):
+    """Scenes a family, scenes a law (forward error, bound, bits), seconds a timing, processes."""
+
+    scenes: int
+    forward: int
+    bounds: int
+    seconds: float
+    jobs: int
+
+
+USUAL = Effort(60, 600, 400, 3.0, 1)
+FULL = Effort(400, 10_000, 20_000, 6.0, os.cpu_count() or 1)
+
+
+class Kept(NamedTuple):
+    """What the tables leave: scores of single scenes, of full turns, peers that did not run, figures."""
+
+    scenes: list[Score]
+    turns: list[Score]
+    absent: list[str]
+    gates: list[Gate]
+
+
+def nothing() -> Kept:
+    """Before anything is measured."""
+    return Kept([], [], [], [])

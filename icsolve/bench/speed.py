@@ -1,0 +1,129 @@
+"""The sections of the benchmark on speed: one scene, a full turn, other programs, start-up."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import TYPE_CHECKING
+
+from icsolve.bench.accuracy import Score
+from icsolve.bench.closed import FOUR_BAR, FOUR_BAR_CASE
+from icsolve.bench.effort import Effort, Kept
+from icsolve.bench.gates import Gate, lawful, ratio
+from icsolve.bench.laws import FORWARD
+from icsolve.bench.tables import table
+from icsolve.bench.timing import least
+
+if TYPE_CHECKING:
+    from icsolve.bench.peers import Ran
+    from icsolve.bench.sweeps import Timed
+
+KERNEL, ALONE, BOUND = "bare float kernel, componentwise", "solve, without bound", "solve, with bound"
+
+
+def one_scene(effort: Effort, kept: Kept) -> str:
+    """One scene in process: `solve` of a loaded four-bar against the bare float kernel."""
+    from icsolve.bench.kernels import componentwise, written_out
+    from icsolve.read import load
+    from icsolve.solve import solve
+
+    a, b, c, d, torque = FOUR_BAR
+    numbers = (d, a, b, c, 60.0, torque)
+    case = load(FOUR_BAR_CASE)
+    calls: dict[str, Callable[[], object]] = {
+        KERNEL: lambda: componentwise(*numbers),
+        "the same written out by hand": lambda: written_out(*numbers),
+        ALONE: lambda: solve(case, bound=False),
+        BOUND: lambda: solve(case),
+        "load, then solve with bound": lambda: solve(load(FOUR_BAR_CASE)),
+    }
+    times = dict(zip(calls, least(list(calls.values()), effort.seconds), strict=True))
+    base = times[KERNEL]
+    kept.gates.append(ratio("`solve` of a loaded four-bar / bare kernel", times[ALONE] / base, 12))
+    kept.gates.append(ratio("the same with its bound / bare kernel", times[BOUND] / base, 50))
+    rows = [[name, f"{t / base:.1f}", f"{1e6 * t:.1f}"] for name, t in times.items()]
+    return table(("one four-bar scene", "x kernel", "us"), rows)
+
+
+def full_turn(effort: Effort, kept: Kept) -> str:
+    """Sweeps against hand-written numpy and C, at 3600 and a million positions."""
+    from icsolve.bench.sweeps import BOUNDED, BY_HAND, IN_C, MILLION, SWEPT, TURN, full_turns, memory
+
+    def row(name: str, by: dict[str, Timed]) -> list[str]:
+        times = [f"{1e3 * by[m].seconds:.3g}" if m in by else "-" for m in (BY_HAND, IN_C, SWEPT, BOUNDED)]
+        pairs = ((SWEPT, BY_HAND), (SWEPT, IN_C), (BOUNDED, SWEPT))
+        ratios = [f"{by[a].seconds / by[b].seconds:.1f}" if b in by else "-" for a, b in pairs]
+        return [name, str(by[SWEPT].positions), *ratios, *times, f"{by[SWEPT].error:.1e}"]
+
+    rows = []
+    for positions in (TURN, MILLION):
+        for name, by in full_turns(positions, 3.0 * effort.seconds).items():
+            rows.append(row(name, by))
+            kept.gates.extend(_turn_gates(name, by))
+            kept.turns.extend(_as_score(timed) for timed in by.values() if positions == TURN)
+    used = memory()
+    said = "" if used is None else f"\n\nA million positions of the four-bar take a process of {used:.0f} MB."
+    if used is not None:
+        kept.gates.append(Gate("a million positions of the four-bar, whole process", used, 300, " MB"))
+    ratios = ("sweep / numpy", "sweep / C", "bounds / sweep")
+    times = (f"{BY_HAND}, ms", f"{IN_C}, ms", "sweep, ms", "with bounds, ms")
+    return table(("full turn", "positions", *ratios, *times, "worst error of the sweep"), rows) + said
+
+
+def _turn_gates(name: str, by: dict[str, Timed]) -> list[Gate]:
+    from icsolve.bench.sweeps import BOUNDED, BY_HAND, IN_C, SWEPT, TURN
+
+    swept = by[SWEPT]
+    what, short = f"{name}, {swept.positions} positions", swept.positions == TURN
+    gates = [ratio(f"{what}: sweep / numpy by hand", swept.seconds / by[BY_HAND].seconds, 3)] if short else []
+    if IN_C in by:
+        gates.append(ratio(f"{what}: sweep / C -O3", swept.seconds / by[IN_C].seconds, 5 if short else 3))
+    gates.append(ratio(f"{what}: with bounds / without", by[BOUNDED].seconds / swept.seconds, 6))
+    return [*gates, lawful(f"{what}: worst error over (kappa + 1) u", swept.per_unit, FORWARD)]
+
+
+def _as_score(t: Timed) -> Score:
+    """A full turn as one family of scenes."""
+    return Score(t.method, t.mechanism, t.error, t.per_unit, 1e6 * t.seconds / t.positions, 0, 0, t.positions)
+
+
+def other_programs(effort: Effort, kept: Kept) -> str:
+    """The same full turn by other programs, in the same run."""
+    from icsolve.bench.peers import PEERS, POSITIONS, TORQUE, ran
+    from icsolve.bench.sweeps import SWEPT, full_turns
+
+    own = next(iter(full_turns(POSITIONS, effort.seconds).values()))[SWEPT]
+    found = [ran(peer) for peer in PEERS]
+    rows = [["icsolve", "torque", "1", f"{1e3 * own.seconds:.3g}", f"{own.error:.1e}"]]
+    rows += [_peer_row(peer, own.seconds) for peer in found]
+    kept.turns.extend(_peer_score(peer, POSITIONS) for peer in found if not peer.why)
+    kept.absent.extend(f"{peer.name}: {peer.why}" for peer in found if peer.why)
+    forceful = [peer.seconds for peer in found if peer.gives == TORQUE and not peer.why]
+    if forceful:
+        times = min(forceful) / own.seconds
+        kept.gates.append(ratio("fastest other program that gives a torque / sweep", times, 100, floor=True))
+    return table((f"four-bar, {POSITIONS} positions", "gives", "x icsolve", "ms", "worst error"), rows)
+
+
+def _peer_row(peer: Ran, own: float) -> list[str]:
+    if peer.why:
+        return [peer.name, peer.gives, "-", "-", peer.why]
+    times = [f"{peer.seconds / own:.3g}", f"{1e3 * peer.seconds:.3g}"]
+    return [peer.name, peer.gives, *times, f"{peer.error:.1e}"]
+
+
+def _peer_score(peer: Ran, positions: int) -> Score:
+    name = peer.name.partition(" ")[0]
+    method = name if peer.gives == "torque" else f"{name} ({peer.gives})"
+    return Score(method, "four-bar", peer.error, math.nan, 1e6 * peer.seconds / positions, 0, 0, positions)
+
+
+def start_up(effort: Effort, kept: Kept) -> str:
+    """Whole processes, cold, in CPU time."""
+    from icsolve.bench.startup import COMMAND, IMPORTS, starts
+
+    found = {start.name: start.seconds for start in starts(max(5, int(8 * effort.seconds)))}
+    base = found[IMPORTS[0]]
+    kept.gates.append(ratio(f"`{COMMAND}`, whole process / its imports", found[COMMAND] / base, 1.5))
+    rows = [[name, f"{seconds / base:.2f}", f"{1e3 * seconds:.0f}"] for name, seconds in found.items()]
+    return table(("whole process, cold", "x imports", "CPU ms"), rows)
