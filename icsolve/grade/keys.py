@@ -115,6 +115,11 @@ def scalar_key(
         value = 0.0
     width = own_width(policy.tolerance, target, answer, unit, unit_name)
     half = half_width(policy.tolerance, value, width, zero)
+    if policy.tolerance.drawing and half >= abs(value) > 0.0:
+        raise NoKeyError(
+            f"a drawing accurate to {policy.tolerance.drawing} leaves this answer open, even its sense; give "
+            "it a tolerance such as 2%"
+        )
     senses = _senses(target, answer)
     return _key(question, value, (unit_name, unit), (half, width), senses, policy, wrongs)
 
@@ -216,7 +221,8 @@ def place_key(
     toward = centre.place[0] if centre.kind == "toward" else None
     place = (centre.place[0], centre.place[1]) if toward is None else (0.0, 0.0)
     distance = max(size, from_middle(place, answer))
-    absolute = own_width(policy.tolerance, target, answer, unit, answer.case.units.length)
+    tolerance = policy.tolerance if toward is None else policy.tolerance._replace(drawing="")
+    absolute = own_width(tolerance, target, answer, unit, answer.case.units.length)
     half = half_width(policy.tolerance, distance, absolute, OF_LOADS * size)
     kept = tuple(w for w in wrongs if math.dist(w[:2], place) > half or toward is not None)
     accepted = f"within {half:.3g} {answer.case.units.length} of the place"

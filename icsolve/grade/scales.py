@@ -131,8 +131,12 @@ def own_width(tolerance: Tolerance, target: Target, answer: Answer, unit: Unit, 
 
     Raises NoKeyError where the width is in a unit of another kind, or the drawing says nothing of the target.
     """
-    drawn = _drawn(tolerance.drawing, target, answer) if tolerance.drawing else 0.0
-    return max(width_of(tolerance, unit, unit_name), drawn)
+    width = width_of(tolerance, unit, unit_name)
+    if not tolerance.drawing:
+        return width
+    from icsolve.grade.drawn import drawn_width
+
+    return max(width, drawn_width(tolerance.drawing, target, answer))
 
 
 def width_of(tolerance: Tolerance, unit: Unit, unit_name: str) -> float:
@@ -146,21 +150,3 @@ def width_of(tolerance: Tolerance, unit: Unit, unit_name: str) -> float:
         raise NoKeyError(f"{said} does not fit an answer in {unit_name or 'no unit'}")
     return tolerance.absolute * factor
 
-
-def _drawn(accuracy: str, target: Target, answer: Answer) -> float:
-    """The band of a load when each point of the drawing may be off by ``accuracy``."""
-    from icsolve.sensitivity import band
-    from icsolve.solve import solve
-    from icsolve.units import split_quantity
-
-    if not isinstance(target, LoadIs):
-        raise NoKeyError(
-            "a tolerance from the drawing is for loads; give this question one of its own, such as 2%"
-        )
-    parts = split_quantity(accuracy)
-    assert parts is not None
-    factor = (
-        factors_between(parsed_unit(parts[1]), parsed_unit(answer.case.units.length)) if parts[1] else 1.0
-    )
-    width = float(parts[0].digits) * (factor or 1.0)
-    return band(solve(answer.case), target.load, width)

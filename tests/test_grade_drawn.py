@@ -1,0 +1,70 @@
+"""Tolerances that a drawing allows: how far an answer may lie off where every point of the figure may."""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+
+import pytest
+
+import icsolve
+from grade_shell import PRESS, Class
+from icsolve.case import LoadIs
+from icsolve.grade import drawn
+from icsolve.grade.course import Course
+from icsolve.grade.keys import Key
+from icsolve.grade.shelf import Shelf
+
+
+@pytest.fixture
+def a_class(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Class:
+    return Class(tmp_path, capsys)
+
+
+DRAWN = "tolerance: {drawing: 0.01 in}\n"
+
+
+def widths(a_class: Class, question: str) -> tuple[float, float]:
+    """The right value of a question of the press, and half the width of its band."""
+    key = Shelf(a_class.path("cases"), Course()).key(question)
+    return (key.value if isinstance(key, Key) else math.hypot(*key.place)), key.half
+
+
+def press_with(a_class: Class, extra: str) -> Path:
+    path = a_class.path("cases/press.yaml")
+    text = PRESS.replace("$P", "100").replace("1 + $a/2", "1.5").replace("$a", "1")
+    path.write_text(re.sub(r"variables:\n(?: .*\n)+", "", text) + extra)
+    return path
+
+
+@pytest.mark.parametrize("what", ["w4/w2", "I24-A", "F34", "I24"])
+def test_a_tolerance_from_the_drawing_for_ratios_distances_reactions_and_centres(
+    a_class: Class, what: str
+) -> None:
+    """By differences of the solver's own values; the band grows with the accuracy, to first order."""
+    press_with(a_class, DRAWN)
+    value, half = widths(a_class, f"press:{what}")
+    press_with(a_class, DRAWN.replace("0.01", "0.02"))
+    assert widths(a_class, f"press:{what}")[1] == pytest.approx(2.0 * half, rel=1e-7)
+    assert 1e-3 * abs(value) < half < 0.2 * abs(value)
+
+
+def test_the_band_of_a_drawing_by_differences_is_that_of_the_backward_pass(a_class: Class) -> None:
+    """The unknown torque, both ways: to six digits."""
+    case = icsolve.load(press_with(a_class, ""))
+    answer, target = icsolve.solve(case, all_centres=True, rates=True), LoadIs("T12")
+    exact, near = drawn._exact(target, answer), drawn._differences(target, answer)
+    assert near.keys() <= exact.keys()
+    for path, slope in near.items():
+        assert slope == pytest.approx(abs(exact[path]), rel=1e-6, abs=1e-6)
+
+
+def test_a_drawing_that_leaves_the_answer_open_is_refused_by_name(a_class: Class) -> None:
+    press_with(a_class, DRAWN.replace("0.01 in", "1 in"))
+    (row,) = a_class.judge("33.76", case="press")
+    assert (row["verdict"], row["code"]) == ("review", "not-graded")
+    assert "a drawing accurate to 1 in leaves this answer open" in row["feedback"]
+    press_with(a_class, DRAWN.replace("0.01 in", "0 in"))
+    (row,) = a_class.judge("33.76", case="press")
+    assert "leaves no room for this answer" in row["feedback"]
