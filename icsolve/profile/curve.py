@@ -38,13 +38,16 @@ class Foot(NamedTuple):
 
 
 class Curve(NamedTuple):
-    """Pieces in order, ccw and closed; ``size`` is the profile's; ``chords`` their ends with piece and u."""
+    """Pieces in order, ccw and closed; ``size`` is the profile's; ``chords`` their ends with piece and u.
+
+    ``tree`` is shapely's tree of the chords, ``inside`` its polygon of them.
+    """
 
     pieces: tuple[Piece, ...]
     size: float
     chords: tuple[tuple[Point, int, float], ...]
     tree: Any
-    """shapely's tree of the chords"""
+    inside: Any
 
     def foot(self, piece: int, u: float) -> Foot:
         """A point of a piece with its normals; an end that is a corner has two."""
@@ -96,7 +99,7 @@ def curve_of(pieces: Sequence[Piece]) -> Curve | None:
 
     None where it crosses itself.
     """
-    from shapely import LinearRing, STRtree, linestrings
+    from shapely import LinearRing, Polygon, STRtree, linestrings, prepare
 
     size = _size(pieces)
     joined = _joined(pieces, size)
@@ -107,7 +110,9 @@ def curve_of(pieces: Sequence[Piece]) -> Curve | None:
     if _area(points) < 0.0:
         return curve_of([piece.reversed() for piece in reversed(joined) if not isinstance(piece, Polar)])
     lines = linestrings([[p, points[(n + 1) % len(points)]] for n, p in enumerate(points)])
-    return Curve(joined, size, chords, STRtree(lines))
+    inside = Polygon(points)
+    prepare([inside, inside.exterior])
+    return Curve(joined, size, chords, STRtree(lines), inside)
 
 
 def _size(pieces: Sequence[Piece]) -> float:

@@ -11,7 +11,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.profile.case import Flat, Follower, Knife, Profiles, Roller, Shape, Touch, points_of
 from icsolve.profile.curve import Curve
 from icsolve.profile.freedom import Missing, Places, along_data, carrier, guided, missing, places_of
-from icsolve.profile.lift import Freedom, Turn, Way, ways
+from icsolve.profile.lift import Freedom, Way, ways
 from icsolve.profile.pieces import Point
 from icsolve.profile.shapes import Body, body_of, placed
 from icsolve.profile.touching import Meeting, gap_of, meeting_of
@@ -60,13 +60,13 @@ def found(case: Case) -> Found:
     current = replace(case, profiles=case.profiles._replace(touches=()))
     touching = []
     for touch in case.profiles.touches:
-        current, one = _Contact(case, case.profiles, touch, current).found()
+        current, one = Seeking(case, case.profiles, touch, current).found()
         touching.append(one)
     used = (name for shape in case.profiles.shapes.values() for name in points_of(shape))
     return Found(current, tuple(touching), frozenset(used))
 
 
-class _Contact:
+class Seeking:
     """One contact while it is looked for; ``case`` has the contacts that were found before."""
 
     def __init__(self, original: Case, profiles: Profiles, touch: Touch, case: Case) -> None:
@@ -79,6 +79,8 @@ class _Contact:
         self.follower: Follower = follower
         self.guided = carrier(case, self.link, follower)
         mark = original.marks.get(f"profile.{self.cam}")
+        self.hidden = f"@{'-'.join(touch.links)}.{touch.place}"
+        """the name of the point of contact"""
         self.profile = f"the profile of link {self.cam}"
         self.where = self.profile + (f" ({original.path}:{mark[0]}:{mark[1]})" if mark else "")
         self.what = f"link {self.link} on {self.where}"
@@ -100,7 +102,12 @@ class _Contact:
         meeting = meeting_of(curve, body, side, self.what)
         if abs(meeting.gap) > FITS * curve.size:
             raise SceneError(Status.CANNOT_ASSEMBLE, never_meets(self.what, body.kind, meeting.gap))
-        return self.contact(curve, meeting)
+        return self.contact(self.case, curve, meeting, self.guide())
+
+    def guide(self) -> Freedom | None:
+        """How the frame guides the follower; None where something else does."""
+        guide = guided(self.case, self.guided)
+        return guide.freedom if guide is not None and guide.against == self.case.ground else None
 
     def body(self, places: Places) -> Body:
         """The follower with its points at these places."""
@@ -141,24 +148,27 @@ class _Contact:
         near = self.case.near
         return math.fsum(math.dist(_moved(freedom, way.by, p), near.get(n, p)) for n, p in start.items())
 
-    def contact(self, curve: Curve, meeting: Meeting) -> tuple[Case, Touching]:
-        """The case with a plain contact in the place of this one."""
+    def contact(
+        self, case: Case, curve: Curve, meeting: Meeting, guide: Freedom | None, note: bool = True
+    ) -> tuple[Case, Touching]:
+        """A case with a plain contact in the place of this one."""
         nx, ny = self.normal(meeting)
         sign = 1.0 if self.touch.links[0] == self.cam else -1.0
         degrees = math.degrees(math.atan2(sign * ny, sign * nx))
-        hidden = f"@{'-'.join(self.touch.links)}.{self.touch.place}"
-        at = meeting.foot.point
-        path = f"profile.{self.cam}.{self.link}"
+        at, path = meeting.foot.point, f"profile.{self.cam}.{self.link}"
         x, y, normal = (
             Number(value, 0.0, f"{path}.{key}", repr(value))
             for key, value in (("x", at[0]), ("y", at[1]), ("normal", degrees))
         )
-        joint = Contact(self.touch.links, hidden, normal, self.touch.friction)
-        joints = (*self.case.joints[: self.touch.place], joint, *self.case.joints[self.touch.place :])
-        case = replace(self.case, joints=joints, points={**self.case.points, hidden: Coordinates(x, y)})
-        note = left_open(self.shape, curve, meeting.foot, self.profile)
+        joint = Contact(self.touch.links, self.hidden, normal, self.touch.friction)
+        joints = (*case.joints[: self.touch.place], joint, *case.joints[self.touch.place :])
+        case = replace(case, joints=joints, points={**case.points, self.hidden: Coordinates(x, y)})
+        said = left_open(self.shape, curve, meeting.foot, self.profile) if note else ""
         on = piece_words(self.shape, curve, meeting.foot)
-        return case, Touching(self.touch.links, at, degrees % 360.0, on, self.pressure(at, (nx, ny)), note)
+        r = self.follower.radius.value if isinstance(self.follower, Roller) else 0.0
+        trace = (at[0] + r * nx, at[1] + r * ny)
+        pressure = pressure_angle(guide, trace, (nx, ny)) if guide is not None else None
+        return case, Touching(self.touch.links, at, degrees % 360.0, on, pressure, said)
 
     def normal(self, meeting: Meeting) -> Point:
         """The normal from the profile into the follower."""
@@ -175,21 +185,12 @@ class _Contact:
                 return (math.cos(angle), math.sin(angle))
         raise SceneError(Status.UNSUPPORTED, corner_refusal(self.what, before, spread, given))
 
-    def pressure(self, at: Point, normal: Point) -> float | None:
-        """Degrees between the normal and the motion of the follower there, where the frame guides it."""
-        guide = guided(self.case, self.guided)
-        if guide is None or guide.against != self.case.ground:
-            return None
-        x, y = _motion(guide.freedom, at)
-        along, across = x * normal[0] + y * normal[1], x * normal[1] - y * normal[0]
-        return math.degrees(math.atan2(abs(across), abs(along)))
 
-
-def _motion(freedom: Freedom, at: Point) -> Point:
-    """The direction in which a point of the follower moves."""
-    if isinstance(freedom, Turn):
-        return (freedom.about[1] - at[1], at[0] - freedom.about[0])
-    return freedom.along
+def pressure_angle(guide: Freedom, at: Point, normal: Point) -> float:
+    """Degrees between the normal and the motion of a point of the follower."""
+    x, y = guide.velocity(at)
+    along, across = x * normal[0] + y * normal[1], x * normal[1] - y * normal[0]
+    return math.degrees(math.atan2(abs(across), abs(along)))
 
 
 def _moved(freedom: Freedom, by: float, p: Point) -> Point:

@@ -1,4 +1,4 @@
-"""The one freedom that the figure leaves to a follower, and the positions in which it touches the profile."""
+"""The one freedom that a follower has, and the positions along it in which it touches the profile."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 from icsolve.profile.curve import Curve
 from icsolve.profile.pieces import TURN, Point
-from icsolve.profile.roots import zeros
+from icsolve.profile.roots import zero_between
 from icsolve.profile.shapes import Body
-from icsolve.profile.touching import AT_ONE, gap_of
+from icsolve.profile.touching import AT_ONE, gap_of, gaps_of
 
 SAMPLES = 720
 """Positions that are looked at; touching positions nearer to each other than that may be missed."""
@@ -25,6 +25,10 @@ class Shift(NamedTuple):
         """The follower after sliding."""
         x, y = body.at
         return body._replace(at=(x + by * self.along[0], y + by * self.along[1]))
+
+    def velocity(self, at: Point) -> Point:
+        """The way in which a point of the follower moves."""
+        return self.along
 
     def reach(self, curve: Curve, body: Body) -> tuple[float, float]:
         """Lengths between which it can touch the profile."""
@@ -46,43 +50,86 @@ class Turn(NamedTuple):
         at = (self.about[0] + c * x - s * y, self.about[1] + s * x + c * y)
         return body._replace(at=at, face=(c * u - s * v, s * u + c * v))
 
+    def velocity(self, at: Point) -> Point:
+        """The way in which a point of the follower moves."""
+        return (self.about[1] - at[1], at[0] - self.about[0])
+
     def reach(self, curve: Curve, body: Body) -> tuple[float, float]:
         """A whole turn; it starts where samples do not fall on round angles."""
-        return 0.001, 0.001 + TURN
+        return 0.001 - TURN / 2.0, 0.001 + TURN / 2.0
 
 
 Freedom = Shift | Turn
 
 
 class Way(NamedTuple):
-    """A position in which a follower touches: how far it is moved, and on which side a face has its body."""
+    """A position in which a follower touches: how far it is moved, and on which side a face has its body.
+
+    ``sense`` is 1 where the gap grows when it is moved on, -1 where it shrinks.
+    """
 
     by: float
     side: float
     body: Body
+    sense: float
 
 
 def ways(curve: Curve, body: Body, freedom: Freedom) -> list[Way]:
     """Every position in which the follower touches the profile, along its freedom."""
-    found: list[Way] = []
-    for way in _all_ways(curve, body, freedom):
-        if not any(_same(way, other, curve) for other in found):
-            found.append(way)
+    sides = (1.0, -1.0) if body.kind == "flat face" else (1.0,)
+    return [way for side in sides for way in ways_on(curve, body, freedom, side)]
+
+
+def outermost(curve: Curve, body: Body, freedom: Freedom, side: float, sense: float) -> Way | None:
+    """Where a follower that comes from outside meets the profile first; None where it never does.
+
+    Outside is where the gap grows along ``sense``. A follower that turns comes from the widest range of
+    angles in which it is free.
+    """
+    found = ways_on(curve, body, freedom, side)
+    outer = [way for way in found if way.sense == sense]
+    if not outer:
+        return None
+    if isinstance(freedom, Shift):
+        return max(outer, key=lambda way: sense * way.by)
+    return max(outer, key=lambda way: _free(way, found))
+
+
+def _free(way: Way, found: list[Way]) -> float:
+    """The angle over which a turning follower is free beyond a position in which it touches."""
+    beyond = [(way.sense * (other.by - way.by)) % TURN for other in found if other is not way]
+    return min(beyond, default=TURN)
+
+
+def ways_on(curve: Curve, body: Body, freedom: Freedom, side: float) -> list[Way]:
+    """As `ways`, of a face on one side."""
+    if isinstance(freedom, Shift) and body.kind == "flat face":
+        return list(_face_shifted(curve, body, freedom, side))
+    found = []
+    for by, sense in _zeros(curve, body, freedom, side):
+        found.append(Way(by, side, freedom.moved(body, by), sense))
     return found
 
 
-def _all_ways(curve: Curve, body: Body, freedom: Freedom) -> Iterator[Way]:
+def _zeros(curve: Curve, body: Body, freedom: Freedom, side: float) -> Iterator[tuple[float, float]]:
+    """Where the gap changes its sign, and whether it grows there: a rough look at samples, then exactly."""
+
+    def gap(by: float) -> float:
+        return gap_of(curve, freedom.moved(body, by), side)[0]
+
     low, high = freedom.reach(curve, body)
-    for side in (1.0, -1.0) if body.kind == "flat face" else (1.0,):
-        if isinstance(freedom, Shift) and body.kind == "flat face":
-            yield from _face_shifted(curve, body, freedom, side)
-            continue
-
-        def gap(by: float, side: float = side) -> float:
-            return gap_of(curve, freedom.moved(body, by), side)[0]
-
-        for by in zeros(gap, low, high, SAMPLES):
-            yield Way(by, side, freedom.moved(body, by))
+    step = (high - low) / SAMPLES
+    rough = gaps_of(curve, [freedom.moved(body, low + k * step) for k in range(SAMPLES + 1)], side)
+    for k in range(SAMPLES):
+        if rough[k] * rough[k + 1] <= 0.0 and rough[k] != rough[k + 1]:
+            a, b = low + k * step, low + (k + 1) * step
+            at_a, at_b = gap(a), gap(b)
+            for _ in range(2):
+                if at_a * at_b > 0.0:
+                    a, b = a - step, b + step
+                    at_a, at_b = gap(a), gap(b)
+            if at_a * at_b <= 0.0 and at_a != at_b:
+                yield zero_between(gap, a, b, at_a, at_b), math.copysign(1.0, at_b - at_a)
 
 
 def _face_shifted(curve: Curve, body: Body, freedom: Shift, side: float) -> Iterator[Way]:
@@ -90,12 +137,7 @@ def _face_shifted(curve: Curve, body: Body, freedom: Shift, side: float) -> Iter
     rate = side * (body.face[0] * freedom.along[1] - body.face[1] * freedom.along[0])
     if abs(rate) > AT_ONE:
         by = -gap_of(curve, body, side)[0] / rate
-        yield Way(by, side, freedom.moved(body, by))
-
-
-def _same(a: Way, b: Way, curve: Curve) -> bool:
-    """Whether two ways are one: a turning face is met twice, half a turn apart, with its other side."""
-    return math.dist(a.body.at, b.body.at) <= AT_ONE * curve.size and a.side == b.side
+        yield Way(by, side, freedom.moved(body, by), math.copysign(1.0, rate))
 
 
 def _dot(a: Point, b: Point) -> float:

@@ -1,4 +1,4 @@
-"""Zeros of a function of one number on a range."""
+"""Zeros of a function of one number."""
 
 from __future__ import annotations
 
@@ -6,33 +6,53 @@ from collections.abc import Callable
 
 Function = Callable[[float], float]
 MOST = 120
-"""Halvings at most: no double is left between the ends then, unless the zero is at 0."""
+"""Steps at most: as many halvings leave no double between the ends, unless the zero is at 0."""
+ULP = 2.0**-52
 
 
-def zeros(f: Function, low: float, high: float, samples: int) -> list[float]:
-    """The zeros between neighbouring samples of different sign, each to the last digits."""
-    places = [low + (high - low) * k / samples for k in range(samples + 1)]
-    values = [f(x) for x in places]
-    found = []
-    for k in range(samples):
-        if values[k] == 0.0:
-            found.append(places[k])
-        elif values[k] * values[k + 1] < 0.0:
-            found.append(bisected(f, places[k], places[k + 1], values[k]))
-    return found
+def zero_between(f: Function, a: float, b: float, at_a: float, at_b: float) -> float:
+    """The zero between a and b, where f has the values at_a and at_b of different signs.
 
-
-def bisected(f: Function, a: float, b: float, at_a: float) -> float:
-    """The zero between a and b, where f has different signs; ``at_a`` is its value at a."""
+    R. P. Brent, Algorithms for Minimization without Derivatives, 1973, ch. 4: secants and inverse quadratics
+    where they shrink the interval quickly, halvings else.
+    """
+    c, at_c = a, at_a
+    step = before = b - a
     for _ in range(MOST):
-        middle = 0.5 * (a + b)
-        if middle in (a, b):
+        if abs(at_c) < abs(at_b):
+            a, b, c = b, c, b
+            at_a, at_b, at_c = at_b, at_c, at_b
+        least, middle = ULP * abs(b), 0.5 * (c - b)
+        if at_b == 0.0 or abs(middle) <= least:
             break
-        value = f(middle)
-        if value == 0.0:
-            return middle
-        if (value < 0.0) == (at_a < 0.0):
-            a, at_a = middle, value
-        else:
-            b = middle
-    return min((a, b), key=lambda x: abs(f(x)))
+        step, before = _step(middle, least, step, before, (a, b, c), (at_a, at_b, at_c))
+        a, at_a = b, at_b
+        b += step if abs(step) > least else (least if middle > 0.0 else -least)
+        at_b = f(b)
+        if (at_b > 0.0) == (at_c > 0.0):
+            c, at_c = a, at_a
+            step = before = b - a
+    return b
+
+
+Three = tuple[float, float, float]
+
+
+def _step(
+    middle: float, least: float, step: float, before: float, places: Three, values: Three
+) -> tuple[float, float]:
+    """The next step and the one before: of the quadratic through three places, or half the interval."""
+    (a, b, c), (at_a, at_b, at_c) = places, values
+    if abs(before) < least or abs(at_a) <= abs(at_b):
+        return middle, middle
+    s = at_b / at_a
+    if a == c:
+        p, q = 2.0 * middle * s, 1.0 - s
+    else:
+        q, r = at_a / at_c, at_b / at_c
+        p = s * (2.0 * middle * q * (q - r) - (b - a) * (r - 1.0))
+        q = (q - 1.0) * (r - 1.0) * (s - 1.0)
+    p, q = (p, -q) if p > 0.0 else (-p, q)
+    if 2.0 * p < min(3.0 * middle * q - abs(least * q), abs(before * q)):
+        return p / q, step
+    return middle, middle

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import NamedTuple
 
 from icsolve.errors import SceneError, Status
@@ -34,6 +35,24 @@ def gap_of(curve: Curve, body: Body, side: float) -> tuple[float, Foot]:
         return way[0] * x + way[1] * y, foot
     height, foot = curve.height(body.at)
     return height - body.radius, foot
+
+
+def gaps_of(curve: Curve, bodies: Sequence[Body], side: float) -> list[float]:
+    """The gaps of a follower in several positions, roughly: between it and the chords of the profile."""
+    import numpy as np
+    import shapely
+
+    at = np.array([body.at for body in bodies])
+    if bodies[0].kind == "flat face":
+        way = side * np.array([(-body.face[1], body.face[0]) for body in bodies])
+        corners = np.array([p for p, _, _ in curve.chords])
+        rough = (way * at).sum(axis=1) - (way @ corners.T).max(axis=1)
+    else:
+        inside = shapely.contains_xy(curve.inside, at[:, 0], at[:, 1])
+        apart = shapely.distance(curve.inside.exterior, shapely.points(at))
+        rough = np.where(inside, -apart, apart) - bodies[0].radius
+    found: list[float] = rough.tolist()
+    return found
 
 
 def meeting_of(curve: Curve, body: Body, side: float, what: str) -> Meeting:
