@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 import csv
+import io
 import json
+import sys
+from decimal import Decimal
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import icsolve
-from icsolve.cli import main
+from icsolve.cli import main, progress
+from icsolve.cli.spans import progression
 
 PRESS = """icsolve: 1
 points: {A: [0, 0], D: [4, 0]}
@@ -96,3 +103,128 @@ def test_the_case_itself_is_never_written_over(press: Path, capsys: pytest.Captu
     assert swept(str(press), "--vary", "angles.AB=60:90:10", "-o", str(press)) == 2
     assert press.read_text() == PRESS
     assert ".csv, .jsonl or .npz" in capsys.readouterr().err
+
+
+def test_values_of_a_range_are_the_decimals_that_were_meant(press: Path, tmp_path: Path) -> None:
+    """0.3, not 0.1 + 0.1 + 0.1; and the last value is met."""
+    out = tmp_path / "turn.csv"
+    assert swept(str(press), "--vary", "angles.AB=0:1:0.1", "-o", str(out)) == 0
+    shown = [row["angles.AB"] for row in csv.DictReader(out.read_text().splitlines())]
+    assert shown == ["0.0", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8", "0.9", "1.0"]
+
+
+@settings(derandomize=True)
+@given(
+    st.decimals(-1000, 1000, places=6), st.decimals(-3, 3, places=5).filter(bool), st.integers(1, 500)
+)
+def test_every_value_of_a_range_is_rounded_once(first: Decimal, step: Decimal, count: int) -> None:
+    found = progression(Fraction(first), Fraction(step), count).tolist()
+    assert found == [float(Fraction(first) + k * Fraction(step)) for k in range(count)]
+
+
+# --- positions --------------------------------------------------------------------------------------
+
+TOGGLE = """icsolve: 1
+units: {length: in, force: lbf}
+points: {A: [0, 0], C: [unknown, 0]}
+lengths: {AB: 5, BC: 8}
+angles: {AB: 40}
+near: {C: [11, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {slide: [4, 1], at: C, along: 0}
+loads:
+  P: {force: 10, link: 3, at: B, angle: -90}
+  Q: {force: unknown, link: 4, at: C, angle: 180}
+"""
+
+
+@pytest.fixture
+def toggle(tmp_path: Path) -> Path:
+    path = tmp_path / "toggle.yaml"
+    path.write_text(TOGGLE)
+    return path
+
+
+def test_where_a_toggle_locks(toggle: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Crank and rod in line: the block stands still, the force that it takes grows beyond bounds."""
+    assert swept(str(toggle), "--vary", "angles.AB=-60:60:7", "--find", "dead") == 0
+    assert capsys.readouterr().out == "angles.AB = 0: dead centre, no Q balances\n"
+    assert swept(str(toggle), "--vary", "angles.AB=10:60:7", "--find", "dead") == 0
+    said = "no dead centre, limit or change point in this range of angles.AB\n"
+    assert capsys.readouterr().out == said
+
+
+def test_at_which_angle_a_toggle_gives_a_force(toggle: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """By the closed form Q = P / (tan a + tan b) with 5 sin a = 8 sin b; asked in another unit."""
+    words = ("--vary", "angles.AB=5:60:5", "--find", "Q=0.1 kN", "--json")
+    assert swept(str(toggle), *words) == 0
+    entry = json.loads(capsys.readouterr().out)
+    (spot,) = entry["found"]
+    force = 100.0 / 4.4482216152605
+    a = np.radians(spot["at"]["angles.AB"])
+    b = np.arcsin(5.0 / 8.0 * np.sin(a))
+    assert 10.0 / (np.tan(a) + np.tan(b)) == pytest.approx(force, rel=1e-14)
+    assert spot["answers"]["Q"]["value"] == pytest.approx(force, rel=1e-14)
+    assert (spot["kind"], spot["answers"]["Q"]["unit"]) == ("value", "lbf")
+    assert (entry["schema"], entry["case"], entry["status"]) == ("icsolve/find/1", "toggle", "ok")
+
+
+def test_where_the_torque_of_a_slider_crank_peaks(toggle: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Force on the block, torque on the crank: largest where its derivative by the closed form is zero."""
+    text = TOGGLE.replace("P: {force: 10, link: 3, at: B, angle: -90}", "T: {torque: unknown, link: 2}")
+    toggle.write_text(text.replace("force: unknown", "force: 10"))
+    assert swept(str(toggle), "--vary", "angles.AB=0:180:10", "--find", "max", "--json") == 0
+    (spot,) = json.loads(capsys.readouterr().out)["found"]
+    t = np.radians(spot["at"]["angles.AB"])
+    root = np.sqrt(64.0 - (5.0 * np.sin(t)) ** 2)
+    slope = np.cos(t) + 5.0 * np.cos(2 * t) / root + 125.0 * (np.sin(t) * np.cos(t)) ** 2 / root**3
+    assert slope == pytest.approx(0.0, abs=1e-14)
+    torque = 10.0 * (5.0 * np.sin(t) + 25.0 * np.sin(t) * np.cos(t) / root)
+    assert abs(spot["answers"]["T"]["value"]) == pytest.approx(torque, rel=1e-14)
+
+
+def test_a_link_that_is_turned_and_a_refusal_as_json(
+    toggle: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert swept(str(toggle), "--drive", "2=-60:10:7", "--find", "dead") == 0
+    assert capsys.readouterr().out == "link 2 turned by -40: dead centre, no Q balances\n"
+    toggle.write_text(TOGGLE.replace("along: 0}", "along: 0, mu: 0.1}"))
+    assert swept(str(toggle), "--drive", "2=-60:10:7", "--find", "dead", "--json") == 1
+    entry = json.loads(capsys.readouterr().out)
+    assert (entry["case"], entry["status"]) == ("toggle", "unsupported")
+
+
+# --- the bar ----------------------------------------------------------------------------------------
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+def test_a_bar_is_shown_of_long_work_on_a_terminal_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(progress, "PATIENCE", 0.0)
+    monkeypatch.setattr("sys.stderr", Terminal())
+    for total, seen in ((10_000, True), (0, False)):
+        with progress.Progress(total) as bar:
+            assert bar.told is not None
+            if total:
+                icsolve.sweep(
+                    icsolve.load(PRESS), {"angles.AB": np.linspace(0, 360, total)}, progress=bar.told
+                )
+        assert ("100%" in sys.stderr.getvalue()) == seen  # type: ignore[attr-defined]
+        monkeypatch.setattr("sys.stderr", Terminal())
+    monkeypatch.setattr("sys.stderr", io.StringIO())
+    assert progress.Progress(10).told is None
+
+
+@pytest.mark.parametrize("want", [("answers",), ("answers", "error")])
+def test_every_row_is_told_once_it_is_done(want: tuple[str, ...]) -> None:
+    done: list[int] = []
+    case = icsolve.load(PRESS)
+    icsolve.sweep(case, {"angles.AB": np.linspace(0, 360, 10_001)}, want, progress=done.append)
+    assert sum(done) == 10_001
+    assert len(done) > 2

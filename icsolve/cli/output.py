@@ -34,37 +34,42 @@ def _same(a: str, b: str) -> bool:
         return os.path.realpath(a) == os.path.realpath(b)
 
 
-def write_output(verb: str, text: str | bytes, path: str | None, inputs: Iterable[str] = ()) -> int:
+def write_output(
+    verb: str, text: str | bytes | Iterable[bytes], path: str | None, inputs: Iterable[str] = ()
+) -> int:
     """Write to a file, or to standard output for None and ``-``; returns the exit status.
 
-    The file appears whole or not at all; an input is refused, and what can't be written is said.
+    The file appears whole or not at all, also where the content comes in parts; an input is refused, and
+    what can't be written is said.
     """
+    parts = [text] if isinstance(text, str | bytes) else text
     if path is None or path == "-":
-        click.echo(text, nl=False)
+        for part in parts:
+            click.echo(part, nl=False)
         return DONE
     if is_input(path, inputs):
         complain(f"icsolve {verb}: {path} is the case itself, and is left as it is; choose another name")
         return UNREADABLE
     try:
-        _replace(text, path)
+        _replace(parts, path)
     except OSError as error:
         complain(f"icsolve {verb}: {path} can't be written: {error.strerror or error}")
         return UNREADABLE
     return DONE
 
 
-def _replace(text: str | bytes, path: str) -> None:
+def _replace(parts: Iterable[str | bytes], path: str) -> None:
     """Put a whole file in place of what is there; a device or pipe is written to."""
-    content = text.encode("utf-8") if isinstance(text, str) else text
+    content = (part.encode("utf-8") if isinstance(part, str) else part for part in parts)
     real = os.path.realpath(path)
     if os.path.lexists(real) and not os.path.isfile(real):
         with open(real, "wb") as file:
-            file.write(content)
+            file.writelines(content)
         return
     draft = f"{real}.{os.getpid()}.part"
     try:
         with open(draft, "xb") as file:
-            file.write(content)
+            file.writelines(content)
         os.replace(draft, real)
     except BaseException:
         if os.path.exists(draft):

@@ -3,59 +3,46 @@
 from __future__ import annotations
 
 import math
+import os
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from icsolve.cli.options import SET
+from icsolve.cli.options import DIGITS, SET
 from icsolve.cli.output import OUTPUT, one_source, write_output
-from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, for_each
+from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, for_each, on_stderr
+from icsolve.cli.spans import MOST_ROWS, Span
 
 if TYPE_CHECKING:
     from icsolve.case import Case
+    from icsolve.cli.spans import Values
+    from icsolve.errors import SceneError
     from icsolve.turn import Sweep
 
-MOST_ROWS = 20_000_000
-"""More rows than this are refused: their arrays would not fit a common machine."""
+Ranges = tuple[tuple[str, "Values"], ...]
+WRITTEN = (".csv", ".jsonl", ".npz")
+MORE = ("error", "points", "centres", "rates")
 
 
-class Span(click.ParamType):  # type: ignore[type-arg]
-    """``PATH=FROM:TO:STEP``, or ``PATH=VALUE,VALUE,...``."""
+class Asked(NamedTuple):
+    """What `icsolve sweep` was asked for."""
 
-    name = "PATH=FROM:TO:STEP"
+    case: str
+    vary: Ranges
+    drive: Ranges
+    output: str | None
+    plot: str | None
+    find: str | None
+    as_json: bool
+    digits: int
+    want: tuple[str, ...]
 
-    def convert(
-        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
-    ) -> tuple[str, list[float]]:
-        """The path and its values."""
-        path, equals, span = str(value).partition("=")
-        try:
-            values = _values(span)
-        except ValueError:
-            values = None
-        if not (path.strip() and equals) or values is None:
-            self.fail(f"{value!r} is not PATH=FROM:TO:STEP, e.g. angles.AB=0:360:1", param, ctx)
-        if not values:
-            message = f"{value!r} is an empty range: the step should lead from the first to the last"
-            self.fail(message, param, ctx)
-        return path.strip(), values
-
-
-def _values(span: str) -> list[float] | None:
-    """The values of a span; an empty list where the step leads nowhere, None where it is no span."""
-    if ":" not in span:
-        return [float(word) for word in span.split(",")]
-    numbers = [float(word) for word in span.split(":")]
-    if len(numbers) != 3 or not all(map(math.isfinite, numbers)):
-        return None
-    first, last, step = numbers
-    if step == 0.0 or (last - first) / step < 0.0:
-        return []
-    count = math.floor((last - first) / step + 1e-9) + 1
-    if count > MOST_ROWS:
-        raise click.BadParameter(f"{span} has {count} values; at most {MOST_ROWS} rows fit")
-    return [first + k * step for k in range(count)]
+    @property
+    def suffix(self) -> str:
+        """The ending of the table's file."""
+        return Path(self.output).suffix.lower() if self.output not in (None, "-") else ".csv"
 
 
 @click.command("sweep")
@@ -63,89 +50,142 @@ def _values(span: str) -> list[float] | None:
 @click.option("--vary", type=Span(), multiple=True, help="A number and its values; several are a product.")
 @click.option("--drive", type=Span(), multiple=True, help="A link, and degrees to turn it: 2=0:360:1.")
 @OUTPUT
-@click.option("--error", is_flag=True, help="Bounds on the rounding errors of the answers too.")
+@click.option("--error", is_flag=True, help="Bounds on the rounding errors of all numbers too.")
 @click.option("--points", is_flag=True, help="The places of the points too.")
 @click.option("--centres", is_flag=True, help="All instant centres too, homogeneous.")
 @click.option("--rates", is_flag=True, help="The angular velocities of the links too.")
 @click.option("--plot", metavar="SVG", help="The answers over the range, as a picture, into this file.")
+@click.option("--find", metavar="WHAT", help="Instead of rows, where: dead, max, or NAME=VALUE (T12=0).")
+@click.option("--json", "as_json", is_flag=True, help="With --find: one JSON object.")
 @SET
-def sweep_command(
-    case: str,
-    vary: tuple[tuple[str, list[float]], ...],
-    drive: tuple[tuple[str, list[float]], ...],
-    output: str | None,
-    plot: str | None,
-    settings: dict[str, str],
-    **more: bool,
-) -> int:
+@DIGITS
+def sweep_command(case: str, settings: dict[str, str], **options: Any) -> int:
     """Solve a case over a range: the mechanism moves from the position as written.
 
     \b
     icsolve sweep press.yaml --vary angles.AB=0:360:1 -o turn.csv
     icsolve sweep press.yaml --drive 2=0:360:1 --vary loads.P=50:150:50 -o turn.npz
     icsolve sweep press.yaml --vary angles.AB=0:360:1 --plot turn.svg
+    icsolve sweep press.yaml --vary angles.AB=0:360:1 --find T12=0
 
     The ending of FILE says the form: .csv, .jsonl, .npz. A row without an answer has its status.
-    Exit status: 1 where no row has an answer.
+    --find says where the mechanism locks (dead), where an answer peaks (max), or where it takes a
+    value, to the last digit. Exit status: 1 where no row has an answer.
     """
-    suffix = Path(output).suffix.lower() if output not in (None, "-") else ".csv"
-    if suffix not in (".csv", ".jsonl", ".npz"):
-        complain(f"icsolve sweep: {output} should end in .csv, .jsonl or .npz")
-        return UNREADABLE
-    if not vary and not drive:
-        complain("icsolve sweep: nothing is varied: give --vary angles.AB=0:360:1 or --drive 2=0:360:1")
+    want = ("answers", "status", *(word for word in MORE if options.pop(word)))
+    asked = Asked(case, want=want, **options)
+    wrong = _wrong(asked)
+    if wrong is not None:
+        complain(f"icsolve sweep: {wrong}")
         return UNREADABLE
     if not one_source("sweep", case):
         return UNREADABLE
-    if plot is not None and not _plottable(plot, len(vary) + len(drive)):
-        return UNREADABLE
-    want = ("answers", "status", *(word for word, asked in more.items() if asked))
-
-    def work(read: Case, path: str) -> int:
-        from icsolve.turn.sheet_out import FORMATS
-
-        found = _swept(read, vary, drive, want)
-        for note in found.notes:
-            complain(f"{path}: {note}")
-        code = DONE
-        if plot is not None:
-            from icsolve.draw.swept import sweep_svg
-
-            code = write_output("sweep", sweep_svg(found), plot, [case])
-        if plot is None or output is not None:
-            code = max(code, write_output("sweep", FORMATS[suffix](found), output, [case]))
-        return code or (DONE if (found.status == "ok").any() else NO_ANSWER)
-
-    return for_each([case], work, settings=settings)
+    work = _find if asked.find is not None else _table
+    refuse = _refuse_json if asked.as_json else on_stderr
+    return for_each([case], lambda read, path: _readable(work, read, path, asked), refuse, settings=settings)
 
 
-def _plottable(path: str, ranges: int) -> bool:
-    """Whether a picture can be made of so many ranges, under such a name; says what is wrong."""
+def _wrong(asked: Asked) -> str | None:
+    """What is wrong with the options together."""
+    ranges = (*asked.vary, *asked.drive)
+    if not ranges:
+        return "nothing is varied: give --vary angles.AB=0:360:1 or --drive 2=0:360:1"
+    twice = next((name for name, _ in ranges if [n for n, _ in ranges].count(name) > 1), None)
+    if twice is not None:
+        return f"{twice} is given twice"
+    rows = math.prod(len(values) for _, values in ranges)
+    if rows > MOST_ROWS:
+        return f"the ranges have {rows} rows together; at most {MOST_ROWS} fit"
+    if asked.find is not None:
+        return "--find looks between rows and makes no table: leave --plot out" if asked.plot else None
+    if asked.as_json:
+        return "--json is for --find; for rows as JSON Lines write -o FILE.jsonl"
+    if asked.suffix not in WRITTEN:
+        return f"{asked.output} should end in .csv, .jsonl or .npz"
+    return _unplottable(asked.plot, len(ranges)) if asked.plot is not None else None
+
+
+def _unplottable(path: str, ranges: int) -> str | None:
+    """Why no picture can be made of so many ranges, or under such a name."""
     if path != "-" and Path(path).suffix.lower() != ".svg":
-        complain(f"icsolve sweep: {path} should end in .svg, which is what --plot writes")
-        return False
+        return f"{path} should end in .svg, which is what --plot writes"
     if ranges != 1:
-        complain("icsolve sweep: --plot draws the answers over one range: give one --vary or --drive")
-        return False
-    return True
+        return "--plot draws the answers over one range: give one --vary or --drive"
+    return None
 
 
-def _swept(
-    case: Case,
-    vary: tuple[tuple[str, list[float]], ...],
-    drive: tuple[tuple[str, list[float]], ...],
-    want: tuple[str, ...],
-) -> Sweep:
-    """The product of all ranges, the last the fastest."""
+def _readable(work: Callable[[Case, str, Asked], int], read: Case, path: str, asked: Asked) -> int:
+    """The work; what is asked that makes no sense for this case is said."""
+    from icsolve.turn.ask import AskError
+
+    try:
+        return work(read, path, asked)
+    except AskError as error:
+        complain(f"{path}: {error}")
+        return UNREADABLE
+
+
+def _table(read: Case, path: str, asked: Asked) -> int:
+    """All rows, as a table or a picture."""
+    from icsolve.cli.progress import Progress
+    from icsolve.turn import sweep
+    from icsolve.turn.sheet_out import FORMATS
+
+    varied, driven = _columns(asked)
+    with Progress(math.prod(len(values) for _, values in (*asked.vary, *asked.drive))) as progress:
+        found = sweep(read, varied, asked.want, drive=driven, progress=progress.told)
+    for note in found.notes:
+        complain(f"{path}: {note}")
+    code = _pictured(found, asked) if asked.plot is not None else DONE
+    if asked.plot is None or asked.output is not None:
+        code = max(code, _written(FORMATS[asked.suffix](found), asked.output, asked))
+    return code or (DONE if (found.status == "ok").any() else NO_ANSWER)
+
+
+def _pictured(found: Sweep, asked: Asked) -> int:
+    from icsolve.draw.swept import sweep_svg
+
+    return _written(sweep_svg(found), asked.plot, asked)
+
+
+def _written(content: str | Iterable[bytes], path: str | None, asked: Asked) -> int:
+    """Write a table or a picture; that a file was there is said."""
+    there = path is not None and os.path.isfile(path)
+    code = write_output("sweep", content, path, [asked.case])
+    if there and code == DONE:
+        complain(f"icsolve sweep: {path} was there and is replaced")
+    return code
+
+
+def _find(read: Case, path: str, asked: Asked) -> int:
+    """Positions that are looked for."""
+    from icsolve.cli.seeking import as_json, as_text, query_of
+    from icsolve.turn.finding import find
+
+    varied, driven = _columns(asked)
+    query = query_of(read, asked.find or "")
+    spots = find(read, varied, query, drive=driven)
+    along = next(name for name, values in (*asked.vary, *asked.drive) if values.min() < values.max())
+    if asked.as_json:
+        text = as_json(read, along, query, spots)
+    else:
+        text = as_text(read, along, query, spots, asked.digits)
+    return _written(text, asked.output, asked)
+
+
+def _refuse_json(case: Case, path: str, error: SceneError) -> None:
+    from icsolve.cli.seeking import refusal
+
+    click.echo(refusal(case, error), nl=False)
+
+
+def _columns(asked: Asked) -> tuple[Mapping[str, Values], Mapping[str, Values]]:
+    """The product of all ranges, the last the fastest: what is varied, and which links are turned."""
     import numpy as np
 
-    from icsolve.turn import sweep
-
-    rows = math.prod(len(values) for _, values in (*vary, *drive))
-    if rows > MOST_ROWS:
-        raise click.BadParameter(f"the ranges have {rows} rows together; at most {MOST_ROWS} fit")
-    axes = np.meshgrid(*(values for _, values in (*vary, *drive)), indexing="ij")
+    ranges = (*asked.vary, *asked.drive)
+    axes = np.meshgrid(*(values for _, values in ranges), indexing="ij")
     columns = [axis.ravel() for axis in axes]
-    varied = {path: column for (path, _), column in zip(vary, columns, strict=False)}
-    driven = {link: column for (link, _), column in zip(drive, columns[len(vary) :], strict=True)}
-    return sweep(case, varied, want, drive=driven)
+    count = len(asked.vary)
+    varied = {path: column for (path, _), column in zip(asked.vary, columns[:count], strict=True)}
+    return varied, {link: column for (link, _), column in zip(asked.drive, columns[count:], strict=True)}

@@ -21,6 +21,15 @@ from icsolve.turn.scene import pairs as all_pairs
 WORDS = ("answers", "status", "error", "points", "centres", "rates")
 
 
+class AskError(ValueError):
+    """What is asked of a sweep makes no sense: the message says what would."""
+
+
+MOST_NUMBERS = 400_000_000
+"""More numbers than these (3 GB) are not made at once."""
+MOST_PAIRS = 100_000
+
+
 class Columns(NamedTuple):
     """Varied numbers by path, links turned (degrees) by name: arrays of the same length."""
 
@@ -45,12 +54,12 @@ def columns_of(
 ) -> Columns:
     """The columns of a sweep; single numbers are the same in every row.
 
-    Raises ValueError for arrays that can't be columns, CaseError for paths that the case does not have.
+    Raises AskError for arrays that can't be columns, CaseError for paths that the case does not have.
     """
     asked = {**{("vary", path): v for path, v in (vary or {}).items()}}
     asked |= {("drive", str(link)): v for link, v in (drive or {}).items()}
     if not asked:
-        raise ValueError("nothing is varied: give vary={'angles.AB': values} or drive={'2': degrees}")
+        raise AskError("nothing is varied: give vary={'angles.AB': values} or drive={'2': degrees}")
     arrays = {key: _column(key[1], value) for key, value in asked.items()}
     rows = max(len(a) if a.ndim else 1 for a in arrays.values())
     paths: dict[str, Array] = {}
@@ -58,10 +67,10 @@ def columns_of(
     names: dict[str, str] = {}
     for (kind, name), array in arrays.items():
         if array.ndim and len(array) != rows:
-            raise ValueError(f"{shown(name)} has {len(array)} values where another has {rows}")
+            raise AskError(f"{shown(name)} has {len(array)} values where another has {rows}")
         own = _path(case, name) if kind == "vary" else _link(case, name)
         if own in names:
-            raise ValueError(f"{shown(name)} and {shown(names[own])} are the same number")
+            raise AskError(f"{shown(name)} and {shown(names[own])} are the same number")
         names[own] = name
         (paths if kind == "vary" else links)[own] = np.ascontiguousarray(np.broadcast_to(array, rows))
     return Columns(paths, links, names)
@@ -75,19 +84,19 @@ def _path(case: Case, name: str) -> str:
 def _column(name: str, values: npt.ArrayLike) -> Array:
     array = np.asarray(values, dtype=np.float64)
     if array.ndim > 1:
-        raise ValueError(
+        raise AskError(
             f"the values of {shown(name)} should be one row of numbers, not {array.ndim} dimensions"
         )
     if not array.size:
-        raise ValueError(f"there are no values for {shown(name)}")
+        raise AskError(f"there are no values for {shown(name)}")
     if not np.isfinite(array).all():
-        raise ValueError(f"the values of {shown(name)} are not all finite numbers")
+        raise AskError(f"the values of {shown(name)} are not all finite numbers")
     return array
 
 
 def _link(case: Case, name: str) -> str:
     if name not in case.links:
-        raise ValueError(f"there is no link {shown(name)} to turn{suggestion(name, case.links)}")
+        raise AskError(f"there is no link {shown(name)} to turn{suggestion(name, case.links)}")
     return name
 
 
@@ -103,16 +112,18 @@ class Wanted(NamedTuple):
 def wanted_of(case: Case, want: tuple[str, ...]) -> Wanted:
     """What is wanted: whole kinds (``points``) or single ones (``points.C``, ``centres.2-4``).
 
-    Raises ValueError for a word that is none.
+    Raises AskError for a word that is none.
     """
     points: dict[str, None] = {}
     centres: dict[Pair, None] = {}
     kinds = set()
+    if "centres" in want and (count := len(case.links) * (len(case.links) - 1) // 2) > MOST_PAIRS:
+        raise AskError(f"all centres are {count}, more than a table has columns; ask for single ones")
     for word in want:
         kind, dot, name = word.partition(".")
         if kind not in WORDS or (dot and kind not in ("points", "centres")):
             likely = suggestion(word, WORDS) or f"; one of {', '.join(WORDS)}"
-            raise ValueError(f"{shown(word)} can't be wanted{likely}")
+            raise AskError(f"{shown(word)} can't be wanted{likely}")
         kinds.add(kind)
         if kind == "points":
             points.update(dict.fromkeys(_points(case, name) if dot else shown_points(case)))
@@ -123,6 +134,17 @@ def wanted_of(case: Case, want: tuple[str, ...]) -> Wanted:
     return Wanted(asked, "error" in kinds, want)
 
 
+def refuse_size(columns: Columns, asked: Asked, error: bool) -> None:
+    """Raise AskError where the arrays would not fit."""
+    width = len(columns.arrays) + 2 * len(asked.points) + 3 * len(asked.centres) + 2
+    numbers = columns.rows * (width * 2 if error else width)
+    if numbers > MOST_NUMBERS:
+        raise AskError(
+            f"{columns.rows} rows of {width} columns are {numbers} numbers; at most {MOST_NUMBERS} fit. "
+            "Ask for fewer rows, or for single points and centres."
+        )
+
+
 def shown_points(case: Case) -> list[str]:
     """The points that have a name in the case."""
     return [name for name in names_of(case) if not name.startswith("@")]
@@ -131,7 +153,7 @@ def shown_points(case: Case) -> list[str]:
 def _points(case: Case, name: str) -> list[str]:
     known = shown_points(case)
     if name not in known:
-        raise ValueError(f"there is no point {shown(name)}{suggestion(name, known)}")
+        raise AskError(f"there is no point {shown(name)}{suggestion(name, known)}")
     return [name]
 
 
@@ -140,5 +162,5 @@ def _pairs(case: Case, name: str) -> Iterable[Pair]:
     found = {frozenset(pair) for pair in pairs(name, lambda link: link in case.links)}
     meant = [pair for pair in all_pairs(case) if frozenset(pair) in found]
     if len(meant) != 1:
-        raise ValueError(f"{shown(name)} is not a pair of links of this case; write it as 2-4")
+        raise AskError(f"{shown(name)} is not a pair of links of this case; write it as 2-4")
     return meant

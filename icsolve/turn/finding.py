@@ -18,7 +18,7 @@ from icsolve.arithmetic import Scalar
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.solve import solve
-from icsolve.turn.ask import columns_of
+from icsolve.turn.ask import AskError, columns_of
 from icsolve.turn.backward import Backward
 from icsolve.turn.parts import Part
 from icsolve.turn.program import Asked
@@ -77,7 +77,7 @@ def find(
     columns = columns_of(case, vary, drive)
     names = [name for name, array in columns.arrays.items() if np.ptp(array) > 0.0]
     if len(names) != 1:
-        raise ValueError("positions are found along one varied number")
+        raise AskError("positions are found along one varied number")
     start = start_of(case, columns, Asked())
     if start.one_by_one or rubs(case):
         why = "positions cannot be found where each row has to be solved as a scene of its own."
@@ -106,7 +106,8 @@ class _Search:
         key = ("answers", load)
         if key not in self.sheet.outputs:
             names = [name for kind, name in self.sheet.outputs if kind == "answers"]
-            raise ValueError(f"{load or 'an answer'} is no unknown load of this case ({', '.join(names)})")
+            known = f" ({', '.join(names)})" if names else ", which has none"
+            raise AskError(f"{load or 'an answer'} is no unknown load of this case{known}")
         (answer,) = self.sheet.outputs[key]
         if self.query.kind == "value":
             yield from self._values(answer, load)
@@ -234,18 +235,20 @@ class _Search:
             yield from self._closed(evaluate, self.places[k], self.places[k + 1])
 
     def _closed(self, evaluate: Callable[[Array], Array], low: float, high: float) -> Iterator[float]:
-        """A change of sign between two places, closed in to the last digit."""
+        """A change of sign between two places, closed in to the last digit (of the places about zero)."""
+        least = TINY * max(abs(low), abs(high))
         for _ in range(ROUNDS):
-            at = np.linspace(low, high, SECTIONS + 1)
-            sign = np.sign(evaluate(at))
+            cuts = np.linspace(low, high, SECTIONS + 1)
+            sign = np.sign(evaluate(cuts))
             change = np.flatnonzero(sign[:-1] * sign[1:] <= 0.0)
             if not change.size:
                 return
-            low, high = float(at[change[0]]), float(at[change[0] + 1])
+            low, high = float(cuts[change[0]]), float(cuts[change[0] + 1])
             if high <= math.nextafter(math.nextafter(low, math.inf), math.inf):
                 break
         ends = np.array([low, high])
-        yield float(ends[np.nanargmin(np.abs(evaluate(ends)))])
+        at = float(ends[np.nanargmin(np.abs(evaluate(ends)))])
+        yield at if abs(at) > least else 0.0
 
     def _limits(self, evaluate: Callable[[Array], Array]) -> Iterator[float]:
         """Where rows that assemble border on rows that do not."""

@@ -16,7 +16,7 @@ from icsolve.turn.branches import Followed, follow, live_roots, signs_of
 from icsolve.turn.numbers import numbers_of
 from icsolve.turn.program import Sheet, Signs
 from icsolve.turn.replay import BLOCK, Array, Code
-from icsolve.turn.runner import STEEP, Found, Rows, Runner
+from icsolve.turn.runner import STEEP, Found, Progress, Rows, Runner
 from icsolve.turn.start import Start
 from icsolve.turn.track import Mask
 from icsolve.turn.way import State, Way, written_state
@@ -51,8 +51,8 @@ class Part(NamedTuple):
 class Parts:
     """The rows of a sweep in parts."""
 
-    def __init__(self, start: Start, columns: Columns) -> None:
-        self.start, self.columns = start, columns
+    def __init__(self, start: Start, columns: Columns, progress: Progress | None = None) -> None:
+        self.start, self.columns, self.progress = start, columns, progress
         self.arrays = columns.arrays
 
     def given(self, part: Part) -> tuple[dict[int, Array], Mask]:
@@ -95,7 +95,7 @@ class Parts:
             return None, rows
         inputs = runner.sheet.inputs
         given = {inputs[name]: a if order is rows else a[order] for name, a in self.arrays.items()}
-        found = runner.run(given, len(at))
+        found = runner.run(given, len(at), self.progress)
         return (None, rows) if found.touching else (Part(runner, order, found=found), rows[:0])
 
     def _clear(self, sheet: Sheet, names: list[str]) -> Mask:

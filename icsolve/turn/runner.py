@@ -6,7 +6,7 @@ it is in the other rows, or where the answer nearly vanishes. The others are wha
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from typing import NamedTuple
 
@@ -32,6 +32,8 @@ STEEP = 2.0
 
 Key = tuple[str, str]
 Rows = npt.NDArray[np.int64]
+Progress = Callable[[int], None]
+"""Called with a number of rows that were done."""
 
 
 class Found(NamedTuple):
@@ -127,7 +129,7 @@ class Runner:
             column(values[key], part)[:] = value
         return values
 
-    def run(self, given: Mapping[int, Array], rows: int) -> Found:
+    def run(self, given: Mapping[int, Array], rows: int, progress: Progress | None = None) -> Found:
         """All rows; ``given`` has an array or one number for every input."""
         values, doubtful, touching = self.empty(rows), [], False
         last: list[float] = []
@@ -141,6 +143,8 @@ class Runner:
             touching = touching or steep
             if again.size:
                 doubtful.append(again + start)
+            if progress is not None:
+                progress(stop - start)
         return Found(values, np.concatenate(doubtful) if doubtful else np.empty(0, np.int64), touching)
 
     def _watch(self, found: list[Array], last: list[float]) -> tuple[Rows, bool, list[float]]:

@@ -17,7 +17,7 @@ from icsolve.turn.ask import Columns
 from icsolve.turn.numbers import with_numbers
 from icsolve.turn.program import Asked
 from icsolve.turn.replay import Array
-from icsolve.turn.runner import Key, Rows
+from icsolve.turn.runner import Key, Progress, Rows
 from icsolve.turn.second import CODE, Codes
 from icsolve.turn.swept import Sweep
 
@@ -126,13 +126,17 @@ def solved(case: Case, asked: Asked) -> Answer:
     return solve(case, rates=asked.rates, all_centres=bool(asked.centres), examine=bool(asked.points))
 
 
-def by_scenes(table: Table, rows: Iterable[int], case_of: Callable[[int], Case]) -> None:
+def by_scenes(
+    table: Table, rows: Iterable[int], case_of: Callable[[int], Case], progress: Progress | None = None
+) -> None:
     """Solve rows as scenes."""
     for row in rows:
         try:
             table.fill(row, solved(case_of(row), table.asked))
         except SceneError as error:
             table.refuse(row, error)
+        if progress is not None:
+            progress(1)
 
 
 # --- families that have no construction for all rows ----------------------------------------------

@@ -1,4 +1,4 @@
-"""The rows of a sweep as a table: CSV, JSON Lines, or numpy's npz."""
+"""The rows of a sweep as a table: CSV, JSON Lines, or numpy's npz, part by part."""
 
 from __future__ import annotations
 
@@ -6,18 +6,22 @@ import csv
 import io
 import json
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
 
 import numpy as np
 
+from icsolve.turn.replay import Array
+from icsolve.turn.second import WORDS
 from icsolve.turn.swept import Sweep
 
-Column = np.ndarray
+PART = 8192
+"""Rows that are written at once."""
 
 
-def columns(sweep: Sweep) -> dict[str, Column]:
-    """Every array of a sweep as columns of its table, by name, (n,) each."""
-    table: dict[str, Column] = dict(sweep.vary)
+def columns(sweep: Sweep) -> dict[str, Array]:
+    """Every array of numbers of a sweep as columns of its table, by name, (n,) each."""
+    table: dict[str, Array] = dict(sweep.vary)
     table |= sweep.answers
     table |= {f"error {name}": array for name, array in sweep.error.items()}
     for name, array in sweep.points.items():
@@ -27,44 +31,47 @@ def columns(sweep: Sweep) -> dict[str, Column]:
     table |= {f"w{name}": array for name, array in sweep.rates.items()}
     for name, array in sweep.holds.items():
         table |= {f"{name} from": array[:, 0], f"{name} to": array[:, 1]}
-    table["status"] = sweep.status
     return table
 
 
-def as_csv(sweep: Sweep) -> str:
+def as_csv(sweep: Sweep) -> Iterator[bytes]:
     """A header and a line a row; what is not a number stands empty beside its status."""
-    table = columns(sweep)
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
-    writer.writerow(table)
-    writer.writerows(zip(*(_cells(column) for column in table.values()), strict=True))
-    return out.getvalue()
+    writer.writerow([*columns(sweep), "status"])
+    for part in _parts(sweep, lambda value: "" if math.isnan(value) else repr(value + 0.0)):
+        writer.writerows(zip(*part.values(), strict=True))
+        yield out.getvalue().encode("utf-8")
+        out.seek(0)
+        out.truncate()
 
 
-def as_jsonl(sweep: Sweep) -> str:
+def as_jsonl(sweep: Sweep) -> Iterator[bytes]:
     """An object a row; what is not a number is null."""
-    table = columns(sweep)
-    rows = zip(*(_values(column) for column in table.values()), strict=True)
-    return "".join(json.dumps(dict(zip(table, row, strict=True))) + "\n" for row in rows)
+    for part in _parts(sweep, lambda value: None if math.isnan(value) else value + 0.0):
+        rows = zip(*part.values(), strict=True)
+        yield "".join(json.dumps(dict(zip(part, row, strict=True))) + "\n" for row in rows).encode("utf-8")
 
 
-def as_npz(sweep: Sweep) -> bytes:
+def as_npz(sweep: Sweep) -> Iterator[bytes]:
     """The arrays of the sweep in one npz, under the names of the columns."""
     out = io.BytesIO()
-    np.savez(out, **columns(sweep))  # type: ignore[arg-type]
-    return out.getvalue()
+    arrays: Mapping[str, Any] = {**columns(sweep), "status": sweep.status}
+    np.savez(out, **arrays)
+    yield out.getvalue()
 
 
-FORMATS: dict[str, Callable[[Sweep], str | bytes]] = {".csv": as_csv, ".jsonl": as_jsonl, ".npz": as_npz}
+FORMATS: dict[str, Callable[[Sweep], Iterator[bytes]]] = {
+    ".csv": as_csv,
+    ".jsonl": as_jsonl,
+    ".npz": as_npz,
+}
 
 
-def _cells(column: Column) -> Iterator[str]:
-    if column.dtype.kind != "f":
-        return iter(column.tolist())
-    return ("" if math.isnan(value) else repr(value + 0.0) for value in column.tolist())
-
-
-def _values(column: Column) -> Iterator[float | str | None]:
-    if column.dtype.kind != "f":
-        return iter(column.tolist())
-    return (None if math.isnan(value) else value + 0.0 for value in column.tolist())
+def _parts(sweep: Sweep, shown: Callable[[float], object]) -> Iterator[dict[str, list[Any]]]:
+    """The columns of so many rows after another, as lists; the status in words last."""
+    table = columns(sweep)
+    for start in range(0, len(sweep), PART):
+        rows = slice(start, start + PART)
+        part = {name: [shown(value) for value in column[rows].tolist()] for name, column in table.items()}
+        yield {**part, "status": [WORDS[code] for code in sweep.codes[rows].tolist()]}

@@ -10,10 +10,11 @@ import numpy.typing as npt
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.power import is_unknown
-from icsolve.turn.ask import Columns, Wanted, columns_of, shown_points, wanted_of
+from icsolve.turn.ask import Columns, Wanted, columns_of, refuse_size, shown_points, wanted_of
 from icsolve.turn.numbers import with_numbers
 from icsolve.turn.program import Asked
 from icsolve.turn.replay import Array
+from icsolve.turn.runner import Progress
 from icsolve.turn.scenes import Table, by_scenes, families
 from icsolve.turn.second import CODE
 from icsolve.turn.start import Start, start_of
@@ -22,6 +23,10 @@ from icsolve.turn.work import Work
 from icsolve.verdicts import rubs
 
 BY_SCENES = "with friction each row is solved as a scene of its own."
+IN_SPACE = (
+    "a sweep moves a planar mechanism, and this case is in space: its points have three coordinates. Solve "
+    "it position by position, with --set."
+)
 
 
 def sweep(
@@ -30,6 +35,7 @@ def sweep(
     want: Sequence[str] = ("answers", "status"),
     *,
     drive: Mapping[str, npt.ArrayLike] | None = None,
+    progress: Progress | None = None,
 ) -> Sweep:
     """Solve a case for many values of some of its numbers.
 
@@ -43,6 +49,7 @@ def sweep(
     want : ``answers``, ``status``, ``error``, ``points``, ``centres``, ``rates``; or single ones,
         ``points.C``, ``centres.2-4``
     drive : arrays of degrees by which links are turned from the position as written, by link
+    progress : called with the number of rows that were done, time and again
 
     Raises
     ------
@@ -53,14 +60,17 @@ def sweep(
     ValueError
         For arrays that can't be columns, or words that can't be wanted.
     """
+    if case.space is not None:
+        raise SceneError(Status.UNSUPPORTED, IN_SPACE)
     columns = columns_of(case, vary, drive)
     wanted = wanted_of(case, tuple(want) if not isinstance(want, str) else (want,))
+    refuse_size(columns, wanted.asked, wanted.error)
     start = start_of(case, columns, _told(case, wanted.asked))
     if start.one_by_one:
-        return _family(start, columns, wanted)
+        return _family(start, columns, wanted, progress)
     if rubs(case):
-        return _rubbing(start, columns, wanted)
-    work = Work(start, columns, wanted.error)
+        return _rubbing(start, columns, wanted, progress)
+    work = Work(start, columns, wanted.error, progress)
     work.run()
     tables = work.tables()
     return Sweep(
@@ -77,19 +87,19 @@ def sweep(
     )
 
 
-def _rubbing(start: Start, columns: Columns, wanted: Wanted) -> Sweep:
+def _rubbing(start: Start, columns: Columns, wanted: Wanted, progress: Progress | None) -> Sweep:
     """A sweep with friction: positions at once, each row then a scene of its own."""
     placed = start._replace(asked=Asked(answers=False, points=tuple(shown_points(start.case))))
     work = Work(placed, columns, False)
     work.run()
     table = Table(columns.rows, wanted.asked)
     table.codes[:] = np.where(work.codes == CODE[Status.CHANGE_POINT], 0, work.codes)
-    by_scenes(table, np.flatnonzero(table.codes == 0).tolist(), work.case_of)
+    by_scenes(table, np.flatnonzero(table.codes == 0).tolist(), work.case_of, progress)
     table.codes[:] = np.where(table.codes == 0, work.codes, table.codes)
     return table.sweep(start.case, _shown(columns), wanted.error, (*work.notes, BY_SCENES), work.case_of)
 
 
-def _family(start: Start, columns: Columns, wanted: Wanted) -> Sweep:
+def _family(start: Start, columns: Columns, wanted: Wanted, progress: Progress | None) -> Sweep:
     """A family of figures without a construction for all: each solved as if written so."""
     table, moving = Table(columns.rows, wanted.asked), start.setting.drive.moving
     notes: dict[str, None] = dict.fromkeys([start.note] if start.note else [])
@@ -99,12 +109,12 @@ def _family(start: Start, columns: Columns, wanted: Wanted) -> Sweep:
 
     for case, rows in families(start.case, columns, moving):
         if not moving and not columns.links:
-            by_scenes(table, rows.tolist(), lambda _, case=case: case)  # type: ignore[misc]
+            by_scenes(table, rows.tolist(), lambda _, case=case: case, progress)  # type: ignore[misc]
             continue
         vary = {path: columns.paths[path][rows] for path in moving}
         drive = {link: array[rows] for link, array in columns.links.items()}
         try:
-            part = sweep(case, vary, wanted.words, drive=drive)
+            part = sweep(case, vary, wanted.words, drive=drive, progress=progress)
         except SceneError as error:
             table.codes[rows] = CODE.get(error.status, CODE[Status.NEAR_SINGULAR])
             continue

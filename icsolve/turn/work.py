@@ -13,7 +13,7 @@ from icsolve.turn.ask import Columns
 from icsolve.turn.parts import Part, Parts
 from icsolve.turn.replay import BLOCK, Array
 from icsolve.turn.rows import RowCases
-from icsolve.turn.runner import Found, Key
+from icsolve.turn.runner import Found, Key, Progress
 from icsolve.turn.second import CODE, Look, look_again
 from icsolve.turn.start import Start
 from icsolve.turn.way import Way
@@ -43,9 +43,13 @@ class Tables(NamedTuple):
 class Work:
     """One sweep as it is worked on; ``codes`` and ``values`` are filled by ``run``."""
 
-    def __init__(self, start: Start, columns: Columns, error: bool) -> None:
+    def __init__(
+        self, start: Start, columns: Columns, error: bool, progress: Progress | None = None
+    ) -> None:
         self.start, self.columns, self.error = start, columns, error
-        self.parts = Parts(start, columns)
+        self.running = None if error else progress
+        self.bounding = progress if error else None
+        self.parts = Parts(start, columns, self.running)
         self.notes: list[str] = [start.note] if start.note else []
         self.codes = np.zeros(columns.rows, dtype=np.int8)
         self.values: dict[Key, Array] = {}
@@ -83,7 +87,7 @@ class Work:
             found = part.found
             if found is None:
                 given, good = self.parts.given(chunk)
-                found = part.runner.run(given, len(chunk.rows))
+                found = part.runner.run(given, len(chunk.rows), self.running)
                 self.codes[chunk.rows[~good]] = CODE[Status.CANNOT_ASSEMBLE]
                 found = _with_singular(chunk, found)
             self._settle(chunk, found)
@@ -138,6 +142,8 @@ class Work:
             found = passes.run({k: v[here] if v.ndim else v for k, v in given.items()}, here.stop - start)
             for table, passed in zip(tables, found, strict=True):
                 table[part.rows[here]] = passed.bound
+            if self.bounding is not None:
+                self.bounding(here.stop - start)
 
     def _passed(self, part: Part) -> None:
         """Say at which rows change points were passed, and what was not reached."""

@@ -1,0 +1,174 @@
+"""`icsolve sweep` on what makes no sense, and on a disk or a reader that gives up: one clear line, the right
+exit status, nothing half-written."""
+
+from __future__ import annotations
+
+import os
+import resource
+import signal
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import icsolve
+from icsolve.turn import ask
+from test_sweep_command import PRESS, press, swept
+
+__all__ = ["press"]
+ROOT = Path(__file__).parent.parent
+TURN = ("--vary", "angles.AB=0:360:1")
+IN_SPACE = """icsolve: 1
+points: {A: [0, 0, 0], B: [0, 0, 1]}
+joints: [{ball: [1, 2], at: A}, {radial: [1, 2], at: B, axis: [0, 0, 1]}]
+loads: {P: {force: [1, 2, 3], link: 2, at: B}}
+"""
+
+
+def refused(*words: str) -> Callable[[str], bool]:
+    return lambda text: all(word in text for word in words) and "fault of icsolve" not in text
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--vary", "angles.AC=0:10:1"], ["cannot vary 'angles.AC'", "angles.AB"]),
+        (["--vary", "loads.T12=0:10:1"], ["T12 is the unknown"]),
+        (["--vary", "load.P=0:10:1"], ["did you mean 'loads.P'?"]),
+        (["--drive", "22=0:10:1"], ["no link '22'", "'2'"]),
+        (["--vary", "angles.AB=90:60:10"], ["empty range"]),
+        (["--vary", "angles.AB=0:360:-1"], ["empty range"]),
+        (["--vary", "angles.AB=0:360:0"], ["empty range"]),
+        (["--vary", "angles.AB=0:360"], ["is not PATH=FROM:TO:STEP"]),
+        (["--vary", "angles.AB=0:inf:1"], ["is not PATH=FROM:TO:STEP"]),
+        (["--vary", "angles.AB=nan"], ["is not PATH=FROM:TO:STEP"]),
+        (["--vary", "angles.AB=1e300,1e301"], ["is not PATH=FROM:TO:STEP"]),
+        (["--vary", "=0:1:1"], ["is not PATH=FROM:TO:STEP"]),
+        (["--vary", "angles.AB=0:1e30:1e-20"], ["rows fit"]),
+        (["--vary", "angles.AB=0:1e4:1e-3", "--vary", "loads.P=0:1e4:1"], ["rows together"]),
+        (["--vary", "angles.AB=0:1e4:1e-3", "--points", "--centres", "--error"], ["numbers", "fewer rows"]),
+        (["--vary", "angles.AB=0:9:1", "--vary", "angles.AB=0:9:1"], ["angles.AB is given twice"]),
+        (["--vary", "lengths.AB=1:2:1", "--vary", "lengths.BA=1:2:1"], ["are the same number"]),
+        ([], ["nothing is varied"]),
+        ([*TURN, "--json"], ["--json is for --find"]),
+        ([*TURN, "--find", "best"], ["dead, max or NAME=VALUE"]),
+        ([*TURN, "--find", "T13=0"], ["no load 'T13'", "'T12'"]),
+        ([*TURN, "--find", "P=0"], ["P is no unknown load"]),
+        ([*TURN, "--find", "T12=12 lbf"], ["'lbf' is a unit of force", "T12 is in N*m"]),
+        ([*TURN, "--find", "T12=much"], ["no number"]),
+        ([*TURN, "--vary", "loads.P=1:9:1", "--find", "dead"], ["along one varied number"]),
+        ([*TURN, "--plot", "x.svg", "--find", "dead"], ["leave --plot out"]),
+    ],
+)
+def test_what_makes_no_sense_is_refused_in_one_line(
+    press: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], options: list[str], words: list[str]
+) -> None:
+    out = tmp_path / "turn.csv"
+    assert swept(str(press), *options, "-o", str(out)) == 2
+    said = capsys.readouterr().err
+    assert refused(*words)(said), said
+    assert not out.exists()
+
+
+def test_a_case_in_space_is_refused_by_name(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "space.yaml"
+    path.write_text(IN_SPACE)
+    assert swept(str(path), "--vary", "gravity=1:9:1") == 1
+    assert refused("unsupported", "in space", "--set")(capsys.readouterr().err)
+
+
+def test_a_case_without_an_unknown_has_rows_but_nothing_to_find(
+    press: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    press.write_text(PRESS.replace("  T12: {torque: unknown, link: 2}\n", ""))
+    out = tmp_path / "turn.csv"
+    assert swept(str(press), "--vary", "angles.AB=60:80:10", "--rates", "-o", str(out)) == 0
+    assert out.read_text().splitlines()[0] == "angles.AB,w1,w2,w3,w4,status"
+    assert swept(str(press), *TURN, "--find", "dead") == 2
+    assert "this case has none" in capsys.readouterr().err
+
+
+def test_all_centres_of_a_thousand_links_are_more_than_a_table_holds() -> None:
+    """499,500 pairs; single ones are had without them."""
+    points = ", ".join(f"A{k}: [{k}, 0]" for k in range(1, 1000))
+    joints = "\n".join(f"  - {{pin: [1, {k + 1}], at: A{k}}}" for k in range(1, 1000))
+    case = icsolve.load(
+        f"icsolve: 1\npoints: {{{points}}}\njoints:\n{joints}\n"
+        "loads: {P: {torque: 1, link: 2}, T: {torque: unknown, link: 2}}\n"
+    )
+    with pytest.raises(ask.AskError, match="499500"):
+        icsolve.sweep(case, {"loads.P": np.arange(3.0)}, ("centres",))
+
+
+# --- what is written --------------------------------------------------------------------------------
+
+
+def test_a_file_that_was_there_is_not_replaced_in_silence(
+    press: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "turn.csv"
+    assert swept(str(press), *TURN, "-o", str(out)) == 0
+    assert "replaced" not in capsys.readouterr().err
+    assert swept(str(press), *TURN, "-o", str(out)) == 0
+    assert f"{out} was there and is replaced" in capsys.readouterr().err
+
+
+def command(*words: str, **more: object) -> subprocess.Popen[bytes]:
+    """The command in a process of its own."""
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    pipe = subprocess.PIPE
+    return subprocess.Popen(
+        [sys.executable, "-m", "icsolve", "sweep", *words],
+        env=environment,
+        stderr=pipe,
+        **{"stdout": pipe, **more},  # type: ignore[call-overload]
+    )
+
+
+def _small_files() -> None:
+    """As a full disk: no file may grow beyond so many bytes."""
+    signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
+
+
+@pytest.mark.parametrize("ending", ["csv", "jsonl", "npz"])
+def test_a_disk_that_is_full_leaves_no_file_and_keeps_the_old_one(
+    press: Path, tmp_path: Path, ending: str
+) -> None:
+    """3601 rows do not fit into 20 kB."""
+    out = tmp_path / f"turn.{ending}"
+    for old in (None, b"what was there"):
+        if old is not None:
+            out.write_bytes(old)
+        process = command(
+            str(press), "--vary", "angles.AB=0:360:0.1", "-o", str(out), preexec_fn=_small_files
+        )
+        _, said = process.communicate(timeout=60)
+        assert process.returncode == 2
+        assert b"can't be written" in said
+        assert (out.read_bytes() if out.exists() else None) == old
+        assert {path.name for path in tmp_path.iterdir()} <= {press.name, out.name}
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no /dev/full here")
+def test_a_full_device_on_standard_output_is_said(press: Path) -> None:
+    with open("/dev/full", "wb") as full:
+        process = command(str(press), *TURN, stdout=full)
+        _, said = process.communicate(timeout=60)
+    assert process.returncode == 2
+    assert b"No space left" in said
+
+
+def test_a_reader_that_goes_away_ends_it_without_a_word(press: Path) -> None:
+    with command(str(press), "--vary", "angles.AB=0:3600:0.1") as process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        assert process.stdout.readline() == b"angles.AB,T12,status\n"
+        process.stdout.close()
+        assert process.stderr.read() == b""
+        assert process.wait(timeout=60) == 141
