@@ -21,6 +21,7 @@ VERBS = {
     "explain": "explaining",
     "draw": "drawing",
     "gallery": "showing",
+    "page": "paging",
     "sweep": "sweeping",
     "bench": "benching",
 }

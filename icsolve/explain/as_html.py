@@ -25,13 +25,18 @@ def html_of(document: Document, figure: str = "") -> str:
     """A whole page; ``figure`` is an SVG drawing."""
     lead = "".join(f'<p class="lead">{escaped(text)}</p>\n' for text in document.lead)
     picture = f"<figure>{figure}</figure>\n" if figure else ""
-    body = "".join(part for section in document.sections for part in _section(section))
+    body = sections_html(document)
     return (
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width,initial-scale=1">\n'
         f"<title>{escaped(document.title)}</title>\n<style>{STYLE}</style></head>\n<body><main>\n"
         f"<h1>{escaped(document.title)}</h1>\n{lead}{picture}{body}</main></body></html>\n"
     )
+
+
+def sections_html(document: Document) -> str:
+    """The sections alone, to stand in another page."""
+    return "".join(part for section in document.sections for part in _section(section))
 
 
 def _section(section: Section) -> Iterable[str]:

@@ -1,0 +1,243 @@
+"""The figure of a page: the marks of a drawing, in a view that holds every position, told what they follow.
+
+``data-turn`` follows a link, ``data-at`` a point, ``data-on`` a place of a link without turning,
+``data-load`` a load; the script of the page moves them so.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+import shapely
+
+from icsolve.case import Contact, Force, Pin, Roll, Slide, Slot, Spring
+from icsolve.construction import Acting, Known, Step, acting_loads
+from icsolve.draw.figure import ORDER
+from icsolve.draw.frame import belts, frame_parts, joint_name, joint_parts, point_parts, rims
+from icsolve.draw.links import Body, bars, body_of, guide_in_picture, link_part, outline
+from icsolve.draw.loads import load_parts
+from icsolve.draw.marks import Box, Group, Mark, Point, Stroke, Text, bounds
+from icsolve.draw.place import Label, Placer
+from icsolve.draw.scene import Part, Scene, together
+from icsolve.draw.shapes import joined
+from icsolve.draw.view import view_of
+from icsolve.draw.wheels import Wheel, round_things
+from icsolve.page.motion import Motion
+from icsolve.page.poses import Array, moved
+
+ROOM = (430.0, 350.0)
+"""The largest that the mechanism is drawn, through all its positions."""
+Data = tuple[tuple[str, str], ...]
+
+
+class Figure(NamedTuple):
+    """The marks of a page's figure, its scene and its window."""
+
+    scene: Scene
+    marks: tuple[Mark, ...]
+    window: Box
+
+
+def figure_of(known: Known, steps: Sequence[Step], motion: Motion | None) -> Figure:
+    """The figure in its position as written, without its centres, which the script of the page draws."""
+    scene = scene_over(known, steps, motion)
+    bodies = [body_of(scene, link) for link in scene.case.links if link != scene.case.ground]
+    bodies.sort(key=lambda body: (len(body.blocks), -float(shapely.area(outline(body)))))
+    links = joined([bars(body) for body in bodies]) if bodies else shapely.Polygon()
+    parts = [
+        *_wheels(bodies),
+        *(_following(part, f"rim-{w}", ("data-turn", w)) for part in rims(scene) for w in _rim_links(scene)),
+        *frame_parts(scene, links),
+        *(_turning(link_part(scene, body), body.link) for body in bodies),
+        *_belts(scene),
+        *_joints(scene),
+    ]
+    under = together(parts)
+    over = together([*_loads(scene, links), *_points(scene)])
+    whole = together([under, over])
+    placer = Placer(whole.solid, whole.soft, scene.view.window)
+    labels = sorted(whole.labels, key=lambda label: ORDER.index(label.kind) if label.kind in ORDER else 9)
+    placed = [_told(scene, label, placer.put(label)) for label in labels if label.runs]
+    layers = (
+        Group("mechanism", "", under.marks),
+        Group("centres", "", ()),
+        Group("loads", "", over.marks),
+        Group("labels", "", tuple(placed)),
+    )
+    left, top, right, bottom = bounds(layers)
+    a, b, c, d = scene.view.window
+    return Figure(scene, layers, (min(a, left), min(b, top), max(c, right), max(d, bottom)))
+
+
+def scene_over(known: Known, steps: Sequence[Step], motion: Motion | None) -> Scene:
+    """The scene in a view that holds all positions, and the centres as written that are not far."""
+    shapes = round_things(known.case, known.points)
+    used = {name for names in known.case.carries.values() for name in names}
+    used |= {at for joint in known.case.joints if (at := getattr(joint, "at", None))}
+    boxes = [(*known.points[p], *known.points[p]) for p in known.points if p in used]
+    boxes += [_around(w, known, motion) for w in shapes.wheels]
+    if motion is not None:
+        boxes += [_box(*places) for p in motion.found.points if p in used for places in [_way(motion, p)]]
+    centres = [(c[0], c[1]) for c in (s.centre.place for s in steps if s.centre.kind == "at")]
+    finite = [c for c in centres if math.isfinite(c[0]) and math.isfinite(c[1])]
+    view = view_of(boxes, finite, known.size, ROOM)
+    at = {name: view.at(p) for name, p in known.points.items()}
+    scene = Scene(known, view, at, shapes)
+    return scene if motion is None else scene._replace(travel=travel_of(scene, motion))
+
+
+def _way(motion: Motion, point: str) -> tuple[Array, Array]:
+    places = motion.found.points[point][motion.first : motion.last + 1]
+    return places[:, 0], places[:, 1]
+
+
+def _box(x: Array, y: Array) -> Box:
+    return (float(x.min()), float(y.min()), float(x.max()), float(y.max()))
+
+
+def _around(wheel: Wheel, known: Known, motion: Motion | None) -> Box:
+    """The rectangle around a wheel in all its positions."""
+    (x, y), r = wheel.centre, wheel.radius
+    box = (x, y, x, y)
+    pose = None if motion is None else motion.poses.get(wheel.link)
+    if motion is not None and pose is not None:
+        rows = slice(motion.first, motion.last + 1)
+        xs, ys = moved(pose, known.points[pose.point], wheel.centre)
+        box = _box(xs[rows], ys[rows])
+    return (box[0] - r, box[1] - r, box[2] + r, box[3] + r)
+
+
+def travel_of(scene: Scene, motion: Motion) -> dict[tuple[str, Point], tuple[float, float]]:
+    """How far each joint's place goes along its guide, in picture units (see `Scene`)."""
+    found: dict[tuple[str, Point], tuple[float, float]] = {}
+    for joint in scene.joints():
+        if isinstance(joint, Slide | Slot) and joint.at in motion.found.points:
+            u = guide_in_picture(scene, joint)
+            found[(joint.links[1], scene.known.points[joint.at])] = _along(
+                scene, motion, joint.links[1], joint.at, u
+            )
+        if isinstance(joint, Roll | Contact) and joint.at in motion.found.points:
+            for edge in scene.round.edges:
+                if edge.at == scene.known.points[joint.at]:
+                    u = (edge.normal[1], edge.normal[0])
+                    found[(edge.link, edge.at)] = _along(scene, motion, edge.link, joint.at, u)
+    return found
+
+
+def _along(scene: Scene, motion: Motion, link: str, point: str, u: Point) -> tuple[float, float]:
+    """The least and largest way of a point along a direction of a link, from its place as written."""
+    rows = slice(motion.first, motion.last + 1)
+    x, y = motion.found.points[point][rows].T
+    pose = motion.poses.get(link)
+    x0, y0 = scene.known.points[point]
+    if pose is None:
+        dx, dy = x - x0, y - y0
+    else:
+        turn = np.radians(-pose.angle[rows])
+        rx, ry = x - pose.x[rows], y - pose.y[rows]
+        px, py = scene.known.points[pose.point]
+        dx = np.cos(turn) * rx - np.sin(turn) * ry + px - x0
+        dy = np.sin(turn) * rx + np.cos(turn) * ry + py - y0
+    way = (dx * u[0] - dy * u[1]) * scene.view.scale
+    return min(float(way.min()), 0.0), max(float(way.max()), 0.0)
+
+
+def _rim_links(scene: Scene) -> list[str]:
+    return [w.link for w in scene.round.wheels if w.rim and w.link != scene.case.ground]
+
+
+def _following(part: Part, name: str, data: tuple[str, str]) -> Part:
+    """A part whose group of this name follows something."""
+    marks = tuple(
+        m._replace(data=(*m.data, data)) if isinstance(m, Group) and m.name == name else m for m in part.marks
+    )
+    return part._replace(marks=marks)
+
+
+def _turning(part: Part, link: str) -> Part:
+    return _following(part, f"link-{link}", ("data-turn", link))
+
+
+def _wheels(bodies: Sequence[Body]) -> Iterable[Part]:
+    """Wheels, each with a spoke that shows how it turns."""
+    discs = [(disc, body.link, n) for body in bodies for n, disc in enumerate(body.wheels)]
+    discs.sort(key=lambda found: -found[0].radius)
+    for disc, link, n in discs:
+        (x, y), r = disc.centre, disc.radius
+        spokes = [Stroke(((x - r, y), (x + r, y)), "faint"), Stroke(((x, y - r), (x, y + r)), "faint")]
+        name = f"wheel-{link}" if n == 0 else f"wheel-{link}-{n}"
+        yield Part((Group(name, "", (disc, *spokes), f"link {link}", (("data-turn", link),)),))
+
+
+def _belts(scene: Scene) -> Iterable[Part]:
+    """Belts go round with the link that carries both wheels."""
+    for loop, part in zip(scene.round.loops, belts(scene), strict=True):
+        carriers = [
+            link
+            for link in scene.case.links
+            if all(_pinned(scene, link, w) for w in (loop.first, loop.second)) and link != scene.case.ground
+        ]
+        name = f"belt-{loop.first.link}-{loop.second.link}"
+        yield _following(part, name, ("data-turn", carriers[0])) if carriers else part
+
+
+def _pinned(scene: Scene, link: str, wheel: Wheel) -> bool:
+    return any(
+        isinstance(j, Pin)
+        and {link, wheel.link} <= set(j.links)
+        and scene.known.points.get(j.at) == wheel.centre
+        for j in scene.case.joints
+    )
+
+
+def _joints(scene: Scene) -> Iterable[Part]:
+    names = {joint_name(joint): str(getattr(joint, "at", "")) for joint in scene.joints()}
+    for part in joint_parts(scene):
+        name = part.marks[0].name if isinstance(part.marks[0], Group) else ""
+        yield _following(part, name, ("data-at", names[name]))
+
+
+def _points(scene: Scene) -> Iterable[Part]:
+    for part in point_parts(scene):
+        name = part.labels[0].name.removeprefix("point-")
+        dot = (Group("", "", part.marks, "", (("data-at", name),)),) if part.marks else ()
+        yield part._replace(marks=dot)
+
+
+def _loads(scene: Scene, links: shapely.Geometry) -> Iterable[Part]:
+    """Arrows and arcs follow their load; the second arrow of a pair follows where it acts."""
+    acting = {a.load.name: a for a in acting_loads(scene.known)}
+    for part in load_parts(scene, links):
+        name = part.labels[0].name.removeprefix("label-")
+        group = part.marks[0]
+        assert isinstance(group, Group)
+        yield part._replace(marks=(group._replace(marks=tuple(_arrows(acting[name], group.marks))),))
+
+
+def _arrows(acting: Acting, marks: Sequence[Mark]) -> Iterable[Mark]:
+    load = acting.load
+    if isinstance(load, Spring):
+        yield Group("", "", tuple(marks), "", (("data-span", load.name),))
+        return
+    name = load.name
+    yield Group("", "", tuple(marks[:2]), "", (("data-load", name),))
+    if len(marks) > 2:
+        other = str(getattr(load.heading, "point", load.at)) if isinstance(load, Force) else ""
+        yield Group("", "", tuple(marks[2:]), "", (("data-load", name), ("data-end", other)))
+
+
+def _told(scene: Scene, label: Label, group: Group) -> Group:
+    """A label that knows what it follows."""
+    kind, _, name = label.name.partition("-")
+    x, y = _middle(group)
+    data: Data = (("data-x", f"{x:.1f}"), ("data-y", f"{y:.1f}"))
+    key = {"point": "data-at", "number": "data-on", "label": "data-label"}[kind]
+    return group._replace(data=((key, name), *data), kind="label")
+
+
+def _middle(group: Group) -> Point:
+    text = next(mark for mark in group.marks if isinstance(mark, Text))
+    return text.at

@@ -1,0 +1,234 @@
+"""What the script of a page reads: all positions as columns in picture units, the steps, the answers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import groupby
+from typing import Any
+
+import numpy as np
+
+from icsolve.answer import Centre
+from icsolve.case import Pair
+from icsolve.construction import Acting, Known, Step, acting_loads
+from icsolve.construction.words import range_words
+from icsolve.draw.svg import identifier
+from icsolve.draw.view import View
+from icsolve.draw.words import centre_runs, figure_number, name_runs, unit_word
+from icsolve.errors import Status
+from icsolve.names import pair_name
+from icsolve.page.acting import load_data, senses
+from icsolve.page.columns import FINE, compact, exact, moves
+from icsolve.page.figure import Figure
+from icsolve.page.motion import Motion
+from icsolve.page.plots import dead_centres
+from icsolve.page.poses import Array
+from icsolve.sense import unit_of
+
+INFINITE = 1e9
+"""Picture units: what is farther than this is a direction to the page."""
+BEYOND = 1e7
+"""So many sizes of the figure away a centre is at infinity."""
+HINTS = {
+    Status.DEAD_CENTRE: "Dead centre: the link of the unknown load stands still here.",
+    Status.NO_VALUE: "No value: the unknown load does no work here, the known loads do.",
+    Status.ANY_VALUE: "Any value: neither the unknown load nor the known ones do work here.",
+    Status.CHANGE_POINT: "Change point: from here the mechanism can go on in more than one way.",
+    Status.NEAR_SINGULAR: "Too close to a singular position for a number that could be trusted.",
+    Status.JAM: "It jams: with this friction no value keeps up the motion.",
+    Status.CANNOT_ASSEMBLE: "The links do not meet here.",
+    Status.UNBALANCED: "The loads do not balance here.",
+    Status.INCONSISTENT: "No single motion fits this position.",
+}
+"""What a position without an answer says."""
+
+
+def model_of(known: Known, steps: Sequence[Step], figure: Figure, motion: Motion | None) -> dict[str, Any]:
+    """The data of a page, ready to be written as JSON."""
+    view = figure.scene.view
+    loads = acting_loads(known)
+    window = [round(v, 1) for v in figure.window]
+    data: dict[str, Any] = {
+        "window": window,
+        "scale": float(format(view.scale, ".6g")),
+        "length": unit_word(known.case.units.length),
+        "steps": max((step.number for step in steps), default=0),
+        "centres": _centres(known, steps, view, motion),
+        "loads": {a.load.name: load_data(figure.scene, motion, a) for a in loads},
+        "anchors": _anchors(known, steps, figure),
+        "answers": _answers(known, motion, loads),
+    }
+    if motion is not None:
+        data["motion"] = motion_data(known, view, motion)
+    return data
+
+
+def motion_data(known: Known, view: View, motion: Motion) -> dict[str, Any]:
+    """Degrees, poses of links and places of points in the rows that assemble."""
+    rows = slice(motion.first, motion.last + 1)
+    degrees = motion.degrees
+    step = float(degrees[1] - degrees[0])
+    return {
+        "driver": motion.driver,
+        "first": round(float(degrees[motion.first]), 6),
+        "step": round(step, 6),
+        "rows": motion.last + 1 - motion.first,
+        "zero": motion.zero - motion.first,
+        "low": round(float(degrees[0]), 6),
+        "high": round(float(degrees[-1]), 6),
+        "turns": motion.whole_turn,
+        "dead": [round(d, 3) for d in dead_centres(motion)],
+        "hints": _hints(motion),
+        "links": _links(known, view, motion, rows),
+        "points": {
+            name: _place(view, column[rows, 0], column[rows, 1])
+            for name, column in motion.found.points.items()
+            if moves(column[rows, 0] * view.scale, FINE["px"])
+            or moves(column[rows, 1] * view.scale, FINE["px"])
+        },
+    }
+
+
+def _hints(motion: Motion) -> list[list[Any]]:
+    """First row, last row and sentence of every stretch that has no answer."""
+    status = motion.status[motion.first : motion.last + 1]
+    found: list[list[Any]] = []
+    for word, rows in groupby(range(len(status)), key=lambda n: status[n]):
+        some = list(rows)
+        if word != Status.OK:
+            found.append([some[0], some[-1], HINTS.get(word, f"No answer here ({word}).")])
+    return found
+
+
+def _links(known: Known, view: View, motion: Motion, rows: slice) -> dict[str, Any]:
+    """The poses of the links that move, and the place of their point as written."""
+    found = {}
+    for link, pose in motion.poses.items():
+        x, y, angle = pose.x[rows], pose.y[rows], pose.angle[rows]
+        still = not any((moves(x * view.scale, FINE["px"]), moves(y * view.scale, FINE["px"])))
+        if still and not moves(angle, FINE["deg"]):
+            continue
+        start = view.at(known.points[pose.point])
+        turned = np.degrees(np.unwrap(np.radians(angle)))
+        own = {"from": [round(start[0], 1), round(start[1], 1)], "a": compact(turned, FINE["deg"])}
+        found[link] = {**own, **_place(view, x, y)}
+    return found
+
+
+def _place(view: View, x: Array, y: Array) -> dict[str, Any]:
+    across = (x - view.origin[0]) * view.scale
+    down = (view.origin[1] - y) * view.scale
+    return {"x": compact(across, FINE["px"]), "y": compact(down, FINE["px"])}
+
+
+def _anchors(known: Known, steps: Sequence[Step], figure: Figure) -> dict[str, list[float]]:
+    """The points that lines of centres start from (common normals), as written."""
+    single = [line[0] for step in steps for line in step.centre.lines if len(line) == 1]
+    names = {_joint(known, pair) for pair in single}
+    return {n: [round(c, 1) for c in figure.scene.at[n]] for n in sorted(names) if n in figure.scene.at}
+
+
+def _joint(known: Known, pair: Pair) -> str:
+    """The point of the joint of two links."""
+    joints = (j for j in known.case.joints if set(pair) == set(getattr(j, "links", ())))
+    return next((at for j in joints if (at := getattr(j, "at", None))), "")
+
+
+def _centres(known: Known, steps: Sequence[Step], view: View, motion: Motion | None) -> list[dict[str, Any]]:
+    numbers = {step.centre.pair: n for n, step in enumerate(steps)}
+    return [_centre(known, step, view, motion, numbers) for step in steps]
+
+
+def _centre(
+    known: Known, step: Step, view: View, motion: Motion | None, numbers: Mapping[Pair, int]
+) -> dict[str, Any]:
+    centre = step.centre
+    name = pair_name(known.case, centre.pair)
+    lines: list[list[Any]] = []
+    for line in centre.lines:
+        if len(line) == 1:
+            lines.append([_joint(known, line[0])])
+        else:
+            lines.append([numbers[end] for end in line if end in numbers])
+    x, y = _places(centre, name, view, motion)
+    return {
+        "id": identifier(f"centre-{name}"),
+        "name": name,
+        "low": centre_runs(*centre.pair)[1].text,
+        "step": step.number,
+        "primary": centre.by in ("inspection", "given"),
+        "lines": lines,
+        "x": compact(x, FINE["px"]),
+        "y": compact(y, FINE["px"]),
+    }
+
+
+def _places(centre: Centre, name: str, view: View, motion: Motion | None) -> tuple[Array, Array]:
+    """Picture units in every row; beyond INFINITE a direction; not a number where there is none."""
+    if motion is not None and name in motion.found.centres:
+        rows = motion.found.centres[name][motion.first : motion.last + 1]
+    elif centre.kind == "at":
+        rows = np.array([[centre.place[0], centre.place[1], 1.0]])
+    else:
+        angle = np.radians(centre.place[0])
+        rows = np.array([[np.cos(angle), np.sin(angle), 0.0]])
+    x, y, w = rows.T
+    reach = np.hypot(x, y)
+    far = np.abs(w) * BEYOND * 1000.0 / view.scale <= reach
+    with np.errstate(all="ignore"):
+        side = np.where((y < 0.0) | ((y == 0.0) & (x < 0.0)), -1.0, 1.0) * INFINITE * 2.0 / reach
+        across = np.where(far, x * side, (x / w - view.origin[0]) * view.scale)
+        down = np.where(far, -y * side, (view.origin[1] - y / w) * view.scale)
+    return across, down
+
+
+def _answers(known: Known, motion: Motion | None, loads: Sequence[Acting]) -> list[dict[str, Any]]:
+    """Each unknown load: name, unit, values and senses of all positions, or its range in words."""
+    if known.answer is None:
+        return []
+    found = []
+    acting = {a.load.name: a for a in loads}
+    for name, value in known.answer.answers.items():
+        runs = name_runs(name)
+        low = runs[1].text if len(runs) > 1 else ""
+        one: dict[str, Any] = {"name": name, "base": runs[0].text, "low": low, "unit": unit_word(value.unit)}
+        if motion is None or name not in motion.found.answers:
+            one["holds"] = [range_words(value, figure_number)] if value.holds is not None else None
+            one["values"] = exact([value.value])
+            one["senses"], one["sense"] = _indexed([_written(value.sense)])
+        else:
+            _through(known, motion, one, name, acting[name])
+        found.append(one)
+    return found
+
+
+def _written(sense: str) -> str:
+    from icsolve.construction.words import sense_words
+
+    return sense_words(sense, figure_number)
+
+
+def _through(known: Known, motion: Motion, one: dict[str, Any], name: str, acting: Acting) -> None:
+    """The columns of an unknown load."""
+    rows = slice(motion.first, motion.last + 1)
+    values = motion.found.answers[name]
+    one["values"] = exact(values[rows].tolist())
+    one["senses"], one["sense"] = _indexed(senses(known, motion, acting, values)[rows])
+    if name in motion.found.holds:
+        held = motion.found.holds[name][rows]
+        unit = unit_of(acting.load, known.case)
+        one["holds"] = [_held(float(low), float(high), unit) for low, high in held]
+
+
+def _held(low: float, high: float, unit: str) -> str:
+    """A range in words; '' where there is none."""
+    if np.isnan(low) or np.isnan(high):
+        return ""
+    return f"holds still from {figure_number(low)} to {figure_number(high)} {unit_word(unit)}"
+
+
+def _indexed(words: Sequence[str]) -> tuple[list[str], dict[str, Any]]:
+    """Texts as a list of the different ones and a column of their numbers."""
+    different = list(dict.fromkeys(words))
+    where = {word: n for n, word in enumerate(different)}
+    return different, compact(np.array([float(where[word]) for word in words]), 1)
