@@ -19,8 +19,8 @@ class Effort(NamedTuple):
     jobs: int
 
 
-USUAL = Effort(60, 600, 400, 3.0, 1)
-FULL = Effort(400, 10_000, 20_000, 6.0, os.cpu_count() or 1)
+USUAL = Effort(80, 1_000, 500, 3.0, 1)
+FULL = Effort(400, 10_000, 12_000, 6.0, os.cpu_count() or 1)
 
 
 class Kept(NamedTuple):

@@ -9,7 +9,8 @@ from random import Random
 from statistics import median
 from typing import NamedTuple
 
-from icsolve.bench.families import BOUNDED, SIX_BARS, Draw, Family, all_joints
+from icsolve.bench.families import ALL_JOINTS, BOUNDED, SIX_BARS, Family
+from icsolve.bench.pinned import Draw
 from icsolve.bench.reference import AsWritten, truth
 from icsolve.bench.scaled import scaled
 from icsolve.case import Case
@@ -73,7 +74,7 @@ def bits_kept(case: Case) -> float:
     return 1.0 if other == math.ldexp(value, SCALES[1]) else -1.0
 
 
-FORWARD_FAMILIES = (*SIX_BARS, Family("six-bars of all joints", all_joints))
+FORWARD_FAMILIES = (*SIX_BARS, ALL_JOINTS)
 HELD = (*FORWARD_FAMILIES, *BOUNDED)
 
 

@@ -85,7 +85,8 @@ def laws(effort: Effort, kept: Kept) -> Iterator[str]:
     """The forward error, the error bound and powers of two, family by family."""
     found = forward(effort.forward, effort.jobs)
     worst, count = max(law.worst for law in found), _scenes(found)
-    kept.gates.append(lawful(f"forward error over (kappa + 1) u, {count} random six-bars", worst, FORWARD))
+    what = f"forward error over (kappa + 1) u, worst of {count} random six-bars and all joints"
+    kept.gates.append(lawful(what, worst, FORWARD))
     yield _laws(f"forward error / (kappa + 1) u, at most {FORWARD:g}", found)
     found = bounds(effort.bounds, effort.jobs)
     broken, count = _broken(found), _scenes(found)
