@@ -69,8 +69,9 @@ def _header(case: Case) -> dict[str, str]:
 def _found(found: Found) -> dict[str, Any]:
     if found.holds is not None:
         ends = [_plain(end) if math.isfinite(end) else None for end in found.holds]
-        held = {"value": None, "holds": ends, "self_locking": found.self_locking}
-        return {**held, "unit": found.unit, "sense": "", "error": None, "why": found.why}
+        held: dict[str, Any] = {"value": None, "holds": ends, "self_locking": found.self_locking}
+        held |= {"unit": found.unit, "sense": "", "error": found.error}
+        return held if found.error is not None else {**held, "why": found.why}
     entry = {
         "value": _plain(found.value),
         "unit": found.unit,

@@ -95,9 +95,10 @@ def _range(name: str, found: Found, show: Format) -> str:
 
 def certain_digits(found: Found, digits: int) -> int:
     """How many digits to show: those asked for, but none that the error bound leaves open."""
-    if not found.error or found.value == 0.0:
+    ends = [abs(end) for end in found.holds or (found.value,) if math.isfinite(end)]
+    if not found.error or not max(ends, default=0.0):
         return digits
-    first = math.floor(math.log10(abs(found.value))) + 1
+    first = math.floor(math.log10(max(ends))) + 1
     return max(1, min(digits, math.floor(first - math.log10(2.0 * found.error))))
 
 

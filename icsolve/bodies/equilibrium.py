@@ -65,6 +65,10 @@ class Statics(NamedTuple):
         """A joint's unknown, scaled, where the free columns are zero."""
         return sum(a * parameters.get(c, 0.0) for c, a in self.general.of(column).items())
 
+    def filled(self, parameters: Mapping[int, float]) -> Row:
+        """Values of all columns, scaled."""
+        return {c: self.value(c, parameters) for c in range(self.known)} | dict(parameters)
+
 
 def equilibrium(
     position: Position, ties: Sequence[Tie], balance: Balance, rubs: Sequence[Rub] = ()
@@ -158,18 +162,22 @@ def terms_of(
     position: Position, statics: Statics, balance: Balance, parameters: Mapping[int, float]
 ) -> Terms:
     """What the equations of every link are summed from, in the solution with these parameters."""
+    x = statics.filled(parameters)
+    equations = equations_of(position, statics, balance)
+    return {link: (about, _summed(three, x)) for link, (about, three) in equations.items()}
+
+
+def equations_of(position: Position, statics: Statics, balance: Balance) -> Equations:
+    """The equations of every link, by the columns of the statics."""
     rows = _Rows(position, statics.ties)
-    x: dict[int, float] = dict(parameters)
     for t, tie in enumerate(statics.ties):
         for n, unit in enumerate(tie.units):
-            column = statics.first[t] + n
-            rows.between(tie, unit, column)
-            x[column] = statics.value(column, parameters)
+            rows.between(tie, unit, statics.first[t] + n)
     for w in balance.wrenches:
         rows.load(w, *_share(w, balance, statics.roots, statics.known, statics.scale))
     for n, rub in enumerate(statics.rubs):
         rows.between(statics.ties[rub.tie], rub.unit, statics.rub(n))
-    return {link: (rows.about[link], _summed(three, x)) for link, three in rows.rows.items()}
+    return {link: (rows.about[link], three) for link, three in rows.rows.items()}
 
 
 def _summed(rows: tuple[Row, Row, Row], x: Mapping[int, float]) -> tuple[tuple[float, float], ...]:
@@ -191,5 +199,7 @@ def residual(terms: Terms) -> float:
 
 Terms = dict[str, tuple[Point, tuple[tuple[float, float], ...]]]
 """For each link the point of its moments; of its equations the sum of absolute terms, and the sum."""
+Equations = dict[str, tuple[Point, tuple[Row, Row, Row]]]
+"""For each link the point of its moments, and its three equations."""
 
-__all__ = ["Rub", "Statics", "Terms", "equilibrium", "residual", "terms_of"]
+__all__ = ["Equations", "Rub", "Statics", "Terms", "equations_of", "equilibrium", "residual", "terms_of"]

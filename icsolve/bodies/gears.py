@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
+from icsolve.arithmetic import FLOATS, Arithmetic
 from icsolve.bodies.ties import Position, Tie
 from icsolve.case import Case, Gears, Pin, Roll
 from icsolve.errors import SceneError, Status
@@ -29,36 +30,43 @@ def _has_teeth(tie: Tie) -> bool:
     return isinstance(tie.joint, Roll) and tie.joint.pressure_angle is not None
 
 
-def with_flanks(position: Position, ties: Sequence[Tie], flanks: Mapping[int, float]) -> tuple[Tie, ...]:
+def with_flanks(
+    position: Position, ties: Sequence[Tie], flanks: Mapping[int, float], arithmetic: Arithmetic = FLOATS
+) -> tuple[Tie, ...]:
     """The ties with the tooth force of each mesh along the line of action of the flank that carries.
 
     ``flanks`` has the sign of the tangential force of each mesh; 0 leaves the two parts apart.
     """
-    along = {t: _along_action(position, ties[t], flank) for t, flank in flanks.items()}
+    along = {t: _along_action(position, ties[t], flank, arithmetic) for t, flank in flanks.items()}
     return tuple(along.get(t, tie) for t, tie in enumerate(ties))
 
 
-def _along_action(position: Position, tie: Tie, flank: float) -> Tie:
+def _along_action(position: Position, tie: Tie, flank: float, arithmetic: Arithmetic) -> Tie:
     """The tangential and the separating force; with a flank one unit: a tangential 1 with its share."""
     assert isinstance(tie.joint, Gears | Roll) and tie.joint.pressure_angle is not None
-    (tx, ty), (sx, sy) = tangent_and_separating(position, tie)
+    (tx, ty), (sx, sy) = tangent_and_separating(position, tie, arithmetic)
     if not flank:
         return tie._replace(units=((tx, ty, 0.0), (sx, sy, 0.0)))
-    apart = math.tan(math.radians(tie.joint.pressure_angle.value))
+    cosine, sine = arithmetic.turn(tie.joint.pressure_angle)
+    apart = sine / cosine
     return tie._replace(units=((flank * tx + apart * sx, flank * ty + apart * sy, 0.0),))
 
 
-def tangent_and_separating(position: Position, tie: Tie) -> tuple[Point, Point]:
+def tangent_and_separating(
+    position: Position, tie: Tie, arithmetic: Arithmetic = FLOATS
+) -> tuple[Point, Point]:
     """Unit vectors at the pitch point: the common tangent, and the separating force on link ``on``."""
     if isinstance(tie.joint, Roll):
         link, centre = _wheel(position, tie)
-        ex, ey = _unit(tie.at, centre)
+        ex, ey = _unit(tie.at, centre, arithmetic)
         return (-ey, ex), ((ex, ey) if link == tie.on else (-ex, -ey))
     a, b = (position.points[p] for p in tie.pivots)
-    ex, ey = _unit(a, b)
+    ex, ey = _unit(a, b, arithmetic)
     assert isinstance(tie.joint, Gears)
     internal_on = tie.joint.teeth[1].value < 0
-    return (-ey, ex), (_unit(a, tie.at) if internal_on else _unit(tie.at, b))
+    return (-ey, ex), (
+        _unit(a, tie.at, arithmetic) if internal_on else _unit(tie.at, b, arithmetic)
+    )
 
 
 def axial_shares(position: Position, tie: Tie, tangential: float) -> tuple[tuple[str, float], ...]:
@@ -100,9 +108,9 @@ def _wheel(position: Position, tie: Tie) -> tuple[str, Point]:
     )
 
 
-def _unit(a: Point, b: Point) -> Point:
+def _unit(a: Point, b: Point, arithmetic: Arithmetic) -> Point:
     dx, dy = b[0] - a[0], b[1] - a[1]
-    length = math.hypot(dx, dy)
+    length = arithmetic.sqrt(dx * dx + dy * dy)
     return dx / length, dy / length
 
 

@@ -25,11 +25,22 @@ MOST_TRIED = 6
 """More rubs have too many combinations of senses."""
 
 
+class End(NamedTuple):
+    """An end of the interval: the value (case units), the senses of the rubs, and their friction (scaled).
+
+    No friction where the value is infinite, or is not that of an equilibrium about to move.
+    """
+
+    value: float
+    senses: tuple[float, ...]
+    friction: tuple[float, ...] = ()
+
+
 class Held(NamedTuple):
     """The interval, in case units; infinite where no value moves the mechanism that way.
 
     ``possible`` is the range in which friction within its limits can hold; ``how`` says how that was
-    found: only `PROVEN` is a proof.
+    found: only `PROVEN` is a proof. ``ends`` are those ends at which it is about to move.
     """
 
     least: float
@@ -37,6 +48,7 @@ class Held(NamedTuple):
     possible: tuple[float, float]
     how: str
     self_locking: bool = False
+    ends: tuple[End, ...] = ()
 
 
 def held(statics: Statics, senses: Sequence[float]) -> Held:
@@ -45,10 +57,11 @@ def held(statics: Statics, senses: Sequence[float]) -> Held:
     Self-locking: it holds with the unknown at zero (against loads), or no value moves it one way.
     """
     ends = [end for d in (1.0, -1.0) if (end := _end(statics, [d * s for s in senses])) is not None]
-    least, most = min(ends), max(ends)
+    least, most = min(end.value for end in ends), max(end.value for end in ends)
     unbounded = math.isinf(least) or math.isinf(most)
     locks = unbounded or (least <= 0.0 <= most and least < most)
-    return Held(least, most, *_possible(statics, senses, (least, most)), locks)
+    about_to_move = tuple(end for end in ends if math.isfinite(end.value))
+    return Held(least, most, *_possible(statics, senses, (least, most)), locks, about_to_move)
 
 
 def _possible(
@@ -60,11 +73,11 @@ def _possible(
     if len(senses) > MOST_TRIED:
         return ends, IMPENDING
     tried = [_end(statics, signs, True) for signs in product((1.0, -1.0), repeat=len(senses))]
-    sound = [*ends, *(end for end in tried if end is not None)]
+    sound = [*ends, *(end.value for end in tried if end is not None)]
     return (min(sound), max(sound)), SEARCHED
 
 
-def _end(statics: Statics, senses: Sequence[float], pushing: bool = False) -> float | None:
+def _end(statics: Statics, senses: Sequence[float], pushing: bool = False) -> End | None:
     """The unknown load at full friction of these senses; infinite where the forces grow without bound.
 
     With ``pushing``, None where a contact would have to pull.
@@ -74,22 +87,26 @@ def _end(statics: Statics, senses: Sequence[float], pushing: bool = False) -> fl
     if contraction(equations.equations) is not None:
         found = solutions(equations.equations)
         assert found.main is not None
-        return _value(statics, equations, found.main, pushing)
+        return _moving(statics, equations, senses, found.main, pushing)
     y, share, grows = followed(equations.equations)
     if y is not None:
-        return _value(statics, equations, y, pushing)
+        return _moving(statics, equations, senses, y, pushing)
     last = followed(equations.equations.scaled(0.999 * share))[0] or without_friction(equations.equations)
     change = sum(a * x for a, x in zip(equations.loads[0][1:], last, strict=True))
     if pushing and not is_sound(equations.equations.scaled(0.999 * share), last):
         return None
     if grows or _locks(equations):
-        return math.copysign(math.inf, change)
-    return (equations.loads[0][0] + 0.999 * share * change) / statics.scale
+        return End(math.copysign(math.inf, change), tuple(senses))
+    return End((equations.loads[0][0] + 0.999 * share * change) / statics.scale, tuple(senses))
 
 
-def _value(statics: Statics, equations: Reduced, y: Sequence[float], pushing: bool) -> float | None:
-    sound = not pushing or is_sound(equations.equations, y)
-    return equations.load(y)[0] / statics.scale if sound else None
+def _moving(
+    statics: Statics, equations: Reduced, senses: Sequence[float], y: Sequence[float], pushing: bool
+) -> End | None:
+    """The end at an equilibrium about to move; None where a contact would have to pull."""
+    if pushing and not is_sound(equations.equations, y):
+        return None
+    return End(equations.load(y)[0] / statics.scale, tuple(senses), equations.friction(y))
 
 
 def _locks(equations: Reduced) -> bool:

@@ -7,9 +7,9 @@ given length rubs at both ends, which carry its couple.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
+from icsolve.arithmetic import FLOATS, Arithmetic, Scalar
 from icsolve.bodies.equilibrium import Rub
 from icsolve.bodies.ties import COUPLE, Force, Position, Tie
 from icsolve.case import Case, Contact, Friction, Pin, Slide, Slot
@@ -27,7 +27,9 @@ def has_friction(case: Case) -> bool:
     return any(friction_of(joint) is not None for joint in case.joints)
 
 
-def rubs_of(position: Position, ties: Sequence[Tie]) -> tuple[Rub, ...]:
+def rubs_of(
+    position: Position, ties: Sequence[Tie], arithmetic: Arithmetic = FLOATS
+) -> tuple[Rub, ...]:
     """Every place that can rub, in the order of the joints."""
     found: list[Rub] = []
     for t, tie in enumerate(ties):
@@ -35,45 +37,48 @@ def rubs_of(position: Position, ties: Sequence[Tie]) -> tuple[Rub, ...]:
         if friction is None:
             continue
         if isinstance(tie.joint, Pin):
-            found.append(_pin(position, t, tie, friction))
+            found.append(_pin(position, t, tie, friction, arithmetic))
         elif isinstance(tie.joint, Slide | Slot | Contact):
-            found += _guided(position, t, tie, friction)
+            found += _guided(position, t, tie, friction, arithmetic)
     return tuple(found)
 
 
-def _pin(position: Position, t: int, tie: Tie, friction: Friction) -> Rub:
+def _pin(position: Position, t: int, tie: Tie, friction: Friction, arithmetic: Arithmetic) -> Rub:
     assert friction.radius is not None
-    mu = friction.mu.value
-    radius = friction.radius.value * position.scale * mu / math.hypot(1.0, mu)
+    mu = arithmetic.given(friction.mu)
+    radius = arithmetic.given(friction.radius) * position.scale * mu / arithmetic.sqrt(mu * mu + 1.0)
     both = tuple(tuple(unit[part] for unit in tie.units) for part in (0, 1))
     return Rub(t, COUPLE, both, radius)
 
 
-def _guided(position: Position, t: int, tie: Tie, friction: Friction) -> list[Rub]:
+def _guided(
+    position: Position, t: int, tie: Tie, friction: Friction, arithmetic: Arithmetic
+) -> list[Rub]:
     """One rub, or one at each end of a block with a length."""
-    nx, ny = next((unit[0], unit[1]) for unit in tie.units if not unit[2])
+    nx, ny = next((unit[0], unit[1]) for unit in tie.units if float(unit[2]) == 0.0)
     along: Force = (-ny, nx, 0.0)
     normal = tuple(unit[0] * nx + unit[1] * ny for unit in tie.units)
+    mu = arithmetic.given(friction.mu)
     if friction.length is None:
-        return [Rub(t, along, (normal,), friction.mu.value)]
-    length = friction.length.value * position.scale
+        return [Rub(t, along, (normal,), mu)]
+    length = arithmetic.given(friction.length) * position.scale
     couple = tuple(unit[2] for unit in tie.units)
     ends = [
-        tuple(n / 2.0 + side * c / length for n, c in zip(normal, couple, strict=True))
+        tuple(n * 0.5 + side * c / length for n, c in zip(normal, couple, strict=True))
         for side in (-1.0, 1.0)
     ]
-    return [Rub(t, along, (end,), friction.mu.value) for end in ends]
+    return [Rub(t, along, (end,), mu) for end in ends]
 
 
-def rates_of(position: Position, ties: Sequence[Tie], rubs: Sequence[Rub], motion: int) -> list[float]:
+def rates_of(position: Position, ties: Sequence[Tie], rubs: Sequence[Rub], motion: int) -> list[Scalar]:
     """Rubbing rate at every rub in a motion: the power of a unit of its friction."""
     return [_rate(position, ties[rub.tie], rub, motion) for rub in rubs]
 
 
-def _rate(position: Position, tie: Tie, rub: Rub, motion: int) -> float:
+def _rate(position: Position, tie: Tie, rub: Rub, motion: int) -> Scalar:
     twist = position.relative(tie.by, tie.on, motion)
     vx, vy = velocity(twist, tie.at)
-    return float(rub.unit[0] * vx + rub.unit[1] * vy + rub.unit[2] * twist[2])
+    return rub.unit[0] * vx + rub.unit[1] * vy + rub.unit[2] * twist[2]
 
 
 def kind_of_rub(tie: Tie) -> str:

@@ -8,13 +8,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from icsolve.arithmetic import FLOATS
+from icsolve.arithmetic import FLOATS, Arithmetic, Scalar
 from icsolve.case import Belt, Case, Contact, Gears, Joint, KnownCentre, Pin, Roll, Slide, Slot, Weld
 from icsolve.joints import Points, freedoms, pitch_point, transmitted
 from icsolve.plane import Point, Triple, shift, subtract
 from icsolve.topology import Bond, Topology, pairs_of
 
-Force = tuple[float, float, float]
+Force = tuple[Scalar, Scalar, Scalar]
 """Force and couple about the tie's point."""
 
 X: Force = (1.0, 0.0, 0.0)
@@ -58,23 +58,27 @@ class Position(NamedTuple):
         return subtract(self.twists[on][motion], self.twists[by][motion])
 
 
-def ties_of(position: Position) -> tuple[Tie, ...]:
-    """Every joint of a case, a pin of several links as one tie for each but the first."""
+def ties_of(position: Position, arithmetic: Arithmetic = FLOATS) -> tuple[Tie, ...]:
+    """Every joint of a case, a pin of several links as one tie for each but the first.
+
+    The points of the position are numbers of the same arithmetic.
+    """
     pivots = {(id(bond.joint), bond.links): bond.pivots for bond in position.top.bonds}
     found = []
     for joint in position.case.joints:
         for by, on in pairs_of(joint):
-            found.append(_tie(position, joint, by, on, pivots.get((id(joint), (by, on)), ("", ""))))
+            bond = Bond(0, 1, 0, joint, (by, on), pivots.get((id(joint), (by, on)), ("", "")))
+            found.append(_tie(position, bond, arithmetic))
     return tuple(found)
 
 
-def _tie(position: Position, joint: Joint, by: str, on: str, pivots: tuple[str, str]) -> Tie:
+def _tie(position: Position, bond: Bond, arithmetic: Arithmetic) -> Tie:
+    joint, (by, on) = bond.joint, bond.links
     if isinstance(joint, Weld):
         where = joint.at or _meeting(position, by, on)
         return Tie(joint, by, on, position.points.get(where, (0.0, 0.0)), where, (X, Y, COUPLE))
-    bond = Bond(0, 1, 0, joint, (by, on), pivots)
-    where, at = _place(bond, position.points)
-    return Tie(joint, by, on, at, where, _units(position, bond, at), pivots)
+    where, at = _place(bond, position.points, arithmetic)
+    return Tie(joint, by, on, at, where, _units(position, bond, at, arithmetic), bond.pivots)
 
 
 def _meeting(position: Position, by: str, on: str) -> str:
@@ -85,10 +89,10 @@ def _meeting(position: Position, by: str, on: str) -> str:
     return named[0] if named else ""
 
 
-def _place(bond: Bond, points: Points) -> tuple[str, Point]:
+def _place(bond: Bond, points: Points, arithmetic: Arithmetic) -> tuple[str, Point]:
     joint = bond.joint
     if isinstance(joint, Gears):
-        x, y, w = pitch_point(bond, points, FLOATS)
+        x, y, w = pitch_point(bond, points, arithmetic)
         return "", (x / w, y / w)
     if isinstance(joint, Belt):
         (ax, ay), (bx, by) = (points[p] for p in bond.pivots)
@@ -99,13 +103,13 @@ def _place(bond: Bond, points: Points) -> tuple[str, Point]:
     return ("" if at.startswith("@") else at), points[at]
 
 
-def _units(position: Position, bond: Bond, at: Point) -> tuple[Force, ...]:
+def _units(position: Position, bond: Bond, at: Point, arithmetic: Arithmetic) -> tuple[Force, ...]:
     """What the joint transmits: the wrenches that do no work on the freedoms that it leaves.
 
     A mesh or a belt is one constraint, but the force in it has two unknown parts (tangential and
     separating, the pulls of two strands): all that does no work on the turning about the pitch point.
     """
-    basis = freedoms(bond, position.points, FLOATS)
+    basis = freedoms(bond, position.points, arithmetic)
     if isinstance(bond.joint, Gears | Belt):
         basis = basis[:1]
     if position.slack and isinstance(bond.joint, KnownCentre | Roll):

@@ -1,0 +1,211 @@
+"""Bounds and slopes of what is found with friction: against sixty digits, and against small changes.
+
+In sixty digits Newton's method is carried on from the answer until nothing is left of the equilibrium of any
+link, nor of any friction; the load that it ends at is the true one.
+"""
+
+from __future__ import annotations
+
+from random import Random
+from statistics import median
+from typing import Any
+
+import numpy as np
+import pytest
+from mpmath import mp, mpf
+
+import icsolve
+import rubbing
+import transcribe
+from growth import random_mechanism
+from icsolve.bodies import certain
+from icsolve.bodies.bounding import Exact, Sliding, Weights, step
+from icsolve.bodies.rubs import rubs_of
+from icsolve.bodies.ties import Position, ties_of
+from icsolve.program import Want, evaluate, prepare
+from icsolve.sensitivity import influences
+from more_digits import SixtyDigits
+from test_friction import BLOCK, MORE, QUICK_RETURN, SIX_BAR, lever, slider_crank, turning, wedge
+
+CW = "motion: {link: 2, turns: cw}\n"
+SCENES = {
+    "quick return": (QUICK_RETURN + CW, "T"),
+    "block with a length": (BLOCK + CW, "T"),
+    "six-bar with seven rubbing pins": (SIX_BAR + CW, "T"),
+    "lever": (lever("motion: {link: 2, turns: ccw}"), "P"),
+    "wedge": (wedge(10.0, 0.2, "motion: {point: A, link: 2, speed: 1, angle: 0}"), "P"),
+    "slider-crank": (slider_crank("motion: {link: 2, turns: ccw}", slide=", mu: 0.2"), "T"),
+}
+
+
+class Seen:
+    """The solutions of which a bound was asked, caught on their way."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
+        self.found: list[Sliding] = []
+        monkeypatch.setattr(certain, "step", self.step)
+
+    def step(self, found: Sliding, weights: Weights, exact: Exact) -> Any:
+        self.found.append(found)
+        return step(found, weights, exact)
+
+
+def many_digits(case: icsolve.Case, found: Sliding) -> Exact:
+    """The scene in sixty digits, at the values of a solution."""
+    program = prepare(case, Want(bodies=True))
+    digits = SixtyDigits()
+    _, outcome = evaluate(program, digits)
+    position = Position(case, program.top, outcome.points, program.figure.frame.scale, {})
+    ties = ties_of(position, digits)
+    values = {column: mpf(value) for column, value in found.values.items()}
+    return Exact(ties, rubs_of(position, ties, digits), outcome.balance.wrenches, values, digits)
+
+
+def units(case: icsolve.Case, found: Sliding, exact: Exact) -> list[Weights]:
+    """Weights that pick each residual."""
+    none = {link: ((0.0, 0.0), (0.0, 0.0, 0.0)) for link in case.links if link != case.ground}
+    rubs = (0.0,) * len(exact.rubs)
+    return [
+        Weights(none | {link: ((0.0, 0.0), unit)}, rubs)
+        for link in none
+        for unit in ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    ]
+
+
+def rubbed(found: Sliding, exact: Exact, values: dict[int, Any], k: int) -> Any:
+    """What is left of a friction: against its sense, as large as its coefficient times its force."""
+    rub = exact.rubs[k]
+    first = found.statics.first[rub.tie]
+    force = [sum(a * values[first + n] for n, a in enumerate(row)) for row in rub.normal]
+    size = mp.sqrt(sum(f * f for f in force))
+    return values[found.statics.rub(k)] + found.senses[k] * rub.limit * size
+
+
+def true_load(case: icsolve.Case, found: Sliding) -> Any:
+    """The first unknown load (case units) in sixty digits, after Newton's method on all equations."""
+    exact = many_digits(case, found)
+    picked = units(case, found, exact)
+    columns = sorted(c for c in exact.values if c != found.statics.known)
+    small = mpf(2) ** -80
+
+    def residuals(values: dict[int, Any]) -> list[Any]:
+        links = [step(found, one, exact._replace(values=values)) for one in picked]
+        return links + [rubbed(found, exact, values, k) for k in range(len(exact.rubs))]
+
+    values = dict(exact.values)
+    here = residuals(values)
+    slopes = [
+        [float((a - b) / small) for a, b in zip(moved, here, strict=True)]
+        for c in columns
+        if (moved := residuals(values | {c: values[c] + small}))
+    ]
+    inverse = np.linalg.pinv(np.array(slopes).T, rcond=1e-11)
+    for _ in range(4):
+        rest = residuals(values)
+        for c, row in zip(columns, inverse, strict=True):
+            values[c] -= sum(mpf(float(a)) * r for a, r in zip(row, rest, strict=True))
+    assert max(map(abs, residuals(values))) <= mpf(10) ** -25 * max(map(abs, values.values()))
+    return values[found.statics.root(0)] / mpf(found.statics.scale)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_true_load_lies_within_its_bound(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = Seen(monkeypatch)
+    text, load = SCENES[name]
+    case = icsolve.load("icsolve: 1\n" + text)
+    answer = icsolve.solve(case).answers[load]
+    assert answer.error is not None
+    assert answer.error <= 1e-11 * abs(answer.value)
+    assert abs(true_load(case, seen.found[-1]) - mpf(answer.value)) <= answer.error
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_both_ends_of_a_range_lie_within_its_bound(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    seen = Seen(monkeypatch)
+    text, load = SCENES[name]
+    case = icsolve.load("icsolve: 1\n" + text.partition("motion:")[0])
+    answer = icsolve.solve(case).answers[load]
+    ends = sorted(true_load(case, found) for found in seen.found)
+    assert answer.error is not None
+    assert answer.holds is not None
+    for end, true in zip(answer.holds, ends, strict=True):
+        assert abs(true - mpf(end)) <= answer.error
+
+
+def pessimism(text: str, seen: Seen) -> float | None:
+    """Bound over true error of a random scene with four rubs; None where there is nothing to compare."""
+    case = icsolve.load(text)
+    driven = turning(case)
+    if driven is None:
+        return None
+    case = icsolve.load(f"{text}motion: {{link: {driven}, turns: cw}}\n")
+    try:
+        answer = icsolve.solve(case).answers["U"]
+    except icsolve.SceneError:
+        return None
+    if answer.error is None:
+        assert answer.why
+        return None
+    true = abs(true_load(case, seen.found[-1]) - mpf(answer.value))
+    assert true <= answer.error
+    return float(answer.error / max(true, abs(answer.value) * 2.0**-53))
+
+
+def test_random_mechanisms_with_four_rubs(monkeypatch: pytest.MonkeyPatch) -> None:
+    seen, found = Seen(monkeypatch), []
+    for seed in range(600, 600 + 8 * MORE):
+        rng = Random(seed)
+        scene = rubbing.roughened(rng, random_mechanism(rng), 4)
+        if not any("gears" in joint for joint in scene["joints"]):
+            found.append(pessimism(transcribe.text(scene), seen))
+    ratios = [ratio for ratio in found if ratio is not None]
+    assert len(ratios) >= len(found) // 3
+    assert median(ratios) <= 300
+
+
+def changed(text: str, load: str, path: str, value: float) -> float:
+    """The answer where a number of the case has another value."""
+    case = icsolve.load("icsolve: 1\n" + text, settings={path: repr(value)})
+    return icsolve.solve(case).answers[load].value
+
+
+def test_every_slope_is_a_derivative_those_by_mu_and_radius_too() -> None:
+    text, load = SCENES["slider-crank"]
+    found = influences(icsolve.solve(icsolve.load("icsolve: 1\n" + text)), load)
+    paths = {influence.path for influence in found}
+    assert {"joints.A.mu", "joints.B.radius", "joints.4-1@C.mu", "points.B.y", "loads.P"} <= paths
+    for influence in found:
+        if influence.path.endswith("@C.along"):
+            continue
+        ends = (changed(text, load, influence.path, influence.value + h) for h in (1e-5, -1e-5))
+        up, down = ends
+        assert influence.per_unit == pytest.approx((up - down) / 2e-5, rel=1e-6, abs=1e-6), influence.path
+
+
+ALONG = """
+icsolve: 1
+points: {C: [0, 0]}
+joints:
+  - {slide: [2, 1], at: C, along: 20.1, mu: 0.4}
+loads:
+  W: {force: 10.3, link: 2, at: C, angle: 200.1}
+  P: {force: unknown, link: 2, at: C, angle: 20.1}
+motion: {point: C, link: 2, speed: 1, angle: 20.1}
+"""
+
+
+def test_where_nothing_presses_the_bound_has_room_for_the_friction_of_rounding() -> None:
+    """Forces along a guide leave it without a normal force, whose size has no slope there."""
+    answer = icsolve.solve(icsolve.load(ALONG))
+    found = answer.answers["P"]
+    assert found.error is not None
+    assert abs(found.value - 10.3) <= found.error <= 1e-12
+    with pytest.raises(icsolve.SceneError, match="its friction has no slope"):
+        influences(answer, "P")
+
+
+def test_slopes_of_a_range_are_refused_in_words() -> None:
+    answer = icsolve.solve(icsolve.load("icsolve: 1\n" + BLOCK))
+    with pytest.raises(icsolve.SceneError, match="a range in which the mechanism holds still") as caught:
+        influences(answer, "T")
+    assert caught.value.status == "unsupported"
