@@ -158,7 +158,18 @@ def _power(answer: Answer, show: Format) -> list[str]:
         return []
     rows = [_term(answer.case.units, term, show) for term in answer.terms]
     columns: list[list[str]] = [list(column) for column in zip(*rows, strict=True)]
-    return [f"Power in {answer.case.units.torque}/s: the terms add up to zero", *_table(*columns)]
+    return [f"Power in {answer.case.units.torque}/s: {_sum_of_powers(answer, show)}", *_table(*columns)]
+
+
+def _sum_of_powers(answer: Answer, show: Format) -> str:
+    """What the terms add up to: zero where an unknown balances them; else it shows whether known loads do."""
+    if answer.answers:
+        return "the terms add up to zero"
+    powers = [term.power * answer.case.units.torque_per_force_length for term in answer.terms]
+    total = math.fsum(powers)
+    if abs(total) <= 1e-12 * max(map(abs, powers)):
+        return "the terms add up to zero, the loads are in equilibrium"
+    return f"the terms add up to {show(total)}, the loads are not in equilibrium"
 
 
 def _term(units: Units, term: Term, show: Format) -> tuple[str, str, str]:

@@ -135,6 +135,16 @@ def test_text_has_one_line_for_each_term_of_power() -> None:
     assert "T12 29.6722 lbf*in x 1 rad/s = 29.6722 on link 2" in lines
 
 
+def test_known_loads_alone_are_said_to_balance_only_where_they_do() -> None:
+    force = Term("P", "4", 100.0, "lbf", -0.3, -30.0, False, "P")
+    known = [force, Term("T", "2", 20.0, "lbf*in", 1.0, 20.0, False, "T")]
+    lines = words(answer_text(four_bar_answer(answers={}, terms=tuple(known), advantage=None)))
+    assert "Power in lbf*in/s: the terms add up to -10, the loads are not in equilibrium" in lines
+    known[1] = Term("T", "2", 30.0, "lbf*in", 1.0, 30.0, False, "T")
+    lines = words(answer_text(four_bar_answer(answers={}, terms=tuple(known), advantage=None)))
+    assert "Power in lbf*in/s: the terms add up to zero, the loads are in equilibrium" in lines
+
+
 def test_power_is_shown_in_the_unit_of_torque() -> None:
     case = four_bar_case(units=Units("mm", "N", "N*m", 0.001))
     terms = (
