@@ -165,10 +165,14 @@ class Seeking:
         case = replace(case, joints=joints, points={**case.points, self.hidden: Coordinates(x, y)})
         said = left_open(self.shape, curve, meeting.foot, self.profile) if note else ""
         on = piece_words(self.shape, curve, meeting.foot)
-        r = self.follower.radius.value if isinstance(self.follower, Roller) else 0.0
-        trace = (at[0] + r * nx, at[1] + r * ny)
+        trace = self.trace(at, (nx, ny))
         pressure = pressure_angle(guide, trace, (nx, ny)) if guide is not None else None
         return case, Touching(self.touch.links, at, degrees % 360.0, on, pressure, said)
+
+    def trace(self, at: Point, normal: Point) -> Point:
+        """The point whose motion makes the pressure angle: a roller's centre, else the contact."""
+        r = self.follower.radius.value if isinstance(self.follower, Roller) else 0.0
+        return (at[0] + r * normal[0], at[1] + r * normal[1])
 
     def normal(self, meeting: Meeting) -> Point:
         """The normal from the profile into the follower."""

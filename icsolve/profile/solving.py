@@ -24,7 +24,7 @@ def solve_touching(case: Case, **options: Any) -> Answer:
     """
     known = found(case)
     answer, reactions = _solved(known.case, options)
-    touching = tuple(_pressed(one, known.case, reactions) for one in known.touching)
+    touching = tuple(pressed(one, known.case, reactions) for one in known.touching)
     return replace(
         answer,
         case=case,
@@ -63,7 +63,7 @@ def _solved(case: Case, options: Mapping[str, Any]) -> tuple[Answer, Reactions |
         return answer, None
 
 
-def _pressed(one: Touching, case: Case, reactions: Reactions | None) -> Touching:
+def pressed(one: Touching, case: Case, reactions: Reactions | None) -> Touching:
     """A contact with its normal force, where the reactions determine it."""
     if reactions is None:
         return one

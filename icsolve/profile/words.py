@@ -11,7 +11,7 @@ from icsolve.profile.case import Arcs, Circle, Polygon, Radii, Shape
 from icsolve.profile.curve import Curve, Foot
 from icsolve.profile.pieces import Bow, Point, Polar
 from icsolve.profile.shapes import table_spline
-from icsolve.sentences import listed
+from icsolve.sentences import listed, plural
 
 if TYPE_CHECKING:
     from icsolve.profile.found import Touching
@@ -90,12 +90,42 @@ def _angle(a: Point, b: Point) -> float:
     return math.atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1])
 
 
+def not_guided(follower: str, cam: str) -> str:
+    """A follower that something that moves guides, in a sweep."""
+    return (
+        f"in a sweep a follower has to be guided by the frame, by a slide or a pin, and link {follower} on "
+        f"the profile of link {cam} is not. Vary a load, or solve the positions one by one."
+    )
+
+
+def follower_driven(follower: str, cams: Sequence[str]) -> str:
+    """A follower that a sweep is to turn."""
+    return (
+        f"link {follower} follows a profile and cannot be the driving link of a sweep: drive link "
+        f"{listed(cams)}, and the profile moves it."
+    )
+
+
 def contact_said(one: Touching) -> str:
     """Where two links touch."""
     x, y = one.at
     pressure = "" if one.pressure_angle is None else f", pressure angle {one.pressure_angle:.6g} deg"
     place = f"({x:.6g}, {y:.6g}), {_article(one.on)}, normal {one.normal:.6g} deg"
     return f"links {listed(one.links)} touch at {place}{pressure}."
+
+
+def widest_pressure(links: Sequence[str], angle: float, where: str) -> str:
+    """The widest pressure angle of a sweep."""
+    return f"the pressure angle of links {listed(links)} is {angle:.4g} deg at most, at {where}."
+
+
+def lost_rows(links: Sequence[str], count: int, where: str) -> str:
+    """A contact that pulls in some rows of a sweep."""
+    rows = plural(count, "row")
+    return (
+        f"the contact of links {listed(links)} is lost in {rows}, first at {where}: its normal force would "
+        "have to pull there."
+    )
 
 
 def lost_said(one: Touching) -> str:

@@ -65,6 +65,10 @@ def sweep(
     columns = columns_of(case, vary, drive)
     wanted = wanted_of(case, tuple(want) if not isinstance(want, str) else (want,))
     refuse_size(columns, wanted.asked, wanted.error)
+    if case.profiles is not None and case.profiles.touches:
+        from icsolve.profile.sweeping import sweep_touching
+
+        return sweep_touching(case, columns, wanted)
     start = start_of(case, columns, _told(case, wanted.asked))
     if start.one_by_one:
         return _family(start, columns, wanted, progress)
