@@ -17,7 +17,7 @@ import icsolve
 from icsolve.bench import report
 from icsolve.bench.accuracy import Score, scenes, scored
 from icsolve.bench.axes import spread
-from icsolve.bench.closed import FOUR_BAR, MECHANISMS, Turning, compiled, in_c
+from icsolve.bench.closed import FOUR_BAR, MECHANISMS, Turning, compiled, four_bar, in_c
 from icsolve.bench.effort import Effort, nothing
 from icsolve.bench.families import BOUNDED, FAMILIES, Family
 from icsolve.bench.gates import Gate, gate_table, lawful, ratio
@@ -25,6 +25,7 @@ from icsolve.bench.kernels import componentwise, written_out
 from icsolve.bench.kinds import all_joints
 from icsolve.bench.laws import FORWARD_FAMILIES, Law, bits, bounds, forward
 from icsolve.bench.methods import METHODS, Method
+from icsolve.bench.peers import PEERS, TORQUE, Peer, ran
 from icsolve.bench.picture import picture
 from icsolve.bench.pinned import linkage
 from icsolve.bench.timing import least
@@ -98,6 +99,30 @@ def test_the_bare_kernels_are_the_same_scene() -> None:
     assert one[1] == pytest.approx(two[1], rel=1e-14)
     assert one[1] == pytest.approx(icsolve.solve(icsolve.load(MECHANISMS[0].case)).answers["T2"].value)
     assert one[0][0] / one[0][2] == pytest.approx(two[0][0] / two[0][2], rel=1e-14)
+
+
+# --- other programs --------------------------------------------------------------------------------
+
+
+@pytest.mark.filterwarnings("ignore")
+@pytest.mark.parametrize("peer", PEERS, ids=lambda peer: peer.package)
+def test_another_program_is_used_as_it_should_be(peer: Peer) -> None:
+    """Where it is installed: its full turn is right, so its time is that of a right answer."""
+    pytest.importorskip(peer.package)
+    found = ran(peer, rounds=1)
+    assert found.why == ""
+    assert found.error < 1e-9
+    assert found.seconds > 0
+
+
+def test_another_programs_fault_and_its_error_are_told() -> None:
+    right = Peer("numpy", TORQUE, lambda angle: lambda: four_bar(angle))
+    wrong = Peer("numpy", TORQUE, lambda angle: lambda: -four_bar(angle))
+    broken = Peer("numpy", TORQUE, lambda angle: lambda: np.zeros(3)[5])
+    assert ran(right, 1).error == 0.0
+    assert ran(wrong, 1).error == pytest.approx(2.0)
+    assert ran(broken, 1).why.startswith("IndexError")
+    assert ran(right._replace(package="no-such-program"), 1).why == "not installed"
 
 
 # --- laws ------------------------------------------------------------------------------------------
