@@ -276,6 +276,12 @@ def test_a_case_without_an_answer_is_explained_as_far_as_it_goes(text: str) -> N
     well_formed(said["html"])
 
 
+def test_speeds_are_explained_where_the_known_loads_do_not_balance() -> None:
+    text = FOUR_BAR.format(title="no unknown", crank=1).replace("unknown", "5")
+    said = explained(icsolve.load(text))
+    assert headings(said["text"])[-1] == "Speeds" and "w4" in said["text"]
+
+
 @pytest.mark.parametrize("title", HOSTILE)
 def test_text_stays_text(title: str) -> None:
     case = icsolve.load(

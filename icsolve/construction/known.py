@@ -10,7 +10,7 @@ from typing import NamedTuple
 from icsolve import speeds
 from icsolve.answer import Answer, Centre
 from icsolve.case import Case, Coordinates, Pair
-from icsolve.errors import SceneError
+from icsolve.errors import SceneError, Status
 from icsolve.figure import Frame, case_point, solve_figure
 from icsolve.names import ordered_pair
 from icsolve.plane import Point, Triple
@@ -82,6 +82,9 @@ def _solved(case: Case, reactions: bool) -> tuple[Answer | None, SceneError | No
     try:
         return solve(case, reactions=reactions), None
     except SceneError as error:
+        if reactions and error.status == Status.UNBALANCED:  # its centres and speeds can still be told
+            answer, _ = _solved(case, False)
+            return answer, None if answer else error
         return None, error
 
 
