@@ -111,6 +111,8 @@ def _parts(case: Case, columns: Columns, moving: set[str], table: Table) -> Iter
             changed = with_numbers(case, values) if values else case
             yield Part(changed, rows, _run(changed, columns, rows, moving, shaping))
         except SceneError as error:
+            if not shaping:
+                raise
             for row in rows.tolist():
                 table.refuse(row, error)
 

@@ -23,6 +23,9 @@ from icsolve.turn.poses import Still
 from icsolve.turn.posing import KINDS, Pose, condition, pose_of, posing, value_of
 from icsolve.turn.smallest import Matrix, bases_of, jacobian, matrix, rank
 
+NOISE = 1e-9
+"""A part of a unit motion that is none (rounding)."""
+
 
 class Drive(NamedTuple):
     """Which of the varied paths move the mechanism, and which data are held while it moves."""
@@ -112,6 +115,7 @@ def _spinning(mechanism: Mechanism, bodies: Sequence[int], rows: Matrix, left: i
     locked: list[int] = []
     for n, body in enumerate(bodies):
         others = np.delete(free, [3 * n, 3 * n + 1, 3 * n + 2], axis=1)
+        others[np.abs(others) < NOISE] = 0.0
         if rank(others) < left - len(locked):
             locked.append(body)
     return tuple(locked)
