@@ -121,14 +121,28 @@ MECHANISMS = (
 )
 
 
+def _compiler() -> list[str]:
+    named = os.environ.get("CC") or shutil.which("cc") or shutil.which("gcc") or shutil.which("clang") or ""
+    return named.split()
+
+
+def compiler_version() -> str:
+    """What the C compiler says of itself, in a line; empty without one."""
+    try:
+        ran = subprocess.run([*_compiler(), "--version"], capture_output=True, text=True, check=True)
+    except (OSError, subprocess.CalledProcessError):
+        return ""
+    return ran.stdout.partition("\n")[0]
+
+
 def compiled(folder: str) -> ctypes.CDLL | None:
     """The closed forms in C, compiled into a folder; None without a C compiler."""
-    compiler = os.environ.get("CC") or shutil.which("cc") or shutil.which("gcc") or shutil.which("clang")
-    if compiler is None:
+    compiler = _compiler()
+    if not compiler:
         return None
     target = os.path.join(folder, "closed.so")
     source = files("icsolve.bench").joinpath("closed.c").read_text(encoding="utf-8")
-    command = [*compiler.split(), "-O3", "-shared", "-fPIC", "-x", "c", "-", "-o", target, "-lm"]
+    command = [*compiler, "-O3", "-shared", "-fPIC", "-x", "c", "-", "-o", target, "-lm"]
     try:
         subprocess.run(command, input=source, text=True, capture_output=True, check=True)
         return ctypes.CDLL(target)

@@ -7,6 +7,7 @@ import platform
 from collections.abc import Callable, Iterator, Sequence
 
 from icsolve.bench.accuracy import Score, scenes, scored
+from icsolve.bench.closed import compiler_version
 from icsolve.bench.effort import FULL, USUAL, Effort, Kept, nothing
 from icsolve.bench.families import FAMILIES
 from icsolve.bench.gates import gate_table, lawful
@@ -23,7 +24,9 @@ def machine() -> str:
     import numpy
 
     system = f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores"
-    return f"Machine: {_processor()}{system}; Python {platform.python_version()}, numpy {numpy.__version__}."
+    compiler = compiler_version() or "no C compiler"
+    python = f"Python {platform.python_version()}, numpy {numpy.__version__}, {compiler}"
+    return f"Machine: {_processor()}{system}; {python}. One core is used, but for the laws."
 
 
 def _processor() -> str:
