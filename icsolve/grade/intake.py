@@ -79,8 +79,8 @@ class Intake:
         """Of a long table: quickly where student and question were met before and the row is whole."""
         people, items, width = self._people, self._items, len(table.header)
         for row in table.rows():
-            line, cells = row
-            if len(cells) == width:
+            line, cells, trouble = row
+            if len(cells) == width and not trouble:
                 cells.append("")
                 student, question, answer, unit, direction, attempt, variant, time = cells_of(cells)
                 known, found = people.get((student,)), items.get(question)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 from icsolve.grade.keys import AnyKey, Key
@@ -70,9 +71,14 @@ def _wrong_size(key: Key, value: float, unit: bool, direction: bool, unsigned: b
         mistakes = (*mistakes, Wrong("near-miss", value))
     parts = (False, unit, direction)
     code = _codes(mistakes) if mistakes else ""
-    return Judgement(
-        WRONG, share_of(key, parts, mistakes), parts, value, off / size if size else None, code, mistakes
-    )
+    share = share_of(key, parts, mistakes)
+    return Judgement(WRONG, share, parts, value, relative(off, size), code, mistakes)
+
+
+def relative(off: float, size: float) -> float | None:
+    """An error as a part of the right size; None where that is zero, or no double holds it."""
+    part = off / size if size else math.inf
+    return part if part < math.inf else None
 
 
 def _in_full(key: Key, written: Written) -> Judgement:
@@ -89,7 +95,7 @@ def _in_full(key: Key, written: Written) -> Judgement:
     if number and sign is None and key.value:
         return Judgement(IN_REVIEW, 0.0, (number, unit, False), value, None, SQUARE)
     direction = _direction_is_right(key, written, value, sign)
-    off = abs(abs(value) - size) / size if size else None
+    off = relative(abs(abs(value) - size), size)
     if number and unit and direction:
         return _right(key, written, value, off)
     if not number:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from icsolve.grade.judge import IN_REVIEW, INVALID, RIGHT, WRONG, Judgement, share_of
+from icsolve.grade.judge import IN_REVIEW, INVALID, RIGHT, WRONG, Judgement, relative, share_of
 from icsolve.grade.keys import PlaceKey, unit_factor
 from icsolve.grade.malrules import Wrong
 from icsolve.grade.written import MISSING, REVIEW
@@ -40,12 +40,12 @@ def judge_place(key: PlaceKey, written: WrittenPlace) -> Judgement:
 def _judged(key: PlaceKey, at: tuple[float, float], off: float, unit: bool) -> Judgement:
     number = off <= key.half
     parts = (number, unit, True)
-    relative = off / key.half * (key.policy.tolerance.relative or 0.01)
+    part = relative(off * (key.policy.tolerance.relative or 0.01), key.half)
     if number and unit:
-        return Judgement(RIGHT, 1.0, parts, None, relative)
+        return Judgement(RIGHT, 1.0, parts, None, part)
     mistakes = (Wrong("unit", 0.0),) if number else _mistakes(key, at, off)
     share = share_of(key, parts, mistakes)  # type: ignore[arg-type]
-    return Judgement(WRONG, share, parts, None, relative, " ".join(m.code for m in mistakes), mistakes)
+    return Judgement(WRONG, share, parts, None, part, " ".join(m.code for m in mistakes), mistakes)
 
 
 def _mistakes(key: PlaceKey, at: tuple[float, float], off: float) -> tuple[Wrong, ...]:

@@ -71,6 +71,8 @@ def read_roster(path: str | os.PathLike[str], report: Report) -> Roster:
         people: dict[str, Person] = {}
         for row in table.rows():
             person = _person(row.cells, at, rest)
+            if row.trouble:
+                report(row.line, row.trouble)
             if person is None:
                 report(row.line, "this row of the roster has no student's id and is passed over")
             elif person.student_id in people:

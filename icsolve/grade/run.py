@@ -89,6 +89,8 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
         students = sorted(set(intake.students) | set(roster.people if roster is not None else ()))
         progress("drawing variants", 0.0)
         shelf.foresee(intake.questions, students)
+        if not intake.count:
+            raise ValueError(f"there is no table of answers in {', '.join(job.submissions)}")
         parts = divided(questions, students, intake.count, job.jobs)
         if sinks.csv is not None:
             sinks.csv.write(HEADER + "\n")

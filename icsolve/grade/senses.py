@@ -43,7 +43,7 @@ class Senses(NamedTuple):
         if words.kind == "axial" and self.axial:
             return int(words.value * self.axial)
         if words.kind == "axial":
-            return None if self.heading is not None else NEITHER
+            return None if self.heading is not None or self.turn else NEITHER
         degrees = self._degrees(words)
         if self.heading is None:
             return NEITHER

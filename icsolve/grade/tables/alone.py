@@ -22,7 +22,7 @@ def submissions(table: Table, columns: Columns, student: str) -> Iterator[Submis
         cells_of = fields_of(columns)
         for row in table.rows():
             _, *texts = cells_of(padded(row.cells, len(columns.header)))
-            yield Submission._make((row.line, who, *texts, ""))
+            yield Submission._make((row.line, who, *texts, row.trouble))
         return
     yield _of_line(1, table.delimiter.join(columns.header), who)
     for row in table.rows():

@@ -104,6 +104,13 @@ class Columns:
         found = [i for i, text in enumerate(self.names) if text in FIELDS[name] and i not in self.questions]
         return found[0] if found else None
 
+    def check_once(self, index: int) -> None:
+        """Raises HeaderError where two columns of the table have the name of one that is to be read."""
+        if self.names.count(self.names[index]) > 1:
+            raise HeaderError(
+                f"two columns are called '{self.header[index]}': rename one, so that it is plain which counts"
+            )
+
     def has(self, *names: str) -> bool:
         """Whether all these headers stand there."""
         return all(name in self.names for name in names)

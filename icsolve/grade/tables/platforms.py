@@ -46,6 +46,9 @@ def fields_of(columns: Columns) -> Callable[[list[str]], tuple[str, ...]]:
     at = [columns.field(name) for name in wanted]
     if at[0] is None:
         at[0] = columns.field("email")
+    for index in at:
+        if index is not None:
+            columns.check_once(index)
     return itemgetter(*(len(columns.header) if i is None else i for i in at))
 
 
@@ -54,8 +57,8 @@ def _long(columns: Columns, kind: str) -> Layout:
     cells_of, width = fields_of(columns), len(columns.header)
 
     def read(row: Row) -> Sequence[Submission]:
-        line, cells = row
-        trouble = _wrong_width(cells, width)
+        line, cells, unclosed = row
+        trouble = unclosed or _wrong_width(cells, width)
         student, *texts = cells_of(padded(cells, width))
         return (Submission._make((line, (identifier(student),), *texts, trouble)),)
 
@@ -85,6 +88,8 @@ def _wide(columns: Columns, kind: str) -> Layout:
         raise HeaderError(
             f'no column holds the student\'s id: {columns.listed()}; name it with --map student_id="..."'
         )
+    for index in ids:
+        columns.check_once(index)
     asked, strange = _questions(columns, kind, set(ids))
     if not asked:
         raise HeaderError(
@@ -109,7 +114,7 @@ def _wide_reader(
         cells = row.cells
         if skipped(cells):
             return ()
-        trouble = _wrong_width(cells, width)
+        trouble = row.trouble or _wrong_width(cells, width)
         cells = cells + [""] * (width - len(cells))
         found = (identifier(cells[i]) for i in ids if cells[i].strip())
         student = tuple(dict.fromkeys(found)) or ("",)
@@ -188,7 +193,7 @@ def _prairielearn(columns: Columns, kind: str) -> Layout:
 
     def read(row: Row) -> Sequence[Submission]:
         cells = row.cells
-        trouble = _wrong_width(cells, width)
+        trouble = row.trouble or _wrong_width(cells, width)
         cells = cells + [""] * (width - len(cells))
         student = (identifier(cells[uid]),)
         attempt = cells[number] if number is not None else ""

@@ -1,7 +1,7 @@
 """A CSV file of any origin as rows with their line numbers; what can't be a row is reported and passed.
 
 Encodings: UTF-8 with or without its mark, UTF-16, else Windows-1252 byte by byte. Delimiters: comma,
-semicolon, tab, bar. Nul characters are taken out; a quote that is never closed costs its own line only.
+semicolon, tab, bar. Nul characters are taken out; a quote that is never closed takes no other line with it.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 import codecs
 import csv
 import re
+from collections import deque
 from collections.abc import Callable, Iterator
 from typing import IO, NamedTuple
 
@@ -19,15 +20,18 @@ _MOST_LINES = 50
 _DELIMITERS = ",;\t|"
 _SAMPLE = 65536
 
+UNCLOSED = "a quoted cell starts here and does not end"
+
 Report = Callable[[int, str], None]
 """Told of a line number and what is wrong there."""
 
 
 class Row(NamedTuple):
-    """The cells of a record, and the line on which it starts."""
+    """The cells of a record, and the line on which it starts; ``trouble`` says what is wrong with it."""
 
     line: int
     cells: list[str]
+    trouble: str = ""
 
 
 def _as_windows(error: UnicodeError) -> tuple[str, int]:
@@ -69,6 +73,7 @@ class Table:
         errors = "icsolve-windows" if encoding.startswith("utf-8") else "replace"
         self._report = report
         self._lines = _Lines(io.TextIOWrapper(file, encoding, errors, newline=""), report)
+        self.header: list[str] = []
         self.delimiter = self._delimiter()
         self.header = self._header()
 
@@ -98,9 +103,9 @@ class Table:
             try:
                 yield from self._records(reader)
             except (_RunawayError, csv.Error):
-                self._lines.give_up_first(
-                    "a quoted cell starts here and does not end; this line is passed over"
-                )
+                line, text = self._lines.give_up_first()
+                cells = next(csv.reader([text.replace('"', "")], delimiter=self.delimiter), [])
+                yield Row(line, cells, UNCLOSED)
 
     def _records(self, reader: Iterator[list[str]]) -> Iterator[Row]:
         lines = self._lines
@@ -108,12 +113,26 @@ class Table:
         for cells in reader:
             line = lines.number
             if len(pending) > 1 or lines.ended:
-                if lines.ended and _is_open(pending):
+                if (lines.ended and _is_open(pending)) or self._swallows(pending):
                     raise _RunawayError
                 line -= len(pending) - 1
             pending.clear()
             if cells:
                 yield Row(line, cells)
+
+
+    def _swallows(self, lines: list[str]) -> bool:
+        """Whether a record of several lines has taken in rows: a quote in it stands where none may, or a
+        line of it is a whole row by itself."""
+        if len(lines) < 2:
+            return False
+        try:
+            deque(csv.reader(lines, delimiter=self.delimiter, strict=True), 0)
+        except csv.Error:
+            return True
+        width = len(self.header) if self.header else 0
+        alone = (next(csv.reader([line], delimiter=self.delimiter), []) for line in lines[1:])
+        return width > 2 and any(len(cells) == width for cells in alone)
 
 
 def _is_text(sample: bytes) -> bool:
@@ -184,10 +203,10 @@ class _Lines:
         self.number -= 1
         self.pending.clear()
 
-    def give_up_first(self, why: str) -> None:
-        """Report the first line of the record, and read the others again as records of their own."""
-        first = self.number - len(self.pending) + 1
-        self._report(first, why)
+    def give_up_first(self) -> tuple[int, str]:
+        """The first line of the record, with its number; the others are read again."""
+        first, text = self.number - len(self.pending) + 1, self.pending[0]
         self._again.extend(reversed(self.pending[1:]))
         self.number = first
         self.pending.clear()
+        return first, text

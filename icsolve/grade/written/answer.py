@@ -167,15 +167,24 @@ def _unwrapped(text: str) -> str:
     """Without what only introduces: ``T12 = ...``, ``approx.``, brackets around all of it, quotes, a stop."""
     if text[:1] in "\"'" and text[-1:] == text[:1]:
         text = text[1:-1].strip()
+    if text[:1] == "'" and text.count("'") == 1:
+        text = text[1:].lstrip()  # by which a spreadsheet keeps a text
     inside = text[1:-1]
     bracketed = text[:1] in tuple("([{") and text[-1:] in tuple(")]}") and not set(inside) & set("()[]{}")
     if bracketed and not _is_accounting(text):
         text = inside.strip()
     name = _NAME.match(text)
-    if name is not None and direction(name.group().strip(" :=~")) is None:
+    if name is not None and _is_name(name.group()):
         text = text[name.end() :]
     lead = _LEAD.match(text)
     return text[lead.end() :] if lead is not None and lead.end() < len(text) else text
+
+
+def _is_name(text: str) -> bool:
+    """Whether what stands before a ``=`` or a colon names the answer: ``down: 5 N`` gives its direction, and
+    so does ``T: 5 N``, but ``T = 5`` does not."""
+    said = text.strip(" :~=")
+    return (text.rstrip().endswith("=") and len(said) == 1) or direction(said) is None
 
 
 def _is_accounting(text: str) -> bool:

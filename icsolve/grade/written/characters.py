@@ -7,7 +7,9 @@ import unicodedata
 
 _MINUS = "−‐‑‒–—―﹣－➖"
 _SPACES = "\u00a0\u1680\u202f\u205f\u3000" + "".join(map(chr, range(0x2000, 0x200B)))
-_GONE = "\ufeff\u200b\u200c\u200d\u2060\u00ad\u200e\u200f\ufe0e\ufe0f\0"
+_GONE = "\ufeff\u200b\u200c\u200d\u2060\u00ad\u200e\u200f\u061c\ufe0e\ufe0f\0"
+_GONE += "\u202a\u202b\u202c\u2066\u2067\u2068\u2069"
+"""Marks that nobody sees; not the two that turn digits round."""
 _SAME = {
     "×✕✖⨯": "×",
     "⋅∙•‧・": "·",
