@@ -110,7 +110,9 @@ def evaluate(program: Program, arithmetic: Arithmetic = FLOATS) -> tuple[Program
     Raises SceneError for a structure and for given centres that contradict each other.
     """
     figure, case, top = program.figure, program.case, program.top
+    # position
     points = figure.points if arithmetic is FLOATS else place(figure, case, arithmetic).points
+    # centres, which keep their weight: the twists of the links
     motions = None
     if program.plan is not None:
         motions = motion.by_plan(program.plan, top, points, arithmetic)
@@ -118,8 +120,7 @@ def evaluate(program: Program, arithmetic: Arithmetic = FLOATS) -> tuple[Program
             return evaluate(without_plan(program), arithmetic)
     if motions is None:
         motions = motion.by_loops(case, top, points, arithmetic, figure.frame)
+    # power
     wrenches = power.wrenches(case, figure.frame, points, arithmetic)
     balance = power.balance(wrenches, motions.twists, motions.mobility)
     return program, Outcome(points, motions, balance, power.solve_balance(balance, arithmetic))
-
-

@@ -100,8 +100,10 @@ def true_load(case: icsolve.Case, found: Sliding) -> Any:
         if (moved := residuals(values | {c: values[c] + small}))
     ]
     inverse = np.linalg.pinv(np.array(slopes).T, rcond=1e-11)
-    for _ in range(4):
+    for _ in range(40):
         rest = residuals(values)
+        if max(map(abs, rest)) <= mpf(10) ** -30 * max(map(abs, values.values())):
+            break
         for c, row in zip(columns, inverse, strict=True):
             values[c] -= sum(mpf(float(a)) * r for a, r in zip(row, rest, strict=True))
     assert max(map(abs, residuals(values))) <= mpf(10) ** -25 * max(map(abs, values.values()))
