@@ -30,7 +30,7 @@ def _set(root: Mapping, path: str, text: str) -> str:
     section, *steps = path.split(".")
     if section == "gravity" and not steps:
         return _put(root, "gravity", text)
-    if section not in ("points", "lengths", "angles", "near", "loads", "joints", "motion"):
+    if section not in ("points", "lengths", "angles", "near", "loads", "joints", "profile", "motion"):
         return _FORM
     node = root.items.get(section)
     if node is None:
@@ -43,6 +43,8 @@ def _set(root: Mapping, path: str, text: str) -> str:
         return _of_joint(node, steps, text)
     if type(node) is not Mapping:
         return f"'{section}' is not a mapping"
+    if section == "profile":
+        return _of_profile(node, steps, text)
     return _of_named(node, section, steps, text)
 
 
@@ -118,6 +120,26 @@ def _of_load(node: Node, steps: list[str], text: str) -> str:
     if steps[0] in ("at", "slope", "to", "along") and steps[0] in node.items and len(steps) == 2:
         return _axis(node.items[steps[0]], steps[1:], text)
     return _put(node, steps[0], text) if len(steps) == 1 and steps[0] not in KEYS else _FORM
+
+
+def _of_profile(section: Mapping, steps: list[str], text: str) -> str:
+    """A number of a profile: its radius or direction, one of an arc, a radius of a table."""
+    link, *rest = steps
+    node: Node | None = section.items.get(link)
+    if node is None:
+        return f"the case has no profile of link {link}{suggestion(link, section.items)}"
+    if rest[:1] == ["radii"]:
+        rest = ["radii", ".".join(rest[1:])]
+    *way, last = rest or [""]
+    for step in way:
+        if type(node) is Sequence and step.isascii() and step.isdigit() and int(step) < len(node.items):
+            node = node.items[int(step)]
+        else:
+            node = node.items.get(step) if type(node) is Mapping else None
+    numbers = [key for key in node.items if key != "turns"] if type(node) is Mapping else []
+    if type(node) is not Mapping or last not in numbers:
+        return f"a number of a profile is set as profile.2.radius{suggestion(last, numbers)}"
+    return _put(node, last, text)
 
 
 def _of_motion(node: Node, steps: list[str], text: str) -> str:

@@ -13,14 +13,14 @@ from icsolve.read.names import atoms
 from icsolve.read.problems import shown, suggestion
 
 _FORM = "a path is like angles.AB, lengths.AB, points.D.x, loads.P, loads.P.angle or joints.B.mu"
-_SECTIONS = ("points", "lengths", "angles", "joints", "loads", "motion", "gravity")
+_SECTIONS = ("points", "lengths", "angles", "joints", "profile", "loads", "motion", "gravity")
+_PARTS = ("points", "lengths", "angles", "joints", "profiles", "loads", "motion", "gravity")
 
 
 @lru_cache(maxsize=64)
 def numbers_of(case: Case) -> Mapping[str, Number]:
     """Every number that may be varied, by its path."""
-    parts = (case.points, case.lengths, case.angles, case.joints, case.loads, case.motion, case.gravity)
-    return {number.path: number for part in parts for number in _walk(part)}
+    return {number.path: number for name in _PARTS for number in _walk(getattr(case, name))}
 
 
 def _walk(value: Any) -> Iterator[Number]:
@@ -48,8 +48,7 @@ def with_numbers(case: Case, values: Mapping[str, float]) -> Case:
             return type(value)(*items) if hasattr(value, "_fields") else tuple(items)
         return value
 
-    names = ("points", "lengths", "angles", "joints", "loads", "motion", "gravity")
-    return replace(case, **{name: changed(getattr(case, name)) for name in names})
+    return replace(case, **{name: changed(getattr(case, name)) for name in _PARTS})
 
 
 def find_number(case: Case, path: str) -> Number:
