@@ -77,9 +77,10 @@ class Parts:
         return {"rates": rate_errors(self.scene, self.speed)}
 
     def _centres(self) -> dict[Pair, Centre]:
-        """The centres that are asked for: all, or those of the loaded links."""
+        """The centres that are asked for: all, or those of the loaded links. With one freedom they are the
+        same at every speed, 0 among them."""
         case, figure, twists = self.case, self.figure, self.outcome.motions.twists
-        if case.motion:
+        if case.motion and any(len(motions) > 1 for motions in twists.values()):
             twists = {link: speeds.meant(twists, self.speed, link) for link in twists}
         finder = CentreFinder(case, self.program.top, twists, figure.frame, figure.points, FLOATS)
         pairs = [pair for pair in wanted_pairs(case, self.program.want) if {*pair} <= twists.keys()]

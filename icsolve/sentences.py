@@ -34,9 +34,13 @@ def structure(top: Topology) -> str:
     )
 
 
-def on_the_frame(load: str, link: str) -> str:
-    """An unknown load that acts between the frame and itself."""
-    return f"{load} acts on link {link}, which never moves: it does no work. Put it on a moving link."
+def on_the_frame(load: str, link: str, others: bool) -> str:
+    """An unknown load that acts between the frame and itself; ``others``: the known loads do work."""
+    outcome = "no value of it balances the known loads" if others else "it can have any value"
+    return (
+        f"{load} acts on link {link}, which never moves: it does no work, {outcome}. "
+        "Put it on a moving link."
+    )
 
 
 def near_structure(last: float) -> str:

@@ -77,13 +77,14 @@ def _no_work(
 ) -> SceneError:
     """An unknown that does no work: a dead centre, no value, or any value."""
     culprit = next(w for w in balance.wrenches if w.load.name == solution.culprit)
+    others = solution.verdict == "no value"
     if culprit.load.link == culprit.against:
-        return SceneError(Status.ANY_VALUE, sentences.on_the_frame(culprit.load.name, culprit.load.link))
+        status = Status.NO_VALUE if others else Status.ANY_VALUE
+        return SceneError(status, sentences.on_the_frame(culprit.load.name, culprit.load.link, others))
     largest = max(abs(x) for ts in motions.twists.values() for t in ts for x in t)
     on, off = motions.twists[culprit.load.link], motions.twists[culprit.against]
     apart = max(abs(x - y) for a, b in zip(on, off, strict=True) for x, y in zip(a, b, strict=True))
     at_rest = apart <= AT_REST * largest
-    others = solution.verdict == "no value"
     clause = _why_at_rest(top, motions, culprit.load.link) if at_rest else ""
     message = sentences.workless(culprit.load.name, culprit.load.link, at_rest, others, clause)
     status = Status.DEAD_CENTRE if at_rest and others else Status.NO_VALUE if others else Status.ANY_VALUE
