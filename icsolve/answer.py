@@ -122,7 +122,7 @@ class Later(Sequence[V]):
         return repr(self._made)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Answer:
     """All that was found of one case.
 
@@ -159,6 +159,11 @@ class Answer:
     """the contacts that profiles gave"""
     spatial: Spatial | None = None
     """reactions and points of a case in space, which has no others"""
+
+    def __repr__(self) -> str:
+        """The unknown loads; the fields of a whole answer would fill a page."""
+        found = [f"{name} = {one.holds or one.value} {one.unit}" for name, one in self.answers.items()]
+        return f"<Answer {self.case.name}: {', '.join(found) or self.status}>"
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of the format (``icsolve/solve/1``)."""

@@ -121,7 +121,7 @@ __all__ = [
 ]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Case:
     """One mechanism in one position, as its file gives it.
 
@@ -156,3 +156,8 @@ class Case:
     space: "Space | None" = None
     """figure, joints and loads where the points have three coordinates; those of the plane are then empty"""
     marks: dict[str, Mark] = field(default_factory=dict)
+
+    def __repr__(self) -> str:
+        """Its name and size; the fields of a whole case would fill a page."""
+        counts = f"{len(self.links)} links, {len(self.joints)} joints, {len(self.loads)} loads"
+        return f"<Case {self.name}: {counts}>"
