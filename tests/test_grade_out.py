@@ -18,6 +18,9 @@ from xml.etree import ElementTree
 import pytest
 
 from grade_shell import CASES, PRESS, Class
+from icsolve.grade.course import Course
+from icsolve.grade.keys import Key
+from icsolve.grade.shelf import Shelf
 
 ANSWERS = (
     "student_id,case,answer\n"
@@ -113,13 +116,43 @@ def test_the_autograder_zip_runs_as_gradescope_runs_it(a_class: Class, tmp_path:
     (base / "submission" / "answers.txt").write_text("lever: 200 N*m ccw\npusher: -100\n")
     metadata = {"users": [{"email": "ann@x.test"}], "created_at": "2025-03-01T10:00:00Z"}
     (base / "submission_metadata.json").write_text(json.dumps(metadata))
-    root = str(Path(__file__).parent.parent)
+    check_gradescope(autograded(base))
+    assert autograded(base)["score"] == 5.0
+    (base / "submission" / "answers.txt").unlink()
+    (base / "results" / "results.json").unlink()
+    assert autograded(base)["score"] == 0
+
+
+def autograded(base: Path) -> Any:
+    """What the unpacked zip writes, by the icsolve that is in it and no other."""
     path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
-    environment = {**os.environ, "AUTOGRADER": str(base), "PATH": path, "PYTHONPATH": root}
+    environment = {**os.environ, "AUTOGRADER": str(base), "PATH": path}
+    environment.pop("PYTHONPATH", None)
+    package = base / "source" / "icsolve" / "__init__.py"
+    package.write_text(package.read_text() + f"\nopen({str(base / 'ran')!r}, 'w').close()\n")
     subprocess.run(["bash", str(base / "source" / "run_autograder")], env=environment, check=False)
-    entry = json.loads((base / "results" / "results.json").read_text())
-    check_gradescope(entry)
-    assert entry["score"] == 5.0
+    assert (base / "ran").exists()
+    return json.loads((base / "results" / "results.json").read_text())
+
+
+def test_the_autograder_gives_each_student_the_key_of_their_variant(a_class: Class, tmp_path: Path) -> None:
+    """Gradescope knows an email, the roster whose it is; seed, course and roster are in the zip."""
+    a_class.case("press", PRESS)
+    a_class.course("points: 7\n")
+    roster = a_class.file("roster.csv", "student_id,email\n0017,ann@x.test\n0018,bob@x.test\n")
+    archive, cases = a_class.path("autograder.zip"), str(a_class.path("cases"))
+    options = ("--roster", roster, "--seed", "it's 2025")
+    assert a_class.run("export", "gradescope-zip", cases, "-o", str(archive), *options).code == 0
+    base = tmp_path / "autograder"
+    with zipfile.ZipFile(archive) as zipped:
+        zipped.extractall(base / "source")
+    key = Shelf(cases, Course(seed="it's 2025")).key("press", "0017")
+    assert isinstance(key, Key)
+    (base / "submission").mkdir()
+    (base / "submission" / "answers.csv").write_text(f"case,answer\npress,{key.value:.6g}\n")
+    (base / "submission_metadata.json").write_text(json.dumps({"users": [{"email": "ann@x.test"}]}))
+    entry = autograded(base)
+    assert (entry["score"], len(entry["tests"])) == (7.0, 1)
 
 
 def test_the_canvas_gradebook(a_class: Class) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import click
 
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain
@@ -15,29 +17,21 @@ from icsolve.errors import CaseError
 @click.option(
     "--course", metavar="FILE", help="Tolerances and marks [default: course.yaml beside the cases]."
 )
+@click.option("--roster", metavar="FILE", help="For gradescope-zip: by which students get their variants.")
 @click.option("--seed", metavar="TEXT", help="Seed of the variants.")
 @click.option(
     "--count", type=click.IntRange(1, 1000), default=10, show_default=True, help="Variants of a case."
 )
 @click.option("--figures/--no-figures", default=True, help="The figure of each question, without its answer.")
 @click.option("--force", is_flag=True, help="Write over files that are there.")
-def export_command(
-    kind: str,
-    cases: str,
-    output: str,
-    course: str | None,
-    seed: str | None,
-    count: int,
-    figures: bool,
-    force: bool,
-) -> int:
+def export_command(kind: str, cases: str, output: str, **options: Any) -> int:
     """Make quiz questions (with tolerances, units, and feedback on known mistakes) or an autograder of cases.
 
     \b
     icsolve export moodle-xml cases/ -o quiz.xml
     icsolve export gradescope-zip cases/ -o autograder.zip
     """
-    from icsolve.cli.grading import course_of
+    from icsolve.cli.grading import course_file, course_of
     from icsolve.cli.varying import existing
     from icsolve.grade.files import ExistsError, check_free
     from icsolve.grade.out.export import Order, export
@@ -45,15 +39,20 @@ def export_command(
 
     problems: list[str] = []
     try:
-        shelf = Shelf(existing(cases), course_of(course, cases, False, {"seed": seed}))
+        shelf = Shelf(existing(cases), course_of(options["course"], cases, False, {"seed": options["seed"]}))
         if kind != "prairielearn":
-            check_free(output, force)
-        made = export(kind, Order(shelf, output, force, figures, count), problems.append)
+            check_free(output, options["force"])
+        own = options["course"] or course_file(cases)
+        drawn = (options["force"], options["figures"], options["count"])
+        made = export(kind, Order(shelf, output, *drawn, own, options["roster"] or ""), problems.append)
     except CaseError as error:
         complain(str(error))
         return UNREADABLE
     except (ExistsError, ValueError) as error:
         complain(f"icsolve export: {error}")
+        return UNREADABLE
+    except OSError as error:
+        complain(f"icsolve export: {error.filename or ''}: {error.strerror or error}")
         return UNREADABLE
     for problem in problems:
         complain(problem)

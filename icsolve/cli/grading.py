@@ -136,14 +136,20 @@ def course_of(path: str | None, cases: str, quiet: bool, said: Mapping[str, str 
     """
     from icsolve.grade.course import Course, read_course
 
-    beside = os.path.join(cases if os.path.isdir(cases) else os.path.dirname(cases), COURSE)
+    beside = course_file(cases)
     course = Course()
-    if path or os.path.isfile(beside):
+    if path or beside:
         course = read_course(path or beside)
         if not path and not quiet:
             complain(f"using {beside}")
     fields: dict[str, Any] = {key: value for key, value in said.items() if value is not None}
     return course._replace(**fields)
+
+
+def course_file(cases: str) -> str:
+    """The course beside the cases; '' for none."""
+    beside = os.path.join(cases if os.path.isdir(cases) else os.path.dirname(cases), COURSE)
+    return beside if os.path.isfile(beside) else ""
 
 
 def _pairs(texts: tuple[str, ...]) -> dict[str, str]:

@@ -13,7 +13,7 @@ from icsolve.grade.ledger import Entry as Noted
 from icsolve.grade.ledger import Ledger
 from icsolve.grade.marking import NAMED
 from icsolve.grade.parts import Outcome, Sinks, Work, divided, judged
-from icsolve.grade.people import read_roster
+from icsolve.grade.people import Roster, read_roster
 from icsolve.grade.questions import unknowns
 from icsolve.grade.results import HEADER
 from icsolve.grade.shelf import Shelf
@@ -86,7 +86,7 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
             progress(f"reading {path}", n / len(paths))
             intake.read(path, job.course.columns, student or job.student)
         questions = tuple(sorted(set(job.course.questions) or _asked(intake)))
-        students = sorted(set(intake.students) | set(roster.people if roster is not None else ()))
+        students = sorted(set(intake.students) | set(_expected(job, roster)))
         progress("drawing variants", 0.0)
         shelf.foresee(intake.questions, students)
         if not intake.count:
@@ -99,6 +99,11 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
     finally:
         store.close()
     return _graded(found, ledger, shelf, intake.count, len(students))
+
+
+def _expected(job: Job, roster: Roster | None) -> Iterable[str]:
+    """Who is to hand in; where all answers are one student's, nobody else."""
+    return () if roster is None or job.student else roster.people
 
 
 def _shown(paths: list[tuple[str, str]]) -> str:

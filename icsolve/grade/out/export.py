@@ -7,10 +7,11 @@ from collections.abc import Callable, Iterator
 from typing import NamedTuple
 
 from icsolve.case import Case
+from icsolve.grade.course import Course
 from icsolve.grade.files import write_whole
 from icsolve.grade.keys import Key, NoKeyError
 from icsolve.grade.out.element import element
-from icsolve.grade.out.gradescope import autograder_zip
+from icsolve.grade.out.gradescope import Source, autograder_zip
 from icsolve.grade.out.questions import Question, gift, moodle_xml
 from icsolve.grade.out.wording import asked, given
 from icsolve.grade.questions import unknowns
@@ -21,13 +22,16 @@ Complain = Callable[[str], None]
 
 
 class Order(NamedTuple):
-    """What to write: the cases, where, with figures or not, how many variants of a case with variables."""
+    """What to write: the cases, where, with figures or not, how many variants of a case with variables; the
+    files of the course and of the roster, for what goes on grading by itself."""
 
     shelf: Shelf
     path: str
     force: bool
     figures: bool
     variants: int
+    course: str = ""
+    roster: str = ""
 
 
 def questions(order: Order, complain: Complain) -> Iterator[Question]:
@@ -95,15 +99,18 @@ def _elements(order: Order, complain: Complain) -> int:
 
 
 def _zip(order: Order) -> int:
+    """All cases with the course, the roster and icsolve itself."""
     shelf = order.shelf
     cases = {os.path.basename(at): shelf.text(name) for name, at in shelf.paths.items()}
-    course = os.path.join(shelf.folder, "course.yaml")
-    text = None
-    if os.path.isfile(course):
-        with open(course, encoding="utf-8") as file:
-            text = file.read()
-    write_whole(order.path, autograder_zip(cases, text), order.force)
+    course, roster = (_text(path) if path else "" for path in (order.course, order.roster))
+    seed = shelf.course.seed if shelf.course.seed != Course().seed else ""
+    write_whole(order.path, autograder_zip(Source(cases, course, roster, seed)), order.force)
     return len(cases)
+
+
+def _text(path: str) -> str:
+    with open(path, encoding="utf-8-sig") as file:
+        return file.read()
 
 
 KINDS = ("moodle-xml", "gift", "prairielearn", "gradescope-zip")

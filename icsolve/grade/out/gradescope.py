@@ -5,32 +5,38 @@ from __future__ import annotations
 import io
 import json
 import os
+import shlex
 import zipfile
-from collections.abc import Iterable, Mapping
-from typing import Any
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any, NamedTuple
 
-from icsolve import __version__
 from icsolve.grade.out.rows import Row
 
-_SETUP = f"""\
+_SETUP = """\
 #!/usr/bin/env bash
+# Gradescope runs this once, when the image is built. icsolve itself is in this zip.
 set -e
-apt-get update -y && apt-get install -y python3 python3-pip
-cd /autograder/source
-wheel=$(ls ./*.whl 2>/dev/null | head -n 1 || true)
-python3 -m pip install --break-system-packages "${{wheel:-icsolve=={__version__}}}" \\
-  || python3 -m pip install "${{wheel:-icsolve=={__version__}}}"
+export DEBIAN_FRONTEND=noninteractive
+base=${AUTOGRADER:-/autograder}
+apt-get update -y
+for version in 3.13 3.12 3.11; do
+  if apt-get install -y "python$version" "python$version-venv"; then break; fi
+done
+"python$version" -m venv "$base/venv"
+"$base/venv/bin/python" -m pip install "numpy>=1.26" "shapely>=2.0" "click>=8.1.7" "pyyaml>=6.0.1"
 """
 _RUN = """\
 #!/usr/bin/env bash
 # A student hands in answers.txt (a line a case: `press: 29.67 lbf*in ccw`) or answers.csv (case,answer).
-base=${AUTOGRADER:-/autograder}
+base=${{AUTOGRADER:-/autograder}}
 mkdir -p "$base/results"
 cd "$base/source" || exit 1
-python3 -m icsolve grade "$base/submission" --cases cases --metadata "$base/submission_metadata.json" \\
-  --write gradescope="$base/results/results.json" --force --quiet
+python="$base/venv/bin/python"
+[ -x "$python" ] || python=python3
+"$python" -m icsolve grade "$base/submission" --cases cases --metadata "$base/submission_metadata.json" \\
+  --write gradescope="$base/results/results.json" --force --quiet{options}
 [ -s "$base/results/results.json" ] || printf '%s' \\
-  '{"score": 0, "output": "No file with answers was found: hand in answers.txt or answers.csv."}' \\
+  '{{"score": 0, "output": "Nothing could be graded: hand in answers.txt or answers.csv."}}' \\
   > "$base/results/results.json"
 """
 _STATUS = {"right": "passed"}
@@ -72,23 +78,49 @@ def dumped(entry: Mapping[str, Any]) -> str:
     return json.dumps(entry, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def autograder_zip(cases: Mapping[str, str], course: str | None = None, wheel: str | None = None) -> bytes:
-    """The zip to upload: ``setup.sh`` and ``run_autograder`` at its root, the cases beside them.
+class Source(NamedTuple):
+    """What goes into an autograder: the texts of cases by file name, of the course and of the roster ('' for
+    none), and the seed of the variants."""
 
-    ``cases`` are texts by file name; the same input gives the same bytes.
+    cases: Mapping[str, str]
+    course: str = ""
+    roster: str = ""
+    seed: str = ""
+
+
+def autograder_zip(source: Source) -> bytes:
+    """The zip to upload: ``setup.sh`` and ``run_autograder`` at its root, the cases and icsolve beside them.
+
+    The same input gives the same bytes.
     """
+    options = f" \\\n  --seed {shlex.quote(source.seed)}" if source.seed else ""
+    options += " \\\n  --roster roster.csv" if source.roster else ""
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
         _add(archive, "setup.sh", _SETUP.encode(), executable=True)
-        _add(archive, "run_autograder", _RUN.encode(), executable=True)
-        for name, text in sorted(cases.items()):
+        _add(archive, "run_autograder", _RUN.format(options=options).encode(), executable=True)
+        for name, text in sorted(source.cases.items()):
             _add(archive, f"cases/{name}", text.encode("utf-8"))
-        if course is not None:
-            _add(archive, "cases/course.yaml", course.encode("utf-8"))
-        if wheel is not None:
-            with open(wheel, "rb") as file:
-                _add(archive, os.path.basename(wheel), file.read())
+        for name, text in (("cases/course.yaml", source.course), ("roster.csv", source.roster)):
+            if text:
+                _add(archive, name, text.encode("utf-8"))
+        for name, data in _package():
+            _add(archive, name, data)
     return buffer.getvalue()
+
+
+def _package() -> Iterator[tuple[str, bytes]]:
+    """The files of icsolve itself, so that a zip goes on grading by the rules it was made with."""
+    import icsolve
+
+    root = os.path.dirname(os.path.abspath(icsolve.__file__))
+    for folder, folders, names in os.walk(root):
+        folders[:] = sorted(name for name in folders if not name.startswith((".", "__pycache__")))
+        for name in sorted(names):
+            if name.endswith((".py", ".js", ".css", ".typed", ".html", ".json", ".yaml")):
+                path = os.path.join(folder, name)
+                with open(path, "rb") as file:
+                    yield "icsolve/" + os.path.relpath(path, root).replace(os.sep, "/"), file.read()
 
 
 def _add(archive: zipfile.ZipFile, name: str, data: bytes, executable: bool = False) -> None:
