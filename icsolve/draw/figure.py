@@ -14,6 +14,7 @@ from icsolve.draw.links import Body, bars, body_of, link_part, outline, wheel_pa
 from icsolve.draw.loads import load_parts
 from icsolve.draw.marks import Box, Mark
 from icsolve.draw.place import Label, Placer
+from icsolve.draw.profiled import outline_boxes
 from icsolve.draw.scene import Part, Scene, together
 from icsolve.draw.shapes import joined
 from icsolve.draw.velocities import velocity_parts
@@ -27,7 +28,7 @@ def scene_of(known: Known, steps: Sequence[Step] = ()) -> Scene:
     used = {name for names in known.case.carries.values() for name in names}
     used |= {at for joint in known.case.joints if (at := getattr(joint, "at", None))}
     boxes = [(*known.points[p], *known.points[p]) for p in known.points if p in used]
-    boxes += _wheel_boxes(shapes)
+    boxes += [*_wheel_boxes(shapes), *outline_boxes(known.case, known.points)]
     centres = [step.centre.place for step in steps if step.centre.kind == "at"]
     finite = [(x, y) for x, y in centres if math.isfinite(x) and math.isfinite(y)]
     view = view_of(boxes, finite, known.size)

@@ -12,6 +12,7 @@ from icsolve.arithmetic import FLOATS, turn_of
 from icsolve.case import Joint, KnownCentre, Slide, Slot
 from icsolve.draw.marks import Disc, Group, Mark, Point, Run
 from icsolve.draw.place import Label, Soft
+from icsolve.draw.profiled import outlines
 from icsolve.draw.scene import BLOCK, HALF, PIN, RAIL, SLOT, Part, Scene
 from icsolve.draw.shapes import area, bar, joined, nearest, plate, tilted
 from icsolve.draw.view import along, unit
@@ -49,7 +50,7 @@ def body_of(scene: Scene, link: str) -> Body:
     )
     parts = [*_frame_of_points(points, rods, levers, wheels)]
     parts += [bar(ends, 11.0) for ends in levers]
-    parts += [*_cams(scene, link), *_edges(scene, link, points)]
+    parts += [*_cams(scene, link), *_profiles(scene, link), *_edges(scene, link, points)]
     dashed = bool(points) and all(isinstance(j, KnownCentre) for j in scene.case.joints if link in j.links)
     if dashed:
         parts = [plate(points, 4.0)] if len(points) != 2 else [bar(points, 0.01)]
@@ -149,6 +150,13 @@ def _cams(scene: Scene, link: str) -> Iterable[shapely.Geometry]:
         radius = min(max(0.4 * gap, 6.0), 34.0)
         nose = bar([(at[0] - n[0] * radius, at[1] + n[1] * radius)], radius)
         yield shapely.convex_hull(joined([nose, *(bar([p], 13.0) for p in points)]))
+
+
+def _profiles(scene: Scene, link: str) -> Iterable[shapely.Geometry]:
+    """The cam of a link whose profile the case gives."""
+    for own, corners in outlines(scene.case, scene.known.points):
+        if own == link:
+            yield shapely.Polygon([scene.view.at(p) for p in corners])
 
 
 def _edges(scene: Scene, link: str, points: list[Point]) -> Iterable[shapely.Geometry]:

@@ -70,6 +70,13 @@ def round_things(case: Case, points: Mapping[str, Point]) -> Round:
             wheels += [thing for thing in rolled if isinstance(thing, Wheel)]
             edges += [thing for thing in rolled if isinstance(thing, Edge)]
         if isinstance(joint, Contact) and joint.at in points:
+            if case.profiles is not None and {*joint.links} <= case.profiles.shapes.keys():
+                from icsolve.draw.profiled import surfaces
+
+                known = surfaces(case, joint, points)
+                wheels += [thing for thing in known if isinstance(thing, Wheel)]
+                edges += [thing for thing in known if isinstance(thing, Edge)]
+                continue
             first, second = _touching(case, joint, points)
             wheels += [thing for thing in (first, second) if isinstance(thing, Wheel)]
             edges += [thing for thing in (first, second) if isinstance(thing, Edge)]

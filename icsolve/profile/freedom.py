@@ -43,11 +43,14 @@ def carrier(case: Case, link: str, follower: Follower) -> str:
 
 
 def guided(case: Case, link: str) -> Guided | None:
-    """How a link is guided: by a slide, or by a pin whose place is known; None where neither is."""
-    for joint in case.joints:
-        if link not in joint.links or not isinstance(joint, Pin | Slide):
-            continue
-        against = next(other for other in joint.links if other != link)
+    """How a link is guided: by a slide, or by a pin whose place is known; None where neither is.
+
+    The frame guides it where it can.
+    """
+    own = [joint for joint in case.joints if link in joint.links and isinstance(joint, Pin | Slide)]
+    for joint in sorted(own, key=lambda joint: case.ground not in joint.links):
+        others = [other for other in joint.links if other != link]
+        against = case.ground if case.ground in others else others[0]
         try:
             freedom = _freedom(case, joint)
         except SceneError:

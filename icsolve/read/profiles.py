@@ -199,7 +199,7 @@ def _arc(entry: Entry, node: Node, n: int) -> Arc | None:
     mapping = entry.reading.mapping(node, "an arc", _ARC)
     if mapping is None:
         return None
-    one = Entry(entry.reading, mapping, f"{entry.path}.{n}", f"arc {n + 1} of {entry.what}")
+    one = Entry(entry.reading, mapping, f"{entry.path}.arcs.{n}", f"arc {n + 1} of {entry.what}")
     one.only("centre", "radius", "from", "to", "turns")
     centre = one.need("centre", "its centre, a point or [x, y]")
     at = _place(one, centre, f"'centre' of {one.what}", "centre") if centre is not None else None
