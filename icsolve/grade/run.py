@@ -45,6 +45,8 @@ class Graded(NamedTuple):
     """of each question the known wrong answers that were given, over the right one"""
     owing: dict[str, tuple[str, ...]]
     """of each question the first students who gave no answer"""
+    accepted: dict[str, str]
+    """of each question that asks the same of all, what is accepted, in words"""
 
 
 Progress = Callable[[str, float], None]
@@ -119,7 +121,15 @@ def _graded(found: list[Outcome], ledger: Ledger, shelf: Shelf, rows: int, stude
     counts = added(outcome.counts for outcome in found)
     marks = {item: tuple(_marks(shelf, item, c)) for item, c in counts.items()}
     owing = _together(outcome.owing for outcome in found)
-    return Graded(counts, tuple(ledger.entries()), ledger.serious, rows, students, marks, owing)
+    accepted = {item: words for item in counts if (words := _accepted(shelf, item))}
+    return Graded(counts, tuple(ledger.entries()), ledger.serious, rows, students, marks, owing, accepted)
+
+
+def _accepted(shelf: Shelf, item: str) -> str:
+    try:
+        return "" if shelf.variation(item.partition(":")[0]) is not None else shelf.key(item).accepted
+    except NoKeyError:
+        return ""
 
 
 def _together(parts: Iterable[dict[str, list[str]]]) -> dict[str, tuple[str, ...]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator
 
 from icsolve.grade.run import Graded
@@ -29,11 +30,21 @@ def _question(item: str, counts: Counts) -> Iterator[str]:
     mark = f"mean {counts.score / counts.max_score:.0%}" if counts.max_score else ""
     yield f"{item}: {verdicts}" + (f"; {mark}" if mark else "")
     wrong = counts.verdicts["wrong"]
-    for code, n in counts.mistakes.most_common(_SHOWN):
-        yield f"  {n} of {wrong} wrong answers: {code or 'no known cause'}"
+    named = [(code, n) for code, n in by_count(counts.mistakes) if code]
+    for code, n in named[:_SHOWN]:
+        yield f"  {n} of {wrong} wrong answers: {code}"
+    if len(named) > _SHOWN:
+        yield f"  {sum(n for _, n in named[_SHOWN:])} of {wrong} wrong answers: other causes"
+    if counts.mistakes[""]:
+        yield f"  {counts.mistakes['']} of {wrong} wrong answers: no known cause"
     if counts.unread:
         yield "  not judged: " + ", ".join(f"{n} {code}" for code, n in counts.unread.most_common(_SHOWN))
     yield from histogram(counts)
+
+
+def by_count(mistakes: Counter[str]) -> list[tuple[str, int]]:
+    """Mistakes by how often they were made; those of no known cause last."""
+    return sorted(mistakes.items(), key=lambda item: (not item[0], -item[1], item[0]))
 
 
 def ordered_verdicts(counts: Counts) -> list[tuple[str, int]]:
