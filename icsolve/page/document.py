@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from html import escape
 from typing import Any, NamedTuple
@@ -16,6 +17,9 @@ from icsolve.page.equation import Equation
 from icsolve.page.pictures import track_svg
 from icsolve.page.sheets import policy, script, style
 from icsolve.sense import unit_of
+
+FEW = 4
+"""With so many steps at most there is room for the equation of power beside the figure."""
 
 
 class Parts(NamedTuple):
@@ -68,9 +72,13 @@ def _body(parts: Parts) -> Iterable[str]:
         status, message = _text(known.refusal.status), _text(known.refusal.message)
         yield f'<p class="remark"><strong>No answer ({status}):</strong> {message}</p>'
     yield '</header>\n<div class="panels">'
+    construction, power = _construction(parts), _power(parts)
+    short = bool(construction) and _count(parts) <= FEW
+    yield '<div class="column">' if construction else '<div class="column wide">'
     yield _stage(parts)
-    yield _construction(parts)
-    yield _power(parts)
+    yield "" if short else power
+    yield "</div>"
+    yield f'<div class="column">{construction}{power if short else ""}</div>' if construction else ""
     yield _plots(parts)
     yield _solution(parts)
     yield "</div>"
@@ -86,6 +94,7 @@ def _stage(parts: Parts) -> str:
             _answers(parts),
             _controls(parts) if "motion" in parts.model else "",
             f'<p class="hint still">{_text(parts.still)}</p>' if parts.still else "",
+            _step_buttons(parts),
             "</section>",
         )
         if part
@@ -129,31 +138,49 @@ def _controls(parts: Parts) -> str:
     )
 
 
-def _construction(parts: Parts) -> str:
-    """The circle diagram, and the steps as buttons."""
-    if not parts.steps:
+def _step_buttons(parts: Parts) -> str:
+    """The construction a step at a time, beside the figure; the script says which step it is."""
+    if not _count(parts):
         return ""
-    count = max(step.number for step in parts.steps)
-    items = "".join(
-        f'<li><button type="button" data-step="{n}">{_text(_sentence(parts, n))}</button></li>'
-        for n in range(count + 1)
-    )
-    buttons = (("from-start", "Start"), ("back", "Back"), ("next", "Next"), ("whole", "All"))
+    buttons = (("from-start", "First"), ("back", "Back"), ("next", "Next"), ("whole", "All"))
     row = "".join(f'<button type="button" id="{name}">{word}</button>' for name, word in buttons)
     return (
-        '<section aria-label="Construction"><h2>The construction</h2>\n'
-        f'<div class="circle">{parts.circle}</div>\n'
-        f'<div class="row" role="group" aria-label="Steps">{row}</div>\n'
-        f'<ol class="steps">{items}</ol></section>'
+        '<h2 class="part">Construction</h2>\n'
+        f'<div class="row" role="group" aria-label="Steps of the construction">{row}</div>\n'
+        '<p class="said" id="said" aria-live="polite">All centres that the answer needs.</p>'
+    )
+
+
+def _count(parts: Parts) -> int:
+    """How many centres are found by construction."""
+    return max((step.number for step in parts.steps), default=0)
+
+
+def _construction(parts: Parts) -> str:
+    """The circle diagram, and all steps as buttons."""
+    if not parts.steps:
+        return ""
+    items = "".join(
+        f'<li><button type="button" data-step="{n}">{_text(_sentence(parts, n))}</button></li>'
+        for n in range(_count(parts) + 1)
+    )
+    return (
+        '<section aria-label="Order of finding"><h2>Order of finding</h2>\n'
+        f'<div class="circle">{parts.circle}</div>\n<ol class="steps">{items}</ol></section>'
     )
 
 
 def _sentence(parts: Parts, n: int) -> str:
     if n:
-        return step_sentence(parts.known, parts.steps, n)
+        return _unbroken(step_sentence(parts.known, parts.steps, n))
     first = [step.centre.pair for step in parts.steps if step.number == 0]
     names = ", ".join(f"I{a}-{b}" for a, b in first)
-    return f"By inspection: {names}." if names else "No centre is found by inspection."
+    return _unbroken(f"By inspection: {names}.") if names else "No centre is found by inspection."
+
+
+def _unbroken(sentence: str) -> str:
+    """A sentence in which no name of a centre breaks over two lines."""
+    return re.sub(r"(?<=\w)-(?=\w)", "\N{NON-BREAKING HYPHEN}", sentence)
 
 
 def _power(parts: Parts) -> str:
@@ -176,7 +203,7 @@ def _power(parts: Parts) -> str:
         '<section aria-label="Power"><h2>The sum of the powers is zero</h2>\n'
         f"{equation.symbols}\n{equation.ratio}\n"
         f'<div class="scroll"><table><thead><tr>{heads}</tr></thead><tbody>{rows}'
-        f'<tr class="sum"><td>{_name(name)}</td><td></td><td>less their sum</td><td>{total}</td></tr>'
+        f'<tr class="sum"><td>{_name(name)}</td><td></td><td>minus their sum</td><td>{total}</td></tr>'
         "</tbody></table></div></section>"
     )
 
@@ -192,7 +219,8 @@ def _plots(parts: Parts) -> str:
 
 def _solution(parts: Parts) -> str:
     """The worked solution of the position as written."""
+    opened = "" if "motion" in parts.model else " open"
     return (
-        '<details class="wide"><summary>The worked solution, in the position as written</summary>\n'
+        f'<details class="wide"{opened}><summary>The worked solution, in the position as written</summary>\n'
         f"{sections_html(parts.solution)}</details>"
     )

@@ -59,7 +59,7 @@ def equation_of(known: Known, motion: Motion | None) -> Equation | None:
 
 
 def _math(expression: Expr) -> str:
-    return f"<math>{mathml(expression)}</math>"
+    return f'<math displaystyle="true">{mathml(expression)}</math>'
 
 
 def speed_of(known: Known, acting: Acting) -> Name:
@@ -70,13 +70,14 @@ def speed_of(known: Known, acting: Acting) -> Name:
     return Name("w", low)
 
 
-def ratio_unit(known: Known, root: Acting, other: Acting) -> str:
-    """The unit of the ratio of speeds, in which other's unit times it is the root's."""
-    own, theirs = unit_of(root.load, known.case), unit_of(other.load, known.case)
+def ratio_unit(known: Known, root: Acting, of: Acting) -> str:
+    """The unit of the ratio of speeds, in which the unit of a known load, times it, is the root's."""
+    own, theirs = unit_of(root.load, known.case), unit_of(of.load, known.case)
     if own == theirs:
         return ""
-    parts = own.split("*")
-    if theirs in parts and len(parts) == 2:
-        parts.remove(theirs)
-        return parts[0]
+    for one, other, form in ((own, theirs, "{}"), (theirs, own, "1/{}")):
+        parts = one.split("*")
+        if other in parts and len(parts) == 2:
+            parts.remove(other)
+            return form.format(parts[0])
     return f"{own}/{theirs}" if "*" not in theirs and "/" not in theirs else f"{own}/({theirs})"

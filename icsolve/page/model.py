@@ -167,11 +167,8 @@ def _places(centre: Centre, name: str, view: View, motion: Motion | None) -> tup
     """Picture units in every row; beyond INFINITE a direction; not a number where there is none."""
     if motion is not None and name in motion.found.centres:
         rows = motion.found.centres[name][motion.first : motion.last + 1]
-    elif centre.kind == "at":
-        rows = np.array([[centre.place[0], centre.place[1], 1.0]])
     else:
-        angle = np.radians(centre.place[0])
-        rows = np.array([[np.cos(angle), np.sin(angle), 0.0]])
+        rows = _written_centre(centre, motion)
     x, y, w = rows.T
     reach = np.hypot(x, y)
     far = np.abs(w) * BEYOND * 1000.0 / view.scale <= reach
@@ -180,6 +177,20 @@ def _places(centre: Centre, name: str, view: View, motion: Motion | None) -> tup
         across = np.where(far, x * side, (x / w - view.origin[0]) * view.scale)
         down = np.where(far, -y * side, (view.origin[1] - y / w) * view.scale)
     return across, down
+
+
+def _written_centre(centre: Centre, motion: Motion | None) -> Array:
+    """A centre as written; of a motion in which the sweep does not know it, in that one row."""
+    if centre.kind == "at":
+        row = [centre.place[0], centre.place[1], 1.0]
+    else:
+        angle = np.radians(centre.place[0])
+        row = [np.cos(angle), np.sin(angle), 0.0]
+    if motion is None:
+        return np.array([row])
+    rows = np.full((motion.last + 1 - motion.first, 3), np.nan)
+    rows[motion.zero - motion.first] = row
+    return rows
 
 
 def _answers(known: Known, motion: Motion | None, loads: Sequence[Acting]) -> list[dict[str, Any]]:

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from icsolve.case import Case, Contact, ForceVector, Load, Number, Pair, Pin, Slide, Slot, Torque
+from icsolve.case import Case, Contact, ForceVector, KnownCentre, Load, Number, Pair, Pin, Slide, Slot, Torque
 from icsolve.construction import Known, loaded_links
 from icsolve.errors import SceneError
 from icsolve.names import pair_name
@@ -85,13 +85,15 @@ def why_still(known: Known) -> str:
         return "This case is in space: it is shown as it stands."
     if not any(t != (0.0, 0.0, 0.0) for t in known.twists.values()):
         return "Nothing moves here: the links hold each other."
+    if any(isinstance(joint, KnownCentre) for joint in case.joints):
+        return "A given centre holds in the position as written only, so nothing can be moved from it."
     drivers = inputs(known)
     if not drivers:
         return "No link turns about the frame in this position, so there is no input to turn."
     try:
         sweep(case, None, ("status", "points"), drive={drivers[0]: np.array([0.0, STEP])})
     except SceneError as refusal:
-        return refusal.message
+        return f"It cannot be moved: {refusal.message}"
     return "The links leave no room to move from the position as written."
 
 

@@ -130,7 +130,7 @@ const isFar = (c, r) => Math.abs(c.x[r]) >= INFINITE || Math.abs(c.y[r]) >= INFI
 function lineOf(c, line, r) {
   const ends = line.map((end) => (typeof end === "string" ? at(end, r) : [centres[end].x[r], centres[end].y[r]]));
   ends.push([c.x[r], c.y[r]]);
-  if (ends.some((p) => !p || p[0] === null)) return "";
+  if (ends.some((p) => !p || p[0] === null || p[1] === null)) return "";
   const near = ends.filter((p) => Math.max(Math.abs(p[0]), Math.abs(p[1])) < INFINITE);
   const away = ends.filter((p) => Math.max(Math.abs(p[0]), Math.abs(p[1])) >= INFINITE);
   if (!near.length) return "";
@@ -172,7 +172,7 @@ function drawCentres(r) {
   const shared = new Map();
   let fars = 0;
   for (const c of centres) {
-    const seen = c.step <= step && c.x[r] !== null;
+    const seen = c.step <= step && c.x[r] !== null && c.y[r] !== null;
     show(c.group, seen);
     show(c.label, false);
     c.paths.forEach((path, n) => {
@@ -202,7 +202,8 @@ function drawCentres(r) {
       const turn = (Math.atan2(u[1], u[0]) * 180) / Math.PI;
       set(c.far, "transform", `translate(${f(tip[0])} ${f(tip[1])}) rotate(${f(turn)})`);
       const tail = away ? " ∞" : `, ${number(size / data.scale, 3)} ${data.length} away`;
-      shared.set(key, { group: [c], at: [tip[0] - 15 * u[0], tip[1] - 15 * u[1]], tail, gap: 8 });
+      const along = [2, 9, 16, 23, 30].map((s) => [tip[0] - s * u[0], tip[1] - s * u[1], 4, 4]);
+      shared.set(key, { group: [c], at: along[2], tail, gap: 8, along });
     } else {
       set(c.disc, "cx", f(p[0]));
       set(c.disc, "cy", f(p[1]));
@@ -210,7 +211,9 @@ function drawCentres(r) {
     }
   }
   const found = [];
-  for (const { group, at: p, tail, gap } of shared.values()) {
+  const arrows = [];
+  for (const { group, at: p, tail, gap, along } of shared.values()) {
+    if (along) arrows.push(...along);
     const c = group[0];
     const words = group.map((g) => g.low).join() + tail;
     if (c.words !== words) {
@@ -222,7 +225,7 @@ function drawCentres(r) {
     c.size = c.size || boxOf(c.text);
     found.push({ element: c.label, anchor: p, size: c.size, gap, own: c, centre: true });
   }
-  return found;
+  return [found, arrows];
 }
 
 /* Labels: each where it was placed beside what it names; another place where two would meet. */
@@ -259,14 +262,13 @@ function candidates(item) {
   const found = item.home ? [item.home] : [];
   const anchor = item.anchor || item.home;
   const [w, h] = item.size;
-  for (const more of [0, 10, 24, 42])
+  for (const more of [0, 10, 24, 42, 66, 96])
     for (const [x, y] of COMPASS) {
       const gap = (item.anchor ? item.gap : 2) + more;
       found.push([anchor[0] + x * (gap + w), anchor[1] + y * (gap + h)]);
     }
   return found;
 }
-const solids = () => all(".pin, .primary, .secondary", figure);
 function overlap(p, size, boxes) {
   let sum = 0;
   for (const b of boxes) {
@@ -281,13 +283,13 @@ function outside(p, size) {
   const y = Math.max(TOP - p[1] + size[1], p[1] + size[1] - BOTTOM, 0);
   return 8 * (x + y);
 }
-function placeLabels(r, more) {
+function placeLabels(r, [more, far]) {
   const items = [];
   for (const label of labels) {
-    if (!label.size) label.size = label.badge ? [10, 10] : boxOf(label.text);
+    if (!label.size) label.size = boxOf(label.badge || label.text);
     items.push({ element: label.e, own: label, size: label.size, gap: 9, ...homeOf(label, r) });
   }
-  const boxes = pins(r);
+  const boxes = [...pins(r), ...arrows(r), ...far];
   for (const item of [...items, ...more]) {
     const options = candidates(item);
     let best = null;
@@ -314,6 +316,23 @@ const pinned = all("#mechanism circle.pin", figure).map((e) => {
   const group = e.closest("[data-at]");
   return [Number(e.getAttribute("cx")), Number(e.getAttribute("cy")), group ? group.dataset.at : ""];
 });
+/* Arrows as a few small boxes along them, so that labels keep off. */
+const shafts = pushes
+  .filter(([e, load]) => !load.torque && !e.dataset.end)
+  .map(([e, load, name]) => {
+    const [, x1, y1, x2, y2] = /M(\S+),(\S+) (\S+),(\S+)/.exec(e.querySelector("path").getAttribute("d")).map(Number);
+    return { load, name, along: [0, 0.33, 0.67, 1].map((s) => [x1 + s * (x2 - x1) - load.on[1], y1 + s * (y2 - y1) - load.on[2]]) };
+  });
+function arrows(r) {
+  const found = [];
+  for (const { load, name, along } of shafts) {
+    const { way, flip } = turnOf(name, r);
+    const p = carried(load.on, r);
+    const a = ((way + (flip ? 180 : 0)) * Math.PI) / 180;
+    for (const [x, y] of along) found.push([p[0] + Math.cos(a) * x + Math.sin(a) * y, p[1] - Math.sin(a) * x + Math.cos(a) * y, 5, 5]);
+  }
+  return found;
+}
 function pins(r) {
   return pinned.map(([x, y, name]) => {
     const p = own(points, name);
@@ -481,6 +500,8 @@ if (motion) {
 
 /* The construction, a centre at a time. */
 const buttons = all("ol.steps button");
+const said = byId("said");
+const SAID = said ? said.textContent : "";
 const circle = byId("circle-figure");
 function construct() {
   for (const b of buttons) {
@@ -497,10 +518,12 @@ function construct() {
     }
     for (const e of all('[id^="order-"]', circle)) show(e, Number(e.id.slice(6)) <= step);
   }
-  byId("back").disabled = !complete && step === 0;
-  byId("next").disabled = complete;
-  byId("from-start").disabled = !complete && step === 0;
-  byId("whole").disabled = complete;
+  if (said) {
+    byId("back").disabled = byId("from-start").disabled = !complete && step === 0;
+    byId("next").disabled = byId("whole").disabled = complete;
+    const words = complete ? SAID : buttons.find((b) => Number(b.dataset.step) === step).textContent;
+    if (said.textContent !== words) said.textContent = words;
+  }
   render();
 }
 function go(n, whole = false) {
@@ -508,14 +531,15 @@ function go(n, whole = false) {
   complete = whole;
   construct();
 }
-if (buttons.length) {
+for (const b of buttons) b.addEventListener("click", () => go(Number(b.dataset.step)));
+if (said) {
   byId("from-start").addEventListener("click", () => go(0));
   byId("back").addEventListener("click", () => go(complete ? data.steps : step - 1));
   byId("next").addEventListener("click", () => (step === data.steps ? go(step, true) : go(step + 1)));
   byId("whole").addEventListener("click", () => go(data.steps, true));
-  for (const b of buttons) b.addEventListener("click", () => go(Number(b.dataset.step)));
-  construct();
-} else render();
+}
+construct();
+window.addEventListener("beforeprint", () => { for (const d of all("details")) d.open = true; });
 if (document.fonts) document.fonts.ready.then(() => { for (const l of [...labels, ...centres]) l.size = null; render(); });
 window.addEventListener("resize", () => { for (const l of [...labels, ...centres]) l.size = null; render(); });
 })();

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Sequence
 from typing import Any
 
@@ -10,20 +11,25 @@ from icsolve.draw.captions import description
 from icsolve.draw.circle import circle_marks
 from icsolve.draw.marks import Box, Mark, bounds, leaves
 from icsolve.draw.svg import element, escaped, number
+from icsolve.draw.words import figure_number
 from icsolve.page.figure import Figure
 from icsolve.page.plots import Plot
 
 ALWAYS = frozenset(("paper", "primary", "secondary", "construction", "far", "t-centre", "plot"))
 """Classes of what the script draws."""
+LARGE = 1.3
+"""Pictures are shown at most so many times as large as they were measured."""
 
 
-def svg(marks: Iterable[Mark], box: Box, name: str, title: str, more: str = "") -> str:
-    """Marks as an SVG element of the page."""
+def svg(marks: Iterable[Mark], box: Box, name: str, title: str, more: str = "", largest: float = 1.0) -> str:
+    """Marks as an SVG element of the page, at most so many times their size."""
     left, top, right, bottom = box
     view = " ".join(map(number, (left, top, right - left, bottom - top)))
     body = "\n".join(element(mark) for mark in marks)
+    width, height = number(largest * (right - left)), number(largest * (bottom - top))
     return (
-        f'<svg class="ic" id="{name}" viewBox="{view}" role="img" aria-label="{escaped(title)}">'
+        f'<svg class="ic" id="{name}" viewBox="{view}" width="{width}" height="{height}" role="img"'
+        f' aria-label="{escaped(title)}">'
         f"{more}\n{body}\n</svg>"
     )
 
@@ -36,7 +42,7 @@ def figure_svg(known: Known, figure: Figure) -> str:
         f'<defs><clipPath id="window"><rect x="{number(left)}" y="{number(top)}" width="{width}"'
         f' height="{height}"/></clipPath></defs>'
     )
-    return svg(figure.marks, figure.window, "figure", description(known), clip)
+    return svg(figure.marks, figure.window, "figure", description(known), clip, LARGE)
 
 
 def still_svg(known: Known) -> tuple[str, tuple[Mark, ...]]:
@@ -55,14 +61,15 @@ def circle_svg(known: Known, steps: Sequence[Step]) -> tuple[str, tuple[Mark, ..
     left, top, right, bottom = bounds(marks)
     box = (left - 4.0, top - 4.0, right + 4.0, bottom + 4.0)
     title = "Kennedy circle diagram: the links, and a chord for every centre that is known"
-    return svg(marks, box, "circle-figure", title), marks
+    return svg(marks, box, "circle-figure", title, largest=1.1), marks
 
 
 def plot_svg(plot: Plot, n: int) -> str:
     """A plot with its cursor."""
     names = ", ".join(curve.name for curve in plot.curves)
     dots = "".join('<circle class="cursor-dot" r="4"/>' for _ in plot.curves)
-    text = svg(plot.marks, plot.view, f"plot-{n}", f"{plot.heading}: {names} over the range of the input")
+    title = f"{plot.heading}: {names} over the range of the input"
+    text = svg(plot.marks, plot.view, f"plot-{n}", title, largest=LARGE)
     return text.removesuffix("</svg>") + f'<path class="cursor" d=""/>{dots}</svg>'
 
 
@@ -71,27 +78,37 @@ def track_svg(motion: dict[str, Any]) -> str:
     low, high = motion["low"], motion["high"]
     first, last = motion["first"], motion["first"] + motion["step"] * (motion["rows"] - 1)
 
-    def x(degrees: float) -> str:
-        return number(1000.0 * (degrees - low) / (high - low))
+    def share(degrees: float) -> str:
+        return number(100.0 * (degrees - low) / (high - low)) + "%"
 
-    parts = [_bar("gap", x(low), x(first)), _bar("bar", x(first), x(last)), _bar("gap", x(last), x(high))]
-    parts += [f'<path class="dead" d="M{x(d)},0 V16"/>' for d in motion["dead"]]
+    def bar(kind: str, start: float, end: float) -> str:
+        width = number(100.0 * (end - start) / (high - low))
+        return f'<rect class="{kind}" x="{share(start)}" y="2" width="{width}%" height="10"/>'
+
+    gaps = [bar("gap", a, b) for a, b in ((low, first), (last, high)) if b - a > 1e-9]
+    dead = [f'<line class="dead" x1="{share(d)}" x2="{share(d)}" y1="0" y2="14"/>' for d in motion["dead"]]
+    ticks = []
+    for degrees in _ticks(low, high):
+        x = share(degrees)
+        anchor = "start" if degrees == low else "end" if degrees == high else "middle"
+        ticks.append(f'<line class="tick" x1="{x}" x2="{x}" y1="12" y2="17"/>')
+        ticks.append(f'<text x="{x}" y="28" text-anchor="{anchor}">{figure_number(degrees)}°</text>')
     hatch = (
         '<defs><pattern id="hatch" width="6" height="6" patternUnits="userSpaceOnUse"'
-        ' patternTransform="rotate(45)">'
-        '<path class="hatch" d="M0,0 V6"/></pattern></defs>'
+        ' patternTransform="rotate(45)"><path class="hatch" d="M0,0 V6"/></pattern></defs>'
     )
-    return (
-        '<svg class="track" viewBox="0 0 1000 16" preserveAspectRatio="none" aria-hidden="true">'
-        f"{hatch}{''.join(parts)}</svg>"
-    )
+    parts = "".join((hatch, bar("bar", first, last), *gaps, *dead, *ticks))
+    return f'<svg class="track" width="100%" height="32" aria-hidden="true">{parts}</svg>'
 
 
-def _bar(kind: str, start: str, end: str) -> str:
-    width = float(end) - float(start)
-    if width <= 0.5:
-        return ""
-    return f'<rect class="{kind}" x="{start}" y="3" width="{number(width)}" height="10"/>'
+def _ticks(low: float, high: float) -> list[float]:
+    """Four to nine round numbers of degrees."""
+    step = next(
+        s
+        for s in (90.0, 60.0, 45.0, 30.0, 20.0, 10.0, 5.0, 2.0, 1.0, 0.5)
+        if (high - low) / s >= 3.99 or s == 0.5
+    )
+    return [k * step for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)]
 
 
 def kinds_of(marks: Iterable[Mark]) -> frozenset[str]:

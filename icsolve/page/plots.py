@@ -16,6 +16,7 @@ from icsolve.page.columns import FINE, compact
 from icsolve.page.motion import Motion
 from icsolve.page.poses import Array
 from icsolve.sense import unit_of
+from icsolve.verdicts import rubs
 
 SIZE = (440.0, 250.0)
 DEAD = (Status.DEAD_CENTRE, Status.NO_VALUE)
@@ -56,9 +57,11 @@ def dead_rows(motion: Motion) -> list[float]:
 
 
 def dead_centres(motion: Motion) -> list[float]:
-    """The degrees of all dead centres, those between rows too."""
+    """The degrees of all dead centres, those between rows too (a jump of friction is none)."""
     x = motion.degrees[motion.first : motion.last + 1].tolist()
     places = set(dead_rows(motion))
+    if rubs(motion.found.case):
+        return sorted(places)
     for name in motion.found.answers:
         places |= set(asymptotes(x, _rows(motion, motion.found.answers[name]), sorted(places)))
     return sorted(places)
