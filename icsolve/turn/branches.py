@@ -7,6 +7,7 @@ assemble. The places are found on the way from the position as written to the ro
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
@@ -16,7 +17,7 @@ from icsolve.turn.program import Sheet, Signs
 from icsolve.turn.record import Root, Traced
 from icsolve.turn.replay import BLOCK, Array, Code, live
 from icsolve.turn.track import Track
-from icsolve.turn.way import State, Way
+from icsolve.turn.way import State, Touches, Way
 
 TOUCH = 64 * 2.0**-53
 """Margins below this fraction of their terms are zero (rounding of shapes, twice squared)."""
@@ -24,15 +25,21 @@ STEEP = 2.0
 """A radicand that may vanish between two places is smaller than so many of its steps there."""
 POINTS = 33
 ZOOMS = 10
+PAST = 0.125
+"""A way is followed beyond its last place by this part of its longest step."""
+MOST_PLACES = 4096
+"""Limits are looked for at so many places."""
 
 Remake = Callable[[Signs], Sheet]
 
 
 class Passing(NamedTuple):
-    """Where the branch of a spot changes (``touches``), or cannot assemble in less than a row (``gaps``)."""
+    """Where the branch of a spot changes (``touches``), where its places only meet and part again on their
+    own sides (``grazes``), and where it cannot assemble in less than a row (``gaps``)."""
 
     touches: tuple[float, ...]
     gaps: tuple[float, ...]
+    grazes: tuple[float, ...] = ()
 
 
 class Followed(NamedTuple):
@@ -64,21 +71,56 @@ class _Radicands:
 
     def passing(self, root: Root, grid: Array) -> Passing:
         """Touches and gaps of a branch on a grid of the way."""
-        (radicand,) = self.values([root.radicand], grid)
-        touches, gaps = [], []
+        radicand = self._radicand(root, grid)
+        touches: list[float] = []
+        gaps: list[float] = []
+        grazes: list[float] = []
         for k in _valleys(radicand):
-            low = self._lowest(root, grid[max(k - 1, 0)], grid[min(k + 1, len(grid) - 1)])
-            margin = self._margin(root, low)
+            low, high = grid[max(k - 1, 0)], grid[min(k + 1, len(grid) - 1)]
+            at = self._lowest(root, low, high)
+            margin = self._margin(root, at)
             if margin < -TOUCH:
-                gaps.append(low)
+                gaps.append(at)
             elif margin <= TOUCH:
-                touches.append(low)
-        return Passing(tuple(touches), tuple(gaps))
+                crosses = self._order(root, at, high - low) % 4 == 2
+                (touches if crosses else grazes).append(at)
+        return Passing(tuple(touches), tuple(gaps), tuple(grazes))
+
+    def _order(self, root: Root, at: float, wide: float) -> int:
+        """The order to which a radicand vanishes: the root goes through zero where half of it is odd."""
+        h = max(wide / 4.0, self.track.way.widest / 8.0)
+        values = self._radicand(root, at + h * np.array([-1.0, 1.0, -0.5, 0.5]))
+        far, near = values[:2], values[2:]
+        good = np.isfinite(far) & np.isfinite(near) & (far > 0.0) & (near > 0.0)
+        return 2 * round(float(np.log2(far[good].sum() / near[good].sum())) / 2.0) if good.any() else 2
+
+    def _radicand(self, root: Root, at: Array) -> Array:
+        """The radicand of a branch; not a number where those before it have no place to meet."""
+        record = self.sheet.record
+        behind = set(live(record, [root.radicand], ()))
+        before = [r for r in live_roots(self.sheet) if r.node in behind]
+        nodes = [n for r in before for margin in r.margins for n in margin]
+        radicand, *margins = self.values([root.radicand, *nodes], at)
+        for margin, size in zip(margins[::2], margins[1::2], strict=True):
+            radicand[margin < -TOUCH * size] = np.nan
+        return radicand
+
+    def limits(self, grid: Array) -> tuple[float, float]:
+        """The nearest places to both sides of the start to which no motion leads."""
+        grid = grid[:: max(1, len(grid) // MOST_PLACES)]
+        nodes = [n for r in live_roots(self.sheet) for margin in r.margins for n in margin]
+        gone = np.zeros(len(grid), dtype=bool)
+        found = self.values(nodes, grid) if nodes else []
+        for margin, size in zip(found[::2], found[1::2], strict=True):
+            gone |= ~(margin >= -TOUCH * size)
+        apart, start, (low, high) = grid[gone], self.track.way.start, self.track.ends
+        low = max(low, float(apart[apart < start].max(initial=-math.inf)))
+        return low, min(high, float(apart[apart > start].min(initial=math.inf)))
 
     def _lowest(self, root: Root, low: float, high: float) -> float:
         for _ in range(ZOOMS):
             at = np.linspace(low, high, POINTS)
-            values = self.values([root.radicand], at)[0]
+            values = self._radicand(root, at)
             k = int(np.argmin(np.where(np.isnan(values), np.inf, values)))
             low, high = float(at[max(k - 1, 0)]), float(at[min(k + 1, POINTS - 1)])
         return (low + high) / 2.0
@@ -124,28 +166,58 @@ def follow(remake: Remake, sheet: Sheet, way: Way, start: State, rows: Array) ->
     ``remake`` makes the sheet with the signs of some branches as inputs.
     """
     grid = grid_of(rows, way.start, way.widest)
-    reach = (float(grid[0]), float(grid[-1]))
+    track = Track(sheet, way, start, Touches({}), _reach(grid, way))
+    if _has_limits(sheet, track, grid):
+        grid = grid_of(np.append(grid, _turns_of(way)), way.start, way.widest)
+        track = Track(sheet, way, start, Touches({}), _reach(grid, way))
     found: dict[str, Passing] = {}
     done: set[str] = set()
-    assert sheet.motion is not None
     while True:
-        touches = {name: passing.touches for name, passing in found.items() if passing.touches}
-        track = Track(sheet, way, start, touches, reach)
-        radicands = _Radicands(sheet, track)
-        for root in live_roots(sheet):
-            name = sheet.motion.branches[root.node]
-            if name in done:
-                continue
-            done.add(name)
-            passing = radicands.passing(root, grid)
-            if passing.touches or passing.gaps:
-                found[name] = passing
-            if passing.touches:
-                sheet = remake(signs_of(sheet, (n for n, p in found.items() if p.touches)))
-                assert sheet.motion is not None
-                break
-        else:
+        name = _next_passing(sheet, track, grid, found, done)
+        if name is None:
             return Followed(sheet, track, found)
+        sheet = remake(signs_of(sheet, (n for n, p in found.items() if p.touches)))
+        places = {name: passing.touches for name, passing in found.items() if passing.touches}
+        track = Track(sheet, way, start, Touches(places), track.reach)
+
+
+def _next_passing(
+    sheet: Sheet, track: Track, grid: Array, found: dict[str, Passing], done: set[str]
+) -> str | None:
+    """The next branch that changes its sign; those that were looked at are noted."""
+    radicands = _Radicands(sheet, track)
+    assert sheet.motion is not None
+    if track.way.period is not None:
+        track.touches = track.touches._replace(limits=radicands.limits(grid))
+    for root in live_roots(sheet):
+        name = sheet.motion.branches[root.node]
+        if name in done:
+            continue
+        done.add(name)
+        passing = radicands.passing(root, grid)
+        if any(passing):
+            found[name] = passing
+        if passing.touches:
+            return name
+    return None
+
+
+def _has_limits(sheet: Sheet, track: Track, grid: Array) -> bool:
+    """Whether the way turns a link beyond where the motion leads: what lies there may be reached by
+    turning it the other way round."""
+    if track.way.period is None or not live_roots(sheet):
+        return False
+    return any(math.isfinite(end) for end in _Radicands(sheet, track).limits(grid))
+
+
+def _reach(grid: Array, way: Way) -> tuple[float, float]:
+    """From the first to the last place and a little beyond, so that none is at the very end of the way."""
+    return float(grid[0]) - PAST * way.widest, float(grid[-1]) + PAST * way.widest
+
+
+def _turns_of(way: Way) -> list[float]:
+    """A whole turn to both sides of the start."""
+    return [way.start - (way.period or 0.0), way.start + (way.period or 0.0)]
 
 
 def signs_of(sheet: Sheet, more: Iterable[str] = ()) -> Signs:

@@ -23,16 +23,19 @@ from icsolve.turn.constraints import (
 from icsolve.turn.loci import By, Through, ThroughTurned, reference
 from icsolve.turn.meeting import sine
 from icsolve.turn.poses import Shape, Spot
+from icsolve.turn.trains import together
 
 TOUCHING = 1e-7
 """Loci that cross at a smaller angle (sine) in the position as written touch."""
 
 
 class Turn(NamedTuple):
-    """A body's rotation from those of the others in a `Turning`, or from a driver."""
+    """A body's rotation from those of the others in a `Turning`, or from a driver; ``instead`` of a
+    condition where several were taken together."""
 
     body: int
     by: Turning | Pointed | RolledStraight | RolledRound
+    instead: Turning | None = None
 
 
 class Hang(NamedTuple):
@@ -102,7 +105,7 @@ class Order:
 
     def advance(self) -> bool:
         """Take the next closed form; False where there is none."""
-        for rule in (self._turns, self._hangs, self._holds, self._swings, self._meets):
+        for rule in (self._turns, self._hangs, self._holds, self._swings, self._meets, self._trains):
             step = next(rule(), None)
             if step is not None:
                 self.take(step)
@@ -113,9 +116,9 @@ class Order:
         """Note what a closing makes known."""
         self.steps.append(step)
         match step:
-            case Turn(body, by):
+            case Turn(body, by, instead):
                 self.turned.add(body)
-                self.used.add(id(by))
+                self.used.update((id(by), id(instead)))
             case Hang(body) | Hold(body):
                 self._fill((body,))
             case Meet(spot, loci):
@@ -148,8 +151,17 @@ class Order:
             left = [body for body in c.bodies if body not in self.turned]
             if len(left) != 1 or not isinstance(c, Turning | Pointed | RolledStraight | RolledRound):
                 continue
+            if id(c) in self.used:
+                continue
             if self._tells(c):
                 yield Turn(left[0], c)
+
+    def _trains(self) -> Iterator[Turn]:
+        """A rotation that several ratios of wheels tell together."""
+        ratios = [c for c in self.constraints if isinstance(c, Turning) and id(c) not in self.used]
+        found = together(ratios, self.turned)
+        if found is not None:
+            yield Turn(*found)
 
     def _tells(self, c: Turning | Pointed | RolledStraight | RolledRound) -> bool:
         """Whether a condition tells the one rotation in it that is not known."""

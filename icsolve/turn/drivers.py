@@ -17,7 +17,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.figure.board import Board
 from icsolve.figure.data import data_of, number_of
 from icsolve.sentences import listed, plural
-from icsolve.turn.constraints import Constraint, Rows, Turning
+from icsolve.turn.constraints import Constraint, Immovable, Rows, Turning
 from icsolve.turn.mechanism import Mechanism
 from icsolve.turn.poses import Still
 from icsolve.turn.posing import KINDS, Pose, condition, pose_of, posing, value_of
@@ -49,6 +49,9 @@ def drive_of(mechanism: Mechanism, paths: Sequence[str], links: Sequence[str]) -
         body = mechanism.top.body_of[link]
         rows, taken = _added(mechanism, bodies, rows, Turning(((body, 1.0),)))
         if not taken:
+            still = next((c for c in mechanism.constraints if isinstance(c, Immovable)), None)
+            if still is not None and not left:
+                raise still.refusal
             raise _cannot_turn(case, link, left, body == mechanism.top.ground)
         left -= 1
     moving: list[str] = []

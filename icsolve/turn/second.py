@@ -6,6 +6,7 @@ answers, are held against their error bounds; a row that its bounds leave open i
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import NamedTuple
 
@@ -13,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.answer import Answer
-from icsolve.case import Case
+from icsolve.case import Case, Coordinates
 from icsolve.errors import SceneError, Status
 from icsolve.solve import solve
 from icsolve.turn.branches import TOUCH, live_roots
@@ -49,6 +50,8 @@ WORDS = (
     Status.AMBIGUOUS,
     Status.UNDERDETERMINED,
     "holds",
+    Status.JAM,
+    Status.UNBALANCED,
 )
 """The statuses of rows; ``holds``: with friction and no motion, the unknown holds over a range."""
 CODE = {word: n for n, word in enumerate(WORDS)}
@@ -174,10 +177,13 @@ def _against_bounds(look: Look, rows: Rows) -> tuple[Mask, Mask]:
 
 def _as_scene(look: Look, row: int) -> None:
     """Solve one row as a scene: its status, or its values."""
+    outputs, case = look.found.values, look.case_of(row)
+    if not _placed(case):
+        _silence(look, np.array([row]), Status.CHANGE_POINT)
+        return
     try:
-        outputs = look.found.values
         rates = any(key[0] in ("rates", "centres") for key in outputs)
-        answer = solve(look.case_of(row), rates=rates, all_centres=rates)
+        answer = solve(case, rates=rates, all_centres=rates)
     except SceneError as error:
         _silence(look, np.array([row]), error.status)
         return
@@ -185,6 +191,12 @@ def _as_scene(look: Look, row: int) -> None:
         if key[0] == "answers" and key[1] in answer.answers:
             look.found.values[key][row] = answer.answers[key[1]].value
     _motions(look, row, answer)
+
+
+def _placed(case: Case) -> bool:
+    """Whether every point has a place: two circles that have become one meet everywhere."""
+    given = [at for at in case.points.values() if isinstance(at, Coordinates)]
+    return all(math.isfinite(n.value) for at in given for n in (at.x, at.y) if n is not None)
 
 
 def _motions(look: Look, row: int, answer: Answer) -> None:

@@ -6,6 +6,7 @@ stay on the branch. Beyond a limit nothing is taken up: where the links assemble
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
@@ -15,7 +16,7 @@ from icsolve.turn.program import Sheet
 from icsolve.turn.replay import Array, Code
 from icsolve.turn.stretch import Step, Stretch, counts, cubic, goes_on, stretch_of
 from icsolve.turn.together import ROUNDS, Solver
-from icsolve.turn.way import State, Way, flips
+from icsolve.turn.way import State, Touches, Way
 
 FIRST = 2.0**-5
 """The first step, as a part of the longest."""
@@ -33,12 +34,7 @@ class Track:
     """A way that is followed from a state; ``touches`` has the places at which branches change."""
 
     def __init__(
-        self,
-        sheet: Sheet,
-        way: Way,
-        start: State,
-        touches: Mapping[str, Sequence[float]],
-        reach: tuple[float, float],
+        self, sheet: Sheet, way: Way, start: State, touches: Touches, reach: tuple[float, float]
     ) -> None:
         self.sheet, self.way, self.start, self.touches = sheet, way, start, touches
         record, motion = sheet.record, sheet.motion
@@ -49,6 +45,9 @@ class Track:
         self.breaks: list[tuple[float, float]] = []
         """steps in which a group goes through a singular position and on"""
         self.senses: dict[float, Array] = {}
+        self.reach = reach
+        self.ends = (-math.inf, math.inf)
+        """how far groups were followed to both sides, where that ended"""
         self.stretches = self._followed(reach) if self.groups or self.counted else []
 
     # --- inputs -----------------------------------------------------------------------------------
@@ -95,8 +94,8 @@ class Track:
         given = self.way.inputs(self.sheet, s)
         for name in self.sheet.motion.written if self.sheet.motion else ():
             if name in self.sheet.inputs:
-                sign = self.start.signs[name] * flips(s, self.way.start, self.touches.get(name, ()))
-                given[self.sheet.inputs[name]] = sign
+                sign = self.start.signs[name]
+                given[self.sheet.inputs[name]] = sign * self.touches.flips(name, s, self.way)
         return given
 
     def _state(self, q: Array, turns: Array) -> dict[int, Array]:
@@ -108,7 +107,7 @@ class Track:
         """The state at a place."""
         at = np.array([s])
         signs = {
-            name: sign * float(flips(at, self.way.start, self.touches.get(name, ()))[0])
+            name: sign * float(self.touches.flips(name, at, self.way)[0])
             for name, sign in self.start.signs.items()
         }
         if not self.stretches:
@@ -146,14 +145,28 @@ class Track:
             return []
         first = (self.way.start, q[0], turns[0])
         self.senses[self.way.start] = self._senses(self._plain(at), q, turns)
-        down, up = self._steps(first, reach[0]), self._steps(first, reach[1])
+        down, up = self._both(first, reach)
         steps = [*reversed(down[1:]), *up]
+        self.ends = (
+            down[-1][0] if down[-1][0] > reach[0] else -math.inf,
+            up[-1][0] if up[-1][0] < reach[1] else math.inf,
+        )
         more = [
             stretch
             for last, end in ((down[-1], reach[0]), (up[-1], reach[1]))
             for stretch in self._beyond(last, end, steps)
         ]
         return sorted([stretch_of(steps), *more], key=lambda stretch: float(stretch.s[0]))
+
+    def _both(self, first: Step, reach: tuple[float, float]) -> tuple[list[Step], list[Step]]:
+        """Steps down and up; from a limit on what lies beyond is reached from the other side."""
+        down, up = self._steps(first, reach[0]), self._steps(first, reach[1])
+        if self.way.period is not None and up[-1][0] < reach[1]:
+            further = min(reach[0], up[-1][0] - self.way.period)
+            down = self._steps(first, further)
+        elif self.way.period is not None and down[-1][0] > reach[0]:
+            up = self._steps(first, max(reach[1], down[-1][0] + self.way.period))
+        return down, up
 
     def _beyond(self, last: Step, end: float, known: Sequence[Step]) -> Iterator[Stretch]:
         """Stretches beyond a limit, where it is as it was a turn before."""
@@ -181,11 +194,19 @@ class Track:
             return None
         trials, back = trials[inside], back[inside]
         guess, ahead = cubic(known.s, known.q, back), cubic(known.s, known.turns, back)
+        guess += (trials - back)[:, None] * self._driven()
         found, counted, good = self._solved(self._plain(trials), guess, ahead, QUICK)
         for k in np.flatnonzero(good):
             if goes_on(guess[k], guess[k], found[k], False):
                 return (float(trials[k]), found[k], counted[k])
         return None
+
+    def _driven(self) -> Array:
+        """Which of the unknowns is the turning of the link that is driven (1, the others 0)."""
+        setting = self.sheet.setting
+        driven = {setting.top.body_of[link] for link in setting.links if link in self.way.slope}
+        bodies = [body for group, _ in self.groups for body in group.bodies]
+        return np.array([float(body in driven and part == 2) for body in bodies for part in range(3)])
 
     def _steps(self, first: Step, end: float) -> list[Step]:
         """Steps toward an end, as far as they go."""

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -52,10 +53,42 @@ def written_state(sheet: Sheet) -> State:
     return State(np.array(q), np.zeros(len(sheet.record.counted)), dict(motion.written))
 
 
-def flips(at: Array, start: float, touches: Sequence[float]) -> Array:
-    """+1 or -1: the sign after the touches between the start and each place."""
-    if not len(touches):
-        return np.ones_like(at)
-    ordered = np.sort(np.array(touches))
-    passed = np.searchsorted(ordered, at) - np.searchsorted(ordered, start)
-    return np.asarray(1.0 - 2.0 * (passed & 1), dtype=np.float64)
+class Touches(NamedTuple):
+    """The places of a way at which a branch changes its sign, by the branch's name, and how far the motion
+    leads from the start to both sides."""
+
+    places: Mapping[str, Sequence[float]]
+    limits: tuple[float, float] = (-math.inf, math.inf)
+
+    def flips(self, name: str, at: Array, way: Way) -> Array:
+        """+1 or -1: the sign of a branch after the touches between the start and each place.
+
+        Beyond a limit it is as a whole turn before, where the motion leads there from the other side.
+        """
+        places = np.sort(np.array(self.places.get(name, ())))
+        if not len(places):
+            return np.ones_like(at)
+        low, high = self.limits
+        if way.period is not None and not (math.isinf(low) and math.isinf(high)):
+            at, places = self._within(at, way.period), self._copies(places, way.period)
+        passed = np.searchsorted(places, at) - np.searchsorted(places, way.start)
+        return np.asarray(1.0 - 2.0 * (passed & 1), dtype=np.float64)
+
+    def _within(self, at: Array, period: float) -> Array:
+        """The places, those beyond a limit so many whole turns away that the motion leads there."""
+        low, high = self.limits
+        above, below = np.maximum(at - high, 0.0), np.maximum(low - at, 0.0)
+        back = at - period * (np.ceil(above / period) - np.ceil(below / period))
+        return np.where((back >= low) & (back <= high), back, at)
+
+    def _copies(self, places: Array, period: float) -> Array:
+        """The touches between the limits, whole turns away too."""
+        low, high = self.limits
+        reach = int(max(abs(end) for end in (low, high, *places) if math.isfinite(end)) / period) + 2
+        every = (places[:, None] + period * np.arange(-reach, reach + 1)).ravel()
+        kept = np.sort(every[(every > low) & (every < high)])
+        return kept[np.diff(kept, prepend=-math.inf) > SAME * period]
+
+
+SAME = 1e-6
+"""Touches that are nearer to each other, as a part of a turn, are one."""

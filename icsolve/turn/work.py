@@ -22,6 +22,8 @@ AT = 1e-7
 """A row that is this near to a change point (as a part of the longest step) is at it."""
 ROUGHLY = 1e-6
 """The same for a change point of a group, whose place is known to the root of rounding only."""
+GRAZED = 1e-3
+"""The same where places meet and part again: that goes like a square, or slower."""
 CHUNK = 16 * BLOCK
 """Rows whose followed states are held at once."""
 
@@ -154,6 +156,8 @@ class Work:
         for passing in part.followed.passed.values():
             for touch in passing.touches:
                 self._change(part, touch)
+            for touch in passing.grazes:
+                self._change(part, touch, GRAZED)
             for gap in passing.gaps:
                 self._gap(part.followed.track.way, gap)
 

@@ -1,0 +1,84 @@
+"""Rows beyond a limit, where branches meet without changing, and trains of wheels that only together tell
+how far a link turns."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import icsolve
+from icsolve.turn.closing import Order
+from test_sweep_status import PARALLELOGRAM
+
+CASES = Path(__file__).parent.parent / "cases"
+PEAUCELLIER = icsolve.load(str(CASES / "linkages" / "peaucellier.yaml"))
+
+
+@pytest.mark.parametrize("link", ["2", "3", "4", "5", "6", "7", "8"])
+def test_peaucelliers_cell_draws_its_line_whichever_link_is_turned(link: str) -> None:
+    """S stays on x = 4 in every row that assembles, also where the rhombus is flat (P and S meet there and
+    part again each on its own side), where it is folded, and beyond a limit, which is reached by turning
+    the other way round. Near the fold S is far away: its place there loses digits."""
+    sweep = icsolve.sweep(PEAUCELLIER, drive={link: np.arange(0.0, 361.0, 2.0)}, want=("points", "status"))
+    x = sweep.points["S"][:, 0]
+    placed = np.isfinite(x)
+    assert placed.sum() > 70
+    assert set(sweep.status[~placed]) <= {"cannot-assemble", "change-point"}
+    assert np.abs(x[placed] - 4.0).max() < 1e-9
+    assert sweep.points["S"][180] == pytest.approx(sweep.points["S"][0], rel=1e-9)
+
+
+def test_power_of_peaucelliers_cell_in_every_row() -> None:
+    """S runs at (L^2 - s^2) / (4 q cos^2(phi / 2)) w8 (the closed form of the case); the torque is 30 times that."""
+    turned = np.arange(0.0, 361.0, 1.0)
+    sweep = icsolve.sweep(PEAUCELLIER, drive={"8": turned}, want=("answers", "status"))
+    phi = np.radians(60.0 + turned)
+    torque = 30.0 * 2.0 / np.cos(phi / 2.0) ** 2
+    known = np.isfinite(sweep.answers["T18"])
+    assert known.sum() > 230
+    assert sweep.answers["T18"][known] == pytest.approx(torque[known], rel=1e-9)
+
+
+def test_a_branch_that_is_met_beyond_a_limit_is_the_one_of_the_other_way_round() -> None:
+    """Rows far from the case as written, alone: as in the whole turn."""
+    whole = icsolve.sweep(PEAUCELLIER, drive={"2": np.arange(0.0, 361.0, 10.0)}, want=("points", "status"))
+    some = icsolve.sweep(PEAUCELLIER, drive={"2": np.arange(220.0, 240.0, 10.0)}, want=("points", "status"))
+    back = icsolve.sweep(PEAUCELLIER, drive={"2": np.arange(-140.0, -120.0, 10.0)}, want=("points", "status"))
+    for name in ("B", "S"):
+        assert some.points[name] == pytest.approx(whole.points[name][22:24], rel=1e-12)
+        assert some.points[name] == pytest.approx(back.points[name], rel=1e-12)
+
+
+def test_ten_thousand_turns_of_an_arm_for_one_of_its_wheel() -> None:
+    """The compound epicyclic reducer, driven by its slow wheel: both ratios together tell the arm's turning,
+    whole turns too (at 10,000 times the wheel's)."""
+    case = icsolve.load(str(CASES / "gears" / "compound_epicyclic.yaml"))
+    degrees = np.array([0.0, 0.001, 0.009, 0.0135, 90.0, 360.0])
+    sweep = icsolve.sweep(case, drive={"5": degrees}, want=("answers", "points", "rates", "status"))
+    assert (sweep.status == "ok").all()
+    assert sweep.answers["T15"] == pytest.approx(-30.0, rel=1e-10)
+    arm = np.radians(1e4 * degrees)
+    assert sweep.points["P"] == pytest.approx(100.0 * np.stack([np.cos(arm), np.sin(arm)], axis=1), abs=1e-6)
+
+
+@pytest.mark.parametrize("start", [20.0, 60.0, 100.0])
+@pytest.mark.parametrize("rows", [[180.0], [100.0, 180.0, 181.0], [175.0, 180.0, 185.0]])
+def test_a_group_at_its_change_point_says_so(
+    monkeypatch: pytest.MonkeyPatch, start: float, rows: list[float]
+) -> None:
+    """The parallelogram without closed forms, a row exactly in line: also as the last of the way."""
+    monkeypatch.setattr(Order, "_meets", lambda self: iter(()))
+    near = 2.0 + np.cos(np.radians(start)), np.sin(np.radians(start))
+    text = PARALLELOGRAM.replace("AB: 60", f"AB: {start}").replace("[2.5, 0.9]", f"[{near[0]}, {near[1]}]")
+    sweep = icsolve.sweep(icsolve.load(text), {"angles.AB": rows})
+    assert sweep.status[rows.index(180.0)] == "change-point"
+
+
+def test_known_centres_that_hold_a_mechanism_are_refused_by_name() -> None:
+    """13.10 is known by its centres alone: no link of it can be moved."""
+    case = icsolve.load(str(CASES / "ch13" / "13_10_black_box.yaml"))
+    with pytest.raises(icsolve.SceneError, match="given centre of links") as refusal:
+        icsolve.sweep(case, drive={"5": [0.0, 1.0]})
+    assert refusal.value.status == "unsupported"
