@@ -16,6 +16,27 @@ from icsolve.grade.malrules.centres import shares
 from icsolve.grade.shelf import Shelf
 from icsolve.grade.solved import solved
 
+CAM = """\
+icsolve: 1
+units: {length: mm, force: N, torque: N*mm}
+points: {A: [0, 0], B: [0, unknown]}
+lengths: {AC: 20}
+angles: {AC: 40}
+near: {B: [0, 500]}
+profile:
+  2: {circle: C, radius: 40}
+  3: {flat: B, along: 0}
+joints:
+  - {pin: [1, 2], at: A}
+  - {contact: [2, 3]}
+  - {slide: [3, 1], at: B, along: 90}
+links: {2: [C]}
+loads:
+  P: {force: 100, link: 3, at: B, angle: -90}
+  T12: {torque: unknown, link: 2}
+"""
+"""An eccentric disk under a flat follower: T12 = P e cos 40."""
+
 
 @pytest.fixture
 def a_class(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Class:
@@ -114,3 +135,60 @@ def test_wrong_answers_wait_until_they_are_asked_for(monkeypatch: pytest.MonkeyP
     assert calls == []
     assert key.wrongs.near(5.0) == ()
     assert calls == ["made"]
+
+
+def named(case: str, unknown: str, code: str) -> list[tuple[float, str]]:
+    """The wrong answers of a code for a case of the library, with where the mistake sits."""
+    (path,) = CASES.rglob(f"{case}.yaml")
+    return [(w.value, w.where) for w in wrong_answers(solved(icsolve.load(path)))[unknown] if w.code == code]
+
+
+def test_the_crank_taken_for_the_distance_to_the_centre_of_a_slider() -> None:
+    """P = T12 / I12-I24; with I12-I23, the crank of 2 in, 300 lbf*in give 150 lbf."""
+    assert any(value == pytest.approx(150.0) for value, _ in named("slider_crank_offset", "P", "wrong-ic"))
+
+
+def test_an_annulus_taken_for_an_outer_wheel() -> None:
+    """w4/w2 = 24/(24 - 60) in place of 24/84: 10 N*m ask for 15 N*m the other way."""
+    found = named("epicyclic_train", "T14", "mesh-sense")
+    assert any(value == pytest.approx(15.0) for value, _ in found)
+
+
+def test_one_unknown_taken_for_the_other() -> None:
+    (path,) = CASES.rglob("five_bar.yaml")
+    answers = solved(icsolve.load(path)).answers
+    assert named("five_bar", "T12", "other-unknown") == [(answers["T15"].value, "T15")]
+    assert message("other-unknown", "T15") == "This is the size of another unknown (T15)."
+
+
+def test_a_ratio_upside_down_with_two_unknowns() -> None:
+    """Each known torque asks of each unknown a ratio of its own."""
+    (path,) = CASES.rglob("differential_train.yaml")
+    answer = solved(icsolve.load(path))
+    (known,) = [load for load in answer.case.loads if load.name not in answer.answers]
+    number = known.value.value  # type: ignore[union-attr]
+    for name, found in answer.answers.items():
+        ((value, where),) = named("differential_train", name, "inverse-ratio")
+        assert value == pytest.approx(number**2 / found.value)
+        assert where == f"{name} and {known.name}"
+
+
+def test_the_direction_of_a_guide_in_radians() -> None:
+    """A block on a guide at 30 degrees, pushed level: P cos 30 = Q; with 30 rad, |cos| = 0.154."""
+    text = (
+        "icsolve: 1\npoints: {A: [0, 0]}\njoints:\n  - {slide: [2, 1], at: A, along: 30}\n"
+        "loads:\n  P: {force: 100, link: 2, at: A, angle: 180}\n"
+        "  Q: {force: unknown, link: 2, at: A, slope: [4, 3]}\n"
+    )
+    found = [w.value for w in wrong_answers(solved(icsolve.load(text)))["Q"] if w.code == "deg-rad"]
+    c, s = math.cos(30.0), math.sin(30.0)
+    assert any(value == pytest.approx(100.0 * c / (0.8 * c + 0.6 * s)) for value in found)
+
+
+def test_a_cam_with_a_profile_gets_its_wrong_answers(a_class: Class) -> None:
+    a_class.case("cam", CAM)
+    right = 2000.0 * math.cos(math.radians(40.0))
+    rows = a_class.judge(f"{right:.6g}", f"{-right:.6g}", f"{right / 2:.6g}", case="cam")
+    assert [(r["verdict"], r["code"].split(" ")[0]) for r in rows] == [
+        ("right", ""), ("wrong", "sign"), ("wrong", "half"),
+    ]  # fmt: skip

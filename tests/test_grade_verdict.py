@@ -217,6 +217,27 @@ def test_an_error_carried_forward_is_recognised(a_class: Class) -> None:
     assert "carried" not in ran.row("b", case)["code"]
 
 
+@pytest.mark.parametrize(
+    ("what", "given", "follows"),
+    [
+        ("I24", "(0, 1.8)", 300.0 / 1.8),
+        ("I24-A", "1.8 in", 300.0 / 1.8),
+        ("v C on 4", "60 in/s", 197.078254 * 47.8225160 / 60.0),
+    ],
+)
+def test_an_error_carried_forward_to_a_slider(
+    a_class: Class, what: str, given: str, follows: float
+) -> None:
+    """P = T12 / I24-A = T12 w2 / v: by the right method from a wrong centre, distance or speed."""
+    case = "slider_crank_offset"
+    table = f'student_id,case,answer\na,{case}:{what},"{given}"\na,{case},{follows:.6g} lbf\n'
+    file = a_class.file("a.csv", table)
+    ran = a_class.run("grade", file, "--cases", str(CASES / "sliders"), "-o", "-", "-q")
+    assert ran.row("a", f"{case}:{what}")["verdict"] == "wrong"
+    assert ran.row("a", case)["code"].split()[0] == "carried"
+    assert f"({what})" in ran.row("a", case)["feedback"]
+
+
 def test_a_load_that_holds_over_a_range_is_no_question(a_class: Class) -> None:
     a_class.case(
         "block",

@@ -95,12 +95,13 @@ def _of_distance(
 
 
 def _by_place(answer: Answer, i: Intermediate, own: Load, loads: Mapping[str, Load]) -> Iterator[Scales]:
-    """A common centre in the wrong place gives the two links' ratio of rates by its distances from theirs."""
+    """A common centre in the wrong place gives the two links' ratio of rates by its distances from theirs;
+    of a link that only slides, the distance from the other's is the ratio."""
     assert isinstance(i.target, CentreIs)
     ground = answer.case.ground
     first, second = i.target.pair
     mine, its = centres_of(answer, first).get(ground), centres_of(answer, second).get(ground)
-    if mine is None or its is None or ground in i.target.pair:
+    if (mine is None and its is None) or ground in i.target.pair:
         return
     right, wrong = (
         _rates(place, mine, its) for place in ((i.right[0], i.right[1]), (i.given[0], i.given[1]))
@@ -116,7 +117,8 @@ def _by_place(answer: Answer, i: Intermediate, own: Load, loads: Mapping[str, Lo
     yield dict.fromkeys(loads, rho)
 
 
-def _rates(place: Place, mine: Place, its: Place) -> float:
-    """Rate of the second link over that of the first."""
-    below = math.dist(place, its)
-    return math.dist(place, mine) / below if below else 0.0
+def _rates(place: Place, mine: Place | None, its: Place | None) -> float:
+    """Rate of the second link over that of the first; a centre at infinity counts for nothing."""
+    below = math.dist(place, its) if its is not None else 1.0
+    above = math.dist(place, mine) if mine is not None else 1.0
+    return above / below if below else 0.0

@@ -71,11 +71,15 @@ def _arms(answer: Answer, load: Load) -> Iterator[tuple[float, str]]:
 
 
 def _ratios(answer: Answer, load: Load, own: Load) -> Iterator[tuple[float, str]]:
-    """By what the ratio of two links' rates changes where another centre stands for their common one."""
+    """By what the ratio of two links' rates changes where another centre stands for their common one.
+
+    Of a link that only slides, with its own centre at infinity, the ratio is the distance of the common
+    centre from the other one's.
+    """
     case = answer.case
     mine, its = centres_of(answer, own.link), centres_of(answer, load.link)
     common, first, second = its.get(own.link), mine.get(case.ground), its.get(case.ground)
-    if common is None or first is None or second is None or load.link == own.link:
+    if common is None or load.link == own.link or (first is None and second is None):
         return
     right = _quotient(common, first, second)
     for centres, link in ((its, load.link), (mine, own.link)):
@@ -85,9 +89,11 @@ def _ratios(answer: Answer, load: Load, own: Load) -> Iterator[tuple[float, str]
                 yield wrong / right, f"I{pair_name(case, (link, other))}"
 
 
-def _quotient(centre: Place, first: Place, second: Place) -> float | None:
-    below = math.dist(centre, second)
-    return math.dist(centre, first) / below if below else None
+def _quotient(centre: Place, first: Place | None, second: Place | None) -> float | None:
+    """Distance from the first over that from the second; one at infinity counts for nothing."""
+    below = math.dist(centre, second) if second is not None else 1.0
+    above = math.dist(centre, first) if first is not None else 1.0
+    return above / below if below else None
 
 
 def centres_of(answer: Answer, link: str) -> dict[str, Place]:

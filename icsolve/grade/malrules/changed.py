@@ -9,15 +9,21 @@ from typing import Any
 
 from icsolve.answer import Answer
 from icsolve.case import (
+    Belt,
     Case,
+    Contact,
     Corner,
     Direction,
     Force,
     ForceVector,
+    Gears,
+    Joint,
     Load,
     Motion,
     Number,
+    Slide,
     Slope,
+    Slot,
     Torque,
     Toward,
     Weight,
@@ -99,14 +105,37 @@ def _degrees(value: float) -> Number:
 
 def in_radians(case: Case, figure: bool, loads: bool) -> Case | None:
     """The case with its degrees taken for radians, in the figure or in the loads; None where it has none."""
-    angles, forces = case.angles, case.loads
+    angles, forces, joints = case.angles, case.loads, case.joints
     if figure:
         angles = tuple(_fed(angle) for angle in angles)
+        joints = tuple(_fed_joint(joint) for joint in joints)
     if loads:
         forces = tuple(_fed_load(load) for load in forces)
-    if angles == case.angles and forces == case.loads:
+    if (angles, forces, joints) == (case.angles, case.loads, case.joints):
         return None
-    return replace(case, angles=angles, loads=forces)
+    return replace(case, angles=angles, loads=forces, joints=joints)
+
+
+def _fed_joint(joint: Joint) -> Joint:
+    """A guide's direction or a contact's normal; multiples of 90 degrees need no calculator."""
+    if isinstance(joint, Slide | Slot) and joint.guide.angle is not None and joint.guide.angle.value % 90.0:
+        return joint._replace(guide=joint.guide._replace(angle=_as_radians(joint.guide.angle)))
+    if isinstance(joint, Contact) and joint.normal.value % 90.0:
+        return joint._replace(normal=_as_radians(joint.normal))
+    return joint
+
+
+def with_other_meshes(case: Case) -> Iterator[Case]:
+    """The case with one mesh or belt turning its wheels the other way."""
+    for n, joint in enumerate(case.joints):
+        other: Joint | None = None
+        if isinstance(joint, Gears):
+            first, second = joint.teeth
+            other = joint._replace(teeth=(first, _times(second, -1.0)))
+        elif isinstance(joint, Belt):
+            other = joint._replace(crossed=not joint.crossed)
+        if other is not None:
+            yield replace(case, joints=(*case.joints[:n], other, *case.joints[n + 1 :]))
 
 
 def _fed(angle: Direction | Corner) -> Direction | Corner:

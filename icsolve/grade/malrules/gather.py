@@ -15,6 +15,7 @@ from icsolve.grade.malrules.changed import (
     in_radians,
     other_modes,
     with_motion_reversed,
+    with_other_meshes,
     without_friction,
 )
 from icsolve.grade.malrules.loads import load_wrongs
@@ -47,7 +48,17 @@ def wrong_answers(answer: Answer) -> dict[str, list[Wrong]]:
     if len(found) == 1:
         (name,) = found
         found[name].extend(centre_wrongs(answer, name))
+    for name, wrong in _exchanged(answer):
+        found[name].append(wrong)
     return found
+
+
+def _exchanged(answer: Answer) -> Iterator[tuple[str, Wrong]]:
+    """Of several unknowns the value of another one, if both have the same unit."""
+    for name, one in answer.answers.items():
+        for other, two in answer.answers.items():
+            if other != name and one.unit == two.unit:
+                yield name, Wrong("other-unknown", two.value, other)
 
 
 def changed_cases(answer: Answer) -> Iterator[tuple[str, Case]]:
@@ -57,6 +68,8 @@ def changed_cases(answer: Answer) -> Iterator[tuple[str, Case]]:
         changed = in_radians(case, figure, loads)
         if changed is not None:
             yield "deg-rad", changed
+    for changed in with_other_meshes(case):
+        yield "mesh-sense", changed
     for changed in other_modes(case, answer):
         yield "other-mode", changed
     for code, turned in (

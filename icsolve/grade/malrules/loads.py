@@ -6,8 +6,15 @@ import math
 from collections.abc import Iterator
 
 from icsolve.answer import Answer
-from icsolve.case import Load
-from icsolve.grade.malrules.changed import Resolve, known_loads, scaled, turned, with_load
+from icsolve.case import Case, Load
+from icsolve.grade.malrules.changed import (
+    Resolve,
+    known_loads,
+    same_kind,
+    scaled,
+    turned,
+    with_load,
+)
 from icsolve.grade.malrules.messages import Wrong
 
 _NOTHING = 1e-9
@@ -24,6 +31,8 @@ def load_wrongs(answer: Answer, resolve: Resolve) -> Iterator[tuple[str, Wrong]]
         yield from _missed(load, len(loads), base)
         if len(loads) > 1:
             yield from _named("load-sense", resolve(with_load(answer.case, scaled(load, -1.0))), load.name)
+        if len(right) > 1:
+            yield from _upside_down(load, answer.case, right, base)
         quarter = turned(load, answer)
         if quarter is not None:
             yield from _component(load, right, base, resolve(with_load(answer.case, quarter)))
@@ -34,6 +43,21 @@ def _missed(load: Load, count: int, base: dict[str, float]) -> Iterator[tuple[st
     """Without the load; of a single one nothing would be left."""
     if count > 1:
         yield from _named("missed-load", base, load.name)
+
+
+def _upside_down(
+    load: Load, case: Case, right: dict[str, float], base: dict[str, float]
+) -> Iterator[tuple[str, Wrong]]:
+    """The ratio of a load to what it asks of an unknown of its kind, the wrong way round.
+
+    Of a single unknown `icsolve.grade.malrules.centres` makes these, by its links' rates too.
+    """
+    number = getattr(getattr(load, "value", None), "value", 0.0)
+    for own in case.loads:
+        part = right.get(own.name, 0.0) - base.get(own.name, 0.0)
+        if number and part and same_kind(load, own):
+            wrong = right[own.name] + part * ((number / part) ** 2 - 1.0)
+            yield own.name, Wrong("inverse-ratio", wrong, f"{own.name} and {load.name}")
 
 
 def _named(code: str, values: dict[str, float], where: str) -> Iterator[tuple[str, Wrong]]:

@@ -200,7 +200,7 @@ def _ratios(family: Family, rows: Rows, load: Load, own: Load) -> Iterator[tuple
     case: Case = family.case
     mine, its = family.centres_of(rows, own.link), family.centres_of(rows, load.link)
     common, first, second = its.get(own.link), mine.get(case.ground), its.get(case.ground)
-    if common is None or first is None or second is None or load.link == own.link:
+    if common is None or load.link == own.link or (first is None and second is None):
         return
     right = _distances(common, first, second)
     for centres, link in ((its, load.link), (mine, own.link)):
@@ -210,6 +210,13 @@ def _ratios(family: Family, rows: Rows, load: Load, own: Load) -> Iterator[tuple
                 yield _quotient(wrong, right), f"I{pair_name(case, (link, other))}"
 
 
-def _distances(centre: Array, first: Array, second: Array) -> Array:
-    place, a, b = _place(centre), _place(first), _place(second)
-    return _quotient(np.hypot(*(place - a).T), np.hypot(*(place - b).T))
+def _distances(centre: Array, first: Array | None, second: Array | None) -> Array:
+    """Distance from the first over that from the second; one at infinity counts for nothing."""
+    ones = np.ones(len(centre))
+    above, below = (ones if end is None else _apart(centre, end) for end in (first, second))
+    return _quotient(above, below)
+
+
+def _apart(one: Array, two: Array) -> Array:
+    distance: Array = np.hypot(*(_place(one) - _place(two)).T)
+    return distance
