@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 
 import icsolve
@@ -34,3 +35,50 @@ def test_centres_of_one_freedom_stand_where_the_speed_is_zero() -> None:
     moving = icsolve.solve(icsolve.load(FOUR_BAR), all_centres=True)
     assert still.to_dict()["centres"] == moving.to_dict()["centres"]
     assert still.answers == moving.answers
+
+
+PINION = """
+icsolve: 1
+units: {length: mm, force: N}
+points: {A: [0, 0], P: [0, -40], K: [10, -50]}
+lengths: {AF: 25}
+angles: {AF: 0}
+joints:
+  - {pin: [1, 2], at: A}
+  - {roll: [2, 3], at: P, radii: [40, 0]}
+  - {slide: [3, 1], at: K, along: 0}
+loads:
+  W: {weight: 5, link: 2, at: F}
+  F1: {force: unknown, link: 3, at: K, angle: 0}
+"""
+
+
+def test_the_angle_of_a_handle_turns_its_pinion_and_moves_the_rack() -> None:
+    degrees = np.linspace(-400.0, 300.0, 8)
+    sweep = icsolve.sweep(icsolve.load(PINION), vary={"angles.AF": degrees}, want=("answers", "points"))
+    np.testing.assert_allclose(sweep.points["K"][:, 0], 10.0 + 40.0 * np.radians(degrees), rtol=1e-12)
+    np.testing.assert_allclose(sweep.answers["F1"], 5.0 * 25.0 * np.cos(np.radians(degrees)) / 40.0, rtol=1e-9)
+
+
+def test_the_angle_of_a_handle_turns_what_a_crossed_belt_drives() -> None:
+    text = """
+icsolve: 1
+units: {length: mm, force: N}
+points: {A: [0, 0], B: [200, 0], G: [210, 20]}
+lengths: {AF: 25}
+angles: {AF: 30}
+links: {2: [F]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [1, 3], at: B}
+  - {belt: [2, 3], radii: [40, 100], crossed: true}
+loads:
+  W: {weight: 5, link: 3, at: G}
+  T: {torque: unknown, link: 2}
+"""
+    degrees = np.linspace(-400.0, 300.0, 8)
+    sweep = icsolve.sweep(icsolve.load(text), vary={"angles.AF": degrees}, want=("answers", "points"))
+    turned = -0.4 * np.radians(degrees - 30.0)
+    x = 10.0 * np.cos(turned) - 20.0 * np.sin(turned)
+    np.testing.assert_allclose(sweep.points["G"][:, 0], 200.0 + x, rtol=1e-12)
+    np.testing.assert_allclose(sweep.answers["T"], -0.4 * 5.0 * x, rtol=1e-9)

@@ -24,6 +24,7 @@ from icsolve.turn.moving import Motion, order_of, set_moving
 from icsolve.turn.numbers import find_number, numbers_of
 from icsolve.turn.posing import condition, pose_of, turning
 from icsolve.turn.record import Record, varies
+from icsolve.turn.reshaping import turns_a_wheel
 from icsolve.turn.scene import Scene, centre, moved_scene, rates, statics
 
 Signs = tuple[tuple[str, float], ...]
@@ -104,18 +105,20 @@ def wanted_points(case: Case) -> list[str]:
 def _drive(case: Case, top: Topology, figure: Figure, paths: Sequence[str], links: Sequence[str]) -> Drive:
     """What moves, found on a record that is thrown away."""
     scratch = mechanism(case, top, figure.frame, Record(), figure.points)
-    poses = [path for path in paths if _poses(case, figure, path)]
+    poses = [path for path in paths if _poses(case, figure, scratch, path)]
     return drive_of(scratch, poses, links)
 
 
-def _poses(case: Case, figure: Figure, path: str) -> bool:
-    """Whether a number of the figure places a joint, and not only points that links carry besides; numbers
-    that are only compared with the figure may."""
+def _poses(case: Case, figure: Figure, scratch: Mechanism, path: str) -> bool:
+    """Whether a number of the figure places a joint, and not only points that links carry besides (but for
+    those of a wheel, which it turns); numbers that are only compared with the figure may."""
     record = Record()
     record.vary[path] = record.input(path, numbers_of(case)[path].value)
     placed = place(figure, case, record).points
     moved = {name for name, p in placed.items() if any(map(varies, p))}
-    return not moved or any(getattr(joint, "at", None) in moved for joint in case.joints)
+    if not moved or any(getattr(joint, "at", None) in moved for joint in case.joints):
+        return True
+    return turns_a_wheel(scratch, path, moved, numbers_of(case)[path].value)
 
 
 # --- the record -----------------------------------------------------------------------------------

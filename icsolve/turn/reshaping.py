@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 
-from icsolve.case import Case, Slide, Slot
+from icsolve.case import Belt, Case, Gears, Roll, Slide, Slot
 from icsolve.errors import SceneError
 from icsolve.figure import case_point, solve_figure
 from icsolve.figure.frame import normalised
@@ -19,6 +19,8 @@ from icsolve.turn.poses import Still, minus
 SAME = 1e-8
 """Change of a distance that is none, where a coordinate changed by a thousandth (normalised)."""
 
+WHEELS = (Gears, Belt, Roll)
+
 Places = Mapping[str, tuple[float, float]]
 
 
@@ -29,6 +31,20 @@ def only_poses(mechanism: Mechanism, path: str, point: str, written: float) -> b
     """
     if (mechanism.top.ground, point) in mechanism.spots[mechanism.top.ground]:
         return False
+    return _leaves_shapes(mechanism, path, written)
+
+
+def turns_a_wheel(mechanism: Mechanism, path: str, moved: Collection[str], written: float) -> bool:
+    """Whether a number that moves these points turns what carries them: bodies that mesh, roll or bear a
+    belt and so turn others, all of which keep their shapes."""
+    wheels = {b for bond in mechanism.top.bonds if isinstance(bond.joint, WHEELS) for b in (bond.a, bond.b)}
+    carriers = {body for body, spots in mechanism.spots.items() if any(name in moved for _, name in spots)}
+    if not carriers or not carriers <= wheels - {mechanism.top.ground}:
+        return False
+    return _leaves_shapes(mechanism, path, written)
+
+
+def _leaves_shapes(mechanism: Mechanism, path: str, written: float) -> bool:
     if any(isinstance(c, Immovable) for c in mechanism.constraints):
         return False
     step = 2.0**-10 / mechanism.frame.scale
