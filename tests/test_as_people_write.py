@@ -57,7 +57,8 @@ def test_the_angle_of_a_handle_turns_its_pinion_and_moves_the_rack() -> None:
     degrees = np.linspace(-400.0, 300.0, 8)
     sweep = icsolve.sweep(icsolve.load(PINION), vary={"angles.AF": degrees}, want=("answers", "points"))
     np.testing.assert_allclose(sweep.points["K"][:, 0], 10.0 + 40.0 * np.radians(degrees), rtol=1e-12)
-    np.testing.assert_allclose(sweep.answers["F1"], 5.0 * 25.0 * np.cos(np.radians(degrees)) / 40.0, rtol=1e-9)
+    force = 5.0 * 25.0 * np.cos(np.radians(degrees)) / 40.0
+    np.testing.assert_allclose(sweep.answers["F1"], force, rtol=1e-9)
 
 
 def test_the_angle_of_a_handle_turns_what_a_crossed_belt_drives() -> None:
