@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
+import sys
 import time
-from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import click
@@ -134,23 +134,52 @@ def _one(varied: Varied, people: list[Person], folder: str, figures: bool, force
     return code
 
 
-def _figures(varied: Varied, found: Iterable[Task], folder: str, force: bool, quiet: bool) -> None:
-    """A figure for each variant, and a sheet for each student."""
-    from icsolve.grade.files import write_whole
-    from icsolve.grade.variants.sheets import figure, file_name, sheet
+def _figures(varied: Varied, found: list[Task], folder: str, force: bool, quiet: bool) -> None:
+    """A figure for each variant, and a sheet for each student; by two processes where that pays."""
+    from icsolve.grade.files import check_free
+    from icsolve.grade.forked import can_fork, started
+    from icsolve.grade.run import processes
 
     start = time.perf_counter()
-    drawn: dict[str, str] = {}
-    students = 0
-    with click.progressbar(list(found), label="figures", hidden=quiet) as bar:
-        for task in bar:
-            picture = drawn.get(task.draw.label)
-            if picture is None:
-                picture = drawn[task.draw.label] = figure(varied, task.draw)
-                write_whole(os.path.join(folder, "figures", f"{task.draw.label}.svg"), picture, force)
-            name = f"{file_name(task.person.student_id)}.html"
-            write_whole(os.path.join(folder, "sheets", name), sheet(varied, task, picture), force)
-            students += 1
-    if not quiet and drawn:
-        rate = len(drawn) / (time.perf_counter() - start)
-        complain(f"{folder}: {len(drawn)} figures and {students} sheets, {rate:.0f} figures a second")
+    by_label: dict[str, list[Task]] = {}
+    for task in found:
+        by_label.setdefault(task.draw.label, []).append(task)
+        check_free(_sheet_path(folder, task), force)
+    for label in by_label:
+        check_free(_figure_path(folder, label), force)
+    groups = list(by_label.values())
+    others = processes() - 1 if can_fork() and len(groups) >= _WORTH_TWO else 0
+    parts = [groups[n :: others + 1] for n in range(others + 1)]
+    with started([(_draw, (varied, part, folder, force, True)) for part in parts[1:]]) as waiting:
+        _draw(varied, parts[0], folder, force, quiet)
+        waiting()
+    if not quiet and groups:
+        rate = len(groups) / (time.perf_counter() - start)
+        complain(f"{folder}: {len(groups)} figures and {len(found)} sheets, {rate:.0f} figures a second")
+
+
+_WORTH_TWO = 50
+"""Figures from which another process pays."""
+
+
+def _draw(varied: Varied, groups: list[list[Task]], folder: str, force: bool, quiet: bool) -> None:
+    """The figure of each group of students with the same variant, and their sheets."""
+    from icsolve.grade.files import write_whole
+    from icsolve.grade.variants.sheets import figure, sheet
+
+    with click.progressbar(groups, label="figures", hidden=quiet, file=sys.stderr) as bar:
+        for tasks in bar:
+            picture = figure(varied, tasks[0].draw)
+            write_whole(_figure_path(folder, tasks[0].draw.label), picture, force)
+            for task in tasks:
+                write_whole(_sheet_path(folder, task), sheet(varied, task, picture), force)
+
+
+def _figure_path(folder: str, label: str) -> str:
+    return os.path.join(folder, "figures", f"{label}.svg")
+
+
+def _sheet_path(folder: str, task: Task) -> str:
+    from icsolve.grade.variants.sheets import file_name
+
+    return os.path.join(folder, "sheets", f"{file_name(task.person.student_id)}.html")

@@ -6,6 +6,7 @@ import io
 import os
 import sys
 from collections.abc import Callable, Iterable, Iterator
+from itertools import islice
 from typing import IO
 
 from icsolve.grade.ledger import Ledger
@@ -19,16 +20,22 @@ from icsolve.grade.tables.submissions import METADATA, exported
 _LONGEST = 500
 """Characters of an answer that are kept; the reader takes far fewer."""
 _LONGEST_NAME = 200
+_STEP = 10_000
+"""Answers between two reports of progress."""
+Progress = Callable[[str, float], None]
 
 
 class Intake:
     """Takes files in; remembers what questions were asked and who answered."""
 
-    def __init__(self, store: Store, shelf: Shelf, ledger: Ledger, roster: Roster | None) -> None:
+    def __init__(
+        self, store: Store, shelf: Shelf, ledger: Ledger, roster: Roster | None, progress: Progress
+    ) -> None:
         self.store = store
         self.shelf = shelf
         self.ledger = ledger
         self.roster = roster
+        self._progress = progress
         self.questions: dict[str, None] = {}
         self.columns: set[str] = set()
         """questions with a column of their own"""
@@ -60,10 +67,23 @@ class Intake:
                     self.ledger.note(path, 1, note)
                 self.columns |= {self._item(question)[0] for question in layout.questions}
                 entries = self._entries(table, layout)
-            count = self.store.add(entries)
+            count = self.store.add(self._told(entries, file, path))
         self.count += count
         if not count:
             raise HeaderError("there is no answer in it, only a header")
+
+    def _told(self, entries: Iterator[Entry], file: IO[bytes], path: str) -> Iterator[Entry]:
+        """The entries, with a report of how much of the file is read."""
+        try:
+            size = os.fstat(file.fileno()).st_size
+        except OSError:
+            return entries
+        return self._counted(entries, file, path, size or 1)
+
+    def _counted(self, entries: Iterator[Entry], file: IO[bytes], path: str, size: int) -> Iterator[Entry]:
+        while some := list(islice(entries, _STEP)):
+            yield from some
+            self._progress(f"reading {path}", file.tell() / size)
 
     def _entries(self, table: Table, layout: Layout) -> Iterator[Entry]:
         if layout.cells_of is not None:

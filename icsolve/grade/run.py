@@ -82,10 +82,9 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
     roster = read_roster(job.roster, lambda at, why: ledger.note(job.roster, at, why)) if job.roster else None
     store = Store()
     try:
-        intake = Intake(store, shelf, ledger, roster)
+        intake = Intake(store, shelf, ledger, roster, progress)
         paths = expand(job.submissions)
-        for n, (path, student) in enumerate(paths):
-            progress(f"reading {path}", n / len(paths))
+        for path, student in paths:
             intake.read(path, job.course.columns, student or job.student)
         questions = tuple(sorted(set(job.course.questions) or _asked(intake)))
         students = sorted(set(intake.students) | set(_expected(job, roster)))
