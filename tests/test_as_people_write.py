@@ -83,3 +83,27 @@ loads:
     x = 10.0 * np.cos(turned) - 20.0 * np.sin(turned)
     np.testing.assert_allclose(sweep.points["G"][:, 0], 200.0 + x, rtol=1e-12)
     np.testing.assert_allclose(sweep.answers["T"], -0.4 * 5.0 * x, rtol=1e-9)
+
+
+def test_a_roller_in_a_drum_is_solved_where_its_line_of_centres_is_level() -> None:
+    """The planet's turning comes from a rolling contact that moves; a pivot of its equations is zero there."""
+    text = """
+icsolve: 1
+units: {length: mm, force: N}
+points: {O: [0, 0]}
+lengths: {OC: 70, OP: 100, CF: 20}
+angles: {OC: -90, OP: -90, CF: 10}
+joints:
+  - {pin: [1, 4], at: O}
+  - {pin: [4, 3], at: C}
+  - {roll: [3, 1], at: P, radii: [30, -100]}
+loads:
+  W: {weight: 5, link: 3, at: F}
+  T4: {torque: unknown, link: 4}
+"""
+    degrees = np.array([-180.0, -91.0, 0.0, 90.0, 180.0])
+    sweep = icsolve.sweep(icsolve.load(text), vary={"angles.OC": degrees}, want=("answers", "status"))
+    assert list(sweep.status) == ["ok"] * 5
+    turn, angle = np.radians(degrees), np.radians(10.0 - 70.0 / 30.0 * (degrees + 90.0))
+    rise = 70.0 * np.cos(turn) - 70.0 / 30.0 * 20.0 * np.cos(angle)
+    np.testing.assert_allclose(sweep.answers["T4"], 5.0 * rise, rtol=1e-9)
