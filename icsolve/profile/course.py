@@ -177,7 +177,7 @@ class Rows:
         """Move a follower to its cam in every row."""
         work = self._work(follow.frame)
         work.run()
-        first, second = (work.tables().points[name] for name in follow.frame)
+        first, second = (work.values["points", name] for name in follow.frame)
         found: list[tuple[Pose, Way] | None] = []
         for row in range(self.columns.rows):
             found.append(None)
