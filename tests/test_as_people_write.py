@@ -86,7 +86,7 @@ loads:
 
 
 def test_a_roller_in_a_drum_is_solved_where_its_line_of_centres_is_level() -> None:
-    """The planet's turning comes from a rolling contact that moves; a pivot of its equations is zero there."""
+    """A pivot of its equations is zero there, though nothing is singular."""
     text = """
 icsolve: 1
 units: {length: mm, force: N}

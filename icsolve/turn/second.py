@@ -83,7 +83,8 @@ def look_again(look: Look) -> None:
     doubtful = rows[singular | loose | flat]
     for row in doubtful[:MOST_SCENES]:
         _as_scene(look, int(row))
-    left = np.concatenate([doubtful[MOST_SCENES:], rows[loose & ~singular], _adrift(look, rows[singular & ~flat])])
+    open_, drifting = rows[loose & ~singular], _adrift(look, rows[singular & ~flat])
+    left = np.concatenate([doubtful[MOST_SCENES:], open_, drifting])
     _silence(look, left[look.codes[left] == 0], Status.NEAR_SINGULAR)
 
 
