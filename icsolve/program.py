@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from icsolve import motion, power, speeds, verdicts
 from icsolve.arithmetic import FLOATS, Arithmetic
-from icsolve.case import Case
+from icsolve.case import Case, Gears
 from icsolve.figure import Figure, place, solve_figure
 from icsolve.joints import Points
 from icsolve.plan import Plan, make_plan
@@ -56,7 +56,7 @@ class Outcome(NamedTuple):
 def prepare(case: Case, want: Want) -> Program:
     """The program of a case.
 
-    Raises SceneError where a link is loose or the figure can't be constructed.
+    Raises SceneError where a link is loose, the figure can't be constructed, or teeth do not fit.
     """
     top = topology(case)
     verdicts.refuse_loose(case, top)
@@ -67,6 +67,10 @@ def prepare(case: Case, want: Want) -> Program:
     bonds = motion.needed_bonds(plan, top)
     figure = solve_figure(case, None if want.examine else _wanted_points(case, top, bonds, want))
     verdicts.refuse_no_direction(case, top, figure.points)
+    if any(isinstance(joint, Gears) for joint in case.joints):
+        from icsolve.meshing import refuse_misfit
+
+        refuse_misfit(case, top, figure.points, figure.frame.scale)
     return Program(case, want, top, plan, figure)
 
 

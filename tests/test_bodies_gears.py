@@ -176,3 +176,9 @@ def test_friction_of_a_gear_bearing_needs_the_pressure_angle() -> None:
     tangential = -6000 / (wheel + math.copysign(r, -1) / math.cos(math.radians(20)))
     answer = solved(rubbing)
     assert abs(dict(force(answer, "F23").parts)["tangential"]) == exactly(abs(tangential))
+
+
+def test_teeth_that_do_not_fit_are_refused_where_only_the_torque_is_asked_too() -> None:
+    case = icsolve.load("icsolve: 1\n" + pair(2.8))
+    with pytest.raises(icsolve.SceneError, match="do not fit"):
+        icsolve.solve(case)

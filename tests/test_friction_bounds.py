@@ -88,19 +88,22 @@ def true_load(case: icsolve.Case, found: Sliding) -> Any:
     columns = sorted(c for c in exact.values if c != found.statics.known)
     small = mpf(2) ** -80
 
-    def residuals(values: dict[int, Any]) -> list[Any]:
+    def residuals(values: dict[int, Any], but: tuple[int, ...] = ()) -> list[Any]:
         links = [step(found, one, exact._replace(values=values)) for one in picked]
-        return links + [rubbed(found, exact, values, k) for k in range(len(exact.rubs))]
+        rubs = range(len(exact.rubs))
+        return links + [
+            values[found.statics.rub(k)] if k in but else rubbed(found, exact, values, k) for k in rubs
+        ]
 
     values = dict(exact.values)
-    here = residuals(values)
+    here = residuals(values, found.kinks)
     slopes = [
         [float((a - b) / small) for a, b in zip(moved, here, strict=True)]
         for c in columns
-        if (moved := residuals(values | {c: values[c] + small}))
+        if (moved := residuals(values | {c: values[c] + small}, found.kinks))
     ]
     inverse = np.linalg.pinv(np.array(slopes).T, rcond=1e-11)
-    for _ in range(40):
+    for _ in range(100):
         rest = residuals(values)
         if max(map(abs, rest)) <= mpf(10) ** -30 * max(map(abs, values.values())):
             break

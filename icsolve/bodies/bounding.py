@@ -211,7 +211,7 @@ def open_frictions(found: Sliding, outputs: Sequence[Weights], bounds: Sequence[
     places: list[tuple[int, int]] = []
     for k in found.kinks:
         places += [(k, n) for n in range(len(found.statics.rubs[k].normal))]
-    most = dict.fromkeys(found.kinks, 0.0)
+    most = dict.fromkeys(found.kinks, 2.0**-60 * max(map(abs, found.values.values())))
     for _ in range(ROUNDS):
         before = dict(most)
         for k in found.kinks:

@@ -44,7 +44,7 @@ def in_motion(scene: Scene) -> tuple[dict[str, float], Bodies, Certain]:
     Raises SceneError where no value does, where several do without one to prefer, and where the sense
     of a rub is open.
     """
-    ties, workless = _ties(scene), _is_workless(scene)
+    ties, workless = ties_of(scene.position), _is_workless(scene)
     slides: list[Slid] = []
 
     def solve(flanked: Sequence[Tie]) -> Solved:
@@ -74,7 +74,7 @@ def at_rest(scene: Scene) -> tuple[Held, float | None, str]:
             "each: without it each unknown load has a range that depends on the others."
         )
         raise SceneError(Status.MOBILITY, message)
-    ties, workless = _ties(scene), _is_workless(scene)
+    ties, workless = ties_of(scene.position), _is_workless(scene)
     flanks = _flanks(scene, ties, workless)
     statics = _statics(scene, gears.with_flanks(scene.position, ties, flanks))
     senses = senses_of(scene, statics).signs
@@ -94,12 +94,6 @@ def _certain_end(scene: Scene, statics: Statics, end: End) -> Certain:
     return _certain(scene, Solved(statics, {root: end.value}, end.friction), end.senses)
 
 
-def _ties(scene: Scene) -> tuple[Tie, ...]:
-    ties = ties_of(scene.position)
-    gears.refuse_misfit(scene.position.case, ties, scene.position.points, scene.position.scale)
-    return ties
-
-
 def _flanks(scene: Scene, ties: Sequence[Tie], workless: bool) -> Mapping[int, float]:
     """The flanks of the teeth that carry without friction: friction seldom turns them."""
     if not gears.meshes(ties):
@@ -108,8 +102,7 @@ def _flanks(scene: Scene, ties: Sequence[Tie], workless: bool) -> Mapping[int, f
         raise SceneError(
             Status.UNSUPPORTED,
             "the unknown load does no work, so which flanks of the teeth carry is open: put the unknown on a "
-            "link that "
-            "moves, or leave out the friction.",
+            "link that moves, or leave out the friction.",
         )
     return carrying_flanks(scene.position, ties, frictionless(scene.position, scene.balance, ties))
 

@@ -11,12 +11,10 @@ from collections.abc import Mapping, Sequence
 
 from icsolve.arithmetic import FLOATS, Arithmetic
 from icsolve.bodies.ties import Position, Tie
-from icsolve.case import Case, Gears, Pin, Roll
+from icsolve.case import Gears, Pin, Roll
 from icsolve.errors import SceneError, Status
+from icsolve.meshing import MISFIT
 from icsolve.plane import Point
-
-MISFIT = 2e-3
-"""Pivots may miss the distance of the pitch radii by this fraction of it."""
 
 
 def meshes(ties: Sequence[Tie]) -> list[int]:
@@ -103,8 +101,7 @@ def _wheel(position: Position, tie: Tie) -> tuple[str, Point]:
     raise SceneError(
         Status.UNSUPPORTED,
         f"the teeth of links {tie.by} and {tie.on} need the pin of the round one: give `radii`, and the pin "
-        "at "
-        "that distance.",
+        "at that distance.",
     )
 
 
@@ -112,36 +109,3 @@ def _unit(a: Point, b: Point, arithmetic: Arithmetic) -> Point:
     dx, dy = b[0] - a[0], b[1] - a[1]
     length = arithmetic.sqrt(dx * dx + dy * dy)
     return dx / length, dy / length
-
-
-def refuse_misfit(case: Case, ties: Sequence[Tie], points: Mapping[str, Point], scale: float) -> None:
-    """Refuse teeth of a given pitch or module whose pitch circles do not touch on these pivots."""
-    for tie in ties:
-        module = _module(tie)
-        if module is None:
-            continue
-        assert isinstance(tie.joint, Gears)
-        fit = abs(tie.joint.teeth[0].value + tie.joint.teeth[1].value) * module / 2.0
-        apart = math.dist(*(points[p] for p in tie.pivots)) / scale
-        if abs(apart - fit) > MISFIT * fit:
-            raise SceneError(Status.INCONSISTENT, _misfit(case, tie, fit, apart))
-
-
-def _module(tie: Tie) -> float | None:
-    """Pitch diameter per tooth (case lengths), where the case gives it."""
-    if not isinstance(tie.joint, Gears) or not tie.pivots[0]:
-        return None
-    if tie.joint.module is not None:
-        return tie.joint.module.value
-    return None if tie.joint.diametral_pitch is None else 1.0 / tie.joint.diametral_pitch.value
-
-
-def _misfit(case: Case, tie: Tie, fit: float, apart: float) -> str:
-    line, _ = case.marks.get(f"joints.{tie.by}-{tie.on}", (0, 0))
-    where = f" (line {line})" if line else ""
-    unit = case.units.length
-    return (
-        f"the teeth of gears {tie.by} and {tie.on}{where} do not fit: their pitch circles touch where the "
-        f"pivots are {fit:.6g} {unit} apart, and {tie.pivots[0]} and {tie.pivots[1]} are {apart:.6g} {unit} "
-        "apart. Correct the teeth, the pitch or module, or the pivots."
-    )

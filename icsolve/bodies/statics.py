@@ -78,12 +78,11 @@ def free_bodies(
 ) -> Bodies:
     """Equilibrium of every link; ``power`` has the unknown loads as power found them, and their bounds.
 
-    Raises SceneError where the two disagree, and where teeth do not fit their pivots.
+    Raises SceneError where the two disagree.
     """
     if position.mobility and not any(is_unknown(w.load) for w in balance.wrenches):
         refuse_imbalance(position, balance)
     ties = ties_of(position)
-    gears.refuse_misfit(position.case, ties, position.points, position.scale)
     solved = frictionless(position, balance, ties)
     statics, parameters = solved.statics, solved.parameters
     terms = terms_of(position, statics, balance, parameters)
