@@ -143,7 +143,7 @@ def test_differences_of_the_swept_follower_are_its_rates(name: str) -> None:
 
 VALVE = (
     f"{HEAD}points: {{A: [0, 0], D: [-60, 90], V: [-120, unknown]}}\n"
-    "lengths: {AC: 20, DB: 75, DF: 60, FV: 40}\nangles: {AC: 40, BDF: 180}\n"
+    "lengths: {AC: 20, DB: 85, DF: 60, FV: 40}\nangles: {AC: 40, BDF: 180}\n"
     "near: {B: [0, 70], V: [-120, 60]}\n"
     "profile:\n  2: {circle: C, radius: 40}\n  3: {roller: B, radius: 10}\n"
     "joints:\n  - {pin: [1, 2], at: A}\n  - {contact: [2, 3]}\n  - {pin: [3, 1], at: D}\n"
