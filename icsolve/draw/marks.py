@@ -139,7 +139,7 @@ def bounds(marks: Iterable[Mark]) -> Box:
 
 LOW = 0.72
 """Size of a subscript, of the text's."""
-NARROW = frozenset("iljtfrI1.,:;'|!()[]/ -·²°")
+NARROW = frozenset("iljtfrI.,:;'|!()[]/ -·²°")
 WIDE = frozenset("mwMWOQGCDHNU%@—∞")
 
 
