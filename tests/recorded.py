@@ -88,24 +88,24 @@ class InSixtyDigits:
         for _ in range(8):
             self.values = {k: v for k, v in self.values.items() if self.record.nodes[k].op == Op.INPUT}
             self.values.update(zip(group.guesses, guess, strict=True))
-            f = mp.matrix([self._or_float(v) for v in group.residuals])
-            j = mp.matrix([[self._or_float(v) for v in row] for row in group.derivatives])
+            f = mp.matrix([self.or_float(v) for v in group.residuals])
+            j = mp.matrix([[self.or_float(v) for v in row] for row in group.derivatives])
             move = mp.lu_solve(j, f)
             units = (1, 1, RADIAN)
             guess = [g - m / units[n % 3] for n, (g, m) in enumerate(zip(guess, move, strict=True))]
         self.values = {k: v for k, v in self.values.items() if self.record.nodes[k].op == Op.INPUT}
         self.values.update(zip(group.solved, guess, strict=True))
 
-    def _or_float(self, value: Any) -> Any:
+    def or_float(self, value: Any) -> Any:
         return self.of(value.index) if isinstance(value, Traced) else mpf(float(value))
 
 
-def truth(case: Case, sweep: icsolve.Sweep, name: str, row: int) -> Any:
-    """An answer of a row in sixty digits, on the decimals of the case and the doubles that are varied."""
+def truths(sweep: icsolve.Sweep, row: int) -> dict[tuple[str, str], list[Any]]:
+    """All of a row in sixty digits, by kind and name, on the decimals of the case and the doubles varied."""
     work = sweep._case_of.__self__  # type: ignore[union-attr]
     part = next(p for p in work.done if row in p.rows)
     one = part.some(np.flatnonzero(part.rows == row))
     given = {k: float(np.ravel(v)[0]) for k, v in work.parts.given(one)[0].items()}
-    (value,) = part.runner.sheet.outputs["answers", name]
-    exact = InSixtyDigits(part.runner.sheet, given)
-    return exact.of(value.index) if isinstance(value, Traced) else mpf(float(value))
+    sheet = part.runner.sheet
+    exact = InSixtyDigits(sheet, given)
+    return {key: [exact.or_float(value) for value in values] for key, values in sheet.outputs.items()}

@@ -19,6 +19,7 @@ import icsolve
 import mechanisms
 import transcribe
 from growth import random_mechanism
+from icsolve.answer import Answer
 from loading import drawn, sound
 from transcribe import Scene
 from turned import Array, Turned, traced
@@ -26,6 +27,7 @@ from turned import Array, Turned, traced
 MORE = 20 if os.environ.get("ICSOLVE_FULL") == "1" else 1
 SHAPE = 1e-12
 """Of a link's points and guides, in figures of size ten: rounding, with room for links that are far off."""
+FAR = 1e3
 ALL = ("answers", "status", "error", "points", "centres", "rates")
 
 
@@ -42,11 +44,37 @@ def check_rows(turned: Turned, rows: range) -> None:
     for k in rows:
         if sweep.status[k] != "ok":
             continue
-        answer = icsolve.solve(icsolve.load(transcribe.text(turned.row(k))))
+        row = icsolve.load(transcribe.text(turned.row(k)))
+        answer = icsolve.solve(row, rates=True, all_centres=True)
         for name, found in answer.answers.items():
             assert found.error is not None
             room = found.error + sweep.error[name][k]
             assert abs(found.value - sweep.answers[name][k]) <= room, transcribe.text(turned.row(k))
+        check_rates(sweep, k, answer)
+        check_centres(sweep, k, answer)
+
+
+def check_rates(sweep: icsolve.Sweep, k: int, answer: Answer) -> None:
+    """Rates of a row within both bounds."""
+    bounds = answer.errors.get("rates", {})
+    for link, bound in bounds.items():
+        if link in sweep.rates:
+            room = bound + sweep.errors["rates"][link][k]
+            assert abs(answer.rates[link] - sweep.rates[link][k]) <= room, (link, k)
+
+
+def check_centres(sweep: icsolve.Sweep, k: int, answer: Answer) -> None:
+    """Places of centres within both bounds. Not those a hundred figures away: there the guides' directions,
+    which a scene made of the row's points has to round once more, decide."""
+    for (i, j), centre in answer.centres.items():
+        name = f"{i}-{j}"
+        if centre.kind != "at" or centre.error is None or name not in sweep.centres:
+            continue
+        (x, y, w), (ex, ey, ew) = sweep.centres[name][k], sweep.errors["centres"][name][k]
+        for value, own, error in ((x, centre.place[0], ex), (y, centre.place[1], ey)):
+            place = value / w
+            room = centre.error + (error + abs(place) * ew) / (abs(w) - ew)
+            assert abs(place) > FAR or abs(place - own) <= room, (name, k)
 
 
 # --- full turns ------------------------------------------------------------------------------------

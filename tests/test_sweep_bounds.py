@@ -1,4 +1,4 @@
-"""Bounds of a sweep's answers hold against sixty digits on the decimals of the case, row by row.
+"""Bounds of a sweep's answers, points, centres and rates hold against sixty digits on the case's decimals.
 
 The record that the sweep replays is run again in mpmath; groups that Newton's method placed are solved to
 the last digit. Pessimism: at most 100 in the median, as for one scene.
@@ -19,24 +19,30 @@ import transcribe
 from figures import from_lengths
 from growth import random_mechanism
 from loading import drawn
-from recorded import truth
+from recorded import truths
 from test_sweep import STILL, plain
 
 MORE = 20 if os.environ.get("ICSOLVE_FULL") == "1" else 1
 
 
-def pessimism(case: icsolve.Case, sweep: icsolve.Sweep, rows: range) -> list[float]:
-    """Bound over true error of every answer in some rows; a bound below the error fails."""
+ALL = ("answers", "error", "points", "centres", "rates")
+
+
+def pessimism(sweep: icsolve.Sweep, rows: range) -> list[float]:
+    """Bound over true error of every number in some rows; a bound below the error fails."""
     found = []
-    for name in sweep.answers:
-        for row in rows:
-            if sweep.status[row] != "ok":
+    for row in rows:
+        if sweep.status[row] != "ok":
+            continue
+        for (kind, name), exact in truths(sweep, row).items():
+            if name not in sweep.kinds[kind]:
                 continue
-            bound = sweep.error[name][row]
-            error = float(abs(truth(case, sweep, name, row) - sweep.answers[name][row]))
-            assert error <= bound, (name, row)
-            if error > 0.0:
-                found.append(bound / error)
+            values, bounds = (np.atleast_1d(t[kind][name][row]) for t in (sweep.kinds, sweep.errors))
+            for value, bound, true in zip(values, bounds, exact, strict=True):
+                error = float(abs(true - float(value)))
+                assert error <= bound, (kind, name, row)
+                if error > 0.0:
+                    found.append(bound / error)
     return found
 
 
@@ -44,7 +50,7 @@ def bounded(case: icsolve.Case, degrees: np.ndarray, **vary: object) -> icsolve.
     """A sweep with bounds by the first link that can drive; None where none can."""
     for link in [k for k in case.links if k != case.ground]:
         try:
-            return icsolve.sweep(case, want=("answers", "error"), drive={link: degrees})
+            return icsolve.sweep(case, want=ALL, drive={link: degrees})
         except icsolve.SceneError:
             continue
     return None
@@ -53,8 +59,8 @@ def bounded(case: icsolve.Case, degrees: np.ndarray, **vary: object) -> icsolve.
 @full_turns.EVERY
 def test_on_full_turns(name: str, scene: transcribe.Scene, link: str, period: float) -> None:
     case = icsolve.load(transcribe.text(scene))
-    sweep = icsolve.sweep(case, want=("answers", "error"), drive={link: np.linspace(0.3, period, 97)})
-    found = pessimism(case, sweep, range(0, 97, 8))
+    sweep = icsolve.sweep(case, want=ALL, drive={link: np.linspace(0.3, period, 97)})
+    found = pessimism(sweep, range(0, 97, 8))
     assert not found or np.median(found) < 100.0
 
 
@@ -65,11 +71,11 @@ def test_on_random_mechanisms() -> None:
             case = icsolve.load(transcribe.text(drawn(seed, generator)))
             sweep = bounded(case, np.linspace(-7.3, 8.1, 23))
             assert sweep is not None
-            found += pessimism(case, sweep, range(0, 23, 4))
+            found += pessimism(sweep, range(0, 23, 4))
     for seed in range(25 * MORE):
         scene = plain(random_mechanism(Random(seed)), seed)
         sweep = bounded(icsolve.load(transcribe.text(scene)), np.linspace(-2.3, 3.1, 11)) if scene else None
-        found += pessimism(sweep.case, sweep, range(0, 11, 5)) if sweep else []
+        found += pessimism(sweep, range(0, 11, 5)) if sweep else []
     assert len(found) > 150
     assert np.median(found) < 100.0
 
@@ -81,7 +87,7 @@ def test_on_figures_by_lengths() -> None:
         for seed in range(3 * MORE):
             case = icsolve.load(transcribe.text(from_lengths(drawn(seed, generator), Random(seed))))
             sweep = bounded(case, np.linspace(-4.3, 5.1, 9))
-            found += pessimism(case, sweep, range(0, 9, 2)) if sweep else []
+            found += pessimism(sweep, range(0, 9, 2)) if sweep else []
     assert len(found) > 40
     assert np.median(found) < 100.0
 
@@ -101,13 +107,13 @@ loads: {P: {force: 20, link: 4, at: C, angle: 180}, T: {torque: unknown, link: 2
 """
     case = icsolve.load(text)
     values = np.linspace(1.3, 3.7, 25)
-    sweep = icsolve.sweep(case, {"lengths.BC": values}, ("answers", "error"))
+    sweep = icsolve.sweep(case, {"lengths.BC": values}, ALL)
     for k in range(0, 25, 6):
         one = icsolve.solve(icsolve.load(text, settings={"lengths.BC": repr(float(values[k]))}))
         found = one.answers["T"]
         assert found.error is not None
         assert abs(found.value - sweep.answers["T"][k]) <= found.error + sweep.error["T"][k]
-    assert pessimism(case, sweep, range(0, 25, 6))
+    assert pessimism(sweep, range(0, 25, 6))
 
 
 def test_rows_near_a_limit_have_large_bounds_that_hold() -> None:
@@ -122,8 +128,8 @@ loads: {T14: {torque: 10, link: 4}, T12: {torque: unknown, link: 2}}
 """
     case = icsolve.load(text)
     limit = 95.73917047726678
-    sweep = icsolve.sweep(case, {"angles.DC": limit + 10.0 ** -np.arange(0.0, 13.0)}, ("answers", "error"))
-    assert pessimism(case, sweep, range(13))
+    sweep = icsolve.sweep(case, {"angles.DC": limit + 10.0 ** -np.arange(0.0, 13.0)}, ALL)
+    assert pessimism(sweep, range(13))
     ok = sweep.status == "ok"
     assert (np.diff((sweep.error["T12"] / np.abs(sweep.answers["T12"]))[ok][2:]) > 0.0).all()
 

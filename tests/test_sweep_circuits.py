@@ -31,7 +31,7 @@ def test_peaucelliers_cell_draws_its_line_whichever_link_is_turned(link: str) ->
 
 
 def test_power_of_peaucelliers_cell_in_every_row() -> None:
-    """S runs at (L^2 - s^2) / (4 q cos^2(phi / 2)) w8 (the closed form of the case); the torque is 30 times that."""
+    """S runs at (L^2 - s^2) / (4 q cos^2(phi / 2)) w8: the torque is 30 times that."""
     turned = np.arange(0.0, 361.0, 1.0)
     sweep = icsolve.sweep(PEAUCELLIER, drive={"8": turned}, want=("answers", "status"))
     phi = np.radians(60.0 + turned)

@@ -6,7 +6,7 @@ it is in the other rows, or where the answer nearly vanishes. The others are wha
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import NamedTuple
 
@@ -27,6 +27,8 @@ AGREED = 1e-9
 """Conditions that were not needed to place the links are met to this (normalised)."""
 FAINT = 1e-9
 """Below this fraction of its size elsewhere an answer may be zero."""
+BATCH = 8
+"""So many outputs are bounded at once: each takes a few megabytes."""
 STEEP = 2.0
 """A radicand that may vanish between rows is smaller than so many of its steps from row to row."""
 
@@ -83,11 +85,10 @@ class Runner:
         return tuple(name for name, k in sheet.inputs.items() if k in behind)
 
     @cached_property
-    def constants(self) -> dict[str, float]:
-        """Bounds of the answers that are the same in every row."""
-        outputs = self.sheet.outputs
-        same = {key[1]: outputs[key][0] for key, _, _ in self.still if key[0] == "answers"}
-        return {name: noise_of(self.sheet.record, value) for name, value in same.items()}
+    def constants(self) -> list[tuple[Key, int, float]]:
+        """Bounds of the outputs that are the same in every row, by output and part."""
+        outputs, record = self.sheet.outputs, self.sheet.record
+        return [(key, part, noise_of(record, outputs[key][part])) for key, part, _ in self.still]
 
     @cached_property
     def answers(self) -> list[tuple[Key, int]]:
@@ -98,6 +99,15 @@ class Runner:
     def bounds(self) -> Backward:
         """Backward passes from the answers."""
         return self.passes([index for _, index in self.answers])
+
+    def batches(self) -> Iterator[tuple[list[tuple[Key, int]], Backward]]:
+        """Outputs that vary, some at a time, by output and part, and the backward passes from them."""
+        if self.answers:
+            yield [(key, 0) for key, _ in self.answers], self.bounds
+        others = [(key, part, index) for key, part, index in self.moving if key[0] != "answers"]
+        for start in range(0, len(others), BATCH):
+            some = others[start : start + BATCH]
+            yield [(key, part) for key, part, _ in some], self.passes([index for *_, index in some])
 
     @cached_property
     def doubts(self) -> Backward:
@@ -119,12 +129,16 @@ class Runner:
         exact += [k for group in groups for k in (*group.guesses, *group.solved)]
         return Backward(sheet.record, targets, groups, exact)
 
-    def empty(self, rows: int) -> dict[Key, Array]:
-        """Arrays for the outputs; those that are the same in every row are filled."""
-        values = {
+    def blank(self, rows: int) -> dict[Key, Array]:
+        """Arrays for the outputs."""
+        return {
             key: np.empty(rows) if len(parts) == 1 else np.empty((rows, len(parts)))
             for key, parts in self.sheet.outputs.items()
         }
+
+    def empty(self, rows: int) -> dict[Key, Array]:
+        """Arrays for the outputs; those that are the same in every row are filled."""
+        values = self.blank(rows)
         for key, part, value in self.still:
             column(values[key], part)[:] = value
         return values

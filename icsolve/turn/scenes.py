@@ -13,14 +13,16 @@ from icsolve.case import Case
 from icsolve.errors import SceneError
 from icsolve.names import link_order
 from icsolve.solve import solve
+from icsolve.tape import UNIT
 from icsolve.turn.ask import Columns
 from icsolve.turn.numbers import with_numbers
 from icsolve.turn.program import Asked
 from icsolve.turn.replay import Array
 from icsolve.turn.runner import Key, Progress, Rows
 from icsolve.turn.second import CODE, Codes
-from icsolve.turn.swept import Sweep
+from icsolve.turn.swept import Sweep, by_kind
 
+Value = float | tuple[float, ...]
 OTHER = CODE["near-singular"]
 
 
@@ -31,13 +33,20 @@ class Table:
         self.rows, self.asked = rows, asked
         self.codes: Codes = np.zeros(rows, dtype=np.int8)
         self.values: dict[Key, Array] = {}
-        self.errors: dict[str, Array] = {}
+        self.errors: dict[Key, Array] = {}
         self.holds: dict[str, Array] = {}
 
-    def put(self, kind: str, name: str, row: int, value: float | tuple[float, ...]) -> None:
-        """One value."""
+    def put(self, kind: str, name: str, row: int, value: Value, error: Value | None = None) -> None:
+        """One value, and the bound of its error where one is proven."""
         shape = (self.rows,) if isinstance(value, float) else (self.rows, len(value))
-        self.values.setdefault((kind, name), np.full(shape, np.nan))[row] = value
+        self._table(self.values, (kind, name), shape)[row] = value
+        self._table(self.errors, (kind, name), shape)[row] = np.nan if error is None else error
+
+    def _table(self, tables: dict[Key, Array], key: Key, shape: tuple[int, ...]) -> Array:
+        """The array of a kind and name; not a number where nothing was put."""
+        if key not in tables:
+            tables[key] = np.full(shape, np.nan)
+        return tables[key]
 
     def refuse(self, row: int, error: SceneError) -> None:
         """A row without an answer."""
@@ -46,41 +55,32 @@ class Table:
     def take(self, rows: Rows, part: Sweep) -> None:
         """Rows that were swept together."""
         self.codes[rows] = part.codes
-        tables = {
-            "answers": part.answers,
-            "points": part.points,
-            "centres": part.centres,
-            "rates": part.rates,
-        }
-        for kind, arrays in tables.items():
-            for name, array in arrays.items():
-                whole = self.values.setdefault((kind, name), np.full((self.rows, *array.shape[1:]), np.nan))
-                whole[rows] = array
-        for name, array in part.error.items():
-            self.errors.setdefault(name, np.full(self.rows, np.nan))[rows] = array
+        for tables, kinds in ((self.values, part.kinds), (self.errors, part.errors)):
+            for kind, arrays in kinds.items():
+                for name, array in arrays.items():
+                    self._table(tables, (kind, name), (self.rows, *array.shape[1:]))[rows] = array
 
     def fill(self, row: int, answer: Answer) -> None:
         """All that is asked of a solved row."""
         asked, case = self.asked, answer.case
         for name, found in answer.answers.items() if asked.answers else ():
-            self.put("answers", name, row, float(found.value) if found.holds is None else np.nan)
-            self.errors.setdefault(name, np.full(self.rows, np.nan))[row] = (
-                np.nan if found.error is None else found.error
-            )
+            value = float(found.value) if found.holds is None else np.nan
+            self.put("answers", name, row, value, found.error)
             if found.holds is not None:
                 self.codes[row] = CODE["holds"]
                 self.holds.setdefault(name, np.full((self.rows, 2), np.nan))[row] = found.holds
         for name in asked.points:
             if name in answer.points:
                 self.put("points", name, row, answer.points[name])
+        errors = answer.errors.get("rates", {})
         for link, rate in (answer.rates or {}).items() if asked.rates else ():
             if isinstance(rate, float):
-                self.put("rates", link, row, rate)
+                self.put("rates", link, row, rate, errors.get(link, 0.0 if rate == 0.0 else None))
         for pair in asked.centres:
             triple = _triple(answer, pair)
             if triple is not None:
                 first, second = sorted(pair, key=lambda link: link_order(case, link))
-                self.put("centres", f"{first}-{second}", row, triple)
+                self.put("centres", f"{first}-{second}", row, triple, _centre_error(answer, pair))
 
     def sweep(
         self,
@@ -91,21 +91,15 @@ class Table:
         case_of: Callable[[int], Case],
     ) -> Sweep:
         """The table as a sweep."""
-        kinds: dict[str, dict[str, Array]] = {"answers": {}, "points": {}, "centres": {}, "rates": {}}
-        for (kind, name), array in self.values.items():
-            kinds[kind][name] = array
         return Sweep(
             case,
             vary,
-            kinds["answers"],
-            self.errors if error else {},
-            kinds["points"],
-            kinds["centres"],
-            kinds["rates"],
-            self.holds,
-            notes,
-            self.codes,
-            case_of,
+            **by_kind(self.values),
+            errors=by_kind(self.errors) if error else {},
+            holds=self.holds,
+            notes=notes,
+            codes=self.codes,
+            _case_of=case_of,
         )
 
 
@@ -119,6 +113,17 @@ def _triple(answer: Answer, pair: tuple[str, str]) -> tuple[float, float, float]
         angle = np.radians(centre.place[0])
         return (float(np.cos(angle)), float(np.sin(angle)), 0.0)
     return (0.0, 0.0, 0.0)
+
+
+def _centre_error(answer: Answer, pair: tuple[str, str]) -> tuple[float, float, float] | None:
+    """Bounds of the coordinates of `_triple`, of which the weight is exact."""
+    centre = answer.centres[pair]
+    if centre.kind not in ("at", "toward"):
+        return (0.0, 0.0, 0.0)
+    if centre.error is None:
+        return None
+    error = centre.error if centre.kind == "at" else float(np.radians(centre.error)) + UNIT
+    return (error, error, 0.0)
 
 
 def solved(case: Case, asked: Asked) -> Answer:

@@ -22,16 +22,24 @@ PART = 8192
 def columns(sweep: Sweep) -> dict[str, Array]:
     """Every array of numbers of a sweep as columns of its table, by name, (n,) each."""
     table: dict[str, Array] = dict(sweep.vary)
-    table |= sweep.answers
-    table |= {f"error {name}": array for name, array in sweep.error.items()}
-    for name, array in sweep.points.items():
-        table |= {f"{name}.x": array[:, 0], f"{name}.y": array[:, 1]}
-    for name, array in sweep.centres.items():
-        table |= {f"I{name}.{axis}": array[:, k] for k, axis in enumerate("xyw")}
-    table |= {f"w{name}": array for name, array in sweep.rates.items()}
+    for kind, arrays in sweep.kinds.items():
+        bounds = sweep.errors.get(kind, {})
+        for name, array in arrays.items():
+            table |= _parted(kind, name, array)
+            if name in bounds:
+                table |= {f"error {n}": bound for n, bound in _parted(kind, name, bounds[name]).items()}
     for name, array in sweep.holds.items():
         table |= {f"{name} from": array[:, 0], f"{name} to": array[:, 1]}
     return table
+
+
+def _parted(kind: str, name: str, array: Array) -> dict[str, Array]:
+    """The columns of one array."""
+    if kind == "points":
+        return {f"{name}.x": array[:, 0], f"{name}.y": array[:, 1]}
+    if kind == "centres":
+        return {f"I{name}.{axis}": array[:, k] for k, axis in enumerate("xyw")}
+    return {name if kind == "answers" else f"w{name}": array}
 
 
 def as_csv(sweep: Sweep) -> Iterator[bytes]:

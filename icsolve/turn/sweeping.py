@@ -77,14 +77,16 @@ def sweep(
     work = Work(start, columns, wanted.error, progress)
     work.run()
     tables = work.tables()
+    if not wanted.asked.rates:
+        tables = tables._replace(rates={}, errors={**tables.errors, "rates": {}})
     return Sweep(
         start.case,
         _shown(columns),
         tables.answers,
-        tables.error,
         tables.points,
         tables.centres,
-        tables.rates if wanted.asked.rates else {},
+        tables.rates,
+        tables.errors if wanted.error else {},
         notes=tuple(work.notes),
         codes=work.codes,
         _case_of=work.case_of,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -25,6 +25,8 @@ class Sweep:
     answers : unknown loads by name, (n,) [case units]; not a number where the status is another than
         ok, or change-point for a row beyond one that was passed
     error : bounds of the absolute rounding errors of the answers, (n,)
+    errors : the same by kind (``answers``, ``points``, ``centres``, ``rates``) and name, each number's own,
+        in the shape of its array; not a number where none is proven (with friction)
     points : places, (n, 2) [case length]
     centres : relative centres as homogeneous coordinates, (n, 3): (x, y, w) at (x/w, y/w), at infinity
         toward (x, y) where w is zero; all zero where the two links have no relative motion
@@ -36,10 +38,10 @@ class Sweep:
     case: Case
     vary: dict[str, Array]
     answers: dict[str, Array] = field(default_factory=dict)
-    error: dict[str, Array] = field(default_factory=dict)
     points: dict[str, Array] = field(default_factory=dict)
     centres: dict[str, Array] = field(default_factory=dict)
     rates: dict[str, Array] = field(default_factory=dict)
+    errors: dict[str, dict[str, Array]] = field(default_factory=dict)
     holds: dict[str, Array] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     codes: Codes = field(default_factory=lambda: np.empty(0, np.int8))
@@ -66,7 +68,22 @@ class Sweep:
         return self._case_of(row)
 
     @property
+    def error(self) -> dict[str, Array]:
+        """Bounds of the answers."""
+        return self.errors.get("answers", {})
+
+    @property
     def kinds(self) -> dict[str, dict[str, Array]]:
         """The arrays of each kind."""
-        kinds = (("answers", self.answers), ("points", self.points), ("centres", self.centres))
-        return dict((*kinds, ("rates", self.rates)))
+        return dict(zip(KINDS, (self.answers, self.points, self.centres, self.rates), strict=True))
+
+
+KINDS = ("answers", "points", "centres", "rates")
+
+
+def by_kind(arrays: Mapping[tuple[str, str], Array]) -> dict[str, dict[str, Array]]:
+    """Arrays by kind and then by name."""
+    kinds: dict[str, dict[str, Array]] = {kind: {} for kind in KINDS}
+    for (kind, name), array in arrays.items():
+        kinds[kind][name] = array
+    return kinds

@@ -13,9 +13,10 @@ from icsolve.turn.ask import Columns
 from icsolve.turn.parts import Part, Parts
 from icsolve.turn.replay import BLOCK, Array
 from icsolve.turn.rows import RowCases
-from icsolve.turn.runner import Found, Key, Progress
+from icsolve.turn.runner import Found, Key, Progress, column
 from icsolve.turn.second import CODE, Look, look_again
 from icsolve.turn.start import Start
+from icsolve.turn.swept import by_kind
 from icsolve.turn.way import Way
 
 AT = 1e-7
@@ -29,17 +30,13 @@ CHUNK = 16 * BLOCK
 
 
 class Tables(NamedTuple):
-    """Arrays by name, of each kind."""
+    """Arrays by name, of each kind, and the bounds by kind."""
 
     answers: dict[str, Array]
     points: dict[str, Array]
     centres: dict[str, Array]
     rates: dict[str, Array]
-    error: dict[str, Array]
-
-    def of(self, kind: str) -> dict[str, Array]:
-        """The arrays of a kind."""
-        return dict(zip(self._fields, self, strict=True))[kind]
+    errors: dict[str, dict[str, Array]]
 
 
 class Work:
@@ -55,7 +52,7 @@ class Work:
         self.notes: list[str] = [start.note] if start.note else []
         self.codes = np.zeros(columns.rows, dtype=np.int8)
         self.values: dict[Key, Array] = {}
-        self.errors: dict[str, Array] = {}
+        self.errors: dict[Key, Array] = {}
         self.done: list[Part] = []
 
     def run(self) -> None:
@@ -128,24 +125,32 @@ class Work:
         raise IndexError(row)
 
     def _bounds(self, part: Part) -> None:
-        """Bounds of the answers of a part's rows."""
+        """Bounds of all that is found of a part's rows."""
         if not self.error:
             return
-        for name, noise in part.runner.constants.items():
-            self.errors.setdefault(name, np.empty(self.columns.rows))[part.rows] = noise
-        passes, count = part.runner.bounds, len(part.rows)
-        if not passes.targets:
-            return
-        names = [key[1] for key, _ in part.runner.answers]
-        tables = [self.errors.setdefault(name, np.empty(self.columns.rows)) for name in names]
+        self.errors = self.errors or part.runner.blank(self.columns.rows)
+        for key, k, noise in part.runner.constants:
+            column(self.errors[key], k)[part.rows] = noise
         given, _ = self.parts.given(part)
-        for start in range(0, count, passes.rows):
-            here = slice(start, min(start + passes.rows, count))
-            found = passes.run({k: v[here] if v.ndim else v for k, v in given.items()}, here.stop - start)
-            for table, passed in zip(tables, found, strict=True):
-                table[part.rows[here]] = passed.bound
-            if self.bounding is not None:
-                self.bounding(here.stop - start)
+        done = 0
+        for outputs, passes in part.runner.batches():
+            tables = [column(self.errors[key], k) for key, k in outputs]
+            for start in range(0, len(part.rows), passes.rows):
+                here = slice(start, min(start + passes.rows, len(part.rows)))
+                rows = {k: v[here] if v.ndim else v for k, v in given.items()}
+                found = passes.run(rows, here.stop - start)
+                for table, passed in zip(tables, found, strict=True):
+                    table[part.rows[here]] = passed.bound
+                done = self._told(part, done, len(outputs) * (here.stop - start))
+        if not done:
+            self._told(part, 0, len(part.rows))
+
+    def _told(self, part: Part, done: int, more: int) -> int:
+        """Tell of rows whose bounds are found: each takes as many passes as there are outputs."""
+        passes = max(1, len(part.runner.moving))
+        if self.bounding is not None:
+            self.bounding((done + more) // passes - done // passes)
+        return done + more
 
     def _passed(self, part: Part) -> None:
         """Say at which rows change points were passed, and what was not reached."""
@@ -192,17 +197,14 @@ class Work:
         """By kind, the rows that have no value."""
         apart = self.codes == CODE[Status.CANNOT_ASSEMBLE]
         none = (self.codes != 0) & (self.codes != CODE[Status.CHANGE_POINT])
-        return {"answers": none, "error": none, "points": apart, "centres": apart, "rates": apart}
+        return {"answers": none, "points": apart, "centres": apart, "rates": apart}
 
     def tables(self) -> Tables:
-        """The arrays by kind, not a number where a row has no value."""
-        tables = Tables({}, {}, {}, {}, self.errors)
-        for (kind, name), array in self.values.items():
-            array[self.silent[kind]] = np.nan
-            tables.of(kind)[name] = array
-        for array in self.errors.values():
-            array[self.silent["error"]] = np.nan
-        return tables
+        """The arrays and their bounds, not a number where a row has no value."""
+        for table in (self.values, self.errors):
+            for (kind, _), array in table.items():
+                array[self.silent[kind]] = np.nan
+        return Tables(**by_kind(self.values), errors=by_kind(self.errors))
 
 
 def _with_singular(part: Part, found: Found) -> Found:
