@@ -107,3 +107,11 @@ loads:
     turn, angle = np.radians(degrees), np.radians(10.0 - 70.0 / 30.0 * (degrees + 90.0))
     rise = 70.0 * np.cos(turn) - 70.0 / 30.0 * 20.0 * np.cos(angle)
     np.testing.assert_allclose(sweep.answers["T4"], 5.0 * rise, rtol=1e-9)
+
+
+def test_a_slip_of_many_powers_of_ten_is_no_figure() -> None:
+    text = FOUR_BAR.replace("D: [6, 0]", "D: [6e200, 0]")
+    with pytest.raises(icsolve.SceneError) as refused:
+        icsolve.solve(icsolve.load(text))
+    assert refused.value.status == "near-singular" and "point B" in refused.value.message
+    assert icsolve.solve(icsolve.load(FOUR_BAR.replace("D: [6, 0]", "D: [6e20, 0]"))).answers["T12"].value

@@ -11,6 +11,9 @@ from icsolve.errors import SceneError, Status
 SMALLEST_RESOLUTION = 1e-3
 """Coarsest step between neighbouring doubles that still draws a figure, over the figure's size."""
 
+SMALLEST_PART = 1e-80
+"""Smallest distance or length, over the figure's size, whose products with others are numbers still."""
+
 
 class Frame(NamedTuple):
     """Normalised coordinates are (p - o) * scale.
@@ -59,6 +62,7 @@ def frame_of(case: Case) -> Frame:
     rise = max((abs(y.value - oy) for y in ys), default=0.0)
     size = max(reach, rise, max((abs(length.value.value) for length in case.lengths), default=0.0))
     _resolved(case, xs, ys, size)
+    _beside_its_size(case, (ox, oy), size)
     exponent = min(max(math.frexp(size)[1], -1023), 1024) if size > 0.0 else 0
     return Frame(ox, oy, math.ldexp(1.0, -exponent))
 
@@ -85,6 +89,21 @@ def _resolved(case: Case, xs: list[Number], ys: list[Number], size: float) -> No
             "give coordinates from an origin in or near the figure",
         )
     _apart(case)
+
+
+def _beside_its_size(case: Case, origin: tuple[float, float], size: float) -> None:
+    """Refuse a figure with parts so small beside it that products of theirs vanish."""
+    parts = {f"length {length.a}-{length.b}": abs(length.value.value) for length in case.lengths}
+    for name, place in case.points.items():
+        if type(place) is Coordinates and place.x is not None and place.y is not None:
+            parts[f"point {name}"] = max(abs(place.x.value - origin[0]), abs(place.y.value - origin[1]))
+    for name, part in parts.items():
+        if 0.0 < part < SMALLEST_PART * size:
+            raise SceneError(
+                Status.NEAR_SINGULAR,
+                f"the figure's size is {size:.6g}, beside which {name}, with {part:.6g}, cannot be told from "
+                "nothing; look for a slip in the numbers, or leave out what lies so far away",
+            )
 
 
 def _apart(case: Case) -> None:
