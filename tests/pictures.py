@@ -84,6 +84,23 @@ def overlaps(picture: Picture) -> list[str]:
     return found
 
 
+def on_arrows(picture: Picture) -> list[str]:
+    """Labels that cover the head or the line of an arrow."""
+    kinds = ("known", "unknown", "velocity", "reaction")
+    arrows = [shape for kind in kinds for shape in shapes(picture, kind)]
+    return [one.text for one in picture.labels for arrow in arrows if one.box.buffer(-0.8).intersects(arrow)]
+
+
+def shapes(picture: Picture, kind: str) -> Iterable[shapely.Geometry]:
+    """The straight lines of a class, and its heads."""
+    for element in picture.root.iter(f"{SVG}path"):
+        points = list(coordinates(element))
+        if element.get("class") == f"{kind}-head":
+            yield shapely.Polygon(points)
+        elif element.get("class") == kind and "A" not in element.attrib["d"]:
+            yield shapely.LineString(points)
+
+
 def outside(picture: Picture) -> list[str]:
     """Shapes and texts that leave the view."""
     view = picture.view.buffer(0.01)

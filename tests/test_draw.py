@@ -23,7 +23,7 @@ from growth import random_mechanism
 from icsolve.case import Case
 from icsolve.construction import known_of, needed_steps
 from icsolve.draw import Drawing, draw
-from pictures import Picture, outside, overlaps, parsed
+from pictures import Picture, on_arrows, outside, overlaps, parsed, shapes
 
 ROOT = Path(__file__).parent.parent
 LIBRARY = ROOT / "cases"
@@ -60,6 +60,12 @@ def check(picture: Picture) -> None:
 @pytest.mark.parametrize("options", OPTIONS)
 def test_every_case_draws_and_every_label_can_be_read(name: str, options: str) -> None:
     check(drawn(icsolve.load(FILES[name]), **OPTIONS[options]))
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_no_label_stands_on_an_arrow(name: str) -> None:
+    for options in ("plain", "velocities", "free bodies"):
+        assert on_arrows(drawn(icsolve.load(FILES[name]), **OPTIONS[options])) == []
 
 
 @pytest.mark.parametrize("block", range(10))
@@ -203,6 +209,15 @@ def test_velocities_are_square_to_their_radii() -> None:
         v = (x2 - x1, y1 - y2)
         size = (v[0] ** 2 + v[1] ** 2) ** 0.5 * (radius[0] ** 2 + radius[1] ** 2) ** 0.5
         assert abs(v[0] * radius[0] + v[1] * radius[1]) < 1e-3 * size
+
+
+def test_a_load_and_a_velocity_along_one_line_lie_apart() -> None:
+    """Scotch yoke: C goes against F on F's own line."""
+    picture = drawn(icsolve.load(FILES["sliders/scotch_yoke.yaml"]), velocities=True)
+    loads = [line for line in shapes(picture, "unknown") if line.length > 20.0]
+    speeds = [line for line in shapes(picture, "velocity") if line.length > 10.0]
+    assert loads and speeds
+    assert not [1 for load in loads for speed in speeds if load.buffer(1.0).intersects(speed)]
 
 
 def test_free_bodies_show_every_reaction_on_both_links() -> None:

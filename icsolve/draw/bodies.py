@@ -31,6 +31,8 @@ LEAST = 13.0
 BESIDE = 12.0
 """A force that acts farther from its link than this is tied to it by a dashed line."""
 GAP = 26.0
+ROUND = 30.0
+"""Room for labels around a link with its forces."""
 NOTHING = 1e-9
 """A force below this, of the largest, is none."""
 
@@ -134,7 +136,8 @@ def _panel(scene: Scene, link: str, pushes: Sequence[Push], largest: float) -> l
     parts += [_point(p) for p in dict.fromkeys(alone.at.values())]
     parts += [part for n, push in enumerate(pushes) for part in _drawn(scene, push, largest, solid, n)]
     parts += [part._replace(marks=()) for part in point_parts(alone)]
-    window: Box = bounds(together(parts).marks)
+    left, top, right, bottom = bounds(together(parts).marks)
+    window: Box = (left - ROUND, top - ROUND, right + ROUND, bottom + ROUND)
     marks = [_renamed(link, mark) for mark in with_labels(together(parts), window)]
     return [Group(f"body-{link}", "", tuple(marks), f"link {link} by itself")]
 

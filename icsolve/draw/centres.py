@@ -173,7 +173,7 @@ def _far(scene: Scene, spots: Iterable[Spot]) -> Iterable[Part]:
             name = _name(scene.known, spot.centre.pair)
             group = Group(f"centre-{name}", "", marks if group is None else (group,), f"I{name}, {text}")
         runs = (*_names(together), Run(f" {text}" if first.at is None else f", {text}"))
-        label = _label(scene, together, runs, (tail, tip), 5.0)
+        label = _label(scene, together, runs, (along(tip, u, -15.0), tail, tip), 6.0)
         soft = (Soft(shapely.LineString([tail, tip]).buffer(5.0, quad_segs=1), 4.0),)
         yield Part((group,) if group else (), soft, (), (label,))
 

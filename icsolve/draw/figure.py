@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from itertools import combinations
 
 import shapely
 
+from icsolve.case import Pin
 from icsolve.construction import Known, Step
 from icsolve.draw.centres import centre_parts
 from icsolve.draw.frame import belts, frame_parts, joint_parts, point_parts, rims
@@ -18,8 +20,13 @@ from icsolve.draw.profiled import outline_boxes
 from icsolve.draw.scene import Part, Scene, together
 from icsolve.draw.shapes import joined
 from icsolve.draw.velocities import velocity_parts
-from icsolve.draw.view import view_of
+from icsolve.draw.view import HEIGHT, WIDTH, view_of
 from icsolve.draw.wheels import Round, round_things
+
+SHORT, LARGER = 52.0, 1.5
+"""A mechanism with a link that would be shorter is drawn so many times larger at most."""
+TOGETHER = 0.02
+"""Pins that are nearer to each other than this, of the figure's size, count as one."""
 
 
 def scene_of(known: Known, steps: Sequence[Step] = ()) -> Scene:
@@ -32,7 +39,22 @@ def scene_of(known: Known, steps: Sequence[Step] = ()) -> Scene:
     centres = [step.centre.place for step in steps if step.centre.kind == "at"]
     finite = [(x, y) for x, y in centres if math.isfinite(x) and math.isfinite(y)]
     view = view_of(boxes, finite, known.size)
+    larger = min(SHORT / max(_shortest(known) * view.scale, 1e-9), LARGER)
+    if larger > 1.0:
+        view = view_of(boxes, finite, known.size, (larger * WIDTH, larger * HEIGHT))
     return Scene(known, view, {name: view.at(p) for name, p in known.points.items()}, shapes)
+
+
+def _shortest(known: Known) -> float:
+    """The length of the shortest link, from pin to pin; infinite where no link has two."""
+    ends: dict[str, set[str]] = {}
+    for joint in known.case.joints:
+        if isinstance(joint, Pin) and joint.at in known.points:
+            for link in joint.links:
+                ends.setdefault(link, set()).add(joint.at)
+    places = ([known.points[p] for p in sorted(some)] for some in ends.values() if len(some) > 1)
+    spans = (max(math.dist(p, q) for p, q in combinations(some, 2)) for some in places)
+    return min((span for span in spans if span > TOGETHER * known.size), default=math.inf)
 
 
 def _wheel_boxes(shapes: Round) -> list[Box]:
@@ -47,6 +69,7 @@ def figure_marks(scene: Scene, steps: Sequence[Step] = (), *, velocities: bool =
     bodies = [body_of(scene, link) for link in scene.case.links if link != scene.case.ground]
     bodies.sort(key=_depth)
     links = joined([bars(body) for body in bodies]) if bodies else shapely.Polygon()
+    speeds = velocity_parts(scene) if velocities else []
     parts = [
         *wheel_parts(bodies),
         *rims(scene),
@@ -55,11 +78,16 @@ def figure_marks(scene: Scene, steps: Sequence[Step] = (), *, velocities: bool =
         *belts(scene),
         *joint_parts(scene),
         *centre_parts(scene, steps),
-        *load_parts(scene, links),
-        *(velocity_parts(scene) if velocities else ()),
+        *load_parts(scene, _filled(links, speeds)),
+        *speeds,
         *point_parts(scene),
     ]
     return with_labels(together(parts), scene.view.window)
+
+
+def _filled(links: shapely.Geometry, parts: Iterable[Part]) -> shapely.Geometry:
+    """What the arrow of a load had better not cover."""
+    return joined([links, *(soft.geometry for part in parts for soft in part.soft)])
 
 
 def _depth(body: Body) -> tuple[int, float]:

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import shapely
 
 from icsolve.arithmetic import FLOATS, turn_of
-from icsolve.case import Joint, KnownCentre, Slide, Slot
+from icsolve.case import Joint, KnownCentre, Pin, Slide, Slot
 from icsolve.draw.marks import Disc, Group, Mark, Point, Run
 from icsolve.draw.place import Label, Soft
 from icsolve.draw.profiled import outlines
@@ -22,6 +22,8 @@ ROD = 5.0
 """Half the width of a rod on which a block slides."""
 COVER = 1.6
 """What it costs a label to cover a link."""
+OUTLINE = 0.4
+"""What it costs a label to cover a unit of a link's outline."""
 
 
 class Body(NamedTuple):
@@ -48,9 +50,11 @@ def body_of(scene: Scene, link: str) -> Body:
         for w in scene.round.wheels
         if w.link == link and not w.rim
     )
-    parts = [*_frame_of_points(points, rods, levers, wheels)]
+    square = not _pivots(scene, link)
+    parts = [*_frame_of_points(points, rods, levers, wheels, square=square)]
     parts += [bar(ends, 11.0) for ends in levers]
-    parts += [*_cams(scene, link), *_profiles(scene, link), *_edges(scene, link, points)]
+    parts += [*_cams(scene, link), *_profiles(scene, link)]
+    parts += _edges(scene, link, points, square=square)
     dashed = bool(points) and all(isinstance(j, KnownCentre) for j in scene.case.joints if link in j.links)
     if dashed:
         parts = [plate(points, 4.0)] if len(points) != 2 else [bar(points, 0.01)]
@@ -109,6 +113,8 @@ def _frame_of_points(
     rods: list[tuple[Point, Point]],
     levers: list[tuple[Point, Point]],
     wheels: tuple[Disc, ...],
+    *,
+    square: bool,
 ) -> Iterable[shapely.Geometry]:
     """Bars and plates that hold a link's points, rods, slotted levers and wheels together."""
     outside = [p for p in points if not any(math.dist(p, w.centre) <= w.radius + 2.0 for w in wheels)]
@@ -119,13 +125,32 @@ def _frame_of_points(
     for line in lines[1:]:
         held.append(nearest(line, lines[0].centroid.coords[0]))
     for p in held if lines else ():
-        foot = nearest(lines[0], p)
-        if math.dist(p, foot) > 1.0:
-            yield bar([p, foot], ROD if rods else HALF)
+        stem = _stem(lines[0], p, square=square and not rods)
+        if stem:
+            yield bar(stem, ROD if rods else HALF)
     if not lines and len(held) > 1:
         yield plate(held, HALF)
     elif not lines and len(held) == 1 and not wheels:
         yield bar(held, HALF + 2.5)
+
+
+def _pivots(scene: Scene, link: str) -> bool:
+    """Whether a link turns about a pin on the frame."""
+    return any(isinstance(j, Pin) and {link, scene.case.ground} <= set(j.links) for j in scene.joints())
+
+
+def _stem(line: shapely.LineString, p: Point, *, square: bool) -> list[Point]:
+    """From a point to a straight part of its link; ``square``: by a right angle with the part's own line,
+    which goes on so far."""
+    foot = nearest(line, p)
+    if math.dist(p, foot) <= 1.0:
+        return []
+    (ax, ay), (bx, by) = line.coords
+    u = unit(bx - ax, by - ay)
+    corner = along((ax, ay), u, (p[0] - ax) * u[0] + (p[1] - ay) * u[1])
+    if not square or min(math.dist(corner, foot), math.dist(corner, p)) <= 1.0:
+        return [p, foot]
+    return [p, corner, foot]
 
 
 def _stretched(a: Point, b: Point, points: list[Point]) -> list[Point]:
@@ -159,7 +184,7 @@ def _profiles(scene: Scene, link: str) -> Iterable[shapely.Geometry]:
             yield shapely.Polygon([scene.view.at(p) for p in corners])
 
 
-def _edges(scene: Scene, link: str, points: list[Point]) -> Iterable[shapely.Geometry]:
+def _edges(scene: Scene, link: str, points: list[Point], *, square: bool) -> Iterable[shapely.Geometry]:
     """Straight faces of racks and followers, on a stem to the link's nearest point."""
     for edge in scene.round.edges:
         if edge.link != link:
@@ -170,10 +195,11 @@ def _edges(scene: Scene, link: str, points: list[Point]) -> Iterable[shapely.Geo
         face = tilted(along(middle, n, -4.5), (-n[1], n[0]), math.dist(first, last), 9.0)
         yield face
         if points:
-            near = min(points, key=lambda p: math.dist(p, at))
-            foot = nearest(face, near)
-            if math.dist(foot, near) > 1.0:
-                yield bar([near, foot], HALF)
+            back, u = along(at, n, -4.5), (-n[1], n[0])
+            middle = shapely.LineString([along(back, u, -40.0), along(back, u, 40.0)])
+            stem = _stem(middle, min(points, key=lambda p: math.dist(p, at)), square=square)
+            if stem:
+                yield bar(stem, HALF)
 
 
 def _anchors(
@@ -232,6 +258,7 @@ def link_part(scene: Scene, body: Body) -> Part:
     marks += [area(block, "block") for block in body.blocks]
     solids = [shape for shape in (body.shape, *body.blocks) if shape is not None]
     soft = [Soft(shape, 0.3 if body.dashed else COVER) for shape in solids]
+    soft += [Soft(shape.boundary, OUTLINE) for shape in solids]
     group = Group(f"link-{body.link}", "", tuple(marks), f"link {body.link}")
     rim = any(wheel.rim and wheel.link == body.link for wheel in scene.round.wheels)
     number = Label(f"number-{body.link}", (Run(body.link),), "t-link", 12.0, body.anchors, 10.0, badge=True)

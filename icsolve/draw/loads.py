@@ -11,7 +11,7 @@ import shapely
 from icsolve.case import Load, Pin, Spring, Torque, Weight
 from icsolve.construction import Acting, acting_loads
 from icsolve.draw.arrows import arrow, turning
-from icsolve.draw.marks import Group, Mark, Point, Run, Stroke, plain_text
+from icsolve.draw.marks import Area, Group, Mark, Point, Run, Stroke, plain_text
 from icsolve.draw.place import Label, Soft
 from icsolve.draw.scene import Part, Scene
 from icsolve.draw.view import along, unit
@@ -174,4 +174,5 @@ def _with_label(
 ) -> Part:
     runs, name = load_words(acting), acting.load.name
     label = Label(f"label-{name}", runs, f"t-{kind_of(acting)}", 14.0, anchors, gap)
-    return Part((Group(f"load-{name}", "", marks, plain_text(runs)),), soft, (), (label,))
+    heads = tuple(Soft(shapely.Polygon(m.rings[0]).buffer(2.0), 6.0) for m in marks if isinstance(m, Area))
+    return Part((Group(f"load-{name}", "", marks, plain_text(runs)),), (*soft, *heads), (), (label,))

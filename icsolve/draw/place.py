@@ -19,8 +19,13 @@ from icsolve.draw.marks import Box, Disc, Group, Mark, Point, Run, Stroke, Text,
 
 RINGS = ((0.0, 4.0, 9.0), (15.0, 22.0, 30.0), (40.0, 54.0, 70.0), (90.0, 115.0, 145.0))
 """Distances from the anchor's rim that are tried together."""
-COMPASS = np.array([(math.cos(math.pi * k / 8.0), -math.sin(math.pi * k / 8.0)) for k in range(16)])
-PREFERENCE = np.array([0.0 if k in (2, 6, 14, 10) else 0.6 if k % 4 == 0 else 1.0 for k in range(16)])
+ROUND = [(math.cos(math.pi * k / 8.0), -math.sin(math.pi * k / 8.0)) for k in range(16)]
+SQUARE = [(x / max(abs(x), abs(y)), y / max(abs(x), abs(y))) for n, (x, y) in enumerate(ROUND) if n % 4]
+COMPASS = np.array(ROUND + SQUARE)
+"""Directions from an anchor: on an oval around it, and the corners and sides of a rectangle."""
+PREFERENCE = np.array(
+    [0.0 if k in (2, 6, 14, 10) else 0.6 if k % 4 == 0 else 1.0 for k in range(16)] + [1.2] * len(SQUARE)
+)
 CLEAR = 1.5
 """Room around each label."""
 GOOD = 14.0

@@ -85,6 +85,11 @@ _TEXTS: tuple[tuple[str, Ink, str], ...] = (
 )
 
 
+_HALOED = frozenset({"t-point", "t-known", "t-unknown", "t-reaction", "t-centre", "t-velocity"})
+_HALO = ";stroke-width:2.4;stroke-opacity:0.85;stroke-linejoin:round;paint-order:stroke"
+"""Lines that a label crosses stop short of its letters."""
+
+
 def sheet(used: frozenset[str]) -> str:
     """The rules that a picture with these classes needs, light first, then what the dark changes."""
     light = [_FONT, *_rules(used, dark=False)]
@@ -104,7 +109,8 @@ def _rules(used: frozenset[str], *, dark: bool) -> list[str]:
     for name, ink, rest in _TEXTS:
         if name in used:
             style = f"fill:{_hue(ink, dark)}" + (f";{rest}" if rest and not dark else "")
-            rules.append(f".ic .{name}{{{style}}}")
+            halo = f";stroke:{_hue(PAPER, dark)}" if name in _HALOED else ""
+            rules.append(f".ic .{name}{{{style}{halo}{_HALO if halo and not dark else ''}}}")
     return rules
 
 
