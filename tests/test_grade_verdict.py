@@ -57,7 +57,9 @@ def test_a_missing_unit_is_assumed_required_or_ignored_as_the_course_says(a_clas
 
 
 def test_capitals_of_a_unit_are_overlooked_or_refused(a_class: Class) -> None:
-    assert a_class.verdicts("0.2 KNm") == ["right"]
+    (row,) = a_class.judge("0.2 KNm")
+    assert (row["verdict"], row["code"], row["score"]) == ("right", "unit-case", "1")
+    assert row["feedback"].endswith("Mind the capitals of its unit.")
     a_class.course("unit_case: refuse\n")
     (row,) = a_class.judge("0.2 KNm")
     assert (row["verdict"], row["code"]) == ("wrong", "unit-case")

@@ -42,10 +42,10 @@ _ALL_PARTS = (True, True, True)
 
 def judge(key: Key, written: Written) -> Judgement:
     """The verdict on an answer to a question that is one number."""
-    number, unit, way, _, flag, _ = written
+    number, unit, way, _, flag, note = written
     if flag:
         return _unjudged(flag)
-    if key.plain:
+    if key.plain and not note:
         factor, sign = key.factor(unit), key.sign(way)
         if factor and sign:
             value = number * factor * sign
@@ -141,7 +141,7 @@ def _right(key: Key, written: Written, value: float, off: float | None) -> Judge
         mistakes = (Wrong("figures", value),)
         share = share_of(key, (False, True, True), mistakes)
         return Judgement(WRONG, share, (False, True, True), value, off, "figures", mistakes)
-    return Judgement(RIGHT, 1.0, (True, True, True), value, off)
+    return Judgement(RIGHT, 1.0, _ALL_PARTS, value, off, written.note if written.unit else "")
 
 
 def _seen(
@@ -189,7 +189,8 @@ def _codes(mistakes: tuple[Wrong, ...]) -> str:
 def feedback(key: AnyKey, judged: Judgement, reveal: bool = False) -> str:
     """What the student is told; never the answer, unless it is right or the course reveals it."""
     if judged.verdict == RIGHT:
-        return f"Right: {key.accepted} is accepted."
+        noted = " Mind the capitals of its unit." if judged.code else ""
+        return f"Right: {key.accepted} is accepted.{noted}"
     band = f" Accepted is {key.accepted}." if reveal else f" Accepted is an answer {key.rule}."
     if judged.mistakes:
         said = " Or: ".join(message(m.code, m.where) for m in judged.mistakes)
