@@ -367,6 +367,24 @@ def test_a_closed_pipe_is_quiet(icsolve: Shell) -> None:
     assert process.wait() == 141
 
 
+@pytest.mark.parametrize("call", ["lever.yaml", "lever.yaml --json", "check lever.yaml"])
+def test_results_that_a_closed_output_does_not_take_are_no_success(icsolve: Shell, call: str) -> None:
+    ran = _closed(*call.split())
+    assert ran.returncode == 2
+    assert ran.stderr == b"icsolve: standard output is closed: the results can't be written\n"
+
+
+def test_a_closed_output_that_nothing_needs_is_no_fault(icsolve: Shell) -> None:
+    assert _closed("new", "slider-crank", "-o", "pump.yaml").returncode == 0
+    assert Path("pump.yaml").exists()
+
+
+def _closed(*call: str) -> subprocess.CompletedProcess[bytes]:
+    """A call with its standard output closed."""
+    shell = ["sh", "-c", 'exec "$@" >&-', "sh", sys.executable, "-m", "icsolve", *call]
+    return subprocess.run(shell, env={**os.environ, "PYTHONPATH": ROOT}, stderr=subprocess.PIPE, check=False)
+
+
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no /dev/full")
 @pytest.mark.parametrize(("stream", "path"), [("stdout", "lever.yaml"), ("stderr", "missing.yaml")])
 def test_a_full_disk_is_said_where_it_still_can_be(icsolve: Shell, stream: str, path: str) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import subprocess
 import sys
@@ -43,6 +44,7 @@ from icsolve.case import (
 )
 from icsolve.errors import CaseError
 from icsolve.read import document, load, read_file, read_text
+from icsolve.solve import solve
 
 
 @pytest.fixture(scope="module")
@@ -129,6 +131,23 @@ def test_a_torque_of_other_words_in_case_units() -> None:
     assert case.loads[1].value.value == 60.0  # type: ignore[union-attr]
 
 
+def test_a_torque_as_power_over_speed() -> None:
+    """1 hp is 33000 ft*lbf/min, and a revolution 2 pi."""
+    case = load(FOUR_BAR.replace("torque: unknown", "torque: 2 hp/rpm").replace("w4/w2", "T12"))
+    found = case.loads[1].value.value  # type: ignore[union-attr]
+    assert found == pytest.approx(2 * 33000 * 12 / (2 * math.pi), rel=1e-15)
+
+
+def test_a_torsion_spring_s_stiffness_is_no_torque() -> None:
+    with pytest.raises(CaseError, match=r"'N\*m/rad' is no unit of a torque"):
+        load(FOUR_BAR.replace("torque: unknown", "torque: 2 N*m/rad"))
+
+
+def test_a_power_in_place_of_a_torque_is_told_its_form() -> None:
+    with pytest.raises(CaseError, match="write 'power' and 'speed' in place of 'torque'"):
+        load(FOUR_BAR.replace("torque: unknown", "torque: 2 kW"))
+
+
 def test_force_and_length_of_the_case_per_newton_and_metre() -> None:
     units = load(FOUR_BAR).units
     assert units.force_per_newton == float(Fraction(10**13, 44482216152605))
@@ -205,6 +224,32 @@ def test_a_centroid_a_slot_by_two_points_and_gravity(slot: Case) -> None:
     assert (joint.guide.ends, joint.guide.through, joint.guide.angle) == (("O4", "C"), "C", None)
     assert slot.gravity.value == 32.174 * 3048 / 10000
     assert slot.reconstructed == "the figure is lost"
+
+
+MIDDLE = """
+icsolve: 1
+points: {A: [0, 0], D: [4, 0], M: {centroid: [A, C]}}
+lengths: {AB: 1, AM: 2, DM: 2.5}
+angles: {AB: 60}
+near: {M: [2, 2]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {pin: [4, 1], at: D}
+"""
+
+
+def test_a_point_that_a_placed_centroid_gives() -> None:
+    """C is twice M less A: a centroid that lengths place says where the last of its points is."""
+    points = solve(load(MIDDLE)).points
+    assert points["C"] == pytest.approx((2 * points["M"][0], 2 * points["M"][1]))
+    assert math.dist((0, 0), points["M"]) == pytest.approx(2.0)
+
+
+def test_a_point_of_a_centroid_that_nothing_places_is_told_its_remedy() -> None:
+    with pytest.raises(CaseError, match="M is the centroid of A and C: give C, or M by lengths"):
+        load(MIDDLE.replace("AM: 2, DM: 2.5", "BD: 3").replace("near: {M: [2, 2]}", ""))
 
 
 def test_gears_and_belts(gears: Case) -> None:
@@ -395,8 +440,9 @@ UNSETTABLE = {
     "angles.XY": "the case has no XY under 'angles'",
     "lengths.AX": "the case has no AX",
     "points.Q.x": "the case has no Q",
-    "points.A": "points.D.x",
-    "points.A.z": "points.D.x",
+    "points.A": "points.A.x or points.A.y",
+    "points.A.z": "points.A.x",
+    "near.C": "near.C.x or near.C.y",
     "joints.X.mu": "no joint stands at X",
     "joints.A": "joints.B.mu",
     "joints.A.at.x": "joints.B.mu",

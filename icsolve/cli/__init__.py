@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import errno
 import gc
+import io
 import os
 import sys
 from contextlib import suppress
@@ -23,8 +25,7 @@ def main(arguments: list[str] | None = None) -> NoReturn:
     _plain_streams()
     try:
         code = _run(arguments)
-        if sys.stdout is not None:
-            sys.stdout.flush()
+        sys.stdout.flush()
     except BrokenPipeError:
         _silence_stdout()
         code = CLOSED_PIPE
@@ -76,11 +77,26 @@ def _run(arguments: list[str] | None) -> int:
 
 
 def _plain_streams() -> None:
-    """The same bytes on every system: UTF-8, newline as it is, and no name that can't be printed."""
+    """The same bytes on every system: UTF-8, newline as it is, and no name that can't be printed.
+
+    A standard output that is closed takes nothing: results that would go there are a failure, not a success.
+    """
+    if sys.stdout is None:
+        sys.stdout = io.TextIOWrapper(io.BufferedWriter(_Closed()))
     for stream in (sys.stdout, sys.stderr):
         reconfigure = getattr(stream, "reconfigure", None)
         if reconfigure is not None:
             reconfigure(encoding="utf-8", errors="backslashreplace", newline="\n")
+
+
+class _Closed(io.RawIOBase):
+    """Where results went if standard output was closed."""
+
+    def writable(self) -> bool:
+        return True
+
+    def write(self, data: object) -> int:
+        raise OSError(errno.EBADF, "standard output is closed: the results can't be written")
 
 
 def _cannot_write(error: OSError) -> int:

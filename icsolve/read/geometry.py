@@ -64,6 +64,7 @@ def centroid_of(reading: Reading, name: str, node: Mapping) -> Centroid | None:
     if len(of) < 2 or len(set(of)) < len(of) or name in of:
         reading.refuse(value.mark, f"the centroid of {name} is that of two or more other points")
         return None
+    reading.centroids[name] = of
     return Centroid(of)
 
 
@@ -105,6 +106,7 @@ def _keyed(
             reading.given.update(name for name in known if name in key)  # no second message about them
             continue
         reading.given.update(names)
+        reading.measured.update(names)
         same = tuple(sorted(names)) if what == "lengths" else names
         if same in first:
             line, column = section.keys[first[same]]
@@ -151,13 +153,25 @@ def read_carried(reading: Reading, section: Mapping) -> dict[str, tuple[str, ...
 
 def check_given(reading: Reading) -> None:
     """Every point that is needed must be given by something."""
-    guided = {name for name, times in Counter(reading.on_guides).items() if times > 1}
-    given = reading.given | guided
+    given = reading.given | {name for name, times in Counter(reading.on_guides).items() if times > 1}
+    given |= _given_backwards(reading)
     for name, mark in reading.used.items():
         if name not in given and not name.startswith("@"):
-            reading.refuse(mark, _never_given(name, given))
+            reading.refuse(mark, _never_given(reading, name, given))
 
 
-def _never_given(name: str, given: set[str]) -> str:
+def _given_backwards(reading: Reading) -> set[str]:
+    """Points of which a centroid is placed by something else: it then says where they are."""
+    placed = reading.measured | set(reading.on_guides)
+    return {one for name, of in reading.centroids.items() if name in placed for one in of}
+
+
+def _never_given(reading: Reading, name: str, given: set[str]) -> str:
     likely = suggestion(name, sorted(given)) if len(name) > 1 else ""
-    return f"point {name} is named here, but nothing gives it: no coordinates, length, angle or guide{likely}"
+    said = f"point {name} is named here, but nothing gives it: no coordinates, length, angle or guide{likely}"
+    of = next((point for point, others in reading.centroids.items() if name in others), None)
+    if of is None:
+        return said
+    from icsolve.sentences import listed
+
+    return f"{said}; {of} is the centroid of {listed(reading.centroids[of])}: give {name}, or {of} by lengths"

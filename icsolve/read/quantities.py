@@ -15,6 +15,7 @@ from icsolve.units import (
     canonical,
     converted,
     factor,
+    is_through_speed,
     kind_of,
     parse_unit,
     split_quantity,
@@ -79,7 +80,7 @@ def _fitting(reading: Reading, text: str, dimension: str) -> Unit:
     if text[0] in "_'’" and text[1:2].isdigit():
         raise UnitError("write the digits of a number without separators")
     unit = parse_unit(text)
-    if unit.dims != DIMENSIONS[dimension]:
+    if unit.dims != DIMENSIONS[dimension] and not is_through_speed(unit, text, dimension):
         raise UnitError(_wrong(reading, text, unit, dimension))
     return unit
 
@@ -94,6 +95,8 @@ def _wrong(reading: Reading, text: str, unit: Unit, dimension: str) -> str:
         return f"{wanted}; write 'lbm' for a mass in pounds, or 'weight' in place of 'mass' for a force"
     if dimension == "force" and given == "mass":
         return f"{wanted}; for a weight given by its mass write 'mass' in place of the force"
+    if dimension == "torque" and given == "power":
+        return f"{wanted}; for a power at a speed write 'power' and 'speed' in place of 'torque'"
     return wanted
 
 

@@ -24,7 +24,8 @@ class Reading:
 
     ``links`` are the links of the joints, in order of first mention, None where the joints can't be
     read at all; ``used`` the points that something needs, each with the place of its first use;
-    ``given`` the points that coordinates, lengths, angles or guides involve; ``hidden`` the points
+    ``given`` the points that coordinates, lengths, angles or guides involve (``measured``: lengths and
+    angles, ``on_guides``: each guide), ``centroids`` those of others by their point; ``hidden`` the points
     that a load or centre gives by coordinates; ``kinds`` the kind of each load by its name. ``axes`` are
     those along which a force has components, ``couples`` those about which a couple has. ``profiled`` are the
     links under ``profile``, ``touches`` the contacts whose places the profiles give.
@@ -41,7 +42,9 @@ class Reading:
         self.links: dict[str, Mark] | None = None
         self.used: dict[str, Mark] = {}
         self.given: set[str] = set()
+        self.measured: set[str] = set()
         self.on_guides: list[str] = []
+        self.centroids: dict[str, tuple[str, ...]] = {}
         self.hidden: dict[str, Coordinates] = {}
         self.kinds: dict[str, str] = {}
         self.joint_number = 0

@@ -65,9 +65,9 @@ def _of_named(section: Mapping, name: str, steps: list[str], text: str) -> str:
         return _missing(section, name, steps[0])
     node = section.items[key]
     if name in ("points", "near"):
-        return _axis(node, steps[1:], text)
+        return _axis(node, steps[1:], text, f"{name}.{key}")
     if name == "loads":
-        return _of_load(node, steps[1:], text)
+        return _of_load(node, steps[1:], text, f"{name}.{key}")
     return _put(section, key, text) if len(steps) == 1 else _FORM
 
 
@@ -95,18 +95,18 @@ def _same(section: Mapping, parts: tuple[str, ...]) -> str | None:
     return next((key for key in section.items if _parts(key) == parts), None)
 
 
-def _axis(node: Node, steps: list[str], text: str) -> str:
+def _axis(node: Node, steps: list[str], text: str, path: str) -> str:
     if type(node) is not Sequence or len(node.items) not in (2, 3):
         return "it is not given by its coordinates"
     axes = "xyz"[: len(node.items)]
     if len(steps) != 1 or steps[0] not in tuple(axes):
-        return f"a coordinate is set as {' or '.join(f'points.D.{axis}' for axis in axes)}"
+        return f"a coordinate is set as {' or '.join(f'{path}.{axis}' for axis in axes)}"
     index = axes.index(steps[0])
     node.items[index] = Scalar(text, True, node.items[index].mark)
     return ""
 
 
-def _of_load(node: Node, steps: list[str], text: str) -> str:
+def _of_load(node: Node, steps: list[str], text: str, path: str) -> str:
     if type(node) is not Mapping:
         return "the load is not a mapping"
     kind = next((key for key in KEYS if key in node.items), None)
@@ -116,9 +116,9 @@ def _of_load(node: Node, steps: list[str], text: str) -> str:
     if not steps:
         return _put(node, kind, text)
     if type(value) is Sequence and steps in (["x"], ["y"], ["z"]):
-        return _axis(value, steps, text)
+        return _axis(value, steps, text, path)
     if steps[0] in ("at", "slope", "to", "along") and steps[0] in node.items and len(steps) == 2:
-        return _axis(node.items[steps[0]], steps[1:], text)
+        return _axis(node.items[steps[0]], steps[1:], text, f"{path}.{steps[0]}")
     return _put(node, steps[0], text) if len(steps) == 1 and steps[0] not in KEYS else _FORM
 
 
