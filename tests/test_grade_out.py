@@ -220,12 +220,16 @@ def test_prairielearn_results_and_scores(a_class: Class) -> None:
 
 def test_the_prairielearn_question_grades_by_itself(a_class: Class, monkeypatch: pytest.MonkeyPatch) -> None:
     a_class.case("press", PRESS)
+    a_class.course("cases: {press: {tolerance: 5%}}\n")
     folder = a_class.path("elements")
     assert a_class.run("export", "prairielearn", str(a_class.path("cases")), "-o", str(folder)).code == 1
     info = json.loads((folder / "press" / "info.json").read_text())
     assert {"uuid", "title", "topic", "type"} <= set(info)
     assert re.fullmatch(r"[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}", info["uuid"])
-    assert (folder / "press" / "clientFilesQuestion" / "figure.svg").read_text().startswith("<svg")
+    assert (folder / "lever" / "clientFilesQuestion" / "figure.svg").read_text().startswith("<svg")
+    assert (folder / "press" / "course.yaml").exists()
+    html = (folder / "press" / "question.html").read_text()
+    assert '<pl-figure file-name="figure.svg" type="dynamic">' in html
     scope: dict[str, Any] = {"__file__": str(folder / "press" / "server.py")}
     exec((folder / "press" / "server.py").read_text(), scope)
     data: dict[str, Any] = {"variant_seed": "77", "params": {}, "correct_answers": {}}
@@ -237,6 +241,10 @@ def test_the_prairielearn_question_grades_by_itself(a_class: Class, monkeypatch:
     scope["grade"](data)
     assert (data["score"], data["format_errors"]) == (1.0, {})
     value = float(data["correct_answers"]["answer"].split()[0])
+    data["submitted_answers"]["answer"] = f"{1.04 * value}"
+    scope["grade"](data)
+    assert data["score"] == 1.0
+    assert data["params"]["P"] in scope["file"]({**data, "filename": "figure.svg"})
     data["submitted_answers"]["answer"] = f"{-value}"
     scope["grade"](data)
     assert data["partial_scores"]["answer"]["score"] == 0.0

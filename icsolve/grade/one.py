@@ -9,7 +9,7 @@ from icsolve.grade.course import Course
 from icsolve.grade.judge import feedback, judge
 from icsolve.grade.judge_place import judge_place
 from icsolve.grade.keys import AnyKey, Key
-from icsolve.grade.out.wording import asked, given
+from icsolve.grade.out.wording import asked, figure, given
 from icsolve.grade.results import number
 from icsolve.grade.shelf import Shelf, case_name
 from icsolve.grade.written import Reader
@@ -27,7 +27,12 @@ class Task:
         self._solved = self._shelf.solved(self._name, student)
         varied = self._shelf.variation(self._name)
         self.values: dict[str, str] = dict(varied.draw(student).values) if varied is not None else {}
-        self.given = given(varied.read(self.values) if varied is not None else self._solved.case)
+        self._case = varied.read(self.values) if varied is not None else self._solved.case
+        self.given = given(self._case)
+
+    def figure(self) -> str:
+        """The figure without its answer, as SVG."""
+        return figure(self._case)
 
     def asked(self, what: str = "") -> str:
         """The sentence that asks for ``w4/w2``, or for the unknown ('')."""

@@ -42,6 +42,7 @@ class Shelf:
     def find(self, text: str) -> str | None:
         """The question that a text names, by the name of its case's file and what is asked of it."""
         case, colon, what = text.strip().partition(":")
+        case = case.removesuffix(".yaml").removesuffix(".yml")
         name = case.strip() if case.strip() in self.paths else self._lower.get(case.strip().lower())
         if name is None:
             return None

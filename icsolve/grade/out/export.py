@@ -10,10 +10,10 @@ from icsolve.case import Case
 from icsolve.grade.course import Course
 from icsolve.grade.files import write_whole
 from icsolve.grade.keys import Key, NoKeyError
-from icsolve.grade.out.element import element
+from icsolve.grade.out.element import Made, element
 from icsolve.grade.out.gradescope import Source, autograder_zip
 from icsolve.grade.out.questions import Question, gift, moodle_xml
-from icsolve.grade.out.wording import asked, given
+from icsolve.grade.out.wording import asked, figure, given
 from icsolve.grade.questions import unknowns
 from icsolve.grade.shelf import Shelf
 from icsolve.grade.solved import Solved
@@ -64,14 +64,6 @@ def _of_case(solved: Solved, case: Case, name: str, figures: bool) -> Iterator[Q
         yield Question(shown, tuple(given(case)), text, key, picture, case.title)
 
 
-def figure(case: Case) -> str:
-    """The case drawn without its answer, as SVG."""
-    from icsolve.construction import known_of
-    from icsolve.draw import Drawing, draw
-
-    return draw(case, Drawing(centres="none"), known_of(case)._replace(answer=None))
-
-
 def export(kind: str, order: Order, complain: Complain) -> int:
     """Write all cases as ``kind``; how many questions there are.
 
@@ -90,10 +82,13 @@ def export(kind: str, order: Order, complain: Complain) -> int:
 def _elements(order: Order, complain: Complain) -> int:
     """A folder a question."""
     found = list(questions(order, complain))
+    course = _text(order.course) if order.course else ""
     for question in found:
         case, _, what = question.key.question.partition(":")
         folder = os.path.join(order.path, question.key.question.replace(":", "-"))
-        for name, text in element(question, order.shelf.text(case), what).items():
+        varied = order.shelf.variation(case) is not None
+        made = Made(case, order.shelf.text(case), what, course, varied)
+        for name, text in element(question, made).items():
             write_whole(os.path.join(folder, name), text, order.force)
     return len(found)
 

@@ -23,6 +23,14 @@ from icsolve.case import (
 from icsolve.grade.keys import Key, PlaceKey
 
 
+def figure(case: Case) -> str:
+    """The case drawn without its answer, as SVG."""
+    from icsolve.construction import known_of
+    from icsolve.draw import Drawing, draw
+
+    return draw(case, Drawing(centres="none"), known_of(case)._replace(answer=None))
+
+
 def asked(key: Key | PlaceKey, target: Target) -> str:
     """The question's sentence: what to find, in which unit, with which sign."""
     what = key.question.partition(":")[2]

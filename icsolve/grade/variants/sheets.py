@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from icsolve.grade.keys import AnyKey, Key, NoKeyError
 from icsolve.grade.out.wording import asked, given
+from icsolve.grade.out.wording import figure as drawn
 from icsolve.grade.people import Person
 from icsolve.grade.questions import unknowns
 from icsolve.grade.results import safe
@@ -80,12 +81,7 @@ def sense(varied: Varied, draw: Draw, key: Key) -> str:
 
 def figure(varied: Varied, draw: Draw) -> str:
     """The variant drawn without its answer, as SVG."""
-    from icsolve.construction import known_of
-    from icsolve.draw import Drawing
-    from icsolve.draw import draw as drawn
-
-    case = varied.read(draw.values)
-    return drawn(case, Drawing(centres="none"), known_of(case)._replace(answer=None))
+    return drawn(varied.read(draw.values))
 
 
 def sheet(varied: Varied, task: Task, picture: str) -> str:
