@@ -1,0 +1,408 @@
+"""Pages: what they are made of, that their numbers are those of `solve`, and what no text in a case can do.
+
+`test_page_browser.py` drives them in a real browser.
+"""
+
+from __future__ import annotations
+
+import base64
+import hashlib
+import json
+import math
+import os
+import re
+import subprocess
+import sys
+from collections import Counter
+from functools import cache
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import icsolve
+from icsolve.cli import main
+from icsolve.construction import known_of, needed_steps
+from icsolve.page import page_html
+from icsolve.page.motion import Motion, motion_of
+from icsolve.verdicts import rubs
+
+ROOT = Path(__file__).parent.parent
+LIBRARY = ROOT / "cases"
+FILES = {path.relative_to(LIBRARY).as_posix(): path for path in sorted(LIBRARY.rglob("*.yaml"))}
+LARGEST = 300_000
+STILL = {
+    "black_box/given_centres.yaml": "A given centre holds in the position as written only",
+    "cams/flat_follower.yaml": "cannot be moved: its profile is not known",
+    "ch13/13_22_robot_arm.yaml": "This case is in space",
+    "gears/differential_train.yaml": "more freedoms than numbers that move it",
+    "sliders/wedge.yaml": "No link turns about the frame",
+}
+SLIDER = "ch13/13_07_slider_crank.yaml"
+VOID = {"meta", "input", "br"}
+
+
+class Reader(HTMLParser):
+    """The tags of a page: whether they nest, its ids, its attributes, what its scripts and texts say."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.ids: list[str] = []
+        self.attributes: list[tuple[str, str]] = []
+        self.scripts: list[str] = []
+        self.texts: list[str] = []
+        self.tags: Counter[str] = Counter()
+        self.feed(text)
+        self.close()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags[tag] += 1
+        if tag not in VOID:
+            self.open.append(tag)
+        self.note(attrs)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags[tag] += 1
+        self.note(attrs)
+
+    def note(self, attrs: list[tuple[str, str | None]]) -> None:
+        self.attributes += [(name, value or "") for name, value in attrs]
+        self.ids += [value or "" for name, value in attrs if name == "id"]
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        if self.open[-1:] == ["script"]:
+            self.scripts.append(data)
+        elif self.open[-1:] != ["style"]:
+            self.texts.append(data)
+
+
+@cache
+def page_of(name: str) -> str:
+    return page_html(icsolve.load(FILES[name]))
+
+
+def model_of(page: str) -> dict[str, Any]:
+    found = re.search(r'<script type="application/json" id="data">(.*?)</script>', page, re.DOTALL)
+    assert found is not None
+    model: dict[str, Any] = json.loads(found[1])
+    return model
+
+
+def column(packed: dict[str, Any]) -> np.ndarray:
+    """A column as the script reads it."""
+    if "v" in packed:
+        return np.array([math.nan if v is None else v for v in packed["v"]], float)
+    return np.cumsum(packed["d"]) / packed["s"]
+
+
+@cache
+def motion(name: str) -> Motion:
+    known = known_of(icsolve.load(FILES[name]))
+    found = motion_of(known, [step.centre.pair for step in needed_steps(known)])
+    assert found is not None
+    return found
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_every_case_pages(name: str) -> None:
+    """Tags nest, ids stand once, nothing is loaded from anywhere, and it is small."""
+    page = page_of(name)
+    reader = Reader(page)
+    assert len(page.encode()) < LARGEST
+    assert reader.open == []
+    assert [i for i, count in Counter(reader.ids).items() if count > 1] == []
+    assert not {"link", "img", "iframe", "object", "embed", "base", "form"} & set(reader.tags)
+    loading = {"src", "href", "style"}
+    assert not {key for key, _ in reader.attributes if key in loading or key.startswith("on")}
+    assert "http" not in re.sub(r'"http://www\.w3\.org/2000/svg"', "", "".join(reader.scripts[1:]))
+    assert "NaN" not in reader.scripts[0] and "Infinity" not in reader.scripts[0]
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_every_case_moves_or_says_why_not(name: str) -> None:
+    page = page_of(name)
+    moves = "motion" in model_of(page)
+    reason = re.search(r'<p class="hint still">(.*?)</p>', page)
+    assert moves == (reason is None)
+    if name in STILL:
+        assert reason is not None and STILL[name] in reason[1]
+
+
+@pytest.mark.parametrize("name", [name for name in FILES if icsolve.load(FILES[name]).reconstructed])
+def test_what_is_reconstructed_is_said(name: str) -> None:
+    assert icsolve.load(FILES[name]).reconstructed in "".join(Reader(page_of(name)).texts)
+
+
+@pytest.mark.parametrize(
+    "name", ["linkages/four_bar.yaml", "ch13/13_07_slider_crank.yaml", "tools/bolt_cutter.yaml"]
+)
+def test_the_numbers_are_those_of_solve(name: str) -> None:
+    """Each position as a case of its own, solved alone: twelve digits, as many as the page holds (the sweep
+    and the single scene may round differently in the last few of sixteen)."""
+    model, moved = model_of(page_of(name)), motion(name)
+    for answer in model["answers"]:
+        values = column(answer["values"])
+        assert len(values) == model["motion"]["rows"]
+        for row in np.linspace(moved.first, moved.last, 9).astype(int).tolist():
+            if moved.status[row] == "ok":
+                alone = icsolve.solve(moved.found.case_of(row)).answers[answer["name"]]
+                assert values[row - moved.first] == pytest.approx(alone.value, rel=1e-10)
+
+
+def test_the_position_as_written_is_in_every_motion() -> None:
+    """Row zero has the answer of the case, and every place where the case has it."""
+    for name, path in FILES.items():
+        model, case = model_of(page_of(name)), icsolve.load(path)
+        if "motion" not in model:
+            continue
+        own, zero = icsolve.solve(case).answers, model["motion"]["zero"]
+        assert model["motion"]["first"] + zero * model["motion"]["step"] == pytest.approx(0.0, abs=1e-6)
+        for answer in model["answers"]:
+            value = column(answer["values"])[zero]
+            if own[answer["name"]].holds is None:
+                assert value == pytest.approx(own[answer["name"]].value, rel=1e-8), name
+
+
+@pytest.mark.parametrize(
+    "name", ["linkages/peaucellier.yaml", "tools/scissor_lift.yaml", "gears/epicyclic_train.yaml"]
+)
+def test_links_keep_their_shape(name: str) -> None:
+    """A link's pose carries its points to where the sweep has them: within a third of a picture unit."""
+    case = icsolve.load(FILES[name])
+    model = model_of(page_of(name))
+    places = {p: (column(o["x"]), column(o["y"])) for p, o in model["motion"]["points"].items()}
+    zero = model["motion"]["zero"]
+    for link, pose in model["motion"]["links"].items():
+        turn = np.radians(column(pose["a"]))
+        for point in case.carries[link]:
+            if point in places and point != "@":
+                x, y = places[point]
+                dx, dy = x[zero] - pose["from"][0], y[zero] - pose["from"][1]
+                across = column(pose["x"]) + np.cos(turn) * dx + np.sin(turn) * dy
+                down = column(pose["y"]) - np.sin(turn) * dx + np.cos(turn) * dy
+                assert np.abs(across - x).max() < 0.33 and np.abs(down - y).max() < 0.33
+
+
+def test_the_terms_add_up_to_zero_in_every_position() -> None:
+    """The equation of power: known loads times their ratios of speeds, and the unknown (virtual work)."""
+    for name in ("ch13/13_02_four_bar_free_bodies.yaml", "springs/balanced_arm.yaml", SLIDER):
+        model = model_of(page_of(name))
+        unknown = column(model["answers"][0]["values"])
+        terms = [column(term["ratio"]) * term["value"] for term in model["terms"]]
+        size = np.maximum.reduce([np.abs(unknown), *(np.abs(t) for t in terms)])
+        known = np.isfinite(unknown)
+        assert known.sum() > 300
+        assert (np.abs(sum(terms) + unknown)[known] <= 1e-8 * size[known]).all()
+
+
+def test_a_range_that_ends_is_shown_to_end() -> None:
+    """The four-bar of 4 + 3 < 2.5 + 5 rocks: the rows that do not assemble are not in the page."""
+    model = model_of(page_of("linkages/four_bar.yaml"))["motion"]
+    last = model["first"] + model["step"] * (model["rows"] - 1)
+    assert not model["turns"]
+    assert model["low"] < model["first"] and last < model["high"]
+    assert 'class="gap"' in page_of("linkages/four_bar.yaml")
+
+
+def test_dead_centres_stand_on_the_track() -> None:
+    """A scotch yoke's torque at full stroke holds no force: two dead centres, a half turn apart."""
+    dead = model_of(page_of("sliders/scotch_yoke.yaml"))["motion"]["dead"]
+    assert len(dead) == 2 and dead[1] - dead[0] == pytest.approx(180.0)
+    assert page_of("sliders/scotch_yoke.yaml").count('<line class="dead"') == 2
+
+
+def test_a_small_range_has_small_steps() -> None:
+    """The single flier turns by less than 20 degrees: more rows than degrees."""
+    model = model_of(page_of("linkages/single_flier.yaml"))["motion"]
+    assert model["step"] < 1.0 and model["rows"] > 60
+
+
+def test_friction_moves_too() -> None:
+    name = "ch13/13_16_slider_crank_with_friction.yaml"
+    assert rubs(icsolve.load(FILES[name]))
+    model = model_of(page_of(name))
+    assert model["motion"]["turns"] and model["motion"]["rows"] == 73
+    assert model["terms"] is None
+
+
+HOSTILE = """\
+icsolve: 1
+title: '</script><script>document.title="broken"</script> & "quotes" <b>ü</b> \u2019 漢字'
+source: "<img src=x onerror=alert(1)> --> ]]>"
+reconstructed: '</style><script>alert(2)</script>'
+points: {A: [0, 0], B: [1, 2], C: [4, 3], D: [5, 0], É: [2, 2]}
+joints:
+  - {pin: [1, constructor], at: A}
+  - {pin: [constructor, 3], at: B}
+  - {pin: [3, __proto__x], at: C}
+  - {pin: [__proto__x, 1], at: D}
+loads:
+  toString: {force: 100, link: __proto__x, at: C, angle: 200}
+  T12: {torque: unknown, link: constructor}
+"""
+
+
+@cache
+def hostile() -> str:
+    text = HOSTILE.replace("__proto__x", "hasOwnProperty")
+    return page_html(icsolve.load(text))
+
+
+def test_no_text_of_a_case_can_break_the_page() -> None:
+    reader = Reader(hostile())
+    assert reader.open == []
+    assert reader.tags["script"] == 2 and reader.tags["style"] == 1
+    assert reader.tags["img"] == reader.tags["b"] == 0
+    assert json.loads(reader.scripts[0])["motion"]["driver"] == "constructor"
+    assert "".join(reader.texts).count('</script><script>document.title="broken"</script>') >= 1
+
+
+def test_the_policy_lets_only_this_script_and_these_styles_run() -> None:
+    page = hostile()
+    policy = re.search(r'Content-Security-Policy" content="([^"]*)"', page)
+    assert policy is not None
+    rules = policy[1].replace("&#x27;", "'").split("; ")
+    assert rules[0] == "default-src 'none'"
+    for tag, rule in (("script", "script-src"), ("style", "style-src")):
+        body = re.findall(f"<{tag}>(.*?)</{tag}>", page, re.DOTALL)
+        assert len(body) == 1
+        digest = base64.b64encode(hashlib.sha256(body[0].encode()).digest()).decode()
+        assert f"{rule} 'sha256-{digest}'" in rules
+
+
+UNSOLVED = """\
+icsolve: 1
+title: nothing turns it
+points: {A: [0, 0], B: [1, 2]}
+joints: [{pin: [1, 2], at: A}]
+loads:
+  P: {force: 10, link: 2, at: B, angle: 0}
+"""
+
+
+def test_a_case_without_an_answer_pages_with_the_reason() -> None:
+    text = UNSOLVED + "  Q: {force: unknown, link: 2, at: A, angle: 90}\n"
+    page = page_html(icsolve.load(text))
+    assert "<strong>No answer (no-value):</strong>" in page
+    assert 'id="link-2"' in page and 'id="turn"' not in page
+
+
+def test_a_case_without_an_unknown_shows_the_ratios_of_its_rates() -> None:
+    text = FILES["linkages/four_bar.yaml"].read_text(encoding="utf-8")
+    page = page_html(icsolve.load(text.partition("loads:")[0]))
+    assert "Ratios of angular velocities" in page and "motion" in model_of(page)
+
+
+def test_ten_links() -> None:
+    """A crank-rocker and three dyads on end: the page moves, finds eighteen centres or more, and is small."""
+    page = page_html(icsolve.load(ten_links()))
+    model = model_of(page)
+    assert len(model["motion"]["links"]) == 9
+    assert model["steps"] >= 4
+    assert len(page.encode()) < LARGEST
+
+
+def ten_links() -> str:
+    """Links 2 to 10: a crank-rocker whose rocker drives another by a rod, and so on."""
+    points = "A: [0, 0], B: [0.6, 1], C: [4, 3], D: [5, 0], "
+    joints = "[1, 2], at: A|[2, 3], at: B|[3, 4], at: C|[4, 1], at: D"
+    for n in range(3):
+        left, x = 2 * n + 4, 5.0 * n + 5.0
+        e, f, g = (f"{letter}{n}" for letter in "EFG")
+        points += f"{e}: [{x - 0.5}, 2], {f}: [{x + 3.8}, 3], {g}: [{x + 5}, 0], "
+        joints += f"|[{left}, {left + 1}], at: {e}|[{left + 1}, {left + 2}], at: {f}|[{left + 2}, 1], at: {g}"
+    listed = "\n".join(f"  - {{pin: {joint}}}" for joint in joints.split("|"))
+    return (
+        f"icsolve: 1\ntitle: Ten links in a chain\npoints: {{{points.rstrip(', ')}}}\njoints:\n{listed}\n"
+        "loads:\n  T12: {torque: unknown, link: 2}\n  P: {force: 100, link: 10, at: F2, angle: 180}\n"
+    )
+
+
+def test_the_same_bytes_on_every_run(tmp_path: Path) -> None:
+    path = FILES["linkages/peaucellier.yaml"]
+    pages = []
+    for seed in ("1", "2"):
+        out = tmp_path / f"{seed}.html"
+        command = [sys.executable, "-m", "icsolve", "page", str(path), "-o", str(out)]
+        subprocess.run(command, cwd=ROOT, env={**os.environ, "PYTHONHASHSEED": seed}, check=True)
+        pages.append(out.read_bytes())
+    assert pages[0] == pages[1]
+
+
+def ran(*words: str) -> int:
+    with pytest.raises(SystemExit) as ended:
+        main(["page", *words])
+    return int(ended.value.code or 0)
+
+
+def test_the_command_writes_a_page(tmp_path: Path) -> None:
+    out = tmp_path / "press.html"
+    assert ran(str(FILES["linkages/four_bar.yaml"]), "-o", str(out)) == 0
+    assert out.read_text(encoding="utf-8") == page_of("linkages/four_bar.yaml")
+
+
+def test_the_case_itself_is_never_written_over(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    case = tmp_path / "case.yaml"
+    case.write_bytes(FILES["linkages/four_bar.yaml"].read_bytes())
+    link = tmp_path / "other.html"
+    link.symlink_to(case)
+    for out in (case, link):
+        assert ran(str(case), "-o", str(out)) == 2
+        assert "is the case itself" in capsys.readouterr().err
+    assert case.read_bytes() == FILES["linkages/four_bar.yaml"].read_bytes()
+
+
+def test_a_path_that_cannot_be_written_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    for out in (tmp_path / "missing" / "a.html", tmp_path):
+        assert ran(str(FILES["linkages/four_bar.yaml"]), "-o", str(out)) == 2
+        assert "can't be written" in capsys.readouterr().err
+
+
+def test_a_folder_is_no_page(capsys: pytest.CaptureFixture[str]) -> None:
+    assert ran(str(LIBRARY / "linkages")) == 2
+    assert "name one case" in capsys.readouterr().err
+
+
+def test_a_case_without_an_answer_has_exit_status_one(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case, out = tmp_path / "case.yaml", tmp_path / "page.html"
+    case.write_text(UNSOLVED + "  Q: {force: unknown, link: 2, at: A, angle: 90}\n", encoding="utf-8")
+    assert ran(str(case), "-o", str(out)) == 1
+    assert "no-value" in capsys.readouterr().err
+    assert "No answer (no-value)" in out.read_text(encoding="utf-8")
+
+
+def luminance(colour: str) -> float:
+    """Relative luminance (WCAG 2.2, definition of relative luminance)."""
+    digits = colour.lstrip("#")
+    digits = "".join(2 * d for d in digits) if len(digits) == 3 else digits
+    parts = [int(digits[k : k + 2], 16) / 255.0 for k in (0, 2, 4)]
+    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in parts]
+    return 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2]
+
+
+def contrast(a: str, b: str) -> float:
+    high, low = sorted((luminance(a), luminance(b)), reverse=True)
+    return (high + 0.05) / (low + 0.05)
+
+
+@pytest.mark.parametrize("theme", [0, 1], ids=["light", "dark"])
+def test_text_has_the_contrast_of_wcag_aa(theme: int) -> None:
+    """4.5 for text (1.4.3), 3 for what a control or a mark is seen by (1.4.11)."""
+    style = (ROOT / "icsolve" / "page" / "page.css").read_text(encoding="utf-8")
+    blocks = re.findall(r":root\{([^}]*)\}", style)
+    colours = dict(re.findall(r"--(\w+):(#\w+)", blocks[theme]))
+    for ink in ("ink", "muted", "known", "unknown", "centre"):
+        assert contrast(colours[ink], colours["paper"]) >= 4.5, ink
+    for ink in ("ink", "muted"):
+        assert contrast(colours[ink], colours["panel"]) >= 4.5, ink
+    assert contrast(colours["ink"], colours["lit"]) >= 4.5
+    assert contrast(colours["muted"], colours["paper"]) >= 3.0
+    assert contrast(colours["focus"], colours["paper"]) >= 3.0
