@@ -1,4 +1,4 @@
-"""A gallery of cases: for each its figure, answer, page and worked solution, and an index of all."""
+"""A gallery of cases: for each its figure, answer and page, and an index of all."""
 
 from __future__ import annotations
 

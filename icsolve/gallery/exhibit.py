@@ -10,10 +10,10 @@ from icsolve.case import Case
 from icsolve.construction import Known, known_of
 from icsolve.draw import Drawing, draw
 from icsolve.draw.captions import answer_sentences, description
-from icsolve.explain import explain
+from icsolve.page import page_html
 
-FIGURE, SOLUTION = ".svg", ".solution.html"
-ENDINGS = (FIGURE, SOLUTION)
+FIGURE, PAGE = ".svg", ".html"
+ENDINGS = (FIGURE, PAGE)
 """What the files of one case end in."""
 BARE = Drawing(captions=False)
 """Title and answer stand on the card around a figure."""
@@ -41,7 +41,7 @@ class Exhibit(NamedTuple):
 def exhibit(case: Case, name: str, source: str) -> Exhibit:
     """A case with its files; one without an answer is shown as far as it is known, with the reason."""
     known = known_of(case, reactions=True)
-    files = {FIGURE: draw(case, BARE, known), SOLUTION: explain(case, "html", known=known)}
+    files = {FIGURE: draw(case, BARE, known), PAGE: page_html(known)}
     refusal = known.refusal
     status, reason = ("ok", "") if refusal is None else (refusal.status, refusal.message)
     return Exhibit(name, source, known.title, status, _answers(known), reason, description(known), files)

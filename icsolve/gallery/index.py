@@ -8,7 +8,7 @@ from itertools import groupby
 from urllib.parse import quote
 
 from icsolve.draw.svg import escaped
-from icsolve.gallery.exhibit import FIGURE, SOLUTION, Exhibit
+from icsolve.gallery.exhibit import FIGURE, PAGE, Exhibit
 
 STYLE = """
 :root{color-scheme:light dark;--ink:#1b1f24;--paper:#fff;--soft:#57606a;--line:#d0d7de;--link:#0b5cad;
@@ -73,14 +73,14 @@ def _folders(shown: Sequence[Exhibit]) -> Iterable[str]:
 
 
 def _card(one: Exhibit) -> str:
-    figure, solution = (_address(one.name + ending) for ending in (FIGURE, SOLUTION))
+    figure, page = (_address(one.name + ending) for ending in (FIGURE, PAGE))
     answers = "".join(f'<p class="answer">{escaped(sentence)}</p>\n' for sentence in one.answers)
     reason = f'<p class="bad">No answer ({one.status}): {escaped(one.reason)}</p>\n' if one.reason else ""
     return (
         f'<article class="card" id="{_anchor(one)}"><h3>{escaped(one.title)}</h3>\n'
-        f'<a href="{solution}"><img src="{figure}" alt="{escaped(one.alt)}" loading="lazy"/></a>\n'
+        f'<a href="{page}"><img src="{figure}" alt="{escaped(one.alt)}" loading="lazy"/></a>\n'
         f"{answers}{reason}"
-        f'<p class="links"><a href="{solution}">Worked solution</a> · <a href="{figure}">figure</a></p>\n'
+        f'<p class="links"><a href="{page}">Page and solution</a> · <a href="{figure}">figure</a></p>\n'
         f'<p class="soft">{escaped(one.source)}</p></article>\n'
     )
 
