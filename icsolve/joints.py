@@ -97,15 +97,19 @@ def mesh_weights(joint: Gears | Belt, arithmetic: Arithmetic) -> tuple[float, fl
     return (b / whole, -a / whole) if outside else (b / whole, a / whole)
 
 
+def weights_of(bond: Bond, arithmetic: Arithmetic) -> tuple[float, float]:
+    """The same for the bond of a mesh."""
+    assert isinstance(bond.joint, Gears | Belt)
+    return mesh_weights(bond.joint, arithmetic)
+
+
 def _size(n: float) -> float:
     return -n if n < 0 else n
 
 
 def _mesh(bond: Bond, points: Points, arithmetic: Arithmetic) -> tuple[Triple, Triple]:
     """The pitch point and the point at infinity square to the line of the pivots."""
-    joint = bond.joint
-    assert isinstance(joint, Gears | Belt)
-    p, q = mesh_weights(joint, arithmetic)
+    p, q = weights_of(bond, arithmetic)
     (ax, ay), (bx, by) = points[bond.pivots[0]], points[bond.pivots[1]]
     pitch = (p * ax + q * bx, p * ay + q * by, p + q)
     return pitch, (ay - by, bx - ax, 0.0)

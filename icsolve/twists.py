@@ -7,9 +7,11 @@ virtual input (D = 0) is a value like any other: the bodies before the group the
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from icsolve.arithmetic import Scalar, magnitude
+from icsolve.case import Pin
 from icsolve.eliminate import ROUNDING, null_space
 from icsolve.loops import ORIGIN, Bases, loop_rows, span, twists_on
 from icsolve.plan import Group, Plan
@@ -82,7 +84,11 @@ class _Pool:
         return result
 
 
-def run(plan: Plan, top: Topology, bases: Bases) -> Run:
+Meshes = Mapping[int, tuple[Scalar, Scalar]]
+"""Of gears and belts by their bond: the weights of the two pivots in the pitch point."""
+
+
+def run(plan: Plan, top: Topology, bases: Bases, meshes: Meshes) -> Run:
     """Twists of the planned bodies; ``bases`` has the basis twists of every bond in the plan."""
     pool = _Pool()
     entry = top.bonds[plan.entry]
@@ -90,7 +96,7 @@ def run(plan: Plan, top: Topology, bases: Bases) -> Run:
     pool.put({entry.a: ORIGIN, entry.b: _seen(bases[plan.entry][0], o)}, o)
     closures = []
     for group in plan.groups:
-        closure, found, o = _close(group, top, bases, pool)
+        closure, found, o = _close(group, top, bases, meshes, pool)
         if len(plan.groups) > LONG:
             closure, found = _rescaled(closure, found, pool)
         closures.append(closure)
@@ -120,10 +126,12 @@ def _rescaled(closure: Closure, found: dict[int, Triple], pool: _Pool) -> tuple[
     return Closure(closure.group, scale * closure.factor, numerators, columns), scaled
 
 
-def _close(group: Group, top: Topology, bases: Bases, pool: _Pool) -> Closed:
+def _close(group: Group, top: Topology, bases: Bases, meshes: Meshes, pool: _Pool) -> Closed:
     if group.kind == "dyad":
         return _dyad(group, bases, pool)
     if group.kind == "monad":
+        if group.bonds[1] in meshes and _on_carrier(group, top):
+            return _wheel(group, top, bases, meshes[group.bonds[1]], pool)
         return _monad(group, bases, pool)
     return _eliminated(group, top, bases, pool)
 
@@ -138,6 +146,36 @@ def _monad(group: Group, bases: Bases, pool: _Pool) -> Closed:
     r = subtract(tc, ta)
     d, s = monad_twist(here, cross(first, second), r)
     return Closure(group, d, (s,), (first, second, here, r)), {body: blend(d, ta, s, here)}, o
+
+
+def _on_carrier(group: Group, top: Topology) -> bool:
+    """Whether a wheel hangs on a body that carries the pivots of both wheels of its mesh."""
+    one, two = (top.bonds[k] for k in group.bonds)
+    carrier, other = group.ends
+    mine, its = two.pivots if two.b == other else two.pivots[::-1]
+    if not isinstance(one.joint, Pin) or one.joint.at != mine:
+        return False
+    at_its = [b for b in top.bonds if isinstance(b.joint, Pin) and b.joint.at == its]
+    here = {body for bond in at_its for body in (bond.a, bond.b)}
+    return carrier in here and other in here
+
+
+def _wheel(
+    group: Group, top: Topology, bases: Bases, weights: tuple[Scalar, Scalar], pool: _Pool
+) -> Closed:
+    """A wheel on the carrier of its mesh, seen from which the two rates are as -q : p (weights crosswise).
+
+    No point enters: a pitch point rounded in the frame costs digits where the wheels are small.
+    """
+    (body,), (a, c) = group.bodies, group.ends
+    basis, mesh = bases[group.bonds[0]][0], top.bonds[group.bonds[1]]
+    o = _origin(basis)
+    here, ta = _seen(basis, o), pool.now(a, o)
+    spin = pool.now(c, o)[2] - ta[2]
+    p, q = weights if body == mesh.b else weights[::-1]
+    d, s = p, -(q * spin)
+    columns: tuple[Triple, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, d), (0.0, 0.0, s))
+    return Closure(group, d, (s,), columns), {body: blend(d, ta, s, here)}, o
 
 
 def _dyad(group: Group, bases: Bases, pool: _Pool) -> Closed:
