@@ -10,17 +10,18 @@ from icsolve.bench.gates import Gate
 
 
 class Effort(NamedTuple):
-    """Scenes a family, scenes a law (forward error, bound, bits), seconds a timing, processes."""
+    """Scenes a family of the tables, scenes a family of each law, seconds a timing, processes."""
 
     scenes: int
     forward: int
     bounds: int
+    bits: int
     seconds: float
     jobs: int
 
 
-USUAL = Effort(80, 1_000, 500, 3.0, 1)
-FULL = Effort(400, 10_000, 12_000, 6.0, os.cpu_count() or 1)
+USUAL = Effort(80, 1_000, 500, 200, 3.0, 1)
+FULL = Effort(400, 10_000, 12_000, 2_000, 6.0, os.cpu_count() or 1)
 
 
 class Kept(NamedTuple):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
+from decimal import Decimal
 from itertools import combinations
 from random import Random
 
@@ -113,8 +114,9 @@ def from_lengths(delta: float | None = None) -> Draw:
     return draw
 
 
-def moved(draw: Draw, offset: float = 0.0, scale: float = 1.0) -> Draw:
-    """A family far from the origin, or of another size."""
+def moved(draw: Draw, offset: float = 0.0, scale: float = 1.0, exact: bool = False) -> Draw:
+    """A family far from the origin, or of another size; ``exact`` writes all decimals of the doubles."""
+    written = (lambda value: format(Decimal(value), "f")) if exact else repr
 
     def drawn(rng: Random) -> str:
         lines = draw(rng).splitlines()
@@ -122,7 +124,7 @@ def moved(draw: Draw, offset: float = 0.0, scale: float = 1.0) -> Draw:
             if line.startswith("  P"):
                 name, _, place = line.partition(": ")
                 x, y = (float(text) for text in place.strip("[]").split(", "))
-                lines[n] = f"{name}: [{x * scale + offset!r}, {y * scale - offset!r}]"
+                lines[n] = f"{name}: [{written(x * scale + offset)}, {written(y * scale - offset)}]"
         return "\n".join(lines) + "\n"
 
     return drawn

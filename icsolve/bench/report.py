@@ -98,7 +98,7 @@ def laws(effort: Effort, kept: Kept) -> Iterator[str]:
     kept.gates.append(lawful(f"bounds that are less than the error, of {count}", broken, 0))
     kept.gates.append(lawful("bound over error, worst median of a family", middle, PESSIMISM))
     yield _laws(f"error bound / error; median at most {PESSIMISM:g}, never broken", found)
-    found = bits(effort.forward, effort.jobs)
+    found = bits(effort.bits, effort.jobs)
     broken, count = _broken(found), _scenes(found)
     kept.gates.append(lawful(f"answers changed by a scale of a power of two, of {count}", broken, 0))
     rows = [[law.family, str(law.scenes), str(law.broken)] for law in found]
