@@ -161,3 +161,9 @@ class Case:
         """Its name and size; the fields of a whole case would fill a page."""
         counts = f"{len(self.links)} links, {len(self.joints)} joints, {len(self.loads)} loads"
         return f"<Case {self.name}: {counts}>"
+
+    def _repr_svg_(self) -> str:
+        """The figure as far as it is known, for notebooks."""
+        from icsolve.draw import draw
+
+        return draw(self)

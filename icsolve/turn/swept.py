@@ -50,6 +50,24 @@ class Sweep:
     def __len__(self) -> int:
         return len(self.codes)
 
+    def __repr__(self) -> str:
+        """What was varied, and how the rows came out."""
+        from icsolve.draw.swept import outcome
+
+        return f"<Sweep {self.case.name}: {outcome(self)}>"
+
+    def _repr_svg_(self) -> str | None:
+        """The answers over the range, for notebooks; None where there is not one range to draw them over."""
+        from icsolve.draw.swept import sweep_svg
+
+        return sweep_svg(self) if len(self.vary) == 1 and len(self) else None
+
+    def _repr_markdown_(self) -> str | None:
+        """A table of the answers' ranges, for notebooks; None where there is a picture."""
+        from icsolve.draw.swept import sweep_markdown
+
+        return sweep_markdown(self) if len(self.vary) != 1 or not len(self) else None
+
     @cached_property
     def status(self) -> npt.NDArray[np.str_]:
         """The status of every row in words, (n,)."""
