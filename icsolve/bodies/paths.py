@@ -6,6 +6,7 @@ import cmath
 import math
 from collections.abc import Sequence
 from itertools import product
+from operator import mul
 
 from icsolve.bodies.affine import Form
 from icsolve.bodies.linear import solve_square
@@ -67,7 +68,7 @@ class _Paths:
     """H(z, t) = (1 - t) gamma (z_k^2 - z_0^2) + t F_k(z), homogeneous in z_0, ..., z_n, on a random patch."""
 
     def __init__(self, quadrics: Sequence[Quadric]) -> None:
-        self.quadrics = quadrics
+        self.matrices = [_matrix(quadric) for quadric in quadrics]
         self.n = len(quadrics)
         self.gamma = cmath.exp(0.9137j)
         self.patch = [cmath.exp(1j * (0.7 + 1.9 * k)) for k in range(self.n + 1)]
@@ -97,18 +98,17 @@ class _Paths:
         return [a + dt * b for a, b in zip(z, second, strict=True)] if second else half
 
     def tangent(self, z: Point, t: float) -> Point | None:
-        change = [self.target(k, z) - self.gamma * (z[k + 1] ** 2 - z[0] ** 2) for k in range(self.n)]
-        return solve_square(self.jacobian(z, t), [-c for c in change] + [0.0j])
+        starts, targets, rows = self.system(z, t)
+        change = [start - target for start, target in zip(starts, targets, strict=True)]
+        return solve_square(rows, [*change, 0.0j])
 
     def corrected(self, z: Point, t: float) -> Point | None:
         """Newton's method at fixed t; None where three steps do not nearly reach the path."""
         for attempt in range(4):
-            values = [
-                (1 - t) * self.gamma * (z[k + 1] ** 2 - z[0] ** 2) + t * self.target(k, z)
-                for k in range(self.n)
-            ]
-            values.append(sum(a * b for a, b in zip(self.patch, z, strict=True)) - 1.0)
-            step = solve_square(self.jacobian(z, t), values)
+            starts, targets, rows = self.system(z, t)
+            values = [(1 - t) * a + t * b for a, b in zip(starts, targets, strict=True)]
+            values.append(sum(map(mul, self.patch, z)) - 1.0)
+            step = solve_square(rows, values)
             if step is None:
                 return None
             z = [a - b for a, b in zip(z, step, strict=True)]
@@ -120,23 +120,25 @@ class _Paths:
                 return None
         return None
 
-    def target(self, k: int, z: Point) -> complex:
-        length, forms = self.quadrics[k]
-        return _homogeneous(length, z) ** 2 - sum(_homogeneous(form, z) ** 2 for form in forms)
+    def system(self, z: Point, t: float) -> tuple[Point, Point, list[Point]]:
+        """The start system, the target system, and the derivatives of their sum at t (with the patch)."""
+        starts, targets, rows = [], [], []
+        twice, rest = 2.0 * t, 2.0 * (1.0 - t) * self.gamma
+        first = z[0]
+        for k, matrix in enumerate(self.matrices, start=1):
+            half = [sum(map(mul, row, z)) for row in matrix]  # half the gradient of the form
+            starts.append(self.gamma * (z[k] * z[k] - first * first))
+            targets.append(sum(map(mul, half, z)))
+            derivatives = [twice * part for part in half]
+            derivatives[k] += rest * z[k]
+            derivatives[0] -= rest * first
+            rows.append(derivatives)
+        rows.append(list(self.patch))
+        return starts, targets, rows
 
-    def jacobian(self, z: Point, t: float) -> list[Point]:
-        rows = []
-        for k in range(self.n):
-            length, forms = self.quadrics[k]
-            row = [2 * t * a * _homogeneous(length, z) for a in length]
-            for form in forms:
-                value = _homogeneous(form, z)
-                row = [r - 2 * t * a * value for r, a in zip(row, form, strict=True)]
-            row[k + 1] += 2 * (1 - t) * self.gamma * z[k + 1]
-            row[0] -= 2 * (1 - t) * self.gamma * z[0]
-            rows.append(row)
-        return [*rows, list(self.patch)]
 
-
-def _homogeneous(form: Form, z: Point) -> complex:
-    return sum((a * b for a, b in zip(form, z, strict=True)), 0.0j)
+def _matrix(quadric: Quadric) -> list[list[float]]:
+    """The symmetric matrix of a quadric l(z)^2 - |v(z)|^2."""
+    length, forms = quadric
+    count = range(len(length))
+    return [[length[i] * length[j] - sum(form[i] * form[j] for form in forms) for j in count] for i in count]
