@@ -9,7 +9,7 @@ from icsolve.arithmetic import Arithmetic
 from icsolve.case import Case, KnownCentre, Roll
 from icsolve.errors import SceneError, Status
 from icsolve.figure.frame import Frame
-from icsolve.joints import Points, freedoms, points_of, weights_of
+from icsolve.joints import Points, freedoms, points_of
 from icsolve.loops import ORIGIN, Bases, LoopMotions, all_motions
 from icsolve.plan import Plan
 from icsolve.plane import Triple, subtract
@@ -50,8 +50,7 @@ def needed_points(bonds: tuple[int, ...], top: Topology) -> list[str]:
 def by_plan(plan: Plan, top: Topology, points: Points, arithmetic: Arithmetic) -> Motions | None:
     """The one motion by the groups of the plan; None where a group is singular."""
     bases = {k: freedoms(top.bonds[k], points, arithmetic) for k in plan.bonds}
-    meshes = {k: weights_of(top.bonds[k], arithmetic) for k in plan.bonds if top.bonds[k].pivots[0]}
-    found = run(plan, top, bases, meshes)
+    found = run(plan, top, bases, arithmetic)
     if any(map(is_singular, found.closures)):
         return None
     frame = found.twists.get(top.ground)

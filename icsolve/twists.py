@@ -7,16 +7,16 @@ virtual input (D = 0) is a value like any other: the bodies before the group the
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from typing import NamedTuple
 
-from icsolve.arithmetic import Scalar, magnitude
+from icsolve.arithmetic import Arithmetic, Scalar, magnitude
 from icsolve.case import Pin
 from icsolve.eliminate import ROUNDING, null_space
+from icsolve.joints import weights_of
 from icsolve.loops import ORIGIN, Bases, loop_rows, span, twists_on
 from icsolve.plan import Group, Plan
 from icsolve.plane import Point, Triple, blend, cross, dyad_twists, monad_twist, shift, subtract, times
-from icsolve.topology import Topology
+from icsolve.topology import Bond, Topology
 
 LONG = 4
 """Plans with more groups are rescaled by powers of two on the way: determinants multiply up."""
@@ -84,11 +84,7 @@ class _Pool:
         return result
 
 
-Meshes = Mapping[int, tuple[Scalar, Scalar]]
-"""Of gears and belts by their bond: the weights of the two pivots in the pitch point."""
-
-
-def run(plan: Plan, top: Topology, bases: Bases, meshes: Meshes) -> Run:
+def run(plan: Plan, top: Topology, bases: Bases, arithmetic: Arithmetic) -> Run:
     """Twists of the planned bodies; ``bases`` has the basis twists of every bond in the plan."""
     pool = _Pool()
     entry = top.bonds[plan.entry]
@@ -96,7 +92,7 @@ def run(plan: Plan, top: Topology, bases: Bases, meshes: Meshes) -> Run:
     pool.put({entry.a: ORIGIN, entry.b: _seen(bases[plan.entry][0], o)}, o)
     closures = []
     for group in plan.groups:
-        closure, found, o = _close(group, top, bases, meshes, pool)
+        closure, found, o = _close(group, top, bases, arithmetic, pool)
         if len(plan.groups) > LONG:
             closure, found = _rescaled(closure, found, pool)
         closures.append(closure)
@@ -126,12 +122,13 @@ def _rescaled(closure: Closure, found: dict[int, Triple], pool: _Pool) -> tuple[
     return Closure(closure.group, scale * closure.factor, numerators, columns), scaled
 
 
-def _close(group: Group, top: Topology, bases: Bases, meshes: Meshes, pool: _Pool) -> Closed:
+def _close(group: Group, top: Topology, bases: Bases, arithmetic: Arithmetic, pool: _Pool) -> Closed:
     if group.kind == "dyad":
         return _dyad(group, bases, pool)
     if group.kind == "monad":
-        if group.bonds[1] in meshes and _on_carrier(group, top):
-            return _wheel(group, top, bases, meshes[group.bonds[1]], pool)
+        mesh = top.bonds[group.bonds[1]]
+        if mesh.pivots[0] and _on_carrier(group, top):
+            return _wheel(group, mesh, bases, weights_of(mesh, arithmetic), pool)
         return _monad(group, bases, pool)
     return _eliminated(group, top, bases, pool)
 
@@ -161,14 +158,14 @@ def _on_carrier(group: Group, top: Topology) -> bool:
 
 
 def _wheel(
-    group: Group, top: Topology, bases: Bases, weights: tuple[Scalar, Scalar], pool: _Pool
+    group: Group, mesh: Bond, bases: Bases, weights: tuple[Scalar, Scalar], pool: _Pool
 ) -> Closed:
     """A wheel on the carrier of its mesh, seen from which the two rates are as -q : p (weights crosswise).
 
     No point enters: a pitch point rounded in the frame costs digits where the wheels are small.
     """
     (body,), (a, c) = group.bodies, group.ends
-    basis, mesh = bases[group.bonds[0]][0], top.bonds[group.bonds[1]]
+    basis = bases[group.bonds[0]][0]
     o = _origin(basis)
     here, ta = _seen(basis, o), pool.now(a, o)
     spin = pool.now(c, o)[2] - ta[2]

@@ -23,12 +23,13 @@ from icsolve.bench.families import BOUNDED, FAMILIES, Family
 from icsolve.bench.gates import Gate, gate_table, lawful, ratio
 from icsolve.bench.kernels import componentwise, written_out
 from icsolve.bench.kinds import all_joints
-from icsolve.bench.laws import FORWARD_FAMILIES, Law, bits, bounds, forward
+from icsolve.bench.laws import FORWARD_FAMILIES, Law, bits, bounds, forward, forward_error
 from icsolve.bench.methods import METHODS, Method
 from icsolve.bench.peers import PEERS, TORQUE, Peer, ran
 from icsolve.bench.picture import picture
 from icsolve.bench.pinned import linkage
 from icsolve.bench.timing import least
+from icsolve.case import Gears
 from icsolve.cli.commands import icsolve as command
 
 BY_NAME = {family.name: family for family in FAMILIES}
@@ -139,6 +140,14 @@ def check(laws: list[Law], median: float) -> None:
 def test_the_forward_error_on_random_six_bars() -> None:
     """At most 4 (kappa + 1) u against the doubles as read; `icsolve bench --full` holds it on 10,000."""
     check(forward(150), 1.0)
+
+
+@pytest.mark.parametrize("seed", [3091, 7224, 8452])
+def test_small_wheels_far_from_the_input_lose_nothing(seed: int) -> None:
+    """Scenes of `--full` that a pitch point rounded in the frame had cost up to 7.5 (kappa + 1) u."""
+    case = icsolve.load(all_joints(Random(f"all joints {seed}")))
+    assert any(isinstance(joint, Gears) for joint in case.joints)
+    assert forward_error(case) < 1.0
 
 
 def test_the_forward_error_on_every_family() -> None:
