@@ -1,0 +1,362 @@
+"""Pages in a real headless Chromium: the slider moves the crank, the number is that of `solve`, the steps add
+the lines in the order of finding; no console error, and no request leaves the page.
+
+Without a browser these tests are skipped and say why; with ICSOLVE_BROWSER=required that is a failure.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import icsolve
+from browser import REQUIRED, Browser, NoBrowserError, browser, required
+from icsolve.construction import known_of, needed_steps
+from icsolve.draw import Drawing, draw
+from icsolve.draw.words import figure_number, unit_word
+from icsolve.page import page_html
+from icsolve.page.figure import figure_of
+from icsolve.page.motion import Motion, motion_of
+from pictures import parsed
+from test_page import FILES, hostile, ten_links
+
+DRIVEN = {
+    "linkages/four_bar.yaml": (-90, 15, 50),
+    "ch13/13_07_slider_crank.yaml": (-120, 37, 150),
+    "linkages/peaucellier.yaml": (-90, -40, 12),
+    "sliders/quick_return.yaml": (-170, -33, 101),
+}
+"""Cases, and three positions of each in degrees from the position as written."""
+
+
+@pytest.fixture(scope="module")
+def chromium() -> Iterator[Browser]:
+    try:
+        with browser() as session:
+            yield session
+    except NoBrowserError as missing:
+        if required():
+            pytest.fail(f"{REQUIRED}=required, and {missing}")
+        pytest.skip(f"no browser: {missing}")
+
+
+@pytest.fixture
+def opened(chromium: Browser, tmp_path: Path) -> Any:
+    """Opens a page's text; at the end of the test nothing was complained of, and nothing else asked for."""
+    asked: list[Path] = []
+
+    def open_page(text: str, name: str = "page.html") -> Browser:
+        path = tmp_path / name
+        path.write_text(text, encoding="utf-8")
+        asked.append(path)
+        chromium.size(1280, 900)
+        chromium.media(prefers_color_scheme="light", prefers_reduced_motion="no-preference")
+        chromium.open(path)
+        return chromium
+
+    yield open_page
+    assert chromium.logs() == []
+    assert chromium.requests() == [path.as_uri() for path in asked[-1:]]
+
+
+def page(name: str) -> str:
+    return page_html(icsolve.load(FILES[name]))
+
+
+def motion(name: str) -> Motion:
+    known = known_of(icsolve.load(FILES[name]))
+    found = motion_of(known, [step.centre.pair for step in needed_steps(known)])
+    assert found is not None
+    return found
+
+
+def turn(window: Browser, degrees: float) -> None:
+    """Pull the slider, as a finger does: its value, then the event of it."""
+    window.run(
+        """const slider = document.getElementById('turn');
+        slider.value = arguments[0];
+        slider.dispatchEvent(new Event('input'))""",
+        str(degrees),
+    )
+
+
+def drawn_at(window: Browser, point: str) -> tuple[float, float]:
+    """Where a joint's circle is now, in picture units."""
+    x, y = window.run(
+        """const g = document.querySelector(`#mechanism [data-at="${arguments[0]}"]`);
+        const c = g.querySelector('circle');
+        const p = new DOMPoint(c.cx.baseVal.value, c.cy.baseVal.value);
+        const back = g.ownerSVGElement.getScreenCTM().inverse();
+        const q = p.matrixTransform(c.getScreenCTM()).matrixTransform(back);
+        return [q.x, q.y];""",
+        point,
+    )
+    return x, y
+
+
+TRANSFORM = "return document.getElementById(arguments[0]).getAttribute('transform')"
+
+
+def crank_end(name: str, found: Motion) -> str:
+    """A pin of the driven link that moves."""
+    case = icsolve.load(FILES[name])
+    return next(
+        p
+        for p in case.carries[found.driver]
+        if p in found.found.points and np.nanstd(found.found.points[p], axis=0).max() > 0.0
+    )
+
+
+@pytest.mark.parametrize("name", DRIVEN)
+def test_the_slider_moves_the_crank(name: str, opened: Any) -> None:
+    """The crank's pin is where the sweep has it, to a tenth of a picture unit and rounding of the angle."""
+    window, found = opened(page(name)), motion(name)
+    known = known_of(icsolve.load(FILES[name]))
+    view = figure_of(known, needed_steps(known), found).scene.view
+    point = crank_end(name, found)
+    seen = []
+    for degrees in DRIVEN[name]:
+        turn(window, degrees)
+        row = int(abs(found.degrees - degrees).argmin())
+        x, y = found.found.points[point][row]
+        assert drawn_at(window, point) == pytest.approx(view.at((x, y)), abs=0.3)
+        seen.append(window.run(TRANSFORM, f"link-{found.driver}"))
+    assert len(set(seen)) == 3
+
+
+@pytest.mark.parametrize("name", DRIVEN)
+def test_the_number_is_that_of_solve(name: str, opened: Any) -> None:
+    """Six digits, unit and sense, of each position solved as a case of its own."""
+    window, found = opened(page(name)), motion(name)
+    for degrees in DRIVEN[name]:
+        turn(window, degrees)
+        row = int(abs(found.degrees - degrees).argmin())
+        for unknown, value in icsolve.solve(found.found.case_of(row)).answers.items():
+            shown = window.text(f"#answers [data-answer='{unknown}']")
+            number = f"{figure_number(abs(value.value), 6)} {unit_word(value.unit)}"
+            assert shown.startswith(f"{unknown} = {number}, ")
+            word = {"ccw": "counterclockwise", "cw": "clockwise"}.get(value.sense)
+            assert word is None or shown.endswith(f", {word}")
+            assert figure_number(abs(value.value), 4) in window.text(f"#label-{unknown}")
+
+
+def test_the_number_is_that_of_the_command(opened: Any, tmp_path: Path) -> None:
+    """The crank of the slider-crank 40 degrees farther, written into the file."""
+    name = "sliders/slider_crank_in_line.yaml"
+    case = icsolve.load(FILES[name])
+    angle = next(a for a in case.angles if a.value.path == "angles.AB")
+    window = opened(page(name))
+    turn(window, 40)
+    changed = icsolve.load(
+        FILES[name].read_text(encoding="utf-8").replace(angle.value.digits, str(angle.value.value + 40), 1)
+    )
+    (unknown, value), *_ = icsolve.solve(changed).answers.items()
+    assert f" = {figure_number(abs(value.value), 6)} " in window.text(f"[data-answer='{unknown}']")
+
+
+LINES = """return [...document.querySelectorAll('#centres path.construction')]
+    .filter((e) => !e.classList.contains('hidden')).map((e) => e.id)"""
+CHORDS = """return [...document.querySelectorAll('#circle [data-step]')]
+    .filter((e) => e.id.startsWith('chord-') && !e.classList.contains('hidden')).map((e) => e.id)"""
+
+
+@pytest.mark.parametrize("name", DRIVEN)
+def test_the_steps_add_the_lines_in_the_order_of_finding(name: str, opened: Any) -> None:
+    window = opened(page(name))
+    known = known_of(icsolve.load(FILES[name]))
+    steps = needed_steps(known)
+    count = max(step.number for step in steps)
+    window.click("#from-start")
+    for n in range(count + 1):
+        wanted = [
+            f"line-{'-'.join(step.centre.pair)}-{k}"
+            for step in steps
+            if 0 < step.number <= n
+            for k, line in enumerate(step.centre.lines, 1)
+        ]
+        assert sorted(window.run(LINES)) == sorted(wanted)
+        chords = {f"chord-{'-'.join(step.centre.pair)}": step.number for step in steps}
+        seen = set(window.run(CHORDS))
+        assert all((name in seen) == (number <= n) for name, number in chords.items())
+        assert window.text("ol.steps [aria-current]") == window.text("#said")
+        window.click("#next")
+    assert window.run("return document.getElementById('next').disabled")
+    window.click("#back")
+    assert window.text("#said").startswith(f"Step {count}" if count else "By inspection")
+
+
+def test_the_keyboard_turns_the_input(opened: Any) -> None:
+    window = opened(page("sliders/quick_return.yaml"))
+    window.press("#turn", "right", "right", "right")
+    assert window.text("#angle") == "3° counterclockwise"
+    window.press("#turn", "left", "left", "left", "left")
+    assert window.text("#angle") == "1° clockwise"
+    window.press("#turn", "home")
+    assert window.text("#angle") == "180° clockwise"
+    window.press("#written", "enter")
+    assert window.text("#angle") == "as written"
+
+
+def test_the_slider_stops_where_the_links_no_longer_meet(opened: Any) -> None:
+    window, found = opened(page("linkages/four_bar.yaml")), motion("linkages/four_bar.yaml")
+    end = found.degrees[found.last]
+    turn(window, end + 40)
+    assert float(window.run("return document.getElementById('turn').value")) == end
+    assert window.text("#hint") == f"The links do not meet beyond {figure_number(end)}°."
+    turn(window, 0)
+    assert window.text("#hint") == ""
+
+
+def test_a_dead_centre_is_said(opened: Any) -> None:
+    """The scotch yoke at full stroke: no number, the arrow pale, the sentence below the slider."""
+    window = opened(page("sliders/scotch_yoke.yaml"))
+    found = motion("sliders/scotch_yoke.yaml")
+    dead = next(d for d, word in zip(found.degrees, found.status, strict=True) if word == "dead-centre")
+    turn(window, dead)
+    assert window.text("#hint").startswith("Dead centre")
+    assert "no value" in window.text("#answers")
+    assert window.run("return document.querySelectorAll('#loads .ghost').length") == 1
+
+
+def test_play_and_pause(opened: Any) -> None:
+    window = opened(page("sliders/quick_return.yaml"))
+    angle = "return document.getElementById('angle').textContent"
+    window.click("#play")
+    seen = {window.run(angle) for _ in range(15) if time.sleep(0.05) is None}
+    assert len(seen) > 3 and window.text("#play") == "Pause"
+    window.click("#play")
+    held = window.run(angle)
+    time.sleep(0.3)
+    assert window.run(angle) == held and window.text("#play") == "Play"
+
+
+def test_reduced_motion_plays_in_still_positions(opened: Any) -> None:
+    """A position a second instead of a movement."""
+    window = opened(page("sliders/quick_return.yaml"))
+    window.media(prefers_reduced_motion="reduce")
+    angle = "return document.getElementById('angle').textContent"
+    window.click("#play")
+    seen = [window.run(angle) for _ in range(24) if time.sleep(0.05) is None]
+    window.click("#play")
+    assert 2 <= len(set(seen)) <= 3
+
+
+def test_a_plot_is_a_slider_too(opened: Any) -> None:
+    """A press in the middle of the answer's plot goes to the middle of the range."""
+    window = opened(page("ch13/13_07_slider_crank.yaml"))
+    turn(window, 90)
+    window.run(
+        """const svg = document.getElementById('plot-0');
+        const path = svg.querySelector('.cursor').getAttribute('d');
+        const all = svg.getScreenCTM();
+        const y = Number(path.split(',')[1].split(' ')[0]) + 20;
+        const box = JSON.parse(document.getElementById('data').textContent).plots[0].box;
+        const p = new DOMPoint((box[0] + box[2]) / 2, y).matrixTransform(all);
+        svg.dispatchEvent(new PointerEvent('pointerdown', {clientX: p.x, clientY: p.y, buttons: 1}))"""
+    )
+    assert window.text("#angle") == "as written"
+
+
+def test_the_terms_follow(opened: Any) -> None:
+    """The equation of power: size times ratio of speeds is the product, and the sum is zero."""
+    window, found = opened(page("ch13/13_07_slider_crank.yaml")), motion("ch13/13_07_slider_crank.yaml")
+    turn(window, 37)
+    row = int(abs(found.degrees - 37).argmin())
+    ratio, value = found.shares["P"][row], found.found.answers["T12"][row]
+    assert window.text("#ratio-0") == figure_number(ratio, 6)
+    assert window.text("#product-0") == figure_number(10.0 * ratio, 6)
+    assert window.text("#root-product") == figure_number(value, 6)
+
+
+NARROW = """const wide = document.documentElement.scrollWidth;
+const small = [...document.querySelectorAll('button, input')].map((e) => e.getBoundingClientRect().height);
+const text = [...document.querySelectorAll("#labels > g:not(.hidden) > text")].map((e) => {
+  const box = e.getBoundingClientRect(); return box.height; });
+return [wide, Math.min(...small), Math.min(...text)]"""
+
+
+@pytest.mark.parametrize(
+    "name", ["linkages/four_bar.yaml", "linkages/peaucellier.yaml", "ch13/13_10_black_box.yaml"]
+)
+def test_a_telephone_shows_it(name: str, opened: Any) -> None:
+    """390 picture points: nothing to scroll sideways, controls for a finger, letters that can be read."""
+    window = opened(page(name))
+    window.size(390, 800)
+    wide, control, text = window.run(NARROW)
+    assert wide <= 390
+    assert control >= 40.0
+    assert text >= 9.0
+
+
+def test_no_text_of_a_case_runs(opened: Any) -> None:
+    window = opened(hostile())
+    assert window.run("return document.title").startswith('</script><script>document.title="broken"')
+    assert window.text("h1").endswith("漢字")
+    turn(window, 10)
+    assert "counterclockwise" in window.text("#angle")
+
+
+def test_the_page_may_not_reach_the_network(chromium: Browser, tmp_path: Path) -> None:
+    """The policy in the page refuses what a script asks for, and says so on the console."""
+    path = tmp_path / "page.html"
+    path.write_text(page("linkages/four_bar.yaml"), encoding="utf-8")
+    chromium.open(path)
+    asked = "return fetch('http://127.0.0.1:9/').then(() => 'answered', () => 'refused')"
+    assert chromium.run(asked) == "refused"
+    assert any("Content Security Policy" in line for line in chromium.logs())
+    assert [url for url in chromium.requests() if url.startswith("http")] == []
+
+
+def test_ten_links_move(opened: Any) -> None:
+    window = opened(page_html(icsolve.load(ten_links())))
+    before = window.run(TRANSFORM, "link-10")
+    turn(window, 25)
+    assert window.run(TRANSFORM, "link-10") != before
+
+
+OVERLAPS = """const slider = document.getElementById('turn');
+const found = [];
+const places = slider ? [0, 0.3, 0.7].map((s) => Number(slider.min) + s * (slider.max - slider.min)) : [0];
+for (const place of [...places, 0]) {
+  if (slider) { slider.value = place; slider.dispatchEvent(new Event('input')); }
+  const boxes = [...document.querySelectorAll('#labels > g')]
+    .filter((e) => !e.classList.contains('hidden'))
+    .map((e) => [e.textContent, e.querySelector('.badge') || e.querySelector('text')])
+    .map(([words, e]) => [words, e.getBoundingClientRect()]);
+  boxes.forEach(([a, p], n) => boxes.slice(0, n).forEach(([b, q]) => {
+    const x = Math.min(p.right, q.right) - Math.max(p.left, q.left);
+    const y = Math.min(p.bottom, q.bottom) - Math.max(p.top, q.top);
+    if (x > 3 && y > 4) found.push(`${place}: ${a} on ${b}`);
+  }));
+}
+return found"""
+
+
+@pytest.mark.parametrize("block", range(4))
+def test_every_case_runs_and_its_labels_can_be_read(block: int, opened: Any) -> None:
+    """No message of the console, one request each, and at four positions no label on another."""
+    for name in list(FILES)[block::4]:
+        window = opened(page(name), f"{block}.html")
+        assert window.run(OVERLAPS) == [], name
+        assert window.logs() == [], name
+        assert len(window.requests()) == 1, name
+    opened(page("sliders/wedge.yaml"))
+
+
+@pytest.mark.parametrize(
+    "name", ["linkages/peaucellier.yaml", "tools/tipper_two_rams.yaml", "linkages/four_bar.yaml"]
+)
+def test_drawings_reckon_with_wider_letters_than_a_browser_sets(name: str, opened: Any) -> None:
+    """The labels of `draw` keep apart by reckoned widths: a browser's letters are narrower, by and large."""
+    svg = draw(icsolve.load(FILES[name]), Drawing(circle=True, velocities=True))
+    window = opened(svg, "drawing.svg")
+    measure = "return [...document.querySelectorAll('text')].map((e) => e.getComputedTextLength())"
+    lengths = window.run(measure)
+    for length, label in zip(lengths, parsed(svg).labels, strict=True):
+        left, _, right, _ = label.box.bounds
+        assert length <= right - left, label.text
