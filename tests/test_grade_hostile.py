@@ -73,3 +73,60 @@ def test_a_roster_with_an_open_quote_keeps_its_other_students(a_class: Class) ->
         ("01", "missing"), ("02", "right"), ("03", "missing"),
     ]  # fmt: skip
     assert "roster.csv:2: a quoted cell starts here and does not end" in ran.err
+
+
+@pytest.mark.parametrize("kind", ["canvas", "moodle"])
+@pytest.mark.parametrize(
+    ("data", "said"),
+    [
+        ("", "the template is empty"),
+        ("x,y\n1,2\n", "the"),
+        ("Student\n", "the"),
+    ],
+)
+def test_a_template_that_is_none_is_refused_by_name(a_class: Class, kind: str, data: str, said: str) -> None:
+    template, out = a_class.file("template.csv", data), a_class.path("out.csv")
+    table = a_class.file("answers.csv", HEADER + "01,lever,200\n")
+    cases = str(a_class.path("cases"))
+    ran = a_class.run("grade", table, "--cases", cases, "--write", f"{kind}={out}", "--template", template)
+    assert ran.code == 2
+    assert f"template.csv: {said}" in ran.err
+    assert not out.exists()
+
+
+def test_students_without_a_row_in_the_template_are_named(a_class: Class) -> None:
+    """Two students of one name are told apart by their ids, or not at all."""
+    template = a_class.file(
+        "sheet.csv",
+        "Identifier,Full name,Email address,Grade,Maximum Grade,Feedback comments\n"
+        "P1,Ann Bee,a1@x.test,,10\nP2,Ann Bee,,,10,\nP3,Cy Dee,,,10,\n",
+    )
+    roster = a_class.file(
+        "roster.csv",
+        "student_id,email,first_name,last_name\n01,a1@x.test,Ann,Bee\n02,a2@x.test,Ann,Bee\n03,,Cy,Dee\n",
+    )
+    table = a_class.file("answers.csv", HEADER + "01,lever,200\n02,lever,1\n03,lever,200\n")
+    out = a_class.path("out.csv")
+    cases = str(a_class.path("cases"))
+    options = ("--roster", roster, "--template", template, "--write", f"moodle={out}")
+    ran = a_class.run("grade", table, "--cases", cases, *options)
+    rows = [line.split(",") for line in out.read_text().splitlines()]
+    assert [row[3] for row in rows[1:]] == ["10.00", "", "10.00"]
+    assert "marks of 2 students of" in ran.err
+    assert "it has no row for 02" in ran.err
+
+
+def test_a_kind_of_output_that_there_is_not_is_refused_before_anything_is_read(a_class: Class) -> None:
+    ran = a_class.run("grade", "nothing.csv", "--cases", str(a_class.path("cases")), "--write", "x=y")
+    assert ran.code == 2
+    assert "--write x: there is no such kind" in ran.err
+
+
+def test_messages_about_a_file_name_it(a_class: Class) -> None:
+    good = a_class.file("good.csv", HEADER + "01,lever,200\n")
+    bad = a_class.file("bad.csv", "colour,shape\nred,round\n")
+    cases = str(a_class.path("cases"))
+    ran = a_class.run("grade", good, bad, "--cases", cases)
+    assert "bad.csv: these columns are of no known platform" in ran.err
+    ran = a_class.run("grade", good, "--cases", cases, "--roster", bad)
+    assert "bad.csv: no column of the roster" in ran.err

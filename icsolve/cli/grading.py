@@ -73,20 +73,10 @@ def grade_command(**options: Any) -> int:
     except ExistsError as error:
         complain(f"icsolve grade: {error}")
     except (HeaderError, ValueError) as error:
-        complain(f"icsolve grade: {_named(options, error)}")
+        complain(f"icsolve grade: {error}")
     except OSError as error:
         complain(f"icsolve grade: {error.filename or ''}: {error.strerror or error}".replace(" : ", " "))
     return UNREADABLE
-
-
-def _named(options: dict[str, Any], error: Exception) -> str:
-    """The message with the file that it is about, where there is only one."""
-    files = options["submissions"]
-    return (
-        f"{files[0]}: {error}"
-        if len(files) == 1 and not str(error).startswith("there is no case in")
-        else str(error)
-    )
 
 
 def _job(options: dict[str, Any]) -> Job:
@@ -94,6 +84,7 @@ def _job(options: dict[str, Any]) -> Job:
 
     if not os.path.exists(options["cases"]):
         raise FileNotFoundError(2, "there is no such folder", options["cases"])
+    _check_kinds(options)
     for path in (options["output"], options["jsonl"], options["html"], *_pairs(options["writes"]).values()):
         _check(path, options)
     course = _course(options)
@@ -105,6 +96,17 @@ def _job(options: dict[str, Any]) -> Job:
         student = student or student_of(options["metadata"])
     submissions = tuple(options["submissions"])
     return Job(submissions, options["cases"], course, options["roster"] or "", jobs, student)
+
+
+def _check_kinds(options: dict[str, Any]) -> None:
+    """Raises ValueError for a kind of output that there is not, FileNotFoundError for a template."""
+    if options["writes"]:
+        from icsolve.grade.out.write import check_kind
+
+        for kind in _pairs(options["writes"]):
+            check_kind(kind)
+    if options["template"] and not os.path.exists(options["template"]):
+        raise FileNotFoundError(2, "No such file or directory", options["template"])
 
 
 def _check(path: str | None, options: dict[str, Any]) -> None:
@@ -232,14 +234,12 @@ def _further(graded: Graded, job: Job, results: str, options: dict[str, Any]) ->
     """The files for platforms, made from the results."""
     if not options["writes"]:
         return
-    from icsolve.grade.out.write import KINDS, Order, write
+    from icsolve.grade.out.write import Order, write
     from icsolve.grade.people import read_roster
 
     wanted = _pairs(options["writes"])
     people = read_roster(job.roster, lambda line, why: None).people if job.roster and wanted else {}
     for kind, path in wanted.items():
-        if kind not in KINDS:
-            raise ValueError(f"--write {kind}: there is no such kind; it is one of {', '.join(KINDS)}")
         told = write(kind, Order(results, path, people, options["template"] or "", options["force"]))
         if told and not options["quiet"]:
             complain(told)

@@ -48,8 +48,14 @@ class Intake:
     def read(self, path: str, mapping: Iterable[tuple[str, str]], student: str = "") -> None:
         """Take in one file; all of it is of ``student``, if one is given.
 
-        Raises HeaderError or ValueError where the file can't be used, with a sentence; OSError.
+        Raises HeaderError where the file can't be used, with its name and a sentence; OSError.
         """
+        try:
+            self._read(path, mapping, student)
+        except (HeaderError, ValueError) as error:
+            raise HeaderError(f"{path}: {error}") from None
+
+    def _read(self, path: str, mapping: Iterable[tuple[str, str]], student: str) -> None:
         self._path = path
         if student and os.path.isdir(path):
             self._matched((student,))

@@ -61,8 +61,15 @@ _IDS = ("sid", "sis user id", "id number", "id-nummer")
 def read_roster(path: str | os.PathLike[str], report: Report) -> Roster:
     """The roster of a CSV file: canonical, or a platform's own (Gradescope, Canvas, Moodle).
 
-    Raises HeaderError or ValueError, with a sentence, where the file can't be used; OSError.
+    Raises HeaderError, with the file's name and a sentence, where it can't be used; OSError.
     """
+    try:
+        return _read(path, report)
+    except (HeaderError, ValueError) as error:
+        raise HeaderError(f"{os.fspath(path)}: {error}") from None
+
+
+def _read(path: str | os.PathLike[str], report: Report) -> Roster:
     with open(path, "rb") as file:
         table = Table(file, report)
         columns = Columns(table.header, (), lambda text: None)

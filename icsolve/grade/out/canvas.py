@@ -7,6 +7,7 @@ import io
 from collections.abc import Iterable, Sequence
 
 from icsolve.grade.out.rows import Row, shown
+from icsolve.grade.out.template import Filled, aliases, rows_of, text_of
 from icsolve.grade.people import Person
 from icsolve.grade.results import safe
 
@@ -42,30 +43,34 @@ def _ids(student: str, people: dict[str, Person]) -> tuple[str, ...]:
 
 def filled(
     template: str, students: Iterable[tuple[str, list[Row]]], people: dict[str, Person]
-) -> tuple[str, int]:
-    """The teacher's export with a column for each question filled; and how many of its students were found.
+) -> Filled:
+    """The teacher's export with a column for each question filled.
 
     A column ``press (1234)`` takes the marks of ``press``; a question without one gets a new column.
+
+    Raises ValueError where it is no gradebook.
     """
-    table = [list(row) for row in csv.reader(io.StringIO(template))]
+    table = rows_of(template)
     header = table[0]
+    ids = [header.index(name) for name in ("SIS User ID", "SIS Login ID", "ID") if name in header]
+    if header[0].lstrip("\ufeff") != "Student" or not ids:
+        raise ValueError("the template is no Canvas gradebook, which starts with Student,ID,SIS User ID")
     marks = dict(students)
-    points = _questions(marks.values())
+    known, points = aliases(marks, people), _questions(marks.values())
     places = {question: _place(header, question) for question in points}
-    found = 0
+    placed = set()
     for row in table[1:]:
         row.extend([""] * (len(header) - len(row)))
         if row[0].startswith(_POINTS):
             for question, most in points.items():
                 row[places[question]] = row[places[question]] or shown(most)
             continue
-        own = _marks_of(row, header, marks, people)
-        found += bool(own)
-        for mark in own:
-            row[places[mark.case]] = shown(mark.score)
-    out = io.StringIO()
-    csv.writer(out, lineterminator="\n").writerows(table)
-    return out.getvalue(), found
+        student = next((known[row[i].strip().lower()] for i in ids if row[i].strip().lower() in known), None)
+        if student is not None:
+            placed.add(student)
+            for mark in marks[student]:
+                row[places[mark.case]] = shown(mark.score)
+    return Filled(text_of(table), frozenset(placed))
 
 
 def _place(header: list[str], question: str) -> int:
@@ -75,16 +80,3 @@ def _place(header: list[str], question: str) -> int:
             return index
     header.append(question)
     return len(header) - 1
-
-
-def _marks_of(
-    row: Sequence[str], header: list[str], marks: dict[str, list[Row]], people: dict[str, Person]
-) -> list[Row]:
-    for column in ("SIS User ID", "SIS Login ID", "ID"):
-        name = row[header.index(column)] if column in header else ""
-        if name and name in marks:
-            return marks[name]
-        for student, person in people.items():
-            if name and name in (person.email, *person.others) and student in marks:
-                return marks[student]
-    return []

@@ -10,6 +10,7 @@ import io
 from collections.abc import Iterable, Sequence
 
 from icsolve.grade.out.rows import Row, shown
+from icsolve.grade.out.template import Filled, aliases, rows_of, text_of
 from icsolve.grade.people import Person
 from icsolve.grade.results import safe
 
@@ -61,17 +62,16 @@ def worksheet(students: Iterable[tuple[str, list[Row]]], people: dict[str, Perso
 
 def filled(
     template: str, students: Iterable[tuple[str, list[Row]]], people: dict[str, Person]
-) -> tuple[str, int]:
-    """The teacher's own worksheet with grades and comments; and how many of its students were found.
+) -> Filled:
+    """The teacher's own worksheet with grades and comments.
 
     Grades are scaled to the worksheet's maximum; its delimiter and decimal comma are kept.
 
     Raises ValueError where it has no column for grades, for comments or for a student's id.
     """
-    delimiter = (
-        ";" if template.partition("\n")[0].count(";") > template.partition("\n")[0].count(",") else ","
-    )
-    table = [list(row) for row in csv.reader(io.StringIO(template), delimiter=delimiter)]
+    head = template.partition("\n")[0]
+    delimiter = ";" if head.count(";") > head.count(",") else ","
+    table = rows_of(template, delimiter)
     names = [name.lower().lstrip("\ufeff").strip() for name in table[0]]
     grade, most, comments = (_column(names, words) for words in (_GRADE, _MOST, _COMMENTS))
     ids = [names.index(word) for word in _IDS if word in names]
@@ -80,33 +80,19 @@ def filled(
             "the worksheet needs the columns Grade, Feedback comments and Email address or ID number"
         )
     marks = dict(students)
-    known = _aliases(marks, people)
-    found = 0
+    known = aliases(marks, people)
+    placed = set()
     for row in table[1:]:
         student = next((known[row[i].strip().lower()] for i in ids if row[i].strip().lower() in known), None)
         if student is not None:
-            found += 1
+            placed.add(student)
             row[grade] = _grade(marks[student], row[most] if most is not None else "")
             row[comments] = safe(comment(marks[student]))
-    out = io.StringIO()
-    csv.writer(out, delimiter=delimiter, lineterminator="\n").writerows(table)
-    return out.getvalue(), found
+    return Filled(text_of(table, delimiter), frozenset(placed))
 
 
 def _column(names: Sequence[str], words: Iterable[str]) -> int | None:
     return next((names.index(word) for word in words if word in names), None)
-
-
-def _aliases(marks: dict[str, list[Row]], people: dict[str, Person]) -> dict[str, str]:
-    """Students by every name that the worksheet may know them by."""
-    known = {}
-    for student in marks:
-        person = people.get(student, Person(student))
-        full = f"{person.first_name} {person.last_name}".strip()
-        for name in (full, *person.others, person.email, student):
-            if name:
-                known[name.lower()] = student
-    return known
 
 
 def _grade(rows: Sequence[Row], most: str) -> str:

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from icsolve.grade.files import check_free, write_whole
 from icsolve.grade.out import canvas, gradescope, junit, moodle, prairielearn
 from icsolve.grade.out.rows import Row, by_student, read_results
+from icsolve.grade.out.template import Filled
 from icsolve.grade.people import Person
 from icsolve.grade.variants.sheets import file_name
 
@@ -24,12 +25,25 @@ class Order(NamedTuple):
     force: bool
 
 
+_NAMED = 20
+"""Students without a row who are named."""
+
+
 def write(kind: str, order: Order) -> str:
     """Write the results as ``kind``; what to tell the user, '' for nothing.
 
     Raises ValueError for a kind or a template that can't be used, ExistsError, OSError.
     """
-    return KINDS[kind](order)
+    try:
+        return KINDS[kind](order)
+    except (ValueError, IndexError) as error:
+        raise ValueError(f"{order.template or order.path}: {error}") from None
+
+
+def check_kind(kind: str) -> None:
+    """Raises ValueError for a kind that there is not."""
+    if kind not in KINDS:
+        raise ValueError(f"--write {kind}: there is no such kind; it is one of {', '.join(KINDS)}")
 
 
 def _canvas(order: Order) -> str:
@@ -37,9 +51,7 @@ def _canvas(order: Order) -> str:
     if not order.template:
         write_whole(order.path, canvas.gradebook(students, order.people), order.force)
         return ""
-    text, found = canvas.filled(_text(order.template), students, order.people)
-    write_whole(order.path, text, order.force)
-    return f"{order.path}: marks of {found} students of {order.template}"
+    return _filled(order, canvas.filled(_text(order.template), students, order.people))
 
 
 def _moodle(order: Order) -> str:
@@ -47,9 +59,16 @@ def _moodle(order: Order) -> str:
     if not order.template:
         write_whole(order.path, moodle.worksheet(students, order.people), order.force)
         return ""
-    text, found = moodle.filled(_text(order.template), students, order.people)
-    write_whole(order.path, text, order.force)
-    return f"{order.path}: grades and comments of {found} students of {order.template}"
+    return _filled(order, moodle.filled(_text(order.template), students, order.people))
+
+
+def _filled(order: Order, made: Filled) -> str:
+    """Write a template that was filled; who has no row in it is named."""
+    write_whole(order.path, made.text, order.force)
+    left = [student for student, _ in by_student(order.results) if student and student not in made.placed]
+    names = ", ".join(left[:_NAMED]) + (f" and {len(left) - _NAMED} more" if len(left) > _NAMED else "")
+    missing = f"; it has no row for {names}" if left else ""
+    return f"{order.path}: marks of {len(made.placed)} students of {order.template}{missing}"
 
 
 def _text(path: str) -> str:
