@@ -6,12 +6,14 @@ import csv
 import io
 import json
 import random
+from datetime import datetime
 from pathlib import Path
 
 import pytest
 
 from grade_bench import CASES, write_class
 from grade_shell import PRESS, Class
+from icsolve.grade.moments import moment
 from icsolve.grade.run import Job, Sinks, grade
 from icsolve.grade.store import Store
 
@@ -46,6 +48,23 @@ def test_times_tell_where_attempts_have_no_numbers(a_class: Class) -> None:
         "a,lever,100,2025-03-02T11:00:00+02:00\n"
     )
     assert [row["raw_answer"] for row in a_class.grade(table).rows()] == ["200"]
+
+
+@pytest.mark.parametrize(
+    ("text", "iso"),
+    [
+        ("2025/03/01 10:00:00 AM GMT+1", "2025-03-01T09:00:00"),  # Google Forms
+        ("2025/03/01 10:00:00 PM MEZ", "2025-03-01T21:00:00"),
+        ("2025/03/01 1:05:00 PM GMT+05:30", "2025-03-01T07:35:00"),
+        ("2025-03-01 10:00:00 -0800", "2025-03-01T18:00:00"),  # Gradescope
+        ("2025-03-01 10:00:00 UTC", "2025-03-01T10:00:00"),  # Canvas
+        ("1 March 2025  10:30 AM", "2025-03-01T10:30:00"),  # Moodle
+        ("1. März 2025  22:30", "2025-03-01T22:30:00"),
+        ("3/1/2025 10:00:00", "2025-03-01T10:00:00"),
+    ],
+)
+def test_the_times_that_platforms_write(text: str, iso: str) -> None:
+    assert moment(text) == datetime.fromisoformat(f"{iso}+00:00").timestamp()
 
 
 def test_rows_that_nothing_tells_apart_are_listed(a_class: Class) -> None:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from datetime import UTC, datetime
 
-_ZONE = re.compile(r" ?(?:UTC|GMT|Z)$")
+_ZONE = re.compile(r" ?(?:UTC|GMT|Z)?(?:(?<=[TC ])([-+])(\d{1,2}):?(\d\d)?|(?<=[TCZ]))$")
+"""``UTC``, ``GMT+1``, ``-0800``."""
 _FORMATS = (
     "%d %B %Y %I:%M %p",
     "%d %B %Y %I:%M:%S %p",
@@ -33,6 +34,15 @@ _GERMAN = {
     "oktober": "October",
     "dezember": "December",
 }
+_NAMED = {"CET": 1, "MEZ": 1, "CEST": 2, "MESZ": 2, "BST": 1, "EST": -5, "EDT": -4} | {
+    "CST": -6,
+    "CDT": -5,
+    "MST": -7,
+    "MDT": -6,
+    "PST": -8,
+    "PDT": -7,
+}
+"""Zones that exports name, in hours; those of North America where a name has two meanings."""
 NEVER = -1.0
 """For a time that is not given."""
 
@@ -48,7 +58,20 @@ def moment(text: str) -> float | None:
     try:
         return _seconds(datetime.fromisoformat(text))
     except ValueError:
-        return _otherwise(_ZONE.sub("", text))
+        return _with_zone(text)
+
+
+def _with_zone(text: str) -> float | None:
+    """A time that ends with its zone, or with none."""
+    before, _, name = text.rpartition(" ")
+    if name in _NAMED:
+        text = f"{before} GMT{_NAMED[name]:+d}"
+    zone = _ZONE.search(text)
+    found = _otherwise(text[: zone.start()] if zone is not None else text)
+    if zone is None or zone.group(1) is None or found is None:
+        return found
+    sign, hours, minutes = zone.groups()
+    return found - float(f"{sign}1") * (3600.0 * int(hours) + 60.0 * int(minutes or 0))
 
 
 def _seconds(time: datetime) -> float:

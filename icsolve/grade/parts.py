@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, ExitStack, nullcontext
 from typing import IO, NamedTuple
 
+from icsolve.forked import can_fork, started
 from icsolve.grade.course import Course
-from icsolve.grade.forked import can_fork, started
 from icsolve.grade.keys import Key
 from icsolve.grade.ledger import Entry as Noted
 from icsolve.grade.ledger import Ledger
