@@ -137,6 +137,17 @@ def test_google_forms(a_class: Class) -> None:
     assert "'Your name' names no case" in ran.err
 
 
+def test_a_quiz_of_google_forms_has_columns_that_are_no_answers(a_class: Class) -> None:
+    ran = a_class.grade(
+        "Timestamp,Email Address,Score,Q1 (lever),Q1 (lever) [Score],Q1 (lever) [Feedback],Q2,Q2 [Score]\n"
+        "2025/03/01 10:00:00 AM GMT+1,ann@x.test,0 / 2,200,0 / 1,no,100,0 / 1\n",
+        "--map",
+        "Q2=pusher",
+    )
+    assert (ran.code, ran.err) == (0, "")
+    assert [(r["case"], r["raw_answer"]) for r in ran.rows()] == [("lever", "200"), ("pusher", "100")]
+
+
 def test_prairielearn_manual_grading(a_class: Class) -> None:
     out = io.StringIO()
     table = csv.writer(out)

@@ -47,6 +47,9 @@ FIELDS = {
 }
 """Fields that can be mapped, and the headers by which each is known."""
 
+ASIDE = ("[score]", "[feedback]", "[punktzahl]", "[punkte]")
+"""What a quiz of Google Forms adds to a question: columns of its own, and no answers."""
+
 Find = Callable[[str], "str | None"]
 """The question that a text names: ``press``, ``press:w4/w2``; None for none."""
 
@@ -88,7 +91,9 @@ class Columns:
         wanted = plain_name(name)
         exact = [i for i, text in enumerate(self.names) if text == wanted]
         start = re.compile(re.escape(wanted) + r"(?![\w-])")
-        return exact or [i for i, text in enumerate(self.names) if start.match(text)]
+        return exact or [
+            i for i, text in enumerate(self.names) if start.match(text) and not text.endswith(ASIDE)
+        ]
 
     def _one(self, name: str) -> int:
         columns = self._matching(name)

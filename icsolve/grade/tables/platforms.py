@@ -7,7 +7,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from operator import itemgetter
 
-from icsolve.grade.tables.columns import FIELDS, Columns
+from icsolve.grade.tables.columns import ASIDE, FIELDS, Columns
 from icsolve.grade.tables.layout import HeaderError, Layout, Submission, identifier
 from icsolve.grade.tables.text import Row
 
@@ -144,10 +144,11 @@ def _questions(columns: Columns, kind: str, ids: set[int]) -> tuple[dict[int, st
         mapped = index in columns.questions
         if (index in taken and not mapped) or (not mapped and name in ("", *FIELDS["attempt"])):
             continue
-        question = columns.question_of(index) if mapped or not _META.match(name) else None
+        meta = bool(_META.match(name)) or name.endswith(ASIDE)
+        question = columns.question_of(index) if mapped or not meta else None
         if question is not None:
             asked[index] = question
-        elif _RESPONSE.match(name) or not _META.match(name):
+        elif _RESPONSE.match(name) or not meta:
             strange.append(index)
     return asked, strange
 
