@@ -3,6 +3,9 @@ no construction for all rows at once. Slower, and with every rule of a single sc
 
 from __future__ import annotations
 
+import os
+import threading
+import time
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import replace
 
@@ -11,6 +14,7 @@ import numpy as np
 from icsolve.answer import Answer
 from icsolve.case import Case
 from icsolve.errors import SceneError
+from icsolve.forked import can_fork, started
 from icsolve.names import link_order
 from icsolve.solve import solve
 from icsolve.tape import UNIT
@@ -22,6 +26,11 @@ from icsolve.turn.runner import Key, Progress, Rows
 from icsolve.turn.second import CODE, Codes
 from icsolve.turn.swept import Sweep, by_kind
 
+FEW = 8
+PATIENCE, WORTH = 0.3, 0.8
+"""Seconds: how long rows are solved one after another before the others are asked for help, if as much as
+that is left."""
+MOST = 8
 Value = float | tuple[float, ...]
 OTHER = CODE["near-singular"]
 
@@ -59,6 +68,24 @@ class Table:
             for kind, arrays in kinds.items():
                 for name, array in arrays.items():
                     self._table(tables, (kind, name), (self.rows, *array.shape[1:]))[rows] = array
+
+    def some(self, rows: Rows | list[int]) -> Table:
+        """Some rows as a table of their own."""
+        part = Table(len(rows), self.asked)
+        part.codes = self.codes[rows]
+        part.values = {key: array[rows] for key, array in self.values.items()}
+        part.errors = {key: array[rows] for key, array in self.errors.items()}
+        part.holds = {name: array[rows] for name, array in self.holds.items()}
+        return part
+
+    def merge(self, rows: Rows | list[int], part: Table) -> None:
+        """Rows of a table of their own."""
+        self.codes[rows] = part.codes
+        for mine, theirs in ((self.values, part.values), (self.errors, part.errors)):
+            for key, array in theirs.items():
+                self._table(mine, key, (self.rows, *array.shape[1:]))[rows] = array
+        for name, array in part.holds.items():
+            self.holds.setdefault(name, np.full((self.rows, 2), np.nan))[rows] = array
 
     def fill(self, row: int, answer: Answer) -> None:
         """All that is asked of a solved row."""
@@ -134,14 +161,54 @@ def solved(case: Case, asked: Asked) -> Answer:
 def by_scenes(
     table: Table, rows: Iterable[int], case_of: Callable[[int], Case], progress: Progress | None = None
 ) -> None:
-    """Solve rows as scenes."""
-    for row in rows:
-        try:
-            table.fill(row, solved(case_of(row), table.asked))
-        except SceneError as error:
-            table.refuse(row, error)
+    """Solve rows as scenes; in several processes once they turn out to take long."""
+    every = list(rows)
+    start = time.monotonic()
+    for n, row in enumerate(every):
+        _one(table, row, case_of)
         if progress is not None:
             progress(1)
+        spent = time.monotonic() - start
+        if n % FEW == FEW - 1 and spent > PATIENCE and spent * (len(every) - n) > WORTH * n and can_share():
+            shared(table, every[n + 1 :], case_of, progress)
+            return
+
+
+def _one(table: Table, row: int, case_of: Callable[[int], Case]) -> None:
+    try:
+        table.fill(row, solved(case_of(row), table.asked))
+    except SceneError as error:
+        table.refuse(row, error)
+
+
+def can_share() -> bool:
+    """Whether other processors can help: not where threads run, which a new process would not have."""
+    from multiprocessing import current_process
+
+    many = (os.cpu_count() or 1) > 1 and threading.active_count() == 1
+    return many and can_fork() and not current_process().daemon
+
+
+def shared(
+    table: Table, rows: list[int], case_of: Callable[[int], Case], progress: Progress | None = None
+) -> None:
+    """Solve rows in as many processes as there are processors, this one among them."""
+    count = min(os.cpu_count() or 1, MOST)
+    shares = [rows[k::count] for k in range(count)]
+
+    def alone(some: list[int]) -> Table:
+        part = Table(table.rows, table.asked)
+        for row in some:
+            _one(part, row, case_of)
+        return part.some(some)
+
+    with started([(alone, (some,)) for some in shares[1:]]) as results:
+        for row in shares[0]:
+            _one(table, row, case_of)
+            if progress is not None:
+                progress(count)
+        for some, part in zip(shares[1:], results(), strict=True):
+            table.merge(some, part)
 
 
 # --- families that have no construction for all rows ----------------------------------------------
