@@ -68,7 +68,7 @@ def test_structure_without_reactions_asked_is_refused_as_before() -> None:
 
 
 def test_nothing_determines_an_unknown_load_of_a_structure() -> None:
-    with pytest.raises(icsolve.SceneError, match="any value of the unknown load is carried") as caught:
+    with pytest.raises(icsolve.SceneError, match="power gives no equation. Any value of the unknown load is carried") as caught:
         solved(BRACKET.replace("weight: 10", "weight: unknown"))
     assert caught.value.status == "structure"
 
@@ -242,10 +242,22 @@ loads:
   V: {weight: %s, link: 2, at: B}
 """
     assert parts(solved(text % 20), "F12") == near(0, 50, 0)
-    with pytest.raises(icsolve.SceneError, match="W and V turn link 2 cw") as caught:
+    with pytest.raises(icsolve.SceneError, match="W and V leave 3 N\\*m cw on link 2") as caught:
         solved(text % 21)
     assert caught.value.status == "unbalanced"
     assert parts(solved(text.replace("30", "30.0") % "20.0"), "F12") == near(0, 50, 0)
+
+
+def test_what_known_loads_leave_on_a_block_is_a_force_along_its_guide() -> None:
+    text = """
+points: {A: [0, 0]}
+joints:
+  - {slide: [2, 1], at: A, along: 30}
+loads:
+  W: {weight: 100, link: 2, at: A}
+"""
+    with pytest.raises(icsolve.SceneError, match="W leaves 50 N at 210 deg on link 2"):
+        solved(text)
 
 
 def test_loads_balance_to_the_digits_in_which_they_are_given() -> None:
@@ -309,6 +321,23 @@ loads:
     assert "slack strand" in force(answer, "F23").why
     assert answer.answers["T3"].value == exactly(-10)
     assert any("initial tension" in note for note in answer.notes)
+
+
+def test_net_pull_of_a_belt_between_pivots_on_any_line() -> None:
+    """What the strands pull apart from each other is the torque over the radius: 10 / 2, and 15 / 3."""
+    answer = solved("""
+points: {A: [1, 2], B: [7, 10]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [1, 3], at: B}
+  - {belt: [2, 3], radii: [2, 3], crossed: true}
+loads:
+  T2: {torque: 10, link: 2}
+  T3: {torque: unknown, link: 3}
+""")
+    assert answer.answers["T3"].value == exactly(15)
+    assert dict(force(answer, "F23").parts)["net pull"] == exactly(5)
+    assert answer.to_dict()["reactions"]["F23"]["net_pull"] == exactly(5)
 
 
 def test_forces_far_from_the_origin_and_in_a_long_chain_lose_nothing() -> None:

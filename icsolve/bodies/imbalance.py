@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from icsolve.bodies.rubs import has_friction
 from icsolve.bodies.ties import Position
 from icsolve.case import ForceVector, Number
 from icsolve.errors import SceneError, Status
+from icsolve.plane import velocity
 from icsolve.power import Balance, Wrench, known_value
 from icsolve.sentences import listed
 from icsolve.speeds import joint_order
@@ -53,16 +55,26 @@ def _room(w: Wrench, factor: float) -> float:
 
 
 def _named(position: Position, balance: Balance, motion: int, powers: Sequence[float]) -> str:
-    """Which loads drive which link which way, and what would mend it."""
-    drive = sum(powers)
-    link, rate = _first_turning(position, motion)
+    """What the loads leave on which link, and what would mend it."""
     working = [w.load.name for w, power in zip(balance.wrenches, powers, strict=True) if power]
-    sense = "" if rate == 0.0 else " ccw" if rate * drive > 0.0 else " cw"
-    does = ("turn" if rate else "move") + ("s" if len(working) == 1 else "")
+    left = f"{'leaves' if len(working) == 1 else 'leave'} {_left(position, motion, sum(powers))}"
     return (
-        f"the known loads do not balance: {listed(working)} {does} link {link}{sense}, so there are no "
-        "reactions at rest. Make one of the loads `unknown`, or add one."
+        f"the known loads do not balance: {listed(working)} {left}, so there are no reactions at rest. Make "
+        "one of the loads `unknown`, or add one."
     )
+
+
+def _left(position: Position, motion: int, drive: float) -> str:
+    """The power that is left, as a torque on a link that turns or a force along a link's motion."""
+    link, rate = _first_turning(position, motion)
+    units = position.case.units
+    if rate:
+        torque = drive / rate / position.scale * units.torque_per_force_length
+        return f"{abs(torque):.6g} {units.torque} {'ccw' if torque > 0.0 else 'cw'} on link {link}"
+    x, y = velocity(position.twists[link][motion], (0.0, 0.0))
+    force = drive / math.hypot(x, y)
+    toward = math.degrees(math.atan2(y * force, x * force)) % 360.0
+    return f"{abs(force):.6g} {units.force} at {toward:.6g} deg on link {link}"
 
 
 def _first_turning(position: Position, motion: int) -> tuple[str, float]:

@@ -53,7 +53,7 @@ def friction_terms(friction: Friction, case: Case) -> Iterable[Term]:
     for rub in friction.rubbing:
         unit = case.units.torque if rub.kind == "pin" else case.units.force
         name = f"friction {rub.joint}" + (f" at {rub.where}" if rub.where else "")
-        words = f"{name}, at the {rub.kind}"
+        words = f"{name} in the {rub.kind}"
         link = rub.joint
         factor = -rub.loss / rub.value if rub.value else 0.0
         yield Term(name, link, rub.value, unit, factor, 0.0 - rub.loss, False, words)

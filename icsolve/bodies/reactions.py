@@ -37,7 +37,20 @@ def reactions_of(
         clean = [0.0 if abs(f) <= small else f for f, small in zip(forces, least, strict=True)]
         kept = [f if u else None for f, u in zip(clean, unique, strict=True)]
         found[name] = _reaction(position, frame, tie, kept, statics.scale)
+        if isinstance(tie.joint, Belt):
+            pull = _net_pull(position, tie.joint, tie, forces) / statics.scale
+            found[name] = found[name]._replace(parts=(("net pull", pull),))
     return found
+
+
+def _net_pull(position: Position, belt: Belt, tie: Tie, force: tuple[float, ...]) -> float:
+    """What the tight strand pulls more than the slack one: the torque on the second pulley over its radius.
+
+    The part of the force that is left open lies along the line of the pivots and makes no torque.
+    """
+    px, py = position.points[tie.pivots[1]]
+    torque = force[2] + (tie.at[0] - px) * force[1] - (tie.at[1] - py) * force[0]
+    return float(abs(torque) / (abs(belt.radii[1].value) * position.scale))
 
 
 def names_by_tie(case: Case, ties: tuple[Tie, ...]) -> list[str]:

@@ -36,7 +36,8 @@ def _remedy(ties: Sequence[Tie]) -> str:
         return "Give the gears their `pressure angle` for the loads on their bearings."
     if any(isinstance(tie.joint, Belt) for tie in ties):
         return (
-            "The bearing loads depend on the belt's initial tension: put its pulls on the pulleys as loads."
+            "The bearing loads depend on the belt's initial tension: in place of the belt put its two pulls "
+            "on the pulleys as loads."
         )
     return "The joints are redundant: how they share the load depends on their fit and stiffness."
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from icsolve.bodies.values import Friction, Reaction, Rubbing
@@ -64,10 +64,11 @@ def _rubbing(rubbing: Rubbing) -> dict[str, Any]:
 
 def bodies_lines(answer: Answer, show: Format, table: Table) -> list[str]:
     """Reactions, friction, and the unknown loads by free bodies."""
-    lines = reaction_lines(answer, show, table)
+    blocks = [reaction_lines(answer, show, table)]
     if answer.friction is not None:
-        lines += friction_lines(answer.friction, answer.case.units, show, table)
-    return [*lines, *witness_lines(answer, show)]
+        blocks.append(friction_lines(answer.friction, answer.case.units, show, table))
+    blocks.append(witness_lines(answer, show))
+    return "\n\n".join("\n".join(lines) for lines in blocks if lines).splitlines()
 
 
 def reaction_lines(answer: Answer, show: Format, table: Table) -> list[str]:
@@ -119,8 +120,18 @@ def _number(value: float | None, show: Format) -> str:
 
 def witness_lines(answer: Answer, show: Format) -> list[str]:
     """What free bodies make of the unknown loads, beside power."""
-    return [
-        f"{w.load} by free bodies alone: {show(w.bodies)}, {show(abs(w.difference))} from power "
-        f"(rounding may make {show(w.bound)})"
-        for w in answer.witnesses
+    return witness_table(answer.witnesses, show)
+
+
+def witness_table(witnesses: Sequence[Any], show: Format) -> list[str]:
+    """A line for each unknown load, in the plane and in space."""
+    lines = [
+        f"  {w.load} = {show(w.bodies)}, by power {show(w.power)}: {_apart(w.difference)}, rounding may make "
+        f"{w.bound:.1e}"
+        for w in witnesses
     ]
+    return ["By the equilibrium of the links alone", *lines] if lines else []
+
+
+def _apart(difference: float) -> str:
+    return f"{abs(difference):.1e} apart" if difference else "no difference"

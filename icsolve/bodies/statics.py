@@ -60,8 +60,9 @@ def structure(program: Program, refusal: SceneError) -> Answer:
     """
     case, top, figure = program.case, program.top, program.figure
     if any(is_unknown(load) for load in case.loads):
-        remedy = "In a structure any value of the unknown load is carried: give it a number."
-        raise SceneError(refusal.status, f"{refusal} {remedy}")
+        said = str(refusal).partition(" Take out")[0]
+        remedy = "Any value of the unknown load is carried: give it a number, or take out a joint or a link."
+        raise SceneError(refusal.status, f"{said} {remedy}")
     still: dict[str, tuple[Triple, ...]] = dict.fromkeys((*case.links, case.ground), ())
     place = Position(case, top, figure.points, figure.frame.scale, still)
     balance = Balance(wrenches(case, figure.frame, figure.points, FLOATS), (), ())

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from icsolve.answer import Answer, Term
+from icsolve.bodies.shown import witness_table
 from icsolve.case import Case, Spring, Toward, Weight
 from icsolve.space.case import Along, Force, Line, Load, Torque, TorqueVector, Vector
 from icsolve.space.loading import Wrenched
@@ -133,15 +134,8 @@ def space_lines(answer: Answer, spatial: Spatial, show: Format, table: Table) ->
     couples = f"; couples in {units.torque}" if any(map(_has_couple, spatial.reactions.values())) else ""
     title = f"Reactions, {units.force}{couples}: the force of the first link on the second, along x, y, z"
     columns = (list(column) for column in zip(*rows, strict=True))
-    return [title, *table(*columns), *_witness_lines(spatial, show)]
-
-
-def _witness_lines(spatial: Spatial, show: Format) -> list[str]:
-    return [
-        f"{w.load} by free bodies alone: {show(w.bodies)}, {show(abs(w.difference))} from power "
-        f"(rounding may make {show(w.bound)})"
-        for w in spatial.witnesses
-    ]
+    lines = [title, *table(*columns)]
+    return [*lines, "", *witness_table(spatial.witnesses, show)] if spatial.witnesses else lines
 
 
 def _triple(parts: Parts, show: Format) -> str:
