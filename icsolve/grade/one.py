@@ -9,7 +9,8 @@ from icsolve.grade.course import Course
 from icsolve.grade.judge import feedback, judge
 from icsolve.grade.judge_place import judge_place
 from icsolve.grade.keys import AnyKey, Key
-from icsolve.grade.out.wording import asked, figure, given
+from icsolve.grade.out.given import given
+from icsolve.grade.out.wording import asked, figure
 from icsolve.grade.results import number
 from icsolve.grade.shelf import Shelf, case_name
 from icsolve.grade.written import Reader

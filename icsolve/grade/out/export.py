@@ -11,9 +11,10 @@ from icsolve.grade.course import Course
 from icsolve.grade.files import write_whole
 from icsolve.grade.keys import Key, NoKeyError
 from icsolve.grade.out.element import Made, element
+from icsolve.grade.out.given import given
 from icsolve.grade.out.gradescope import Source, autograder_zip
 from icsolve.grade.out.questions import Question, gift, moodle_xml
-from icsolve.grade.out.wording import asked, figure, given
+from icsolve.grade.out.wording import asked, figure
 from icsolve.grade.questions import unknowns
 from icsolve.grade.shelf import Shelf
 from icsolve.grade.solved import Solved

@@ -159,7 +159,7 @@ def gift(questions: Iterable[Question], category: str) -> str:
 def _gift_question(question: Question) -> str:
     key = question.key
     values = "; ".join(f"{name} = {value}" for name, value in question.given)
-    text = _gift(f"{question.title} Given: {values}. {question.asked}".strip())
+    text = _gift(f"{_sentence(question.title)}Given: {values}. {question.asked}")
     rows = [f"=%100%{_number(key.value)}:{_number(key.half)}#{_gift(f'Right: {key.accepted} is accepted.')}"]
     for wrong, share, reach in wrong_rows(key):
         said = _gift(message(wrong.code, wrong.where))
@@ -168,6 +168,11 @@ def _gift_question(question: Question) -> str:
     return (
         f"::{_gift(question.name)}::{text} {{#\n{body}\n####{_gift(f'Accepted is an answer {key.rule}.')}\n}}"
     )
+
+
+def _sentence(title: str) -> str:
+    """A title before other sentences."""
+    return f"{title.rstrip('. ')}. " if title else ""
 
 
 def _gift(text: str) -> str:

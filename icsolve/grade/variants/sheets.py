@@ -9,7 +9,8 @@ from html import escape
 from typing import NamedTuple
 
 from icsolve.grade.keys import AnyKey, Key, NoKeyError
-from icsolve.grade.out.wording import asked, given
+from icsolve.grade.out.given import given
+from icsolve.grade.out.wording import asked
 from icsolve.grade.out.wording import figure as drawn
 from icsolve.grade.people import Person
 from icsolve.grade.questions import unknowns
