@@ -200,7 +200,7 @@ def test_the_order_is_the_textbooks() -> None:
     text = explain(icsolve.load(FILES["ch13/13_06_six_bar_slider.yaml"]))
     assert headings(text) == [
         "Given", "Asked", "Centres by inspection", "Centres by construction", "Ratios of the speeds", "Power",
-        "Answer", "Check by free bodies",
+        "Answer", "Left out", "Check by free bodies", "Remarks",
     ]  # fmt: skip
     order = [
         text.index(part)
@@ -210,6 +210,34 @@ def test_the_order_is_the_textbooks() -> None:
     assert "on the line I12 I16 (links 1, 2, 6), and on the line I24 I46 (links 2, 4, 6)" in " ".join(
         text.split()
     )
+
+
+def test_what_was_left_out_is_said_with_the_reason() -> None:
+    """13.6: 15 centres, of which ten are needed."""
+    text = " ".join(explain(icsolve.load(FILES["ch13/13_06_six_bar_slider.yaml"])).split())
+    assert "The centres I13, I15, I25, I35, I36: the loaded links are related without them." in text
+    assert "The forces in the joints: they do no work, and the equation of power is without them." in text
+    with_bodies = explain(icsolve.load(FILES["ch13/13_06_six_bar_slider.yaml"]), bodies=True)
+    assert "The forces in the joints: they" not in with_bodies
+
+
+def test_the_bound_of_rounding_is_the_answers() -> None:
+    case = icsolve.load(FILES["ch13/13_06_six_bar_slider.yaml"])
+    bound = icsolve.solve(case, reactions=True).answers["P16"].error
+    assert f"Rounding can have moved P16 by {bound:.1e} lbf at most." in explain(case)
+
+
+def test_a_given_motion_has_its_unit_and_sense() -> None:
+    """The shaper's crank turns at 40 rpm."""
+    text = explain(icsolve.load(FILES["sliders/quick_return.yaml"]))
+    assert "Link 2 turns at 4.18879 rad/s, counterclockwise." in text
+    text = explain(icsolve.load(FILES["ch13/13_10_black_box.yaml"]))
+    assert "Point B of link 2 moves at 100 in/s, at 215 deg." in text
+
+
+def test_forces_of_two_joints_between_one_pair_of_links_are_told_apart() -> None:
+    text = explain(icsolve.load(FILES["ch13/13_21_door_linkage.yaml"]))
+    assert "F12@A1,x + F12@A2,x = " in text
 
 
 def test_the_sense_of_an_answer_is_told_in_words() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from icsolve.draw.svg import escaped
-from icsolve.explain.document import Block, Document, Formula, Inline, Items, Section, Table, Words
+from icsolve.explain.document import Block, Document, Formula, Inline, Items, Section, Table, Words, dotted
 from icsolve.explain.mathml import mathml, mathml_equation
 
 STYLE = """
@@ -56,11 +56,11 @@ def _block(block: Block) -> str:
             tag = "ol" if block.numbered else "ul"
             return f"<{tag}>{''.join(f'<li>{inline(entry)}</li>' for entry in block.entries)}</{tag}>\n"
         case Table():
-            head = "".join(f"<th>{escaped(cell)}</th>" for cell in block.heading)
+            head = "".join(f"<th>{escaped(dotted(cell))}</th>" for cell in block.heading)
             rows = "".join(f"<tr>{''.join(f'<td>{inline(c)}</td>' for c in row)}</tr>" for row in block.rows)
             return f"<table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table>\n"
 
 
 def inline(parts: Sequence[Inline]) -> str:
     """Words and symbols on one line."""
-    return "".join(escaped(p) if isinstance(p, str) else f"<math>{mathml(p)}</math>" for p in parts)
+    return "".join(escaped(dotted(p)) if isinstance(p, str) else f"<math>{mathml(p)}</math>" for p in parts)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
-from icsolve.explain.document import Block, Document, Formula, Inline, Items, Section, Table, Words
+from icsolve.explain.document import Block, Document, Formula, Inline, Items, Section, Table, Words, dotted
 from icsolve.explain.latex import latex, latex_equation
 
 _SPECIAL = re.compile(r"([\\`*_{}\[\]<>()#+!|~$&-])")
@@ -43,11 +43,11 @@ def _block(block: Block) -> str:
                 f"{mark} {inline(entry)}" for mark, entry in zip(marks, block.entries, strict=True)
             )
         case Table():
-            rows = [[escaped(cell) for cell in block.heading], ["---"] * len(block.heading)]
+            rows = [[escaped(dotted(cell)) for cell in block.heading], ["---"] * len(block.heading)]
             rows += [[inline(cell) for cell in row] for row in block.rows]
             return "\n".join(f"| {' | '.join(row)} |" for row in rows)
 
 
 def inline(parts: Sequence[Inline]) -> str:
     """Words and symbols on one line."""
-    return "".join(escaped(part) if isinstance(part, str) else f"${latex(part)}$" for part in parts)
+    return "".join(escaped(dotted(p)) if isinstance(p, str) else f"${latex(p)}$" for p in parts)

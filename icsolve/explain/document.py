@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -68,3 +69,8 @@ def formula(*sides: Expr) -> Formula:
 
 def _repeats(after: Expr, before: Expr) -> bool:
     return after == before or (isinstance(after, Quantity) and after.number == before)
+
+
+def dotted(text: str) -> str:
+    """Units of a text with a dot between: ``lbf·in``."""
+    return re.sub(r"(?<=[A-Za-z])\*(?=[A-Za-z])", "·", text)

@@ -66,19 +66,19 @@ def _acting_on(known: Known, link: str) -> Iterable[On | None]:
     """Every reaction and load on a link; None for a reaction that is not determined."""
     answer = known.answer
     assert answer is not None
-    for r in (answer.reactions or {}).values():
+    for name, r in (answer.reactions or {}).items():
         if link in (r.by, r.on):
-            yield _reaction(known, r if r.on == link else r.reversed())
+            yield _reaction(known, r if r.on == link else r.reversed(), f"@{r.where}," if "@" in name else "")
     for acting in acting_loads(known):
         if link in (acting.link, acting.against):
             yield _load(known, acting, 1.0 if link == acting.link else -1.0)
 
 
-def _reaction(known: Known, r: Reaction) -> On | None:
+def _reaction(known: Known, r: Reaction, where: str) -> On | None:
     if r.x is None or r.y is None or r.moment is None:
         return None
     low = r.by + r.on if len(r.by) == len(r.on) == 1 else f"{r.by}-{r.on}"
-    return On("F", low, r.at, r.x, r.y, r.moment / known.case.units.torque_per_force_length)
+    return On("F", low + where, r.at, r.x, r.y, r.moment / known.case.units.torque_per_force_length)
 
 
 def _load(known: Known, acting: Acting, sign: float) -> On:
@@ -119,7 +119,7 @@ def _sum(figures: Figures, parts: Sequence[tuple[On, float]], axis: str, largest
     """Symbols, then numbers, then zero."""
     kept = [(on, value) for on, value in parts if abs(value) > NOTHING * largest]
     if not kept:
-        yield words("no force acts that way.")
+        yield words("No force acts that way.")
         return
     symbols: Expr = Sum(tuple((1, Name(on.name, f"{on.low}{axis}" if on.low else axis)) for on, _ in kept))
     numbers: Expr = Sum(tuple((1, figures.number(value)) for _, value in kept))
@@ -144,4 +144,4 @@ def _moments(
     if terms:
         yield formula(Sum(tuple(terms)), Num("0"))
     else:
-        yield words("no force has an arm about it.")
+        yield words("No force has an arm about it.")

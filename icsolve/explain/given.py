@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 from icsolve.case import (
     Belt,
     Case,
@@ -16,6 +14,7 @@ from icsolve.case import (
     KnownCentre,
     Like,
     Load,
+    Motion,
     Number,
     Pin,
     Roll,
@@ -29,6 +28,7 @@ from icsolve.case import (
     Weld,
 )
 from icsolve.construction import Known
+from icsolve.construction.words import SENSES
 from icsolve.explain.document import Block, Inline, Items, Section, Table, words
 from icsolve.explain.numbers import Figures, load_name, point_words
 from icsolve.power import is_unknown, reacting
@@ -48,7 +48,7 @@ def given_section(known: Known, figures: Figures) -> Section:
     if known_loads:
         blocks.append(words("Loads:"))
         blocks.append(Items(tuple(_load(known, figures, load) for load in known_loads)))
-    blocks += [words(*_motion(m.link, m.point, m.speed and m.speed.digits, m.turns)) for m in case.motion]
+    blocks += [words(_motion(figures, motion)) for motion in case.motion]
     return Section("Given", tuple(blocks))
 
 
@@ -183,6 +183,13 @@ def _heading(load: Load) -> str:
             return f", at {digits} deg"
 
 
-def _motion(link: str, point: str | None, speed: str | None, turns: str | None) -> Iterable[Inline]:
-    what = f"Point {point} of link {link} moves" if point else f"Link {link} turns"
-    yield what + (f" at {speed}" if speed else "") + (f", {turns}" if turns else "") + "."
+def _motion(figures: Figures, motion: Motion) -> str:
+    """A given motion as a sentence."""
+    speed = None if motion.speed is None else motion.speed.value
+    if motion.point is not None:
+        size = "" if speed is None else f" at {figures.number(speed).digits} {figures.units.length}/s"
+        way = "" if motion.angle is None else f", at {motion.angle.digits} deg"
+        return f"Point {motion.point} of link {motion.link} moves{size}{way}."
+    clockwise = (motion.turns == "cw") != (speed is not None and speed < 0.0)
+    size = "" if speed is None else f" at {figures.number(abs(speed)).digits} rad/s"
+    return f"Link {motion.link} turns{size}, {SENSES['cw' if clockwise else 'ccw']}."

@@ -75,7 +75,7 @@ def _safe(text: str) -> str:
 
 
 def _upright(unit: str) -> str:
-    words = unit.replace("*", r"\!\cdot\!")
+    words = unit.replace("*", r"\!\cdot\!").replace(" ", r"\ ")
     return rf"\mathrm{{{words}}}" if unit else ""
 
 

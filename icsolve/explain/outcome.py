@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
-from icsolve.answer import Found
+from icsolve.answer import Answer, Found
 from icsolve.case import Torque
-from icsolve.construction import Known
+from icsolve.construction import Known, Step
 from icsolve.construction.words import SENSES, range_words
 from icsolve.explain.document import Block, Inline, Items, Section, Table, words
-from icsolve.explain.formula import Name, Quotient
-from icsolve.explain.numbers import Figures, load_name, rate_name
+from icsolve.explain.formula import Num, Quantity, Quotient
+from icsolve.explain.numbers import Figures, centre_name, load_name, rate_name
 
 
 def answer_section(known: Known, figures: Figures) -> Iterable[Section]:
@@ -95,25 +95,60 @@ def check_section(known: Known, figures: Figures) -> Iterable[Section]:
     entries: list[tuple[Inline, ...]] = []
     units = {name: found.unit for name, found in answer.answers.items()}
     for w in answer.witnesses:
-        off = f"{abs(w.difference):.1g}"
-        entries.append((
-            load_name(w.load), " = ", figures.quantity(w.bodies, units.get(w.load, "")),
-            f" by free bodies alone; power gave the same but for {off}.",
-        ))  # fmt: skip
+        unit = units.get(w.load, "")
+        off = Quantity(Num(f"{abs(w.difference):.1g}"), unit)
+        found = figures.quantity(w.bodies, unit)
+        but: tuple[Inline, ...] = (" but for ", off) if w.difference else ()
+        same = " by free bodies alone; power gave the same"
+        entries.append((load_name(w.load), " = ", found, same, *but, "."))
     said = words("The equations of equilibrium of all links, without power or centres, give:")
     yield Section("Check by free bodies", (said, Items(tuple(entries))))
 
 
-def left_out(known: Known) -> Iterable[Section]:
-    """Notes, and what the answer did not need."""
-    answer = known.answer
-    notes = () if answer is None else answer.notes
-    skipped = () if answer is None else answer.skipped
-    entries: list[tuple[Inline, ...]] = [(sentence(note),) for note in notes]
-    if skipped:
-        entries.append((f"Not examined, as the answer does not need it: {'; '.join(skipped)}.",))
+def left_out(known: Known, steps: Sequence[Step], *, bodies: bool) -> Iterable[Section]:
+    """What the answer did not need, and why; ``bodies``: the forces in the joints are shown."""
+    if known.answer is None:
+        return
+    entries = tuple(_skipped(known, known.answer, steps, bodies=bodies))
+    if entries:
+        yield Section("Left out", (Items(entries),))
+
+
+def remarks_section(known: Known, figures: Figures) -> Iterable[Section]:
+    """Notes, and what rounding leaves."""
+    if known.answer is None:
+        return
+    entries: list[tuple[Inline, ...]] = [(sentence(note),) for note in known.answer.notes]
+    entries += _rounding(figures, known.answer)
     if entries:
         yield Section("Remarks", (Items(tuple(entries)),))
+
+
+def _skipped(
+    known: Known, answer: Answer, steps: Sequence[Step], *, bodies: bool
+) -> Iterable[tuple[Inline, ...]]:
+    needed = {step.centre.pair for step in steps}
+    others = [pair for pair in (known.whole.centres if known.whole else ()) if pair not in needed]
+    if others and answer.answers:
+        names: list[Inline] = []
+        for n, pair in enumerate(others):
+            names += [", " if n else "", centre_name(known, pair)]
+        yield ("The centres ", *names, ": the loaded links are related without them.")
+    if answer.answers and not bodies:
+        idle = "do no work" if answer.friction is None else "do work by friction alone"
+        yield (f"The forces in the joints: they {idle}, and the equation of power is without them.",)
+    if answer.skipped:
+        yield (f"Not examined, as the answer does not need it: {'; '.join(answer.skipped)}.",)
+
+
+def _rounding(figures: Figures, answer: Answer) -> Iterable[tuple[Inline, ...]]:
+    """How far rounding can have moved each answer."""
+    for name, found in answer.answers.items():
+        if found.error is not None and found.error > 0.0:
+            bound = Quantity(Num(f"{found.error:.1e}"), found.unit)
+            yield ("Rounding can have moved ", load_name(name), " by ", bound, " at most.")
+        elif found.error is None and found.why:
+            yield ("No bound is known for what rounding has done to ", load_name(name), f": {found.why}.")
 
 
 def sentence(text: str) -> str:
@@ -121,5 +156,3 @@ def sentence(text: str) -> str:
     text = text[:1].upper() + text[1:]
     return text if text.endswith((".", "!", "?")) else f"{text}."
 
-
-__all__ = ["Name", "answer_section", "check_section", "left_out", "rates_section", "sentence"]

@@ -138,7 +138,12 @@ def _solved(
     value = figures.quantity(found.value, found.unit)
     yield words("So")
     name = load_name(root.load.name)
-    yield formula(name, over, value) if under == Num("1") else formula(name, Quotient(over, under), value)
+    if under != Num("1"):
+        yield formula(name, Quotient(over, under), value)
+    elif len(powers) == 1 and powers[0][0] * powers[0][1] > 0.0:
+        yield formula(name, value)
+    else:
+        yield formula(name, over, value)
 
 
 def _is_root(acting: Acting) -> bool:

@@ -11,7 +11,7 @@ from icsolve.explain.finding import centre_sections
 from icsolve.explain.given import asked_section, given_section
 from icsolve.explain.motions import motions_section
 from icsolve.explain.numbers import Figures, figures_of
-from icsolve.explain.outcome import answer_section, check_section, left_out, sentence
+from icsolve.explain.outcome import answer_section, check_section, left_out, remarks_section, sentence
 from icsolve.explain.power import power_section
 from icsolve.explain.speeds import ratio_section
 from icsolve.power import is_unknown
@@ -38,18 +38,20 @@ def _sections(known: Known, figures: Figures, bodies: bool) -> Iterable[Section]
         return
     yield given_section(known, figures)
     yield asked_section(known, figures)
-    yield from centre_sections(known, figures, _steps(known))
+    steps = _steps(known)
+    yield from centre_sections(known, figures, steps)
     if known.refusal is not None:
         yield _refused(known.refusal)
         return
     yield from _by_power(known, figures)
     yield from answer_section(known, figures)
+    yield from left_out(known, steps, bodies=bodies)
     yield from check_section(known, figures)
     if bodies:
         from icsolve.explain.equilibrium import bodies_sections
 
         yield from bodies_sections(known, figures)
-    yield from left_out(known)
+    yield from remarks_section(known, figures)
 
 
 def _refused(refusal: SceneError) -> Section:
@@ -68,8 +70,9 @@ def _in_space(known: Known, figures: Figures) -> Iterable[Section]:
         return
     yield from sections_in_space(known, figures)
     yield from answer_section(known, figures)
+    yield from left_out(known, (), bodies=True)
     yield from check_section(known, figures)
-    yield from left_out(known)
+    yield from remarks_section(known, figures)
 
 
 def _steps(known: Known) -> tuple[Step, ...]:

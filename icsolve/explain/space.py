@@ -149,7 +149,7 @@ def _acting(known: Known, scene: InSpace, link: str) -> Iterable[On | None]:
     """All reactions and loads on a link; None for a reaction that is open."""
     assert known.answer is not None and known.answer.spatial is not None
     per = known.case.units.torque_per_force_length
-    for reaction in known.answer.spatial.reactions.values():
+    for title, reaction in known.answer.spatial.reactions.items():
         if link not in (reaction.by, reaction.on):
             continue
         r = reaction if reaction.on == link else reaction.reversed()
@@ -159,6 +159,7 @@ def _acting(known: Known, scene: InSpace, link: str) -> Iterable[On | None]:
             continue
         low = r.by + r.on if len(r.by) == len(r.on) == 1 else f"{r.by}-{r.on}"
         x, y, z, mx, my, mz = numbers
+        low = f"{low}@{r.where}," if "@" in title else low
         yield On("F", low, r.at, (x, y, z), (mx / per, my / per, mz / per))
     for push in scene.loads:
         if link in (push.link, push.against):
@@ -175,7 +176,7 @@ def _scaled(s: float, v: Vec) -> Vec:
 def _forces(figures: Figures, forces: Sequence[On], k: int, largest: float) -> Block:
     kept = [on for on in forces if abs(on.force[k]) > NOTHING * largest]
     if not kept:
-        return words("no force acts that way.")
+        return words("No force acts that way.")
     symbols = Sum(tuple((1, Name(on.name, on.low + AXES[k])) for on in kept))
     return formula(symbols, Sum(tuple((1, figures.number(on.force[k])) for on in kept)), Num("0"))
 
@@ -191,4 +192,4 @@ def _moments(figures: Figures, forces: Sequence[On], about: Vec, k: int, largest
                 terms.append((sign, product(figures.length(arm[a]), figures.number(on.force[b]))))
         if abs(on.couple[k]) > NOTHING * largest:
             terms.append((1, figures.number(on.couple[k])))
-    return formula(Sum(tuple(terms)), Num("0")) if terms else words("no force has an arm about it.")
+    return formula(Sum(tuple(terms)), Num("0")) if terms else words("No force has an arm about it.")
