@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import icsolve
+from cams import sliding, table
 from grade_shell import CASES
 from icsolve.grade.out.given import given
 from icsolve.turn.numbers import numbers_of
@@ -37,6 +38,25 @@ def rows(name: str) -> dict[str, str]:
 )
 def test_joints_and_motion_are_told(case: str, name: str, value: str) -> None:
     assert rows(case)[name] == value
+
+
+@pytest.mark.parametrize(
+    ("cam", "follower", "told"),
+    [
+        ("{circle: C, radius: 40}", "{flat: B, along: 0}", (
+            "circle about C, radius 40 mm",
+            "flat face through B, along 0 deg",
+        )),
+        (table([(0, 30), (90, 35), (180, 30), (270, 25)]), "{roller: B, radius: 10}", (
+            "radii about A in mm, counterclockwise from A-C: 0 deg: 30, 90 deg: 35, 180 deg: 30, 270 deg: 25",
+            "roller about B, radius 10 mm",
+        )),
+        ("{circle: C, radius: 40}", "{knife: B}", ("circle about C, radius 40 mm", "knife edge at B")),
+    ],
+)  # fmt: skip
+def test_profiles_are_told(cam: str, follower: str, told: tuple[str, str]) -> None:
+    found = dict(given(sliding(cam, follower)))
+    assert (found["profile of link 2"], found["profile of link 3"]) == told
 
 
 def test_an_unknown_spring_tells_its_free_length_and_ends() -> None:

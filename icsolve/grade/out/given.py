@@ -39,6 +39,10 @@ def given(case: Case) -> list[tuple[str, str]]:
     rows += [(length.a + length.b, f"{_shown(length.value)} {units.length}") for length in case.lengths]
     rows += [_angle(angle) for angle in case.angles]
     rows += [row for joint in case.joints for row in _joint(joint, case)]
+    if case.profiles is not None:
+        from icsolve.grade.out.outlines import outlines
+
+        rows += outlines(case)
     rows += [(load.name, _load(load, case)) for load in case.loads]
     rows += [_motion(given, case) for given in case.motion]
     if any(isinstance(load, Weight) and load.mass for load in case.loads):
