@@ -1,0 +1,136 @@
+"""`icsolve draw` and `icsolve explain` as commands: what they write, what they refuse, and that what was read
+is never written over."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from icsolve.cli import main
+from pictures import parsed
+from test_draw import DEAD_CENTRE, FOUR_BAR
+
+ROOT = Path(__file__).parent.parent
+VERBS = ("draw", "explain")
+
+
+def ran(*words: str) -> int:
+    with pytest.raises(SystemExit) as ended:
+        main(list(words))
+    return int(ended.value.code or 0)
+
+
+@pytest.fixture
+def press(tmp_path: Path) -> Path:
+    path = tmp_path / "press.yaml"
+    path.write_text(FOUR_BAR.format(title="Press", crank=1))
+    return path
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_a_file_is_what_standard_output_would_be(
+    verb: str, press: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "out.svg"
+    assert ran(verb, str(press)) == 0
+    shown = capsys.readouterr()
+    assert ran(verb, str(press), "-o", str(out)) == 0
+    assert out.read_text(encoding="utf-8") == shown.out
+    assert shown.err == capsys.readouterr().err == ""
+
+
+@pytest.mark.parametrize("verb", VERBS)
+@pytest.mark.parametrize("name", ["missing/out.svg", "."])
+def test_a_path_that_cannot_be_written_is_said(
+    verb: str, name: str, press: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert ran(verb, str(press), "-o", str(tmp_path / name)) == 2
+    assert "can't be written" in capsys.readouterr().err
+    assert [path.name for path in tmp_path.iterdir()] == ["press.yaml"]
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_the_case_itself_is_never_written_over(
+    verb: str, press: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """By its own name, by another way to it, or by a link."""
+    text = press.read_text()
+    (tmp_path / "link.svg").symlink_to(press)
+    os.link(press, tmp_path / "hard.svg")
+    for name in ("press.yaml", "../" + tmp_path.name + "/press.yaml", "link.svg", "hard.svg"):
+        assert ran(verb, str(press), "-o", str(tmp_path / name)) == 2
+        assert "is the case itself, and is left as it is" in capsys.readouterr().err
+        assert press.read_text() == text
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_several_cases_have_no_one_result(
+    verb: str, press: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "second.yaml").write_text(press.read_text())
+    assert ran(verb, str(tmp_path)) == 2
+    assert "several files" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("verb", VERBS)
+@pytest.mark.parametrize(
+    ("text", "status"),
+    [(DEAD_CENTRE, "dead-centre"), (FOUR_BAR.format(title="t", crank=20), "cannot-assemble")],
+)
+def test_a_case_without_an_answer_is_written_with_the_reason(
+    verb: str, text: str, status: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case, out = tmp_path / "case.yaml", tmp_path / "out"
+    case.write_text(text)
+    assert ran(verb, str(case), "-o", str(out)) == 1
+    said = capsys.readouterr().err
+    assert f": {status}: " in said
+    reason = said.partition(f": {status}: ")[2].split()
+    shown = out.read_text(encoding="utf-8")
+    if verb == "draw":
+        shown = " ".join(parsed(shown).texts("t-reason"))
+    assert " ".join(reason)[1:40] in " ".join(shown.split())
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_what_is_no_case_leaves_no_file(
+    verb: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    case, out = tmp_path / "case.yaml", tmp_path / "out"
+    case.write_text("icsolve: 1\njoints: [\n")
+    assert ran(verb, str(case), "-o", str(out)) == 2
+    assert "case.yaml:" in capsys.readouterr().err
+    assert not out.exists()
+
+
+@pytest.mark.parametrize("words", [("--step", "-1"), ("--centres", "some"), ("--step", "x")])
+def test_options_that_cannot_be_are_refused(words: tuple[str, ...], press: Path) -> None:
+    assert ran("draw", str(press), *words) == 2
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("draw", "cases/linkages/watt_six_bar.yaml", "--centres", "all", "--circle", "--velocities"),
+        ("draw", "cases/linkages/watt_six_bar.yaml", "--bodies"),
+        ("draw", "cases/ch13/13_21_door_linkage.yaml", "--bodies"),
+        ("explain", "cases/gears/epicyclic_train.yaml", "--format", "html", "--bodies"),
+    ],
+)
+def test_the_same_bytes_in_every_process(words: tuple[str, ...]) -> None:
+    """Whatever order sets and dictionaries have there."""
+    both = [
+        subprocess.run(
+            [sys.executable, "-m", "icsolve", *words],
+            cwd=ROOT,
+            env={**os.environ, "PYTHONHASHSEED": seed},
+            capture_output=True,
+            check=True,
+        ).stdout
+        for seed in ("1", "7")
+    ]
+    assert both[0] == both[1] and both[0]
