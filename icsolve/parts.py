@@ -16,7 +16,6 @@ from icsolve.names import link_order
 from icsolve.program import Outcome, Program, Want
 from icsolve.sense import sense_of, unit_of
 from icsolve.terms import advantage, load_values, power_terms
-from icsolve.topology import Topology
 
 
 class Parts:
@@ -54,7 +53,7 @@ class Parts:
             terms=Later(lambda: self._terms(values)),
             advantage=advantage(balance, values, self.unknowns),
             mobility=motions.mobility,
-            notes=(*self.figure.notes, *motions.notes, *_notes(self.program.top, self.traced)),
+            notes=(*self.figure.notes, *motions.notes, *_notes(self.program, self.traced)),
             skipped=Later(lambda: _skipped(self.program, self.traced)),
             steps=Later(lambda: _steps(self.program)),
             sensitivities=Deferred(lambda: slopes(self.scene) if self.scene else {}),
@@ -121,24 +120,24 @@ def wanted_pairs(case: Case, want: Want) -> list[Pair]:
     return [pair for pair in pairs if {*pair} <= loaded or frozenset(pair) in against]
 
 
-def _notes(top: Topology, outcome: Outcome) -> list[str]:
+def _notes(program: Program, outcome: Outcome) -> list[str]:
     """Sentences about the mechanism that a reader of the answer should know."""
     notes = []
     motions, solution = outcome.motions, outcome.solution
     if motions.redundant and not motions.notes:
-        notes.append(_redundancy(top, motions))
+        notes.append(_redundancy(program, motions))
     if solution.idle and solution.values:
         count = sentences.plural(len(solution.idle), "passive freedom")
         notes.append(f"{count} in which no load does work.")
     return notes
 
 
-def _redundancy(top: Topology, motions: Motions) -> str:
+def _redundancy(program: Program, motions: Motions) -> str:
     """What becomes of a motion that redundant constraints allow in this position."""
     from icsolve.second_order import goes_on
 
     bases = {k: tuple(map(floats, basis)) for k, basis in motions.bases.items()}
-    return sentences.redundant(motions.redundant, goes_on(top, bases))
+    return sentences.redundant(motions.redundant, goes_on(program.top, bases), program.want.bodies)
 
 
 def _skipped(program: Program, outcome: Outcome) -> tuple[str, ...]:

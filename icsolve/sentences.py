@@ -167,16 +167,20 @@ def wrong_count(mobility: int, unknowns: int, idle: int) -> str:
     )
 
 
-def redundant(count: int, goes_on: bool | None) -> str:
-    """Redundant constraints, and whether the motion is more than a moment's (None: not known)."""
+def redundant(count: int, goes_on: bool | None, bodies: bool) -> str:
+    """Redundant constraints, and whether the motion is more than a moment's (None: not known).
+
+    Without ``bodies`` nobody looked which reactions are unique.
+    """
     cause = f"the joints have {plural(count, 'redundant constraint')}"
+    end = "." if bodies else "; reactions that share a load are not unique (`--reactions` tells which)."
     if goes_on is False:
         return (
             f"{cause}: the links yield only for an instant, then they bind (second order), so the answer is "
-            "for this position alone; the reactions are not unique."
+            f"for this position alone{end}"
         )
     onward = ", and it goes on moving to second order" if goes_on else ""
-    return f"{cause}: it moves only because the figure is exact{onward}; the reactions are not unique."
+    return f"{cause}: it moves only because the figure is exact{onward}{end}"
 
 
 def change_point(mobility: int, count: int) -> str:
