@@ -88,6 +88,24 @@ def test_only_variants_that_assemble_and_are_far_from_a_dead_centre(a_class: Cla
     assert any(not seen.far for seen in found._seen.values())
 
 
+def test_with_friction_variants_near_a_dead_centre_are_not_given_either(a_class: Class) -> None:
+    """A crank of 1 on a coupler of 3, from stretched out to 60 degrees, its slider pushed: near 0 degrees P
+    grows without bound."""
+    text = (
+        "icsolve: 1\nvariables: {phi: {range: [0, 60], step: 1}}\npoints: {A: [0, 0], C: [unknown, 0]}\n"
+        "lengths: {AB: 1, BC: 3}\nangles: {AB: $phi}\nnear: {C: [4, 0]}\njoints:\n"
+        "  - {pin: [1, 2], at: A, mu: 0.1, radius: 0.05}\n  - {pin: [2, 3], at: B}\n"
+        "  - {pin: [3, 4], at: C}\n"
+        "  - {slide: [4, 1], at: C, along: 0, mu: 0.1}\nloads:\n  T12: {torque: 10, link: 2}\n"
+        "  P: {force: unknown, link: 4, at: C, angle: 180}\nmotion: {link: 2, turns: ccw}\n"
+    )
+    a_class.case("press", text)
+    found = varied(a_class)
+    drawn_angles = {int(found.draw(str(n)).values["phi"]) for n in range(80)}
+    assert min(drawn_angles) > 3
+    assert len(drawn_angles) > 30
+
+
 def test_a_case_none_of_whose_variants_suits_says_so(a_class: Class) -> None:
     a_class.case("press", PRESS.replace("[1, 1.25, 1.5]", "[7, 8]"))
     roster = a_class.file("roster.csv", "student_id\n1\n2\n")

@@ -5,7 +5,9 @@ from __future__ import annotations
 import os
 import sys
 import time
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
+from contextlib import AbstractContextManager
+from typing import TYPE_CHECKING, TypeVar
 
 import click
 
@@ -17,6 +19,8 @@ if TYPE_CHECKING:
     from icsolve.grade.shelf import Shelf
     from icsolve.grade.variants import Varied
     from icsolve.grade.variants.sheets import Task
+
+T = TypeVar("T")
 
 
 @click.command("variants")
@@ -118,12 +122,13 @@ def _one(varied: Varied, people: list[Person], folder: str, figures: bool, force
     start = time.perf_counter()
     found: list[Task] = []
     code = DONE
-    for person, task in zip(people, tasks(varied, people), strict=True):
-        if isinstance(task, NoKeyError):
-            complain(f"{person.student_id}: {task}")
-            code = NO_ANSWER
-        else:
-            found.append(task)
+    with _bar(zip(people, tasks(varied, people), strict=True), len(people), "variants", quiet) as bar:
+        for person, task in bar:
+            if isinstance(task, NoKeyError):
+                complain(f"{person.student_id}: {task}")
+                code = NO_ANSWER
+            else:
+                found.append(task)
     write_whole(paths[0], values_csv(varied, found), force)
     write_whole(paths[1], key_csv(varied, found), force)
     if not quiet:
@@ -167,12 +172,18 @@ def _draw(varied: Varied, groups: list[list[Task]], folder: str, force: bool, qu
     from icsolve.grade.files import write_whole
     from icsolve.grade.variants.sheets import figure, sheet
 
-    with click.progressbar(groups, label="figures", hidden=quiet, file=sys.stderr) as bar:
+    with _bar(groups, len(groups), "figures", quiet) as bar:
         for tasks in bar:
             picture = figure(varied, tasks[0].draw)
             write_whole(_figure_path(folder, tasks[0].draw.label), picture, force)
             for task in tasks:
                 write_whole(_sheet_path(folder, task), sheet(varied, task, picture), force)
+
+
+def _bar(items: Iterable[T], count: int, label: str, quiet: bool) -> AbstractContextManager[Iterable[T]]:
+    """A progress bar, on a terminal only."""
+    hidden = quiet or not sys.stderr.isatty()
+    return click.progressbar(items, length=count, label=label, hidden=hidden, file=sys.stderr)
 
 
 def _figure_path(folder: str, label: str) -> str:

@@ -5,7 +5,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from icsolve.answer import Answer
+from icsolve.errors import IcsolveError
 from icsolve.grade.malrules.centres import centre_wrongs
+from icsolve.grade.malrules.changed import without_friction
 from icsolve.grade.malrules.gather import resolve
 from icsolve.grade.malrules.loads import load_wrongs
 from icsolve.grade.malrules.messages import Wrong
@@ -42,17 +44,29 @@ def looked_at(answer: Answer) -> Seen:
 def far_from_dead_centres(answer: Answer) -> bool:
     """Whether rounding the figure to a thousandth of its size leaves the answers within 10 %.
 
-    ``answer`` has been solved with its bound, whose backward pass gives the sensitivities.
+    ``answer`` has been solved with its bound, whose backward pass gives the sensitivities; with friction,
+    which has none, those of the smooth mechanism stand for them.
     """
     width = DRAWING * size_of(answer)
     for name, found in answer.answers.items():
-        try:
-            swing = band(answer, name, width)
-        except KeyError:
+        smooth = answer if name in answer.sensitivities else _smooth(answer)
+        if name not in smooth.sensitivities:
             continue
+        swing = band(smooth, name, width)
         if found.value == 0.0 or not swing <= SWING * abs(found.value):
             return False
     return True
+
+
+def _smooth(answer: Answer) -> Answer:
+    """The case without its friction; itself where that has no answer."""
+    from icsolve.solve import solve
+
+    case = without_friction(answer.case)
+    try:
+        return solve(case) if case is not None else answer
+    except IcsolveError:
+        return answer
 
 
 def swallowed(answer: Answer) -> frozenset[Mistake]:
