@@ -19,6 +19,11 @@ class Effort(NamedTuple):
     seconds: float
     jobs: int
 
+    @property
+    def rounds(self) -> int:
+        """Runs of what takes a tenth of a second or more."""
+        return max(2, int(4 * self.seconds))
+
 
 USUAL = Effort(80, 1_000, 500, 200, 3.0, 1)
 FULL = Effort(400, 10_000, 12_000, 2_000, 6.0, os.cpu_count() or 1)

@@ -8,7 +8,6 @@ from __future__ import annotations
 import contextlib
 import io
 import math
-import time
 from collections.abc import Callable
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any, NamedTuple
@@ -16,8 +15,10 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from icsolve.bench.closed import FOUR_BAR, Array, four_bar
+from icsolve.bench.timing import once
 
 POSITIONS = 3600
+"""Of a full turn, here and in the sweeps."""
 
 
 class Peer(NamedTuple):
@@ -154,7 +155,7 @@ PEERS = (
 )
 
 
-def ran(peer: Peer, rounds: int = 3) -> Ran:
+def ran(peer: Peer, rounds: int) -> Ran:
     """Run a peer's full turn; what goes wrong with it is told, not raised."""
     try:
         name = _named(peer)
@@ -165,7 +166,7 @@ def ran(peer: Peer, rounds: int = 3) -> Ran:
         with contextlib.redirect_stdout(io.StringIO()):
             run = peer.prepare(angle)
             found = run()
-            seconds = min(_timed(run) for _ in range(rounds))
+            seconds = min(once(run) for _ in range(rounds))
     except Exception as error:  # another program's failure is its own
         return Ran(name, peer.gives, math.nan, math.nan, f"{type(error).__name__}: {error}"[:80])
     return Ran(name, peer.gives, seconds, _error(peer, angle, found))
@@ -180,12 +181,6 @@ def _named(peer: Peer) -> str:
     with contextlib.suppress(PackageNotFoundError):
         return f"{name} with numba {version('numba')}" if peer.compiles else name
     return name
-
-
-def _timed(run: Callable[[], Array]) -> float:
-    start = time.perf_counter()
-    run()
-    return time.perf_counter() - start
 
 
 def _error(peer: Peer, angle: Array, found: Array) -> float:

@@ -88,19 +88,20 @@ def _as_score(t: Timed) -> Score:
 
 
 def other_programs(effort: Effort, kept: Kept) -> str:
-    """The same full turn by other programs, in the same run."""
+    """The full turn of the four-bar by other programs, in the same run as `full_turn`."""
     from icsolve.bench.peers import PEERS, POSITIONS, TORQUE, ran
-    from icsolve.bench.sweeps import SWEPT, full_turns
+    from icsolve.bench.sweeps import SWEPT
 
-    own = next(iter(full_turns(POSITIONS, effort.seconds).values()))[SWEPT]
-    found = [ran(peer) for peer in PEERS]
-    rows = [["icsolve", "torque", "1", f"{1e3 * own.seconds:.3g}", f"{own.error:.1e}"]]
-    rows += [_peer_row(peer, own.seconds) for peer in found]
+    own = next(score for score in kept.turns if score.method == SWEPT)
+    seconds = 1e-6 * own.micros * POSITIONS
+    found = [ran(peer, effort.rounds) for peer in PEERS]
+    rows = [["icsolve", "torque", "1", f"{1e3 * seconds:.3g}", f"{own.error:.1e}"]]
+    rows += [_peer_row(peer, seconds) for peer in found]
     kept.turns.extend(_peer_score(peer, POSITIONS) for peer in found if not peer.why)
     kept.absent.extend(f"{peer.name}: {peer.why}" for peer in found if peer.why)
     forceful = [peer.seconds for peer in found if peer.gives == TORQUE and not peer.why]
     if forceful:
-        times = min(forceful) / own.seconds
+        times = min(forceful) / seconds
         kept.gates.append(ratio("fastest other program that gives a torque / sweep", times, 100, floor=True))
     return table((f"four-bar, {POSITIONS} positions", "gives", "x icsolve", "ms", "worst error"), rows)
 
@@ -122,7 +123,7 @@ def start_up(effort: Effort, kept: Kept) -> str:
     """Whole processes, cold, in CPU time."""
     from icsolve.bench.startup import COMMAND, IMPORTS, starts
 
-    found = {start.name: start.seconds for start in starts(max(5, int(8 * effort.seconds)))}
+    found = {start.name: start.seconds for start in starts(2 * effort.rounds)}
     base = found[IMPORTS[0]]
     kept.gates.append(ratio(f"`{COMMAND}`, whole process / its imports", found[COMMAND] / base, 1.5))
     rows = [[name, f"{seconds / base:.2f}", f"{1e3 * seconds:.0f}"] for name, seconds in found.items()]

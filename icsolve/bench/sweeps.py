@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from icsolve.bench.closed import FOUR_BAR_CASE, MECHANISMS, Array, Turning, compiled, in_c
+from icsolve.bench.peers import POSITIONS
 from icsolve.bench.reference import Truth, truth
 from icsolve.bench.startup import peak_memory
 from icsolve.bench.timing import least
@@ -17,7 +18,7 @@ from icsolve.case import Case
 from icsolve.read import load
 from icsolve.turn import sweep
 
-TURN, MILLION = 3600, 1_000_000
+TURN, MILLION = POSITIONS, 1_000_000
 PATH = "angles.AB"
 SWEPT, BOUNDED, BY_HAND, IN_C = "icsolve sweep", "icsolve sweep, bounds", "numpy by hand", "C -O3"
 SAMPLE = 24
