@@ -19,6 +19,9 @@ _MOST_LINES = 50
 """Lines of one record; a quote that is not closed by then was not meant as one."""
 _DELIMITERS = ",;\t|"
 _SAMPLE = 65536
+_START = 2000
+"""Characters of a line that is too long which are kept."""
+TOO_LONG = f"this line is longer than {LARGEST} characters"
 
 UNCLOSED = "a quoted cell starts here and does not end"
 
@@ -118,8 +121,7 @@ class Table:
                 line -= len(pending) - 1
             pending.clear()
             if cells:
-                yield Row(line, cells)
-
+                yield Row(line, cells, TOO_LONG if lines.cut and line in lines.cut else "")
 
     def _swallows(self, lines: list[str]) -> bool:
         """Whether a record of several lines has taken in rows: a quote in it stands where none may, or a
@@ -159,6 +161,8 @@ class _Lines:
         self.pending: list[str] = []
         self.number = 0
         self.ended = False
+        self.cut: set[int] = set()
+        """lines of which only the start is kept"""
 
     @property
     def done(self) -> bool:
@@ -181,17 +185,17 @@ class _Lines:
             yield line
 
     def _mended(self, line: str) -> str:
-        """Without nul characters; an overlong line empty."""
+        """Without nul characters; of an overlong line the start, which may say whose it is."""
         if len(line) == LARGEST and line[-1] not in "\r\n":
             self._skip_rest()
-            return "\n"
+            self.cut.add(self.number)
+            line = line[:_START].replace('"', "") + "\n"
         if "\0" in line:
             self._report(self.number, "nul characters are taken out of this line")
         return line.replace("\0", "")
 
     def _skip_rest(self) -> None:
         """Pass over what is left of a line that is too long."""
-        self._report(self.number, f"this line is longer than {LARGEST} characters and is passed over")
         while True:
             more = self._file.readline(LARGEST)
             if not more or more[-1] in "\r\n":
