@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from icsolve.answer import Answer
 from icsolve.case import Case, Pin, Slide, Weld
@@ -19,6 +19,9 @@ from icsolve.grashof import (
     transmission_in_slider_crank,
     transmission_of,
 )
+
+if TYPE_CHECKING:
+    from icsolve.profile.reporting import Pressure
 
 Place = tuple[float, float]
 
@@ -56,6 +59,7 @@ class Report(NamedTuple):
     advantage: float | None
     loops: tuple[Loop, ...]
     unit: str
+    contacts: tuple[Pressure, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """The object under ``report`` in the JSON of an answer."""
@@ -63,6 +67,7 @@ class Report(NamedTuple):
             "mobility": self.mobility,
             "advantage": self.advantage,
             "loops": [_loop_dict(loop) for loop in self.loops],
+            **({"contacts": [each._asdict() for each in self.contacts]} if self.contacts else {}),
         }
 
     def text(self, digits: int = 6) -> str:
@@ -70,9 +75,10 @@ class Report(NamedTuple):
         lines = ["Report", f"  mobility {self.mobility}"]
         if self.advantage is not None:
             lines.append(f"  mechanical advantage (unknown / known) {_show(self.advantage, digits)}")
+        lines.extend(each.text(digits) for each in self.contacts)
         for loop in self.loops:
             lines.extend(_loop_text(loop, digits, self.unit))
-        if not self.loops:
+        if not self.loops and not self.contacts:
             lines.append("  no four-bar and no slider-crank among the loops: no Grashof kind")
         return "\n".join(lines)
 
@@ -80,7 +86,16 @@ class Report(NamedTuple):
 def report(answer: Answer) -> Report:
     """The report of an answer whose points are all known (solved with ``examine``)."""
     loops = (*_four_bars(answer), *_slider_cranks(answer))
-    return Report(answer.mobility, answer.advantage, loops, answer.case.units.length)
+    return Report(answer.mobility, answer.advantage, loops, answer.case.units.length, _contacts(answer))
+
+
+def _contacts(answer: Answer) -> tuple[Pressure, ...]:
+    """The pressure angles of contacts that profiles gave."""
+    if not answer.touching:
+        return ()
+    from icsolve.profile.reporting import pressures
+
+    return pressures(answer)
 
 
 def _loop_dict(loop: Loop) -> dict[str, Any]:

@@ -197,13 +197,24 @@ class Rows:
 
         Raises SceneError where there is no one contact.
         """
-        case, touching = self.work.case_of(row), []
+        return self._with_contacts(self.work.case_of(row), row)
+
+    def _with_contacts(self, case: Case, row: int) -> tuple[Case, list[Touching]]:
+        """A case with the contacts of a row."""
+        touching = []
         for follow, ways in zip(self.course.follows, self.ways, strict=True):
             one = ways[row]
             assert one is not None
             case, touched = follow.contact(case, *one)
             touching.append(touched)
         return case, touching
+
+    def touching(self, row: int) -> list[Touching]:
+        """Where the links touch in a row.
+
+        Raises SceneError where there is no one contact.
+        """
+        return self._with_contacts(self.course.open, row)[1]
 
     def case_of(self, row: int) -> Case:
         """A row as a case whose contacts are to be found on its profiles."""

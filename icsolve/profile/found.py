@@ -19,6 +19,8 @@ from icsolve.profile.words import corner_refusal, left_open, never_meets, piece_
 
 FITS = 2e-3
 """A follower whose place is given may miss the profile by this fraction of the profile's size."""
+ROUNDED = 1e-14
+"""A pressure angle of this sine is rounding."""
 CLEARLY = 0.9
 """A way is meant where it is nearer to `near` than this fraction of the distance of the next."""
 
@@ -194,6 +196,8 @@ def pressure_angle(guide: Freedom, at: Point, normal: Point) -> float:
     """Degrees between the normal and the motion of a point of the follower."""
     x, y = guide.velocity(at)
     along, across = x * normal[0] + y * normal[1], x * normal[1] - y * normal[0]
+    if abs(across) <= ROUNDED * abs(along):
+        return 0.0
     return math.degrees(math.atan2(abs(across), abs(along)))
 
 

@@ -108,7 +108,8 @@ def follower_driven(follower: str, cams: Sequence[str]) -> str:
 
 def contact_said(one: Touching) -> str:
     """Where two links touch."""
-    x, y = one.at
+    least = 1e-14 * math.hypot(*one.at)
+    x, y = (0.0 if abs(v) <= least else v for v in one.at)
     pressure = "" if one.pressure_angle is None else f", pressure angle {one.pressure_angle:.6g} deg"
     place = f"({x:.6g}, {y:.6g}), {_article(one.on)}, normal {one.normal:.6g} deg"
     return f"links {listed(one.links)} touch at {place}{pressure}."
