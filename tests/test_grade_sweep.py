@@ -12,6 +12,8 @@ import icsolve
 from grade_shell import PRESS
 from icsolve.errors import IcsolveError
 from icsolve.grade.course import Course
+from icsolve.grade.judge import judge
+from icsolve.grade.keys import Key
 from icsolve.grade.people import Person
 from icsolve.grade.solved import Solved
 from icsolve.grade.variants import Varied
@@ -20,6 +22,7 @@ from icsolve.grade.variants.sheets import Task, key_csv, tasks
 from icsolve.grade.variants.suitable import looked_at
 from icsolve.grade.variants.together import look
 from icsolve.grade.variants.written import UnsuitedError, as_written
+from icsolve.grade.written import Reader
 from icsolve.turn.numbers import with_numbers
 
 CASES = sorted((Path(__file__).parent.parent / "cases").rglob("*.yaml"))
@@ -71,12 +74,37 @@ def test_numbers_of_the_case_are_all_inputs_of_its_family() -> None:
     assert family.numbers.keys() == as_written(case).keys()
 
 
+SLIDER = """\
+icsolve: 1
+variables:
+  T: {range: [10, 50], step: 5}
+  r: {range: [0.8, 1.2], step: 0.01}
+  phi: {range: [30, 150], step: 1}
+points: {A: [0, 0], C: [unknown, 0.5]}
+lengths: {AB: $r, BC: 3}
+angles: {AB: $phi}
+near: {C: [3, 0.5]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {slide: [4, 1], at: C, along: 0}
+loads:
+  T12: {torque: $T, link: 2}
+  P: {force: unknown, link: 4, at: C, angle: 180}
+motion: {link: 2, turns: ccw}
+"""
 WITH_WEIGHT = MANY.replace("  T12:", "  W: {weight: 50, link: 3, at: C}\n  T12:")
 
 
-@pytest.mark.parametrize("text", [MANY, WITH_WEIGHT], ids=["all loads alike", "with a weight"])
+TEXTS = pytest.mark.parametrize(
+    "text", [MANY, WITH_WEIGHT, SLIDER], ids=["all loads alike", "with a weight", "slider"]
+)
+
+
+@TEXTS
 def test_a_class_drawn_in_one_sweep_has_the_variants_and_keys_of_one_by_one(text: str) -> None:
-    students = [f"{n:04d}" for n in range(120)]
+    students = [f"{n:04d}" for n in range(60)]
     swept, alone = (Varied("press", text, "press.yaml", Course()) for _ in range(2))
     found = [task for task in tasks(swept, map(Person, students)) if isinstance(task, Task)]
     assert [task.draw for task in found] == [alone.draw(student) for student in students]
@@ -102,3 +130,23 @@ def test_loads_that_cancel_in_some_variants_are_not_given() -> None:
     varied = Varied("press", text, "press.yaml", Course())
     drawn = {varied.draw(str(n)).values["Q"] for n in range(30)}
     assert drawn == {"50"}
+
+
+@TEXTS
+def test_a_swept_key_judges_every_answer_as_that_of_the_single_scene(text: str) -> None:
+    """Number, unit, words of direction that ask where points are, and the causes of wrong answers."""
+    varied = Varied("press", text, "press.yaml", Course())
+    students = [str(n) for n in range(20)]
+    varied.foresee(students)
+    forms = ("{:.5g}", "{:.5g} N", "{:.5g} N*m", "{:.4g} toward A", "{:.4g} away from A", "{:.4g} left")
+    factors = (1.0, -1.0, 2.0, 0.5, 1.02, 10.0, 1.37)
+    for student in students:
+        quick, slow = varied.key("press", student), varied.task(varied.draw(student)).key("press")
+        assert isinstance(quick, Key)
+        assert isinstance(slow, Key)
+        for form in forms:
+            for factor in factors:
+                written = Reader().read(form.format(abs(slow.value) * factor))
+                one, two = judge(quick, written), judge(slow, written)
+                assert (one.verdict, one.code, one.parts) == (two.verdict, two.code, two.parts)
+        assert (quick.unit_name, quick.accepted, quick.rule) == (slow.unit_name, slow.accepted, slow.rule)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Mapping
 from typing import NamedTuple
 
 from icsolve.answer import Answer
@@ -15,6 +16,8 @@ _SQUARE = 5.0
 _ROUNDING = 1e-6
 """Degrees: 45 is within 45."""
 
+Places = tuple[Place | None, Mapping[str, Place]]
+
 WITH, AGAINST, NEITHER = 1, -1, 0
 
 
@@ -22,14 +25,14 @@ class Senses(NamedTuple):
     """What a positive value means in words.
 
     ``turn``: +1 ccw, -1 cw, 0 where it does not turn; ``heading``: degrees ccw from +x, None where it has
-    none; ``axial``: +1 pull, -1 push, 0 for neither; ``at`` and ``places`` resolve ``toward A``.
+    none; ``axial``: +1 pull, -1 push, 0 for neither; ``places`` tells where it acts and where the points
+    are, when ``toward A`` asks for it.
     """
 
     turn: float = 0.0
     heading: float | None = None
     axial: float = 0.0
-    at: Place | None = None
-    places: tuple[tuple[str, Place], ...] = ()
+    places: Callable[[], Places] = lambda: (None, {})
 
     @property
     def any(self) -> bool:
@@ -53,10 +56,11 @@ class Senses(NamedTuple):
         """A direction in words as degrees; None for a point that the case does not have."""
         if words.kind == "line":
             return words.value
-        there = dict(self.places).get(words.name)
-        if there is None or self.at is None or there == self.at:
+        at, points = self.places()
+        there = points.get(words.name)
+        if there is None or at is None or there == at:
             return None
-        degrees = math.degrees(math.atan2(there[1] - self.at[1], there[0] - self.at[0]))
+        degrees = math.degrees(math.atan2(there[1] - at[1], there[0] - at[0]))
         return degrees + (180.0 if words.kind == "away" else 0.0)
 
 
@@ -79,5 +83,4 @@ def senses_of(load: Load, answer: Answer) -> Senses:
     axial = 0.0
     if isinstance(load, Force) and isinstance(load.heading, Toward):
         axial = -1.0 if load.heading.away else 1.0
-    places = tuple(answer.points.items())
-    return Senses(0.0, heading_of(load, answer), axial, place_of(load.at, answer), places)
+    return Senses(0.0, heading_of(load, answer), axial, lambda: (place_of(load.at, answer), answer.points))

@@ -186,7 +186,8 @@ def _only_unknown(case: Case, answer: Answer) -> str:
         isinstance(load, Torque | Force) or (isinstance(load, Weight) and not load.mass)
         for load in case.loads
     )
-    if case.space is not None or case.profiles is not None or case.motion or rubs(case):
+    own = case.space is not None or case.profiles is not None or any(m.point for m in case.motion)
+    if own or rubs(case):
         raise UnsuitedError("a case of its own kind")
     if len(unknown) != 1 or list(answer.answers) != unknown or not plain or answer.mobility != 1:
         raise UnsuitedError("not one unknown under plain loads")

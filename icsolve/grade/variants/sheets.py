@@ -74,6 +74,9 @@ def sense(varied: Varied, draw: Draw, key: Key) -> str:
     """The answer's sense in words."""
     if key.senses.turn:
         return "ccw" if key.value * key.senses.turn > 0.0 else "cw"
+    if key.senses.heading is not None and not key.senses.axial:
+        degrees = key.senses.heading + (0.0 if key.value > 0.0 else 180.0)
+        return f"at {round(degrees, 6) % 360.0:.6g} deg"
     solved = varied.task(draw)
     name = getattr(solved.target(key.question), "load", "")
     found = solved.answer.answers.get(name)

@@ -113,6 +113,10 @@ class Varied:
         seen = self._seen.get(tuple(draw.values.values()))
         return seen.value if seen is not None else None
 
+    def is_fixed(self, path: str) -> bool:
+        """Whether the number at a path is the same in all variants that a sweep gave."""
+        return self._together is not None and all(n.path != path for n in self._together.numbers)
+
     def read(self, values: Texts) -> Case:
         """The case with these values, its figure and all."""
         from icsolve.read import read_text
