@@ -196,16 +196,25 @@ def _shares(case: Case, driver: str, degrees: Array, found: Sweep) -> dict[str, 
     if any(_like(load) for load in case.loads):
         return {}
     (name,) = found.answers
+    if len(known) > 1 and not any(isinstance(load, ForceVector) for load in known):
+        return _one_by_one(case, driver, degrees, name, [load.name for load in known])
     shares = {}
     for load in known:
-        alone = (
-            found if len(known) == 1 else _swept(_only(case, load), driver, degrees, ("answers", "status"))
-        )
+        alone = found if len(known) == 1 else _swept(_only(case, load), driver, degrees, ("answers",))
         value = _number(load)
         if alone is None or value == 0.0 or name not in alone.answers:
             return {}
         shares[load.name] = -alone.answers[name] / value
     return shares
+
+
+def _one_by_one(case: Case, driver: str, degrees: Array, name: str, known: Sequence[str]) -> dict[str, Array]:
+    """All positions once for each known load, which alone is there and is 1, in one sweep."""
+    ones = np.eye(len(known)).repeat(len(degrees), axis=1)
+    vary = {f"loads.{load}": row for load, row in zip(known, ones, strict=True)}
+    found = sweep(case, vary, ("answers",), drive={driver: np.tile(degrees, len(known))})
+    rows = -found.answers[name].reshape(len(known), len(degrees))
+    return dict(zip(known, rows, strict=True))
 
 
 def _like(load: Load) -> bool:
