@@ -251,3 +251,4 @@ def test_a_load_that_holds_over_a_range_is_no_question(a_class: Class) -> None:
     assert ran.code == 1
     assert "holds with any value from -20 to 20 N" in ran.err
     assert ran.row("a", "block")["verdict"] == "review"
+    assert ran.row("a", "block")["feedback"] == "Not graded: block holds over a range of values, not with one"

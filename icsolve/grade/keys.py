@@ -168,7 +168,8 @@ def _refuse_range(target: Target, answer: Answer) -> None:
         low, high = found.holds
         raise NoKeyError(
             f"{answer.case.name} holds with any value from {low:.6g} to {high:.6g} {found.unit}; "
-            "say which way it moves with 'motion:', and one value is right"
+            "say which way it moves with 'motion:', and one value is right",
+            f"{answer.case.name} holds over a range of values, not with one",
         )
 
 

@@ -195,7 +195,7 @@ class Marker:
             key = self._key(entry)
         except NoKeyError as error:
             self.ledger.note(self.path, entry.line, f"not graded: {error}", serious=True)
-            return self._troubled(entry, str(error))
+            return self._troubled(entry, error.told)
         if self.shelf.varied and self._is_others(entry):
             return self._of_another(entry)
         if isinstance(key, PlaceKey):

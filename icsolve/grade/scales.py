@@ -31,7 +31,11 @@ OF_LOADS = 1e-3
 
 
 class NoKeyError(ValueError):
-    """A question that has no key; the message says why."""
+    """A question that has no key; the message says why. ``told`` is what a student may know of it."""
+
+    def __init__(self, why: str, told: str = "") -> None:
+        super().__init__(why)
+        self.told = told or why
 
 
 def unit_of_target(target: Target, answer: Answer) -> str:
