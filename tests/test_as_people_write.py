@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import icsolve
+from icsolve.draw import Drawing, draw
 
 FOUR_BAR = """
 icsolve: 1
@@ -115,3 +116,8 @@ def test_a_slip_of_many_powers_of_ten_is_no_figure() -> None:
         icsolve.solve(icsolve.load(text))
     assert refused.value.status == "near-singular" and "point B" in refused.value.message
     assert icsolve.solve(icsolve.load(FOUR_BAR.replace("D: [6, 0]", "D: [6e20, 0]"))).answers["T12"].value
+
+
+def test_a_speed_a_hair_below_a_power_of_ten_has_its_scale() -> None:
+    motion = "motion: {point: B, link: 2, speed: 100, angle: 153.5}"
+    assert "100 in/s" in draw(icsolve.load(FOUR_BAR + motion), Drawing(velocities=True))

@@ -79,7 +79,8 @@ def legend(scene: Scene, at: Point) -> Group | None:
 
 
 def _round(value: float) -> float:
-    """1, 2 or 5 times a power of ten, at most the value."""
+    """1, 2 or 5 times a power of ten, at most the value (but for rounding: 99.99999999999999 is 100)."""
+    value *= 1.0 + 1e-9
     power = 10.0 ** math.floor(math.log10(value))
     return max(m for m in (1.0, 2.0, 5.0) if m * power <= value) * power
 
