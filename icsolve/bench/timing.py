@@ -12,14 +12,14 @@ Call = Callable[[], object]
 
 
 def least(calls: Sequence[Call], seconds: float, batch: float = 2e-3) -> list[float]:
-    """Seconds a call of each, the least over batches in turn; about so many seconds in all."""
+    """Seconds a call of each, the least over batches in turn; about so many CPU seconds in all."""
     sizes = [max(1, int(batch / _rough(call))) for call in calls]
     best = [float("inf")] * len(calls)
-    end = time.perf_counter() + seconds
+    end = time.process_time() + seconds
     while True:
         for k, call in enumerate(calls):
             best[k] = min(best[k], once(call, sizes[k]) / sizes[k])
-        if time.perf_counter() > end:
+        if time.process_time() > end:
             return best
 
 
