@@ -61,7 +61,7 @@ def test_every_centre_of_the_case(name: str) -> None:
         assert witness.sine(theirs, shown) < AGREE, (pair, mine)
 
 
-@pytest.mark.parametrize("name", CASES)
+@pytest.mark.parametrize("name", [name for name, case in CASES.items() if case.loads])
 def test_the_loads_by_the_plan_by_the_loop_equations_and_by_the_null_space(name: str) -> None:
     case = CASES[name]
     program = prepare(case, Want(True, True, True))
