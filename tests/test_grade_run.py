@@ -286,6 +286,14 @@ def test_one_students_text_of_answers(a_class: Class) -> None:
     assert [(r["student_id"], r["verdict"]) for r in table.rows()] == [("ann", "right")]
 
 
+def test_a_students_text_may_start_with_a_comment(a_class: Class) -> None:
+    answers = a_class.file("answers.txt", '# mine, all of it\nlever: 200 N*m\n\npusher: 100 "\n')
+    options = ("--cases", str(a_class.path("cases")), "--student", "ann", "-o", "-", "-q")
+    ran = a_class.run("grade", answers, *options)
+    assert [(r["case"], r["verdict"]) for r in ran.rows()] == [("lever", "right"), ("pusher", "wrong")]
+    assert ran.code == 0
+
+
 def test_gradescopes_export_of_what_each_student_handed_in(a_class: Class) -> None:
     export = a_class.path("assignment_77_export")
     for number, text in (("1", "lever: 200\n"), ("2", "case,answer\nlever,-200\n"), ("3", "")):

@@ -24,11 +24,14 @@ def submissions(table: Table, columns: Columns, student: str) -> Iterator[Submis
             _, *texts = cells_of(padded(row.cells, len(columns.header)))
             yield Submission._make((row.line, who, *texts, row.trouble))
         return
-    yield _of_line(1, table.delimiter.join(columns.header), who)
+    first = table.delimiter.join(columns.header)
+    if not first.startswith("#"):
+        yield _of_line(1, first, who)
     for row in table.rows():
         text = table.delimiter.join(row.cells)
         if text.strip() and not text.lstrip().startswith("#"):
-            yield _of_line(row.line, text, who)
+            found = _of_line(row.line, text, who)
+            yield found._replace(trouble=row.trouble) if row.trouble else found
 
 
 def _of_line(line: int, text: str, who: tuple[str, ...]) -> Submission:
