@@ -26,21 +26,27 @@ MANY = 600
 class Backward:
     """Backward passes over a record from some of its nodes.
 
-    ``exact`` are inputs that carry no rounding: signs, guesses, counts of turns. At most ``rows`` rows
-    go through at once.
+    ``exact`` are inputs that carry no rounding: signs, guesses, counts of turns. ``leaves`` are nodes that
+    are given like inputs, and exact. At most ``rows`` rows go through at once.
     """
 
     def __init__(
-        self, record: Record, targets: Sequence[int], groups: Sequence[Together], exact: Iterable[int]
+        self,
+        record: Record,
+        targets: Sequence[int],
+        groups: Sequence[Together],
+        exact: Iterable[int],
+        leaves: Iterable[int] = (),
     ) -> None:
         self.record, self.targets, self.exact = record, targets, frozenset(exact)
+        self.leaves = frozenset(leaves)
         self.groups = {min(group.solved): group for group in groups}
         self.member = {k: group for group in groups for k in group.solved}
         nodes = self.reached(targets)
         self.guesses = {
             g: s for group in groups for g, s in zip(group.guesses, group.solved, strict=True) if g in nodes
         }
-        self.code = Code(record, sorted(nodes), keep=True)
+        self.code = Code(record, sorted(nodes), self.leaves & nodes, keep=True)
         self.rows = SLICE if len(nodes) < MANY else SLICE // 4
         self._still: dict[int, float] = {}
         self._passes: dict[tuple[int, int], Pass] = {}
@@ -57,6 +63,8 @@ class Backward:
         return seen
 
     def _behind(self, k: int) -> Iterable[int]:
+        if k in self.leaves:
+            return ()
         op = self.record.nodes[k].op
         if op in (Op.COS, Op.SIN):
             return (*operands(self.record, k), k + 1 if op == Op.COS else self.record.nodes[k].b)

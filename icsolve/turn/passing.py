@@ -27,6 +27,7 @@ class Source(Protocol):
     record: Record
     code: Code
     exact: frozenset[int]
+    leaves: frozenset[int]
     groups: dict[int, Together]
     member: dict[int, Together]
 
@@ -56,7 +57,7 @@ class Pass:
         self.free: list[Array] = []
         self.holders: dict[int, int] = {}
         nodes = sorted(backward.reached((target,)), reverse=True)
-        self.merged = _merged(self.record, nodes)
+        self.merged = _merged(self.record, nodes) - backward.leaves
         self.products = np.empty((3 * len(nodes) + 3, room))
         self.weights[target] = self._held((np.ones(room), 1.0), forever=True)
         for k in nodes:
@@ -104,8 +105,10 @@ class Pass:
         if weight is None:
             return
         node = self.record.nodes[k]
-        if node.op == Op.INPUT:
+        if node.op == Op.INPUT or k in self.backward.leaves:
             self.by[k] = self._held(weight, forever=True)
+        if k in self.backward.leaves:
+            return
         if k not in self.merged:
             self._error(self._share(k), weight, self._value(k))
         if node.op == Op.ANGLE:

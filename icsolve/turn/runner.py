@@ -120,14 +120,14 @@ class Runner:
         values = (v for p in self.sheet.scene.points.values() for v in p)
         return self.passes(sorted({v.index for v in values if varies(v)}))
 
-    def passes(self, targets: Sequence[int]) -> Backward:
-        """Backward passes from some nodes."""
+    def passes(self, targets: Sequence[int], leaves: Sequence[int] = ()) -> Backward:
+        """Backward passes from some nodes, as far as to the leaves."""
         sheet = self.sheet
         groups = sheet.motion.groups if sheet.motion else ()
         exact = [k for name, k in sheet.inputs.items() if name.startswith(("branch ", "swing "))]
         exact += [guess.index for guess, _ in sheet.record.counted.values()]
         exact += [k for group in groups for k in (*group.guesses, *group.solved)]
-        return Backward(sheet.record, targets, groups, exact)
+        return Backward(sheet.record, targets, groups, exact, leaves)
 
     def blank(self, rows: int) -> dict[Key, Array]:
         """Arrays for the outputs."""

@@ -10,6 +10,7 @@ import numpy as np
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.turn.ask import Columns
+from icsolve.turn.flat import bound_flat
 from icsolve.turn.parts import Part, Parts
 from icsolve.turn.replay import BLOCK, Array
 from icsolve.turn.rows import RowCases
@@ -144,6 +145,18 @@ class Work:
                 done = self._told(part, done, len(outputs) * (here.stop - start))
         if not done:
             self._told(part, 0, len(part.rows))
+        self._flat_bounds(part)
+
+    def _flat_bounds(self, part: Part) -> None:
+        """Bounds of rows that have none yet: at a limit."""
+        open_ = np.zeros(len(part.rows), dtype=bool)
+        for array in self.errors.values():
+            bounds = array[part.rows]
+            open_ |= ~np.isfinite(bounds if bounds.ndim == 1 else bounds.sum(axis=1))
+        rows = np.flatnonzero(open_ & (self.codes[part.rows] == 0))
+        if rows.size:
+            given = lambda some: self.parts.given(part.some(some))[0]  # noqa: E731
+            bound_flat(part.runner, given, self.errors, rows, part.rows[rows])
 
     def _told(self, part: Part, done: int, more: int) -> int:
         """Tell of rows whose bounds are found: each takes as many passes as there are outputs."""

@@ -1,0 +1,53 @@
+"""Every case of the library, swept by every link and along every number: rows with their status, or a
+refusal of the whole; never a number that is none beside an ok, never a fault, never a warning."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import icsolve
+from icsolve.turn.numbers import numbers_of
+
+CASES = Path(__file__).parent.parent / "cases"
+FILES = sorted(CASES.rglob("*.yaml"))
+ALL = ("answers", "status", "error", "points", "centres", "rates")
+FEW = ("answers", "status", "error", "points")
+PLAIN = ("answers", "status", "points", "rates")
+MANY = 7
+"""So many links have more centres than a quick test bounds."""
+
+
+def sweeps(case: icsolve.Case) -> Iterator[icsolve.Sweep]:
+    """A turn of every link, and a range of every number; those that can't be are refused."""
+    turns = [({}, {link: np.arange(0.0, 361.0, 30.0)}) for link in case.links if link != case.ground]
+    ranges = [({path: around(path, number.value)}, {}) for path, number in numbers_of(case).items()]
+    for vary, drive in (*turns, *ranges):
+        with contextlib.suppress(icsolve.SceneError):
+            want = PLAIN if vary else ALL if len(case.links) < MANY else FEW
+            yield icsolve.sweep(case, vary, want, drive=drive)
+
+
+def around(path: str, value: float) -> np.ndarray:
+    if path.startswith("angles.") or path.endswith(".angle"):
+        return np.linspace(value - 90.0, value + 90.0, 5)
+    return np.linspace(0.7 * value, 1.3 * value, 5) if value else np.linspace(-1.0, 1.0, 5)
+
+
+def holes(sweep: icsolve.Sweep) -> list[str]:
+    """What is not a finite number in a row whose status is ok. Of cams by their profiles no bound is proven."""
+    ok = sweep.status == "ok"
+    tables = dict(sweep.kinds) if sweep.case.profiles else {**sweep.kinds, "error": sweep.error}
+    arrays = {f"{kind} {name}": array for kind, table in tables.items() for name, array in table.items()}
+    return [name for name, array in arrays.items() if not np.isfinite(array[ok]).all()]
+
+
+@pytest.mark.parametrize("path", FILES, ids=[str(path.relative_to(CASES).with_suffix("")) for path in FILES])
+def test_every_row_has_its_numbers_or_its_status(path: Path) -> None:
+    for sweep in sweeps(icsolve.load(str(path))):
+        assert holes(sweep) == [], (list(sweep.vary), sweep.status.tolist())
+        assert len(sweep) == len(sweep.status)
