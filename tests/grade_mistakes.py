@@ -41,7 +41,7 @@ def mistakes(path: Path) -> Iterator[Mistake]:
     ((name, found),) = right.answers.items()
     value = found.value
     yield from _plain(value)
-    for mistake in (_loads, _radians, _components, _ratios, _arms, _other_mode):
+    for mistake in (_loads, _radians, _components, _ratios, _arms, _cranks, _other_mode):
         for m in mistake(path, right, name):
             if math.isfinite(m.value) and m.value:
                 yield m
@@ -135,6 +135,27 @@ def _arms(path: Path, right: Answer, name: str) -> Iterator[Mistake]:
         for place in places.values():
             if place != own:
                 yield Mistake("wrong-ic", right.answers[name].value * arm(place) / arm(own))
+
+
+def _cranks(path: Path, right: Answer, name: str) -> Iterator[Mistake]:
+    """T = P I12-I24 of a slider 4, with the crank I12-I23 in place of the distance to its centre."""
+    case = right.case
+    unknown = next(load for load in case.loads if load.name == name)
+    known = [load for load in case.loads if load.name in _numbers(case)]
+    if len(known) != 1 or hasattr(unknown, "at") or not hasattr(known[0], "at"):
+        return
+    crank, slider = unknown.link, known[0].link
+    own = {link: c for pair, c in right.centres.items() for link in pair if case.ground in pair}
+    if crank == slider or own[slider].kind != "toward" or own[crank].kind != "at":
+        return
+    places = {frozenset(pair): c.place for pair, c in right.centres.items() if c.kind == "at"}
+    common = places.get(frozenset((crank, slider)))
+    if common is None or math.dist(common, own[crank].place) < 1e-9:
+        return
+    for pair, place in places.items():
+        if crank in pair and case.ground not in pair and slider not in pair:
+            factor = math.dist(place, own[crank].place) / math.dist(common, own[crank].place)
+            yield Mistake("wrong-ic", right.answers[name].value * factor)
 
 
 def _other_mode(path: Path, right: Answer, name: str) -> Iterator[Mistake]:
