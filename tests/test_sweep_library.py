@@ -39,7 +39,7 @@ def around(path: str, value: float) -> np.ndarray:
 
 
 def holes(sweep: icsolve.Sweep) -> list[str]:
-    """What is not a finite number in a row whose status is ok. Of cams by their profiles no bound is proven."""
+    """What is not a finite number in a row whose status is ok. Of cams by profiles no bound is proven."""
     ok = sweep.status == "ok"
     tables = dict(sweep.kinds) if sweep.case.profiles else {**sweep.kinds, "error": sweep.error}
     arrays = {f"{kind} {name}": array for kind, table in tables.items() for name, array in table.items()}
