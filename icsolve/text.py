@@ -84,7 +84,9 @@ def _unknown(case: Case, name: str, found: Found, digits: int) -> str:
 def _range(name: str, found: Found, show: Format) -> str:
     """The values at which the mechanism holds still."""
     least, most = found.holds or (0.0, 0.0)
-    if math.isfinite(least) and math.isfinite(most):
+    if most - least <= 2.0 * (found.error or 0.0):
+        reach = f"only at {show(least)} {found.unit}"
+    elif math.isfinite(least) and math.isfinite(most):
         reach = f"from {show(least)} to {show(most)} {found.unit}"
     elif math.isfinite(least):
         reach = f"from {show(least)} {found.unit} up"

@@ -542,3 +542,12 @@ def test_random_mechanisms_by_brute_force() -> None:
     found = [check_random(seed) for seed in range(900, 900 + 16 * MORE)]
     assert found.count("checked") >= len(found) // 5
     assert set(found) <= {"checked", "jams", "at rest", "nothing turns", "unsupported"}
+
+
+def test_a_range_without_an_end_says_which_way_it_locks() -> None:
+    """A short drawer can be let slide back, but no pull opens it."""
+    answer = solved(drawer(0.47, motion=""))
+    least, most = answer.answers["P"].holds or (0.0, 0.0)
+    assert least == exactly(10 / (1 + 2 * 0.4 * 0.6 / 0.47))
+    assert most == math.inf
+    assert any("no value of P above the range moves it" in note for note in answer.notes)

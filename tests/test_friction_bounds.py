@@ -19,11 +19,14 @@ import rubbing
 import transcribe
 from growth import random_mechanism
 from icsolve.bodies import certain
+from icsolve.bodies.agreement import refuse_apart
 from icsolve.bodies.bounding import Exact, Sliding, Weights, step
 from icsolve.bodies.rubs import rubs_of
 from icsolve.bodies.ties import Position, ties_of
+from icsolve.bodies.values import Witness
 from icsolve.program import Want, evaluate, prepare
 from icsolve.sensitivity import influences
+from icsolve.text import answer_text
 from more_digits import SixtyDigits
 from test_friction import BLOCK, MORE, QUICK_RETURN, SIX_BAR, lever, slider_crank, turning, wedge
 
@@ -214,3 +217,17 @@ def test_slopes_of_a_range_are_refused_in_words() -> None:
     with pytest.raises(icsolve.SceneError, match="a range in which the mechanism holds still") as caught:
         influences(answer, "T")
     assert caught.value.status == "unsupported"
+
+
+def test_a_range_of_one_value_is_said_to_be_one() -> None:
+    answer = icsolve.solve(icsolve.load(ALONG.partition("motion:")[0]))
+    assert "P: holds still only at 10.3 N" in answer_text(answer)
+
+
+def test_power_and_free_bodies_that_disagree_are_refused() -> None:
+    """Apart by more than their bound and than 1e-9 of the value."""
+    near, far = (Witness("T", 5.0, 5.0 + off, off, 1e-12) for off in (4e-9, 6e-9))
+    refuse_apart([near], 0.0)
+    with pytest.raises(icsolve.SceneError, match="they should be one number") as caught:
+        refuse_apart([near, far], 0.0)
+    assert caught.value.status == "near-singular"

@@ -120,9 +120,12 @@ def said_at_rest(root: str, found: Held) -> Sequence[str]:
     ]
     if found.self_locking and found.least <= 0.0 <= found.most:
         notes.append(f"self-locking: it holds still with {root} = 0.")
-    for end, way in ((found.least, "small"), (found.most, "large")):
-        if math.isinf(end):
-            notes.append(f"no value of {root}, however {way}, moves it that way.")
+    if math.isinf(found.least) and math.isinf(found.most):
+        notes.append(f"no value of {root}, however large, moves it either way.")
+    elif math.isinf(found.most):
+        notes.append(f"no value of {root} above the range moves it, however large: it locks that way.")
+    elif math.isinf(found.least):
+        notes.append(f"no value of {root} below the range moves it, however large: it locks that way.")
     for end, more in zip((found.least, found.most), found.possible, strict=True):
         if end != more and abs(end - more) > 1e-9 * max(abs(end), abs(more)):
             notes.append(
