@@ -28,6 +28,7 @@ from icsolve.construction import known_of, needed_steps
 from icsolve.page import page_html
 from icsolve.page.motion import Motion, motion_of
 from icsolve.verdicts import rubs
+from test_profile_sweep import CAMS
 
 ROOT = Path(__file__).parent.parent
 LIBRARY = ROOT / "cases"
@@ -406,3 +407,16 @@ def test_text_has_the_contrast_of_wcag_aa(theme: int) -> None:
     assert contrast(colours["ink"], colours["lit"]) >= 4.5
     assert contrast(colours["muted"], colours["paper"]) >= 3.0
     assert contrast(colours["focus"], colours["paper"]) >= 3.0
+
+
+def test_a_cam_turns_its_follower() -> None:
+    """Lobes by a spline under an offset roller: a whole turn, though no contact point is presolved."""
+    model = model_of(page_html(CAMS["roller on lobes"]))
+    assert model["motion"]["turns"] and model["motion"]["step"] == 2.0
+    assert set(model["motion"]["links"]) == {"2", "3"}
+
+
+def test_a_jump_of_friction_is_no_dead_centre() -> None:
+    """Where the slider turns round the force jumps with the friction; it does not run off to infinity."""
+    model = model_of(page_of("ch13/13_19_slider_crank_friction_at_pins.yaml"))
+    assert not [degrees for degrees in model["motion"]["dead"] if 80.0 < degrees < 95.0]

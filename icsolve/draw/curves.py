@@ -12,6 +12,8 @@ STEEP = 3.0
 """Where a curve runs off to infinity, the axis shows so many times the middle half of its values."""
 WIDE_GAP = 2.5
 """Rows farther apart than so many mean steps have something unknown between them."""
+EVEN = 0.4
+"""Reciprocals that change so much less evenly than those at a pole belong to a jump."""
 SAME = 1e-5
 """Values that differ by less, of their size, are one value: more digits than an axis shows."""
 
@@ -71,17 +73,23 @@ def asymptotes(x: Sequence[float], values: Sequence[float], dead: Sequence[float
             continue
         before, after = rows[n - 1] if n else None, rows[n + 2] if n + 2 < len(rows) else None
         known = any(a.x <= place <= b.x for place in dead)
-        if not known and _grows(a, before, usual) and _grows(b, after, usual):
+        pace = abs(1.0 / a.y - 1.0 / b.y) / (b.x - a.x)
+        if not known and _grows(a, before, usual, pace) and _grows(b, after, usual, pace):
             share = abs(b.y) / (abs(a.y) + abs(b.y))
             places.append(a.x + (b.x - a.x) * share)
     return sorted(dict.fromkeys(places))
 
 
-def _grows(row: Row, behind: Row | None, usual: float) -> bool:
-    """Whether a curve grows from the row behind to this one; at an end: whether it is large."""
+def _grows(row: Row, behind: Row | None, usual: float, pace: float) -> bool:
+    """Whether a curve grows from the row behind to this one as toward a pole; at an end: whether it is large.
+
+    Toward a pole 1 / y goes down evenly, at ``pace``; at a jump (friction that turns round) it hardly does.
+    """
     if behind is None:
         return abs(row.y) > 4.0 * usual
-    return abs(row.y) > abs(behind.y) and (row.y < 0.0) == (behind.y < 0.0)
+    if abs(row.y) <= abs(behind.y) or (row.y < 0.0) != (behind.y < 0.0):
+        return False
+    return abs(1.0 / behind.y - 1.0 / row.y) >= EVEN * pace * abs(row.x - behind.x)
 
 
 def limits(curves: Sequence[Curve], x: Sequence[float]) -> tuple[float, float]:

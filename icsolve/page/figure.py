@@ -21,6 +21,7 @@ from icsolve.draw.links import Body, bars, body_of, guide_in_picture, link_part,
 from icsolve.draw.loads import load_parts
 from icsolve.draw.marks import Box, Group, Mark, Point, Stroke, Text, bounds
 from icsolve.draw.place import Label, Placer
+from icsolve.draw.profiled import outlines
 from icsolve.draw.scene import Part, Scene, together
 from icsolve.draw.shapes import joined
 from icsolve.draw.view import view_of
@@ -79,6 +80,11 @@ def scene_over(known: Known, steps: Sequence[Step], motion: Motion | None) -> Sc
     used |= {at for joint in known.case.joints if (at := getattr(joint, "at", None))}
     boxes = [(*known.points[p], *known.points[p]) for p in known.points if p in used]
     boxes += [_around(w, known, motion) for w in shapes.wheels]
+    boxes += [
+        _swept(known, motion, link, corner, 0.0)
+        for link, corners in outlines(known.case, known.points)
+        for corner in corners[::6]
+    ]
     if motion is not None:
         boxes += [_box(*places) for p in motion.found.points if p in used for places in [_way(motion, p)]]
     centres = [(c[0], c[1]) for c in (s.centre.place for s in steps if s.centre.kind == "at")]
@@ -100,14 +106,18 @@ def _box(x: Array, y: Array) -> Box:
 
 def _around(wheel: Wheel, known: Known, motion: Motion | None) -> Box:
     """The rectangle around a wheel in all its positions."""
-    (x, y), r = wheel.centre, wheel.radius
-    box = (x, y, x, y)
-    pose = None if motion is None else motion.poses.get(wheel.link)
+    return _swept(known, motion, wheel.link, wheel.centre, wheel.radius)
+
+
+def _swept(known: Known, motion: Motion | None, link: str, p: Point, reach: float) -> Box:
+    """The rectangle around a place of a link in all its positions, and so much more."""
+    box = (*p, *p)
+    pose = None if motion is None else motion.poses.get(link)
     if motion is not None and pose is not None:
         rows = slice(motion.first, motion.last + 1)
-        xs, ys = moved(pose, known.points[pose.point], wheel.centre)
+        xs, ys = moved(pose, known.points[pose.point], p)
         box = _box(xs[rows], ys[rows])
-    return (box[0] - r, box[1] - r, box[2] + r, box[3] + r)
+    return (box[0] - reach, box[1] - reach, box[2] + reach, box[3] + reach)
 
 
 def travel_of(scene: Scene, motion: Motion) -> dict[tuple[str, Point], tuple[float, float]]:

@@ -18,8 +18,8 @@ from icsolve.power import is_unknown
 from icsolve.turn import Sweep, sweep
 from icsolve.verdicts import rubs
 
-STEP, COARSE = 1.0, 5.0
-"""Degrees between positions; with friction each position is a scene of its own, and there are fewer."""
+STEP, MIDDLE, COARSE = 1.0, 2.0, 5.0
+"""Degrees between positions; cams take longer, and with friction each position is a scene of its own."""
 SLOW = 0.02
 """A link that turns at less than this fraction of the fastest one's rate is no input."""
 TRIES = 4
@@ -61,9 +61,9 @@ def motion_of(known: Known, pairs: Sequence[Pair]) -> Motion | None:
 
     Of the links that may drive it is the first that turns fully, else that with the longest range.
     """
-    case = known.case
-    if known.answer is None or case.space is not None:
+    if known.answer is None or known.case.space is not None:
         return None
+    case = known.answer.case
     want = ["answers", "status", "points", "rates"]
     want += [f"centres.{pair_name(case, pair)}" for pair in pairs]
     best = _widest(known, want)
@@ -88,10 +88,10 @@ def why_still(known: Known) -> str:
     if any(isinstance(joint, KnownCentre) for joint in case.joints):
         return "A given centre holds in the position as written only, so nothing can be moved from it."
     drivers = inputs(known)
-    if not drivers:
+    if not drivers or known.answer is None:
         return "No link turns about the frame in this position, so there is no input to turn."
     try:
-        sweep(case, None, ("status", "points"), drive={drivers[0]: np.array([0.0, STEP])})
+        sweep(known.answer.case, None, ("status", "points"), drive={drivers[0]: np.array([0.0, STEP])})
     except SceneError as refusal:
         return f"It cannot be moved: {refusal.message}"
     return "The links leave no room to move from the position as written."
@@ -99,11 +99,13 @@ def why_still(known: Known) -> str:
 
 def _widest(known: Known, want: Sequence[str]) -> tuple[str, Array, Sweep] | None:
     """The first input that turns fully, else that with the longest range."""
-    step = COARSE if rubs(known.case) else STEP
+    assert known.answer is not None
+    case = known.answer.case
+    step = COARSE if rubs(case) else STEP if case.profiles is None else MIDDLE
     turn = np.arange(-180.0, 180.0 + 0.5 * step, step)
     best: tuple[float, str, Array, Sweep] | None = None
     for driver in inputs(known)[:TRIES]:
-        found = _swept(known.case, driver, turn, want)
+        found = _swept(case, driver, turn, want)
         if found is None:
             continue
         first, last = _run(found, len(turn) // 2)
@@ -115,8 +117,8 @@ def _widest(known: Known, want: Sequence[str]) -> tuple[str, Array, Sweep] | Non
     if best is None:
         return None
     reach, driver, turn, found = best
-    finer = None if rubs(known.case) else _suited(turn, *_run(found, len(turn) // 2), step)
-    again = None if finer is None else _swept(known.case, driver, finer, want)
+    finer = None if rubs(case) else _suited(turn, *_run(found, len(turn) // 2), step)
+    again = None if finer is None else _swept(case, driver, finer, want)
     return (driver, turn, found) if finer is None or again is None else (driver, finer, again)
 
 

@@ -55,9 +55,11 @@ function carried([link, x, y], r) {
   const dy = y - pose.from[1];
   return [pose.x[r] + Math.cos(a) * dx + Math.sin(a) * dy, pose.y[r] - Math.sin(a) * dx + Math.cos(a) * dy];
 }
+/* A hidden point (a contact that a profile placed) is known in the position as written only. */
+const placed = (name, r) => !name.startsWith("@") || r === zero;
 const at = (name, r) => {
   const p = own(points, name);
-  return p ? [p.x[r], p.y[r]] : own(data.anchors, name);
+  return p ? [p.x[r], p.y[r]] : placed(name, r) ? own(data.anchors, name) : null;
 };
 const set = (element, name, value) => element.setAttribute(name, value);
 const show = (element, yes) => element.classList.toggle("hidden", !yes);
@@ -68,6 +70,7 @@ const turning = all("[data-turn]", figure).map((e) => [e, own(links, e.dataset.t
 const following = all("#mechanism [data-at], #loads [data-at]", figure)
   .map((e) => [e, own(points, e.dataset.at)])
   .filter(([, p]) => p);
+const contacts = all('#mechanism [data-at^="@"]', figure);
 const pushes = all("[data-load]", figure).map((e) => [e, loads[e.dataset.load], e.dataset.load]);
 const springs = all("[data-span]", figure).map((e) => [e, loads[e.dataset.span]]);
 const unknown = (name) => answers.find((a) => a.name === name);
@@ -82,6 +85,7 @@ function turnOf(name, r) {
 function moveParts(r) {
   for (const [e, l] of turning)
     set(e, "transform", `translate(${f(l.x[r])} ${f(l.y[r])}) rotate(${f(-l.a[r])}) translate(${-l.from[0]} ${-l.from[1]})`);
+  for (const e of contacts) show(e, r === zero);
   for (const [e, p] of following) set(e, "transform", `translate(${f(p.x[r] - p.x[zero])} ${f(p.y[r] - p.y[zero])})`);
   for (const [e, load, name] of pushes) {
     const { way, flip, gone } = turnOf(name, r);
