@@ -195,6 +195,8 @@ def _of_bodies(answer: Answer, target: ReactionIs | ArmIs | FrictionRadiusIs) ->
     from icsolve.bodies.compared import found_value
 
     if answer.reactions is None and not isinstance(target, FrictionRadiusIs):
+        if any(found.holds is not None for found in answer.answers.values()):
+            raise _MissingError("at rest friction leaves the reactions open: give `motion`")
         raise _MissingError("reactions were not asked for", NOT_EXAMINED)
     try:
         return found_value(answer, target)

@@ -30,6 +30,8 @@ from icsolve.case import (
     Weight,
 )
 from icsolve.check import Row, compare, wanted
+from icsolve.read import load
+from icsolve.solve import solve
 from made import four_bar_answer, four_bar_case, number, published
 
 T12 = LoadIs("T12")
@@ -199,3 +201,20 @@ def test_only_what_the_published_values_need_is_asked_of_the_solver() -> None:
     assert needs(DistanceIs(("2", "4"), "A")) == (True, False, False)
     assert needs(RatioIs("4", "2")) == (False, True, False)
     assert needs(ReactionIs("3", "4")) == (False, False, True)
+
+
+def test_reactions_of_a_range_at_rest_can_not_agree() -> None:
+    """Without `motion` the friction is open within its limits, and with it the reactions."""
+    case = load("""
+icsolve: 1
+points: {A: [0, 0]}
+joints:
+  - {slide: [2, 1], at: A, along: 40, mu: 0.3}
+loads:
+  W: {weight: 100, link: 2, at: A}
+  P: {force: unknown, link: 2, at: A, angle: 0}
+expect: {F12: 182.1}
+""")
+    (only,) = compare(solve(case, reactions=True))
+    assert only.verdict == "disagrees"
+    assert any("give `motion`" in str(part) for part in only)
