@@ -22,6 +22,8 @@ ROD = 5.0
 """Half the width of a rod on which a block slides."""
 COVER = 1.6
 """What it costs a label to cover a link."""
+RIM, PLATE = 15.0, 0.5
+"""Farther from its outline than the first, the inside of a plate costs a label only the second."""
 OUTLINE = 0.4
 """What it costs a label to cover a unit of a link's outline."""
 
@@ -257,12 +259,23 @@ def link_part(scene: Scene, body: Body) -> Part:
     marks += [area(hole, "hole") for hole in body.holes]
     marks += [area(block, "block") for block in body.blocks]
     solids = [shape for shape in (body.shape, *body.blocks) if shape is not None]
-    soft = [Soft(shape, 0.3 if body.dashed else COVER) for shape in solids]
-    soft += [Soft(shape.boundary, OUTLINE) for shape in solids]
+    inside = _inside_plate(body)
+    soft = [Soft(shape.difference(inside), 0.3 if body.dashed else COVER) for shape in solids]
+    soft += [Soft(shape.boundary, OUTLINE) for shape in solids] + [Soft(inside, PLATE)]
     group = Group(f"link-{body.link}", "", tuple(marks), f"link {body.link}")
     rim = any(wheel.rim and wheel.link == body.link for wheel in scene.round.wheels)
-    number = Label(f"number-{body.link}", (Run(body.link),), "t-link", 12.0, body.anchors, 10.0, badge=True)
+    middle = shapely.centroid(inside)
+    on = not inside.is_empty and bool(shapely.contains(inside, middle))
+    anchors = ((middle.x, middle.y),) if on else body.anchors
+    number = Label(f"number-{body.link}", (Run(body.link),), "t-link", 12.0, anchors, 10.0, badge=True, on=on)
     return Part((group,) if marks else (), tuple(soft), (), (number,) if body.anchors and not rim else ())
+
+
+def _inside_plate(body: Body) -> shapely.Geometry:
+    """The part of a plate where a number has room."""
+    if body.shape is None or body.dashed or body.wheels:
+        return shapely.Polygon()
+    return shapely.buffer(body.shape, -RIM, quad_segs=1)
 
 
 def bars(body: Body) -> shapely.Geometry:

@@ -124,11 +124,12 @@ class Placer:
         costs = np.zeros(len(boxes))
         if self.tree is None:
             return costs
-        shapes = shapely.box(*boxes.T)
-        ours, theirs = self.tree.query(shapes, predicate="intersects")
-        cuts = shapely.intersection(shapes[ours], self.geometries[theirs])
-        areas, lengths = shapely.area(cuts), shapely.length(cuts)
-        np.add.at(costs, ours, self.weights[theirs] * np.where(areas > 0.0, areas / 8.0, lengths))
+        ours, theirs = self.tree.query(shapely.box(*boxes.T))
+        for n in np.unique(ours):
+            under = theirs[ours == n]
+            cuts = shapely.clip_by_rect(self.geometries[under], *boxes[n])
+            areas, lengths = shapely.area(cuts), shapely.length(cuts)
+            costs[n] = np.sum(self.weights[under] * np.where(areas > 0.0, areas / 8.0, lengths))
         return costs
 
     def _outside(self, boxes: np.ndarray) -> np.ndarray:
