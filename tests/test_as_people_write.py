@@ -7,6 +7,7 @@ import pytest
 
 import icsolve
 from icsolve.draw import Drawing, draw
+from icsolve.turn.ask import AskError
 
 FOUR_BAR = """
 icsolve: 1
@@ -121,3 +122,17 @@ def test_a_slip_of_many_powers_of_ten_is_no_figure() -> None:
 def test_a_speed_a_hair_below_a_power_of_ten_has_its_scale() -> None:
     motion = "motion: {point: B, link: 2, speed: 100, angle: 153.5}"
     assert "100 in/s" in draw(icsolve.load(FOUR_BAR + motion), Drawing(velocities=True))
+
+
+@pytest.mark.parametrize(
+    ("values", "said"),
+    [
+        ({"lengths.AB": [1.0, -1.0]}, "not be negative"),
+        ({"angles.AB": [0.0, 1e9]}, "take turns off"),
+        ({"angles.AB": ["x"]}, "should be numbers"),
+    ],
+)
+def test_values_that_no_case_may_have_are_refused(values: dict[str, list[float]], said: str) -> None:
+    text = FOUR_BAR.replace("B: [1, 2], ", "") + "lengths: {AB: 2}\nangles: {AB: 60}"
+    with pytest.raises(AskError, match=said):
+        icsolve.sweep(icsolve.load(text), vary=values)

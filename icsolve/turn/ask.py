@@ -28,6 +28,8 @@ class AskError(ValueError):
 MOST_NUMBERS = 400_000_000
 """More numbers than these (3 GB) are not made at once."""
 MOST_PAIRS = 100_000
+FARTHEST = 1e7
+"""Degrees: what is farther takes as many steps on the way as would fill the memory."""
 
 
 class Columns(NamedTuple):
@@ -72,6 +74,7 @@ def columns_of(
         if own in names:
             raise AskError(f"{shown(name)} and {shown(names[own])} are the same number")
         names[own] = name
+        _refuse_values(name, own, array, kind == "drive" or own.startswith("angles."))
         (paths if kind == "vary" else links)[own] = np.ascontiguousarray(np.broadcast_to(array, rows))
     return Columns(paths, links, names)
 
@@ -82,7 +85,10 @@ def _path(case: Case, name: str) -> str:
 
 
 def _column(name: str, values: npt.ArrayLike) -> Array:
-    array = np.asarray(values, dtype=np.float64)
+    try:
+        array = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise AskError(f"the values of {shown(name)} should be numbers, in the units of the case") from None
     if array.ndim > 1:
         raise AskError(
             f"the values of {shown(name)} should be one row of numbers, not {array.ndim} dimensions"
@@ -92,6 +98,14 @@ def _column(name: str, values: npt.ArrayLike) -> Array:
     if not np.isfinite(array).all():
         raise AskError(f"the values of {shown(name)} are not all finite numbers")
     return array
+
+
+def _refuse_values(name: str, own: str, array: Array, turns: bool) -> None:
+    """Refuse numbers that no case may have there, and turns that nobody would count."""
+    if (own.startswith("lengths.") or own.endswith((".mu", ".radius", ".length"))) and (array < 0.0).any():
+        raise AskError(f"the values of {shown(name)} should not be negative")
+    if turns and (np.abs(array) > FARTHEST).any():
+        raise AskError(f"the values of {shown(name)} lie beyond {FARTHEST:.0f} degrees; take turns off")
 
 
 def _link(case: Case, name: str) -> str:
