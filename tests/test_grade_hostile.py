@@ -130,3 +130,19 @@ def test_messages_about_a_file_name_it(a_class: Class) -> None:
     assert "bad.csv: these columns are of no known platform" in ran.err
     ran = a_class.run("grade", good, "--cases", cases, "--roster", bad)
     assert "bad.csv: no column of the roster" in ran.err
+
+
+def test_a_new_name_of_a_case_in_every_row_is_told_and_counted_within_bounds(a_class: Class) -> None:
+    """3000 names that are no case: each row has its line and reason in the results, the list stays short."""
+    table = HEADER + "".join(f"s{n},bogus{n},1\n" for n in range(3000)) + "ann,lever,200\n"
+    page = a_class.path("summary.html")
+    ran = a_class.grade(table, "--html", str(page))
+    reasons = {row["case"]: row["feedback"] for row in ran.rows() if row["verdict"] == "review"}
+    assert len(reasons) == 3000
+    assert reasons["bogus2999"] == "Not graded: there is no case 'bogus2999'"
+    assert ran.row("ann")["verdict"] == "right"
+    lines = ran.err.splitlines()
+    assert len(lines) < 600
+    assert "not graded either" in lines[-1]
+    assert "lines 503-3001" in lines[-1]
+    assert "2800" in page.read_text(encoding="utf-8")

@@ -11,6 +11,12 @@ LISTED = 40
 """Ranges of lines that a reason shows before it says how many more there are."""
 
 
+MOST = 500
+"""Reasons that are told one by one."""
+OTHERS = "these rows were not graded either, each for the reason that stands in its line of the results"
+OTHER_NOTES = "a note like those above, which were the first"
+
+
 class Entry(NamedTuple):
     """One reason with its lines; ``serious`` where an answer was not graded for it."""
 
@@ -33,7 +39,10 @@ class Ledger:
 
     def note(self, path: str, line: int, reason: str, serious: bool = False) -> None:
         """A line of a file and what is wrong there; line 0 for the file itself."""
-        self._lines.setdefault((path, _on_one_line(reason), serious), array("q")).append(line)
+        key = (path, _on_one_line(reason), serious)
+        if key not in self._lines and len(self._lines) >= MOST:
+            key = (path, OTHERS if serious else OTHER_NOTES, serious)
+        self._lines.setdefault(key, array("q")).append(line)
 
     def extend(self, entries: list[Entry]) -> None:
         """Take over what another process has noted."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Container, Iterable
 from typing import NamedTuple
 
 from icsolve.grade.marked import Marked
@@ -12,6 +12,11 @@ from icsolve.grade.marked import Marked
 BINS = 20
 """Bins of the histogram to each side of zero, up to twice the right answer; one more for what lies beyond."""
 _SPAN = 2.0
+
+
+OTHERS = "(other names that are no case)"
+_MOST_STRANGE = 200
+"""Names that are no case which are counted one by one."""
 
 
 class Counts(NamedTuple):
@@ -46,6 +51,7 @@ class Tally:
 
     def __init__(self, band: Callable[[str], tuple[float, float] | None]) -> None:
         self._band = band
+        self._strange = 0
         self.counts: dict[str, Counts] = {}
 
     def add(self, marked: Iterable[Marked]) -> None:
@@ -53,9 +59,18 @@ class Tally:
         items: dict[str, list[Marked]] = {}
         for m in marked:
             if m.count:
-                items.setdefault(m.item, []).append(m)
+                items.setdefault(self._item_of(m, items), []).append(m)
         for item, own in items.items():
             self.counts[item] = _with(self.counts.get(item) or empty(), own, self._band(item))
+
+
+    def _item_of(self, m: Marked, new: Container[str]) -> str:
+        """The question under which an answer is counted; of names that are no case only so many are kept."""
+        known = m.item in self.counts or m.item in new
+        strange = m.judged.code == "not-graded" and not known
+        if strange:
+            self._strange += 1
+        return OTHERS if strange and self._strange > _MOST_STRANGE else m.item
 
 
 def _with(counts: Counts, marked: list[Marked], band: tuple[float, float] | None) -> Counts:
