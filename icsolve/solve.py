@@ -52,10 +52,7 @@ def solve(
     reactions : bool
         The force of each link on each other at every joint too; a structure is then solved as well.
 
-    Raises
-    ------
-    SceneError
-        Where the scene has no answer; its ``status`` is a member of `icsolve.errors.Status`.
+    Raises SceneError where the scene has no answer; its ``status`` is a member of `icsolve.errors.Status`.
     """
     if case.space is not None:
         from icsolve.space.solve import solve_space
@@ -66,8 +63,7 @@ def solve(
 
         asked = {"all_centres": all_centres, "rates": rates, "examine": examine}
         return solve_touching(case, **asked, bound=bound, reactions=reactions)
-    want = _wanted(case, Want(all_centres, rates, examine, reactions))
-    return _solved(case, want, bound, reactions)
+    return _solved(case, _wanted(case, Want(all_centres, rates, examine, reactions)), bound, reactions)
 
 
 @lru_cache(maxsize=32)

@@ -111,7 +111,8 @@ def _rub(rub: Rubbing, units: Units, show: Format) -> tuple[str, str, str]:
     place = f"{rub.kind} {rub.joint[1:]}" + (f" at {rub.where}" if rub.where else "")
     unit = units.torque if rub.kind == "pin" else units.force
     circle = f", friction circle {show(rub.radius)} {units.length}" if rub.radius is not None else ""
-    return place, f"{show(abs(rub.value))} {unit}", f"takes {show(rub.loss)}{circle}"
+    loss = show(rub.loss * units.torque_per_force_length)
+    return place, f"{show(abs(rub.value))} {unit}", f"takes {loss} {units.torque}/s{circle}"
 
 
 def _number(value: float | None, show: Format) -> str:
