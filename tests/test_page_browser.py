@@ -6,6 +6,7 @@ Without a browser these tests are skipped and say why; with ICSOLVE_BROWSER=requ
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -163,6 +164,30 @@ LINES = """return [...document.querySelectorAll('#centres path.construction')]
     .filter((e) => !e.classList.contains('hidden')).map((e) => e.id)"""
 CHORDS = """return [...document.querySelectorAll('#circle [data-step]')]
     .filter((e) => e.id.startsWith('chord-') && !e.classList.contains('hidden')).map((e) => e.id)"""
+
+
+MARKED = """return [...document.querySelectorAll('#centres circle')]
+    .filter((e) => !e.closest('.hidden')).map((e) => [e.cx.baseVal.value, e.cy.baseVal.value])"""
+
+
+def test_centres_are_marked_where_the_sweep_has_them(opened: Any) -> None:
+    """Every centre in the window is marked within half a picture unit; those in one place share the mark."""
+    name = "linkages/peaucellier.yaml"
+    window, found = opened(page(name)), motion(name)
+    known = known_of(icsolve.load(FILES[name]))
+    figure = figure_of(known, needed_steps(known), found)
+    turn(window, 12)
+    row = int(abs(found.degrees - 12).argmin())
+    wanted = set()
+    for step in needed_steps(known):
+        x, y, w = found.found.centres["-".join(step.centre.pair)][row]
+        at = figure.scene.view.at((x / w, y / w)) if abs(w) > 1e-9 else (1e9, 1e9)
+        left, top, right, bottom = figure.window
+        if left <= at[0] <= right and top <= at[1] <= bottom:
+            wanted.add(at)
+    marks = window.run(MARKED)
+    assert marks and all(min(math.dist(mark, at) for at in wanted) < 0.5 for mark in marks)
+    assert all(min(math.dist(mark, at) for mark in marks) < 2.0 for at in wanted)
 
 
 @pytest.mark.parametrize("name", DRIVEN)

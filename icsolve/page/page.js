@@ -198,7 +198,8 @@ function drawCentres(r) {
     const key = far ? (away ? `${f(u[0])} ${f(u[1])}` : `far ${c.id}`) : `${Math.round(p[0] / 2)},${Math.round(p[1] / 2)}`;
     if (shared.has(key)) {
       shared.get(key).group.push(c);
-      if (far) show(c.far, false);
+      show(c.far, false);
+      show(c.disc, false);
       continue;
     }
     if (far) {
