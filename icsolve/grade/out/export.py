@@ -44,6 +44,7 @@ def questions(order: Order, complain: Complain) -> Iterator[Question]:
                 solved = order.shelf.solved(name)
                 yield from _of_case(solved, solved.case, name, order.figures)
                 continue
+            varied.foresee(str(n) for n in range(1, order.variants + 1))
             for n in range(1, order.variants + 1):
                 case = varied.read(varied.draw(str(n)).values)
                 yield from _of_case(varied.solved(str(n)), case, f"{name} v{n}", order.figures)
