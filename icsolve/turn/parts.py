@@ -40,11 +40,16 @@ class Part(NamedTuple):
     places: Array = np.empty(0)
     found: Found | None = None
     """what was found already"""
+    ordered: bool = False
+    """whether these are all rows in their order"""
 
     def some(self, which: Rows) -> Part:
         """Some of its rows, by their place among them."""
         return self._replace(
-            rows=self.rows[which], places=self.places[which] if self.followed else self.places, found=None
+            rows=self.rows[which],
+            places=self.places[which] if self.followed else self.places,
+            found=None,
+            ordered=False,
         )
 
 
@@ -96,7 +101,9 @@ class Parts:
         inputs = runner.sheet.inputs
         given = {inputs[name]: a if order is rows else a[order] for name, a in self.arrays.items()}
         found = runner.run(given, len(at), self.progress)
-        return (None, rows) if found.touching else (Part(runner, order, found=found), rows[:0])
+        if found.touching:
+            return None, rows
+        return Part(runner, order, found=found, ordered=order is rows), rows[:0]
 
     def _clear(self, sheet: Sheet, names: list[str]) -> Mask:
         """Rows on whose straight way from the position as written no branch comes near a change point."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -72,7 +73,7 @@ def sweep(
     start = start_of(case, columns, _told(case, wanted.asked))
     if start.one_by_one:
         return _family(start, columns, wanted, progress)
-    if rubs(case):
+    if _rubs(case):
         return _rubbing(start, columns, wanted, progress)
     work = Work(start, columns, wanted.error, progress)
     work.run()
@@ -91,6 +92,11 @@ def sweep(
         codes=work.codes,
         _case_of=work.case_of,
     )
+
+
+@lru_cache(maxsize=64)
+def _rubs(case: Case) -> bool:
+    return rubs(case)
 
 
 def _rubbing(start: Start, columns: Columns, wanted: Wanted, progress: Progress | None) -> Sweep:

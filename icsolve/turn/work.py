@@ -64,7 +64,7 @@ class Work:
             return
         for part in self.parts.all():
             self.done.append(part._replace(found=None))
-            if part.found is not None and len(part.rows) == self.columns.rows and _in_order(part):
+            if part.found is not None and part.ordered:
                 self.values = part.found.values
                 self._settle(part, part.found)
                 self._bounds(part)
@@ -226,7 +226,3 @@ def _with_singular(part: Part, found: Found) -> Found:
         return found
     singular = np.flatnonzero(part.followed.track.singular(part.places))
     return found._replace(doubtful=np.union1d(found.doubtful, singular)) if singular.size else found
-
-
-def _in_order(part: Part) -> bool:
-    return bool(part.rows[0] == 0 and part.rows[-1] == len(part.rows) - 1 and np.all(np.diff(part.rows) == 1))
