@@ -95,6 +95,10 @@ class Deferred(Mapping[K, V]):
     def __repr__(self) -> str:
         return repr(self._made)
 
+    def __reduce__(self) -> tuple[type, tuple[dict[K, V]]]:
+        """What is sent to another process is made."""
+        return dict, (dict(self._made),)
+
 
 class Later(Sequence[V]):
     """A sequence that is made when it is first looked into."""
@@ -120,6 +124,10 @@ class Later(Sequence[V]):
 
     def __repr__(self) -> str:
         return repr(self._made)
+
+    def __reduce__(self) -> tuple[type, tuple[tuple[V, ...]]]:
+        """What is sent to another process is made."""
+        return tuple, (tuple(self._made),)
 
 
 @dataclass(frozen=True, eq=False, repr=False)

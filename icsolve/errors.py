@@ -28,6 +28,10 @@ class CaseError(IcsolveError):
         self.problems = sorted(problems, key=lambda p: (p.line, p.column))
         super().__init__("\n".join(str(p) for p in self.problems))
 
+    def __reduce__(self) -> tuple[type[CaseError], tuple[list[Problem]]]:
+        """Across processes it goes with its problems."""
+        return type(self), (self.problems,)
+
     @property
     def path(self) -> str:
         """The file."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+
 import numpy as np
 import pytest
 
@@ -136,3 +138,15 @@ def test_values_that_no_case_may_have_are_refused(values: dict[str, list[float]]
     text = FOUR_BAR.replace("B: [1, 2], ", "") + "lengths: {AB: 2}\nangles: {AB: 60}"
     with pytest.raises(AskError, match=said):
         icsolve.sweep(icsolve.load(text), vary=values)
+
+
+def test_answers_and_refusals_cross_processes() -> None:
+    """What a pool of processes sends back: pickled, and the same."""
+    answer = icsolve.solve(icsolve.load(FOUR_BAR), all_centres=True, rates=True, reactions=True)
+    assert pickle.loads(pickle.dumps(answer)).to_dict() == answer.to_dict()
+    with pytest.raises(icsolve.CaseError) as refused:
+        icsolve.load(FOUR_BAR.replace("at: A", "on: A"))
+    assert pickle.loads(pickle.dumps(refused.value)).problems == refused.value.problems
+    with pytest.raises(icsolve.SceneError) as no_answer:
+        icsolve.solve(icsolve.load(FOUR_BAR.replace("force: 100", "force: unknown")))
+    assert pickle.loads(pickle.dumps(no_answer.value)).message == no_answer.value.message
