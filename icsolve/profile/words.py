@@ -16,6 +16,9 @@ from icsolve.sentences import listed, plural
 if TYPE_CHECKING:
     from icsolve.profile.found import Touching
 
+NEAREST = 3
+"""Radii that are left out in turn to tell what interpolation leaves open."""
+
 
 def never_meets(what: str, kind: str, gap: float | None) -> str:
     """A follower that is apart from its profile, or in it; None: wherever it moves."""
@@ -73,17 +76,22 @@ def left_open(shape: Shape, curve: Curve, foot: Foot, what: str) -> str:
         return ""
     angle = piece.angle(foot.u)
     table = [(a.value, r.value) for a, r in shape.table]
-    nearest = min(table, key=lambda pair: abs(math.remainder(math.radians(pair[0]) - angle, 2.0 * math.pi)))
+    table.sort(key=lambda pair: abs(math.remainder(math.radians(pair[0]) - angle, 2.0 * math.pi)))
     said = f"{what} is a periodic cubic spline through {len(table)} radii"
     if len(table) < 5:
         return f"{said}: too few to tell how far it can be trusted between them."
-    other = piece._replace(radius=table_spline([pair for pair in table if pair != nearest]))
-    (x, y), (u, v) = piece.at(foot.u), other.at(foot.u)
-    turned = math.degrees(abs(_angle(piece.tangent(foot.u), other.tangent(foot.u))))
+    others = [table_spline([*table[:k], *table[k + 1 :]]) for k in range(NEAREST)]
+    off, turned = zip(*(_apart(piece, piece._replace(radius=other), foot.u) for other in others), strict=True)
     return (
-        f"{said}: without the one nearest to the contact it would lie {math.hypot(x - u, y - v):.2g} away "
-        f"there, with its normal turned by {turned:.2g} deg."
+        f"{said}: without one of those near the contact it would lie up to {max(off):.2g} away there, "
+        f"with its normal turned by up to {max(turned):.2g} deg."
     )
+
+
+def _apart(one: Polar, other: Polar, u: float) -> tuple[float, float]:
+    """How far two curves are apart at a place, and the angle between them there, degrees."""
+    off = math.dist(one.at(u), other.at(u))
+    return off, math.degrees(abs(_angle(one.tangent(u), other.tangent(u))))
 
 
 def _angle(a: Point, b: Point) -> float:
