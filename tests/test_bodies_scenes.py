@@ -100,7 +100,7 @@ loads:
 """)
     assert parts(answer, "F1-2@A") == (None, exactly(6), exactly(0))
     assert parts(answer, "F1-2@B") == (None, exactly(3), exactly(0))
-    assert "F1-2@A and F1-2@B" in answer.notes[-1]
+    assert "F1-2@A and F1-2@B along x." in answer.notes[-1]
     shown = answer.to_dict()["reactions"]["F1-2@A"]
     assert (shown["x"], shown["magnitude"]) == (None, None)
     assert "equilibrium alone" in shown["undetermined"]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 from icsolve.bodies.equilibrium import Statics
 from icsolve.bodies.ties import Tie
@@ -20,15 +20,24 @@ def said_of(statics: Statics, reactions: Reactions, names: Sequence[str]) -> tup
 
 
 def _not_unique(statics: Statics, shown: Sequence[Reaction], names: Sequence[str]) -> Iterable[str]:
-    forces = [name for name, r in zip(names, shown, strict=True) if None in (r.x, r.y)]
-    couples = [name for name, r in zip(names, shown, strict=True) if r.moment is None and name not in forces]
-    said = [listed(forces)] if forces else []
-    said += [f"the couples of {listed(couples)}"] if couples else []
+    said = _open_parts(dict(zip(names, shown, strict=True)))
     if said:
         yield (
             f"equilibrium leaves {plural(len(statics.general.free), 'part')} of the reactions open; not "
             f"determined: {', '.join(said)}. {_remedy(statics.ties)}"
         )
+
+
+def _open_parts(shown: Mapping[str, Reaction]) -> list[str]:
+    """The forces that are open, those of which only one component is, and further couples."""
+    kinds: dict[tuple[bool, bool], list[str]] = {}
+    for name, r in shown.items():
+        kinds.setdefault((r.x is None, r.y is None), []).append(name)
+    ends = {(True, True): "", (True, False): " along x", (False, True): " along y"}
+    said = [f"{listed(kinds[kind])}{end}" for kind, end in ends.items() if kind in kinds]
+    whole = kinds.get((True, True), [])
+    couples = [name for name, r in shown.items() if r.moment is None and name not in whole]
+    return [*said, f"the couples of {listed(couples)}"] if couples else said
 
 
 def _remedy(ties: Sequence[Tie]) -> str:
