@@ -8,6 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, overload
 
 from icsolve.case import Case, Pair
+from icsolve.errors import SceneError
 
 if TYPE_CHECKING:
     from icsolve.bodies.values import Friction, Reactions, Witness
@@ -73,6 +74,16 @@ K = TypeVar("K")
 V = TypeVar("V")
 
 
+class Refused(NamedTuple):
+    """What cannot be made."""
+
+    refusal: SceneError
+
+    def __call__(self) -> Any:
+        """Say why."""
+        raise self.refusal
+
+
 class Deferred(Mapping[K, V]):
     """A mapping that is made when it is first looked into: what nobody reads costs nothing."""
 
@@ -95,9 +106,12 @@ class Deferred(Mapping[K, V]):
     def __repr__(self) -> str:
         return repr(self._made)
 
-    def __reduce__(self) -> tuple[type, tuple[dict[K, V]]]:
-        """What is sent to another process is made."""
-        return dict, (dict(self._made),)
+    def __reduce__(self) -> tuple[type, tuple[object]]:
+        """What is sent to another process is made, or refused there as it would be here."""
+        try:
+            return dict, (dict(self._made),)
+        except SceneError as refusal:
+            return Deferred, (Refused(refusal),)
 
 
 class Later(Sequence[V]):

@@ -60,6 +60,10 @@ class SceneError(IcsolveError):
         self.message = message
         super().__init__(message)
 
+    def __reduce__(self) -> tuple[type[SceneError], tuple[str, str]]:
+        """Across processes it goes with its status."""
+        return type(self), (self.status, self.message)
+
 
 class Status:
     """The words that a result's ``status`` can be; the README explains each."""
