@@ -551,3 +551,20 @@ def test_a_range_without_an_end_says_which_way_it_locks() -> None:
     assert least == exactly(10 / (1 + 2 * 0.4 * 0.6 / 0.47))
     assert most == math.inf
     assert any("no value of P above the range moves it" in note for note in answer.notes)
+
+
+def test_friction_of_a_pulley_s_bearing_hangs_on_the_belt_s_tension() -> None:
+    error = refused("""
+points: {A: [0, 0], B: [10, 0]}
+joints:
+  - {pin: [1, 2], at: A, mu: 0.1, radius: 0.5}
+  - {pin: [1, 3], at: B}
+  - {belt: [2, 3], radii: [2, 3]}
+loads:
+  T2: {torque: 10, link: 2}
+  T3: {torque: unknown, link: 3}
+motion: {link: 2, turns: ccw}
+""")
+    assert error.status == "unsupported"
+    assert "links 1 and 2 at A depends" in str(error)
+    assert "initial tension of the belt" in str(error)

@@ -32,7 +32,7 @@ from icsolve.bodies.statics import Bodies, Solved, carrying_flanks, frictionless
 from icsolve.bodies.ties import Tie, ties_of
 from icsolve.bodies.values import Friction, Witness
 from icsolve.bounds import Value
-from icsolve.case import Gears
+from icsolve.case import Belt, Gears
 from icsolve.errors import SceneError, Status
 from icsolve.power import is_unknown
 from icsolve.sentences import plural
@@ -133,6 +133,9 @@ def _shared(tie: Tie, ties: Sequence[Tie]) -> str:
     cause = "the joints are redundant and share the load by their fit"
     if any(isinstance(other.joint, Gears) and other.joint.pressure_angle is None for other in ties):
         cause, remedy = "it hangs on how hard teeth push apart", "Give the gears their `pressure angle`."
+    elif any(isinstance(other.joint, Belt) for other in ties):
+        cause = "it hangs on the initial tension of the belt"
+        remedy = "Take out `mu` there, or in place of the belt put its two pulls on the pulleys as loads."
     return (
         f"the friction of links {tie.by} and {tie.on}{place_of(tie)} depends on a force that equilibrium "
         f"leaves open: {cause}. {remedy}"
