@@ -115,6 +115,34 @@ def test_a_class_drawn_in_one_sweep_has_the_variants_and_keys_of_one_by_one(text
     assert alone._tasks
 
 
+ALL_ALIKE = PRESS.replace("a: {choices: [1, 1.25, 1.5]}", "a: {range: [1, 1.5], step: 0.01}")
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("force: $P, link: 4, at: E, angle: 180", "force: $P, link: 4, at: [3.6, 1], toward: B"),
+        ("force: $P, link: 4, at: E, angle: 180", "force: $P, link: 4, at: C, angle: 180, against: 2"),
+        ("force: $P, link: 4, at: E, angle: 180", "torque: $P, link: 4"),
+        ("force: $P, link: 4, at: E, angle: 180", "force: $P, link: 4, at: E, slope: [-3, $a]"),
+        ("force: $P, link: 4, at: E, angle: 180", "weight: $P, link: 4, at: E"),
+        ("D: [4, 0]", "D: [3 + $a, 0]"),
+        ("torque: unknown, link: 2", "force: unknown, link: 2, at: B, toward: D"),
+        ("torque: unknown, link: 2", "torque: unknown, link: 2, turns: cw"),
+    ],
+)
+def test_loads_and_numbers_of_every_kind_are_swept(old: str, new: str) -> None:
+    text = ALL_ALIKE.replace(old, new)
+    swept, alone = (Varied("press", text, "press.yaml", Course()) for _ in range(2))
+    students = [str(n) for n in range(40)]
+    swept.foresee(students)
+    assert sum(swept.value(draw) is not None for draw in swept._draws.values()) > 20
+    for student in students[:12]:
+        assert swept.draw(student) == alone.draw(student)
+        one, two = swept.key("press", student), alone.key("press", student)
+        assert one.value == pytest.approx(two.value, rel=1e-11)  # type: ignore[union-attr]
+
+
 def test_a_variable_in_something_else_than_a_number_is_taken_one_by_one() -> None:
     text = PRESS.replace("near: {C: [3.5, 2.4]}", "near: {C: [3.5, 2.4 + 0*$a]}")
     varied = Varied("press", text, "press.yaml", Course())

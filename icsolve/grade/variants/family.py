@@ -62,6 +62,9 @@ class Family:
         self.numbers = {path: number.value for path, number in as_written(case).items()}
         self.named = tuple(answer.points)
         self.figure = _built(case)
+        acting = [at for load in case.loads if (at := getattr(load, "at", None)) is not None]
+        if not {*self.named, *acting} <= self.figure.points.keys():
+            raise UnsuitedError("points that the figure does not have")
         self.runner = self._runner(self.figure, full=True)
         self.others = [(step.target, self._other_place(n)) for n, step in self._forks()]
         self.flat = {
@@ -199,8 +202,8 @@ def _built(case: Case) -> Figure:
     goal = wanted_points(case)
     figure = solve_figure(case, goal)
     order = order_of(case, list(figure.points))
-    spare = set(order.facts.data) - order.used()
-    if spare or figure.notes or figure.skipped:
+    spare = {d for d in set(order.facts.data) - order.used() if all(p in figure.points for p in d.points)}
+    if spare or figure.notes:
         raise UnsuitedError("data are compared with each other")
     for step in figure.steps:
         if isinstance(step, Group):

@@ -8,7 +8,7 @@ import numpy as np
 
 from icsolve.answer import Answer
 from icsolve.case import Case, Coordinates, Corner
-from icsolve.errors import CaseError, IcsolveError
+from icsolve.errors import IcsolveError
 from icsolve.grade.variants.family import Columns, Family, Mask, Rows
 from icsolve.grade.variants.mistakes import slips
 from icsolve.grade.variants.suitable import APART, DRAWING, SWING, Mistake, Seen
@@ -31,10 +31,9 @@ class Together:
     def seen(self, draws: Sequence[Values]) -> list[Seen | None]:
         """Each variant; None for one that has to be looked at as a scene of its own."""
         try:
-            given = columns(self.numbers, draws)
-        except (UnsuitedError, IcsolveError, ArithmeticError, ValueError, CaseError):
-            return [None] * len(draws)
-        return look(self.family, given, len(draws))
+            return look(self.family, columns(self.numbers, draws), len(draws))
+        except (IcsolveError, LookupError, ArithmeticError, ValueError):
+            return [None] * len(draws)  # what one of them can't be is for scenes of their own to say
 
 
 def look(family: Family, given: Columns, count: int) -> list[Seen | None]:
@@ -68,6 +67,8 @@ def _swing(family: Family, given: Columns, rows: Rows) -> Array:
         total += np.abs(slopes[path]) * DRAWING * size
     for angle in case.angles:
         ends = [(angle.at, angle.a), (angle.at, angle.b)] if isinstance(angle, Corner) else [angle[:2]]
+        if not {p for pair in ends for p in pair} <= rows.points.keys():
+            continue  # of a point that nothing asks for
         arms = sum(1.0 / np.hypot(*(rows.points[p] - rows.points[q]).T) for p, q in ends)
         total += np.abs(slopes[angle.value.path]) * np.degrees(DRAWING * size * arms)
     return total
