@@ -309,19 +309,6 @@ def canonical(name: str) -> str:
     return next(names.split()[0] for names, *_ in _TABLE if UNITS[names.split()[0]] == unit)
 
 
-def is_through_speed(unit: Unit, text: str, dimension: str) -> bool:
-    """Whether a unit is of power by way of a torque at an angular speed, or of torque by way of a power.
-
-    ``hp/rpm`` is a torque, ``lbf*ft*rpm`` a power. ``N*m/rad`` has the dimension of ``hp/rpm`` and is none:
-    it is the stiffness of a torsion spring.
-    """
-    if dimension == "power":
-        return unit.dims == (2, 1, -3, 1)
-    words = re.findall(r"[^\W\d_]+", text)
-    by_power = any((UNITS.get(w) or UNITS.get(w.lower(), ONE)).dims == DIMENSIONS["power"] for w in words)
-    return dimension == "torque" and unit.dims == (2, 1, -2, -1) and by_power
-
-
 def kind_of(dims: Dimension) -> str | None:
     """The name of a dimension, None where it has none."""
     return next((kind for kind, value in DIMENSIONS.items() if value == dims), None)

@@ -1,11 +1,13 @@
-"""Power at a speed as a load: the torque that transmits it."""
+"""Power at a speed as a load: the torque that transmits it; units of a torque by way of a power."""
 
 from __future__ import annotations
+
+import re
 
 from icsolve.case import Number
 from icsolve.read.document import Mapping, Scalar
 from icsolve.read.entry import Entry
-from icsolve.units import Numeral, parse_unit, ratio, split_quantity, times
+from icsolve.units import DIMENSIONS, ONE, UNITS, Numeral, Unit, parse_unit, ratio, split_quantity, times
 
 
 def torque_number(entry: Entry) -> Number | None:
@@ -54,3 +56,16 @@ def _divided(a: Numeral, b: Numeral, num: int, den: int) -> float:
     power: int = a.exponent - b.exponent
     tens: int = 10 ** abs(power)
     return above * tens / below if power >= 0 else above / (below * tens)
+
+
+def is_through_speed(unit: Unit, text: str, dimension: str) -> bool:
+    """Whether a unit is of power by way of a torque at an angular speed, or of torque by way of a power.
+
+    ``hp/rpm`` is a torque, ``lbf*ft*rpm`` a power. ``N*m/rad`` has the dimension of ``hp/rpm`` and is none:
+    it is the stiffness of a torsion spring.
+    """
+    if dimension == "power":
+        return unit.dims == (2, 1, -3, 1)
+    words = re.findall(r"[^\W\d_]+", text)
+    by_power = any((UNITS.get(w) or UNITS.get(w.lower(), ONE)).dims == DIMENSIONS["power"] for w in words)
+    return dimension == "torque" and unit.dims == (2, 1, -2, -1) and by_power

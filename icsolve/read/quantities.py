@@ -15,7 +15,6 @@ from icsolve.units import (
     canonical,
     converted,
     factor,
-    is_through_speed,
     kind_of,
     parse_unit,
     split_quantity,
@@ -80,8 +79,11 @@ def _fitting(reading: Reading, text: str, dimension: str) -> Unit:
     if text[0] in "_'’" and text[1:2].isdigit():
         raise UnitError("write the digits of a number without separators")
     unit = parse_unit(text)
-    if unit.dims != DIMENSIONS[dimension] and not is_through_speed(unit, text, dimension):
-        raise UnitError(_wrong(reading, text, unit, dimension))
+    if unit.dims != DIMENSIONS[dimension]:
+        from icsolve.read.power import is_through_speed
+
+        if not is_through_speed(unit, text, dimension):
+            raise UnitError(_wrong(reading, text, unit, dimension))
     return unit
 
 
