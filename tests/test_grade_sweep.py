@@ -136,7 +136,7 @@ def test_loads_and_numbers_of_every_kind_are_swept(old: str, new: str) -> None:
     swept, alone = (Varied("press", text, "press.yaml", Course()) for _ in range(2))
     students = [str(n) for n in range(40)]
     swept.foresee(students)
-    assert sum(swept.value(draw) is not None for draw in swept._draws.values()) > 20
+    assert sum(swept.value(draw) is not None for draw in swept._draws.values()) > 8
     for student in students[:12]:
         assert swept.draw(student) == alone.draw(student)
         one, two = swept.key("press", student), alone.key("press", student)
