@@ -8,6 +8,8 @@ from __future__ import annotations
 
 import os
 import re
+import subprocess
+import sys
 import time
 from pathlib import Path
 from random import Random
@@ -26,6 +28,7 @@ from icsolve.draw import Drawing, draw
 from pictures import Picture, on_arrows, outside, overlaps, parsed, shapes
 
 ROOT = Path(__file__).parent.parent
+FOUR = "ch13/13_08_four_bar.yaml"
 LIBRARY = ROOT / "cases"
 FILES = {path.relative_to(LIBRARY).as_posix(): path for path in sorted(LIBRARY.rglob("*.yaml"))}
 OPTIONS: dict[str, dict[str, Any]] = {
@@ -320,6 +323,16 @@ def test_figures_of_any_size_draw_alike(scale: float) -> None:
     other = drawn(icsolve.load(scaled))
     check(other)
     assert other.root.attrib["viewBox"] == picture.root.attrib["viewBox"]
+
+
+def test_a_drawing_imports_what_it_needs_and_no_more() -> None:
+    """Start-up is a measured feature: masked arrays and the rooms of cams cost more than a drawing."""
+    script = (
+        f"import sys, icsolve; from icsolve.draw import draw; draw(icsolve.load({str(FILES[FOUR])!r}))\n"
+        "print([m for m in ('numpy.ma', 'icsolve.profile.shapes', 'icsolve.draw.bodies') if m in sys.modules])"
+    )
+    ran = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert ran.stdout.strip() == "[]"
 
 
 def test_a_drawing_takes_milliseconds() -> None:

@@ -16,7 +16,6 @@ from icsolve.draw.links import Body, bars, body_of, link_part, outline, wheel_pa
 from icsolve.draw.loads import load_parts
 from icsolve.draw.marks import Box, Mark
 from icsolve.draw.place import Label, Placer
-from icsolve.draw.profiled import outline_boxes
 from icsolve.draw.scene import Part, Scene, together
 from icsolve.draw.shapes import joined
 from icsolve.draw.velocities import velocity_parts
@@ -35,7 +34,7 @@ def scene_of(known: Known, steps: Sequence[Step] = ()) -> Scene:
     used = {name for names in known.case.carries.values() for name in names}
     used |= {at for joint in known.case.joints if (at := getattr(joint, "at", None))}
     boxes = [(*known.points[p], *known.points[p]) for p in known.points if p in used]
-    boxes += [*_wheel_boxes(shapes), *outline_boxes(known.case, known.points)]
+    boxes += [*_wheel_boxes(shapes), *_outline_boxes(known)]
     centres = [step.centre.place for step in steps if step.centre.kind == "at"]
     finite = [(x, y) for x, y in centres if math.isfinite(x) and math.isfinite(y)]
     view = view_of(boxes, finite, known.size)
@@ -55,6 +54,15 @@ def _shortest(known: Known) -> float:
     places = ([known.points[p] for p in sorted(some)] for some in ends.values() if len(some) > 1)
     spans = (max(math.dist(p, q) for p, q in combinations(some, 2)) for some in places)
     return min((span for span in spans if span > TOGETHER * known.size), default=math.inf)
+
+
+def _outline_boxes(known: Known) -> list[Box]:
+    """The room of the profiles that the case gives."""
+    if known.case.profiles is None:
+        return []
+    from icsolve.draw.profiled import outline_boxes
+
+    return outline_boxes(known.case, known.points)
 
 
 def _wheel_boxes(shapes: Round) -> list[Box]:

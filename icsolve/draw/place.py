@@ -125,7 +125,7 @@ class Placer:
         if self.tree is None:
             return costs
         ours, theirs = self.tree.query(shapely.box(*boxes.T))
-        for n in np.unique(ours):
+        for n in dict.fromkeys(ours.tolist()):
             under = theirs[ours == n]
             cuts = shapely.clip_by_rect(self.geometries[under], *boxes[n])
             areas, lengths = shapely.area(cuts), shapely.length(cuts)
