@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
@@ -25,6 +26,7 @@ from icsolve.profile.roots import zero_between
 from icsolve.profile.shapes import placed
 from icsolve.profile.spline import spline
 from icsolve.read import load
+from icsolve.read.profiles import KEYS
 from icsolve.solve import solve
 from icsolve.turn.numbers import with_numbers
 
@@ -468,3 +470,24 @@ def test_curve_is_found_from_either_order_of_its_corners() -> None:
         curve = placed(shape, places_of(case, points_of(shape)), "it")  # type: ignore[arg-type]
         assert curve.height((0.0, 60.0))[0] == pytest.approx(10.0)
         assert curve.height((0.0, 0.0))[0] == pytest.approx(-50.0 / math.sqrt(2.0))
+
+
+README = (Path(__file__).parent.parent / "README.md").read_text(encoding="utf-8")
+FORMS = re.findall(
+    r"^\| `(\d): (\{.*?\})` \|", README.partition("### Cam profiles\n")[2].partition("\n### ")[0], re.MULTILINE
+)
+
+
+@pytest.mark.parametrize(("link", "form"), FORMS)
+def test_every_form_of_a_profile_in_the_readme_is_read(link: str, form: str) -> None:
+    other = "3: {flat: B, along: 0}" if link == "2" else "2: {circle: C, radius: 4}"
+    case = load(
+        "icsolve: 1\npoints: {A: [0, 0], B: [0, unknown], C: [1, 0], P: [1, 1], Q: [-1, 1], R: [-1, -1],"
+        f" S: [1, -1]}}\nprofile:\n  {link}: {form}\n  {other}\njoints:\n  - {{pin: [1, 2], at: A}}\n"
+        "  - {contact: [2, 3]}\n  - {slide: [3, 1], at: B, along: 90}\n"
+    )
+    assert case.profiles is not None and len(case.profiles.shapes) == 2
+
+
+def test_the_readme_shows_every_kind_of_profile() -> None:
+    assert {kind for kind in KEYS if any(f"{kind}:" in form for _, form in FORMS)} == KEYS.keys()
