@@ -9,16 +9,24 @@ import time
 from collections.abc import Callable, Sequence
 
 Call = Callable[[], object]
+TURN = 20
+"""Batches before another call has its turn."""
+LONG = 5e-3
+"""Seconds of a call that is alone a turn."""
 
 
-def least(calls: Sequence[Call], seconds: float, batch: float = 2e-3) -> list[float]:
-    """Seconds a call of each, the least over batches in turn; about so many CPU seconds in all."""
+def least(calls: Sequence[Call], seconds: float, batch: float = 1e-4) -> list[float]:
+    """Seconds a call of each, the least over batches; about so many CPU seconds in all.
+
+    The calls take turns of several batches each, of which the first warms the caches again.
+    """
     sizes = [max(1, int(batch / _rough(call))) for call in calls]
     best = [float("inf")] * len(calls)
     end = time.process_time() + seconds
     while True:
         for k, call in enumerate(calls):
-            best[k] = min(best[k], once(call, sizes[k]) / sizes[k])
+            for _ in range(TURN if sizes[k] > 1 or best[k] < LONG else 1):
+                best[k] = min(best[k], once(call, sizes[k]) / sizes[k])
         if time.process_time() > end:
             return best
 
