@@ -6,6 +6,7 @@ link, nor of any friction; the load that it ends at is the true one.
 
 from __future__ import annotations
 
+from fractions import Fraction
 from random import Random
 from statistics import median
 from typing import Any
@@ -28,7 +29,7 @@ from icsolve.program import Want, evaluate, prepare
 from icsolve.sensitivity import influences
 from icsolve.text import answer_text
 from more_digits import SixtyDigits
-from test_friction import BLOCK, MORE, QUICK_RETURN, SIX_BAR, lever, slider_crank, turning, wedge
+from test_friction import BLOCK, MORE, QUICK_RETURN, SIX_BAR, brake, lever, slider_crank, turning, wedge
 
 CW = "motion: {link: 2, turns: cw}\n"
 SCENES = {
@@ -217,6 +218,15 @@ def test_slopes_of_a_range_are_refused_in_words() -> None:
     with pytest.raises(icsolve.SceneError, match="a range in which the mechanism holds still") as caught:
         influences(answer, "T")
     assert caught.value.status == "unsupported"
+
+
+def test_an_actuating_force_that_does_no_work_is_bounded_too() -> None:
+    """P = T (b - mu c) / (mu r a), in exact fractions of the decimals."""
+    found = icsolve.solve(icsolve.load("icsolve: 1\n" + brake(0.5, "ccw", "P"))).answers["P"]
+    mu = Fraction("0.35")
+    assert found.error is not None
+    assert abs(Fraction(found.value) - 60 * (3 - mu / 2) / (16 * mu)) <= Fraction(found.error)
+    assert found.error <= 1e-11 * found.value
 
 
 def test_a_range_of_one_value_is_said_to_be_one() -> None:
