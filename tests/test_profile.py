@@ -473,9 +473,8 @@ def test_curve_is_found_from_either_order_of_its_corners() -> None:
 
 
 README = (Path(__file__).parent.parent / "README.md").read_text(encoding="utf-8")
-FORMS = re.findall(
-    r"^\| `(\d): (\{.*?\})` \|", README.partition("### Cam profiles\n")[2].partition("\n### ")[0], re.MULTILINE
-)
+SECTION = README.partition("### Cam profiles\n")[2].partition("\n### ")[0]
+FORMS = re.findall(r"^\| `(\d): (\{.*?\})` \|", SECTION, re.MULTILINE)
 
 
 @pytest.mark.parametrize(("link", "form"), FORMS)
