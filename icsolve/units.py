@@ -186,6 +186,8 @@ def _factor(text: str, whole: str) -> tuple[Unit, str]:
     else:
         end = next((i for i, c in enumerate(text) if not (c.isalpha() or c == "°")), len(text))
         unit, rest = word(text[:end], whole), text[end:]
+        if rest[:1] == "." and text[:end].lower() in _SHORTENED and not rest[1:2].isalpha():
+            rest = rest[1:]
     power, rest = _power(rest, whole)
     return _raised(unit, power), rest
 
@@ -211,6 +213,10 @@ def _raised(unit: Unit, power: int) -> Unit:
     for _ in range(abs(power)):
         result = times(result, unit, 1 if power > 0 else -1)
     return result
+
+
+_SHORTENED = {"in", "ft", "yd", "lb", "lbs", "lbf", "oz", "sec", "min", "deg", "rev"}
+"""Words that may end with a full stop, as in ``in.-lb`` and ``20 lb/in.``."""
 
 
 def word(name: str, whole: str) -> Unit:

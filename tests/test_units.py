@@ -179,3 +179,17 @@ def test_every_dimension_is_told_by_its_name() -> None:
 def test_spellings_are_shown_by_the_listed_name() -> None:
     shown = {"inches": "in", "lb": "lb", "lbs": "lbf", "newtons": "N", "mm": "mm", "FT": "ft"}
     assert {name: canonical(name) for name in shown} == shown
+
+
+@pytest.mark.parametrize(
+    ("dotted", "plain"),
+    [("in.-lb", "in-lb"), ("lb.", "lb"), ("lb/in.", "lb/in"), ("ft. lb.", "ft*lb"), ("ft.lb", "ft*lb")],
+)
+def test_american_abbreviations_may_end_with_a_full_stop(dotted: str, plain: str) -> None:
+    assert parse_unit(dotted) == parse_unit(plain)
+
+
+@pytest.mark.parametrize("text", ["N.", "in..", "in.-", ".in", "mm."])
+def test_a_full_stop_elsewhere_is_no_unit(text: str) -> None:
+    with pytest.raises(UnitError):
+        parse_unit(text)
