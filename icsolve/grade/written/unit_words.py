@@ -99,7 +99,7 @@ def _exact(text: str) -> UnitWord | None:
     if text in ('"', "'"):
         return UnitWord(UNITS["in" if text == '"' else "ft"], "in" if text == '"' else "ft")
     unit = _parsed(text)
-    return UnitWord(unit, _shown(text)) if unit is not None else None
+    return UnitWord(unit, _shown(_DOTTED.sub("", text))) if unit is not None else None
 
 
 def _parsed(text: str) -> Unit | None:
