@@ -10,9 +10,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from icsolve.turn.branches import TOUCH, live_roots
+from icsolve.turn.branches import TOUCH
 from icsolve.turn.record import Root
-from icsolve.turn.replay import Array, Code
+from icsolve.turn.replay import Array
 from icsolve.turn.runner import Key, Rows, Runner, column
 
 Given = Callable[[Rows], dict[int, Array]]
@@ -23,20 +23,19 @@ def bound_flat(runner: Runner, given: Given, errors: dict[Key, Array], rows: Row
 
     ``rows`` are places among those that ``given`` has the inputs of, ``into`` their places in the tables.
     """
-    roots = live_roots(runner.sheet)
-    flat = _flat(runner, roots, given, rows)
+    roots = runner.branches
+    flat = _flat(runner, given, rows)
     for pattern in np.unique(flat[flat.any(axis=1)], axis=0):
         some = (flat == pattern).all(axis=1)
         leaves = [root for root, is_flat in zip(roots, pattern, strict=True) if is_flat]
         _bound(runner, leaves, given(rows[some]), errors, into[some])
 
 
-def _flat(runner: Runner, roots: list[Root], given: Given, rows: Rows) -> np.typing.NDArray[np.bool_]:
+def _flat(runner: Runner, given: Given, rows: Rows) -> np.typing.NDArray[np.bool_]:
     """Which chords have vanished, (rows, roots)."""
-    nodes = [n for root in roots for margin in root.margins for n in margin]
-    found = Code(runner.sheet.record, nodes).run(given(rows), len(rows)) if nodes else []
-    flat = np.zeros((len(rows), len(roots)), dtype=bool)
-    for n in range(len(roots)):
+    flat = np.zeros((len(rows), len(runner.branches)), dtype=bool)
+    found = runner.reaching.run(given(rows), len(rows)) if runner.branches else []
+    for n in range(len(runner.branches)):
         a, a_size, b, b_size = found[4 * n : 4 * n + 4]
         flat[:, n] = np.minimum(np.abs(a) / a_size, np.abs(b) / b_size) <= TOUCH
     return flat

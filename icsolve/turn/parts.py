@@ -80,7 +80,7 @@ class Parts:
         moving = (*self.start.links, *self.start.setting.drive.moving)
         main = next(name for name in (*moving, *bearing) if name in bearing)
         others = [name for name in bearing if name != main]
-        at_once, left = (None, rows) if runner.sequential else self._at_once(runner, main, others)
+        at_once, left = (None, rows) if runner.sequential else self._at_once(runner, rows, main, others)
         if at_once is not None:
             yield at_once
         for alike in self._alike(left, others):
@@ -88,9 +88,10 @@ class Parts:
 
     # --- at once ----------------------------------------------------------------------------------
 
-    def _at_once(self, runner: Runner, main: str, others: list[str]) -> tuple[Part | None, Rows]:
+    def _at_once(
+        self, runner: Runner, rows: Rows, main: str, others: list[str]
+    ) -> tuple[Part | None, Rows]:
         """What can be run at once, and the rows that are left."""
-        rows = np.arange(self.columns.rows)
         if others:
             clear = self._clear(runner.sheet, [main, *others])
             return (Part(runner, rows[clear]) if clear.any() else None), rows[~clear]

@@ -14,10 +14,12 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.turn.backward import Backward
+from icsolve.turn.branches import live_roots
 from icsolve.turn.noise import noise_of
 from icsolve.turn.program import Sheet
-from icsolve.turn.record import Node, Op, varies
+from icsolve.turn.record import Node, Op, Root, varies
 from icsolve.turn.replay import BLOCK, Array, Code, live
+from icsolve.turn.rows import RowCases
 
 SMALL = 1e-7
 """Below this fraction of its size elsewhere a divisor or radicand makes its row doubtful."""
@@ -110,6 +112,26 @@ class Runner:
             yield [(key, part) for key, part, _ in some], self.passes([index for *_, index in some])
 
     @cached_property
+    def branches(self) -> list[Root]:
+        """The branches that bear on what is asked, those behind groups too."""
+        return live_roots(self.sheet)
+
+    @cached_property
+    def reaching(self) -> Code:
+        """The margins of the branches, each with its size."""
+        return Code(self.sheet.record, [n for r in self.branches for margin in r.margins for n in margin])
+
+    @cached_property
+    def conditions(self) -> Code:
+        """Margins of the figure as written, and what is to vanish."""
+        return Code(self.sheet.record, [*self.margins, *self.checks])
+
+    @cached_property
+    def cases(self) -> RowCases:
+        """Rows as cases of their own."""
+        return RowCases(self.sheet)
+
+    @cached_property
     def doubts(self) -> Backward:
         """Backward passes from the answers, then from what is divided by."""
         return self.passes([*(index for _, index in self.answers), *self.divisors])
@@ -166,22 +188,23 @@ class Runner:
         ends = (len(self.moving), len(self.roots), len(self.divisors), len(self.margins), len(self.checks))
         cuts = np.cumsum(ends)
         radicands, divisors = found[cuts[0] : cuts[1]], found[cuts[1] : cuts[2]]
-        steep = False
+        rows = max((array.size for array in found), default=1)
+        scratch, steep = self.code.bound(rows)[1][-1][:rows], False
         bad: list[Rows] = []
         with np.errstate(all="ignore"):
             for n, radicand in enumerate(radicands):
                 high = max(float(np.maximum.reduce(radicand)), float(self.deep[n]))
                 low = self._below(radicand, SMALL * high, bad)
-                steep = steep or low <= STEEP * _step(radicand, last[n] if last else None)
+                steep = steep or low <= STEEP * _step(radicand, last[n] if last else None, scratch)
             for n, divisor in enumerate(divisors):
-                size = np.abs(divisor)
+                size = np.abs(divisor, scratch)
                 self._below(size, SMALL * max(float(self.typical[n]), float(np.maximum.reduce(size))), bad)
             for margin in found[cuts[2] : cuts[3]]:
                 self._below(margin, CLOSE, bad)
             for check in found[cuts[3] :]:
-                self._below(-np.abs(check), -AGREED, bad)
+                self._below(np.negative(np.abs(check, scratch), scratch), -AGREED, bad)
             for n in self.faint:
-                size = np.abs(found[n])
+                size = np.abs(found[n], scratch)
                 self._below(size, FAINT * float(np.maximum.reduce(size)), bad)
         again = np.unique(np.concatenate(bad)) if bad else np.empty(0, np.int64)
         return again, steep, [float(radicand[-1]) for radicand in radicands]
@@ -194,9 +217,9 @@ class Runner:
         return low
 
 
-def _step(radicand: Array, before: float | None) -> float:
+def _step(radicand: Array, before: float | None, scratch: Array) -> float:
     """The largest step from row to row, that from the last block too."""
-    step = radicand[1:] - radicand[:-1]
+    step = np.subtract(radicand[1:], radicand[:-1], scratch[1:])
     largest = float(np.maximum.reduce(np.abs(step, step))) if len(step) else 0.0
     return largest if before is None else max(largest, abs(float(radicand[0]) - before))
 

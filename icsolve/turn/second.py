@@ -17,7 +17,7 @@ from icsolve.answer import Answer
 from icsolve.case import Case, Coordinates
 from icsolve.errors import SceneError, Status
 from icsolve.solve import solve
-from icsolve.turn.branches import TOUCH, live_roots
+from icsolve.turn.branches import TOUCH
 from icsolve.turn.replay import Array, Code
 from icsolve.turn.runner import AGREED, Found, Key, Rows, Runner, column
 
@@ -115,7 +115,7 @@ def _as_written(look: Look, rows: Rows) -> None:
     margins, checks = look.runner.margins, look.runner.checks
     if not (margins or checks) or not len(rows):
         return
-    found = Code(look.runner.sheet.record, [*margins, *checks]).run(look.given(rows), len(rows))
+    found = look.runner.conditions.run(look.given(rows), len(rows))
     for n, value in enumerate(found):
         apart = ~(value >= -ROUNDED) if n < len(margins) else ~(np.abs(value) <= AGREED)
         look.codes[rows[np.broadcast_to(apart, len(rows))]] = CODE[Status.CANNOT_ASSEMBLE]
@@ -123,13 +123,11 @@ def _as_written(look: Look, rows: Rows) -> None:
 
 def _margins(look: Look, rows: Rows) -> Mask:
     """Mark the rows that cannot assemble; which branches touch in the others (rows, branches)."""
-    roots = live_roots(look.runner.sheet)
+    roots = look.runner.branches
     touching = np.zeros((len(rows), len(roots)), dtype=bool)
     if not roots or not len(rows):
         return touching
-    nodes = [n for root in roots for margin in root.margins for n in margin]
-    code = Code(look.runner.sheet.record, nodes)
-    found = [np.broadcast_to(v, len(rows)) for v in code.run(look.given(rows), len(rows))]
+    found = [np.broadcast_to(v, len(rows)) for v in look.runner.reaching.run(look.given(rows), len(rows))]
     apart = np.zeros(len(rows), dtype=bool)
     with np.errstate(all="ignore"):
         for n in range(len(roots)):
@@ -143,7 +141,7 @@ def _margins(look: Look, rows: Rows) -> Mask:
 
 def _flatten(look: Look, rows: Rows, touching: Mask) -> None:
     """Run rows again whose branches touch, the chord of those being zero."""
-    runner, roots = look.runner, live_roots(look.runner.sheet)
+    runner, roots = look.runner, look.runner.branches
     for pattern in np.unique(touching[touching.any(axis=1)], axis=0):
         flat = [root.node for root, touches in zip(roots, pattern, strict=True) if touches]
         some = rows[(touching == pattern).all(axis=1)]

@@ -13,7 +13,6 @@ from icsolve.turn.ask import Columns
 from icsolve.turn.flat import bound_flat
 from icsolve.turn.parts import Part, Parts
 from icsolve.turn.replay import BLOCK, Array
-from icsolve.turn.rows import RowCases
 from icsolve.turn.runner import Found, Key, Progress, column
 from icsolve.turn.second import CODE, Look, look_again
 from icsolve.turn.start import Start
@@ -102,27 +101,27 @@ class Work:
         """Look again at doubtful rows."""
         if not found.doubtful.size:
             return
-        cases, codes = RowCases(part.runner.sheet), self.codes[part.rows]
+        codes = self.codes[part.rows]
 
         def case_of(row: int) -> Case:
-            return self._case(cases, part.some(np.array([row])))
+            return self._case(part.some(np.array([row])))
 
         given = lambda rows: self.parts.given(part.some(rows))[0]  # noqa: E731
         look_again(Look(part.runner, given, found, codes, case_of))
         self.codes[part.rows] = codes
 
-    def _case(self, cases: RowCases, one: Part) -> Case:
+    def _case(self, one: Part) -> Case:
         """The case of a part of one row."""
         given, _ = self.parts.given(one)
         row = one.rows[0]
-        return cases.at(given, {path: float(a[row]) for path, a in self.columns.paths.items()})
+        return one.runner.cases.at(given, {path: float(a[row]) for path, a in self.columns.paths.items()})
 
     def case_of(self, row: int) -> Case:
         """The case of a row: its points by coordinates (or, in a family, as if written so)."""
         for part in self.done:
             where = np.flatnonzero(part.rows == row)
             if where.size:
-                return self._case(RowCases(part.runner.sheet), part.some(where[:1]))
+                return self._case(part.some(where[:1]))
         raise IndexError(row)
 
     def _bounds(self, part: Part) -> None:
