@@ -295,10 +295,3 @@ def _workless(rows: list[list[Scalar]], roots: list[str]) -> str:
         if all(row[k] == 0.0 for row in rows):
             return root
     return roots[0] if roots else ""
-
-
-def heading_degrees(w: Wrench) -> float:
-    """Direction of the unit force of a wrench, degrees in [0, 360)."""
-    return math.degrees(math.atan2(-w.unit[0], w.unit[1])) % 360.0
-
-

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
+
 from icsolve.case import Case, Force, Load, Spring, Torque, Toward, Weight
-from icsolve.power import Wrench, heading_degrees
+from icsolve.power import Wrench
 
 
 def sense_of(w: Wrench, value: float) -> str:
@@ -20,8 +22,13 @@ def sense_of(w: Wrench, value: float) -> str:
                 return "pull" if (value > 0) != heading.away else "push"
             if (value > 0) != heading.away:
                 return f"toward {heading.point}"
-    degrees = heading_degrees(w) if value > 0 else (heading_degrees(w) + 180.0) % 360.0
+    degrees = _heading(w) if value > 0 else (_heading(w) + 180.0) % 360.0
     return f"at {round(degrees, 6) % 360.0:.6g} deg"
+
+
+def _heading(w: Wrench) -> float:
+    """Direction of the unit force of a wrench, degrees in [0, 360)."""
+    return math.degrees(math.atan2(-w.unit[0], w.unit[1])) % 360.0
 
 
 def unit_of(load: Load, case: Case) -> str:

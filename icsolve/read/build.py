@@ -16,18 +16,20 @@ from icsolve.case import (
     Load,
     Motion,
     Number,
-    Pin,
-    Slide,
-    Slot,
-    Spring,
     Tolerance,
-    Torque,
     Units,
-    Weld,
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
 from icsolve.read.expect import read_expect
-from icsolve.read.geometry import check_given, read_angles, read_carried, read_lengths, read_near, read_points
+from icsolve.read.geometry import (
+    carried,
+    check_given,
+    read_angles,
+    read_carried,
+    read_lengths,
+    read_near,
+    read_points,
+)
 from icsolve.read.jointed import mention_links
 from icsolve.read.joints import read_joints
 from icsolve.read.loads import read_loads
@@ -268,39 +270,3 @@ def _shaped(parts: _Parts) -> dict[str, tuple[str, ...]]:
 
     shapes = parts.profiles.shapes
     return parts.links | {link: (*parts.links.get(link, ()), *points_of(s)) for link, s in shapes.items()}
-
-
-def carried(
-    links: tuple[str, ...],
-    ground: str,
-    joints: tuple[Joint, ...],
-    loads: tuple[Load, ...],
-    further: dict[str, tuple[str, ...]],
-    motion: tuple[Motion, ...],
-) -> dict[str, tuple[str, ...]]:
-    """The points that each link carries, in order of mention: of joints, loads, ``links:``, motion."""
-    found: dict[str, dict[str, None]] = {link: {} for link in links}
-    placed = [pair for joint in joints for pair in _on_joint(joint)]
-    placed += [pair for load in loads for pair in _on_load(load, ground)]
-    placed += [(link, point) for link, points in further.items() for point in points]
-    placed += [(given.link, given.point) for given in motion if given.point]
-    for link, point in placed:
-        found.setdefault(link, {})[point] = None
-    return {link: tuple(points) for link, points in found.items()}
-
-
-def _on_joint(joint: Joint) -> list[tuple[str, str]]:
-    if isinstance(joint, Pin) or (isinstance(joint, Weld) and joint.at):
-        return [(link, joint.at or "") for link in joint.links]
-    if isinstance(joint, Slide | Slot):
-        guide = joint.guide
-        named = [*(guide.ends or ()), *([guide.through] if guide.through else [])]
-        return [(joint.links[0], joint.at), *[(joint.links[1], point) for point in named]]
-    return []
-
-
-def _on_load(load: Load, ground: str) -> list[tuple[str, str]]:
-    if isinstance(load, Torque):
-        return []
-    ends = [(load.link, load.at)]
-    return [*ends, (load.against or ground, load.to)] if isinstance(load, Spring) else ends

@@ -4,7 +4,22 @@ from __future__ import annotations
 
 from collections import Counter
 
-from icsolve.case import Centroid, Coordinates, Corner, Direction, Length
+from icsolve.case import (
+    Centroid,
+    Coordinates,
+    Corner,
+    Direction,
+    Joint,
+    Length,
+    Load,
+    Motion,
+    Pin,
+    Slide,
+    Slot,
+    Spring,
+    Torque,
+    Weld,
+)
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.names import Names, point_key
 from icsolve.read.problems import shown, suggestion
@@ -175,3 +190,39 @@ def _never_given(reading: Reading, name: str, given: set[str]) -> str:
     from icsolve.sentences import listed
 
     return f"{said}; {of} is the centroid of {listed(reading.centroids[of])}: give {name}, or {of} by lengths"
+
+
+def carried(
+    links: tuple[str, ...],
+    ground: str,
+    joints: tuple[Joint, ...],
+    loads: tuple[Load, ...],
+    further: dict[str, tuple[str, ...]],
+    motion: tuple[Motion, ...],
+) -> dict[str, tuple[str, ...]]:
+    """The points that each link carries, in order of mention: of joints, loads, ``links:``, motion."""
+    found: dict[str, dict[str, None]] = {link: {} for link in links}
+    placed = [pair for joint in joints for pair in _on_joint(joint)]
+    placed += [pair for load in loads for pair in _on_load(load, ground)]
+    placed += [(link, point) for link, points in further.items() for point in points]
+    placed += [(given.link, given.point) for given in motion if given.point]
+    for link, point in placed:
+        found.setdefault(link, {})[point] = None
+    return {link: tuple(points) for link, points in found.items()}
+
+
+def _on_joint(joint: Joint) -> list[tuple[str, str]]:
+    if isinstance(joint, Pin) or (isinstance(joint, Weld) and joint.at):
+        return [(link, joint.at or "") for link in joint.links]
+    if isinstance(joint, Slide | Slot):
+        guide = joint.guide
+        named = [*(guide.ends or ()), *([guide.through] if guide.through else [])]
+        return [(joint.links[0], joint.at), *[(joint.links[1], point) for point in named]]
+    return []
+
+
+def _on_load(load: Load, ground: str) -> list[tuple[str, str]]:
+    if isinstance(load, Torque):
+        return []
+    ends = [(load.link, load.at)]
+    return [*ends, (load.against or ground, load.to)] if isinstance(load, Spring) else ends
