@@ -490,3 +490,15 @@ def test_every_form_of_a_profile_in_the_readme_is_read(link: str, form: str) -> 
 
 def test_the_readme_shows_every_kind_of_profile() -> None:
     assert {kind for kind in KEYS if any(f"{kind}:" in form for _, form in FORMS)} == KEYS.keys()
+
+
+def test_a_roller_whose_centre_lies_on_a_corner_is_refused() -> None:
+    text = (
+        f"{HEAD}points: {{A: [0, 0], C: [10, 0], B: [0, 60]}}\n"
+        "profile:\n  2: {polygon: [A, C, [5, 50]]}\n  3: {roller: A, radius: %s}\n"
+        "joints:\n  - {pin: [1, 2], at: A}\n  - {contact: [2, 3]}\n  - {slide: [3, 1], at: B, along: 90}\n"
+        "loads:\n  P: {force: 100, link: 3, at: B, angle: -90}\n  T12: {torque: unknown, link: 2}\n"
+    )
+    for radius in ("3", "1e-9"):
+        with pytest.raises(SceneError):
+            solve(load(text % radius))

@@ -99,14 +99,16 @@ def curve_of(pieces: Sequence[Piece]) -> Curve | None:
 
     None where it crosses itself.
     """
+    from numpy import errstate
     from shapely import LinearRing, Polygon, STRtree, linestrings, prepare
 
     size = _size(pieces)
     joined = _joined(pieces, size)
     chords = tuple(_chords(joined))
     points = [p for p, _, _ in chords]
-    if len(points) < 3 or not LinearRing(points).is_simple:
-        return None
+    with errstate(all="ignore"):  # a size that overflows is no simple line
+        if len(points) < 3 or not LinearRing(points).is_simple:
+            return None
     if _area(points) < 0.0:
         return curve_of([piece.reversed() for piece in reversed(joined) if not isinstance(piece, Polar)])
     lines = linestrings([[p, points[(n + 1) % len(points)]] for n, p in enumerate(points)])

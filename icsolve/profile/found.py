@@ -101,10 +101,10 @@ class Seeking:
             body = self.body(places_of(self.case, points_of(self.follower)))
         else:
             side = min((1.0, -1.0), key=lambda side: abs(gap_of(curve, body, side)[0]))
-        meeting = meeting_of(curve, body, side, self.what)
-        if abs(meeting.gap) > FITS * curve.size:
-            raise SceneError(Status.CANNOT_ASSEMBLE, never_meets(self.what, body.kind, meeting.gap))
-        return self.contact(self.case, curve, meeting, self.guide())
+        gap = gap_of(curve, body, side)[0]
+        if abs(gap) > FITS * curve.size:
+            raise SceneError(Status.CANNOT_ASSEMBLE, never_meets(self.what, body.kind, gap))
+        return self.contact(self.case, curve, meeting_of(curve, body, side, self.what), self.guide())
 
     def guide(self) -> Freedom | None:
         """How the frame guides the follower; None where something else does."""

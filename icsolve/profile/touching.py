@@ -65,10 +65,10 @@ def meeting_of(curve: Curve, body: Body, side: float, what: str) -> Meeting:
         way = (-side * body.face[1], side * body.face[0])
         _refuse_edge(curve, way, what)
         return Meeting(gap, foot, (way,))
-    if body.kind == "knife edge":
-        at_corner = foot.is_corner and math.dist(foot.point, body.at) <= AT_ONE * curve.size
-        return Meeting(gap, foot, foot.normals if at_corner else (_toward(foot, body),))
-    _refuse_second(curve, body, foot, what)
+    if foot.is_corner and math.dist(foot.point, body.at) <= AT_ONE * curve.size:
+        return Meeting(gap, foot, foot.normals)
+    if body.kind == "roller":
+        _refuse_second(curve, body, foot, what)
     return Meeting(gap, foot, (_toward(foot, body),))
 
 

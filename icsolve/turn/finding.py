@@ -78,9 +78,11 @@ def find(
     names = [name for name, array in columns.arrays.items() if np.ptp(array) > 0.0]
     if len(names) != 1:
         raise AskError("positions are found along one varied number")
+    why = "positions cannot be found where each row has to be solved as a scene of its own."
+    if case.profiles is not None and case.profiles.touches:
+        raise SceneError(Status.UNSUPPORTED, why)
     start = start_of(case, columns, Asked())
     if start.one_by_one or rubs(case):
-        why = "positions cannot be found where each row has to be solved as a scene of its own."
         raise SceneError(Status.UNSUPPORTED, why)
     work = Work(start, columns, False)
     work.run()
