@@ -8,116 +8,11 @@ are carried out at once, those on 0 and 1 not at all, equal ones once.
 from __future__ import annotations
 
 import math
-from enum import IntEnum
-from typing import Any, NamedTuple
 
 from icsolve.arithmetic import ROUNDING_NOISE, Scalar, turn_of
 from icsolve.case import Number
 from icsolve.tape import decimal_noise
-
-
-class Op(IntEnum):
-    """What a node is or does to the nodes ``a`` and ``b``."""
-
-    INPUT = 0
-    CONST = 1
-    ADD = 2
-    SUB = 3
-    MUL = 4
-    DIV = 5
-    NEG = 6
-    SQRT = 7
-    COS = 8
-    SIN = 9
-    ANGLE = 10
-    """the angle (degrees, within half a turn) of a vector by its components x and y"""
-    NEAREST = 11
-    """the nearest whole number"""
-
-
-class Node(NamedTuple):
-    """One recorded value; ``noise`` bounds the rounding of a constant, ``row`` says that it varies."""
-
-    op: Op
-    a: int
-    b: int
-    value: float
-    row: bool
-    noise: float = 0.0
-
-
-class Traced:
-    """A number of a record; ``value`` is its value in the position in which the record was made."""
-
-    __slots__ = ("index", "record", "row", "value")
-
-    def __init__(self, record: Record, index: int, value: float, row: bool) -> None:
-        self.record, self.index, self.value, self.row = record, index, value, row
-
-    def __add__(self, other: Scalar) -> Scalar:
-        return self.record.add(self, other)
-
-    __radd__ = __add__
-
-    def __sub__(self, other: Scalar) -> Scalar:
-        return self.record.subtract(self, other)
-
-    def __rsub__(self, other: Scalar) -> Scalar:
-        return self.record.subtract(other, self)
-
-    def __mul__(self, other: Scalar) -> Scalar:
-        return self.record.multiply(self, other)
-
-    __rmul__ = __mul__
-
-    def __truediv__(self, other: Scalar) -> Scalar:
-        return self.record.divide(self, other)
-
-    def __rtruediv__(self, other: Scalar) -> Scalar:
-        return self.record.divide(other, self)
-
-    def __neg__(self) -> Scalar:
-        return self.record.negate(self)
-
-    def __abs__(self) -> float:
-        return abs(self.value)
-
-    def __float__(self) -> float:
-        return self.value
-
-    def max(self) -> float:
-        """As an array's, where a size is asked for."""
-        return self.value
-
-    def __eq__(self, other: object) -> bool:
-        """No number that varies is equal to a constant in every row."""
-        if isinstance(other, Traced):
-            return self.index == other.index
-        return not self.row and self.value == other
-
-    def __lt__(self, other: Scalar) -> bool:
-        return self.value < float(other)
-
-    def __gt__(self, other: Scalar) -> bool:
-        return self.value > float(other)
-
-    def __le__(self, other: Scalar) -> bool:
-        return self.value <= float(other)
-
-    def __ge__(self, other: Scalar) -> bool:
-        return self.value >= float(other)
-
-    def __hash__(self) -> int:
-        return self.index
-
-
-class Root(NamedTuple):
-    """Where two loci meet: the node of the square root that is half their chord, its radicand, and the
-    two margins (node, size of its terms) whose product that is."""
-
-    node: int
-    radicand: int
-    margins: tuple[tuple[int, int], tuple[int, int]]
+from icsolve.turn.traced import Node, Op, Root, Traced, is_plainly, varies
 
 
 class Record:
@@ -242,9 +137,9 @@ class Record:
 
     def add(self, a: Scalar, b: Scalar) -> Scalar:
         """a + b"""
-        if _is(b, 0.0):
+        if is_plainly(b, 0.0):
             return a
-        if _is(a, 0.0):
+        if is_plainly(a, 0.0):
             return b
         one, two = self.lifted(a), self.lifted(b)
         if self.nodes[two.index].op == Op.NEG:
@@ -256,9 +151,9 @@ class Record:
 
     def subtract(self, a: Scalar, b: Scalar) -> Scalar:
         """a - b"""
-        if _is(b, 0.0):
+        if is_plainly(b, 0.0):
             return a
-        if _is(a, 0.0):
+        if is_plainly(a, 0.0):
             return self.negate(b)
         one, two = self.lifted(a), self.lifted(b)
         if one.index == two.index:
@@ -269,12 +164,12 @@ class Record:
 
     def multiply(self, a: Scalar, b: Scalar) -> Scalar:
         """a b"""
-        if _is(a, 0.0) or _is(b, 0.0):
+        if is_plainly(a, 0.0) or is_plainly(b, 0.0):
             return 0.0
         for one, other in ((a, b), (b, a)):
-            if _is(one, 1.0):
+            if is_plainly(one, 1.0):
                 return other
-            if _is(one, -1.0):
+            if is_plainly(one, -1.0):
                 return self.negate(other)
         one, two = self.lifted(a), self.lifted(b)
         first, second = sorted((one.index, two.index))
@@ -282,11 +177,11 @@ class Record:
 
     def divide(self, a: Scalar, b: Scalar) -> Scalar:
         """a / b"""
-        if _is(a, 0.0):
+        if is_plainly(a, 0.0):
             return 0.0
-        if _is(b, 1.0):
+        if is_plainly(b, 1.0):
             return a
-        if _is(b, -1.0):
+        if is_plainly(b, -1.0):
             return self.negate(a)
         one, two = self.lifted(a), self.lifted(b)
         value = one.value / two.value if two.value else math.copysign(math.inf, one.value)
@@ -337,10 +232,4 @@ class Record:
         return node.op == Op.CONST and not node.noise
 
 
-def varies(value: Scalar) -> bool:
-    """Whether a value differs from row to row."""
-    return isinstance(value, Traced) and value.row
-
-
-def _is(value: Any, constant: float) -> bool:
-    return isinstance(value, float) and value == constant
+__all__ = ["Node", "Op", "Record", "Root", "Traced", "varies"]
