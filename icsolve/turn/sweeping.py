@@ -75,6 +75,11 @@ def sweep(
         return _family(start, columns, wanted, progress)
     if _rubs(case):
         return _rubbing(start, columns, wanted, progress)
+    return _together(start, columns, wanted, progress)
+
+
+def _together(start: Start, columns: Columns, wanted: Wanted, progress: Progress | None) -> Sweep:
+    """All rows by one record."""
     work = Work(start, columns, wanted.error, progress)
     work.run()
     tables = work.tables()
