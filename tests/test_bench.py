@@ -28,6 +28,8 @@ from icsolve.bench.methods import METHODS, Method
 from icsolve.bench.peers import PEERS, TORQUE, Peer, ran
 from icsolve.bench.picture import picture
 from icsolve.bench.pinned import linkage
+from icsolve.bench.sweeps import BOUNDED as BOUNDED_SWEEP
+from icsolve.bench.sweeps import BY_HAND, IN_C, SWEPT
 from icsolve.bench.timing import least
 from icsolve.case import Gears
 from icsolve.cli.commands import icsolve as command
@@ -233,6 +235,16 @@ def test_the_picture_names_the_programs_of_a_full_turn_and_those_that_did_not_ru
     text = picture([Score("icsolve", *EASY)], turns, ["sympy: not installed"])
     words = [e.text for e in ElementTree.fromstring(text).iter(f"{SVG}text")]
     assert {"icsolve sweep", "kinepy", "easy", "Not in the full turn: sympy: not installed."} <= set(words)
+
+
+def test_the_picture_in_the_readme_shows_every_method() -> None:
+    """As `icsolve bench` writes it now: the same methods and families, and programs that gave a torque."""
+    root = Path(__file__).parent.parent
+    place = ".pictures/work-precision.svg"
+    assert f"]({place})" in (root / "README.md").read_text(encoding="utf-8")
+    words = {e.text or "" for e in ElementTree.parse(root / place).iter(f"{SVG}text")}
+    assert {*(method.name for method in METHODS), SWEPT, BOUNDED_SWEEP, BY_HAND, IN_C, "kinepy"} <= words
+    assert any(line.startswith(f"{len(FAMILIES)} families of up to") for line in words)
 
 
 def test_names_at_the_edge_keep_their_distance_and_their_order() -> None:
