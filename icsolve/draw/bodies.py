@@ -15,7 +15,7 @@ from icsolve.draw.arrows import arrow, turning
 from icsolve.draw.figure import with_labels
 from icsolve.draw.frame import point_parts
 from icsolve.draw.links import bars, body_of, link_part, wheel_parts
-from icsolve.draw.loads import ARC, axle, hidden, ways
+from icsolve.draw.loads import ARC, axle, heads, hidden, ways
 from icsolve.draw.marks import Box, Disc, Group, Mark, Point, Run, Stroke, Text, bounds, moved
 from icsolve.draw.place import Label, Soft
 from icsolve.draw.scene import Part, Scene, around, together
@@ -175,6 +175,7 @@ def _drawn(scene: Scene, push: Push, largest: float, solid: shapely.Geometry, n:
         ring = shapely.Point(push.at).buffer(ARC - 3.0)
         soft.append(Soft(ring, 1.0))
         anchors.append((push.at[0], push.at[1] + ARC - 6.0))
+    soft += heads(marks)
     label = Label(f"label-{push.name}", push.words, f"t-{push.kind}", 12.5, tuple(anchors), 6.0)
     title = "".join(run.text for run in push.words)
     yield Part((Group(push.name, "", tuple(marks), title),) if marks else (), tuple(soft), (), (label,))

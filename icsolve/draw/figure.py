@@ -12,7 +12,7 @@ from icsolve.case import Pin
 from icsolve.construction import Known, Step
 from icsolve.draw.centres import centre_parts
 from icsolve.draw.frame import belts, frame_parts, joint_parts, point_parts, rims
-from icsolve.draw.links import Body, bars, body_of, link_part, outline, wheel_parts
+from icsolve.draw.links import Body, bars, body_of, inside_plate, link_part, outline, wheel_parts
 from icsolve.draw.loads import load_parts
 from icsolve.draw.marks import Box, Mark
 from icsolve.draw.place import Label, Placer
@@ -24,6 +24,8 @@ from icsolve.draw.wheels import Round, round_things
 
 SHORT, LARGER = 52.0, 1.5
 """A mechanism with a link that would be shorter is drawn so many times larger at most."""
+FOOT = 10.0
+"""How much of the inside of a plate around its pin hides a foot."""
 TOGETHER = 0.02
 """Pins that are nearer to each other than this, of the figure's size, count as one."""
 
@@ -78,11 +80,13 @@ def figure_marks(scene: Scene, steps: Sequence[Step] = (), *, velocities: bool =
     bodies.sort(key=_depth)
     links = joined([bars(body) for body in bodies]) if bodies else shapely.Polygon()
     speeds = velocity_parts(scene) if velocities else []
+    under = [body for body in bodies if _hides_its_foot(scene, body)]
     parts = [
         *wheel_parts(bodies),
         *rims(scene),
+        *(link_part(scene, body) for body in under),
         *frame_parts(scene, links),
-        *(link_part(scene, body) for body in bodies),
+        *(link_part(scene, body) for body in bodies if body not in under),
         *belts(scene),
         *joint_parts(scene),
         *centre_parts(scene, steps),
@@ -91,6 +95,13 @@ def figure_marks(scene: Scene, steps: Sequence[Step] = (), *, velocities: bool =
         *point_parts(scene),
     ]
     return with_labels(together(parts), scene.view.window)
+
+
+def _hides_its_foot(scene: Scene, body: Body) -> bool:
+    """Whether a link is so large around its pin on the frame that the foot is drawn above it."""
+    plate, both = inside_plate(body), {body.link, scene.case.ground}
+    pins = [scene.at[j.at] for j in scene.joints() if isinstance(j, Pin) and both <= set(j.links)]
+    return any(shapely.contains(plate, shapely.Point(pin).buffer(FOOT)) for pin in pins)
 
 
 def _filled(links: shapely.Geometry, parts: Iterable[Part]) -> shapely.Geometry:

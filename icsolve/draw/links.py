@@ -21,7 +21,7 @@ ROD = 5.0
 """Half the width of a rod on which a block slides."""
 COVER = 1.6
 """What it costs a label to cover a link."""
-RIM, PLATE = 15.0, 0.5
+RIM, PLATE = 15.0, 0.12
 """Farther from its outline than the first, the inside of a plate costs a label only the second."""
 OUTLINE = 0.4
 """What it costs a label to cover a unit of a link's outline."""
@@ -262,7 +262,7 @@ def link_part(scene: Scene, body: Body) -> Part:
     marks += [area(hole, "hole") for hole in body.holes]
     marks += [area(block, "block") for block in body.blocks]
     solids = [shape for shape in (body.shape, *body.blocks) if shape is not None]
-    inside = _inside_plate(body)
+    inside = inside_plate(body)
     soft = [Soft(shape.difference(inside), 0.3 if body.dashed else COVER) for shape in solids]
     soft += [Soft(shape.boundary, OUTLINE) for shape in solids] + [Soft(inside, PLATE)]
     group = Group(f"link-{body.link}", "", tuple(marks), f"link {body.link}")
@@ -274,7 +274,7 @@ def link_part(scene: Scene, body: Body) -> Part:
     return Part((group,) if marks else (), tuple(soft), (), (number,) if body.anchors and not rim else ())
 
 
-def _inside_plate(body: Body) -> shapely.Geometry:
+def inside_plate(body: Body) -> shapely.Geometry:
     """The part of a plate where a number has room."""
     if body.shape is None or body.dashed or body.wheels:
         return shapely.Polygon()

@@ -174,5 +174,9 @@ def _with_label(
 ) -> Part:
     runs, name = load_words(acting), acting.load.name
     label = Label(f"label-{name}", runs, f"t-{kind_of(acting)}", 14.0, anchors, gap)
-    heads = tuple(Soft(shapely.Polygon(m.rings[0]).buffer(2.0), 6.0) for m in marks if isinstance(m, Area))
-    return Part((Group(f"load-{name}", "", marks, plain_text(runs)),), (*soft, *heads), (), (label,))
+    return Part((Group(f"load-{name}", "", marks, plain_text(runs)),), (*soft, *heads(marks)), (), (label,))
+
+
+def heads(marks: Iterable[Mark]) -> list[Soft]:
+    """The heads of arrows, which no label should cover."""
+    return [Soft(shapely.Polygon(m.rings[0]).buffer(2.0), 6.0) for m in marks if isinstance(m, Area)]
