@@ -150,3 +150,23 @@ def test_answers_and_refusals_cross_processes() -> None:
     with pytest.raises(icsolve.SceneError) as no_answer:
         icsolve.solve(icsolve.load(FOUR_BAR.replace("force: 100", "force: unknown")))
     assert pickle.loads(pickle.dumps(no_answer.value)).message == no_answer.value.message
+
+
+def test_teeth_that_do_not_fit_their_pivots_are_refused_in_a_sweep_too() -> None:
+    text = """
+icsolve: 1
+units: {length: mm, force: N}
+points: {A: [0, 0], B: [66, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [1, 3], at: B}
+  - {gears: [2, 3], teeth: [20, 46], module: 3 mm}
+loads:
+  T2: {torque: 10, link: 2}
+  T3: {torque: unknown, link: 3}
+"""
+    with pytest.raises(icsolve.SceneError) as refused:
+        icsolve.sweep(icsolve.load(text), vary={"loads.T2": [1.0, 2.0]})
+    assert refused.value.status == "inconsistent" and "do not fit" in refused.value.message
+    fitting = icsolve.sweep(icsolve.load(text.replace("3 mm", "2 mm")), vary={"loads.T2": [1.0, 2.0]})
+    np.testing.assert_allclose(fitting.answers["T3"], [2.3, 4.6], rtol=1e-12)

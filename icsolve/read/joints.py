@@ -141,6 +141,9 @@ def _gears(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
     return Gears(_two(links), teeth, carrier, angle, pitch, module) if teeth and whole else None
 
 
+MOST_TEETH = 1e9
+
+
 def _teeth(entry: Entry) -> tuple[Number, Number] | None:
     meaning = "the two numbers of teeth, as in [31, 57], or [31, -92] where 92 are internal"
     if entry.need("teeth", meaning) is None:
@@ -149,7 +152,7 @@ def _teeth(entry: Entry) -> tuple[Number, Number] | None:
     if teeth is None:
         return None
     counts = [number.value for number in teeth]
-    if any(count == 0.0 or count != int(count) for count in counts):
+    if any(count == 0.0 or abs(count) > MOST_TEETH or count != int(count) for count in counts):
         entry.refuse(entry.mark("teeth"), f"the teeth of {entry.what} should be whole numbers other than 0")
     elif max(counts) < 0.0:
         entry.refuse(entry.mark("teeth"), f"only one gear of {entry.what} can be internal (negative)")

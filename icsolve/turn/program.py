@@ -15,7 +15,9 @@ from icsolve.case import Case, Pair
 from icsolve.errors import SceneError, Status
 from icsolve.figure import Figure, place, solve_figure
 from icsolve.figure.data import names_of, number_of
+from icsolve.meshing import refuse_misfit
 from icsolve.plane import Point
+from icsolve.sentences import listed
 from icsolve.topology import Topology, topology
 from icsolve.turn.constraints import Constraint, Turning
 from icsolve.turn.drivers import Drive, drive_of
@@ -87,6 +89,7 @@ def setting_of(case: Case, paths: Sequence[str], links: Sequence[str]) -> Settin
     top = topology(case)
     verdicts.refuse_loose(case, top)
     figure = solve_figure(case, wanted_points(case))
+    refuse_misfit(case, top, figure.points, figure.frame.scale)
     drive = Drive((), (), ())
     if links or any(path.split(".")[0] in ("points", "lengths", "angles") for path in own):
         drive = _drive(case, top, figure, own, links)
@@ -189,7 +192,8 @@ def _motion(
         node = record.input(path, numbers[path].value + size * nudge)
         record.vary[path], inputs[path] = node, node.index
         pose = pose_of(held, path)
-        assert pose is not None
+        if pose is None:
+            raise _not_together(path, setting.paths)
         drivers.append(condition(held, pose, node))
     for pose in drive.held:
         drivers.append(condition(held, pose, record.given(number_of(case, pose.datum))))
@@ -197,6 +201,13 @@ def _motion(
     turns = {name: record.input(name, sign) for name, sign in signs}
     inputs |= {name: node.index for name, node in turns.items()}
     return set_moving(held, order_of(held, drivers), turns)
+
+
+def _not_together(path: str, paths: Sequence[str]) -> SceneError:
+    """A number that poses the figure as written, but not where the others have changed."""
+    others = listed(other for other in paths if other != path)
+    only = f"{path} moves the mechanism only as long as {others} stay as written"
+    return SceneError(Status.UNSUPPORTED, f"{only}: vary one at a time.")
 
 
 def _outputs(
