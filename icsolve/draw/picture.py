@@ -52,10 +52,12 @@ def draw(case: Case, drawing: Drawing = PLAIN, known: Known | None = None) -> st
 
 def _in_space(known: Known, drawing: Drawing) -> tuple[list[Mark], tuple[Step, ...]]:
     """The figure of a case in space, which has no centres."""
-    from icsolve.draw.space import space_marks, space_panels
+    from icsolve.draw.space import space_marks
 
     sketch, marks = space_marks(known)
     if drawing.bodies:
+        from icsolve.draw.space_bodies import space_panels
+
         left, _, right, bottom = bounds(marks)
         marks += space_panels(known, sketch, left, bottom + 30.0, max(right - left, 760.0))
     return marks, ()

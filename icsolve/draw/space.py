@@ -6,7 +6,7 @@ Couples are arrows with two heads along their axis, by the right-hand rule.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -27,14 +27,13 @@ from icsolve.draw.marks import (
     Stroke,
     Text,
     bounds,
-    moved,
     plain_text,
 )
 from icsolve.draw.place import Label, Soft
 from icsolve.draw.scene import HALF, PIN, Part, around, together
 from icsolve.draw.shapes import area, bar, hatched, joined, plate, tilted
 from icsolve.draw.view import View, along, unit, view_of
-from icsolve.draw.words import force_runs, name_runs, quantity
+from icsolve.draw.words import name_runs, quantity
 from icsolve.space.ties import Tie, kind_of
 from icsolve.space.vectors import AXES, Vec, add, cross, dot, size, sub, times
 
@@ -71,8 +70,8 @@ def space_marks(known: Known) -> tuple[Sketch, list[Mark]]:
     points = [flat(p) for p in (*used, *(q for ring in _rings(scene).values() for q in ring))]
     extent = max((math.dist(p, q) for p in points for q in points), default=0.0)
     sketch = Sketch(scene, view_of([(*p, *p) for p in points], (), extent))
-    solid = joined([_outline(sketch, link) for link in _moving(scene)] or [shapely.Polygon()])
-    parts = [*(_link(sketch, link) for link in _moving(scene))]
+    solid = joined([outline_of(sketch, link) for link in moving_links(scene)] or [shapely.Polygon()])
+    parts = [*(body_part(sketch, link) for link in moving_links(scene))]
     parts += [part for tie in scene.ties for part in _joint(sketch, tie)]
     parts += [_load(sketch, push, solid, n) for n, push in enumerate(scene.loads)]
     parts += _letters(sketch)
@@ -80,7 +79,7 @@ def space_marks(known: Known) -> tuple[Sketch, list[Mark]]:
     return sketch, [*marks, _triad(bounds(marks))]
 
 
-def _moving(scene: InSpace) -> list[str]:
+def moving_links(scene: InSpace) -> list[str]:
     return [link for link in scene.case.links if link != scene.case.ground]
 
 
@@ -132,15 +131,15 @@ def _bones(scene: InSpace, link: str) -> list[tuple[Vec, Vec]]:
     ]
 
 
-def _outline(sketch: Sketch, link: str) -> shapely.Geometry:
+def outline_of(sketch: Sketch, link: str) -> shapely.Geometry:
     shapes = [bar([sketch.at(a), sketch.at(b)], HALF) for a, b in _bones(sketch.scene, link)]
     if _axis(sketch.scene, link) is None and len(sketch.scene.carried(link)) > 2:
         shapes = [plate([sketch.at(p) for p in sketch.scene.carried(link)], HALF)]
     return joined(shapes) if shapes else shapely.Polygon()
 
 
-def _link(sketch: Sketch, link: str) -> Part:
-    shape = _outline(sketch, link)
+def body_part(sketch: Sketch, link: str) -> Part:
+    shape = outline_of(sketch, link)
     wheels = [ring for (owner, _), ring in _rings(sketch.scene).items() if owner == link]
     marks: list[Mark] = [Area((tuple(sketch.at(p) for p in ring),), "wheel") for ring in wheels]
     marks += [] if shape.is_empty else [area(shape, "body")]
@@ -191,13 +190,13 @@ def _load(sketch: Sketch, push: Push, solid: shapely.Geometry, n: int) -> Part:
     at = _acts_at(sketch, push)
     value = "?" if push.value is None else quantity(abs(push.value), push.unit)
     runs = (*name_runs(push.name), Run(f" = {value}"))
-    marks, far = _vector(at, times(sign, push.direction), ARROW, kind, solid, double=push.at is None)
-    soft = (_along_arrow(at, far),)
+    marks, far = vector(at, times(sign, push.direction), ARROW, kind, solid, double=push.at is None)
+    soft = (along_arrow(at, far),)
     label = Label(f"label-{push.name}", runs, f"t-{kind}", 14.0, (far, at), 7.0)
     return Part((Group(f"load-{push.name}", "", marks, plain_text(runs)),), soft, (), (label,))
 
 
-def _along_arrow(at: Point, far: Point) -> Soft:
+def along_arrow(at: Point, far: Point) -> Soft:
     """The room of an arrow, and a little beyond its end."""
     shape = shapely.Point(at) if at == far else shapely.LineString([at, far])
     return Soft(shape.buffer(9.0, quad_segs=1), 4.0)
@@ -214,7 +213,7 @@ def _acts_at(sketch: Sketch, push: Push) -> Point:
     return sketch.at(carried[0]) if carried else (0.0, 0.0)
 
 
-def _vector(
+def vector(
     at: Point, direction: Vec, length: float, kind: str, solid: shapely.Geometry, *, double: bool = False
 ) -> tuple[tuple[Mark, ...], Point]:
     """An arrow from or onto a point, and its far end; one that points at the reader is a dot in a ring."""
@@ -267,86 +266,3 @@ def _triad(box: Box) -> Group:
         marks += arrow(origin, tip, "far", 7.0)
         marks.append(Text(along(tip, unit(*u), 9.0), (Run(name),), "t-note", 12.0))
     return Group("axes", "", tuple(marks), "the axes")
-
-
-def space_panels(known: Known, sketch: Sketch, left: float, top: float, width: float) -> list[Mark]:
-    """Every link by itself with the forces and couples on it, forces to one scale."""
-    from icsolve.draw.bodies import GAP, rows_of
-
-    spatial = known.answer.spatial if known.answer is not None else None
-    if spatial is None:
-        return []
-    pushes = {link: list(_pushes(sketch, known, link)) for link in _moving(sketch.scene)}
-    largest = max((size(f) for some in pushes.values() for _, _, f, _, _ in some), default=0.0) or 1.0
-    panels = [_panel(sketch, link, some, largest) for link, some in pushes.items()]
-    title = Text((left, top + 4.0), (Run("Free bodies, forces to one scale"),), "t-note", 12.5, "start")
-    return [title, *rows_of(panels, left, top + GAP, width)]
-
-
-On = tuple[str, tuple[Run, ...], Vec, Vec, tuple[str, Vec]]
-
-
-def _pushes(sketch: Sketch, known: Known, link: str) -> Iterable[On]:
-    """Name, words, force, couple, and kind with place, of all that acts on a link."""
-    assert known.answer is not None and known.answer.spatial is not None
-    units = known.case.units
-    for name, reaction in known.answer.spatial.reactions.items():
-        if link not in (reaction.by, reaction.on):
-            continue
-        r = reaction if reaction.on == link else reaction.reversed()
-        low = force_runs(name, r.by, r.on, r.where)
-        words = "?" if r.magnitude is None else quantity(r.magnitude, units.force)
-        force = (r.force[0] or 0.0, r.force[1] or 0.0, r.force[2] or 0.0)
-        couple = (r.couple[0] or 0.0, r.couple[1] or 0.0, r.couple[2] or 0.0)
-        text: tuple[Run, ...] = (*low, Run(f" = {words}"))
-        if r.moment:
-            text = (*text, Run(f", M = {quantity(r.moment, units.torque)}"))
-        yield f"reaction-{name}-on-{r.on}", text, force, couple, ("reaction", r.at)
-    for push in sketch.scene.loads:
-        if link in (push.link, push.against):
-            sign = 1.0 if link == push.link else -1.0
-            runs = (
-                *name_runs(push.name),
-                Run(" = ?" if push.value is None else f" = {quantity(abs(push.value), push.unit)}"),
-            )
-            carried = sketch.scene.carried(link)
-            place = push.at or (carried[0] if carried else (0.0, 0.0, 0.0))
-            kind = "unknown" if push.unknown else "known"
-            yield (
-                f"body-load-{push.name}-on-{link}",
-                runs,
-                times(sign, push.force),
-                times(sign, push.couple),
-                (kind, place),
-            )
-
-
-def _panel(sketch: Sketch, link: str, pushes: Sequence[On], largest: float) -> list[Mark]:
-    part = _link(sketch, link)
-    solid = _outline(sketch, link)
-    parts = [part]
-    for name, words, force, couple, (kind, place) in pushes:
-        at = sketch.at(place)
-        marks: tuple[Mark, ...] = ()
-        far, soft = at, []
-        if size(force) > 1e-9 * largest:
-            direction = times(1.0 / size(force), force)
-            marks, far = _vector(at, direction, ARROW * size(force) / largest, kind, solid)
-            soft.append(_along_arrow(at, far))
-        if size(couple):
-            more, end = _vector(at, times(1.0 / size(couple), couple), 0.6 * ARROW, kind, solid, double=True)
-            marks, far = (*marks, *more), (far if far != at else end)
-            soft.append(_along_arrow(at, end))
-        label = Label(f"label-{name}", words, f"t-{kind}", 12.5, (far, at), 7.0)
-        group = (Group(name, "", marks, plain_text(words)),) if marks else ()
-        parts.append(Part(group, tuple(soft), (around(at, 2.8),), (label,)))
-    window = bounds(together(parts).marks)
-    found = [_renamed(link, mark) for mark in with_labels(together(parts), window)]
-    return [moved(Group(f"body-{link}", "", tuple(found), f"link {link} by itself"), 0.0, 0.0)]
-
-
-def _renamed(link: str, mark: Mark) -> Mark:
-    own = ("reaction-", "body-", "label-reaction", "label-body")
-    if isinstance(mark, Group) and mark.name and not mark.name.startswith(own):
-        return mark._replace(name=f"free-{link}-{mark.name}")
-    return mark
