@@ -37,6 +37,9 @@ from icsolve.turn.work import Work
 FAR = 4.0
 """Where the way of a sliding follower is measured from, in sizes of the figure: it stays positive."""
 
+MARKERS = ("@pose.", "@origin.", "@follower.", "@profile.")
+"""Hidden points that tell where links are; no part of a row's figure."""
+
 
 class Follow(NamedTuple):
     """A follower on its cam in the position as written.
@@ -220,7 +223,12 @@ class Rows:
         """A row as a case whose contacts are to be found on its profiles."""
         profiles, touches = self.course.whole.profiles, self.course.case.profiles
         assert profiles is not None and touches is not None
-        return replace(self.work.case_of(row), profiles=profiles._replace(touches=touches.touches))
+        case = self.work.case_of(row)
+        carries = {
+            link: tuple(name for name in names if not name.startswith(MARKERS))
+            for link, names in case.carries.items()
+        }
+        return replace(case, profiles=profiles._replace(touches=touches.touches), carries=carries)
 
 
 def _point(place: Array) -> Point:
