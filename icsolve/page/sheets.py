@@ -8,12 +8,15 @@ from functools import cache
 from pathlib import Path
 
 HERE = Path(__file__).parent
+PARTS = ("data", "moving", "centres", "labels", "words", "position", "construction")
+"""The parts of the script, in the order in which they run: each uses those before it."""
 
 
 @cache
 def script() -> str:
     """The script, the same for every page."""
-    return (HERE / "page.js").read_text(encoding="utf-8")
+    parts = ((HERE / "script" / f"{part}.js").read_text(encoding="utf-8") for part in PARTS)
+    return f'"use strict";\n(() => {{\n{"".join(parts)}}})();\n'
 
 
 @cache

@@ -1,0 +1,65 @@
+/* The data of the page, and what is where in every position. */
+const data = JSON.parse(document.getElementById("data").textContent);
+const NS = "http://www.w3.org/2000/svg";
+const byId = (id) => document.getElementById(id);
+const all = (selector, root = document) => [...root.querySelectorAll(selector)];
+const figure = byId("figure");
+const motion = data.motion;
+const INFINITE = 1e9;
+
+/* Columns: differences in steps of 1/s, or plain values. */
+const column = (c) => {
+  if (!c) return null;
+  if (c.v) return c.v;
+  let sum = 0;
+  return c.d.map((d) => (sum += d) / c.s);
+};
+const places = (o) => ({ x: column(o.x), y: column(o.y) });
+const links = {};
+const points = {};
+if (motion) {
+  for (const [name, o] of Object.entries(motion.links)) links[name] = { from: o.from, a: column(o.a), ...places(o) };
+  for (const [name, o] of Object.entries(motion.points)) points[name] = places(o);
+}
+const own = (o, name) => (Object.prototype.hasOwnProperty.call(o, name) ? o[name] : undefined);
+const loads = {};
+for (const [name, o] of Object.entries(data.loads)) loads[name] = { ...o, way: column(o.way) };
+const answers = data.answers.map((o) => ({ ...o, values: column(o.values), sense: column(o.sense) }));
+const centres = data.centres.map((o) => ({ ...o, ...places(o) }));
+const zero = motion ? motion.zero : 0;
+const rows = motion ? motion.rows : 1;
+let row = zero;
+let step = data.steps;
+let complete = true;
+
+/* Numbers as a figure writes them. */
+const RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+function number(value, digits) {
+  const x = Number(value.toPrecision(digits));
+  if (x === 0) return "0";
+  const size = Math.abs(x);
+  if (size >= 1e-4 && size < 10 ** Math.max(digits, 7)) return String(x).replace("-", "−");
+  const [m, e] = x.toExponential(digits - 1).split("e");
+  const mantissa = m.includes(".") ? m.replace(/\.?0+$/, "") : m;
+  const power = e.replace("+", "").replace("-", "⁻").replace(/\d/g, (d) => RAISED[d]);
+  return (mantissa + "×10" + power).replace("-", "−");
+}
+
+/* Where a place of a link is. */
+function carried([link, x, y], r) {
+  const pose = own(links, link);
+  if (!pose) return [x, y];
+  const a = (pose.a[r] * Math.PI) / 180;
+  const dx = x - pose.from[0];
+  const dy = y - pose.from[1];
+  return [pose.x[r] + Math.cos(a) * dx + Math.sin(a) * dy, pose.y[r] - Math.sin(a) * dx + Math.cos(a) * dy];
+}
+/* A hidden point (a contact that a profile placed) is known in the position as written only. */
+const placed = (name, r) => !name.startsWith("@") || r === zero;
+const at = (name, r) => {
+  const p = own(points, name);
+  return p ? [p.x[r], p.y[r]] : placed(name, r) ? own(data.anchors, name) : null;
+};
+const set = (element, name, value) => element.setAttribute(name, value);
+const show = (element, yes) => element.classList.toggle("hidden", !yes);
+const f = (v) => v.toFixed(2);

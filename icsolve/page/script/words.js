@@ -1,0 +1,42 @@
+/* Words: answers, equation, the label of the unknown. */
+function saying(answer, r) {
+  const value = answer.values[r];
+  const held = answer.holds && (answer.holds[r] ?? answer.holds[0]);
+  if (held) return { text: ` ${held}`, sense: "" };
+  if (value === null || value === undefined) return { text: " = no value", sense: "" };
+  const sense = answer.senses[answer.sense[r]];
+  return { text: ` = ${number(Math.abs(value), 6)} ${answer.unit}`.trimEnd(), sense };
+}
+const SHORT = { counterclockwise: " ccw", clockwise: " cw" };
+function lastText(text) {
+  let node = text.lastChild;
+  while (node && node.lastChild) node = node.lastChild;
+  return node;
+}
+function tell(r) {
+  for (const answer of answers) {
+    const { text, sense } = saying(answer, r);
+    const line = byId("answers") && all("[data-answer]").find((e) => e.dataset.answer === answer.name);
+    if (line) line.lastElementChild.textContent = text + (sense ? `, ${sense}` : "");
+    const label = labels.find((l) => l.label === answer.name);
+    if (!label || !motion || (answer.holds && answer.holds[r])) continue;
+    const value = answer.values[r];
+    const lead = answer.low ? "" : answer.base;
+    const spring = loads[answer.name].span ? `: k` : "";
+    const shown = value === null ? "no value" : `${number(Math.abs(value), 4)} ${answer.unit}${loads[answer.name].torque ? SHORT[sense] || "" : ""}`;
+    lastText(label.text).data = `${lead}${spring} = ${shown}`;
+    label.size = null;
+  }
+  const terms = data.terms;
+  if (!terms) return;
+  let sum = 0;
+  terms.forEach((term, n) => {
+    const ratio = term.ratio.v[r];
+    const product = ratio === null ? null : ratio * term.value;
+    sum += product === null ? NaN : product;
+    byId(`ratio-${n}`).textContent = ratio === null ? "none" : number(ratio, 6);
+    byId(`product-${n}`).textContent = product === null ? "none" : number(product, 6);
+  });
+  const value = answers[0].values[r];
+  byId("root-product").textContent = value === null ? "none" : number(value, 6);
+}
