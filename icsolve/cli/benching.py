@@ -10,6 +10,9 @@ import click
 
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain
 
+ONE_CORE = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
+"""Told to numpy before it is imported: the small matrices of a scene gain nothing from threads."""
+
 
 @click.command("bench")
 @click.option(
@@ -52,6 +55,8 @@ def _bench(full: bool, output: str) -> int:
     except ImportError:
         complain("icsolve bench needs mpmath for its sixty digits: pip install 'icsolve[bench]'")
         return UNREADABLE
+    for library in ONE_CORE:
+        os.environ.setdefault(library, "1")
     try:
         handle, draft = tempfile.mkstemp(dir=os.path.dirname(os.path.abspath(output)), suffix=".svg")
     except OSError as error:
