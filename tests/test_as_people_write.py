@@ -170,3 +170,33 @@ loads:
     assert refused.value.status == "inconsistent" and "do not fit" in refused.value.message
     fitting = icsolve.sweep(icsolve.load(text.replace("3 mm", "2 mm")), vary={"loads.T2": [1.0, 2.0]})
     np.testing.assert_allclose(fitting.answers["T3"], [2.3, 4.6], rtol=1e-12)
+
+
+def test_a_family_keeps_the_branch_of_the_case_as_written() -> None:
+    """A Stephenson six-bar without an order of construction, its frame varied: `near` alone would have
+    another branch where the sweep begins."""
+    text = """icsolve: 1
+points: {A: [0, 0], D: [6, 0], K: [2, -3]}
+lengths: {AB: 2, BC: 3.9, BE: 2.4, CE: 2.5, CD: 3.6, EF: 5.5, FK: 3}
+angles: {KF: 160}
+near: {B: [0.5, 1.9], C: [4.3, 3.1], E: [2.3, 3.5], F: [-0.8, -2]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {pin: [4, 1], at: D}
+  - {pin: [3, 5], at: E}
+  - {pin: [5, 6], at: F}
+  - {pin: [6, 1], at: K}
+loads:
+  T6: {torque: unknown, link: 6}
+  P: {force: 10, link: 4, at: C, angle: 0}
+"""
+    case = icsolve.load(text)
+    written = icsolve.solve(case)
+    heights = [-3.8, -3.4, -3.0]
+    sweep = icsolve.sweep(case, vary={"points.K.y": heights}, want=("answers", "points"))
+    assert sweep.answers["T6"][2] == pytest.approx(written.answers["T6"].value, rel=1e-9)
+    for name, places in sweep.points.items():
+        step = np.abs(np.diff(places, axis=0)).max()
+        assert step < 0.8, name

@@ -14,13 +14,14 @@ import numpy as np
 from icsolve.answer import Answer
 from icsolve.case import Case
 from icsolve.errors import SceneError
+from icsolve.figure import case_point, solve_figure
 from icsolve.forked import can_fork, started
 from icsolve.names import link_order
 from icsolve.solve import solve
 from icsolve.tape import UNIT
 from icsolve.turn.ask import Columns
-from icsolve.turn.numbers import with_numbers
-from icsolve.turn.program import Asked
+from icsolve.turn.numbers import numbers_of, with_numbers
+from icsolve.turn.program import Asked, wanted_points
 from icsolve.turn.replay import Array
 from icsolve.turn.runner import Key, Progress, Rows
 from icsolve.turn.second import CODE, Codes
@@ -215,18 +216,36 @@ def shared(
 
 
 def families(case: Case, columns: Columns, moving: Iterable[str]) -> Iterator[tuple[Case, Rows]]:
-    """For each set of reshaping numbers the case as if written so, near to the one before, and its rows."""
+    """For each set of reshaping numbers the case as if written so, and its rows: outward from the case as
+    written, each near to the closest that was placed before, so that branches are kept."""
     reshaping = [path for path in columns.paths if path not in set(moving)]
     table = np.stack([columns.paths[path] for path in reshaping], axis=1)
     sets, which = np.unique(table, axis=0, return_inverse=True)
-    near = dict(case.near)
-    for n, numbers in enumerate(sets):
-        changed = with_numbers(case, dict(zip(reshaping, map(float, numbers), strict=True)))
-        placed = replace(changed, near=near)
-        rows = np.flatnonzero(which.ravel() == n)
-        yield placed, rows
-        try:
-            answer = solve(placed, examine=True, bound=False)
-        except SceneError:
-            continue
-        near = {name: place for name, place in answer.points.items() if not name.startswith("@")}
+    steps = _steps(sets, [numbers_of(case)[path].value for path in reshaping])
+    done, nears = [np.zeros(len(reshaping))], [_places(case) or case.near]
+    for n in np.argsort(np.abs(steps).max(axis=1), kind="stable"):
+        changed = with_numbers(case, dict(zip(reshaping, map(float, sets[n]), strict=True)))
+        closest = int(np.abs(np.array(done) - steps[n]).max(axis=1).argmin())
+        placed = replace(changed, near=nears[closest])
+        yield placed, np.flatnonzero(which.ravel() == n)
+        found = _places(placed)
+        if found is not None:
+            done.append(steps[n])
+            nears.append(found)
+
+
+def _steps(sets: Array, written: list[float]) -> Array:
+    """How far sets of numbers are from the written ones, as parts of the range of each number."""
+    size = np.ptp(np.vstack([sets, written]), axis=0)
+    steps: Array = (sets - written) / np.where(size > 0.0, size, 1.0)
+    return steps
+
+
+def _places(case: Case) -> dict[str, tuple[float, float]] | None:
+    """Where the points of a figure are, in case units; None where it does not assemble."""
+    try:
+        figure = solve_figure(case, wanted_points(case))
+    except SceneError:
+        return None
+    named = {name: place for name, place in figure.points.items() if not name.startswith("@")}
+    return {name: case_point(figure.frame, place) for name, place in named.items()}
