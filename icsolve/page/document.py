@@ -71,6 +71,7 @@ def _body(parts: Parts) -> Iterable[str]:
     if known.refusal is not None:
         status, message = _text(known.refusal.status), _text(known.refusal.message)
         yield f'<p class="remark"><strong>No answer ({status}):</strong> {message}</p>'
+    yield '<noscript><p class="remark">Without JavaScript the figure stands still.</p></noscript>'
     yield '</header>\n<div class="panels">'
     construction, power = _construction(parts), _power(parts)
     short = bool(construction) and _count(parts) <= FEW
