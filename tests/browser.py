@@ -140,19 +140,18 @@ def _request(url: str, method: str, body: dict[str, Any] | None = None) -> Any:
 def browser() -> Iterator[Browser]:
     """A headless Chromium, closed at the end; raises NoBrowserError where there is none that starts."""
     chromium, driver = programs()
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
-        with subprocess.Popen(
-            [driver, "--port=0"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
-        ) as process:
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile, subprocess.Popen(
+        [driver, "--port=0"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+    ) as process:
+        try:
+            address = f"http://127.0.0.1:{_port(process)}"
+            session = _session(address, chromium, profile)
             try:
-                address = f"http://127.0.0.1:{_port(process)}"
-                session = _session(address, chromium, profile)
-                try:
-                    yield Browser(address, session)
-                finally:
-                    _request(f"{address}/session/{session}", "DELETE")
+                yield Browser(address, session)
             finally:
-                process.terminate()
+                _request(f"{address}/session/{session}", "DELETE")
+        finally:
+            process.terminate()
 
 
 def _port(process: subprocess.Popen[str]) -> str:
