@@ -103,7 +103,8 @@ def _missing(case: Case, known: Mapping[str, Number], path: str, section: str, r
             return f"{rest} is given by components; vary loads.{rest}.x or loads.{rest}.y"
         how = "is the unknown" if load.value is None else "is like another load"
         return f"{rest} {how}, so it has no number to vary"
-    return f"the case has no number there{suggestion(path, [own for own in known if own.startswith(section)])}"
+    alike = [own for own in known if own.startswith(f"{section}.")]
+    return f"the case has no number there{suggestion(path, alike)}"
 
 
 def _refusal(case: Case, section: str, path: str, why: str) -> CaseError:
