@@ -1,4 +1,4 @@
-"""Times: the least CPU time of many interleaved batches, so that ratios hold on a busy machine.
+"""Times: the CPU time of many interleaved batches, so that ratios hold on a busy machine.
 
 CPU time counts every core, so that nothing looks faster for using two.
 """
@@ -16,19 +16,22 @@ LONG = 5e-3
 
 
 def least(calls: Sequence[Call], seconds: float, batch: float = 1e-4) -> list[float]:
-    """Seconds a call of each, the least over batches; about so many CPU seconds in all.
+    """Seconds a call of each, that a tenth of its batches keep; about so many CPU seconds in all.
 
-    The calls take turns of several batches each, of which the first warms the caches again.
+    The calls take turns of several batches each, of which the first warms the caches again. The very
+    least would be that of a moment in which the processor ran faster.
     """
-    sizes = [max(1, int(batch / _rough(call))) for call in calls]
-    best = [float("inf")] * len(calls)
+    rough = [_rough(call) for call in calls]
+    sizes = [max(1, int(batch / took)) for took in rough]
+    turns = [1 if took > LONG else TURN for took in rough]
+    found: list[list[float]] = [[] for _ in calls]
     end = time.process_time() + seconds
     while True:
         for k, call in enumerate(calls):
-            for _ in range(TURN if sizes[k] > 1 or best[k] < LONG else 1):
-                best[k] = min(best[k], once(call, sizes[k]) / sizes[k])
+            for _ in range(turns[k]):
+                found[k].append(once(call, sizes[k]) / sizes[k])
         if time.process_time() > end:
-            return best
+            return [sorted(times)[len(times) // 10] for times in found]
 
 
 def once(call: Call, times: int = 1) -> float:
