@@ -29,7 +29,7 @@ from icsolve.case import (
 from icsolve.names import pair_name
 
 if TYPE_CHECKING:
-    from icsolve.space.values import Spatial
+    from icsolve.answer.space import Spatial
 
 AGREES = "agrees"
 DISAGREES = "disagrees"

@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 from icsolve import Case
 from icsolve.case import Centroid
-from icsolve.space.case import Along, Ball, Force, ForceVector, Hinge, Line, Radial, Thrust, Torque, Vector
+from icsolve.case.space import Along, Ball, Force, ForceVector, Hinge, Line, Radial, Thrust, Torque, Vector
 
 Array = npt.NDArray[np.float64]
 

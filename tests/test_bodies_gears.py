@@ -12,7 +12,7 @@ import pytest
 
 import icsolve
 from icsolve.answer import Answer
-from icsolve.bodies.values import Reaction
+from icsolve.answer.bodies import Reaction
 
 TAN = math.tan(math.radians(20))
 

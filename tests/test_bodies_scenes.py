@@ -13,7 +13,7 @@ import pytest
 import icsolve
 from equilibrium import push
 from icsolve.answer import Answer
-from icsolve.bodies.values import Reaction
+from icsolve.answer.bodies import Reaction
 
 
 def solved(text: str, **options: Any) -> Answer:

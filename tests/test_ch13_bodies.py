@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from icsolve import Answer, load
-from icsolve.bodies.values import Reaction
+from icsolve.answer.bodies import Reaction
 from icsolve.solve import solve
 
 CHAPTER = Path(__file__).parent.parent / "cases" / "ch13"

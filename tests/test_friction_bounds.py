@@ -19,12 +19,12 @@ import icsolve
 import rubbing
 import transcribe
 from growth import random_mechanism
+from icsolve.answer.bodies import Witness
 from icsolve.bodies import certain
 from icsolve.bodies.agreement import refuse_apart
 from icsolve.bodies.bounding import Exact, Sliding, Weights, step
 from icsolve.bodies.rubs import rubs_of
 from icsolve.bodies.ties import Position, ties_of
-from icsolve.bodies.values import Witness
 from icsolve.program import Want, evaluate, prepare
 from icsolve.sensitivity import influences
 from icsolve.text import answer_text

@@ -19,8 +19,8 @@ from hypothesis import strategies as st
 from cams import HEAD, sliding, swinging, table
 from icsolve.answer import Answer
 from icsolve.case import Motion
+from icsolve.case.profiles import points_of
 from icsolve.errors import CaseError, SceneError, Status
-from icsolve.profile.case import points_of
 from icsolve.profile.freedom import places_of
 from icsolve.profile.roots import zero_between
 from icsolve.profile.shapes import placed

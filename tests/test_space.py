@@ -12,11 +12,11 @@ from pathlib import Path
 import pytest
 
 from icsolve import Answer, load, solve
+from icsolve.answer.space import Reaction
 from icsolve.check import AGREES, compare
 from icsolve.cli import main
 from icsolve.construction import known_of
 from icsolve.errors import CaseError, SceneError
-from icsolve.space.values import Reaction
 from icsolve.text import answer_text
 
 CHAPTER = Path(__file__).parent.parent / "cases" / "ch13"

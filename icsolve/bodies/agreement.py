@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from icsolve.answer.bodies import Witness
 from icsolve.bodies.equilibrium import Statics, Terms
 from icsolve.bodies.linear import inverse, solve_square
 from icsolve.bodies.ties import Position
-from icsolve.bodies.values import Witness
 from icsolve.errors import SceneError, Status
 from icsolve.plane import velocity
 from icsolve.power import Balance

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from icsolve.bodies.values import Reaction
+from icsolve.answer.bodies import Reaction
 from icsolve.case import ArmIs, FrictionRadiusIs, Pin, ReactionIs
 
 if TYPE_CHECKING:

@@ -7,6 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 from icsolve.answer import Answer, Deferred, Found
+from icsolve.answer.bodies import Friction, Witness
 from icsolve.bodies import gears
 from icsolve.bodies.agreement import bounds_of, refuse_apart, witnesses
 from icsolve.bodies.certain import Certain, certain
@@ -30,7 +31,6 @@ from icsolve.bodies.said import said_of
 from icsolve.bodies.sliding import Slid, slid
 from icsolve.bodies.statics import Bodies, Solved, carrying_flanks, frictionless, on_flanks, refuse_doubt
 from icsolve.bodies.ties import Tie, ties_of
-from icsolve.bodies.values import Friction, Witness
 from icsolve.bounds import Value
 from icsolve.case import Belt, Gears
 from icsolve.errors import SceneError, Status

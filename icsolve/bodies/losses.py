@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from icsolve.answer import Term
+from icsolve.answer.bodies import Friction
 from icsolve.bodies.agreement import independent
 from icsolve.bodies.equilibrium import Statics
 from icsolve.bodies.linear import solve_square
 from icsolve.bodies.rubs import rates_of
 from icsolve.bodies.ties import Position
-from icsolve.bodies.values import Friction
 from icsolve.case import Case
 from icsolve.power import Balance, Wrench, known_value
 

@@ -6,11 +6,11 @@ import math
 from collections import Counter
 from collections.abc import Mapping
 
+from icsolve.answer.bodies import Reaction, Reactions, names_of
 from icsolve.bodies.equilibrium import Statics
 from icsolve.bodies.gears import axial_shares, tangent_and_separating
 from icsolve.bodies.sparse import Row
 from icsolve.bodies.ties import Force, Position, Tie, kind_of
-from icsolve.bodies.values import Reaction, Reactions, names_of
 from icsolve.case import Belt, Case, Contact, Gears, KnownCentre, Roll, Slide, Slot
 from icsolve.figure import Frame, case_point
 from icsolve.names import ordered_pair

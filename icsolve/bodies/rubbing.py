@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from icsolve.answer.bodies import Rubbing
 from icsolve.bodies.equilibrium import Statics
 from icsolve.bodies.holding import Held
 from icsolve.bodies.reactions import names_by_tie
@@ -13,7 +14,6 @@ from icsolve.bodies.rubs import kind_of_rub, rates_of
 from icsolve.bodies.sliding import Slid
 from icsolve.bodies.statics import Solved
 from icsolve.bodies.ties import Position, Tie
-from icsolve.bodies.values import Rubbing
 from icsolve.bounds import Bounded
 from icsolve.errors import SceneError, Status
 from icsolve.figure import Frame

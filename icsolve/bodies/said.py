@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 
+from icsolve.answer.bodies import Reaction, Reactions
 from icsolve.bodies.equilibrium import Statics
 from icsolve.bodies.ties import Tie
-from icsolve.bodies.values import Reaction, Reactions
 from icsolve.case import Belt, Contact, Gears, KnownCentre
 from icsolve.sentences import listed, plural
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from icsolve.bodies.values import Friction, Reaction, Rubbing
+from icsolve.answer.bodies import Friction, Reaction, Rubbing
 from icsolve.case import Units
 
 if TYPE_CHECKING:

@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from icsolve.answer import Answer
+from icsolve.answer.bodies import Friction, Reactions, Witness
 from icsolve.arithmetic import FLOATS
 from icsolve.bodies import gears
 from icsolve.bodies.agreement import bounds_of, refuse_apart, unknowns_of, witnesses
@@ -19,7 +20,6 @@ from icsolve.bodies.rubs import has_friction
 from icsolve.bodies.said import said_of
 from icsolve.bodies.sparse import Row
 from icsolve.bodies.ties import Position, Tie, ties_of
-from icsolve.bodies.values import Friction, Reactions, Witness
 from icsolve.errors import SceneError, Status
 from icsolve.figure import Frame, case_point
 from icsolve.plane import Triple

@@ -66,8 +66,8 @@ from icsolve.case.loads import (
 )
 
 if TYPE_CHECKING:
-    from icsolve.profile.case import Profiles
-    from icsolve.space.case import Space
+    from icsolve.case.profiles import Profiles
+    from icsolve.case.space import Space
 
 __all__ = [
     "ArmIs",

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from icsolve.case import Case
+from icsolve.case.space import Torque, TorqueVector
 from icsolve.construction.known import Known
 from icsolve.errors import SceneError
-from icsolve.space.case import Torque, TorqueVector
 from icsolve.space.figure import Figure, figure_of, in_case
 from icsolve.space.loading import wrenched
 from icsolve.space.shown import unit_of

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import shapely
 
-from icsolve.bodies.values import Reaction
+from icsolve.answer.bodies import Reaction
 from icsolve.construction import Acting, acting_loads
 from icsolve.draw.arrows import arrow, turning
 from icsolve.draw.figure import with_labels

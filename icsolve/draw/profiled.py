@@ -6,11 +6,11 @@ from collections.abc import Mapping
 
 from icsolve.arithmetic import turn_of
 from icsolve.case import Case, Contact
+from icsolve.case.profiles import Circle, Flat, Knife, Roller, points_of
 from icsolve.draw.marks import Box
 from icsolve.draw.wheels import Edge, Wheel
 from icsolve.errors import SceneError
 from icsolve.plane import Point
-from icsolve.profile.case import Circle, Flat, Knife, Roller, points_of
 from icsolve.profile.shapes import placed
 
 

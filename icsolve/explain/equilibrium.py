@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from icsolve.bodies.values import Reaction
+from icsolve.answer.bodies import Reaction
 from icsolve.construction import Acting, Known, acting_loads
 from icsolve.explain.document import Block, Inline, Items, Section, Table, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Sum, product

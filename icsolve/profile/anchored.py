@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 
 from icsolve.case import Case, Coordinates, Number
-from icsolve.profile.case import Arc, Arcs, Flat, Follower, Radii, Shape, points_of
+from icsolve.case.profiles import Arc, Arcs, Flat, Follower, Radii, Shape, points_of
 from icsolve.profile.freedom import Places, places_of
 from icsolve.profile.pieces import Point
 

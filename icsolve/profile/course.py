@@ -14,12 +14,13 @@ from typing import NamedTuple
 
 import numpy as np
 
+from icsolve.answer.contacts import Touching
 from icsolve.case import Case, Contact, Length, Number
+from icsolve.case.profiles import Circle, Roller, points_of
 from icsolve.errors import SceneError, Status
 from icsolve.profile.anchored import anchored, coordinates
-from icsolve.profile.case import Circle, Roller, points_of
 from icsolve.profile.curve import Curve
-from icsolve.profile.found import Seeking, Touching, found
+from icsolve.profile.found import Seeking, found
 from icsolve.profile.freedom import places_of
 from icsolve.profile.lift import Freedom, Turn, Way, outermost
 from icsolve.profile.pieces import Point

@@ -6,9 +6,10 @@ import math
 from dataclasses import replace
 from typing import NamedTuple
 
+from icsolve.answer.contacts import Touching
 from icsolve.case import Case, Contact, Coordinates, Number
+from icsolve.case.profiles import Flat, Follower, Knife, Profiles, Roller, Shape, Touch, points_of
 from icsolve.errors import SceneError, Status
-from icsolve.profile.case import Flat, Follower, Knife, Profiles, Roller, Shape, Touch, points_of
 from icsolve.profile.curve import Curve
 from icsolve.profile.freedom import Missing, Places, along_data, carrier, guided, missing, places_of
 from icsolve.profile.lift import Freedom, Way, ways
@@ -23,24 +24,6 @@ ROUNDED = 1e-14
 """A pressure angle of this sine is rounding."""
 CLEARLY = 0.9
 """A way is meant where it is nearer to `near` than this fraction of the distance of the next."""
-
-
-class Touching(NamedTuple):
-    """Where two links touch: the point, and the normal in degrees from the first link into the second.
-
-    ``on`` says which part of the profile; ``pressure_angle`` is in degrees, None where the follower is not
-    guided by the frame; ``note`` is a sentence about what an interpolated profile leaves open. ``force`` is
-    the normal force, None where it is not determined; the contact is ``lost`` where it would have to pull.
-    """
-
-    links: tuple[str, str]
-    at: Point
-    normal: float
-    on: str
-    pressure_angle: float | None
-    note: str = ""
-    force: float | None = None
-    lost: bool = False
 
 
 class Found(NamedTuple):

@@ -9,9 +9,9 @@ from typing import NamedTuple
 
 from icsolve.arithmetic import turn_of
 from icsolve.case import Case, Coordinates, Direction, Number, Pin, Slide
+from icsolve.case.profiles import Follower, Roller
 from icsolve.errors import SceneError, Status
 from icsolve.figure import case_point, solve_figure
-from icsolve.profile.case import Follower, Roller
 from icsolve.profile.lift import Freedom, Shift, Turn
 from icsolve.profile.pieces import Point, unit
 

@@ -49,7 +49,7 @@ def pressures(answer: Answer) -> tuple[Pressure, ...]:
 
 def _cam(case: Case, links: tuple[str, str]) -> str:
     """The link of a contact that has the profile."""
-    from icsolve.profile.case import Flat, Knife, Roller
+    from icsolve.case.profiles import Flat, Knife, Roller
 
     assert case.profiles is not None
     a, b = links

@@ -8,8 +8,20 @@ from typing import NamedTuple
 
 from icsolve.arithmetic import turn_of
 from icsolve.case import Number
+from icsolve.case.profiles import (
+    Arc,
+    Arcs,
+    Circle,
+    Flat,
+    Follower,
+    Knife,
+    Line,
+    Polygon,
+    Radii,
+    Roller,
+    Shape,
+)
 from icsolve.errors import SceneError, Status
-from icsolve.profile.case import Arc, Arcs, Circle, Flat, Follower, Knife, Line, Polygon, Radii, Roller, Shape
 from icsolve.profile.curve import Curve, curve_of
 from icsolve.profile.pieces import TURN, Bow, Piece, Point, Polar, Straight, unit
 from icsolve.profile.spline import Spline, spline

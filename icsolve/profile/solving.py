@@ -7,11 +7,12 @@ from dataclasses import replace
 from typing import Any
 
 from icsolve.answer import Answer, Deferred
-from icsolve.bodies.values import Reactions, names_of
+from icsolve.answer.bodies import Reactions, names_of
+from icsolve.answer.contacts import Touching
 from icsolve.case import Case, Contact
 from icsolve.errors import SceneError, Status
 from icsolve.power import is_unknown
-from icsolve.profile.found import Found, Touching, found
+from icsolve.profile.found import Found, found
 from icsolve.profile.words import contact_said, lost_said
 
 WHY = "its contacts are found on profiles, of which no bound is proven"

@@ -8,11 +8,11 @@ from typing import NamedTuple
 import numpy as np
 
 from icsolve.answer import Answer
+from icsolve.answer.contacts import Touching
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.power import is_unknown
 from icsolve.profile.course import Course, Rows
-from icsolve.profile.found import Touching
 from icsolve.profile.lift import Turn
 from icsolve.profile.solving import pressed
 from icsolve.profile.words import follower_driven, lost_rows, widest_pressure

@@ -7,14 +7,14 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from icsolve.case import Number
-from icsolve.profile.case import Arcs, Circle, Polygon, Radii, Shape
+from icsolve.case.profiles import Arcs, Circle, Polygon, Radii, Shape
 from icsolve.profile.curve import Curve, Foot
 from icsolve.profile.pieces import Bow, Point, Polar
 from icsolve.profile.shapes import table_spline
 from icsolve.sentences import listed, plural
 
 if TYPE_CHECKING:
-    from icsolve.profile.found import Touching
+    from icsolve.answer.contacts import Touching
 
 NEAREST = 3
 """Radii that are left out in turn to tell what interpolation leaves open."""

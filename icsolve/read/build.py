@@ -39,7 +39,7 @@ from icsolve.read.quantities import measures, number
 from icsolve.read.reading import Reading
 
 if TYPE_CHECKING:
-    from icsolve.profile.case import Profiles
+    from icsolve.case.profiles import Profiles
 
 SECTIONS = (
     "icsolve",
@@ -266,7 +266,7 @@ def _shaped(parts: _Parts) -> dict[str, tuple[str, ...]]:
     """Further points of links: those of ``links:``, and those of profiles."""
     if parts.profiles is None:
         return parts.links
-    from icsolve.profile.case import points_of
+    from icsolve.case.profiles import points_of
 
     shapes = parts.profiles.shapes
     return parts.links | {link: (*parts.links.get(link, ()), *points_of(s)) for link, s in shapes.items()}

@@ -195,7 +195,7 @@ def _contact(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
 
 def _touch(entry: Entry, links: tuple[str, ...]) -> None:
     """A contact whose place the profiles of its links give; it stands apart from the joints until then."""
-    from icsolve.profile.case import Touch
+    from icsolve.case.profiles import Touch
 
     normal = entry.number("normal", "angle")
     touch = Touch(_two(links), entry.reading.joint_number, normal, _friction(entry))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from icsolve.case import Coordinates, Number
-from icsolve.profile.case import (
+from icsolve.case.profiles import (
     Arc,
     Arcs,
     Circle,

@@ -13,7 +13,7 @@ from icsolve.read.syntax import missing_space
 from icsolve.units import Unit
 
 if TYPE_CHECKING:
-    from icsolve.profile.case import Touch
+    from icsolve.case.profiles import Touch
 
 RESERVED: tuple[str, ...] = ()
 """Keys of later versions."""

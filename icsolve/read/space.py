@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 from icsolve.case import Case, Centroid, Expected, Number, Units
+from icsolve.case.space import Along, Axis, Coordinates, Joint, Space, Vector
 from icsolve.read.build import SECTIONS, TEXTS, ground_of, readable, section_of, tolerance_of_case
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.entry import Entry
@@ -16,7 +17,6 @@ from icsolve.read.quantities import number
 from icsolve.read.space_joints import read_space_joints
 from icsolve.read.space_loads import read_space_loads
 from icsolve.read.vectors import SpaceReading, axis, components
-from icsolve.space.case import Along, Axis, Coordinates, Joint, Space, Vector
 from icsolve.units import Unit
 
 PLANAR = {

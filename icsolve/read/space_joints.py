@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from icsolve.case import Number, Toward
+from icsolve.case.space import Axis, Ball, Gears, Hinge, Joint, Radial, Thrust, Weld
 from icsolve.read.document import Scalar, Sequence
 from icsolve.read.entry import Entry
 from icsolve.read.jointed import Kinds, read_list
@@ -11,7 +12,6 @@ from icsolve.read.reading import Reading
 from icsolve.read.teeth import KEYS as TEETH
 from icsolve.read.teeth import read_teeth, whole
 from icsolve.read.vectors import WORDS, axis
-from icsolve.space.case import Axis, Ball, Gears, Hinge, Joint, Radial, Thrust, Weld
 
 
 def read_space_joints(reading: Reading, section: Sequence) -> tuple[Joint, ...]:

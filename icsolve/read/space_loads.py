@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from icsolve.case import Number, Spring, Toward, Weight
+from icsolve.case.space import Force, ForceVector, Heading, Load, Torque, TorqueVector
 from icsolve.read.document import Mapping, Sequence
 from icsolve.read.entry import Entry
 from icsolve.read.listed import Forms, Likes, bearer, magnitude, read_section, word_at
 from icsolve.read.power import torque_number
 from icsolve.read.reading import Reading
 from icsolve.read.vectors import axis, components, place
-from icsolve.space.case import Force, ForceVector, Heading, Load, Torque, TorqueVector
 
 HEADINGS = ("along", "toward", "away")
 KEYS = {

@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 
 from icsolve.case import Helix, Number
+from icsolve.case.space import Teeth
 from icsolve.read.entry import Entry
-from icsolve.space.case import Teeth
 from icsolve.space.teeth import transverse_angle
 
 SECTIONS = ("", "normal ", "transverse ")

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from icsolve.case import Number
+from icsolve.case.space import Along, Axis, Coordinates, Line, Vector
 from icsolve.read.document import Scalar, Sequence
 from icsolve.read.entry import Entry
 from icsolve.read.quantities import number
 from icsolve.read.reading import Reading
-from icsolve.space.case import Along, Axis, Coordinates, Line, Vector
 
 WORDS = ("x", "y", "z", "-x", "-y", "-z")
 _FORM = "x, y, z, -z, components such as [0, 3, 4], or two points [A, B]"

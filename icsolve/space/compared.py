@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from icsolve.answer.space import Reaction, Spatial
 from icsolve.case import ArmIs, DistanceIs, Like, LoadIs, ReactionIs, Target
-from icsolve.space.case import ForceVector, TorqueVector
+from icsolve.case.space import ForceVector, TorqueVector
 from icsolve.space.figure import in_case, vector_of
-from icsolve.space.values import Reaction, Spatial
 from icsolve.space.vectors import cross, size, sub
 
 if TYPE_CHECKING:

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from icsolve.case import Case, Centroid, Number, Spring, Toward
+from icsolve.case.space import Along, Axis, Coordinates, Line, Space, Vector
 from icsolve.errors import SceneError, Status
-from icsolve.space.case import Along, Axis, Coordinates, Line, Space, Vector
 from icsolve.space.vectors import AXES, ZERO, Vec, size, sub, times, unit
 
 Places = Mapping[str, Vec]

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from icsolve.case import Case, Like, Spring, Weight
-from icsolve.space.case import Force, ForceVector, Load, Torque, TorqueVector
+from icsolve.case.space import Force, ForceVector, Load, Torque, TorqueVector
 from icsolve.space.figure import Figure, between, direction, heading, in_case, spring_length, vector_of
 from icsolve.space.ties import Wrench
 from icsolve.space.vectors import ZERO, Vec, size, times, unit

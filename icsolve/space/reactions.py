@@ -6,15 +6,15 @@ import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 
+from icsolve.answer.bodies import names_of
+from icsolve.answer.space import Parts, Reaction, Reactions
 from icsolve.bodies.sparse import Row
-from icsolve.bodies.values import names_of
 from icsolve.case import Case
+from icsolve.case.space import Gears, Hinge, Radial, Thrust
 from icsolve.names import ordered_pair
-from icsolve.space.case import Gears, Hinge, Radial, Thrust
 from icsolve.space.equilibrium import Statics
 from icsolve.space.figure import Frame
 from icsolve.space.ties import Tie, kind_of
-from icsolve.space.values import Parts, Reaction, Reactions
 from icsolve.space.vectors import AXES, Vec, dot, square_to
 
 UNIQUE = 1e-9

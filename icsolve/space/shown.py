@@ -6,17 +6,17 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from icsolve.answer import Answer, Term
+from icsolve.answer.space import Parts, Reaction
 from icsolve.bodies.shown import witness_table
 from icsolve.case import Case, Spring, Toward, Weight
-from icsolve.space.case import Along, Force, Line, Load, Torque, TorqueVector, Vector
+from icsolve.case.space import Along, Force, Line, Load, Torque, TorqueVector, Vector
 from icsolve.space.loading import Wrenched
 from icsolve.space.motions import Twist, power_of
-from icsolve.space.values import Parts, Reaction
 from icsolve.space.vectors import unit
 from icsolve.space.words import direction_words
 
 if TYPE_CHECKING:
-    from icsolve.space.values import Spatial
+    from icsolve.answer.space import Spatial
 
 Format = Callable[[float], str]
 Table = Callable[..., list[str]]

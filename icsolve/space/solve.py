@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from icsolve.answer import Answer, Deferred, Found
+from icsolve.answer.space import Spatial, Witness
 from icsolve.bodies.agreement import independent
 from icsolve.bodies.linear import solve_square
 from icsolve.case import Case
@@ -25,7 +26,6 @@ from icsolve.space.motions import Balance, Twist, balance_of, motions_of
 from icsolve.space.reactions import reactions_of
 from icsolve.space.shown import advantage_of, sense_of, terms_of, unit_of
 from icsolve.space.ties import Tie, flanked, ties_of
-from icsolve.space.values import Spatial, Witness
 from icsolve.space.verdicts import notes_of, refuse_huge, refuse_loose, refuse_unbalanced
 
 MOST_TURNS = 4

@@ -13,8 +13,8 @@ import math
 from typing import NamedTuple
 
 from icsolve.case import Toward
+from icsolve.case.space import Gears, Teeth
 from icsolve.errors import SceneError, Status
-from icsolve.space.case import Gears, Teeth
 from icsolve.space.figure import Places, heading
 from icsolve.space.vectors import Vec, add, cross, dot, size, sub, times, unit
 

@@ -6,8 +6,8 @@ from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 from icsolve.case import Case
+from icsolve.case.space import Ball, Gears, Hinge, Joint, Radial, Thrust, Weld
 from icsolve.errors import SceneError, Status
-from icsolve.space.case import Ball, Gears, Hinge, Joint, Radial, Thrust, Weld
 from icsolve.space.figure import Figure, direction, in_case
 from icsolve.space.teeth import Mesh, mesh_of
 from icsolve.space.vectors import AXES, ZERO, Vec, cross, size, square_to, sub

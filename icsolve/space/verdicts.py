@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 
+from icsolve.answer.space import Reaction, Reactions
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.sentences import listed, plural, wrong_count
@@ -13,7 +14,6 @@ from icsolve.space.figure import Figure
 from icsolve.space.loading import Wrenched, is_unknown
 from icsolve.space.motions import NEARLY, Balance, Twist, combined, power_of
 from icsolve.space.ties import Tie
-from icsolve.space.values import Reaction, Reactions
 from icsolve.space.words import motion_words, moving
 
 Motions = Sequence[Mapping[str, Twist]]

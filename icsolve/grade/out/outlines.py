@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from icsolve.case import Case, Number
-from icsolve.profile.case import Arc, Arcs, Circle, Flat, Follower, Knife, Polygon, Radii, Roller, Shape
+from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Knife, Polygon, Radii, Roller, Shape
 
 
 def outlines(case: Case) -> Iterator[tuple[str, str]]:

@@ -11,9 +11,9 @@ from icsolve.case import Case, Pair
 from icsolve.errors import SceneError
 
 if TYPE_CHECKING:
-    from icsolve.bodies.values import Friction, Reactions, Witness
-    from icsolve.profile.found import Touching
-    from icsolve.space.values import Spatial
+    from icsolve.answer.bodies import Friction, Reactions, Witness
+    from icsolve.answer.contacts import Touching
+    from icsolve.answer.space import Spatial
 
 
 class Found(NamedTuple):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from icsolve.bodies.values import Witness, names_of
+from icsolve.answer.bodies import Witness, names_of
 
 Parts = tuple[float | None, float | None, float | None]
 

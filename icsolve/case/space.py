@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from icsolve.case import Centroid, Magnitude, Number, Spring, Toward, Weight
+from icsolve.case.figure import Centroid, Number
+from icsolve.case.loads import Magnitude, Spring, Toward, Weight
 
 
 class Coordinates(NamedTuple):
