@@ -1,7 +1,8 @@
 """On every case: Kennedy's construction, the loop equations alone, and the joints' null space agree.
 
 The null space is written apart (tests/reference.py), on the points that the figure found. Cases whose
-given centres agree only to their five decimals are left to tests/test_ch13.py.
+given centres agree only to their five decimals are left to tests/test_ch13.py. Cams by their profiles are
+taken with the contacts where the profiles put them.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import reference
 import witness
 from icsolve.bounds import unbounded_values
 from icsolve.case import Case, KnownCentre
+from icsolve.profile.solving import placed
 from icsolve.program import Want, evaluate, prepare
 
 FILES = sorted((Path(__file__).parent.parent / "cases").rglob("*.yaml"))
@@ -24,7 +26,7 @@ AGREE = 1e-9
 
 
 def planar(path: Path) -> Case | None:
-    case = icsolve.load(path)
+    case = placed(icsolve.load(path))
     rubs = any(getattr(joint, "friction", None) is not None for joint in case.joints)
     given = any(isinstance(joint, KnownCentre) for joint in case.joints)
     return None if rubs or given or not case.joints else case
