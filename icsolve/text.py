@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Iterable
 
 from icsolve.answer import Answer, Centre, Found, Term
-from icsolve.case import Case, Coordinates, Pair, Torque, Units
+from icsolve.case import Case, Coordinates, Pair, Torque
 from icsolve.names import link_order, pair_name
 from icsolve.result import shown_points
 
@@ -24,10 +24,10 @@ def answer_text(answer: Answer, digits: int = 6) -> str:
         _title(case),
         _unknowns(answer, digits),
         _points(answer, show),
-        _centres(answer, show),
-        _power(answer, show),
-        _rates(answer, show),
-        _velocities(answer, show),
+        _centres(answer, digits),
+        _power(answer, digits),
+        _rates(answer, digits),
+        _velocities(answer, digits),
         _reactions(answer, show),
         _sentences("Notes", answer.notes),
         _sentences("Not examined", answer.skipped),
@@ -53,9 +53,11 @@ def _title(case: Case) -> list[str]:
 
 
 def _unknowns(answer: Answer, digits: int) -> list[str]:
-    show = _formatter(digits)
     lines = [_unknown(answer.case, name, found, digits) for name, found in answer.answers.items()]
-    return lines if answer.advantage is None else [*lines, _advantage(answer, answer.advantage, show)]
+    if answer.advantage is None:
+        return lines
+    least = min((certain_digits(found, digits) for found in answer.answers.values()), default=digits)
+    return [*lines, _advantage(answer, answer.advantage, _formatter(least))]
 
 
 def _advantage(answer: Answer, advantage: float, show: Format) -> str:
@@ -98,10 +100,20 @@ def _range(name: str, found: Found, show: Format) -> str:
 def certain_digits(found: Found, digits: int) -> int:
     """How many digits to show: those asked for, but none that the error bound leaves open."""
     ends = [abs(end) for end in found.holds or (found.value,) if math.isfinite(end)]
-    if not found.error or not max(ends, default=0.0):
+    return _certain(max(ends, default=0.0), found.error, digits)
+
+
+def _certain(value: float, error: float | None, digits: int) -> int:
+    """How many of the digits of a number its error bound leaves certain, at least one."""
+    if not error or not value or not math.isfinite(value) or not math.isfinite(error):
         return digits
-    first = math.floor(math.log10(max(ends))) + 1
-    return max(1, min(digits, math.floor(first - math.log10(2.0 * found.error))))
+    first = math.floor(math.log10(abs(value))) + 1
+    return max(1, min(digits, math.floor(first - math.log10(2.0 * error))))
+
+
+def _shown(value: float, error: float | None, digits: int) -> str:
+    """A number with the digits that its error bound leaves certain."""
+    return _formatter(_certain(value, error, digits))(value)
 
 
 def _sense(sense: str) -> str:
@@ -116,22 +128,23 @@ def _positive(case: Case, name: str) -> str:
     return "positive along its line as the case gives it"
 
 
-def _centres(answer: Answer, show: Format) -> list[str]:
+def _centres(answer: Answer, digits: int) -> list[str]:
     if not answer.centres:
         return []
     case = answer.case
     names = [f"I{pair_name(case, pair)}" for pair in answer.centres]
-    places = [_place(answer, centre, show) for centre in answer.centres.values()]
+    places = [_place(answer, centre, digits) for centre in answer.centres.values()]
     hows = [_how(case, centre) for centre in answer.centres.values()]
     return ["Instant centres", *_table(names, places, hows)]
 
 
-def _place(answer: Answer, centre: Centre, show: Format) -> str:
+def _place(answer: Answer, centre: Centre, digits: int) -> str:
     if centre.kind == "at":
-        x, y = (_coordinate(answer, value, show) for value in centre.place)
+        shows = [_formatter(_certain(value, centre.error, digits)) for value in centre.place]
+        x, y = (_coordinate(answer, value, show) for value, show in zip(centre.place, shows, strict=True))
         return f"({x}, {y})"
     if centre.kind == "toward":
-        return f"at infinity, toward {show(centre.place[0])} deg"
+        return f"at infinity, toward {_shown(centre.place[0], centre.error, digits)} deg"
     return f"{centre.kind}: {centre.why}"
 
 
@@ -155,12 +168,22 @@ def _line(case: Case, line: tuple[Pair, ...]) -> str:
     return "line " + " ".join(f"I{pair_name(case, pair)}" for pair in ends)
 
 
-def _power(answer: Answer, show: Format) -> list[str]:
+def _power(answer: Answer, digits: int) -> list[str]:
     if not answer.terms:
         return []
-    rows = [_term(answer.case.units, term, show) for term in answer.terms]
+    error = _power_error(answer)
+    rows = [_term(answer, term, _certain(term.power, error, digits), digits) for term in answer.terms]
     columns: list[list[str]] = [list(column) for column in zip(*rows, strict=True)]
-    return [f"Power in {answer.case.units.torque}/s: {_sum_of_powers(answer, show)}", *_table(*columns)]
+    summed = _sum_of_powers(answer, _formatter(digits))
+    return [f"Power in {answer.case.units.torque}/s: {summed}", *_table(*columns)]
+
+
+def _power_error(answer: Answer) -> float:
+    """What is open of the powers that unknowns balance: by the bounds of these, and by what is left over
+    where an answer was confirmed in more digits than the terms have."""
+    unknown = [(term, answer.answers[term.load]) for term in answer.terms if term.load in answer.answers]
+    left = abs(math.fsum(term.power for term in answer.terms)) if unknown else 0.0
+    return max([left, *(abs(term.factor) * (found.error or 0.0) for term, found in unknown)])
 
 
 def _sum_of_powers(answer: Answer, show: Format) -> str:
@@ -174,23 +197,27 @@ def _sum_of_powers(answer: Answer, show: Format) -> str:
     return f"the terms add up to {show(total)}, the loads are not in equilibrium"
 
 
-def _term(units: Units, term: Term, show: Format) -> tuple[str, str, str]:
-    """A load times its velocity is its power, in torque units a second."""
+def _term(answer: Answer, term: Term, certain: int, digits: int) -> tuple[str, str, str]:
+    """A load times its velocity is its power, in torque units a second; so many digits are certain."""
+    units, show = answer.case.units, _formatter(certain)
+    load = answer.answers.get(term.load)
+    value = _formatter(certain_digits(load, digits) if load else digits)(term.value)
     power, factor = (number * units.torque_per_force_length for number in (term.power, term.factor))
     velocity = f"{show(factor)} per {term.unit}"
     if term.unit == units.torque:
         velocity = f"{show(factor)} rad/s"
     elif term.unit == units.force:
         velocity = f"{show(term.factor)} {units.length}/s"
-    product = f"{show(term.value)} {term.unit} x {velocity} = {show(power)}"
+    product = f"{value} {term.unit} x {velocity} = {show(power)}"
     return (term.load, product, term.words.removeprefix(f"{term.load} "))
 
 
-def _rates(answer: Answer, show: Format) -> list[str]:
+def _rates(answer: Answer, digits: int) -> list[str]:
     if answer.rates is None:
         return []
     unit = "Angular velocities, rad/s" if _has_speed(answer.case) else "Angular velocities, scaled"
-    rows = [(f"w{link}", _rate(rate, show)) for link, rate in answer.rates.items()]
+    errors = answer.errors.get("rates", {})
+    rows = [(f"w{link}", _rate(rate, errors.get(link), digits)) for link, rate in answer.rates.items()]
     return [unit, *_table([name for name, _ in rows], [value for _, value in rows])]
 
 
@@ -198,22 +225,33 @@ def _has_speed(case: Case) -> bool:
     return any(motion.speed is not None for motion in case.motion)
 
 
-def _rate(rate: float | str, show: Format) -> str:
+def _rate(rate: float | str, error: float | None, digits: int) -> str:
     if isinstance(rate, str):
         return f"undetermined: {rate}"
     if rate == 0.0:
         return "0"
-    return f"{show(abs(rate))} {'ccw' if rate > 0.0 else 'cw'}"
+    return f"{_shown(abs(rate), error, digits)} {'ccw' if rate > 0.0 else 'cw'}"
 
 
-def _velocities(answer: Answer, show: Format) -> list[str]:
+def _velocities(answer: Answer, digits: int) -> list[str]:
     if not answer.velocities:
         return []
+    error = _velocity_error(answer)
     named = {key: v for key, v in answer.velocities.items() if not key[0].startswith("@")}
     names = [f"{point} on {link}" for point, link in named]
-    values = [v if isinstance(v, str) else f"({show(v[0])}, {show(v[1])})" for v in named.values()]
+    shown = [v if isinstance(v, str) else [_shown(c, error, digits) for c in v] for v in named.values()]
+    values = [v if isinstance(v, str) else f"({', '.join(v)})" for v in shown]
     unit = f"{answer.case.units.length}/s" if _has_speed(answer.case) else "scaled"
     return [f"Velocities, {unit}", *_table(names, values)]
+
+
+def _velocity_error(answer: Answer) -> float:
+    """What the bounds of the rates leave open of velocities: the same part of the largest."""
+    rates = [abs(rate) for rate in (answer.rates or {}).values() if isinstance(rate, float)]
+    speeds = [abs(c) for v in (answer.velocities or {}).values() if not isinstance(v, str) for c in v]
+    turning, fastest = max(rates, default=0.0), max(speeds, default=0.0)
+    open_ = max(answer.errors.get("rates", {}).values(), default=0.0)
+    return open_ / turning * fastest if turning else 0.0
 
 
 def _points(answer: Answer, show: Format) -> list[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable
 from random import Random
 from statistics import median
@@ -18,6 +19,7 @@ from figures import from_lengths, without_order
 from icsolve.bounds import bounded_values, evaluate_bounded
 from icsolve.errors import SceneError
 from icsolve.program import Want, evaluate, prepare
+from icsolve.text import answer_text
 from more_digits import SixtyDigits
 
 Measure = Callable[[mechanisms.Scene, Random], mechanisms.Scene | None]
@@ -100,3 +102,35 @@ def test_closer_than_doubles_can_tell_it_is_refused_as_the_dead_centre() -> None
     with pytest.raises(SceneError) as refused:
         icsolve.solve(icsolve.load(TOGGLE % "2.0000000000000002"))
     assert refused.value.status in ("dead-centre", "near-singular")
+
+
+FAR = """
+icsolve: 1
+points: {A: [%s0.1, %s0.2], B: [%s1.3, %s2.7], C: [%s5.1, %s3.3], D: [%s6.2, %s0.4]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {pin: [4, 1], at: D}
+loads: {T4: {torque: 1, link: 4}, T2: {torque: unknown, link: 2}}
+"""
+
+
+@pytest.mark.parametrize("offset", ["10000", "10000000000", "1000000000000"])
+def test_no_number_of_the_text_has_digits_that_its_bound_leaves_open(offset: str) -> None:
+    """Far from the origin the coordinates have lost digits: those that are shown of the answer, the ratio,
+    rates, powers and velocities are those of the same figure at the origin, to one in the last."""
+    near, far = (_numbers_of(FAR % ((text,) * 8)) for text in ("", offset))
+    assert len(near) == len(far) > 20
+    for (value, _), (shown, step) in zip(near, far, strict=True):
+        assert abs(value - shown) <= 1.01 * step
+
+
+def _numbers_of(text: str) -> list[tuple[float, float]]:
+    """The numbers after the sections of coordinates, each with a unit of its last digit."""
+    shown = answer_text(icsolve.solve(icsolve.load(text), rates=True), digits=14)
+    kept = [part for part in shown.split("\n\n") if not part.startswith("Instant centres")]
+    found = re.findall(r"(?<![\w.])-?\d+(?:\.(\d+))?(?:e(-?\d+))?", "\n\n".join(kept))
+    numbers = re.finditer(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e-?\d+)?", "\n\n".join(kept))
+    steps = [10.0 ** (int(power or 0) - len(decimals)) for decimals, power in found]
+    return [(float(n.group()), step) for n, step in zip(numbers, steps, strict=True)]
