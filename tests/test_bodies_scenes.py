@@ -248,6 +248,22 @@ loads:
     assert parts(solved(text.replace("30", "30.0") % "20.0"), "F12") == near(0, 50, 0)
 
 
+def test_what_the_decimals_of_known_loads_leave_open_is_said() -> None:
+    text = """
+points: {O: [0, 0], A: [-2, 0], B: [4, 0]}
+joints:
+  - {pin: [1, 2], at: O}
+loads:
+  W: {weight: 21, link: 2, at: A}
+  V: {weight: %s, link: 2, at: B}
+"""
+    answer = solved(text % 10)  # half a unit of both may make 3 N*m
+    assert parts(answer, "F12") == near(0, 31, 0)
+    said = "W and V leave 2 N*m ccw on link 2, which is within half a unit"
+    assert any(said in note for note in answer.notes)
+    assert not any("leave" in note for note in solved(text % 10.5).notes)
+
+
 def test_what_known_loads_leave_on_a_block_is_a_force_along_its_guide() -> None:
     text = """
 points: {A: [0, 0]}

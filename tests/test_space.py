@@ -476,6 +476,7 @@ CHANGES = {
     "an unknown coordinate": ("B: [400, 0, 0]", "B: [unknown, 0, 0]", 3, 28, "'unknown' cannot stand here"),
     "lengths": ("joints:", "lengths: {AB: 1}\njoints:", 4, 1, "'lengths' has no place in a case in space"),
     "motion": ("joints:", "motion: {link: 2, turns: cw}\njoints:", 4, 1, "takes its own `speed`"),
+    "friction": ("axis: x}", "axis: x, mu: 0.1, radius: 2}", 5, 38, "friction is solved in the plane only"),
     "no axis": (", axis: x}", "}", 5, 5, "needs 'axis': the direction of the shaft: x, y, z, -z"),
     "axis of nothing": ("axis: x", "axis: [0, 0, 0]", 5, 35, "its components are all 0"),
     "axis of one point": ("axis: [A, B]", "axis: [A, A]", 6, 35, "two different points"),
@@ -519,8 +520,8 @@ TEETH = {
     "helix angle: 30": ("helix angle: 90", "less than 90 degrees"),
     "gears: [2, 3]": ("gears: [2, 3]\n    toward: x", "is for one gear whose mate is not shown"),
     "[20, 40]": ("20", "needs 'toward': where the mate lies"),
-    "normal pressure angle: 20\n    ": ("", "needs 'pressure angle'"),
-    "hand: left\n": ("hand: left\n    module: 3\n", "'module' of the gears of 2 and 3: with a helix angle"),
+    "normal pressure angle: 20\n    ": ("", "needs 'normal pressure angle'"),
+    "hand: left\n": ("hand: left\n    module: 3\n", "'module' of the gear pair of 2 and 3: with a helix"),
 }
 
 

@@ -20,11 +20,13 @@ NOISE = 1e-13
 """A power below this fraction of the products that it is summed from is none."""
 
 
-def refuse_imbalance(position: Position, balance: Balance) -> None:
-    """Refuse reactions of known loads that do not balance, within half a unit of their last decimals.
+def refuse_imbalance(position: Position, balance: Balance) -> tuple[str, ...]:
+    """Refuse reactions of known loads that do not balance; the notes on what their decimals leave open.
 
-    With friction nothing says how much of it acts, unless a load is unknown.
+    What half a unit of the last decimals may be the cause of is no refusal: it is said. With friction nothing
+    says how much of it acts, unless a load is unknown.
     """
+    notes = []
     if has_friction(position.case):
         raise SceneError(
             Status.UNBALANCED,
@@ -38,6 +40,9 @@ def refuse_imbalance(position: Position, balance: Balance) -> None:
         rounding = ROUNDED * max(map(abs, powers), default=0.0) + NOISE * sum(map(abs, sizes))
         if abs(sum(powers)) > room + rounding:
             raise SceneError(Status.UNBALANCED, _named(position, balance, motion, powers))
+        if abs(sum(powers)) > rounding:
+            notes.append(_within_decimals(position, balance, motion, powers))
+    return tuple(notes)
 
 
 def _power(w: Wrench, factor: float) -> float:
@@ -56,12 +61,24 @@ def _room(w: Wrench, factor: float) -> float:
 
 def _named(position: Position, balance: Balance, motion: int, powers: Sequence[float]) -> str:
     """What the loads leave on which link, and what would mend it."""
-    working = [w.load.name for w, power in zip(balance.wrenches, powers, strict=True) if power]
-    left = f"{'leaves' if len(working) == 1 else 'leave'} {_left(position, motion, sum(powers))}"
     return (
-        f"the known loads do not balance: {listed(working)} {left}, so there are no reactions at rest. Make "
-        "one of the loads `unknown`, or add one."
+        f"the known loads do not balance: {_leave(position, balance, motion, powers)}, so there are no "
+        "reactions at rest. Make one of the loads `unknown`, or add one."
     )
+
+
+def _within_decimals(position: Position, balance: Balance, motion: int, powers: Sequence[float]) -> str:
+    """What the loads leave, where the decimals that they are written with may be the cause."""
+    return (
+        f"{_leave(position, balance, motion, powers)}, which is within half a unit of the last decimals: "
+        "the reactions are given without it. To balance the loads, make one of them `unknown`."
+    )
+
+
+def _leave(position: Position, balance: Balance, motion: int, powers: Sequence[float]) -> str:
+    working = [w.load.name for w, power in zip(balance.wrenches, powers, strict=True) if power]
+    verb = "leaves" if len(working) == 1 else "leave"
+    return f"{listed(working)} {verb} {_left(position, motion, sum(powers))}"
 
 
 def _left(position: Position, motion: int, drive: float) -> str:

@@ -81,8 +81,8 @@ def free_bodies(
 
     Raises SceneError where the two disagree.
     """
-    if position.mobility and not any(is_unknown(w.load) for w in balance.wrenches):
-        refuse_imbalance(position, balance)
+    known = position.mobility and not any(is_unknown(w.load) for w in balance.wrenches)
+    left = refuse_imbalance(position, balance) if known else ()
     ties = ties_of(position)
     solved = frictionless(position, balance, ties)
     statics, parameters = solved.statics, solved.parameters
@@ -92,7 +92,7 @@ def free_bodies(
     refuse_apart(found, position.slack)
     reactions = reactions_of(position, frame, statics, parameters)
     notes = said_of(statics, reactions, names_by_tie(position.case, statics.ties))
-    return Bodies(reactions, found, residual(terms), notes)
+    return Bodies(reactions, found, residual(terms), (*left, *notes))
 
 
 class Solved(NamedTuple):

@@ -31,6 +31,8 @@ PLANAR = {
 """Kinds that only the plane has, and what stands for each in space."""
 SPATIAL = ("ball", "radial", "thrust", "hinge")
 """Kinds that only space has."""
+FRICTION = ("mu", "radius", "length")
+"""What a joint with friction has: the coefficient, and with it the size of its pin or block."""
 
 
 def mention_links(reading: Reading, section: Node | None) -> None:
@@ -94,9 +96,23 @@ def _joint(reading: Reading, node: Mapping, shared: Counter[str], kinds: Kinds[T
     where = _unlike(where, reading.marks)  # two joints of one pair: a path has one value
     reading.marks[where] = node.mark
     keys, build = kinds[kind]
-    entry = Entry(reading, node, where, f"the {kind} of {' and '.join(links)}" if links else f"a {kind}")
-    entry.only(kind, *keys)
+    name = "gear pair" if kind == "gears" else kind
+    entry = Entry(reading, node, where, f"the {name} of {' and '.join(links)}" if links else f"a {name}")
+    rubbing = () if "mu" in keys else _rubbing(entry, "hinge" in kinds)
+    entry.only(kind, *keys, *rubbing)
     return build(entry, links or ("?", "?"), bool(links))
+
+
+def _rubbing(entry: Entry, in_space: bool) -> tuple[str, ...]:
+    """The keys of friction on a joint that takes none, refused in words."""
+    there = tuple(key for key in FRICTION if entry.has(key)) if entry.has("mu") else ()
+    if there:
+        if in_space:
+            said = "friction is solved in the plane only, and this case is in space; take it out"
+        else:
+            said = "friction is that of a pin, a slide, a slot or a contact; take it out"
+        entry.refuse(entry.node.keys["mu"], f"'mu' of {entry.what}: {said}")
+    return there
 
 
 def _unlike(where: str, taken: Container[str]) -> str:

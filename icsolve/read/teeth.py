@@ -45,7 +45,9 @@ def read_teeth(entry: Entry, pitch_needed: bool, hand_needed: bool = True) -> Te
     """
     angle_key, pitch_key = entry.one_of(ANGLES), entry.one_of((*PITCHES, *MODULES))
     if angle_key is None:
-        entry.need("pressure angle", "that of the teeth, such as 20")
+        helical = entry.has("helix angle")
+        said = "that of the teeth, such as 20" + (", or 'transverse pressure angle'" if helical else "")
+        entry.need("normal pressure angle" if helical else "pressure angle", said)
     if pitch_key is None and pitch_needed:
         entry.need(
             "diametral pitch", "or 'module': it gives the pitch circle of a gear whose mate is not shown"
