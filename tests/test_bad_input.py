@@ -132,7 +132,7 @@ CHANGES = {
     "slide along one point": ("pin: [1, 2]", "slide: [1, 2], along: [A]", 14, 28, "two different points"),
     "contact without a normal": ("pin: [1", "contact: [1", 14, 5, "common normal in degrees from 1 into 2"),
     "friction without a radius": ("at: A}", "at: A, mu: 0.2}", 14, 26, "needs 'radius'"),
-    "friction of a weld": ("{pin: [1, 2], at: A}", "{weld: [1, 2], at: A, mu: 1}", 14, 27, "is that of a pin"),
+    "weld with friction": ("{pin: [1, 2], at: A}", "{weld: [1, 2], at: A, mu: 1}", 14, 27, "that of a pin"),
     "negative friction": ("at: A}", "at: A, mu: -1, radius: 1}", 14, 30, "should not be negative"),
     "radius of nothing": ("at: A}", "at: A, mu: 1, radius: 0}", 14, 41, "should be greater than zero"),
     # loads
