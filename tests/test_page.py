@@ -39,7 +39,6 @@ STILL = {
     "cams/flat_follower.yaml": "cannot be moved: its profile is not known",
     "ch13/13_22_robot_arm.yaml": "This case is in space",
     "gears/differential_train.yaml": "more freedoms than numbers that move it",
-    "sliders/wedge.yaml": "No link turns about the frame",
 }
 SLIDER = "ch13/13_07_slider_crank.yaml"
 VOID = {"meta", "input", "br"}
@@ -154,6 +153,60 @@ def test_the_numbers_are_those_of_solve(name: str) -> None:
             if moved.status[row] == "ok":
                 alone = icsolve.solve(moved.found.case_of(row)).answers[answer["name"]]
                 assert values[row - moved.first] == pytest.approx(alone.value, rel=1e-10)
+
+
+SPRUNG = """
+icsolve: 1
+units: {length: mm, force: N}
+points: {A: [0, 0], B: [60, 30], C: [30, 15], D: [-100, 0], E: [200, 40]}
+joints:
+  - {slide: [2, 1], at: A, along: 0}
+  - {slide: [3, 1], at: B, along: 90}
+  - {slide: [2, 3], at: C, along: 30}
+loads:
+  W: {weight: 100, link: 3, at: B}
+  S: {spring: 2 N/mm, free: 60 mm, link: 2, at: A, to: D}
+  R: {force: 40, link: 3, at: B, toward: E}
+  P: {force: unknown, link: 2, at: A, angle: 0}
+"""
+
+
+def test_where_everything_slides_a_link_is_moved() -> None:
+    """Closed form by virtual work: the wedge goes s, the block ``rise`` times s, the spring is 100 + s
+    long. To 1e-9, a little more than rounding."""
+    known = known_of(icsolve.load(SPRUNG))
+    found = motion_of(known, ())
+    assert found is not None
+    rise = -known.twists["3"][0] / known.twists["2"][1]
+    assert abs(rise) == pytest.approx(math.tan(math.radians(30.0)))
+    for row in range(0, len(found.degrees), 10):
+        s = found.degrees[row]
+        x, y = 60.0, 30.0 + rise * s
+        assert found.found.points["A"][row] == pytest.approx([s, 0.0])
+        assert found.found.points["B"][row] == pytest.approx([x, y])
+        if s == -100.0:  # the spring has no length, and no direction
+            assert found.status[row] != "ok"
+            continue
+        up = 40.0 * (40.0 - y) / math.hypot(200.0 - x, 40.0 - y) - 100.0
+        spring = -2.0 * (100.0 + s - 60.0)
+        assert found.found.answers["P"][row] == pytest.approx(-spring - rise * up, rel=1e-9)
+    model = model_of(page_html(known))["motion"]
+    assert (model["verb"], model["unit"], model["senses"]) == ("moved", " mm", ["at 0°", "at 180°"])
+
+
+def test_a_way_in_any_unit_has_positions() -> None:
+    """The same wedge a millionth as large: the slider's numbers are not rounded away."""
+    small = re.sub(r"([A-E]): \[(-?\d+), (\d+)\]", r"\1: [\2e-6, \3e-6]", SPRUNG)
+    small = small.replace("free: 60 mm", "free: 6e-5 mm")
+    model = model_of(page_html(icsolve.load(small)))["motion"]
+    assert model["step"] > 0.0
+    assert model["first"] + model["step"] * (model["rows"] - 1) == pytest.approx(model["high"])
+
+
+def test_a_slide_on_a_link_that_turns_has_no_straight_way() -> None:
+    """The trammel and the Oldham coupling turn, in degrees."""
+    for name in ("sliders/elliptic_trammel.yaml", "sliders/oldham_coupling.yaml"):
+        assert model_of(page_of(name))["motion"]["verb"] == "turned"
 
 
 def test_the_position_as_written_is_in_every_motion() -> None:

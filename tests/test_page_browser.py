@@ -31,8 +31,9 @@ DRIVEN = {
     "ch13/13_07_slider_crank.yaml": (-120, 37, 150),
     "linkages/peaucellier.yaml": (-90, -40, 12),
     "sliders/quick_return.yaml": (-170, -33, 101),
+    "sliders/wedge.yaml": (-41, 8, 30),
 }
-"""Cases, and three positions of each in degrees from the position as written."""
+"""Cases, and three positions of each in degrees from the position as written; of the wedge, in mm."""
 
 
 @pytest.fixture(scope="module")
@@ -190,7 +191,7 @@ def test_centres_are_marked_where_the_sweep_has_them(opened: Any) -> None:
     assert all(min(math.dist(mark, at) for mark in marks) < 2.0 for at in wanted)
 
 
-@pytest.mark.parametrize("name", DRIVEN)
+@pytest.mark.parametrize("name", [name for name in DRIVEN if name != "sliders/wedge.yaml"])
 def test_the_steps_add_the_lines_in_the_order_of_finding(name: str, opened: Any) -> None:
     window = opened(page(name))
     known = known_of(icsolve.load(FILES[name]))

@@ -124,15 +124,17 @@ def _controls(parts: Parts) -> str:
     motion = parts.model["motion"]
     driver = _text(motion["driver"])
     last = motion["first"] + motion["step"] * (motion["rows"] - 0.5)
+    endless = "" if motion["verb"] == "turned" else '<p class="hint">The case gives the guides no ends.</p>\n'
     gap = motion["low"] < motion["first"] or motion["high"] > last
     keys = '<span class="k-dead">dead centre</span>' if motion["dead"] else ""
     keys += '<span class="k-gap">the links do not meet</span>' if gap else ""
     return (
-        f'<label class="turn" for="turn">Link {driver} turned: '
+        f'<label class="turn" for="turn">Link {driver} {motion["verb"]}: '
         '<output id="angle">as written</output></label>\n'
         f'<div class="slider"><input type="range" id="turn" min="{motion["low"]}" max="{motion["high"]}"'
         f' step="{motion["step"]}" value="0" autocomplete="off">{track_svg(motion)}</div>\n'
         + (f'<p class="key">{keys}</p>\n' if keys else "")
+        + endless
         + '<p class="hint" id="hint" role="status"></p>\n'
         '<div class="row"><button type="button" id="play">Play</button>'
         '<button type="button" id="written">As written</button></div>'

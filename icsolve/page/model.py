@@ -70,12 +70,15 @@ def motion_data(known: Known, view: View, motion: Motion) -> dict[str, Any]:
     step = float(degrees[1] - degrees[0])
     return {
         "driver": motion.driver,
-        "first": round(float(degrees[motion.first]), 6),
-        "step": round(step, 6),
+        "verb": motion.by.verb,
+        "unit": motion.by.unit,
+        "senses": motion.by.senses,
+        "first": _round(degrees[motion.first]),
+        "step": _round(step),
         "rows": motion.last + 1 - motion.first,
         "zero": motion.zero - motion.first,
-        "low": round(float(degrees[0]), 6),
-        "high": round(float(degrees[-1]), 6),
+        "low": _round(degrees[0]),
+        "high": _round(degrees[-1]),
         "turns": motion.whole_turn,
         "dead": [round(d, 3) for d in dead_centres(motion)],
         "hints": _hints(motion),
@@ -87,6 +90,10 @@ def motion_data(known: Known, view: View, motion: Motion) -> dict[str, Any]:
             or moves(column[rows, 1] * view.scale, FINE["px"])
         },
     }
+
+
+def _round(value: float) -> float:
+    return float(format(value, ".9g"))
 
 
 def _hints(motion: Motion) -> list[list[Any]]:

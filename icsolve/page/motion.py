@@ -13,6 +13,7 @@ from icsolve.case import Case, Contact, ForceVector, KnownCentre, Load, Number, 
 from icsolve.construction import Known, loaded_links
 from icsolve.errors import SceneError
 from icsolve.names import pair_name
+from icsolve.page.input import Input, places, sliding, ways
 from icsolve.page.poses import Array, Pose, poses_of
 from icsolve.power import is_unknown
 from icsolve.turn import Sweep, sweep
@@ -28,13 +29,14 @@ SHORT = 90.0
 
 
 class Motion(NamedTuple):
-    """Rows of positions: ``degrees`` by which link ``driver`` is turned from the position as written (row
-    ``zero``), the sweep's arrays, and for each moving link its pose.
+    """Rows of positions: ``degrees`` by which the input's link is turned from the position as written (row
+    ``zero``; where everything slides its way, case length), the sweep's arrays, and for each moving link its
+    pose.
 
     The links assemble, without a break from the position as written, in the rows ``first`` to ``last``.
     """
 
-    driver: str
+    by: Input
     degrees: Array
     zero: int
     first: int
@@ -45,6 +47,11 @@ class Motion(NamedTuple):
     """for each known load the power that it does while the unknown load does 1 (where there is one)"""
 
     @property
+    def driver(self) -> str:
+        """The link of the input."""
+        return self.by.link
+
+    @property
     def status(self) -> list[str]:
         """The status of every row."""
         return [str(word) for word in self.found.status]
@@ -53,7 +60,7 @@ class Motion(NamedTuple):
     def whole_turn(self) -> bool:
         """Whether the input can be turned round and round."""
         span = self.degrees[self.last] - self.degrees[self.first]
-        return bool(span > 359.99)
+        return bool(not self.by.slides and span > 359.99)
 
 
 def motion_of(known: Known, pairs: Sequence[Pair]) -> Motion | None:
@@ -66,16 +73,23 @@ def motion_of(known: Known, pairs: Sequence[Pair]) -> Motion | None:
     case = known.answer.case
     want = ["answers", "status", "points", "rates"]
     want += [f"centres.{pair_name(case, pair)}" for pair in pairs]
-    best = _widest(known, want)
+    slides = sliding(known)
+    if slides is not None:
+        case, by = slides
+        rows = ways(known)
+        straight = _swept(case, by, rows, want)
+        best = None if straight is None else (by, rows, replace(straight, points=places(known, by, rows)))
+    else:
+        best = _widest(known, want)
     if best is None:
         return None
-    driver, degrees, found = best
+    by, degrees, found = best
     zero = int(np.argmin(np.abs(degrees)))
     first, last = _run(found, zero)
     if first == last:
         return None
-    poses = poses_of(known, driver, degrees, zero, found)
-    return Motion(driver, degrees, zero, first, last, found, poses, _shares(case, driver, degrees, found))
+    poses = poses_of(known, by.link, degrees, zero, found)
+    return Motion(by, degrees, zero, first, last, found, poses, _shares(case, by, degrees, found))
 
 
 def why_still(known: Known) -> str:
@@ -97,14 +111,14 @@ def why_still(known: Known) -> str:
     return "The links leave no room to move from the position as written."
 
 
-def _widest(known: Known, want: Sequence[str]) -> tuple[str, Array, Sweep] | None:
+def _widest(known: Known, want: Sequence[str]) -> tuple[Input, Array, Sweep] | None:
     """The first input that turns fully, else that with the longest range."""
     assert known.answer is not None
     case = known.answer.case
     step = COARSE if rubs(case) else STEP if case.profiles is None else MIDDLE
     turn = np.arange(-180.0, 180.0 + 0.5 * step, step)
-    best: tuple[float, str, Array, Sweep] | None = None
-    for driver in inputs(known)[:TRIES]:
+    best: tuple[float, Input, Array, Sweep] | None = None
+    for driver in map(Input, inputs(known)[:TRIES]):
         found = _swept(case, driver, turn, want)
         if found is None:
             continue
@@ -148,13 +162,13 @@ def _run(found: Sweep, zero: int) -> tuple[int, int]:
     return int(before[-1]) + 1 if len(before) else 0, int(after[0]) - 1 if len(after) else len(placed) - 1
 
 
-def _swept(case: Case, driver: str, degrees: Array, want: Sequence[str]) -> Sweep | None:
-    drive = {driver: degrees}
+def _swept(case: Case, by: Input, degrees: Array, want: Sequence[str]) -> Sweep | None:
+    vary, drive = by.varied(degrees), by.driven(degrees)
     try:
-        found = sweep(case, None, want, drive=drive)
+        found = sweep(case, vary, want, drive=drive)
         if not rubs(case):
             return found
-        placed = sweep(_smooth(case), None, [w for w in want if w != "answers"], drive=drive)
+        placed = sweep(_smooth(case), vary, [w for w in want if w != "answers"], drive=drive)
     except (SceneError, ArithmeticError):
         return None
     return replace(found, points=placed.points, centres=placed.centres, rates=placed.rates)
@@ -189,7 +203,7 @@ def inputs(known: Known) -> list[str]:
     return sorted(quick, key=lambda link: link not in pinned)
 
 
-def _shares(case: Case, driver: str, degrees: Array, found: Sweep) -> dict[str, Array]:
+def _shares(case: Case, by: Input, degrees: Array, found: Sweep) -> dict[str, Array]:
     """The power of each known load per unit, while the unknown one does 1: by that load alone (the equation
     of power is linear), for one unknown and no friction."""
     if len(found.answers) != 1 or rubs(case) or not any(map(is_unknown, case.loads)):
@@ -199,10 +213,10 @@ def _shares(case: Case, driver: str, degrees: Array, found: Sweep) -> dict[str, 
         return {}
     (name,) = found.answers
     if len(known) > 1 and not any(isinstance(load, ForceVector) for load in known):
-        return _one_by_one(case, driver, degrees, name, [load.name for load in known])
+        return _one_by_one(case, by, degrees, name, [load.name for load in known])
     shares = {}
     for load in known:
-        alone = found if len(known) == 1 else _swept(_only(case, load), driver, degrees, ("answers",))
+        alone = found if len(known) == 1 else _swept(_only(case, load), by, degrees, ("answers",))
         value = _number(load)
         if alone is None or value == 0.0 or name not in alone.answers:
             return {}
@@ -210,13 +224,14 @@ def _shares(case: Case, driver: str, degrees: Array, found: Sweep) -> dict[str, 
     return shares
 
 
-def _one_by_one(case: Case, driver: str, degrees: Array, name: str, known: Sequence[str]) -> dict[str, Array]:
+def _one_by_one(case: Case, by: Input, degrees: Array, name: str, known: Sequence[str]) -> dict[str, Array]:
     """All positions once for each known load, which alone is there and is 1, in one sweep."""
     ones = np.eye(len(known)).repeat(len(degrees), axis=1)
     vary = {f"loads.{load}": row for load, row in zip(known, ones, strict=True)}
-    found = sweep(case, vary, ("answers",), drive={driver: np.tile(degrees, len(known))})
-    rows = -found.answers[name].reshape(len(known), len(degrees))
-    return dict(zip(known, rows, strict=True))
+    rows = np.tile(degrees, len(known))
+    found = sweep(case, {**vary, **by.varied(rows)}, ("answers",), drive=by.driven(rows))
+    shares = -found.answers[name].reshape(len(known), len(degrees))
+    return dict(zip(known, shares, strict=True))
 
 
 def _like(load: Load) -> bool:

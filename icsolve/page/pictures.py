@@ -88,11 +88,12 @@ def track_svg(motion: dict[str, Any]) -> str:
     gaps = [bar("gap", a, b) for a, b in ((low, first), (last, high)) if b - a > 1e-9]
     dead = [f'<line class="dead" x1="{share(d)}" x2="{share(d)}" y1="0" y2="14"/>' for d in motion["dead"]]
     ticks = []
-    for degrees in _ticks(low, high):
+    for degrees in _ticks(low, high) if motion["verb"] == "turned" else _quarters(low, high):
         x = share(degrees)
         anchor = "start" if degrees == low else "end" if degrees == high else "middle"
         ticks.append(f'<line class="tick" x1="{x}" x2="{x}" y1="12" y2="17"/>')
-        ticks.append(f'<text x="{x}" y="28" text-anchor="{anchor}">{figure_number(degrees)}°</text>')
+        told = escaped(figure_number(degrees) + motion["unit"])
+        ticks.append(f'<text x="{x}" y="28" text-anchor="{anchor}">{told}</text>')
     hatch = (
         '<defs><pattern id="hatch" width="6" height="6" patternUnits="userSpaceOnUse"'
         ' patternTransform="rotate(45)"><path class="hatch" d="M0,0 V6"/></pattern></defs>'
@@ -109,6 +110,11 @@ def _ticks(low: float, high: float) -> list[float]:
         if (high - low) / s >= 3.99 or s == 0.5
     )
     return [k * step for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)]
+
+
+def _quarters(low: float, high: float) -> list[float]:
+    """A way in four equal parts."""
+    return [low, low + 0.25 * (high - low), 0.5 * (low + high), high - 0.25 * (high - low), high]
 
 
 def kinds_of(marks: Iterable[Mark]) -> frozenset[str]:

@@ -45,7 +45,7 @@ def plots_of(known: Known, motion: Motion) -> list[Plot]:
     found += [("Mechanical advantage", advantage)] if advantage else []
     rates = [] if motion.found.answers else _rates(known, motion)
     found += [("Ratios of angular velocities", rates)] if rates else []
-    axis = f"link {motion.driver} turned from the position as written, degrees"
+    axis = f"link {motion.driver} {motion.by.verb} from the position as written, {motion.by.unit_name}"
     return [_plot(heading, x, curves, axis) for heading, curves in found]
 
 

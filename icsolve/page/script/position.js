@@ -4,9 +4,8 @@ const hint = byId("hint");
 const cursors = (data.plots || []).map((plot, n) => ({ ...plot, dots: plot.dots.map(places), svg: byId(`plot-${n}`) }));
 const degreesOf = (r) => motion.first + motion.step * r;
 function angleWords(r) {
-  const degrees = Number(degreesOf(r).toFixed(3));
-  if (degrees === 0) return "as written";
-  return `${number(Math.abs(degrees), 5)}° ${degrees > 0 ? "counterclockwise" : "clockwise"}`;
+  if (r === zero) return "as written";
+  return `${number(Math.abs(degreesOf(r)), 5)}${motion.unit} ${motion.senses[r > zero ? 0 : 1]}`;
 }
 function moveCursors(r) {
   for (const plot of cursors) {
@@ -50,7 +49,7 @@ function turnTo(degrees) {
   const r = (degrees - motion.first) / motion.step;
   const over = r < -0.5 || r > rows - 0.5;
   const end = degreesOf(r < 0 ? 0 : rows - 1);
-  moveTo(r, over ? `The links do not meet beyond ${number(end, 5)}°.` : "");
+  moveTo(r, over ? `The links do not meet beyond ${number(end, 5)}${motion.unit}.` : "");
 }
 let playing = 0;
 const play = byId("play");
