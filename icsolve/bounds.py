@@ -14,7 +14,7 @@ from typing import NamedTuple
 from icsolve import verdicts
 from icsolve.answer import Centre
 from icsolve.arithmetic import Scalar
-from icsolve.centres import direction_of
+from icsolve.centres import direction_of, own_centre
 from icsolve.errors import SceneError, Status
 from icsolve.plane import Triple, subtract, velocity
 from icsolve.program import Outcome, Program, evaluate
@@ -183,11 +183,10 @@ def bounded_centre(scene: Bounded, centre: Centre) -> Centre:
     It is the bound of the relative twist's centre, and how far the place that is shown (which lines
     may have given) lies from it. A centre whose weight vanishes within its bound lies at infinity.
     """
-    if centre.kind not in ("at", "toward") or scene.outcome.motions.mobility != 1:
+    relative = _relative(scene, centre) if centre.kind in ("at", "toward") else None
+    if relative is None:
         return centre
-    i, j = centre.pair
-    twists = scene.outcome.motions.twists
-    x, y, w = subtract(twists[j][0], twists[i][0])
+    x, y, w = relative
     found = centre.by in ("construction", "loop equations")
     if centre.kind == "at" and found and abs(w) <= scene.of(w):
         centre = centre._replace(kind="toward", place=(direction_of(float(x), float(y)),))
@@ -200,6 +199,17 @@ def bounded_centre(scene: Bounded, centre: Centre) -> Centre:
     px, py, (ox, oy, scale) = x / w, y / w, scene.program.figure.frame
     apart = abs(float(px) / scale + ox - centre.place[0]) + abs(float(py) / scale + oy - centre.place[1])
     return centre._replace(error=apart + (scene.of(px) + scene.of(py)) / scale)
+
+
+def _relative(scene: Bounded, centre: Centre) -> Triple | None:
+    """The twist between two links on the tape; where they rest, or move in several ways, their joint."""
+    i, j = centre.pair
+    if scene.outcome.motions.mobility == 1:
+        twists = scene.outcome.motions.twists
+        relative = subtract(twists[j][0], twists[i][0])
+        if any(float(part) != 0.0 for part in relative):
+            return relative
+    return own_centre(scene.program.top, centre.pair, scene.outcome.points, scene.tape)
 
 
 DEGREES = 57.29577951308232

@@ -144,6 +144,19 @@ class CentreFinder:
         return ordered_pair(self.case, self.top.members[pair[0]][0], self.top.members[pair[1]][0])
 
 
+def own_centre(top: Topology, pair: Pair, points: Points, arithmetic: Arithmetic) -> Triple | None:
+    """The centre by a joint or a mesh of just these two links; None where there is none."""
+    bodies = ordered(*(top.body_of[link] for link in pair))
+    for bond in top.bonds:
+        if ordered(bond.a, bond.b) == bodies:
+            if isinstance(bond.joint, Gears | Belt):
+                return pitch_point(bond, points, arithmetic)
+            basis = freedoms(bond, points, arithmetic)
+            if len(basis) == 1:
+                return basis[0]
+    return None
+
+
 def direction_of(x: float, y: float) -> float:
     """Direction of a point at infinity, degrees in [0, 180)."""
     toward = math.degrees(math.atan2(y, x)) % 180.0

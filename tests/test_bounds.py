@@ -134,3 +134,24 @@ def _numbers_of(text: str) -> list[tuple[float, float]]:
     numbers = re.finditer(r"(?<![\w.])-?\d+(?:\.\d+)?(?:e-?\d+)?", "\n\n".join(kept))
     steps = [10.0 ** (int(power or 0) - len(decimals)) for decimals, power in found]
     return [(float(n.group()), step) for n, step in zip(numbers, steps, strict=True)]
+
+
+TWO_FREEDOMS = """
+icsolve: 1
+points: {A: [0, 0], B: [0, 0.3], C: [0.7, 0.55], D: [1.1, 0.35], E: [1, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {pin: [4, 5], at: D}
+  - {pin: [5, 1], at: E}
+"""
+
+
+def test_the_centre_of_a_joint_has_its_bound_where_several_motions_are_possible() -> None:
+    """As written in decimals: 0.7 and 0.55 are off by what doubles lose of them."""
+    centres = icsolve.solve(icsolve.load(TWO_FREEDOMS), all_centres=True).centres
+    pins = {("1", "2"): "A", ("2", "3"): "B", ("3", "4"): "C", ("4", "5"): "D", ("1", "5"): "E"}
+    assert {pair for pair in pins if centres[pair].error is not None} == set(pins)
+    error = centres["3", "4"].error
+    assert error is not None and 1e-17 < error < 1e-14
