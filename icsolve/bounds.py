@@ -14,12 +14,13 @@ from typing import NamedTuple
 from icsolve import verdicts
 from icsolve.answer import Centre
 from icsolve.arithmetic import Scalar
+from icsolve.case import Motion, Pair
 from icsolve.centres import direction_of, own_centre
 from icsolve.errors import SceneError, Status
 from icsolve.plane import Triple, subtract, velocity
 from icsolve.program import Outcome, Program, evaluate
 from icsolve.speeds import Speed
-from icsolve.tape import UNIT, Tape
+from icsolve.tape import UNIT, Tape, Taped, decimal_noise
 
 SMALL = 1e-3
 """A first-order bound is trusted below this fraction of its value."""
@@ -158,11 +159,55 @@ def floats(t: Triple) -> Triple:
 def rate_errors(scene: Bounded, speed: Speed) -> dict[str, float]:
     """Bounds on the link rates where one motion is meant, rad/s."""
     twists = scene.outcome.motions.twists
-    if speed.reference is None or len(speed.particular) != 1:
+    if len(speed.particular) != 1:
+        return _combined_errors(scene, speed)
+    if speed.reference is None:
         return {}
-    divisor = _reference(scene, speed)
-    target = speed.particular[0]
-    return {link: scene.of(t[0][2] / divisor) * abs(target) for link, t in twists.items() if t[0][2] != 0.0}
+    divisor, target = _reference(scene, speed), abs(speed.particular[0])
+    spare = 0.0
+    if scene.program.case.motion:
+        given = scene.program.case.motion[0].speed
+        spare = 2.0 * UNIT + (decimal_noise(given) / abs(given.value) if given and given.value else 0.0)
+    rates = {link: t[0][2] / divisor for link, t in twists.items() if t[0][2] != 0.0}
+    return {link: (scene.of(rate) + spare * abs(rate)) * target for link, rate in rates.items()}
+
+
+def _combined_errors(scene: Bounded, speed: Speed) -> dict[str, float]:
+    """Bounds on the link rates of two motions together, and how far those that are shown lie from them."""
+    weights = coefficients(scene, speed)
+    if weights is None:
+        return {}
+    result = {}
+    for link, motions in scene.outcome.motions.twists.items():
+        rates = [t[2] for t in motions]
+        rate = rates[0] * weights[0] + rates[1] * weights[1]
+        shown = sum(c * float(each) for c, each in zip(speed.particular, rates, strict=True))
+        if float(rate) != 0.0:
+            result[link] = scene.of(rate) + abs(float(rate) - shown) + UNIT * abs(shown)
+    return result
+
+
+def coefficients(scene: Bounded, speed: Speed) -> tuple[Scalar, Scalar] | None:
+    """How much of each of two motions there is, on the tape, where the rates of two links are given (by
+    Cramer's rule); None where something else is."""
+    given = scene.program.case.motion
+    if speed.open or len(speed.particular) != 2 or len(given) != 2 or any(one.point for one in given):
+        return None
+    (a, b), (c, d) = ([t[2] for t in scene.outcome.motions.twists[one.link]] for one in given)
+    p, q = (_target(scene, one) for one in given)
+    divisor = a * d - b * c
+    if float(divisor) == 0.0:
+        return None
+    return (p * d - q * b) / divisor, (q * a - p * c) / divisor
+
+
+def _target(scene: Bounded, given: Motion) -> Scalar:
+    """A given rate on the tape, with the rounding of its decimals."""
+    sign = -1.0 if given.turns == "cw" else 1.0
+    if given.speed is None:
+        return sign
+    value = sign * given.speed.value
+    return Taped(scene.tape, (0, 0.0, 0, 0.0, decimal_noise(given.speed)), value, abs(value))
 
 
 def _reference(scene: Bounded, speed: Speed) -> Scalar:
@@ -177,13 +222,14 @@ def _reference(scene: Bounded, speed: Speed) -> Scalar:
     return size if speed.divisor > 0 else -size
 
 
-def bounded_centre(scene: Bounded, centre: Centre) -> Centre:
+def bounded_centre(scene: Bounded, centre: Centre, weights: tuple[Scalar, Scalar] | None = None) -> Centre:
     """A centre with the bound on its place (case units) or direction (degrees), where one is proven.
+    ``weights`` are the `coefficients` of two motions.
 
     It is the bound of the relative twist's centre, and how far the place that is shown (which lines
     may have given) lies from it. A centre whose weight vanishes within its bound lies at infinity.
     """
-    relative = _relative(scene, centre) if centre.kind in ("at", "toward") else None
+    relative = _relative(scene, centre.pair, weights) if centre.kind in ("at", "toward") else None
     if relative is None:
         return centre
     x, y, w = relative
@@ -201,15 +247,18 @@ def bounded_centre(scene: Bounded, centre: Centre) -> Centre:
     return centre._replace(error=apart + (scene.of(px) + scene.of(py)) / scale)
 
 
-def _relative(scene: Bounded, centre: Centre) -> Triple | None:
+def _relative(scene: Bounded, pair: Pair, weights: tuple[Scalar, Scalar] | None) -> Triple | None:
     """The twist between two links on the tape; where they rest, or move in several ways, their joint."""
-    i, j = centre.pair
+    i, j = (scene.outcome.motions.twists[link] for link in pair)
     if scene.outcome.motions.mobility == 1:
-        twists = scene.outcome.motions.twists
-        relative = subtract(twists[j][0], twists[i][0])
+        relative = subtract(j[0], i[0])
         if any(float(part) != 0.0 for part in relative):
             return relative
-    return own_centre(scene.program.top, centre.pair, scene.outcome.points, scene.tape)
+    own = own_centre(scene.program.top, pair, scene.outcome.points, scene.tape)
+    if own is not None or weights is None or len(i) != 2:
+        return own
+    (a, b), (p, q) = (subtract(j[m], i[m]) for m in (0, 1)), weights
+    return (a[0] * p + b[0] * q, a[1] * p + b[1] * q, a[2] * p + b[2] * q)
 
 
 DEGREES = 57.29577951308232

@@ -7,7 +7,7 @@ from functools import cached_property
 from icsolve import power, sentences, speeds
 from icsolve.answer import Answer, Centre, Deferred, Found, Later, Term
 from icsolve.arithmetic import FLOATS
-from icsolve.bounds import Bounded, Value, bounded_centre, floats, plain, rate_errors, slopes
+from icsolve.bounds import Bounded, Value, bounded_centre, coefficients, floats, plain, rate_errors, slopes
 from icsolve.case import Case, Pair
 from icsolve.centres import CentreFinder
 from icsolve.figure import Figure, case_point
@@ -86,7 +86,9 @@ class Parts:
         found = finder.find(pairs, self.outcome.motions.slack)
         if self.scene is None:
             return found
-        return {pair: bounded_centre(self.scene, centre) for pair, centre in found.items()}
+        several = case.motion and self.outcome.motions.mobility == 2
+        weights = coefficients(self.scene, self.speed) if several else None
+        return {pair: bounded_centre(self.scene, centre, weights) for pair, centre in found.items()}
 
 
 def _shown(figure: Figure) -> dict[str, tuple[float, float]]:

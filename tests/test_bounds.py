@@ -9,6 +9,7 @@ from random import Random
 from statistics import median
 
 import pytest
+from mpmath import mpf, pi, workdps
 
 import growth
 import icsolve
@@ -155,3 +156,30 @@ def test_the_centre_of_a_joint_has_its_bound_where_several_motions_are_possible(
     assert {pair for pair in pins if centres[pair].error is not None} == set(pins)
     error = centres["3", "4"].error
     assert error is not None and 1e-17 < error < 1e-14
+
+
+GIVEN = "motion: [{link: 2, speed: 0.7 rad/s}, {link: 5, speed: 300 rpm}]\n"
+
+
+def test_rates_and_centres_of_two_given_motions_have_bounds_that_hold() -> None:
+    """The five-bar with both cranks driven, against closed forms in fifty digits: B and D are known, C moves
+    square to BC seen from B and to CD seen from D."""
+    answer = icsolve.solve(icsolve.load(TWO_FREEDOMS + GIVEN), rates=True, all_centres=True)
+    with workdps(50):
+        two, five = mpf("0.7"), 10 * pi
+        b, c, d = (mpf(0), mpf("0.3")), (mpf("0.7"), mpf("0.55")), (mpf("1.1"), mpf("0.35"))
+        vb, vd = (-two * b[1], mpf(0)), (-five * d[1], five * (d[0] - 1))
+        u, v = (c[0] - b[0], c[1] - b[1]), (c[0] - d[0], c[1] - d[1])
+        # vb + three (-uy, ux) = vd + four (-vy, vx)
+        rhs, det = (vd[0] - vb[0], vd[1] - vb[1]), u[1] * v[0] - u[0] * v[1]
+        three = -(rhs[0] * v[0] + rhs[1] * v[1]) / det
+        four = -(rhs[0] * u[0] + rhs[1] * u[1]) / det
+        truth = {"2": two, "3": three, "4": four, "5": five}
+        for link, rate in truth.items():
+            off, bound = abs(answer.rates[link] - rate), answer.errors["rates"][link]
+            assert off <= bound < 1e-12 * abs(rate)
+        x, y = b[0] - vb[1] / three, b[1] + vb[0] / three
+        centre = answer.centres["1", "3"]
+        assert centre.error is not None
+        assert abs(centre.place[0] - x) + abs(centre.place[1] - y) <= centre.error < 1e-12
+    assert all(one.error is not None for one in answer.centres.values())
