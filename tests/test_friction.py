@@ -251,6 +251,7 @@ loads:
     found = held(text, "P")
     assert found.holds == (exactly(120), math.inf)
     assert not found.self_locking
+    assert any("beyond P = -120, where it is about to move too" in note for note in solved(text).notes)
     down = "motion: {point: A, link: 2, speed: 1, angle: 270}\n"
     assert abs(value(text + down, "P")) == exactly(120)
     assert refused(text + down.replace("270", "90")).status == "no-value"
@@ -551,6 +552,22 @@ def test_a_range_without_an_end_says_which_way_it_locks() -> None:
     assert least == exactly(10 / (1 + 2 * 0.4 * 0.6 / 0.47))
     assert most == math.inf
     assert any("no value of P above the range moves it" in note for note in answer.notes)
+
+
+def test_a_push_within_the_angle_of_friction_locks_both_ways() -> None:
+    """Q + P cos(a) = mu |P sin(a)| with both signs of P: it holds below the one value, above the other."""
+    answer = solved("""
+points: {C: [0, 0]}
+joints:
+  - {slide: [2, 1], at: C, along: 0, mu: 0.5}
+loads:
+  P: {force: unknown, link: 2, at: C, angle: 280}
+  Q: {force: 5, link: 2, at: C, angle: 0}
+""")
+    cosine, sine = math.cos(math.radians(80)), math.sin(math.radians(80))
+    assert answer.answers["P"].holds == (-math.inf, exactly(-5 / (cosine + 0.5 * sine)))
+    other = 5 / (0.5 * sine - cosine)
+    assert any(f"beyond P = {other:.6g}, where it is about to move too" in note for note in answer.notes)
 
 
 def test_friction_of_a_pulley_s_bearing_hangs_on_the_belt_s_tension() -> None:

@@ -125,6 +125,15 @@ def test_oscillating_roller_follower_is_a_four_bar_whose_coupler_is_the_common_n
     assert answer.touching[0].pressure_angle == pytest.approx(pressure, abs=1e-9)
 
 
+def test_the_force_in_a_contact_has_the_pressure_angle_of_the_rollers_centre() -> None:
+    answer = solve(swinging(CIRCLE, "{roller: E, radius: 10}"), reactions=True)
+    (touching,), reactions = answer.touching, answer.reactions
+    assert reactions is not None
+    assert touching.pressure_angle is not None
+    assert touching.pressure_angle > 1.0
+    assert dict(reactions["F23"].parts)["pressure angle"] == touching.pressure_angle
+
+
 # --- polygons and arcs ----------------------------------------------------------------------------
 
 SQUARE = "{polygon: [[50, 0], [0, 50], [-50, 0], [0, -50]]}"

@@ -17,6 +17,7 @@ from icsolve.bodies.affine import at, contraction, is_sound
 from icsolve.bodies.continuation import followed, solutions, without_friction
 from icsolve.bodies.equilibrium import Statics
 from icsolve.bodies.reduction import Reduced, reduced
+from icsolve.bodies.roots import all_roots, can_count
 
 PROVEN = "proven: no friction within its limits holds more"
 SEARCHED = "every combination of full friction was tried"
@@ -40,7 +41,8 @@ class Held(NamedTuple):
     """The interval, in case units; infinite where no value moves the mechanism that way.
 
     ``possible`` is the range in which friction within its limits can hold; ``how`` says how that was
-    found: only `PROVEN` is a proof. ``ends`` are those ends at which it is about to move.
+    found: only `PROVEN` is a proof. ``ends`` are those ends at which it is about to move, ``again`` values
+    outside of the interval at which it is so too.
     """
 
     least: float
@@ -49,6 +51,7 @@ class Held(NamedTuple):
     how: str
     self_locking: bool = False
     ends: tuple[End, ...] = ()
+    again: tuple[float, ...] = ()
 
 
 def held(statics: Statics, senses: Sequence[float]) -> Held:
@@ -61,7 +64,23 @@ def held(statics: Statics, senses: Sequence[float]) -> Held:
     unbounded = math.isinf(least) or math.isinf(most)
     locks = unbounded or (least <= 0.0 <= most and least < most)
     about_to_move = tuple(end for end in ends if math.isfinite(end.value))
-    return Held(least, most, *_possible(statics, senses, (least, most)), locks, about_to_move)
+    possible, how = _possible(statics, senses, (least, most))
+    again = _again(statics, senses, least, most) if unbounded else ()
+    return Held(least, most, possible, how, locks, about_to_move, again)
+
+
+def _again(statics: Statics, senses: Sequence[float], least: float, most: float) -> tuple[float, ...]:
+    """Values outside of a range without end at which the mechanism is about to move too.
+
+    A load that locks one way can lock the other way as well, from some value on: the range goes on there.
+    """
+    found = set()
+    for direction in (1.0, -1.0):
+        equations = reduced(statics, [direction * s for s in senses])
+        if equations is not None and can_count(equations.equations):
+            found |= {equations.load(y)[0] / statics.scale for y in all_roots(equations.equations)}
+    room = 1e-9 * max((abs(end) for end in (least, most) if math.isfinite(end)), default=0.0)
+    return tuple(sorted(value for value in found if value < least - room or value > most + room))
 
 
 def _possible(

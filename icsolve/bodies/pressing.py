@@ -52,7 +52,9 @@ def pressed(statics: Statics, senses: Sequence[float]) -> Held:
         )
     least, most = max(holding, key=lambda pair: (pair[1] == math.inf, pair[1]))
     both = (least / statics.scale, most / statics.scale)
-    return Held(*both, both, SAID)
+    others = {end / statics.scale for pair in holding if pair != (least, most) for end in pair}
+    again = sorted(end for end in others if math.isfinite(end) and end not in both)
+    return Held(*both, both, SAID, again=tuple(again))
 
 
 def _between(a: float, b: float) -> float:

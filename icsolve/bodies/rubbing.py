@@ -126,6 +126,8 @@ def said_at_rest(root: str, found: Held) -> Sequence[str]:
         notes.append(f"no value of {root} above the range moves it, however large: it locks that way.")
     elif math.isinf(found.least):
         notes.append(f"no value of {root} below the range moves it, however large: it locks that way.")
+    for value in found.again:
+        notes.append(f"beyond {root} = {value:.6g}, where it is about to move too, it may hold again.")
     for end, more in zip((found.least, found.most), found.possible, strict=True):
         if end != more and abs(end - more) > 1e-9 * max(abs(end), abs(more)):
             notes.append(

@@ -36,6 +36,7 @@ def solve_touching(case: Case, **options: Any) -> Answer:
         skipped=tuple(name for name in answer.skipped if name not in known.used),
         notes=(*answer.notes, *_notes(touching, bool(options.get("reactions")))),
         touching=touching,
+        reactions=_with_pressure_angles(answer.reactions, known.case, touching),
     )
 
 
@@ -68,13 +69,30 @@ def pressed(one: Touching, case: Case, reactions: Reactions | None) -> Touching:
     """A contact with its normal force, where the reactions determine it."""
     if reactions is None:
         return one
-    hidden = next(j.at for j in case.joints if isinstance(j, Contact) and j.links == one.links)
-    force = None
-    for name in names_of(*one.links, hidden):
-        if name in reactions:
-            force = dict(reactions[name].parts).get("normal")
-            break
+    name = _name(one, case, reactions)
+    force = dict(reactions[name].parts).get("normal") if name else None
     return one._replace(force=force, lost=force is not None and force < 0.0)
+
+
+def _name(one: Touching, case: Case, reactions: Reactions) -> str | None:
+    """The name of the force in a contact, None where there is none."""
+    hidden = next(j.at for j in case.joints if isinstance(j, Contact) and j.links == one.links)
+    return next((name for name in names_of(*one.links, hidden) if name in reactions), None)
+
+
+def _with_pressure_angles(
+    reactions: Reactions | None, case: Case, touching: tuple[Touching, ...]
+) -> Reactions | None:
+    """The reactions with each contact's own pressure angle: of a roller that of its centre, not of its rim."""
+    if reactions is None:
+        return None
+    found = Reactions(reactions)
+    for one in touching:
+        if name := _name(one, case, reactions):
+            angle = () if one.pressure_angle is None else (("pressure angle", one.pressure_angle),)
+            others = tuple(part for part in found[name].parts if part[0] != "pressure angle")
+            found[name] = found[name]._replace(parts=(*others, *angle))
+    return found
 
 
 def _notes(touching: tuple[Touching, ...], reactions: bool) -> tuple[str, ...]:
