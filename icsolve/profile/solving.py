@@ -83,7 +83,7 @@ def _name(one: Touching, case: Case, reactions: Reactions) -> str | None:
 def _with_pressure_angles(
     reactions: Reactions | None, case: Case, touching: tuple[Touching, ...]
 ) -> Reactions | None:
-    """The reactions with each contact's own pressure angle: of a roller that of its centre, not of its rim."""
+    """The reactions with each contact's own pressure angle: of a roller, that of its centre."""
     if reactions is None:
         return None
     found = Reactions(reactions)
