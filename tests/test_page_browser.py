@@ -131,6 +131,30 @@ def test_the_slider_moves_the_crank(name: str, opened: Any) -> None:
     assert len(set(seen)) == 3
 
 
+def test_the_contact_of_a_cam_follows(opened: Any) -> None:
+    """The dot is shown in other positions too, where the sweep has it, to a tenth of a picture unit."""
+    name = "cams/offset_roller_follower.yaml"
+    window, found = opened(page(name)), motion(name)
+    known = known_of(icsolve.load(FILES[name]))
+    view = figure_of(known, needed_steps(known), found).scene.view
+    seen = set()
+    for degrees in (-90, 40, 120):
+        turn(window, degrees)
+        row = int(abs(found.degrees - degrees).argmin())
+        x, y = found.found.touching["2-4"][row]
+        hidden, cx, cy = window.run(
+            """const g = document.querySelector('#mechanism [data-at^="@"]');
+            const box = g.getBBox();
+            const p = new DOMPoint(box.x + box.width / 2, box.y + box.height / 2).matrixTransform(g.getCTM());
+            const q = p.matrixTransform(g.ownerSVGElement.getCTM().inverse());
+            return [g.classList.contains('hidden'), q.x, q.y]"""
+        )
+        assert not hidden
+        assert (cx, cy) == pytest.approx(view.at((x, y)), abs=0.3)
+        seen.add((cx, cy))
+    assert len(seen) == 3
+
+
 @pytest.mark.parametrize("name", DRIVEN)
 def test_the_number_is_that_of_solve(name: str, opened: Any) -> None:
     """Six digits, unit and sense, of each position solved as a case of its own."""

@@ -284,3 +284,13 @@ def test_follower_that_the_frame_does_not_guide_is_refused_by_name() -> None:
     )
     error = refused(load(text), _2=1.0)
     assert error.status == Status.UNSUPPORTED and "guided by the frame" in error.message
+
+
+def test_a_sweep_says_where_the_profiles_touch() -> None:
+    """A roller of 10 on a circle of 40: the contact is 40 from the circle's centre, 10 from the roller's."""
+    found = sweep(CAMS["roller on a circle"], drive={"2": TURN}, want=("points", "status"))
+    (places,) = found.touching.values()
+    assert (found.status == "ok").all()
+    np.testing.assert_allclose(np.linalg.norm(places - found.points["C"], axis=1), R, atol=1e-9)
+    np.testing.assert_allclose(np.linalg.norm(places - found.points["B"], axis=1), ROLLER, atol=1e-9)
+    assert sweep(CAMS["roller on a circle"], drive={"2": TURN}).touching == {}

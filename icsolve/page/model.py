@@ -85,11 +85,21 @@ def motion_data(known: Known, view: View, motion: Motion) -> dict[str, Any]:
         "links": _links(known, view, motion, rows),
         "points": {
             name: _place(view, column[rows, 0], column[rows, 1])
-            for name, column in motion.found.points.items()
+            for name, column in {**motion.found.points, **_contacts(known, motion, rows)}.items()
             if moves(column[rows, 0] * view.scale, FINE["px"])
             or moves(column[rows, 1] * view.scale, FINE["px"])
         },
     }
+
+
+def _contacts(known: Known, motion: Motion, rows: slice) -> dict[str, Array]:
+    """Where profiles touch in every row, by the hidden point that the figure has there."""
+    found = {}
+    for pair, places in motion.found.touching.items():
+        names = [name for name in known.points if name.startswith(f"@{pair}.")]
+        if len(names) == 1 and np.isfinite(places[rows]).all():
+            found[names[0]] = places
+    return found
 
 
 def _round(value: float) -> float:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -11,6 +12,7 @@ from icsolve.answer import Answer
 from icsolve.answer.contacts import Touching
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
+from icsolve.plane import Point
 from icsolve.power import is_unknown
 from icsolve.profile.course import Course, Rows
 from icsolve.profile.lift import Turn
@@ -20,6 +22,7 @@ from icsolve.solve import solve
 from icsolve.turn.ask import Columns, Wanted
 from icsolve.turn.numbers import with_numbers
 from icsolve.turn.program import Asked, setting_of
+from icsolve.turn.replay import Array
 from icsolve.turn.runner import Rows as Which
 from icsolve.turn.scenes import Table
 from icsolve.turn.swept import Sweep
@@ -42,15 +45,24 @@ class _Seen:
     def __init__(self) -> None:
         self.widest: dict[tuple[str, ...], tuple[float, int]] = {}
         self.lost: dict[tuple[str, ...], list[int]] = {}
+        self.at: dict[tuple[str, ...], dict[int, Point]] = {}
 
     def take(self, row: int, touching: Iterable[Touching]) -> None:
         """Note a row's contacts."""
         for one in touching:
+            self.at.setdefault(one.links, {})[row] = one.at
             angle = one.pressure_angle
             if angle is not None and angle > self.widest.get(one.links, (-1.0, 0))[0]:
                 self.widest[one.links] = (angle, row)
             if one.lost:
                 self.lost.setdefault(one.links, []).append(row)
+
+    def places(self, count: int) -> dict[str, Array]:
+        """Where the contacts are in all rows."""
+        found = {"-".join(links): np.full((count, 2), np.nan) for links in self.at}
+        for links, rows in self.at.items():
+            found["-".join(links)][list(rows)] = list(rows.values())
+        return found
 
     def notes(self, columns: Columns) -> Iterator[str]:
         """Sentences about them."""
@@ -84,7 +96,8 @@ def sweep_touching(case: Case, columns: Columns, wanted: Wanted) -> Sweep:
         return part.run.case_of(at) if part.run else _written(part.case, columns, row)
 
     shown = {columns.names[own]: array for own, array in columns.arrays.items()}
-    return table.sweep(case, shown, wanted.error, notes, case_of)
+    swept = table.sweep(case, shown, wanted.error, notes, case_of)
+    return replace(swept, touching=seen.places(columns.rows)) if wanted.asked.points else swept
 
 
 def _moving(course: Course, columns: Columns) -> set[str]:

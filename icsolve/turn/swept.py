@@ -31,6 +31,8 @@ class Sweep:
     centres : relative centres as homogeneous coordinates, (n, 3): (x, y, w) at (x/w, y/w), at infinity
         toward (x, y) where w is zero; all zero where the two links have no relative motion
     rates : angular velocities of the links, (n,) [rad/s, or scaled as in one scene]
+    touching : with profiles and where points were wanted, the places of the contacts by their two links
+        (``2-3``), (n, 2) [case length]; not a number where the status is another than ok
     holds : with friction and no motion, the ranges in which unknown loads hold, (n, 2)
     notes : sentences about the sweep
     """
@@ -43,6 +45,7 @@ class Sweep:
     rates: dict[str, Array] = field(default_factory=dict)
     errors: dict[str, dict[str, Array]] = field(default_factory=dict)
     holds: dict[str, Array] = field(default_factory=dict)
+    touching: dict[str, Array] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     codes: Codes = field(default_factory=lambda: np.empty(0, np.int8))
     _case_of: Callable[[int], Case] | None = None

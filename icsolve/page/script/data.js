@@ -54,7 +54,7 @@ function carried([link, x, y], r) {
   const dy = y - pose.from[1];
   return [pose.x[r] + Math.cos(a) * dx + Math.sin(a) * dy, pose.y[r] - Math.sin(a) * dx + Math.cos(a) * dy];
 }
-/* A hidden point (a contact that a profile placed) is known in the position as written only. */
+/* A hidden point (a contact that a profile placed) that is none of the points is known as written only. */
 const placed = (name, r) => !name.startsWith("@") || r === zero;
 const at = (name, r) => {
   const p = own(points, name);

@@ -18,7 +18,7 @@ function turnOf(name, r) {
 function moveParts(r) {
   for (const [e, l] of turning)
     set(e, "transform", `translate(${f(l.x[r])} ${f(l.y[r])}) rotate(${f(-l.a[r])}) translate(${-l.from[0]} ${-l.from[1]})`);
-  for (const e of contacts) show(e, r === zero);
+  for (const e of contacts) show(e, r === zero || own(points, e.dataset.at));
   for (const [e, p] of following) set(e, "transform", `translate(${f(p.x[r] - p.x[zero])} ${f(p.y[r] - p.y[zero])})`);
   for (const [e, load, name] of pushes) {
     const { way, flip, gone } = turnOf(name, r);
