@@ -5,8 +5,6 @@ within its own, the scene is evaluated again in fifty digits on the file's decim
 the answer or refuses it as too close to singular.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from typing import NamedTuple

@@ -4,8 +4,6 @@ Complete pivoting is backward stable enough to decide ranks of the small systems
 Higham, Accuracy and Stability of Numerical Algorithms, 2002, ch. 9), and needs no numpy.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from icsolve.arithmetic import Scalar

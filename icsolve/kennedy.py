@@ -6,8 +6,6 @@ from the joints, is smallest (a shortest-path search on the estimated error). Wh
 are left the construction has stalled, and a centre from the loop equations lets it go on.
 """
 
-from __future__ import annotations
-
 import heapq
 import math
 from collections.abc import Iterable, Mapping

@@ -5,8 +5,6 @@ wrenches that it transmits do no work on the relative twist of its two bodies. (
 equations on screws: Valderrama-Rodriguez, Rico and others, Robotics 2022, 11(1), 6.)
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 

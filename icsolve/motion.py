@@ -1,8 +1,6 @@
 """All motions that the joints allow: by the plan where one freedom follows group by group, else from
 the loop equations of the whole scene. What is singular, redundant or rigid is said here."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from icsolve.arithmetic import Arithmetic

@@ -5,8 +5,6 @@ number times a unit wrench; its factor for a motion is the pairing of that wrenc
 twist of the bodies between which it acts.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple

@@ -4,8 +4,6 @@ The program of a case (topology, plan, construction of the figure with its branc
 It runs on floats, on numbers that carry their error bound, on arrays of positions, in more digits.
 """
 
-from __future__ import annotations
-
 from functools import lru_cache
 from typing import NamedTuple
 

@@ -4,8 +4,6 @@ The motions form a space with one coefficient per freedom. What the case says of
 combinations of them; what stays open is named as undetermined, never guessed.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple

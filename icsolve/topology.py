@@ -3,8 +3,6 @@
 A bond is one joint between two bodies, with the relative freedoms (1 or 2) that it leaves.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from typing import Any, NamedTuple
 

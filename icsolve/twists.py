@@ -4,8 +4,6 @@ Each group gives a factor D that multiplies all that was known before it, so a d
 virtual input (D = 0) is a value like any other: the bodies before the group then stand still.
 """
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

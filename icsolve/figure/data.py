@@ -4,8 +4,6 @@ A `Datum` refers into its case (by kind and index), so a construction that is ma
 run again on another case of the same shape.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from typing import NamedTuple
 

@@ -1,7 +1,5 @@
 """The normalised frame: an origin among the given points, and a power of two."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -5,8 +5,6 @@ loose links (their distances then serve as lengths); where these stall too, the 
 points that only all their data together determine.
 """
 
-from __future__ import annotations
-
 from collections.abc import Collection
 from typing import NamedTuple
 

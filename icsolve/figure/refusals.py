@@ -1,7 +1,5 @@
 """What a figure can be refused for, in words: the facts of a step that failed, and of data that clash."""
 
-from __future__ import annotations
-
 import math
 from typing import NamedTuple
 

@@ -3,8 +3,6 @@
 A shape is carried by two of its points that are in place, or by one and a known direction in it.
 """
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from icsolve.figure.board import Board, Key

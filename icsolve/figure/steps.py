@@ -1,7 +1,5 @@
 """The steps that place one point from others: a centroid, a length along a direction, two loci."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from icsolve.figure.board import Board, Key

@@ -1,7 +1,5 @@
 """Published values, to compare when the case is solved."""
 
-from __future__ import annotations
-
 from typing import NamedTuple
 
 from icsolve.case import (

@@ -1,7 +1,5 @@
 """The section of loads: each of one kind, with the keys that its kind takes. What reads it, a table says."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from collections.abc import Mapping as Table
 from typing import Generic, NamedTuple, TypeVar
