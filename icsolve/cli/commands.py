@@ -44,6 +44,12 @@ class Verbs(click.Group):
         )
         return command
 
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """The verbs with the whole first sentence of each."""
+        commands = [(name, self.get_command(ctx, name)) for name in VERBS]
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, c.get_short_help_str(limit=200)) for name, c in commands if c])
+
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Put in `solve` where the first word is an option of it or looks like a file."""
         first = args[0] if args else ""
