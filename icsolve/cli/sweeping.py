@@ -48,7 +48,7 @@ class Asked(NamedTuple):
 @click.command("sweep")
 @click.argument("case", metavar="CASE")
 @click.option("--vary", type=Span(), multiple=True, help="A number and its values; several are a product.")
-@click.option("--drive", type=Span(), metavar="LINK=SPAN", multiple=True, help="A link and its degrees: 2=0:360:1.")
+@click.option("--drive", type=Span(), metavar="LINK=SPAN", multiple=True, help="A link, degrees: 2=0:360:1.")
 @OUTPUT
 @click.option("--error", is_flag=True, help="Bounds on the rounding errors of all numbers too.")
 @click.option("--points", is_flag=True, help="The places of the points too.")
