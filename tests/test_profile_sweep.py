@@ -294,3 +294,9 @@ def test_a_sweep_says_where_the_profiles_touch() -> None:
     np.testing.assert_allclose(np.linalg.norm(places - found.points["C"], axis=1), R, atol=1e-9)
     np.testing.assert_allclose(np.linalg.norm(places - found.points["B"], axis=1), ROLLER, atol=1e-9)
     assert sweep(CAMS["roller on a circle"], drive={"2": TURN}).touching == {}
+
+
+def test_progress_is_told_every_row() -> None:
+    told: list[int] = []
+    sweep(CAMS["flat on a circle"], drive={"2": TURN}, progress=told.append)
+    assert sum(told) == len(TURN)

@@ -23,6 +23,7 @@ from icsolve.turn.ask import Columns, Wanted
 from icsolve.turn.numbers import with_numbers
 from icsolve.turn.program import Asked, setting_of
 from icsolve.turn.replay import Array
+from icsolve.turn.runner import Progress
 from icsolve.turn.runner import Rows as Which
 from icsolve.turn.scenes import Table
 from icsolve.turn.swept import Sweep
@@ -76,8 +77,8 @@ class _Seen:
             yield lost_rows(links, len(rows), where(rows[0]))
 
 
-def sweep_touching(case: Case, columns: Columns, wanted: Wanted) -> Sweep:
-    """The sweep of a case with profiles.
+def sweep_touching(case: Case, columns: Columns, wanted: Wanted, progress: Progress | None = None) -> Sweep:
+    """The sweep of a case with profiles; ``progress`` is told each row.
 
     Raises SceneError as `icsolve.sweep`, and where a follower cannot be followed.
     """
@@ -88,6 +89,8 @@ def sweep_touching(case: Case, columns: Columns, wanted: Wanted) -> Sweep:
         parts.append(part)
         for n, row in enumerate(part.rows.tolist()):
             _fill(table, part, n, row, columns, seen)
+            if progress is not None:
+                progress(1)
     notes = (SAID, *(one.note for one in first.touching if one.note), *seen.notes(columns))
 
     def case_of(row: int) -> Case:

@@ -69,7 +69,7 @@ def sweep(
     if case.profiles is not None and case.profiles.touches:
         from icsolve.profile.sweeping import sweep_touching
 
-        return sweep_touching(case, columns, wanted)
+        return sweep_touching(case, columns, wanted, progress)
     start = start_of(case, columns, _told(case, wanted.asked))
     if start.one_by_one:
         return _family(start, columns, wanted, progress)
