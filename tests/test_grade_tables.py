@@ -126,6 +126,13 @@ def test_moodle_questions_without_a_map_are_asked_for(a_class: Class) -> None:
     assert "--map" in ran.err
 
 
+def test_a_mapped_column_that_is_missing_is_named_with_the_way_out(a_class: Class) -> None:
+    ran = a_class.grade("student_id,case,answer\n7,lever,200\n", "--map", "student_id=Email Address")
+    assert ran.code == 2
+    assert "there is no column 'Email Address' for student_id" in ran.err
+    assert "leave it out" in ran.err
+
+
 def test_google_forms(a_class: Class) -> None:
     ran = a_class.grade(
         'Timestamp,Email Address,Score,"lever: What is T in N*m?",Your name\n'

@@ -83,6 +83,10 @@ class Columns:
             return
         question = self.find(right)
         if question is None:
+            if left in FIELDS:
+                raise HeaderError(
+                    f"there is no column '{right}' for {left}; leave it out to take the column '{left}'"
+                )
             raise HeaderError(f"there is no case '{right}' for the column '{left}'")
         self.questions[self._one(left)] = question
 
