@@ -7,8 +7,8 @@ import random
 import time
 from pathlib import Path
 
+from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
-from icsolve.grade.shelf import Shelf
 
 CASES = Path(__file__).parent.parent / "cases"
 CHOSEN = (
@@ -22,8 +22,8 @@ CHOSEN = (
 
 def questions(count: int = 25) -> list[tuple[str, float, str]]:
     """Cases with their answers and units."""
-    shelf = Shelf(CASES, Course())
-    keys = [shelf.key(name) for name in " ".join(CHOSEN).split()[:count]]
+    case_store = CaseStore(CASES, Course())
+    keys = [case_store.key(name) for name in " ".join(CHOSEN).split()[:count]]
     assert len(keys) == count
     return [(key.question, key.value, key.unit_name) for key in keys]  # type: ignore[union-attr]
 
@@ -42,10 +42,10 @@ def write_class(path: Path, students: int, seed: int = 1) -> int:
                 factor = rng.choice(wrong) if rng.random() < 0.35 else 1.0
                 answer = value * factor * (1.0 + rng.uniform(-0.004, 0.004))
                 text = f"{answer:.5g} {unit}" if rng.random() < 0.9 else f"{answer:.4e}"
-                moment = (
+                timestamp = (
                     f"2025-03-{rng.randrange(1, 29):02d}T{rng.randrange(24):02d}:{rng.randrange(60):02d}:00"
                 )
-                rows.writerow([student, case, text, rng.randrange(1, 4), moment])
+                rows.writerow([student, case, text, rng.randrange(1, 4), timestamp])
     return students * len(asked)
 
 

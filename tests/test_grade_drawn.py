@@ -11,10 +11,10 @@ import pytest
 import icsolve
 from grade_shell import PRESS, Class
 from icsolve.case import LoadIs
-from icsolve.grade import drawn
+from icsolve.grade import tolerance as drawn
+from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.keys import Key
-from icsolve.grade.shelf import Shelf
 
 
 @pytest.fixture
@@ -27,7 +27,7 @@ DRAWN = "tolerance: {drawing: 0.01 in}\n"
 
 def widths(a_class: Class, question: str) -> tuple[float, float]:
     """The right value of a question of the press, and half the width of its band."""
-    key = Shelf(a_class.path("cases"), Course()).key(question)
+    key = CaseStore(a_class.path("cases"), Course()).key(question)
     return (key.value if isinstance(key, Key) else math.hypot(*key.place)), key.half
 
 

@@ -10,7 +10,7 @@ import pytest
 import icsolve
 from cams import sliding, table
 from grade_shell import CASES
-from icsolve.grade.out.given import given
+from icsolve.grade.platforms.given import given
 from icsolve.turn.numbers import numbers_of
 
 

@@ -9,12 +9,11 @@ import pytest
 
 import icsolve
 from grade_shell import CASES, Class
+from icsolve.grade.case_store import CaseStore, solved
 from icsolve.grade.course import Course
 from icsolve.grade.keys import Key
-from icsolve.grade.malrules import CODES, Wrong, Wrongs, message, wrong_answers
-from icsolve.grade.malrules.centres import shares
-from icsolve.grade.shelf import Shelf
-from icsolve.grade.solved import solved
+from icsolve.grade.mistakes import CODES, Wrong, Wrongs, message, wrong_answers
+from icsolve.grade.mistakes.engine import shares
 
 CAM = """\
 icsolve: 1
@@ -129,8 +128,8 @@ def test_a_size_without_a_sign_is_looked_up_in_both_senses(a_class: Class) -> No
 def test_wrong_answers_wait_until_they_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
     """A right answer costs one solution of the case."""
     calls: list[str] = []
-    monkeypatch.setattr("icsolve.grade.solved.wrong_answers", lambda answer: calls.append("made") or {})
-    key = Shelf(CASES, Course()).key("13_08_four_bar")
+    monkeypatch.setattr("icsolve.grade.case_store.wrong_answers", lambda answer: calls.append("made") or {})
+    key = CaseStore(CASES, Course()).key("13_08_four_bar")
     assert isinstance(key, Key)
     assert calls == []
     assert key.wrongs.near(5.0) == ()

@@ -18,9 +18,9 @@ from xml.etree import ElementTree
 import pytest
 
 from grade_shell import CASES, PRESS, Class
+from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.keys import Key
-from icsolve.grade.shelf import Shelf
 
 ANSWERS = (
     "student_id,case,answer\n"
@@ -146,7 +146,7 @@ def test_the_autograder_gives_each_student_the_key_of_their_variant(a_class: Cla
     base = tmp_path / "autograder"
     with zipfile.ZipFile(archive) as zipped:
         zipped.extractall(base / "source")
-    key = Shelf(cases, Course(seed="it's 2025")).key("press", "0017")
+    key = CaseStore(cases, Course(seed="it's 2025")).key("press", "0017")
     assert isinstance(key, Key)
     (base / "submission").mkdir()
     (base / "submission" / "answers.csv").write_text(f"case,answer\npress,{key.value:.6g}\n")

@@ -11,8 +11,7 @@ from xml.etree import ElementTree
 import pytest
 
 from grade_shell import Class
-from icsolve.grade.chart import histogram
-from icsolve.grade.page import _STYLE
+from icsolve.grade.page import _STYLE, histogram
 from icsolve.grade.tally import Counts
 
 SVG = "{http://www.w3.org/2000/svg}"

@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from icsolve.grade.written import Reader
-from icsolve.grade.written.place import read_place
+from icsolve.grade.written.answer import read_place
 
 CORPUS = Path(__file__).parent / "data" / "answers.tsv"
 

@@ -12,12 +12,11 @@ import pytest
 import yaml
 
 from icsolve.cli import main
-from icsolve.grade.course import read_course
-from icsolve.grade.course.reading import _COURSE, _POLICY
+from icsolve.grade.course import _COURSE, _POLICY, read_course
 from icsolve.grade.judge import VERDICTS
-from icsolve.grade.malrules import CODES
-from icsolve.grade.out.export import KINDS as QUESTIONS
-from icsolve.grade.out.write import KINDS as OUTPUTS
+from icsolve.grade.mistakes import CODES
+from icsolve.grade.platforms.export import KINDS as QUESTIONS
+from icsolve.grade.platforms.write import KINDS as OUTPUTS
 from icsolve.grade.results import HEADER
 from icsolve.grade.written import Reader
 

@@ -13,9 +13,9 @@ import pytest
 
 from grade_bench import CASES, write_class
 from grade_shell import PRESS, Class
-from icsolve.grade.moments import moment
 from icsolve.grade.run import Job, Sinks, grade
 from icsolve.grade.store import Store
+from icsolve.grade.timestamps import timestamp
 
 
 @pytest.fixture
@@ -64,7 +64,7 @@ def test_times_tell_where_attempts_have_no_numbers(a_class: Class) -> None:
     ],
 )
 def test_the_times_that_platforms_write(text: str, iso: str) -> None:
-    assert moment(text) == datetime.fromisoformat(f"{iso}+00:00").timestamp()
+    assert timestamp(text) == datetime.fromisoformat(f"{iso}+00:00").timestamp()
 
 
 def test_rows_that_nothing_tells_apart_are_listed(a_class: Class) -> None:

@@ -13,10 +13,10 @@ import pytest
 
 from grade_bench import CASES, floor, write_class
 from grade_shell import PRESS
+from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.judge import judge
 from icsolve.grade.keys import Key
-from icsolve.grade.shelf import Shelf
 from icsolve.grade.written import Reader
 
 FULL = bool(os.environ.get("ICSOLVE_FULL"))
@@ -50,8 +50,8 @@ def test_judging_alone_takes_at_most_five_times_the_reading(table: Path) -> None
     """Reading by Python's csv, and float on the numbers; no verdict is remembered."""
     with open(table, encoding="utf-8", newline="") as file:
         rows = list(csv.reader(file))[1:]
-    shelf, reader = Shelf(CASES, Course()), Reader()
-    keys = {name: shelf.key(name) for name in {row[1] for row in rows}}
+    case_store, reader = CaseStore(CASES, Course()), Reader()
+    keys = {name: case_store.key(name) for name in {row[1] for row in rows}}
     for key in keys.values():
         assert isinstance(key, Key)
         key.wrongs.near(0.0)

@@ -11,17 +11,16 @@ import pytest
 import icsolve
 from grade_shell import PRESS
 from icsolve.errors import IcsolveError
+from icsolve.grade.case_store import Solved
 from icsolve.grade.course import Course
 from icsolve.grade.judge import judge
 from icsolve.grade.keys import Key
-from icsolve.grade.people import Person
-from icsolve.grade.solved import Solved
+from icsolve.grade.roster import Person
 from icsolve.grade.variants import Varied
-from icsolve.grade.variants.family import Family
+from icsolve.grade.variants.family import Family, UnsuitedError, as_written
 from icsolve.grade.variants.sheets import Task, key_csv, tasks
-from icsolve.grade.variants.suitable import looked_at
 from icsolve.grade.variants.together import look
-from icsolve.grade.variants.written import UnsuitedError, as_written
+from icsolve.grade.variants.varied import looked_at
 from icsolve.grade.written import Reader
 from icsolve.turn.numbers import with_numbers
 

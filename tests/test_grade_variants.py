@@ -10,8 +10,8 @@ import pytest
 import icsolve
 from grade_shell import PRESS, Class
 from icsolve.case import Variable
+from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
-from icsolve.grade.shelf import Shelf
 from icsolve.grade.variants import Varied, drawn, label
 
 VARIABLES = (Variable("P", start="100", stop="500", step="10"), Variable("a", choices=("1.5", "2", "2.5")))
@@ -25,7 +25,7 @@ def a_class(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Class:
 
 
 def varied(a_class: Class, seed: str = "0") -> Varied:
-    found = Shelf(a_class.path("cases"), Course(seed=seed)).variation("press")
+    found = CaseStore(a_class.path("cases"), Course(seed=seed)).variation("press")
     assert found is not None
     return found
 
@@ -56,14 +56,14 @@ def test_another_seed_gives_other_values(a_class: Class) -> None:
 
 
 def test_a_key_is_what_the_case_gives_with_those_values(a_class: Class) -> None:
-    shelf = Shelf(a_class.path("cases"), Course())
-    found = shelf.variation("press")
+    case_store = CaseStore(a_class.path("cases"), Course())
+    found = case_store.variation("press")
     assert found is not None
     for n in range(30):
         draw = found.draw(str(n))
         settings = {f"variables.{name}": value for name, value in draw.values.items()}
         answer = icsolve.solve(icsolve.load(a_class.path("cases/press.yaml"), settings))
-        key = shelf.key("press", str(n))
+        key = case_store.key("press", str(n))
         assert key.value == pytest.approx(answer.answers["T12"].value, rel=1e-13)  # type: ignore[union-attr]
 
 

@@ -33,18 +33,19 @@ def export_command(kind: str, cases: str, output: str, **options: Any) -> int:
     """
     from icsolve.cli.grading import course_file, course_of
     from icsolve.cli.varying import existing
+    from icsolve.grade.case_store import CaseStore
     from icsolve.grade.files import ExistsError, check_free
-    from icsolve.grade.out.export import Order, export
-    from icsolve.grade.shelf import Shelf
+    from icsolve.grade.platforms.export import Order, export
 
     problems: list[str] = []
     try:
-        shelf = Shelf(existing(cases), course_of(options["course"], cases, False, {"seed": options["seed"]}))
+        course = course_of(options["course"], cases, False, {"seed": options["seed"]})
+        case_store = CaseStore(existing(cases), course)
         if kind != "prairielearn":
             check_free(output, options["force"])
         own = options["course"] or course_file(cases)
         drawn = (options["force"], options["figures"], options["count"])
-        made = export(kind, Order(shelf, output, *drawn, own, options["roster"] or ""), problems.append)
+        made = export(kind, Order(case_store, output, *drawn, own, options["roster"] or ""), problems.append)
     except CaseError as error:
         complain(str(error))
         return UNREADABLE

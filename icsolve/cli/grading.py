@@ -91,7 +91,7 @@ def _job(options: dict[str, Any]) -> Job:
     jobs = options["jobs"] or processes()
     student = options["student"] or ""
     if options["metadata"]:
-        from icsolve.grade.tables.alone import student_of
+        from icsolve.grade.tables.hand_ins import student_of
 
         student = student or student_of(options["metadata"])
     submissions = tuple(options["submissions"])
@@ -101,7 +101,7 @@ def _job(options: dict[str, Any]) -> Job:
 def _check_kinds(options: dict[str, Any]) -> None:
     """Raises ValueError for a kind of output that there is not, FileNotFoundError for a template."""
     if options["writes"]:
-        from icsolve.grade.out.write import check_kind
+        from icsolve.grade.platforms.write import check_kind
 
         for kind in _pairs(options["writes"]):
             check_kind(kind)
@@ -234,8 +234,8 @@ def _further(graded: Graded, job: Job, results: str, options: dict[str, Any]) ->
     """The files for platforms, made from the results."""
     if not options["writes"]:
         return
-    from icsolve.grade.out.write import Order, write
-    from icsolve.grade.people import read_roster
+    from icsolve.grade.platforms.write import Order, write
+    from icsolve.grade.roster import read_roster
 
     wanted = _pairs(options["writes"])
     people = read_roster(job.roster, lambda line, why: None).people if job.roster and wanted else {}

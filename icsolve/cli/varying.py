@@ -15,8 +15,8 @@ from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain
 from icsolve.errors import CaseError
 
 if TYPE_CHECKING:
-    from icsolve.grade.people import Person
-    from icsolve.grade.shelf import Shelf
+    from icsolve.grade.case_store import CaseStore
+    from icsolve.grade.roster import Person
     from icsolve.grade.variants import Varied
     from icsolve.grade.variants.sheets import Task
 
@@ -52,15 +52,15 @@ def variants_command(
     computes each student's key again. Exit status: 1 where a student has no variant that suits.
     """
     from icsolve.cli.grading import course_of
+    from icsolve.grade.case_store import CaseStore
     from icsolve.grade.files import ExistsError
-    from icsolve.grade.people import read_roster
-    from icsolve.grade.shelf import Shelf
+    from icsolve.grade.roster import read_roster
     from icsolve.grade.tables import HeaderError
 
     try:
-        shelf = Shelf(existing(cases), course_of(course, cases, quiet, {"seed": seed}))
+        case_store = CaseStore(existing(cases), course_of(course, cases, quiet, {"seed": seed}))
         people = read_roster(roster, lambda line, why: complain(f"{roster}:{line}: {why}"))
-        return _all(shelf, list(people.people.values()), output, figures, force, quiet)
+        return _all(case_store, list(people.people.values()), output, figures, force, quiet)
     except CaseError as error:
         complain(str(error))
     except (ExistsError, HeaderError, ValueError) as error:
@@ -77,15 +77,17 @@ def existing(cases: str) -> str:
     return cases
 
 
-def _all(shelf: Shelf, people: list[Person], output: str, figures: bool, force: bool, quiet: bool) -> int:
+def _all(
+    case_store: CaseStore, people: list[Person], output: str, figures: bool, force: bool, quiet: bool
+) -> int:
     code, some = DONE, False
-    for name in sorted(shelf.paths):
-        varied = shelf.variation(name)
+    for name in sorted(case_store.paths):
+        varied = case_store.variation(name)
         if varied is not None:
             some = True
             code = max(code, _one(varied, people, os.path.join(output, name), figures, force, quiet))
-        elif "$" in _text(shelf.paths[name]):
-            code = max(code, _unreadable(shelf, name))
+        elif "$" in _text(case_store.paths[name]):
+            code = max(code, _unreadable(case_store, name))
     if not some:
         complain(
             "icsolve variants: no case has variables, as in `variables: {P: {range: [100, 500], step: 10}}`"
@@ -99,11 +101,11 @@ def _text(path: str) -> str:
         return file.read()
 
 
-def _unreadable(shelf: Shelf, name: str) -> int:
-    from icsolve.grade.keys import NoKeyError
+def _unreadable(case_store: CaseStore, name: str) -> int:
+    from icsolve.grade.tolerance import NoKeyError
 
     try:
-        shelf.solved(name)
+        case_store.solved(name)
     except NoKeyError as error:
         complain(str(error))
         return UNREADABLE
@@ -113,7 +115,7 @@ def _unreadable(shelf: Shelf, name: str) -> int:
 def _one(varied: Varied, people: list[Person], folder: str, figures: bool, force: bool, quiet: bool) -> int:
     """One case: values and key of all students, then figures and sheets."""
     from icsolve.grade.files import check_free, write_whole
-    from icsolve.grade.keys import NoKeyError
+    from icsolve.grade.tolerance import NoKeyError
     from icsolve.grade.variants.sheets import key_csv, tasks, values_csv
 
     paths = [os.path.join(folder, name) for name in ("values.csv", "key.csv")]

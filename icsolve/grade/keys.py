@@ -3,36 +3,120 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from typing import NamedTuple
 
 from icsolve.answer import Answer
 from icsolve.case import (
     CentreIs,
+    Force,
+    ForceVector,
+    Load,
     LoadIs,
     RateIs,
     ReactionIs,
+    Spring,
     Target,
+    Torque,
+    Toward,
+    Weight,
 )
 from icsolve.check import value_of
 from icsolve.grade.course import Policy
-from icsolve.grade.malrules import Wrong, Wrongs
-from icsolve.grade.scales import (
+from icsolve.grade.mistakes import Wrong, Wrongs
+from icsolve.grade.mistakes.changed import Place, heading_of, place_of
+from icsolve.grade.tolerance import (
     OF_LOADS,
     TRUE_ZERO,
     NoKeyError,
     from_middle,
+    half_width,
+    in_words,
     own_width,
     parsed_unit,
+    range_in_words,
     size_of,
     unit_of_target,
     width_of,
     zero_width,
 )
-from icsolve.grade.senses import Senses, senses_of
-from icsolve.grade.tolerance import half_width, in_words, range_in_words
 from icsolve.grade.written import Direction, UnitWord, factors_between
 from icsolve.units import Unit, UnitError
+
+_SQUARE = 5.0
+"""Degrees: words this near to square to the answer say neither way."""
+_ROUNDING = 1e-6
+"""Degrees: 45 is within 45."""
+
+Places = tuple[Place | None, Mapping[str, Place]]
+
+WITH, AGAINST, NEITHER = 1, -1, 0
+
+
+class ExpectedDirection(NamedTuple):
+    """What a positive value means in words.
+
+    ``turn``: +1 ccw, -1 cw, 0 where it does not turn; ``heading``: degrees ccw from +x, None where it has
+    none; ``axial``: +1 pull, -1 push, 0 for neither; ``places`` tells where it acts and where the points
+    are, when ``toward A`` asks for it.
+    """
+
+    turn: float = 0.0
+    heading: float | None = None
+    axial: float = 0.0
+    places: Callable[[], Places] = lambda: (None, {})
+
+    @property
+    def any(self) -> bool:
+        """Whether the answer has a direction at all."""
+        return bool(self.turn or self.axial or self.heading is not None)
+
+    def sign(self, words: Direction, within: float) -> int | None:
+        """``WITH`` or ``AGAINST`` the positive sense, ``NEITHER``; None where a person must look."""
+        if words.kind == "turn":
+            return int(words.value * self.turn)
+        if words.kind == "axial" and self.axial:
+            return int(words.value * self.axial)
+        if words.kind == "axial":
+            return None if self.heading is not None or self.turn else NEITHER
+        degrees = self._degrees(words)
+        if self.heading is None:
+            return NEITHER
+        return _compared(degrees - self.heading, within) if degrees is not None else None
+
+    def _degrees(self, words: Direction) -> float | None:
+        """A direction in words as degrees; None for a point that the case does not have."""
+        if words.kind == "line":
+            return words.value
+        at, points = self.places()
+        there = points.get(words.name)
+        if there is None or at is None or there == at:
+            return None
+        degrees = math.degrees(math.atan2(there[1] - at[1], there[0] - at[0]))
+        return degrees + (180.0 if words.kind == "away" else 0.0)
+
+
+def _compared(difference: float, within: float) -> int | None:
+    off = abs(math.remainder(difference, 360.0))
+    if off <= within + _ROUNDING:
+        return WITH
+    if off >= 180.0 - within - _ROUNDING:
+        return AGAINST
+    return None if abs(off - 90.0) <= _SQUARE + _ROUNDING else NEITHER
+
+
+def expected_direction(load: Load, answer: Answer) -> ExpectedDirection:
+    """The senses of a load's positive value."""
+    if isinstance(load, Torque):
+        return ExpectedDirection(turn=-1.0 if load.turns == "cw" else 1.0)
+    if isinstance(load, Spring) or (isinstance(load, Weight) and load.mass):
+        return ExpectedDirection()
+    assert isinstance(load, Force | ForceVector | Weight)
+    axial = 0.0
+    if isinstance(load, Force) and isinstance(load.heading, Toward):
+        axial = -1.0 if load.heading.away else 1.0
+    heading = heading_of(load, answer)
+    return ExpectedDirection(0.0, heading, axial, lambda: (place_of(load.at, answer), answer.points))
 
 
 class Key(NamedTuple):
@@ -47,7 +131,7 @@ class Key(NamedTuple):
     unit_name: str
     unit: Unit
     half: float
-    senses: Senses
+    expected: ExpectedDirection
     wrongs: Wrongs
     policy: Policy
     accepted: str
@@ -74,7 +158,7 @@ class Key(NamedTuple):
         if words is None:
             return 1
         if words.words not in self.signs:
-            self.signs[words.words] = self.senses.sign(words, self.policy.within)
+            self.signs[words.words] = self.expected.sign(words, self.policy.within)
         return self.signs[words.words]
 
 
@@ -120,8 +204,8 @@ def scalar_key(
             f"a drawing accurate to {policy.tolerance.drawing} leaves this answer open, even its sense; give "
             "it a tolerance such as 2%"
         )
-    senses = _senses(target, answer)
-    return _key(question, value, (unit_name, unit), (half, width), senses, policy, wrongs)
+    expected = _expected(target, answer)
+    return _key(question, value, (unit_name, unit), (half, width), expected, policy, wrongs)
 
 
 def simple_key(
@@ -129,7 +213,7 @@ def simple_key(
     value: float,
     unit_name: str,
     policy: Policy,
-    senses: Senses,
+    expected: ExpectedDirection,
     wrongs: Callable[[], Iterable[Wrong]],
 ) -> Key:
     """The key of a value other than zero, without a tolerance from the drawing.
@@ -139,7 +223,7 @@ def simple_key(
     unit = parsed_unit(unit_name)
     width = width_of(policy.tolerance, unit, unit_name)
     half = half_width(policy.tolerance, value, width, 0.0)
-    return _key(question, value, (unit_name, unit), (half, width), senses, policy, wrongs)
+    return _key(question, value, (unit_name, unit), (half, width), expected, policy, wrongs)
 
 
 def _key(
@@ -147,17 +231,17 @@ def _key(
     value: float,
     unit: tuple[str, Unit],
     widths: tuple[float, float],
-    senses: Senses,
+    expected: ExpectedDirection,
     policy: Policy,
     wrongs: Callable[[], Iterable[Wrong]],
 ) -> Key:
     """A key with what follows from its value, unit, and half and own width."""
     half, width = widths
     accepted, rule = range_in_words(value, half, unit[0]), in_words(policy.tolerance)
-    plain = _is_plain(policy) and value != 0.0 and senses.any
+    plain = _is_plain(policy) and value != 0.0 and expected.any
     foreseen = Wrongs(wrongs, value, half)
     return Key(
-        question, value, *unit, half, senses, foreseen, policy, accepted, rule, {}, {}, width, plain
+        question, value, *unit, half, expected, foreseen, policy, accepted, rule, {}, {}, width, plain
     )
 
 
@@ -197,13 +281,14 @@ def _is_plain(policy: Policy) -> bool:
     return asked == ("assumed", "signed", False, 0)
 
 
-def _senses(target: Target, answer: Answer) -> Senses:
+def _expected(target: Target, answer: Answer) -> ExpectedDirection:
     if isinstance(target, LoadIs):
-        return senses_of(next(load for load in answer.case.loads if load.name == target.load), answer)
+        load = next(load for load in answer.case.loads if load.name == target.load)
+        return expected_direction(load, answer)
     turning = isinstance(target, RateIs) or (isinstance(target, ReactionIs) and target.part == "moment")
     if isinstance(target, ReactionIs) and target.part in ("x", "y"):
-        return Senses(heading=0.0 if target.part == "x" else 90.0)
-    return Senses(turn=1.0) if turning else Senses()
+        return ExpectedDirection(heading=0.0 if target.part == "x" else 90.0)
+    return ExpectedDirection(turn=1.0) if turning else ExpectedDirection()
 
 
 def place_key(
@@ -247,6 +332,3 @@ def unit_factor(key: AnyKey, unit: Unit) -> float | None:
         return factors_between(unit, key.unit)
     except UnitError:
         return None
-
-
-__all__ = ["AnyKey", "Key", "NoKeyError", "PlaceKey", "place_key", "scalar_key", "scaled_key", "unit_factor"]

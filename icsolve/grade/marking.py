@@ -6,20 +6,19 @@ from collections.abc import Iterable, Iterator
 from itertools import chain, groupby, islice, pairwise
 from operator import itemgetter
 
-from icsolve.grade.carrying import Carrying
+from icsolve.grade.carried_forward import CarriedForward
+from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
-from icsolve.grade.judge import IN_REVIEW, Judgement, feedback, judge
-from icsolve.grade.judge_place import judge_place
-from icsolve.grade.keys import AnyKey, Key, NoKeyError, PlaceKey, unit_factor
-from icsolve.grade.ledger import Ledger
-from icsolve.grade.marked import Marked, Result
-from icsolve.grade.moments import NEVER, attempt_number, moment
-from icsolve.grade.shelf import Shelf
+from icsolve.grade.issues import Issues
+from icsolve.grade.judge import IN_REVIEW, Judgement, feedback, judge, judge_place
+from icsolve.grade.keys import AnyKey, Key, PlaceKey, unit_factor
+from icsolve.grade.results import Marked, Result
 from icsolve.grade.store import Entry
 from icsolve.grade.tally import Counts, Tally
+from icsolve.grade.timestamps import NEVER, attempt_number, timestamp
+from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.written import MISSING, Reader
-from icsolve.grade.written.combined import Combined
-from icsolve.grade.written.place import read_place
+from icsolve.grade.written.answer import Combined, read_place
 
 _MEMORY = 40_000
 """Different answers that are remembered with their verdicts; a class repeats itself."""
@@ -30,14 +29,14 @@ _AT_ONCE = 5000
 
 
 class Marker:
-    """Judges entries; ``shelf`` has the keys."""
+    """Judges entries; ``case_store`` has the keys."""
 
     def __init__(
-        self, shelf: Shelf, course: Course, ledger: Ledger, path: str, questions: Iterable[str]
+        self, case_store: CaseStore, course: Course, issues: Issues, path: str, questions: Iterable[str]
     ) -> None:
-        self.shelf = shelf
+        self.case_store = case_store
         self.course = course
-        self.ledger = ledger
+        self.issues = issues
         self.path = path
         self.questions = frozenset(questions)
         self.combined = Combined(Reader(course.decimal))
@@ -48,7 +47,7 @@ class Marker:
         self.owing: dict[str, list[str]] = {}
         """of each question the first students who gave no answer"""
         self.tally = Tally(self._band)
-        self._carrying = Carrying(shelf, course.reveal, self._once)
+        self._carried_forward = CarriedForward(case_store, course.reveal, self._once)
 
     def results(self, entries: Iterable[Entry], students: Iterable[str] = ()) -> Iterator[Result]:
         """The results of sorted entries, and of sorted ``students`` who may have given none."""
@@ -94,12 +93,12 @@ class Marker:
         """One student's results, with what is missing, in order of the questions."""
         found = [(entry, self._marked(entry)) for entry in chosen]
         if any(":" in entry.item for entry in chosen):
-            found = self._carrying.looked_at(found)
+            found = self._carried_forward.looked_at(found)
         if student:
             self._add_missing(student, found)
         for entry, marked in found:
             marked.count += 1
-            variant = (self._variant(entry) if self.shelf.varied else "") or entry.variant
+            variant = (self._variant(entry) if self.case_store.varied else "") or entry.variant
             yield Result(student, entry.item, variant, entry.attempt, entry.line, marked)
 
     def _add_missing(self, student: str, found: list[tuple[Entry, Marked]]) -> None:
@@ -135,22 +134,22 @@ class Marker:
 
     def _rank(self, entry: Entry) -> tuple[int, float]:
         """By the number of the attempt, then by its time."""
-        time = moment(entry.time)
+        time = timestamp(entry.time)
         if time is None:
             why = "this time can't be read; the order of the rows tells which is last"
-            self.ledger.note(self.path, entry.line, why)
+            self.issues.note(self.path, entry.line, why)
         return attempt_number(entry.attempt), NEVER if time is None else time
 
     def _duplicate(self, before: Entry, entry: Entry) -> None:
         line = entry.line if self.course.attempt == "first" else before.line
         reason = f"the same student answers the same question again; the {self.course.attempt} row counts"
-        self.ledger.note(self.path, line, reason)
+        self.issues.note(self.path, line, reason)
 
     def _marked(self, entry: Entry) -> Marked:
         if entry.trouble:
             return self._troubled(entry, entry.trouble)
         variant = ""
-        if self.shelf.varied:
+        if self.case_store.varied:
             variant = self._variant(entry) + ("!" if self._is_others(entry) else "")
         key = (entry.item, variant, entry.answer, entry.unit, entry.direction)
         found = self._memory.get(key)
@@ -162,7 +161,7 @@ class Marker:
 
     def _variant(self, entry: Entry) -> str:
         """The label of the student's own values; '' where the case has no variables."""
-        return self.shelf.variant_of(entry.item, entry.student)
+        return self.case_store.variant_of(entry.item, entry.student)
 
     def _is_others(self, entry: Entry) -> bool:
         """Whether the answer says that it is to another variant than the student's."""
@@ -194,9 +193,9 @@ class Marker:
         try:
             key = self._key(entry)
         except NoKeyError as error:
-            self.ledger.note(self.path, entry.line, f"not graded: {error}", serious=True)
+            self.issues.note(self.path, entry.line, f"not graded: {error}", serious=True)
             return self._troubled(entry, error.told)
-        if self.shelf.varied and self._is_others(entry):
+        if self.case_store.varied and self._is_others(entry):
             return self._of_another(entry)
         if isinstance(key, PlaceKey):
             return self._place(entry, key)
@@ -210,8 +209,8 @@ class Marker:
         """The key of a question: the student's own, where the case has variables."""
         found = self._keys.get(entry.item)
         if found is None:
-            found = self.shelf.key(entry.item, entry.student)
-            if not self.shelf.variant_of(entry.item, entry.student):
+            found = self.case_store.key(entry.item, entry.student)
+            if not self.case_store.variant_of(entry.item, entry.student):
                 self._keys[entry.item] = found
         return found
 

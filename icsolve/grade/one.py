@@ -5,16 +5,15 @@ from __future__ import annotations
 import os
 from typing import Any
 
+from icsolve.grade.case_store import CaseStore, case_name
 from icsolve.grade.course import Course
-from icsolve.grade.judge import feedback, judge
-from icsolve.grade.judge_place import judge_place
+from icsolve.grade.judge import feedback, judge, judge_place
 from icsolve.grade.keys import AnyKey, Key
-from icsolve.grade.out.given import given
-from icsolve.grade.out.wording import asked, figure
+from icsolve.grade.platforms.given import given
+from icsolve.grade.platforms.questions import asked, figure
 from icsolve.grade.results import number
-from icsolve.grade.shelf import Shelf, case_name
 from icsolve.grade.written import Reader
-from icsolve.grade.written.place import read_place
+from icsolve.grade.written.answer import read_place
 
 
 class Task:
@@ -23,10 +22,10 @@ class Task:
     def __init__(self, path: str | os.PathLike[str], student: str = "", course: Course | None = None) -> None:
         """Raises ValueError where the case can't be read or has no answer."""
         self._course = course or Course()
-        self._shelf = Shelf(path, self._course)
+        self._case_store = CaseStore(path, self._course)
         self._name = case_name(os.fspath(path))
-        self._solved = self._shelf.solved(self._name, student)
-        varied = self._shelf.variation(self._name)
+        self._solved = self._case_store.solved(self._name, student)
+        varied = self._case_store.variation(self._name)
         self.values: dict[str, str] = dict(varied.draw(student).values) if varied is not None else {}
         self._case = varied.read(self.values) if varied is not None else self._solved.case
         self.given = given(self._case)

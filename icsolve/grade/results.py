@@ -1,12 +1,80 @@
-"""The canonical results: ``results.csv`` and JSON Lines."""
+"""The canonical results, ``results.csv`` and JSON Lines: written, and read back for every other form."""
 
 from __future__ import annotations
 
+import csv
 import re
+from collections.abc import Iterator
 from functools import lru_cache
-from typing import Any
+from itertools import groupby
+from typing import Any, NamedTuple
 
-from icsolve.grade.marked import Marked, Result
+from icsolve.grade.judge import Judgement
+from icsolve.grade.written import UnitWord, Written
+
+
+class Marked:
+    """An answer judged: the same for every student who writes the same to the same question.
+
+    ``written`` is its reading, None where there is none, or it is of a ``place`` (in the question's
+    unit; ``place_unit`` as written); ``text`` what the student is told; ``count`` how often it was given.
+    """
+
+    __slots__ = ("count", "item", "judged", "place", "place_unit", "points", "raw", "tail", "text", "written")
+
+    def __init__(
+        self,
+        item: str,
+        raw: str,
+        judged: Judgement,
+        points: float,
+        text: str,
+        written: Written | None = None,
+    ) -> None:
+        self.item = item
+        self.raw = raw
+        self.judged = judged
+        self.points = points
+        self.text = text
+        self.written = written
+        self.place: tuple[float, ...] = ()
+        self.place_unit: UnitWord | None = None
+        self.tail = ""
+        self.count = 0
+
+    @property
+    def value(self) -> float | None:
+        """The number as written."""
+        return self.written.number if self.written is not None else None
+
+    @property
+    def unit(self) -> str:
+        """The unit as written, in plain spelling."""
+        unit = self.written.unit if self.written is not None else self.place_unit
+        return unit.name if unit is not None else ""
+
+    @property
+    def direction(self) -> str:
+        """The direction in words, in plain spelling."""
+        way = self.written.direction if self.written is not None else None
+        return way.words if way is not None else ""
+
+    @property
+    def given(self) -> tuple[float, ...]:
+        """The answer in the question's unit: one number, or the place."""
+        return self.place if self.judged.value is None else (self.judged.value,)
+
+
+class Result(NamedTuple):
+    """One line of the results."""
+
+    student: str
+    item: str
+    variant: str
+    attempt: str
+    line: int
+    marked: Marked
+
 
 HEADER = (
     "student_id,case,variant,attempt,raw_answer,value,unit,direction,verdict,score,max_score,rel_error,code"
@@ -117,3 +185,51 @@ def json_line(result: Result) -> str:
     import json
 
     return json.dumps(record(result), allow_nan=False, ensure_ascii=False) + "\n"
+
+
+NOT_GRADED = "not-graded"
+
+
+class Row(NamedTuple):
+    """One line of ``results.csv``."""
+
+    student_id: str
+    case: str
+    variant: str
+    attempt: str
+    raw_answer: str
+    value: str
+    unit: str
+    direction: str
+    verdict: str
+    score: float
+    max_score: float
+    rel_error: str
+    code: str
+    feedback: str
+
+
+def read_results(path: str) -> Iterator[Row]:
+    """The lines of a results file, in its order; the apostrophes against formulas are taken off again."""
+    csv.field_size_limit(max(csv.field_size_limit(), 2_000_000))
+    with open(path, encoding="utf-8", newline="") as file:
+        lines = csv.reader(file)
+        next(lines)
+        for cells in lines:
+            plain = [_unsafe(cell) for cell in cells]
+            yield Row._make((*plain[:9], float(plain[9]), float(plain[10]), *plain[11:]))
+
+
+def _unsafe(cell: str) -> str:
+    return cell[1:] if cell[:1] == "'" and cell[1:2] in tuple("=+-@\t\r\n") else cell
+
+
+def by_student(path: str, graded: bool = True) -> Iterator[tuple[str, list[Row]]]:
+    """Each student's lines together; with ``graded`` without those that could not be graded."""
+    for student, rows in groupby(read_results(path), key=lambda row: row.student_id):
+        yield student, [row for row in rows if not graded or row.code != NOT_GRADED]
+
+
+def shown(number: float) -> str:
+    """A mark without needless digits."""
+    return f"{number:.10g}"

@@ -4,21 +4,152 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator
-from typing import NamedTuple
+from contextlib import AbstractContextManager, ExitStack, nullcontext
+from typing import IO, NamedTuple
 
+from icsolve.forked import can_fork, started
+from icsolve.grade.case_store import CaseStore, unknowns
 from icsolve.grade.course import Course
-from icsolve.grade.intake import Intake, expand
-from icsolve.grade.keys import Key, NoKeyError
-from icsolve.grade.ledger import Entry as Noted
-from icsolve.grade.ledger import Ledger
-from icsolve.grade.marking import NAMED
-from icsolve.grade.parts import Outcome, Sinks, Work, divided, judged
-from icsolve.grade.people import Roster, read_roster
-from icsolve.grade.questions import unknowns
-from icsolve.grade.results import HEADER
-from icsolve.grade.shelf import Shelf
-from icsolve.grade.store import Store
+from icsolve.grade.importing import Import, expand
+from icsolve.grade.issues import Entry as Noted
+from icsolve.grade.issues import Issues
+from icsolve.grade.keys import Key
+from icsolve.grade.marking import NAMED, Marker
+from icsolve.grade.results import HEADER, json_line, line
+from icsolve.grade.roster import Roster, read_roster
+from icsolve.grade.store import Disk, Entry, Store
 from icsolve.grade.tally import Counts, added
+from icsolve.grade.tolerance import NoKeyError
+
+_WORTH_TWO = 20_000
+"""Answers from which another process pays."""
+_STEP = 5000
+"""Results between two reports of progress."""
+
+
+class Sinks(NamedTuple):
+    """Where results go as they come: CSV and JSON Lines, None for neither."""
+
+    csv: IO[str] | None = None
+    jsonl: IO[str] | None = None
+
+
+class Part(NamedTuple):
+    """The students from ``since`` on, before ``until``; all ``students`` owe answers to ``questions``."""
+
+    questions: tuple[str, ...]
+    students: tuple[str, ...]
+    since: str | None
+    until: str | None
+
+
+class Work(NamedTuple):
+    """What all parts share; ``path`` is the file of answers, for what is noted."""
+
+    course: Course
+    case_store: CaseStore
+    store: Store
+    path: str
+
+
+class Outcome(NamedTuple):
+    """What a part found: counts by question, what is noted, and who gave no answer."""
+
+    counts: dict[str, Counts]
+    notes: list[Noted]
+    owing: dict[str, list[str]]
+
+
+Report = Callable[[int], None]
+
+
+def divided(questions: tuple[str, ...], students: list[str], answers: int, jobs: int) -> list[Part]:
+    """The students in as many ranges as there are processes."""
+    count = jobs if can_fork() and answers >= _WORTH_TWO and len(students) >= 2 * jobs else 1
+    cuts = [len(students) * k // count for k in range(count + 1)]
+    bounds = [None, *(students[cut] for cut in cuts[1:-1]), None]
+    return [
+        Part(questions, tuple(students[cuts[k] : cuts[k + 1]]), bounds[k], bounds[k + 1])
+        for k in range(count)
+    ]
+
+
+def judged(parts: list[Part], work: Work, sinks: Sinks, report: Report) -> list[Outcome]:
+    """Judge all parts; their results go to the sinks one after the other.
+
+    Raises RuntimeError where a process failed.
+    """
+    report(0)
+    if len(parts) == 1:
+        return [_judge(parts[0], work, work.store.sorted(), sinks, report)]
+    from tempfile import TemporaryDirectory
+
+    first, *others = parts
+    _foresee(first.questions, work.case_store)
+    entries = work.store.sorted(None, first.until)
+    with TemporaryDirectory(prefix="icsolve-grade-") as folder:
+        files = [_files(folder, n, sinks) for n in range(len(others))]
+        calls = [(_apart, (part, work, names)) for part, names in zip(others, files, strict=True)]
+        with started(calls) as waiting:
+            own = _judge(first, work, entries, sinks, report)
+            outcomes = [own, *waiting()]
+        for names in files:
+            for sink, name in zip(sinks, names, strict=True):
+                _append(sink, name)
+    return outcomes
+
+
+def _foresee(questions: tuple[str, ...], case_store: CaseStore) -> None:
+    """Compute all wrong answers now, once for all processes; what is there is not looked at for garbage."""
+    import gc
+
+    for question in questions:
+        key = case_store.key(question)
+        if isinstance(key, Key):
+            key.wrongs.near(0.0)
+    gc.freeze()
+
+
+def _files(folder: str, n: int, sinks: Sinks) -> tuple[str, ...]:
+    """The files of a part's own results; '' for a sink that there is not."""
+    return tuple(os.path.join(folder, f"{n}-{k}") if sink is not None else "" for k, sink in enumerate(sinks))
+
+
+def _append(sink: IO[str] | None, name: str) -> None:
+    if sink is not None:
+        with open(name, encoding="utf-8", newline="") as file:
+            while block := file.read(1 << 20):
+                sink.write(block)
+
+
+def _apart(part: Part, work: Work, names: tuple[str, ...]) -> Outcome:
+    """Judge a part in a process of its own, which must not use its parent's database."""
+    disk = Disk(work.store.path) if work.store.path else None
+    entries = (disk or work.store).sorted(part.since, part.until)
+    with ExitStack() as stack:
+        if disk is not None:
+            stack.callback(disk.close)
+        files = [stack.enter_context(_opened(name)) for name in names]
+        return _judge(part, work, entries, Sinks(*files), lambda n: None)
+
+
+def _opened(name: str) -> AbstractContextManager[IO[str] | None]:
+    return open(name, "w", encoding="utf-8", newline="") if name else nullcontext()
+
+
+def _judge(part: Part, work: Work, entries: Iterator[Entry], sinks: Sinks, report: Report) -> Outcome:
+    """Judge sorted entries."""
+    issues = Issues()
+    marker = Marker(work.case_store, work.course, issues, work.path, part.questions)
+    csv, jsonl = sinks
+    for n, result in enumerate(marker.results(entries, part.students), 1):
+        if not n % _STEP:
+            report(n)
+        if csv is not None:
+            csv.write(line(result))
+        if jsonl is not None:
+            jsonl.write(json_line(result))
+    return Outcome(marker.counted(), list(issues.entries()), marker.owing)
 
 
 class Job(NamedTuple):
@@ -75,31 +206,31 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
 
     Raises HeaderError, ValueError or OSError where a file can't be used at all.
     """
-    ledger = Ledger()
-    shelf = Shelf(job.cases, job.course)
-    if not shelf.paths:
+    issues = Issues()
+    case_store = CaseStore(job.cases, job.course)
+    if not case_store.paths:
         raise ValueError(f"there is no case in {job.cases}")
-    roster = read_roster(job.roster, lambda at, why: ledger.note(job.roster, at, why)) if job.roster else None
+    roster = read_roster(job.roster, lambda at, why: issues.note(job.roster, at, why)) if job.roster else None
     store = Store()
     try:
-        intake = Intake(store, shelf, ledger, roster, progress)
+        imported = Import(store, case_store, issues, roster, progress)
         paths = expand(job.submissions)
         for path, student in paths:
-            intake.read(path, job.course.columns, student or job.student)
-        questions = tuple(sorted(set(job.course.questions) or _asked(intake)))
-        students = sorted(set(intake.students) | set(_expected(job, roster)))
+            imported.read(path, job.course.columns, student or job.student)
+        questions = tuple(sorted(set(job.course.questions) or _asked(imported)))
+        students = sorted(set(imported.students) | set(_expected(job, roster)))
         progress("drawing variants", 0.0)
-        shelf.foresee(intake.questions, students)
-        if not intake.count:
+        case_store.foresee(imported.questions, students)
+        if not imported.count:
             raise ValueError(f"there is no table of answers in {', '.join(job.submissions)}")
-        parts = divided(questions, students, intake.count, job.jobs)
+        parts = divided(questions, students, imported.count, job.jobs)
         if sinks.csv is not None:
             sinks.csv.write(HEADER + "\n")
-        work = Work(job.course, shelf, store, _shown(paths))
-        found = judged(parts, work, sinks, lambda n: progress("judging", n / intake.count))
+        work = Work(job.course, case_store, store, _shown(paths))
+        found = judged(parts, work, sinks, lambda n: progress("judging", n / imported.count))
     finally:
         store.close()
-    return _graded(found, ledger, shelf, intake.count, len(students))
+    return _graded(found, issues, case_store, imported.count, len(students))
 
 
 def _expected(job: Job, roster: Roster | None) -> Iterable[str]:
@@ -113,20 +244,21 @@ def _shown(paths: list[tuple[str, str]]) -> str:
     return ", ".join(names) if len(names) < 4 else f"{names[0]} and {len(names) - 1} other files"
 
 
-def _graded(found: list[Outcome], ledger: Ledger, shelf: Shelf, rows: int, students: int) -> Graded:
+def _graded(found: list[Outcome], issues: Issues, case_store: CaseStore, rows: int, students: int) -> Graded:
     """The outcomes of all parts together."""
     for outcome in found:
-        ledger.extend(outcome.notes)
+        issues.extend(outcome.notes)
     counts = added(outcome.counts for outcome in found)
-    marks = {item: tuple(_marks(shelf, item, c)) for item, c in counts.items()}
+    marks = {item: tuple(_marks(case_store, item, c)) for item, c in counts.items()}
     owing = _together(outcome.owing for outcome in found)
-    accepted = {item: words for item in counts if (words := _accepted(shelf, item))}
-    return Graded(counts, tuple(ledger.entries()), ledger.serious, rows, students, marks, owing, accepted)
+    accepted = {item: words for item in counts if (words := _accepted(case_store, item))}
+    return Graded(counts, tuple(issues.entries()), issues.serious, rows, students, marks, owing, accepted)
 
 
-def _accepted(shelf: Shelf, item: str) -> str:
+def _accepted(case_store: CaseStore, item: str) -> str:
     try:
-        return "" if shelf.variation(item.partition(":")[0]) is not None else shelf.key(item).accepted
+        varied = case_store.variation(item.partition(":")[0]) is not None
+        return "" if varied else case_store.key(item).accepted
     except NoKeyError:
         return ""
 
@@ -139,41 +271,39 @@ def _together(parts: Iterable[dict[str, list[str]]]) -> dict[str, tuple[str, ...
     return {item: tuple(students[:NAMED]) for item, students in sorted(found.items())}
 
 
-def _marks(shelf: Shelf, item: str, counts: Counts) -> Iterator[tuple[str, float]]:
+def _marks(case_store: CaseStore, item: str, counts: Counts) -> Iterator[tuple[str, float]]:
     """The nearest wrong answer of each mistake that was made."""
     try:
-        key = shelf.key(item)
+        key = case_store.key(item)
     except NoKeyError:
         return
-    if isinstance(key, Key) and key.value and not shelf.variant_of(item, ""):
+    if isinstance(key, Key) and key.value and not case_store.variant_of(item, ""):
         for code, _ in counts.mistakes.most_common():
             found = [w.value / key.value for w in key.wrongs.all if w.code == code]
             if found:
                 yield code, min(found, key=lambda ratio: abs(ratio - 1.0))
 
 
-def _asked(intake: Intake) -> set[str]:
+def _asked(imported: Import) -> set[str]:
     """The questions to which each student owes an answer: those with a column of their own, and the cases
     that someone answered; an intermediate answer is owed where the course, or a column, asks for it."""
     asked = set()
-    for question in intake.questions:
-        if ":" in question and question not in intake.columns and not _is_final(intake.shelf, question):
+    for question in imported.questions:
+        own = question in imported.columns or ":" not in question
+        if not own and not _is_final(imported.case_store, question):
             continue
         try:
-            intake.shelf.key(question, next(iter(intake.students), ""))
+            imported.case_store.key(question, next(iter(imported.students), ""))
         except NoKeyError:
             continue
         asked.add(question)
     return asked
 
 
-def _is_final(shelf: Shelf, question: str) -> bool:
+def _is_final(case_store: CaseStore, question: str) -> bool:
     """Whether it asks for one of several unknown loads."""
     name, _, what = question.partition(":")
     try:
-        return what in unknowns(shelf.read(name))
+        return what in unknowns(case_store.read(name))
     except NoKeyError:
         return False
-
-
-__all__ = ["Graded", "Job", "Sinks", "grade", "processes", "silent", "spare_collector"]

@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Callable, Container, Iterable
 from typing import NamedTuple
 
-from icsolve.grade.marked import Marked
+from icsolve.grade.results import Marked
 
 BINS = 20
 """Bins of the histogram to each side of zero, up to twice the right answer; one more for what lies beyond."""

@@ -1,10 +1,33 @@
-"""How far an answer may lie from the right one, and how that is said."""
+"""How far an answer may lie from the right one: of itself, of the loads, or as a drawing allows."""
 
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
-from icsolve.case import Tolerance
+from icsolve.answer import Answer
+from icsolve.case import (
+    ForceVector,
+    Load,
+    LoadIs,
+    Number,
+    RateIs,
+    RatioIs,
+    ReactionIs,
+    SpeedIs,
+    Spring,
+    Target,
+    Tolerance,
+    Torque,
+    Weight,
+)
+from icsolve.check import value_of
+from icsolve.errors import IcsolveError
+from icsolve.grade.mistakes.engine import solved_for
+from icsolve.grade.written import factors_between
+from icsolve.grade.written.units import unit_word
+from icsolve.sensitivity import band
+from icsolve.units import DIMENSIONS, Unit, parse_unit, split_quantity
 
 SLACK = 1e-9
 """Relative room, so that 101 passes for 100 within 1 %."""
@@ -57,3 +80,205 @@ def _rounded(number: float, half: float) -> str:
     places = 1 - math.floor(math.log10(half))
     rounded = round(number, places)
     return f"{rounded:.{min(places, 12)}f}" if 0 < places <= 12 and abs(rounded) < 1e12 else f"{rounded:.10g}"
+
+
+TRUE_ZERO = 1e-9
+"""Below this part of the loads an answer is zero but for rounding."""
+OF_LOADS = 1e-3
+"""A true zero is judged against this part of the largest load."""
+
+
+class NoKeyError(ValueError):
+    """A question that has no key; the message says why. ``told`` is what a student may know of it."""
+
+    def __init__(self, why: str, told: str = "") -> None:
+        super().__init__(why)
+        self.told = told or why
+
+
+def unit_of_target(target: Target, answer: Answer) -> str:
+    """The unit of a target's value in case units; '' for a ratio."""
+    from icsolve.sense import unit_of
+
+    units = answer.case.units
+    match target:
+        case LoadIs(name):
+            return unit_of(next(load for load in answer.case.loads if load.name == name), answer.case)
+        case RatioIs():
+            return ""
+        case RateIs():
+            return "rad/s"
+        case SpeedIs():
+            return f"{units.length}/s"
+        case ReactionIs(part="moment"):
+            return units.torque
+        case ReactionIs():
+            return units.force
+    return units.length
+
+
+def parsed_unit(name: str) -> Unit:
+    """The unit of a name in case units; a bare number for ''."""
+    return parse_unit(name) if name else Unit(1, 1, 0, DIMENSIONS["number"])
+
+
+def size_of(answer: Answer) -> float:
+    """The mechanism's size: the diagonal of the box about its points."""
+    xs, ys = zip(*answer.points.values(), strict=True) if answer.points else ((0.0, 1.0), (0.0, 0.0))
+    return math.hypot(max(xs) - min(xs), max(ys) - min(ys)) or 1.0
+
+
+def zero_width(target: Target, answer: Answer) -> float:
+    """What a true zero is judged against: the largest load (times the size for a torque), 1, or the size."""
+    match target:
+        case LoadIs(name):
+            load = next(load for load in answer.case.loads if load.name == name)
+            return (
+                OF_LOADS * largest_load(answer) * (_torque_scale(answer) if isinstance(load, Torque) else 1.0)
+            )
+        case ReactionIs(part=part):
+            return OF_LOADS * largest_load(answer) * (_torque_scale(answer) if part == "moment" else 1.0)
+        case RatioIs():
+            return OF_LOADS
+        case RateIs() | SpeedIs():
+            return OF_LOADS * _fastest(target, answer)
+    return OF_LOADS * size_of(answer)
+
+
+def _of_loads(answer: Answer, torque: bool) -> float:
+    return OF_LOADS * largest_load(answer) * (_torque_scale(answer) if torque else 1.0)
+
+
+def _torque_scale(answer: Answer) -> float:
+    return size_of(answer) * answer.case.units.torque_per_force_length
+
+
+def largest_load(answer: Answer) -> float:
+    """The largest known load as a force: a torque is divided by the mechanism's size."""
+    values = [_as_force(load, answer) for load in answer.case.loads]
+    return max((abs(value) for value in values), default=0.0) or 1.0
+
+
+def _as_force(load: Load, answer: Answer) -> float:
+    if isinstance(load, ForceVector):
+        return math.hypot(load.x.value, load.y.value)
+    if not isinstance(load.value, Number):
+        return 0.0
+    if isinstance(load, Torque):
+        return load.value.value / _torque_scale(answer)
+    if isinstance(load, Spring):
+        return load.value.value * size_of(answer)
+    if isinstance(load, Weight) and load.mass:
+        return load.value.value * answer.case.gravity.value * answer.case.units.force_per_newton
+    return load.value.value
+
+
+def _fastest(target: Target, answer: Answer) -> float:
+    if isinstance(target, SpeedIs):
+        speeds = [math.hypot(*v) for v in (answer.velocities or {}).values() if not isinstance(v, str)]
+        return max(speeds, default=1.0) or 1.0
+    return max((abs(w) for w in (answer.rates or {}).values() if not isinstance(w, str)), default=1.0) or 1.0
+
+
+def from_middle(place: tuple[float, float], answer: Answer) -> float:
+    """How far a place lies from the middle of the mechanism."""
+    if not answer.points:
+        return 1.0
+    xs, ys = zip(*answer.points.values(), strict=True)
+    return math.dist(place, ((max(xs) + min(xs)) / 2.0, (max(ys) + min(ys)) / 2.0))
+
+
+def own_width(tolerance: Tolerance, target: Target, answer: Answer, unit: Unit, unit_name: str) -> float:
+    """The widest of a tolerance's absolute width and what its drawing allows, in the answer's unit.
+
+    Raises NoKeyError where the width is in a unit of another kind, or the drawing says nothing of the target.
+    """
+    width = width_of(tolerance, unit, unit_name)
+    if not tolerance.drawing:
+        return width
+    from icsolve.grade.tolerance import drawn_width
+
+    return max(width, drawn_width(tolerance.drawing, target, answer))
+
+
+def width_of(tolerance: Tolerance, unit: Unit, unit_name: str) -> float:
+    """A tolerance's absolute width in the answer's unit. Raises NoKeyError where it is of another kind."""
+    if not tolerance.unit:
+        return tolerance.absolute
+    found = unit_word(tolerance.unit)
+    factor = factors_between(found.unit, unit) if found is not None else None
+    if factor is None:
+        said = f"the tolerance {tolerance.absolute:g} {tolerance.unit}"
+        raise NoKeyError(f"{said} does not fit an answer in {unit_name or 'no unit'}")
+    return tolerance.absolute * factor
+
+
+_STEP = 1e-5
+"""Part of the mechanism's size (of a radian) by which a number is changed to each side."""
+_NAME = "asked"
+
+
+def drawn_width(accuracy: str, target: Target, answer: Answer) -> float:
+    """The band of a target, in its unit, where every coordinate and length may be off by ``accuracy`` and
+    every angle by as much over its arms, all at their worst.
+
+    Raises NoKeyError where the target does not hang on the drawing.
+    """
+    width = _length(accuracy, answer)
+    slopes = _exact(target, answer) or _differences(target, answer)
+    found = band(replace(answer, sensitivities={_NAME: slopes}), _NAME, width)
+    if not found > 0.0:
+        raise NoKeyError(
+            f"a drawing accurate to {accuracy} leaves no room for this answer; give it a tolerance such as 2%"
+        )
+    return found
+
+
+def _length(accuracy: str, answer: Answer) -> float:
+    """The drawing's accuracy in case units."""
+    parts = split_quantity(accuracy)
+    assert parts is not None
+    numeral, unit = parts
+    own = parsed_unit(answer.case.units.length)
+    return float(numeral.digits) * ((factors_between(parsed_unit(unit), own) or 1.0) if unit else 1.0)
+
+
+def _exact(target: Target, answer: Answer) -> dict[str, float]:
+    """Derivatives of an unknown load; none where its backward pass has none, as with friction."""
+    from icsolve.solve import solve
+
+    if not isinstance(target, LoadIs):
+        return {}
+    return dict(solve(answer.case).sensitivities.get(target.load, {}))
+
+
+def _differences(target: Target, answer: Answer) -> dict[str, float]:
+    """Derivatives by every number of the figure; of a place, how far it goes."""
+    from icsolve.grade.variants.family import as_written
+
+    numbers = as_written(replace(answer.case, loads=()))
+    return {path: _slope(target, answer, path, number.value) for path, number in numbers.items()}
+
+
+def _slope(target: Target, answer: Answer, path: str, value: float) -> float:
+    step = math.degrees(_STEP) if path.startswith("angles.") else _STEP * size_of(answer)
+    ends = [_changed(target, answer, path, value + side) for side in (-step, step)]
+    places = [end for end in ends if end is not None]
+    if len(places) < 2:
+        here = _changed(target, answer, path, value)
+        places, step = [*places, *([here] if here is not None else [])], step / 2.0
+    if len(places) < 2:
+        raise NoKeyError("a drawing says nothing of this answer, which is near a limit; give it a tolerance")
+    return math.dist(*places) / (2.0 * step)
+
+
+def _changed(target: Target, answer: Answer, path: str, value: float) -> tuple[float, ...] | None:
+    """The target where one number is another; None where it has no value then."""
+    from icsolve.turn.numbers import with_numbers
+
+    near = {name: place for name, place in answer.points.items() if not name.startswith("@")}
+    case = replace(with_numbers(answer.case, {path: value}), near={**answer.case.near, **near})
+    try:
+        return value_of(solved_for(case, target), target)
+    except (IcsolveError, ArithmeticError, LookupError):
+        return None

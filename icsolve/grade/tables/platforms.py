@@ -7,8 +7,7 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from operator import itemgetter
 
-from icsolve.grade.tables.columns import ASIDE, FIELDS, Columns
-from icsolve.grade.tables.layout import HeaderError, Layout, Submission, identifier
+from icsolve.grade.tables.columns import ASIDE, FIELDS, Columns, HeaderError, Layout, Submission, identifier
 from icsolve.grade.tables.text import Row
 
 _RESPONSE = re.compile(r"(?:response|antwort|réponse|respuesta|risposta) \d+$")

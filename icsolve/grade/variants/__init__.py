@@ -1,6 +1,5 @@
 """Variants: every student's own numbers, drawn by hash, checked to make a fair task."""
 
-from icsolve.grade.variants.draw import drawn, label
-from icsolve.grade.variants.varied import Draw, Varied
+from icsolve.grade.variants.varied import Draw, Varied, drawn, label
 
 __all__ = ["Draw", "Varied", "drawn", "label"]

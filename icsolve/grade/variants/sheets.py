@@ -8,14 +8,14 @@ from collections.abc import Iterable, Iterator
 from html import escape
 from typing import NamedTuple
 
-from icsolve.grade.keys import AnyKey, Key, NoKeyError
-from icsolve.grade.out.given import given
-from icsolve.grade.out.wording import asked
-from icsolve.grade.out.wording import figure as drawn
-from icsolve.grade.people import Person
-from icsolve.grade.questions import unknowns
+from icsolve.grade.case_store import Solved, unknowns
+from icsolve.grade.keys import AnyKey, Key
+from icsolve.grade.platforms.given import given
+from icsolve.grade.platforms.questions import asked
+from icsolve.grade.platforms.questions import figure as drawn
 from icsolve.grade.results import safe
-from icsolve.grade.solved import Solved
+from icsolve.grade.roster import Person
+from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.varied import Draw, Varied
 
 
@@ -72,10 +72,10 @@ def questions(varied: Varied) -> list[str]:
 
 def sense(varied: Varied, draw: Draw, key: Key) -> str:
     """The answer's sense in words."""
-    if key.senses.turn:
-        return "ccw" if key.value * key.senses.turn > 0.0 else "cw"
-    if key.senses.heading is not None and not key.senses.axial:
-        degrees = key.senses.heading + (0.0 if key.value > 0.0 else 180.0)
+    if key.expected.turn:
+        return "ccw" if key.value * key.expected.turn > 0.0 else "cw"
+    if key.expected.heading is not None and not key.expected.axial:
+        degrees = key.expected.heading + (0.0 if key.value > 0.0 else 180.0)
         return f"at {round(degrees, 6) % 360.0:.6g} deg"
     solved = varied.task(draw)
     name = getattr(solved.target(key.question), "load", "")

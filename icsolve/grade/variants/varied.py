@@ -1,24 +1,217 @@
-"""A case with variables: every student's own task, solved once for each figure that occurs."""
+"""A case with variables: every student's own numbers by hash, checked to make a fair task."""
 
 from __future__ import annotations
 
+import hashlib
 from collections import OrderedDict
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
-from icsolve.case import Case
+from icsolve.answer import Answer
+from icsolve.case import Case, Force, Load, Mark, Number, Torque, Variable
 from icsolve.errors import CaseError, IcsolveError, SceneError
+from icsolve.grade.case_store import Solved, unknowns
 from icsolve.grade.course import Course
-from icsolve.grade.keys import AnyKey, NoKeyError
-from icsolve.grade.solved import Solved
-from icsolve.grade.variants.draw import TRIALS, drawn, label
-from icsolve.grade.variants.magnitudes import Magnitudes
-from icsolve.grade.variants.suitable import Seen, looked_at
-from icsolve.read.variables import first_values
+from icsolve.grade.keys import (
+    AnyKey,
+    ExpectedDirection,
+    Key,
+    Places,
+    expected_direction,
+    simple_key,
+)
+from icsolve.grade.mistakes import Wrong
+from icsolve.grade.mistakes.changed import without_friction
+from icsolve.grade.mistakes.engine import centre_wrongs, load_wrongs, resolve
+from icsolve.grade.tolerance import NoKeyError, size_of
+from icsolve.read.document import Mapping as Tree
+from icsolve.read.document import Node, Scalar, parse
+from icsolve.read.document import Sequence as Items
+from icsolve.read.formula import names_in, replaced
+from icsolve.read.problems import Problems
+from icsolve.read.variables import count, first_values, value_at
+from icsolve.sense import unit_of
+from icsolve.sensitivity import band
+from icsolve.units import converted, parse_unit, split_quantity
 
 if TYPE_CHECKING:
     from icsolve.grade.variants.together import Together
+
+TRIALS = 60
+"""Draws of one student, until one suits."""
+
+
+def drawn(case: str, variables: tuple[Variable, ...], student: str, seed: str, trial: int) -> dict[str, str]:
+    """The values of one draw: each variable's index is a hash of all that it depends on, modulo its count."""
+    values = {}
+    for variable in variables:
+        text = "\x1f".join((case, student, seed, str(trial), variable.name))
+        digest = hashlib.sha256(text.encode("utf-8", "surrogatepass")).digest()
+        values[variable.name] = value_at(variable, int.from_bytes(digest, "big") % count(variable))
+    return values
+
+
+def label(case: str, values: Mapping[str, str]) -> str:
+    """A short name of a variant: eight hexadecimal digits that follow from its values."""
+    text = "\x1f".join((case, *(f"{name}={value}" for name, value in values.items())))
+    return hashlib.sha256(text.encode("utf-8")).hexdigest()[:8]
+
+
+_KINDS = ("force", "torque", "weight", "mass", "spring")
+
+
+class Magnitudes:
+    """The numbers of loads in which variables stand; ``names`` are the variables that stand nowhere else."""
+
+    def __init__(self, text: str, case: Case) -> None:
+        root = parse(text, Problems(case.path))
+        assert type(root) is Tree
+        numbers = _load_numbers(root)
+        self._texts = {name: node.text for name, node in numbers.items()}
+        inside = {name for written in self._texts.values() for name in names_in(written)}
+        self.names = frozenset(inside - _elsewhere(root, {node.mark for node in numbers.values()}))
+        self._units = {load.name: unit_of(load, case) for load in case.loads if load.name in self._texts}
+        self._written = [(load.name, number_of(load)) for load in case.loads]
+
+    def loads(self, values: Mapping[str, str]) -> dict[str, float]:
+        """The numbers of the loads that depend on variables, in case units."""
+        found = {}
+        for name, written in self._texts.items():
+            parts = split_quantity(replaced(written, values))
+            assert parts is not None
+            numeral, unit = parts
+            own = parse_unit(self._units[name])
+            found[name] = converted(numeral, parse_unit(unit), own) if unit else float(numeral.digits)
+        return found
+
+    def factor(self, base: Mapping[str, str], values: Mapping[str, str]) -> float | None:
+        """By what all known loads are larger than with other values; None where they do not grow alike."""
+        old, new = self.loads(base), self.loads(values)
+        ratios = set()
+        for name, written in self._written:
+            before = old.get(name, written)
+            if before is None:
+                continue
+            after = new.get(name, before)
+            if before == 0.0 or after == 0.0:
+                return None
+            ratios.add(after / before)
+        return ratios.pop() if len(ratios) == 1 else None
+
+
+def number_of(load: Load) -> float | None:
+    """A load's own known number; 1 of a vector, which no variable scales."""
+    value = getattr(load, "value", None)
+    if isinstance(value, Number):
+        return value.value
+    return 1.0 if hasattr(load, "x") else None
+
+
+def _load_numbers(root: Tree) -> dict[str, Scalar]:
+    """The numbers of loads in which variables stand, as written."""
+    section = root.items.get("loads")
+    found = {}
+    for name, node in section.items.items() if type(section) is Tree else ():
+        for kind in _KINDS:
+            value = node.items.get(kind) if type(node) is Tree else None
+            if type(value) is Scalar and names_in(value.text):
+                found[name] = value
+    return found
+
+
+def _elsewhere(root: Tree, within: set[Mark]) -> set[str]:
+    """Variables that stand outside these places; titles and the like do not count."""
+    free = ("title", "source", "reconstructed", "variables")
+    found: set[str] = set()
+    stack: list[Node] = [node for key, node in root.items.items() if key not in free]
+    while stack:
+        node = stack.pop()
+        if type(node) is Scalar:
+            found |= set() if node.mark in within else set(names_in(node.text))
+        elif type(node) is Tree:
+            stack.extend(node.items.values())
+        elif type(node) is Items:
+            stack.extend(node.items)
+    return found
+
+
+DRAWING = 1e-3
+"""Part of the mechanism's size by which every point may be off."""
+SWING = 0.1
+"""Part of itself by which an answer may change for it; near a dead centre it changes more."""
+APART = 0.02
+"""Part of itself by which an answer and a wrong one differ at least."""
+
+
+Mistake = tuple[str, str, str]
+"""The unknown, the code, and where the mistake sits."""
+
+
+class Seen(NamedTuple):
+    """A variant looked at: whether it is far from dead centres, and the mistakes that it would not show;
+    its answer, if it was looked at in a sweep."""
+
+    far: bool
+    swallowed: frozenset[Mistake]
+    value: float | None = None
+
+
+def looked_at(answer: Answer) -> Seen:
+    """A variant that was solved with its bound."""
+    far = far_from_dead_centres(answer)
+    return Seen(far, swallowed(answer) if far else frozenset())
+
+
+def far_from_dead_centres(answer: Answer) -> bool:
+    """Whether rounding the figure to a thousandth of its size leaves the answers within 10 %.
+
+    ``answer`` has been solved with its bound, whose backward pass gives the sensitivities; with friction,
+    which has none, those of the smooth mechanism stand for them.
+    """
+    width = DRAWING * size_of(answer)
+    for name, found in answer.answers.items():
+        smooth = answer if name in answer.sensitivities else _smooth(answer)
+        if name not in smooth.sensitivities:
+            continue
+        swing = band(smooth, name, width)
+        if found.value == 0.0 or not swing <= SWING * abs(found.value):
+            return False
+    return True
+
+
+def _smooth(answer: Answer) -> Answer:
+    """The case without its friction; itself where that has no answer."""
+    from icsolve.solve import solve
+
+    case = without_friction(answer.case)
+    try:
+        return solve(case) if case is not None else answer
+    except IcsolveError:
+        return answer
+
+
+def swallowed(answer: Answer) -> frozenset[Mistake]:
+    """The mistakes that this variant would not show: their answers are as good as the right one."""
+    found = set()
+    for name, wrong in _wrongs(answer):
+        right = answer.answers[name].value
+        if abs(wrong.value - right) <= APART * abs(right):
+            found.add((name, wrong.code, wrong.where))
+    return frozenset(found)
+
+
+def _wrongs(answer: Answer) -> list[tuple[str, Wrong]]:
+    """The mistakes of loads and centres; those of signs, powers of ten and units are always apart."""
+    try:
+        found = list(load_wrongs(answer, resolve))
+    except (ArithmeticError, StopIteration):
+        found = []
+    if len(answer.answers) == 1:
+        (name,) = answer.answers
+        found += [(name, wrong) for wrong in centre_wrongs(answer, name)]
+    return [(name, wrong) for name, wrong in found if name in answer.answers]
+
 
 Texts = dict[str, str]
 _REFERENCES = 8
@@ -87,7 +280,7 @@ class Varied:
 
         Raises NoKeyError.
         """
-        from icsolve.grade.variants.swept import swept_key
+        from icsolve.grade.variants.varied import swept_key
 
         draw = self.draw(student)
         return swept_key(self, draw, question) or self.task(draw).key(question)
@@ -236,8 +429,8 @@ class Varied:
         solved = self._exactly(base) if base is not None else None
         if solved is None:
             return None
+        from icsolve.grade.variants.family import UnsuitedError
         from icsolve.grade.variants.together import Together
-        from icsolve.grade.variants.written import UnsuitedError
 
         try:
             return Together(self.text, solved.case, solved.answer)
@@ -254,3 +447,37 @@ def _keep(store: OrderedDict[K, V], key: K, value: V, most: int) -> None:
     if len(store) >= most:
         store.popitem(last=False)
     store[key] = value
+
+
+def swept_key(varied: Varied, draw: Draw, question: str) -> Key | None:
+    """The key of the only unknown; None where more than its size has to be known."""
+    names = unknowns(varied.case)
+    value = varied.value(draw) if question == varied.name and len(names) == 1 else None
+    load = next((load for load in varied.case.loads if load.name in names), None)
+    policy = varied.course.policy_of(question, varied.case.tolerance)
+    if value is None or load is None or not _same_sense(varied, load) or policy.tolerance.drawing:
+        return None
+
+    def wrongs() -> tuple[Wrong, ...]:
+        found = varied.task(draw).key(question)
+        assert isinstance(found, Key)
+        return found.wrongs.all
+
+    expected = _expected(varied, draw, load)
+    return simple_key(question, value, unit_of(load, varied.case), policy, expected, wrongs)
+
+
+def _same_sense(varied: Varied, load: Load) -> bool:
+    """Whether its direction is the same in all variants: a torque, or a force at a number of degrees."""
+    if isinstance(load, Force) and isinstance(load.heading, Number):
+        return varied.is_fixed(load.heading.path)
+    return isinstance(load, Torque)
+
+
+def _expected(varied: Varied, draw: Draw, load: Load) -> ExpectedDirection:
+    """Its senses; the variant is solved when words ask where its points are."""
+
+    def places() -> Places:
+        return expected_direction(load, varied.task(draw).answer).places()
+
+    return expected_direction(load, Answer(varied.case))._replace(places=places)

@@ -3,7 +3,7 @@
 from icsolve.grade.written.answer import MISSING, NO_NUMBER, REVIEW, TOO_LONG, TWO_VALUES, Reader, Written
 from icsolve.grade.written.directions import Direction
 from icsolve.grade.written.numerals import UNREAD, figures
-from icsolve.grade.written.unit_words import UnitWord, factors_between
+from icsolve.grade.written.units import UnitWord, factors_between
 
 __all__ = [
     "MISSING",

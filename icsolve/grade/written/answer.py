@@ -1,16 +1,17 @@
-"""An answer as a student wrote it, to a number, a unit and a direction; what has two readings is flagged."""
+"""An answer as a student wrote it, to a number, a unit and a direction, or to a place.
+
+What has two readings is flagged."""
 
 from __future__ import annotations
 
 import re
 from typing import NamedTuple
 
-from icsolve.grade.written.characters import plain
 from icsolve.grade.written.directions import AMBIGUOUS as AMBIGUOUS_DIRECTION
 from icsolve.grade.written.directions import Direction, direction
-from icsolve.grade.written.numerals import UNREAD, Numeral, numeral
-from icsolve.grade.written.unit_words import AMBIGUOUS as AMBIGUOUS_UNIT
-from icsolve.grade.written.unit_words import UnitWord, unit_word
+from icsolve.grade.written.numerals import AMBIGUOUS, UNREAD, Numeral, numeral, plain
+from icsolve.grade.written.units import AMBIGUOUS as AMBIGUOUS_UNIT
+from icsolve.grade.written.units import UnitWord, unit_word
 
 MISSING = "missing"
 NO_NUMBER = "no-number"
@@ -280,3 +281,159 @@ def _joined(read: Written, leading: Direction | str | None, found: Numeral, sign
         return flagged(AMBIGUOUS_DIRECTION)
     number = -found.value if sign == "-" else found.value
     return read._replace(number=number, direction=way, digits=found.digits)
+
+
+_NONE = {"", "-", "1", "none", "n/a", "na", "dimensionless", "[-]"}
+_MOST = 4096
+
+
+class Combined:
+    """Reads answers of up to three columns; remembers units and directions, which repeat."""
+
+    def __init__(self, reader: Reader) -> None:
+        self.reader = reader
+        self._units: dict[str, UnitWord | str | None] = {}
+        self._directions: dict[str, Direction | str | None] = {}
+
+    def read(self, answer: str, unit: str = "", way: str = "") -> Written:
+        """The reading of all of it; what one column says against another is flagged."""
+        written = self.reader.read(answer)
+        if (not unit and not way) or written.flag:
+            return written
+        number, own_unit, own_way, digits, _, note = written
+        word, direction = self._unit(unit), self._direction(way)
+        flag = _unit_flag(own_unit, word) or _direction_flag(number, own_way, direction)
+        if flag:
+            return flagged(flag)
+        if word is not None:
+            own_unit, note = word, note or word.note  # type: ignore[assignment, union-attr]
+        return Written(number, own_unit, direction or own_way, digits, "", note)  # type: ignore[arg-type]
+
+    def _unit(self, text: str) -> UnitWord | str | None:
+        """The unit of its own column; a flag where it is none."""
+        if not text:
+            return None
+        if text not in self._units:
+            if len(self._units) >= _MOST:
+                self._units.clear()
+            words = plain(text)
+            self._units[text] = None if words.lower() in _NONE else unit_word(words) or UNREAD
+        return self._units[text]
+
+    def _direction(self, text: str) -> Direction | str | None:
+        if not text:
+            return None
+        if text not in self._directions:
+            if len(self._directions) >= _MOST:
+                self._directions.clear()
+            words = plain(text)
+            self._directions[text] = (
+                None if words.lower() in _NONE else direction(words) or AMBIGUOUS_DIRECTION
+            )
+        return self._directions[text]
+
+
+def _unit_flag(own: UnitWord | None, word: UnitWord | str | None) -> str:
+    """What is against a unit in a column of its own: it is none, or ambiguous, or the answer has another."""
+    if word is None:
+        return ""
+    if isinstance(word, str):
+        return word
+    if word.note == AMBIGUOUS_UNIT or (own is not None and own.unit != word.unit):
+        return AMBIGUOUS_UNIT
+    return ""
+
+
+def _direction_flag(number: float, own: Direction | None, way: Direction | str | None) -> str:
+    if way is None:
+        return ""
+    if isinstance(way, str):
+        return way
+    return AMBIGUOUS_DIRECTION if way.flag or number < 0.0 or (own is not None and own != way) else ""
+
+
+_NUMBER = r"([-+]? ?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?)"
+_COMMA_NUMBER = r"([-+]? ?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][-+]?\d+)?)"
+_UNIT = r" ?([A-Za-z]{1,12})?"
+_X, _Y = r"(?:x ?[:=] ?)?", r"(?:y ?[:=] ?)?"
+_COMMA = re.compile(rf"{_X}{_NUMBER}{_UNIT} ?,+ ?(?:and )?{_Y}{_NUMBER}{_UNIT}$", re.IGNORECASE)
+_OTHER = re.compile(
+    rf"{_X}{_COMMA_NUMBER}{_UNIT}(?: ?; ?| ?\| ?| and | )(?:and )?{_Y}{_COMMA_NUMBER}{_UNIT}$", re.IGNORECASE
+)
+_FAR = re.compile(
+    r"(?:is )?(?:at |to )?(?:inf|infinity|infinite|∞|oo|unendlich)(?:ly far)?(?![a-z])\.?[ ,]*(.*)$",
+    re.IGNORECASE,
+)
+_TOWARD = re.compile(
+    rf"(?:in direction|in the direction|direction|towards?|at|along|:|=)? ?{_NUMBER} ?(?:deg|degrees|°)?$",
+    re.IGNORECASE,
+)
+_PLACE_NAME = re.compile(r"\s*[^\W\d_][\w'-]*\s*(?:=|:|\bis\b)\s*(?=[\[({]|at|inf|∞|[-+.\d])")
+
+
+class WrittenPlace(NamedTuple):
+    """``x`` and ``y`` in ``unit`` (None: none given), or ``toward`` in degrees for a place at infinity.
+
+    ``toward`` is NaN where it is at infinity in no direction that is said. ``flag`` as for other answers.
+    """
+
+    x: float = 0.0
+    y: float = 0.0
+    unit: UnitWord | None = None
+    toward: float | None = None
+    flag: str = ""
+
+
+def read_place(text: str) -> WrittenPlace:
+    """The reading of an answer that should be a place."""
+    words = plain(text[: LONGEST * 20])
+    if words.lower() in ("", "-", "n/a", "na", "none"):
+        return WrittenPlace(flag=MISSING)
+    if len(words) > LONGEST:
+        return WrittenPlace(flag=TOO_LONG)
+    name = _PLACE_NAME.match(words)
+    if name is not None and name.group().strip().lower()[:1] != "x":
+        words = words[name.end() :].strip()
+    far = _FAR.match(words)
+    return _far(far.group(1)) if far is not None else _near(words)
+
+
+def _far(rest: str) -> WrittenPlace:
+    if not rest:
+        return WrittenPlace(toward=float("nan"))
+    found = _TOWARD.match(rest)
+    return WrittenPlace(toward=float(found.group(1).replace(" ", ""))) if found else WrittenPlace(flag=UNREAD)
+
+
+def _near(words: str) -> WrittenPlace:
+    """Two numbers between which a comma, a semicolon or a space stands."""
+    bare, after = _unbracketed(words)
+    found = _COMMA.match(bare) or _OTHER.match(bare)
+    if found is None:
+        count = len(re.findall(r"\d+(?:[.,]\d+)*", bare))
+        return WrittenPlace(
+            flag=NO_NUMBER if not count else AMBIGUOUS if "," in bare else TWO_VALUES if count > 2 else UNREAD
+        )
+    first, unit, second, second_unit = found.groups()
+    x, y = (numeral(part.lstrip("-+ ")) for part in (first, second))
+    if x is None or y is None or x.flag or y.flag:
+        return WrittenPlace(flag=AMBIGUOUS)
+    return _with_unit(_signed(first, x.value), _signed(second, y.value), unit, second_unit or after)
+
+
+def _unbracketed(words: str) -> tuple[str, str]:
+    """What stands in brackets, and the unit after them."""
+    inside = re.match(r"[\[({] ?([^\[\](){}]*?) ?[\])}] ?([A-Za-z]*)\.?$", words)
+    return (inside.group(1), inside.group(2)) if inside else (words.rstrip("."), "")
+
+
+def _signed(text: str, value: float) -> float:
+    return -value if text.startswith("-") else value
+
+
+def _with_unit(x: float, y: float, first: str | None, second: str | None) -> WrittenPlace:
+    if first and second and first != second:
+        return WrittenPlace(flag=UNREAD)
+    name = first or second
+    unit = unit_word(name) if name else None
+    return WrittenPlace(flag=UNREAD) if name and unit is None else WrittenPlace(x, y, unit)

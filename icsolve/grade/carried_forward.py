@@ -1,0 +1,193 @@
+"""Errors carried forward: a final answer that follows by the right method from a wrong intermediate one.
+
+An unknown is a sum of shares, one a load, each a product of velocity ratios and distances; a wrong
+ratio or distance scales the shares in which it stands, as a factor or as a divisor.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from typing import NamedTuple
+
+from icsolve.answer import Answer
+from icsolve.case import CentreIs, DistanceIs, Load, RateIs, RatioIs, SpeedIs, Target
+from icsolve.grade.case_store import CaseStore, Solved
+from icsolve.grade.judge import WRONG, feedback, share_of
+from icsolve.grade.keys import Key, PlaceKey
+from icsolve.grade.mistakes import Wrong
+from icsolve.grade.mistakes.changed import Place
+from icsolve.grade.mistakes.engine import centres_of, shares
+from icsolve.grade.results import Marked
+from icsolve.grade.store import Entry
+from icsolve.grade.tolerance import NoKeyError
+
+Scales = Mapping[str, float]
+"""By what each load's share is multiplied."""
+
+
+class Intermediate(NamedTuple):
+    """A wrong intermediate answer: what was asked, the right value, the student's (places: two)."""
+
+    what: str
+    target: Target
+    right: tuple[float, ...]
+    given: tuple[float, ...]
+
+
+def carried(answer: Answer, unknown: str, wrong: list[Intermediate]) -> list[Wrong]:
+    """The values of the unknown that follow from the wrong intermediate answers, alone and together."""
+    parts = shares(answer, unknown)
+    own = next((load for load in answer.case.loads if load.name == unknown), None)
+    if not parts or own is None:
+        return []
+    loads = {load.name: load for load in answer.case.loads if load.name in parts}
+    ways = [(i, list(_scales(answer, i, own, loads))) for i in wrong]
+    found = [Wrong("carried", _total(parts, scales), i.what) for i, choices in ways for scales in choices]
+    together = [choices[0] for _, choices in ways if choices]
+    if len(together) > 1:
+        product = {name: math.prod(scales[name] for scales in together) for name in parts}
+        found.append(Wrong("carried", _total(parts, product), ", ".join(i.what for i in wrong)))
+    return [w for w in found if math.isfinite(w.value)]
+
+
+def _total(parts: Mapping[str, float], scales: Scales) -> float:
+    return sum(part * scales[name] for name, part in parts.items())
+
+
+def _scales(answer: Answer, i: Intermediate, own: Load, loads: Mapping[str, Load]) -> Iterator[Scales]:
+    """How the shares change, the likeliest way first."""
+    if isinstance(i.target, CentreIs):
+        yield from _by_place(answer, i, own, loads)
+        return
+    if not i.right[0] or not i.given[0]:
+        return
+    rho = i.given[0] / i.right[0]
+    over, under = _links(answer, i.target)
+    some = {name: rho if load.link in over else 1.0 for name, load in loads.items()}
+    if own.link in over or any(load.link in under for load in loads.values() if load.link not in over):
+        yield dict.fromkeys(loads, 1.0 / rho)
+        yield dict.fromkeys(loads, rho)
+    else:
+        if any(scale != 1.0 for scale in some.values()):
+            yield some
+        yield dict.fromkeys(loads, rho)
+        if not any(load.link in over for load in loads.values()):
+            yield dict.fromkeys(loads, 1.0 / rho)
+
+
+def _links(answer: Answer, target: Target) -> tuple[set[str], set[str]]:
+    """Links whose rates a quantity multiplies, and those whose rates it divides."""
+    match target:
+        case RatioIs(over, under):
+            return {over}, {under}
+        case RateIs(link) | SpeedIs(_, link):
+            return {link}, set()
+        case DistanceIs(a, b):
+            return _of_distance(answer, a, b)
+    return set(), set()
+
+
+def _of_distance(
+    answer: Answer, a: tuple[str, str] | str, b: tuple[str, str] | str
+) -> tuple[set[str], set[str]]:
+    """A distance from a link's centre with the frame: it divides that link's rate, if it ends at another
+    centre; it multiplies the power of a force, if it ends at a point."""
+    ground = answer.case.ground
+    ends = [end for end in (a, b) if not isinstance(end, str) and ground in end]
+    link = next((name for end in ends for name in end if name != ground), "")
+    to_point = isinstance(a, str) or isinstance(b, str)
+    return ({link}, set()) if to_point else (set(), {link})
+
+
+def _by_place(answer: Answer, i: Intermediate, own: Load, loads: Mapping[str, Load]) -> Iterator[Scales]:
+    """A common centre in the wrong place gives the two links' ratio of rates by its distances from theirs;
+    of a link that only slides, the distance from the other's is the ratio."""
+    assert isinstance(i.target, CentreIs)
+    ground = answer.case.ground
+    first, second = i.target.pair
+    mine, its = centres_of(answer, first).get(ground), centres_of(answer, second).get(ground)
+    if (mine is None and its is None) or ground in i.target.pair:
+        return
+    right, wrong = (
+        _rates(place, mine, its) for place in ((i.right[0], i.right[1]), (i.given[0], i.given[1]))
+    )
+    if not right or not wrong:
+        return
+    rho = wrong / right
+    forward = {name: rho if load.link == second else 1.0 for name, load in loads.items()}
+    if own.link == second:
+        yield dict.fromkeys(loads, 1.0 / rho)
+    elif any(scale != 1.0 for scale in forward.values()):
+        yield forward
+    yield dict.fromkeys(loads, rho)
+
+
+def _rates(place: Place, mine: Place | None, its: Place | None) -> float:
+    """Rate of the second link over that of the first; a centre at infinity counts for nothing."""
+    below = math.dist(place, its) if its is not None else 1.0
+    above = math.dist(place, mine) if mine is not None else 1.0
+    return above / below if below else 0.0
+
+
+Found = tuple[Entry, Marked]
+
+
+class CarriedForward:
+    """Recognises errors carried forward; ``keep`` takes what is judged anew, so that it is counted."""
+
+    def __init__(self, case_store: CaseStore, reveal: bool, keep: Callable[[Marked], None]) -> None:
+        self._case_store = case_store
+        self._reveal = reveal
+        self._keep = keep
+
+    def looked_at(self, found: list[Found]) -> list[Found]:
+        """One student's answers, those that follow from a wrong intermediate one with that cause."""
+        marked = {entry.item: (entry, m) for entry, m in found}
+        wrong = [item for item, (_, m) in marked.items() if ":" in item and m.judged.verdict == WRONG]
+        for case in dict.fromkeys(item.partition(":")[0] for item in wrong):
+            final = marked.get(case)
+            if final is not None and final[1].judged.verdict == WRONG and final[1].judged.value is not None:
+                own = [marked[item] for item in wrong if item.startswith(f"{case}:")]
+                marked[case] = self._again(final, own)
+        return list(marked.values())
+
+    def _again(self, final: Found, wrong: list[Found]) -> Found:
+        """The final answer with its cause, if it follows from the wrong steps."""
+        entry, before = final
+        solved = self._case_store.solved(entry.item, entry.student)
+        key, name = solved.key(entry.item), getattr(solved.target(entry.item), "load", "")
+        value = before.judged.value
+        assert isinstance(key, Key) and value is not None
+        for unscaled in carried(solved.answer, name, list(_steps(solved, wrong))):
+            cause = unscaled._replace(value=unscaled.value * solved.scale)
+            close = abs(value - cause.value) <= key.wrongs.reach * abs(cause.value)
+            if close and abs(cause.value - key.value) > key.half:
+                return entry, self._with_cause(key, before, cause)
+        return final
+
+    def _with_cause(self, key: Key, before: Marked, cause: Wrong) -> Marked:
+        others = (m for m in before.judged.mistakes if m.code != "near-miss")
+        mistakes = (cause, *others)[:3]
+        judged = before.judged._replace(
+            mistakes=mistakes,
+            code=" ".join(m.code for m in mistakes),
+            share=max(share_of(key, before.judged.parts, mistakes), before.judged.share),
+        )
+        told = feedback(key, judged, self._reveal)
+        again = Marked(before.item, before.raw, judged, before.points, told, before.written)
+        self._keep(again)
+        return again
+
+
+def _steps(solved: Solved, wrong: list[Found]) -> Iterator[Intermediate]:
+    """The wrong intermediate answers that have a value."""
+    for entry, marked in wrong:
+        try:
+            key = solved.key(entry.item)
+        except NoKeyError:
+            continue
+        right = key.place if isinstance(key, PlaceKey) else (key.value,)
+        if len(marked.given) == len(right):
+            what = entry.item.partition(":")[2]
+            yield Intermediate(what, solved.target(entry.item), right, marked.given)

@@ -1,0 +1,273 @@
+"""What a course asks for, from ``course.yaml``: marks, tolerances, how strict about units and directions."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from icsolve.case import Tolerance
+from icsolve.errors import CaseError
+from icsolve.grade.mistakes.codes import CODES
+from icsolve.grade.tolerance import DEFAULT
+from icsolve.read.document import Mapping, Node, Scalar, is_null, parse
+from icsolve.read.problems import Problems, Stop, shown, suggestion
+from icsolve.read.source import checked, text_of
+from icsolve.read.tolerances import tolerance_of
+
+ATTEMPTS = ("last", "first", "best")
+DECIMALS = ("either", "point", "comma")
+UNITS = ("assumed", "required", "ignored")
+DIRECTIONS = ("signed", "required", "ignored")
+
+
+class Credit(NamedTuple):
+    """Shares of the mark for a right number, unit and direction; they add up to 1."""
+
+    number: float
+    unit: float
+    direction: float
+
+
+class Policy(NamedTuple):
+    """How one question is judged.
+
+    ``unit``: an answer without one is taken in the question's unit (``assumed``), is wrong in its unit
+    (``required``), or units are not looked at (``ignored``). ``direction``: a sign will do
+    (``signed``), words must stand there (``required``), or neither counts (``ignored``). ``credit`` is None
+    where only a wholly right answer earns marks. ``mistakes`` has the share earned by a wrong answer
+    whose cause is known. ``figures`` is the least number of written significant figures.
+    """
+
+    points: float = 1.0
+    tolerance: Tolerance = DEFAULT
+    unit: str = "assumed"
+    strict_case: bool = False
+    direction: str = "signed"
+    within: float = 45.0
+    credit: Credit | None = None
+    mistakes: tuple[tuple[str, float], ...] = ()
+    figures: int = 0
+
+
+class Course(NamedTuple):
+    """A course: the policy for all questions, what single questions have of their own, and the rest."""
+
+    title: str = ""
+    policy: Policy = Policy()
+    own: tuple[tuple[str, tuple[tuple[str, Any], ...]], ...] = ()
+    attempt: str = "last"
+    decimal: str = "either"
+    seed: str = "0"
+    columns: tuple[tuple[str, str], ...] = ()
+    reveal: bool = False
+    """Whether the accepted range is told with a wrong answer too."""
+
+    @property
+    def questions(self) -> tuple[str, ...]:
+        """The questions that the course names: each student owes an answer to each."""
+        return tuple(question for question, _ in self.own)
+
+    def policy_of(self, question: str, tolerance: Tolerance | None = None) -> Policy:
+        """The policy of ``case`` or ``case:what``; ``tolerance`` is that of the case file."""
+        case = question.partition(":")[0]
+        own = dict(self.own)
+        fields: dict[str, Any] = {} if tolerance is None else {"tolerance": tolerance}
+        fields |= dict(own.get(case, ())) | dict(own.get(question, ()))
+        return self.policy._replace(**fields)
+
+
+Fields = dict[str, Any]
+Readers = dict[str, tuple[str, Callable[[Node], Any]]]
+"""Keys, each with its field and how its value is read."""
+
+
+def read_course(path: str | os.PathLike[str]) -> Course:
+    """The course of a file.
+
+    Raises
+    ------
+    CaseError
+        With all that is wrong.
+    """
+    problems = Problems(os.fspath(path))
+    course = Course()
+    try:
+        root = parse(checked(text_of(path, problems), problems), problems)
+        if type(root) is Mapping:
+            course = _course(root, problems)
+        elif root is not None:
+            problems.refuse(root.mark, "a course is a mapping, as in {tolerance: 1%, unit: required}")
+    except Stop:
+        pass
+    if problems.found:
+        raise CaseError(problems.found)
+    return course
+
+
+def _course(root: Mapping, problems: Problems) -> Course:
+    _only(root, (*_COURSE, *_POLICY, "cases", "map"), "a course", problems)
+    whole = _fields(root, _COURSE, problems)
+    policy = Policy(**_fields(root, _POLICY, problems))
+    own = _questions(root.items.get("cases"), problems)
+    columns = _columns(root.items.get("map"), problems)
+    return Course(**whole, policy=policy, own=own, columns=columns)
+
+
+def _only(node: Mapping, known: tuple[str, ...], what: str, problems: Problems) -> None:
+    for key in node.items:
+        if key not in known:
+            problems.refuse(node.keys[key], f"{what} has no key {shown(key)}{suggestion(key, known)}")
+
+
+def _fields(
+    node: Mapping, readers: dict[str, tuple[str, Callable[[Node], Any]]], problems: Problems
+) -> Fields:
+    """The fields whose keys stand there; a reader's ValueError is noted at its value."""
+    found = {}
+    for key, (field, read) in readers.items():
+        value = node.items.get(key)
+        if value is None or is_null(value):
+            continue
+        try:
+            found[field] = read(value)
+        except ValueError as error:
+            problems.refuse(value.mark, f"'{key}': {error}")
+    return found
+
+
+def _questions(node: Node | None, problems: Problems) -> tuple[tuple[str, tuple[tuple[str, Any], ...]], ...]:
+    """``cases``: what single questions have of their own; or a bare list of them."""
+    if node is None or is_null(node):
+        return ()
+    if type(node) is not Mapping:
+        problems.refuse(node.mark, "'cases' should be a mapping, as in {press: {points: 5}, bolt-cutter: {}}")
+        return ()
+    found = []
+    for question, value in node.items.items():
+        fields: Fields = {}
+        if type(value) is Mapping:
+            _only(value, tuple(_POLICY), f"the case {question}", problems)
+            fields = _fields(value, _POLICY, problems)
+        elif not is_null(value):
+            problems.refuse(value.mark, f"{shown(question)} should have a mapping, as in {{points: 5}}")
+        found.append((question, tuple(fields.items())))
+    return tuple(found)
+
+
+def _columns(node: Node | None, problems: Problems) -> tuple[tuple[str, str], ...]:
+    if node is None or is_null(node):
+        return ()
+    if type(node) is not Mapping:
+        problems.refuse(
+            node.mark, "'map' should be a mapping, as in {student_id: Email Address, Q3: bolt-cutter}"
+        )
+        return ()
+    pairs = []
+    for key, value in node.items.items():
+        if type(value) is Scalar and value.text:
+            pairs.append((key, value.text))
+        else:
+            problems.refuse(value.mark, f"'{key}' should name one column or one case")
+    return tuple(pairs)
+
+
+def _text(node: Node) -> str:
+    if type(node) is not Scalar:
+        raise ValueError("one text should stand here")
+    return node.text.strip()
+
+
+def _one_of(*words: str) -> Callable[[Node], str]:
+    def read(node: Node) -> str:
+        text = _text(node)
+        if text not in words:
+            raise ValueError(f"{shown(text)} should be {', '.join(words[:-1])} or {words[-1]}")
+        return text
+
+    return read
+
+
+def _number(node: Node) -> float:
+    text = _text(node)
+    try:
+        value = float(text)
+    except ValueError:
+        raise ValueError(f"{shown(text)} is not a number") from None
+    if not 0.0 <= value < 1e9:
+        raise ValueError(f"{shown(text)} should be a number from 0 up")
+    return value
+
+
+def share(text: str) -> float:
+    """``50%`` or ``0.5``, from 0 to 1.
+
+    Raises ValueError with a sentence.
+    """
+    try:
+        value = float(text[:-1]) / 100.0 if text.endswith("%") else float(text)
+    except ValueError:
+        value = -1.0
+    if not 0.0 <= value <= 1.0:
+        raise ValueError(f"{shown(text)} should be a share of the mark, such as 50%")
+    return value
+
+
+def _credit(node: Node) -> Credit | None:
+    if type(node) is Scalar and node.text in ("none", "all or nothing"):
+        return None
+    if type(node) is not Mapping or set(node.items) - set(Credit._fields):
+        raise ValueError("the shares are given as {number: 60%, unit: 20%, direction: 20%}")
+    shares = Credit(
+        *(share(_text(node.items[part])) if part in node.items else 0.0 for part in Credit._fields)
+    )
+    if abs(sum(shares) - 1.0) > 1e-9:
+        raise ValueError(f"the shares add up to {100.0 * sum(shares):.6g} %, not to 100 %")
+    return shares
+
+
+def _mistakes(node: Node) -> tuple[tuple[str, float], ...]:
+    if type(node) is not Mapping:
+        raise ValueError("the credit for known mistakes is given as {sign: 50%, carried: 100%}")
+    for code in node.items:
+        if code not in CODES:
+            raise ValueError(f"there is no mistake {shown(code)}{suggestion(code, CODES)}")
+    return tuple((code, share(_text(value))) for code, value in node.items.items())
+
+
+def _figures(node: Node) -> int:
+    text = _text(node).removeprefix("at_least ").removeprefix("at least ").strip()
+    if not (text.isascii() and text.isdigit() and int(text) <= 15):
+        raise ValueError(f"{shown(text)} should be a number of figures, as in 'at_least 3'")
+    return int(text)
+
+
+def _yes(node: Node) -> bool:
+    return _one_of("yes", "no", "true", "false")(node) in ("yes", "true")
+
+
+def _angle(node: Node) -> float:
+    value = _number(node)
+    if not 0.0 < value < 85.0:
+        raise ValueError("a direction in words lies within more than 0 and less than 85 degrees")
+    return value
+
+
+_COURSE: Readers = {
+    "course": ("title", _text),
+    "attempt": ("attempt", _one_of(*ATTEMPTS)),
+    "decimal": ("decimal", _one_of(*DECIMALS)),
+    "seed": ("seed", _text),
+    "reveal": ("reveal", _yes),
+}
+_POLICY: Readers = {
+    "points": ("points", _number),
+    "tolerance": ("tolerance", tolerance_of),
+    "unit": ("unit", _one_of(*UNITS)),
+    "unit_case": ("strict_case", lambda node: _one_of("accept", "refuse")(node) == "refuse"),
+    "direction": ("direction", _one_of(*DIRECTIONS)),
+    "within": ("within", _angle),
+    "credit": ("credit", _credit),
+    "malrules": ("mistakes", _mistakes),
+    "written_figures": ("figures", _figures),
+}

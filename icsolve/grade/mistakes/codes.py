@@ -1,0 +1,76 @@
+"""The codes of known mistakes, simplest first, each with the line that a student is told."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+CODES: dict[str, str] = {
+    "unit": "The number is right, but not in this unit.",
+    "no-unit": "The number is right; its unit is missing.",
+    "unit-case": "The number is right; the capitals of its unit are not.",
+    "figures": "The number is right, but written with too few figures.",
+    "sign": "Right size, wrong sense. Check the sign of the power of each load.",
+    "direction": "Right size, but this is not how the direction of this quantity is given.",
+    "no-direction": "Right size; say its direction in words as well.",
+    "power-of-ten": "The digits are right, the power of ten is not. Check mm and m, N and kN.",
+    "unit-factor": "Off by a unit factor: in and mm, ft and in, lb and N, kg and N, degrees and radians.",
+    "deg-rad": "Was the calculator set to radians?",
+    "no-cos": "Use only the component of the velocity along the force{at}.",
+    "sin-cos": "Sine and cosine are exchanged{at}.",
+    "inverse-ratio": "A velocity ratio is upside down{at}.",
+    "wrong-ic": "A distance is taken from another centre of the same link{at}. About which one does it turn?",
+    "mesh-sense": "An outer mesh is taken for an inner one, or a crossed belt for an open one.",
+    "missed-load": "The power of one load is missing{at}.",
+    "load-sense": "The power of one load has the wrong sign{at}.",
+    "other-unknown": "This is the size of another unknown{at}.",
+    "half": "Half the right size. Is something counted once that is there twice?",
+    "double": "Twice the right size. Is something counted twice?",
+    "other-mode": "This belongs to the other way in which the mechanism assembles. Compare with the figure.",
+    "no-friction": "Friction is left out.",
+    "friction-sense": "Friction acts against the motion; here it acts with it.",
+    "swapped": "The two coordinates are exchanged.",
+    "carried": "The method is right; the error comes from an earlier answer{at}.",
+    "near-miss": "Close, but not within the tolerance. Rounding on the way? Keep four figures.",
+}
+"""Stable codes in order of simplicity: of several that fit, the first is told."""
+
+ORDER = {code: index for index, code in enumerate(CODES)}
+
+
+class Wrong(NamedTuple):
+    """A wrong answer whose cause is known: its code, its signed value, and where the mistake sits."""
+
+    code: str
+    value: float
+    where: str = ""
+
+
+def message(code: str, where: str = "") -> str:
+    """The line for a mistake; it names the cause and the load, link or centre, never the answer."""
+    return CODES[code].format(at=f" ({where})" if where else "")
+
+
+FACTORS = {
+    "in and mm": 25.4,
+    "ft and in": 12.0,
+    "lb and N": 4.4482216152605,
+    "kg and N": 9.80665,
+    "ft and m": 0.3048,
+    "degrees and radians": 57.29577951308232,
+}
+"""Unit factors that are forgotten or applied twice."""
+_RATE = {"rev/min and rad/s": 9.549296585513721, "revolutions and radians": 6.283185307179586}
+
+
+def plain_wrongs(value: float, rate: bool = False) -> Iterator[Wrong]:
+    """The wrong answers about a right ``value``; of an angular speed (``rate``) with those of revolutions."""
+    yield Wrong("sign", -value)
+    for power in (*range(-6, 0), *range(1, 7)):
+        yield Wrong("power-of-ten", value * 10.0**power)
+        yield Wrong("power-of-ten", -value * 10.0**power)
+    for name, factor in (FACTORS | (_RATE if rate else {})).items():
+        yield Wrong("unit-factor", value * factor, name)
+        yield Wrong("unit-factor", value / factor, name)
+    yield Wrong("half", value / 2.0)
+    yield Wrong("double", value * 2.0)

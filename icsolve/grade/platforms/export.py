@@ -1,0 +1,206 @@
+"""Cases as questions of a platform: Moodle XML, GIFT, a PrairieLearn question, a Gradescope autograder."""
+
+from __future__ import annotations
+
+import json
+import os
+import uuid
+from collections.abc import Callable, Iterator
+from html import escape
+from typing import NamedTuple
+
+from icsolve.case import Case
+from icsolve.grade.case_store import CaseStore, Solved, unknowns
+from icsolve.grade.course import Course
+from icsolve.grade.files import write_whole
+from icsolve.grade.keys import Key
+from icsolve.grade.platforms.given import given
+from icsolve.grade.platforms.gradescope import Source, autograder_zip
+from icsolve.grade.platforms.questions import Question, asked, figure, gift, moodle_xml
+from icsolve.grade.tolerance import NoKeyError
+
+_SERVER = '''\
+"""A question of icsolve: values by student, and marks with the cause of a mistake."""
+
+from pathlib import Path
+
+from icsolve.grade.course import read_course
+from icsolve.grade.one import Task
+
+CASE = Path(__file__).parent / {file!r}
+COURSE = Path(__file__).parent / "course.yaml"
+QUESTION = {question!r}
+
+
+def task(data):
+    course = read_course(COURSE) if COURSE.exists() else None
+    return Task(CASE, str(data["variant_seed"]), course)
+
+
+def generate(data):
+    own = task(data)
+    data["params"].update(own.values)
+    data["params"]["given"] = [{{"name": name, "value": value}} for name, value in own.given]
+    data["params"]["asked"] = own.asked(QUESTION)
+    data["correct_answers"]["answer"] = own.right(QUESTION)
+
+
+def file(data):
+    if data["filename"] == "figure.svg":
+        return task(data).figure()
+
+
+def parse(data):
+    marks = task(data).grade(QUESTION, data["submitted_answers"].get("answer", ""))
+    if marks["verdict"] in ("invalid", "missing"):
+        data["format_errors"]["answer"] = marks["feedback"]
+
+
+def grade(data):
+    marks = task(data).grade(QUESTION, data["submitted_answers"].get("answer", ""))
+    data["partial_scores"]["answer"] = {{"score": marks["score"], "weight": 1, "feedback": marks["feedback"]}}
+    data["score"] = marks["score"]
+'''
+_HTML = """\
+<pl-question-panel>
+  <p>{title}</p>{figure}
+  <table>{{{{#params.given}}}}<tr><td>{{{{name}}}}</td><td>{{{{value}}}}</td></tr>{{{{/params.given}}}}</table>
+  <p>{{{{params.asked}}}}</p>
+</pl-question-panel>
+<pl-string-input answers-name="answer" label="Answer" placeholder="number, unit, direction">
+</pl-string-input>
+<pl-submission-panel>
+  <p>{{{{partial_scores.answer.feedback}}}}</p>
+</pl-submission-panel>
+"""
+
+
+class Made(NamedTuple):
+    """What a question is made from: the name and the text of its case, what load is asked for ('': the only
+    unknown), the text of the course ('' for none), and whether each student has a figure of their own."""
+
+    name: str
+    case: str
+    what: str
+    course: str
+    varied: bool
+
+
+def element(question: Question, made: Made) -> dict[str, str]:
+    """The files of the question's folder, by name."""
+    about = {
+        "uuid": str(uuid.uuid5(uuid.NAMESPACE_URL, f"icsolve:{question.name}")),
+        "title": question.title or question.name,
+        "topic": "Instant centres",
+        "tags": ["icsolve"],
+        "type": "v3",
+    }
+    figure = ""
+    if question.picture:
+        kind = ' type="dynamic"' if made.varied else ""
+        figure = f'\n  <pl-figure file-name="figure.svg"{kind}></pl-figure>'
+    files = {
+        "info.json": json.dumps(about, indent=2, ensure_ascii=False) + "\n",
+        "question.html": _HTML.format(title=escape(question.title or question.name), figure=figure),
+        "server.py": _SERVER.format(file=f"{made.name}.yaml", question=made.what),
+        f"{made.name}.yaml": made.case,
+    }
+    if made.course:
+        files["course.yaml"] = made.course
+    if question.picture and not made.varied:
+        files["clientFilesQuestion/figure.svg"] = question.picture
+    return files
+
+
+Complain = Callable[[str], None]
+
+
+class Order(NamedTuple):
+    """What to write: the cases, where, with figures or not, how many variants of a case with variables; the
+    files of the course and of the roster, for what goes on grading by itself."""
+
+    case_store: CaseStore
+    path: str
+    force: bool
+    figures: bool
+    variants: int
+    course: str = ""
+    roster: str = ""
+
+
+def questions(order: Order, complain: Complain) -> Iterator[Question]:
+    """A question for every unknown load of every case; what can't be one is told."""
+    for name in sorted(order.case_store.paths):
+        try:
+            varied = order.case_store.variation(name)
+            if varied is None:
+                solved = order.case_store.solved(name)
+                yield from _of_case(solved, solved.case, name, order.figures)
+                continue
+            varied.foresee(str(n) for n in range(1, order.variants + 1))
+            for n in range(1, order.variants + 1):
+                case = varied.read(varied.draw(str(n)).values)
+                yield from _of_case(varied.solved(str(n)), case, f"{name} v{n}", order.figures)
+        except NoKeyError as error:
+            complain(f"{order.case_store.paths.get(name, name)}: {error}")
+
+
+def _of_case(solved: Solved, case: Case, name: str, figures: bool) -> Iterator[Question]:
+    names = unknowns(case)
+    if not names:
+        raise NoKeyError("no unknown load, so no question")
+    picture = figure(case) if figures else ""
+    for what in names:
+        own = case.name if len(names) == 1 else f"{case.name}:{what}"
+        key = solved.key(own)
+        assert isinstance(key, Key)
+        text = asked(key, solved.target(own))
+        shown = name if len(names) == 1 else f"{name}:{what}"
+        yield Question(shown, tuple(given(case)), text, key, picture, case.title)
+
+
+def export(kind: str, order: Order, complain: Complain) -> int:
+    """Write all cases as ``kind``; how many questions there are.
+
+    Raises ExistsError or OSError.
+    """
+    if kind == "gradescope-zip":
+        return _zip(order)
+    if kind == "prairielearn":
+        return _elements(order._replace(variants=1), complain)
+    found = list(questions(order._replace(figures=order.figures and kind == "moodle-xml"), complain))
+    make = moodle_xml if kind == "moodle-xml" else gift
+    write_whole(order.path, make(found, order.case_store.course.title or "icsolve"), order.force)
+    return len(found)
+
+
+def _elements(order: Order, complain: Complain) -> int:
+    """A folder a question."""
+    found = list(questions(order, complain))
+    course = _text(order.course) if order.course else ""
+    for question in found:
+        case, _, what = question.key.question.partition(":")
+        folder = os.path.join(order.path, question.key.question.replace(":", "-"))
+        varied = order.case_store.variation(case) is not None
+        made = Made(case, order.case_store.text(case), what, course, varied)
+        for name, text in element(question, made).items():
+            write_whole(os.path.join(folder, name), text, order.force)
+    return len(found)
+
+
+def _zip(order: Order) -> int:
+    """All cases with the course, the roster and icsolve itself."""
+    case_store = order.case_store
+    cases = {os.path.basename(at): case_store.text(name) for name, at in case_store.paths.items()}
+    course, roster = (_text(path) if path else "" for path in (order.course, order.roster))
+    seed = case_store.course.seed if case_store.course.seed != Course().seed else ""
+    write_whole(order.path, autograder_zip(Source(cases, course, roster, seed)), order.force)
+    return len(cases)
+
+
+def _text(path: str) -> str:
+    with open(path, encoding="utf-8-sig") as file:
+        return file.read()
+
+
+KINDS = ("moodle-xml", "gift", "prairielearn", "gradescope-zip")

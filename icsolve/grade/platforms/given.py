@@ -1,0 +1,245 @@
+"""What a case gives, in words: the rows that stand under the figure of a question."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from icsolve.case import (
+    Belt,
+    Case,
+    Contact,
+    Coordinates,
+    Corner,
+    Direction,
+    Force,
+    ForceVector,
+    Gears,
+    Guide,
+    Joint,
+    KnownCentre,
+    Like,
+    Load,
+    Motion,
+    Number,
+    Roll,
+    Slide,
+    Slope,
+    Slot,
+    Spring,
+    Torque,
+    Toward,
+    Weight,
+)
+from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Knife, Polygon, Radii, Roller, Shape
+
+
+def outlines(case: Case) -> Iterator[tuple[str, str]]:
+    """A row for each link with a profile."""
+    if case.profiles is None:
+        return
+    for link, shape in case.profiles.shapes.items():
+        yield f"profile of link {link}", _in_words(shape, case.units.length)
+    for touch in case.profiles.touches:
+        if touch.friction is not None:
+            yield f"friction {'-'.join(touch.links)}", f"mu = {touch.friction.mu.digits}"
+
+
+def _in_words(shape: Shape | Follower, unit: str) -> str:
+    match shape:
+        case Polygon(corners):
+            return f"polygon {'-'.join(corners)}"
+        case Circle(centre, radius):
+            return f"circle about {centre}, radius {_number(radius)} {unit}"
+        case Arcs(arcs):
+            return "; ".join(_arc(arc, unit) for arc in arcs)
+        case Radii():
+            return _table(shape, unit)
+        case Flat(at, along):
+            return f"flat face through {at}, along {_line(along)}"
+        case Roller(at, radius):
+            return f"roller about {at}, radius {_number(radius)} {unit}"
+        case Knife(at):
+            return f"knife edge at {at}"
+
+
+def _arc(arc: Arc, unit: str) -> str:
+    radius = f", radius {_number(arc.radius)} {unit}" if arc.radius is not None else ""
+    turns = "clockwise" if arc.turns == "cw" else "counterclockwise"
+    return f"arc about {arc.centre}{radius}, from {_way(arc.start)} to {_way(arc.stop)} {turns}"
+
+
+def _table(shape: Radii, unit: str) -> str:
+    turns = "clockwise" if shape.turns == "cw" else "counterclockwise"
+    rows = ", ".join(f"{_number(angle)} deg: {_number(radius)}" for angle, radius in shape.table)
+    return f"radii about {shape.about} in {unit}, {turns} from {_line(shape.zero)}: {rows}"
+
+
+def _line(line: Number | tuple[str, str]) -> str:
+    return f"{_number(line)} deg" if isinstance(line, Number) else "-".join(line)
+
+
+def _way(direction: Number | str) -> str:
+    return f"{_number(direction)} deg" if isinstance(direction, Number) else direction
+
+
+def _number(number: Number) -> str:
+    return number.digits if number.factor == 1.0 else f"{number.value:.10g}"
+
+
+def given(case: Case) -> list[tuple[str, str]]:
+    """What the figure, its joints, loads and motion give, as pairs of a name and a value."""
+    units = case.units
+    rows = [(name, f"({_coordinate(p.x)}, {_coordinate(p.y)}) {units.length}") for name, p in _places(case)]
+    rows += [(length.a + length.b, f"{_shown(length.value)} {units.length}") for length in case.lengths]
+    rows += [_angle(angle) for angle in case.angles]
+    rows += [row for joint in case.joints for row in _joint(joint, case)]
+    if case.profiles is not None:
+        from icsolve.grade.platforms.given import outlines
+
+        rows += outlines(case)
+    rows += [(load.name, _load(load, case)) for load in case.loads]
+    rows += [_motion(given, case) for given in case.motion]
+    if any(isinstance(load, Weight) and load.mass for load in case.loads):
+        rows.append(("gravity", f"{_shown(case.gravity)} m/s^2"))
+    return rows
+
+
+def _angle(angle: Direction | Corner) -> tuple[str, str]:
+    if isinstance(angle, Corner):
+        return f"angle {angle.a}{angle.at}{angle.b}", f"{_shown(angle.value)} deg, counterclockwise"
+    return f"direction {angle.a}{angle.b}", f"{_shown(angle.value)} deg from +x"
+
+
+def _places(case: Case) -> list[tuple[str, Coordinates]]:
+    return [(n, p) for n, p in case.points.items() if isinstance(p, Coordinates) and not n.startswith("@")]
+
+
+def _coordinate(number: Number | None) -> str:
+    return "unknown" if number is None else _shown(number)
+
+
+def _shown(number: Number) -> str:
+    """In case units, as it is written where it stands in them."""
+    return number.digits if number.factor == 1.0 else f"{number.value:.10g}"
+
+
+def _load(load: Load, case: Case) -> str:
+    """A load in words: ``100 lbf on link 4 at E, at 180 deg``."""
+    from icsolve.sense import unit_of
+
+    against = getattr(load, "against", None)
+    on = f"on link {load.link}" + (f" against link {against}" if against else "")
+    at = getattr(load, "at", "@")
+    where = f"{on} at {_place(at, case)}" if at != "@" else on
+    if isinstance(load, ForceVector):
+        return f"({_shown(load.x)}, {_shown(load.y)}) {case.units.force} {where}"
+    if isinstance(load.value, Like):
+        times = f"{_shown(load.value.times)} times " if load.value.times is not None else ""
+        return f"{times}{load.value.load}, {where}"
+    size = f"{_shown(load.value)} {unit_of(load, case)}" if load.value is not None else "to be found"
+    match load:
+        case Torque(value=None):
+            return f"{size}, {on}"
+        case Torque():
+            return f"{size} {'counterclockwise' if load.turns == 'ccw' else 'clockwise'} {on}"
+        case Weight():
+            return f"{size}, {'mass' if load.mass else 'weight'} {where}"
+        case Spring():
+            free = f"free length {_shown(load.free)} {case.units.length}"
+            return f"stiffness {size}, {free}, {load.at} to {load.to}"
+        case Force(value=None):
+            return f"{size}, {where}, {_heading(load)}"
+        case Force():
+            return f"{size} {where}, {_heading(load)}"
+
+
+def _heading(load: Force) -> str:
+    match load.heading:
+        case Toward(point, away):
+            return f"{'away from' if away else 'toward'} {point}"
+        case Slope(run, rise):
+            return f"along the slope {_shown(run)} : {_shown(rise)}"
+        case Number():
+            return f"at {_shown(load.heading)} deg"
+
+
+def _place(name: str, case: Case) -> str:
+    """A point by its name; one that is given by coordinates alone by those."""
+    place = case.points.get(name)
+    if not name.startswith("@") or not isinstance(place, Coordinates):
+        return name
+    return f"({_coordinate(place.x)}, {_coordinate(place.y)}) {case.units.length}"
+
+
+# --- joints and motion ------------------------------------------------------------------------------
+
+
+def _joint(joint: Joint, case: Case) -> Iterator[tuple[str, str]]:
+    """What a joint gives beside its place; of a smooth pin nothing."""
+    first, second = joint.links[:2]
+    at = getattr(joint, "at", None)
+    where = f" at {_place(at, case)}" if at else ""
+    match joint:
+        case Slide() | Slot():
+            kind = "block" if isinstance(joint, Slide) else "pin"
+            yield f"{kind} of link {first}{where}", f"slides in link {second} {_along(joint.guide)}"
+        case Gears():
+            yield f"gears {first}-{second}", _teeth(joint, case)
+        case Belt():
+            radii = " and ".join(_shown(radius) for radius in joint.radii)
+            kind = "crossed" if joint.crossed else "open"
+            yield f"belt {first}-{second}", f"{kind}, on radii {radii} {case.units.length}"
+        case Roll():
+            radii = " and ".join(_shown(radius) for radius in joint.radii or ())
+            on = f", radii {radii} {case.units.length}" if radii else ""
+            yield f"links {first} and {second}", f"roll without slip{where}{on}"
+        case Contact():
+            yield f"contact {first}-{second}{where}", f"normal at {_shown(joint.normal)} deg"
+        case KnownCentre(toward=None):
+            yield f"centre {first}-{second}", f"{_place(at or '', case)}"
+        case KnownCentre(toward=Number() as toward):
+            yield f"centre {first}-{second}", f"at infinity at {_shown(toward)} deg"
+    yield from _friction(joint, case, f"{first}-{second}{where}")
+
+
+def _along(guide: Guide) -> str:
+    by = f"at {_shown(guide.angle)} deg" if guide.angle is not None else ""
+    through = f", through {guide.through}" if guide.through and not guide.through.startswith("@") else ""
+    return (by or f"along {'-'.join(guide.ends or ())}") + through
+
+
+def _teeth(joint: Gears, case: Case) -> str:
+    counts = [_shown(number).lstrip("-") for number in joint.teeth]
+    inner = any(number.value < 0.0 for number in joint.teeth)
+    parts = [f"{counts[0]} and {counts[1]} teeth" + (", one of them internal" if inner else "")]
+    if joint.pressure_angle is not None:
+        parts.append(f"pressure angle {_shown(joint.pressure_angle)} deg")
+    if joint.diametral_pitch is not None:
+        parts.append(f"diametral pitch {_shown(joint.diametral_pitch)} a {case.units.length}")
+    if joint.module is not None:
+        parts.append(f"module {_shown(joint.module)} {case.units.length}")
+    return ", ".join(parts)
+
+
+def _friction(joint: Joint, case: Case, where: str) -> Iterator[tuple[str, str]]:
+    friction = getattr(joint, "friction", None)
+    if friction is None:
+        return
+    parts = [f"mu = {_shown(friction.mu)}"]
+    if friction.radius is not None:
+        parts.append(f"pin radius {_shown(friction.radius)} {case.units.length}")
+    if friction.length is not None:
+        parts.append(f"length of the block {_shown(friction.length)} {case.units.length}")
+    yield f"friction {where}", ", ".join(parts)
+
+
+def _motion(given: Motion, case: Case) -> tuple[str, str]:
+    """Which way, and how fast."""
+    turns = {"ccw": "counterclockwise", "cw": "clockwise"}.get(given.turns or "", "")
+    speed = _shown(given.speed) if given.speed is not None else ""
+    if given.point is None:
+        parts = (f"{speed} rad/s" if speed else "", turns)
+        return f"link {given.link} turns", ", ".join(part for part in parts if part)
+    heading = f"at {_shown(given.angle)} deg" if given.angle is not None else ""
+    parts = (f"{speed} {case.units.length}/s" if speed else "", heading)
+    return f"{given.point} on link {given.link} moves", ", ".join(part for part in parts if part)

@@ -1,0 +1,214 @@
+"""A case as a question in words, and as one of Moodle: XML (numerical, units, wrong answers) and GIFT."""
+
+from __future__ import annotations
+
+import base64
+import math
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from html import escape
+from typing import NamedTuple
+
+from icsolve.case import Case, LoadIs, Target
+from icsolve.grade.keys import Key, PlaceKey
+from icsolve.grade.mistakes import Wrong, message
+from icsolve.grade.mistakes.codes import ORDER
+from icsolve.grade.written import factors_between
+from icsolve.units import parse_unit
+
+
+def figure(case: Case) -> str:
+    """The case drawn without its answer, as SVG."""
+    from icsolve.construction import known_of
+    from icsolve.draw import Drawing, draw
+
+    return draw(case, Drawing(centres="none"), known_of(case)._replace(answer=None))
+
+
+def asked(key: Key | PlaceKey, target: Target) -> str:
+    """The question's sentence: what to find, in which unit, with which sign."""
+    what = key.question.partition(":")[2]
+    name = target.load if isinstance(target, LoadIs) else what
+    unit = f" in {key.unit_name}" if key.unit_name else ""
+    if isinstance(key, PlaceKey):
+        return f"Where is the centre {name}? Give x and y{unit}."
+    sign = ""
+    if key.expected.turn:
+        sign = f" ({'counterclockwise' if key.expected.turn > 0 else 'clockwise'} positive)"
+    elif key.expected.heading is not None:
+        sign = f" (positive at {key.expected.heading % 360.0:.6g} deg from +x)"
+    return f"Find {name}{unit}{sign}."
+
+
+_FRACTIONS = [
+    float(share)
+    for share in (
+        "100 90 83.33333 80 75 70 66.66667 60 50 40 33.33333 30 25 20 16.66667 14.28571 12.5 11.11111 10 5 0"
+    ).split()
+]
+"""The shares of a mark that Moodle knows."""
+_MOST_OF_ONE = 4
+"""Wrong answers of one code in a question."""
+_UNITS = {
+    "force": "N kN lbf kip kgf",
+    "torque": "N*m N*mm kN*m lbf*ft lbf*in",
+    "length": "m mm cm in ft",
+    "angular": "rad/s rpm deg/s",
+    "speed": "m/s mm/s in/s ft/s",
+}
+
+
+class Question(NamedTuple):
+    """One question: its name, what is given and asked, the key, and a picture (SVG text) if there is one."""
+
+    name: str
+    given: tuple[tuple[str, str], ...]
+    asked: str
+    key: Key
+    picture: str = ""
+    title: str = ""
+
+
+def moodle_xml(questions: Iterable[Question], category: str) -> str:
+    """A quiz file of numerical questions, in a category of their own."""
+    head = f"$course$/{category}"
+    body = "\n".join(_xml_question(question) for question in questions)
+    return (
+        '<?xml version="1.0" encoding="UTF-8"?>\n<quiz>\n'
+        f'<question type="category"><category><text>{_text(head)}</text></category></question>\n'
+        f"{body}\n</quiz>\n"
+    )
+
+
+def _xml_question(question: Question) -> str:
+    key = question.key
+    otherwise = f"Not right. Accepted is an answer {key.rule}."
+    parts = [
+        '<question type="numerical">',
+        f"<name><text>{_text(question.name)}</text></name>",
+        _statement(question),
+        '<generalfeedback format="html"><text/></generalfeedback>',
+        f"<defaultgrade>{key.policy.points:.10g}</defaultgrade><penalty>0.3333333</penalty>",
+        "<hidden>0</hidden>",
+        _answer(100.0, key.value, key.half, f"Right: {key.accepted} is accepted."),
+        *(_answer(share, w.value, reach, message(w.code, w.where)) for w, share, reach in wrong_rows(key)),
+        '<answer fraction="0" format="moodle_auto_format"><text>*</text>'
+        f'<feedback format="html"><text>{_text(otherwise)}</text></feedback>'
+        "<tolerance>0</tolerance></answer>",
+        _units(key),
+        "</question>",
+    ]
+    return "\n".join(parts)
+
+
+def _statement(question: Question) -> str:
+    """The text with its table of values, and the picture in the file itself."""
+    rows = "".join(
+        f"<tr><td>{_text(name)}</td><td>{_text(value)}</td></tr>" for name, value in question.given
+    )
+    title = f"<p>{_text(question.title)}</p>" if question.title else ""
+    image = '<p><img src="@@PLUGINFILE@@/figure.svg" alt="figure"/></p>' if question.picture else ""
+    html = f"{title}{image}<table>{rows}</table><p>{_text(question.asked)}</p>".replace("]]>", "]]&gt;")
+    file = ""
+    if question.picture:
+        data = base64.b64encode(question.picture.encode("utf-8")).decode("ascii")
+        file = f'<file name="figure.svg" path="/" encoding="base64">{data}</file>'
+    return f'<questiontext format="html"><text><![CDATA[{html}]]></text>{file}</questiontext>'
+
+
+def _answer(fraction: float, value: float, tolerance: float, feedback: str) -> str:
+    return (
+        f'<answer fraction="{fraction:.7g}" format="moodle_auto_format"><text>{_number(value)}</text>'
+        f'<feedback format="html"><text>{_text(feedback)}</text></feedback>'
+        f"<tolerance>{_number(tolerance)}</tolerance></answer>"
+    )
+
+
+def wrong_rows(key: Key) -> Iterator[tuple[Wrong, float, float]]:
+    """Known wrong answers, simplest first, with their shares in percent and absolute tolerances.
+
+    Moodle takes the first row that matches, so the right answer stands before them.
+    """
+    known = dict(key.policy.mistakes)
+    ordered = sorted(key.wrongs.all, key=lambda w: (ORDER[w.code], _decades(w.value / key.value), w.value))
+    seen: list[float] = []
+    counts: Counter[str] = Counter()
+    for wrong in ordered:
+        reach = key.wrongs.reach * abs(wrong.value)
+        if counts[wrong.code] < _MOST_OF_ONE and all(abs(wrong.value - other) > reach for other in seen):
+            seen.append(wrong.value)
+            counts[wrong.code] += 1
+            share = 100.0 * known.get(wrong.code, 0.0)
+            yield wrong, min(_FRACTIONS, key=lambda f: abs(f - share)), reach
+
+
+def _decades(ratio: float) -> float:
+    """How far a ratio is from 1, in powers of ten; whole powers of a thousand are the likeliest."""
+    powers = abs(math.log10(abs(ratio))) if ratio else 99.0
+    return 0.5 if abs(powers - 3.0) < 1e-9 else powers
+
+
+def _units(key: Key) -> str:
+    """Units with how many of each make one of the question's own; how a missing one counts."""
+    if not key.unit_name:
+        return (
+            "<unitgradingtype>0</unitgradingtype><unitpenalty>0.1</unitpenalty>"
+            "<showunits>3</showunits><unitsleft>0</unitsleft>"
+        )
+    rows = "".join(
+        f"<unit><multiplier>{_number(multiplier)}</multiplier><unit_name>{_text(name)}</unit_name></unit>"
+        for name, multiplier in unit_rows(key)
+    )
+    graded = "1" if key.policy.unit == "required" else "0"
+    return (
+        f"<units>{rows}</units><unitgradingtype>{graded}</unitgradingtype><unitpenalty>0.1</unitpenalty>"
+        "<showunits>0</showunits><unitsleft>0</unitsleft>"
+    )
+
+
+def unit_rows(key: Key) -> Iterator[tuple[str, float]]:
+    """The question's own unit first, then others of its kind, each with the number that makes one of it."""
+    yield key.unit_name, 1.0
+    for names in _UNITS.values():
+        for name in names.split():
+            factor = factors_between(key.unit, parse_unit(name))
+            if factor is not None and name != key.unit_name:
+                yield name, factor
+
+
+def gift(questions: Iterable[Question], category: str) -> str:
+    """The questions in GIFT; without units, which it does not know."""
+    return f"$CATEGORY: $course$/{_gift(category)}\n\n" + "\n\n".join(map(_gift_question, questions)) + "\n"
+
+
+def _gift_question(question: Question) -> str:
+    key = question.key
+    values = "; ".join(f"{name} = {value}" for name, value in question.given)
+    text = _gift(f"{_sentence(question.title)}Given: {values}. {question.asked}")
+    rows = [f"=%100%{_number(key.value)}:{_number(key.half)}#{_gift(f'Right: {key.accepted} is accepted.')}"]
+    for wrong, share, reach in wrong_rows(key):
+        said = _gift(message(wrong.code, wrong.where))
+        rows.append(f"=%{share:.7g}%{_number(wrong.value)}:{_number(reach)}#{said}")
+    body = "\n".join(rows)
+    return (
+        f"::{_gift(question.name)}::{text} {{#\n{body}\n####{_gift(f'Accepted is an answer {key.rule}.')}\n}}"
+    )
+
+
+def _sentence(title: str) -> str:
+    """A title before other sentences."""
+    return f"{title.rstrip('. ')}. " if title else ""
+
+
+def _gift(text: str) -> str:
+    """Text with GIFT's own characters escaped, on one line."""
+    plain = " ".join(text.split())
+    return "".join(f"\\{c}" if c in "\\~=#{}:" else c for c in plain)
+
+
+def _number(value: float) -> str:
+    return f"{value:.12g}"
+
+
+def _text(text: str) -> str:
+    return escape("".join(c if c >= " " else " " for c in text), quote=False)

@@ -1,0 +1,122 @@
+"""Results written for a platform: one function a kind, all from the lines of ``results.csv``."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable
+from typing import NamedTuple
+
+from icsolve.grade.files import check_free, write_whole
+from icsolve.grade.platforms.gradebooks import (
+    Filled,
+    canvas_filled,
+    canvas_gradebook,
+    moodle_filled,
+    moodle_worksheet,
+)
+from icsolve.grade.platforms.graders import junit_report, prairielearn_results, prairielearn_scores
+from icsolve.grade.platforms.gradescope import gradescope_results
+from icsolve.grade.results import Row, by_student, read_results
+from icsolve.grade.roster import Person
+from icsolve.grade.variants.sheets import file_name
+
+
+class Order(NamedTuple):
+    """What to write: the results, the file to write, who is who, the platform's own file to fill."""
+
+    results: str
+    path: str
+    people: dict[str, Person]
+    template: str
+    force: bool
+
+
+_NAMED = 20
+"""Students without a row who are named."""
+
+
+def write(kind: str, order: Order) -> str:
+    """Write the results as ``kind``; what to tell the user, '' for nothing.
+
+    Raises ValueError for a kind or a template that can't be used, ExistsError, OSError.
+    """
+    try:
+        return KINDS[kind](order)
+    except (ValueError, IndexError) as error:
+        raise ValueError(f"{order.template or order.path}: {error}") from None
+
+
+def check_kind(kind: str) -> None:
+    """Raises ValueError for a kind that there is not."""
+    if kind not in KINDS:
+        raise ValueError(f"--write {kind}: there is no such kind; it is one of {', '.join(KINDS)}")
+
+
+def _canvas(order: Order) -> str:
+    students = by_student(order.results)
+    if not order.template:
+        write_whole(order.path, canvas_gradebook(students, order.people), order.force)
+        return ""
+    return _filled(order, canvas_filled(_text(order.template), students, order.people))
+
+
+def _moodle(order: Order) -> str:
+    students = by_student(order.results)
+    if not order.template:
+        write_whole(order.path, moodle_worksheet(students, order.people), order.force)
+        return ""
+    return _filled(order, moodle_filled(_text(order.template), students, order.people))
+
+
+def _filled(order: Order, made: Filled) -> str:
+    """Write a template that was filled; who has no row in it is named."""
+    write_whole(order.path, made.text, order.force)
+    left = [student for student, _ in by_student(order.results) if student and student not in made.placed]
+    names = ", ".join(left[:_NAMED]) + (f" and {len(left) - _NAMED} more" if len(left) > _NAMED else "")
+    missing = f"; it has no row for {names}" if left else ""
+    return f"{order.path}: marks of {len(made.placed)} students of {order.template}{missing}"
+
+
+def _text(path: str) -> str:
+    with open(path, encoding="utf-8-sig", errors="icsolve-windows", newline="") as file:
+        return file.read()
+
+
+def _single(order: Order, make: Callable[[list[Row]], dict[str, object]]) -> str:
+    """One student's file; of several students a folder with a file for each."""
+    students = [(student, rows) for student, rows in by_student(order.results, False) if student]
+    if len(students) == 1:
+        write_whole(order.path, _json(make(students[0][1])), order.force)
+        return ""
+    folder = order.path.removesuffix(".json")
+    for student, _ in students:
+        check_free(os.path.join(folder, f"{file_name(student)}.json"), order.force)
+    for student, rows in students:
+        write_whole(os.path.join(folder, f"{file_name(student)}.json"), _json(make(rows)), order.force)
+    return f"{folder}: a file for each of {len(students)} students"
+
+
+def _json(entry: dict[str, object]) -> str:
+    return json.dumps(entry, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _prairielearn_csv(order: Order) -> str:
+    write_whole(order.path, prairielearn_scores(by_student(order.results)), order.force)
+    return ""
+
+
+def _junit(order: Order) -> str:
+    write_whole(order.path, junit_report(read_results(order.results)), order.force)
+    return ""
+
+
+KINDS: dict[str, Callable[[Order], str]] = {
+    "canvas": _canvas,
+    "moodle": _moodle,
+    "gradescope": lambda order: _single(order, gradescope_results),
+    "prairielearn": lambda order: _single(order, prairielearn_results),
+    "prairielearn-csv": _prairielearn_csv,
+    "junit": _junit,
+}
+"""Every kind by its name on the command line."""
