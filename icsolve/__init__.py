@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from icsolve.errors import SceneError as SceneError
     from icsolve.read import load as load
     from icsolve.solve import solve as solve
-    from icsolve.turn import Sweep as Sweep
-    from icsolve.turn import sweep as sweep
+    from icsolve.sweep import Sweep as Sweep
+    from icsolve.sweep import sweep as sweep
 
 __version__ = "0.1.0"
 __all__ = ["Answer", "Case", "CaseError", "SceneError", "Sweep", "__version__", "load", "solve", "sweep"]
@@ -28,23 +28,23 @@ _ROOMS = {
     "Case": "case",
     "CaseError": "errors",
     "SceneError": "errors",
-    "Sweep": "turn",
+    "Sweep": "sweep",
     "load": "read",
     "solve": "solve",
-    "sweep": "turn",
+    "sweep": "sweep",
 }
 
 
 class _Package(ModuleType):
-    """The package as a module that keeps ``icsolve.solve`` the function.
+    """The package as a module that keeps ``icsolve.solve`` and ``icsolve.sweep`` the functions.
 
-    Python sets a submodule as an attribute of its package once it is imported; the room
-    ``icsolve.solve`` would hide the function of that name.
+    Python sets a submodule as an attribute of its package once it is imported; the rooms of these
+    names would hide the functions.
     """
 
     def __setattr__(self, name: str, value: Any) -> None:
-        if name == "solve" and isinstance(value, ModuleType):
-            value = value.solve
+        if name in ("solve", "sweep") and isinstance(value, ModuleType):
+            value = getattr(value, name)
         super().__setattr__(name, value)
 
 

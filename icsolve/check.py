@@ -6,7 +6,6 @@ import math
 from typing import TYPE_CHECKING, NamedTuple
 
 from icsolve.answer import Answer, Centre, Found
-from icsolve.bearing import bearing, same_way, turned_at_most
 from icsolve.case import (
     ArmIs,
     Case,
@@ -26,7 +25,8 @@ from icsolve.case import (
     Target,
     Torque,
 )
-from icsolve.names import pair_name
+from icsolve.case.names import pair_name
+from icsolve.wording.bearings import bearing, same_way, turned_at_most
 
 if TYPE_CHECKING:
     from icsolve.answer.space import Spatial
@@ -183,7 +183,7 @@ def _found(answer: Answer, expected: Expected) -> tuple[float, ...]:
 
 
 def _in_space(answer: Answer, spatial: Spatial, expected: Expected) -> float:
-    from icsolve.space.compared import found_value
+    from icsolve.statics.space.compared import found_value
 
     try:
         return found_value(answer, spatial, expected.target, expected.sense)
@@ -192,7 +192,7 @@ def _in_space(answer: Answer, spatial: Spatial, expected: Expected) -> float:
 
 
 def _of_bodies(answer: Answer, target: ReactionIs | ArmIs | FrictionRadiusIs) -> float:
-    from icsolve.bodies.compared import found_value
+    from icsolve.statics.compared import found_value
 
     if answer.reactions is None and not isinstance(target, FrictionRadiusIs):
         if any(found.holds is not None for found in answer.answers.values()):

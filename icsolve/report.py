@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from icsolve.answer import Answer
 from icsolve.case import Case, Pin, Slide, Weld
-from icsolve.grashof import (
+from icsolve.structure.grashof import (
     Crank,
     Range,
     Side,
@@ -21,7 +21,7 @@ from icsolve.grashof import (
 )
 
 if TYPE_CHECKING:
-    from icsolve.profile.reporting import Pressure
+    from icsolve.cams.reporting import Pressure
 
 Place = tuple[float, float]
 
@@ -93,7 +93,7 @@ def _contacts(answer: Answer) -> tuple[Pressure, ...]:
     """The pressure angles of contacts that profiles gave."""
     if not answer.touching:
         return ()
-    from icsolve.profile.reporting import pressures
+    from icsolve.cams.reporting import pressures
 
     return pressures(answer)
 

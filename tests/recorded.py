@@ -9,10 +9,10 @@ from mpmath import mp, mpf
 
 import icsolve
 from icsolve.case import Case
-from icsolve.turn.numbers import numbers_of
-from icsolve.turn.program import Sheet
-from icsolve.turn.record import Op, Traced
-from icsolve.turn.together import Together
+from icsolve.numbers.record import Op, Traced
+from icsolve.sweep.numbers import numbers_of
+from icsolve.sweep.program import Sheet
+from icsolve.sweep.together import Together
 
 mp.dps = 60
 RADIAN = mp.pi / 180

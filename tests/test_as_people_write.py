@@ -9,7 +9,7 @@ import pytest
 
 import icsolve
 from icsolve.draw import Drawing, draw
-from icsolve.turn.ask import AskError
+from icsolve.sweep.ask import AskError
 
 FOUR_BAR = """
 icsolve: 1

@@ -329,7 +329,7 @@ def test_a_drawing_imports_what_it_needs_and_no_more() -> None:
     """Start-up is a measured feature: masked arrays and the rooms of cams cost more than a drawing."""
     script = (
         f"import sys, icsolve; from icsolve.draw import draw; draw(icsolve.load({str(FILES[FOUR])!r}))\n"
-        "rooms = ('numpy.ma', 'icsolve.profile.shapes', 'icsolve.draw.bodies')\n"
+        "rooms = ('numpy.ma', 'icsolve.cams.shapes', 'icsolve.draw.bodies')\n"
         "print([room for room in rooms if room in sys.modules])"
     )
     ran = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)

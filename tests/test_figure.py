@@ -6,8 +6,8 @@ import math
 
 import pytest
 
+from icsolve.assembly import Figure, case_point, solve_figure
 from icsolve.case import Case
-from icsolve.figure import Figure, case_point, solve_figure
 from icsolve.read import load
 
 PINS = "joints:\n" + "".join(

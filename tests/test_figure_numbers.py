@@ -11,10 +11,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from icsolve.arithmetic import Scalar, turn_of
+from icsolve.assembly import Figure, case_point, place, solve_figure
 from icsolve.case import Case, Coordinates, Number
-from icsolve.figure import Figure, case_point, place, solve_figure
-from icsolve.tape import Tape
+from icsolve.numbers.arithmetic import Scalar, turn_of
+from icsolve.numbers.tape import Tape
 from test_figure import FOUR_BAR, LOOP, PINS, butterfly, case
 
 U = 2.0**-53

@@ -8,8 +8,8 @@ import os
 import pytest
 
 from figure_drafts import Draft, framework, sequence
+from icsolve.assembly import Figure, case_point, solve_figure
 from icsolve.errors import SceneError, Status
-from icsolve.figure import Figure, case_point, solve_figure
 
 MORE = int(os.environ.get("ICSOLVE_MORE", "1"))
 """How many times as many random figures as in CI."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from icsolve.assembly import solve_figure
 from icsolve.errors import SceneError, Status
-from icsolve.figure import solve_figure
 from test_figure import FOUR_BAR, LOOP, PINS, SLIDER, butterfly, case, solved
 
 

@@ -20,14 +20,14 @@ import rubbing
 import transcribe
 from growth import random_mechanism
 from icsolve.answer.bodies import Witness
-from icsolve.bodies import certain
-from icsolve.bodies.agreement import refuse_apart
-from icsolve.bodies.bounding import Exact, Sliding, Weights, step
-from icsolve.bodies.rubs import rubs_of
-from icsolve.bodies.ties import Position, ties_of
-from icsolve.program import Want, evaluate, prepare
-from icsolve.sensitivity import influences
-from icsolve.text import answer_text
+from icsolve.solve.program import Want, evaluate, prepare
+from icsolve.solve.sensitivity import influences
+from icsolve.statics import certain
+from icsolve.statics.agreement import refuse_apart
+from icsolve.statics.bounding import Exact, Sliding, Weights, step
+from icsolve.statics.rubs import rubs_of
+from icsolve.statics.ties import Position, ties_of
+from icsolve.wording.text import answer_text
 from more_digits import SixtyDigits
 from test_friction import BLOCK, MORE, QUICK_RETURN, SIX_BAR, brake, lever, slider_crank, turning, wedge
 

@@ -11,7 +11,7 @@ import icsolve
 from cams import sliding, table
 from grade_shell import CASES
 from icsolve.grade.platforms.given import given
-from icsolve.turn.numbers import numbers_of
+from icsolve.sweep.numbers import numbers_of
 
 
 def rows(name: str) -> dict[str, str]:

@@ -22,7 +22,7 @@ from icsolve.grade.variants.sheets import Task, key_csv, tasks
 from icsolve.grade.variants.together import look
 from icsolve.grade.variants.varied import looked_at
 from icsolve.grade.written import Reader
-from icsolve.turn.numbers import with_numbers
+from icsolve.sweep.numbers import with_numbers
 
 CASES = sorted((Path(__file__).parent.parent / "cases").rglob("*.yaml"))
 ROWS = 8

@@ -27,7 +27,7 @@ from icsolve.cli import main
 from icsolve.construction import known_of, needed_steps
 from icsolve.page import page_html
 from icsolve.page.motion import Motion, motion_of
-from icsolve.verdicts import rubs
+from icsolve.solve.refusals import rubs
 from test_profile_sweep import CAMS
 
 ROOT = Path(__file__).parent.parent

@@ -10,8 +10,8 @@ import pytest
 import mechanisms
 import transcribe
 from chains import BUTTERFLY, FLIER
-from icsolve.plan import Plan, make_plan
-from icsolve.topology import Topology, topology
+from icsolve.structure.plan import Plan, make_plan
+from icsolve.structure.topology import Topology, topology
 
 
 def chain_of_four_bars(loops: int) -> Topology:

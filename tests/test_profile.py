@@ -18,17 +18,17 @@ from hypothesis import strategies as st
 
 from cams import HEAD, sliding, swinging, table
 from icsolve.answer import Answer
+from icsolve.cams.freedom import places_of
+from icsolve.cams.shapes import placed
+from icsolve.cams.spline import spline
 from icsolve.case import Motion
 from icsolve.case.profiles import points_of
 from icsolve.errors import CaseError, SceneError, Status
-from icsolve.profile.freedom import places_of
-from icsolve.profile.roots import zero_between
-from icsolve.profile.shapes import placed
-from icsolve.profile.spline import spline
+from icsolve.numbers.roots import zero_between
 from icsolve.read import load
 from icsolve.read.profiles import KEYS
 from icsolve.solve import solve
-from icsolve.turn.numbers import with_numbers
+from icsolve.sweep.numbers import with_numbers
 
 E, R, ROLLER = 20.0, 40.0, 10.0
 ANGLES = st.floats(-180.0, 180.0).map(lambda x: round(x, 6))

@@ -9,13 +9,13 @@ import numpy as np
 import pytest
 
 from cams import HEAD, sliding, swinging, table
+from icsolve.cams.sweeping import SAID
 from icsolve.case import Case, Motion
 from icsolve.errors import SceneError, Status
-from icsolve.profile.sweeping import SAID
 from icsolve.read import load
 from icsolve.solve import solve
-from icsolve.turn import sweep
-from icsolve.turn.numbers import with_numbers
+from icsolve.sweep import sweep
+from icsolve.sweep.numbers import with_numbers
 
 E, R, ROLLER = 20.0, 40.0, 10.0
 CIRCLE = "{circle: C, radius: 40}"

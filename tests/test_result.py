@@ -8,8 +8,8 @@ import pytest
 
 from icsolve.answer import Centre, Found, Term
 from icsolve.case import Coordinates, Motion, Torque, Units
-from icsolve.result import pair_name, refusal_dict, to_dict
-from icsolve.text import answer_text
+from icsolve.wording.result import pair_name, refusal_dict, to_dict
+from icsolve.wording.text import answer_text
 from made import four_bar_answer, four_bar_case, number
 
 

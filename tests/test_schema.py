@@ -13,7 +13,7 @@ from draft07 import valid
 from icsolve.errors import CaseError
 from icsolve.read import load
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
-from icsolve.schema import schema
+from icsolve.read.schema import schema
 from trees import document, tree, typed
 
 SCHEMA = schema()

@@ -7,8 +7,8 @@ from random import Random
 import pytest
 
 import icsolve
-from icsolve.plane import Triple, add
-from icsolve.second_order import bracket
+from icsolve.kinematics.second_order import bracket
+from icsolve.screws.plane import Triple, add
 
 MOVES, BINDS = "goes on moving to second order", "only for an instant"
 

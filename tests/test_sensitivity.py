@@ -7,8 +7,8 @@ from mpmath import mpf
 
 import icsolve
 from icsolve.case import Number
-from icsolve.program import Want, evaluate, prepare
-from icsolve.sensitivity import band, entries, influences, text
+from icsolve.solve.program import Want, evaluate, prepare
+from icsolve.solve.sensitivity import band, entries, influences, text
 from more_digits import SixtyDigits
 
 PRESS = """

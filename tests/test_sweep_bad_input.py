@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 import icsolve
-from icsolve.turn import ask
+from icsolve.sweep import ask
 from test_sweep_command import PRESS, press, swept
 
 __all__ = ["press"]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import icsolve
-from icsolve.turn.closing import Order
+from icsolve.sweep.closing import Order
 from test_sweep_status import PARALLELOGRAM
 
 CASES = Path(__file__).parent.parent / "cases"

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import icsolve
-from icsolve.turn.finding import Query, find
+from icsolve.sweep.finding import Query, find
 from test_sweep_status import FOUR_BAR, PARALLELOGRAM, SLIDER_CRANK
 
 
@@ -76,7 +76,7 @@ def test_a_pole_is_no_peak() -> None:
 
 
 def test_positions_of_a_group_that_is_followed(monkeypatch: pytest.MonkeyPatch) -> None:
-    from icsolve.turn.closing import Order
+    from icsolve.sweep.closing import Order
 
     whole = found(UNKNOWN_TORQUE, "angles.AB", DEGREES, Query("max"))
     monkeypatch.setattr(Order, "_meets", lambda self: iter(()))

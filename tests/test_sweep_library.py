@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import icsolve
-from icsolve.turn.numbers import numbers_of
+from icsolve.sweep.numbers import numbers_of
 
 CASES = Path(__file__).parent.parent / "cases"
 FILES = sorted(CASES.rglob("*.yaml"))

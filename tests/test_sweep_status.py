@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import icsolve
-from icsolve.turn.closing import Order
+from icsolve.sweep.closing import Order
 
 ALL = ("answers", "status", "error", "points", "centres", "rates")
 

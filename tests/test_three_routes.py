@@ -15,10 +15,10 @@ import pytest
 import icsolve
 import reference
 import witness
-from icsolve.bounds import unbounded_values
+from icsolve.cams.solving import placed
 from icsolve.case import Case, KnownCentre
-from icsolve.profile.solving import placed
-from icsolve.program import Want, evaluate, prepare
+from icsolve.solve.bounds import unbounded_values
+from icsolve.solve.program import Want, evaluate, prepare
 
 FILES = sorted((Path(__file__).parent.parent / "cases").rglob("*.yaml"))
 AGREE = 1e-9

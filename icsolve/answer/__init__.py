@@ -189,7 +189,7 @@ class Answer:
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of the format (``icsolve/solve/1``)."""
-        from icsolve.result import to_dict
+        from icsolve.wording.result import to_dict
 
         return to_dict(self)
 

@@ -8,7 +8,7 @@ from itertools import chain, combinations, islice
 from typing import Any, Protocol
 
 from icsolve.bench.rivals import Drawn, Failed, Posed, balanced, posed
-from icsolve.plane import Triple, cross, pairing, times
+from icsolve.screws.plane import Triple, cross, pairing, times
 
 Pair = tuple[int, int]
 

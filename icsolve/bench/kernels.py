@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 
-from icsolve.arithmetic import FLOATS, turn_of
-from icsolve.figure.loci import meet_circles
-from icsolve.plane import Triple, cross, dyad_twists, pairing, pin_twist
+from icsolve.assembly.loci import meet_circles
+from icsolve.numbers.arithmetic import FLOATS, turn_of
+from icsolve.screws.plane import Triple, cross, dyad_twists, pairing, pin_twist
 
 HERE: Triple = (0.0, 0.0, 1.0)
 TORQUE: Triple = (0.0, 0.0, 1.0)

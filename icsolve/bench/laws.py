@@ -15,9 +15,9 @@ from icsolve.bench.reference import AsWritten, truth
 from icsolve.bench.scaled import scaled
 from icsolve.case import Case
 from icsolve.errors import SceneError
-from icsolve.program import Want, evaluate, prepare
 from icsolve.read import load
 from icsolve.solve import solve
+from icsolve.solve.program import Want, evaluate, prepare
 
 FORWARD = 4.0
 """Forward error over (kappa + 1) u that no scene may exceed."""

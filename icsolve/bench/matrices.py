@@ -7,11 +7,11 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-from icsolve import power
 from icsolve.bench.rivals import Drawn, Failed, OtherData, Posed, balanced, posed
 from icsolve.case import Case, Coordinates
-from icsolve.joints import transmitted
-from icsolve.plane import Point, Triple
+from icsolve.screws.joints import transmitted
+from icsolve.screws.plane import Point, Triple
+from icsolve.statics import power
 
 Matrix = npt.NDArray[np.float64]
 

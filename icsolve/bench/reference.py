@@ -8,10 +8,10 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from icsolve import verdicts
-from icsolve.bounds import evaluate_bounded
 from icsolve.case import Case, Contact, Coordinates, Force, KnownCentre, Number
-from icsolve.program import Program, Want, evaluate, prepare
+from icsolve.solve import refusals
+from icsolve.solve.bounds import evaluate_bounded
+from icsolve.solve.program import Program, Want, evaluate, prepare
 
 DIGITS = 60
 UNIT = 2.0**-53
@@ -74,7 +74,7 @@ def truth(case: Case) -> Truth:
     """
     program = prepare(case, Want())
     _, outcome = evaluate(program, AsRead())
-    verdicts.refuse_unbalanced(case, program.top, outcome.motions, outcome.balance, outcome.solution)
+    refusals.refuse_unbalanced(case, program.top, outcome.motions, outcome.balance, outcome.solution)
     return Truth(next(iter(outcome.solution.values.values())), condition(program))
 
 

@@ -6,15 +6,15 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from icsolve import power
-from icsolve.arithmetic import FLOATS
+from icsolve.assembly import Frame
 from icsolve.case import Case, Coordinates
-from icsolve.figure import Frame
-from icsolve.joints import freedoms
-from icsolve.loops import Bases
-from icsolve.plane import Point, Triple
-from icsolve.program import Program, Want, prepare
-from icsolve.topology import Topology
+from icsolve.kinematics.loops import Bases
+from icsolve.numbers.arithmetic import FLOATS
+from icsolve.screws.joints import freedoms
+from icsolve.screws.plane import Point, Triple
+from icsolve.solve.program import Program, Want, prepare
+from icsolve.statics import power
+from icsolve.structure.topology import Topology
 
 Twists = Sequence[Triple]
 """Twist of every body relative to the frame."""

@@ -118,7 +118,7 @@ def _solved(text: str, asked: Asked) -> tuple[str, list[str]]:
 def _swept(text: str, turned: Turned, asked: Asked) -> tuple[str, list[str]]:
     """Every row has the status asked, and where it is ok the values asked."""
     from icsolve.read import load
-    from icsolve.turn import sweep
+    from icsolve.sweep import sweep
 
     at = [turned.first + turned.step * k for k in range(turned.rows)]
     made = sweep(load(text), {turned.path: [float(x) for x in at]})

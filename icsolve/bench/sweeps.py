@@ -16,7 +16,7 @@ from icsolve.bench.startup import peak_memory
 from icsolve.bench.timing import least
 from icsolve.case import Case
 from icsolve.read import load
-from icsolve.turn import sweep
+from icsolve.sweep import sweep
 
 TURN, MILLION = POSITIONS, 1_000_000
 PATH = "angles.AB"
@@ -103,7 +103,7 @@ def swept(case: Case, degrees: Array, want: tuple[str, ...]) -> Array:
 def memory() -> float | None:
     """Largest resident memory in MB of a process that sweeps a million positions."""
     code = (
-        "import numpy as np, icsolve\nfrom icsolve.turn import sweep\n"
+        "import numpy as np, icsolve\nfrom icsolve.sweep import sweep\n"
         f"case = icsolve.load({FOUR_BAR_CASE!r})\n"
         f"sweep(case, {{{PATH!r}: np.linspace(60.0, 420.0, {MILLION})}}, ('answers',))"
     )

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 import click
 
 from icsolve.check import AGREES, DISAGREES, ERRATUM, NOT_EXAMINED, Row, compare, wanted
-from icsolve.check_table import HEADER, table_row
 from icsolve.cli.options import CASES, JSON, SET
 from icsolve.cli.run import DONE, NO_ANSWER, complain, for_each, on_stderr
 from icsolve.cli.solving import print_json
-from icsolve.sentences import plural
+from icsolve.wording.check_table import HEADER, table_row
+from icsolve.wording.sentences import plural
 
 if TYPE_CHECKING:
     from icsolve.case import Case

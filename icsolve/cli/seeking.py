@@ -11,7 +11,7 @@ from icsolve.errors import Status
 if TYPE_CHECKING:
     from icsolve.case import Case
     from icsolve.errors import SceneError
-    from icsolve.turn.finding import Query, Spot
+    from icsolve.sweep.finding import Query, Spot
 
 SCHEMA = "icsolve/find/1"
 WORDS = ("dead", "max")
@@ -42,9 +42,9 @@ def query_of(case: Case, word: str) -> Query:
 
     Raises AskError for anything else, and where nothing is unknown.
     """
-    from icsolve.power import is_unknown
-    from icsolve.turn.ask import AskError
-    from icsolve.turn.finding import Query
+    from icsolve.statics.power import is_unknown
+    from icsolve.sweep.ask import AskError
+    from icsolve.sweep.finding import Query
 
     unknown = next((load.name for load in case.loads if is_unknown(load)), None)
     if unknown is None:
@@ -60,7 +60,7 @@ def query_of(case: Case, word: str) -> Query:
 def _value(case: Case, name: str, text: str) -> float:
     """The value in case units."""
     from icsolve.read.problems import shown, suggestion
-    from icsolve.turn.ask import AskError
+    from icsolve.sweep.ask import AskError
     from icsolve.units import UnitError, converted, kind_of, parse_unit, split_quantity
 
     target = _unit(case, name)
@@ -82,7 +82,7 @@ def _value(case: Case, name: str, text: str) -> float:
 
 def _unit(case: Case, name: str) -> str | None:
     """The unit of a load; None where there is none of this name."""
-    from icsolve.sense import unit_of
+    from icsolve.wording.senses import unit_of
 
     return next((unit_of(load, case) for load in case.loads if load.name == name), None)
 

@@ -93,7 +93,7 @@ def _as_json(options: Options) -> Work:
         if options.report:
             entry["report"] = _report(case).to_dict()
         if options.sensitivity or options.tolerance:
-            from icsolve.sensitivity import entries
+            from icsolve.solve.sensitivity import entries
 
             entry |= entries(answer, options.sensitivity, options.tolerance)
         print_json(entry)
@@ -111,7 +111,7 @@ def _as_text(options: Options, several: bool) -> Work:
     shown = 0
 
     def work(case: Case, path: str) -> int:
-        from icsolve.text import answer_text
+        from icsolve.wording.text import answer_text
 
         nonlocal shown
         answer = _solve(case, options)
@@ -119,7 +119,7 @@ def _as_text(options: Options, several: bool) -> Work:
         if options.report:
             sections.append(_report(case).text(options.digits))
         if options.sensitivity or options.tolerance:
-            from icsolve.sensitivity import text
+            from icsolve.solve.sensitivity import text
 
             sections.append(text(answer, options.sensitivity, options.tolerance, options.digits))
         above = ("\n" if shown else "") + (f"=== {path}\n" if several else "")
@@ -131,6 +131,6 @@ def _as_text(options: Options, several: bool) -> Work:
 
 
 def _refuse_json(case: Case, path: str, error: SceneError) -> None:
-    from icsolve.result import refusal_dict
+    from icsolve.wording.result import refusal_dict
 
     print_json(refusal_dict(case.name, error.status, error.message))

@@ -26,7 +26,7 @@ def schema_command() -> int:
     """Print the JSON Schema (draft-07) of a case, for editors."""
     import json
 
-    from icsolve.schema import schema
+    from icsolve.read.schema import schema
 
     click.echo(json.dumps(schema(), indent=2))
     return DONE

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from icsolve.case import Case
     from icsolve.cli.spans import Values
     from icsolve.errors import SceneError
-    from icsolve.turn import Sweep
+    from icsolve.sweep import Sweep
 
 Ranges = tuple[tuple[str, "Values"], ...]
 WRITTEN = (".csv", ".jsonl", ".npz")
@@ -116,7 +116,7 @@ def _unplottable(path: str, ranges: int) -> str | None:
 
 def _readable(work: Callable[[Case, str, Asked], int], read: Case, path: str, asked: Asked) -> int:
     """The work; what is asked that makes no sense for this case is said."""
-    from icsolve.turn.ask import AskError
+    from icsolve.sweep.ask import AskError
 
     try:
         return work(read, path, asked)
@@ -128,8 +128,8 @@ def _readable(work: Callable[[Case, str, Asked], int], read: Case, path: str, as
 def _table(read: Case, path: str, asked: Asked) -> int:
     """All rows, as a table or a picture."""
     from icsolve.cli.progress import Progress
-    from icsolve.turn import sweep
-    from icsolve.turn.sheet_out import FORMATS
+    from icsolve.sweep import sweep
+    from icsolve.sweep.sheet_out import FORMATS
 
     varied, driven = _columns(asked)
     with Progress(math.prod(len(values) for _, values in (*asked.vary, *asked.drive))) as progress:
@@ -160,7 +160,7 @@ def _written(content: str | Iterable[bytes], path: str | None, asked: Asked) -> 
 def _find(read: Case, path: str, asked: Asked) -> int:
     """Positions that are looked for."""
     from icsolve.cli.seeking import as_json, as_text, query_of
-    from icsolve.turn.finding import find
+    from icsolve.sweep.finding import find
 
     varied, driven = _columns(asked)
     query = query_of(read, asked.find or "")

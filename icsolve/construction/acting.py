@@ -5,14 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import NamedTuple
 
-from icsolve.arithmetic import FLOATS
+from icsolve.assembly import Frame
 from icsolve.case import ForceVector, Like, Load, Torque
 from icsolve.construction.known import Known
 from icsolve.errors import SceneError
-from icsolve.figure import Frame
-from icsolve.plane import Point
-from icsolve.power import Wrench, known_value, points_of, wrenches
-from icsolve.sense import unit_of
+from icsolve.numbers.arithmetic import FLOATS
+from icsolve.screws.plane import Point
+from icsolve.statics.power import Wrench, known_value, points_of, wrenches
+from icsolve.wording.senses import unit_of
 
 
 class Acting(NamedTuple):

@@ -7,15 +7,15 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
-from icsolve import speeds
 from icsolve.answer import Answer, Centre
+from icsolve.assembly import Frame, case_point, solve_figure
 from icsolve.case import Case, Coordinates, Pair
+from icsolve.case.names import ordered_pair
 from icsolve.errors import SceneError, Status
-from icsolve.figure import Frame, case_point, solve_figure
-from icsolve.names import ordered_pair
-from icsolve.plane import Point, Triple
-from icsolve.program import Want, evaluate, prepare
+from icsolve.kinematics import speeds
+from icsolve.screws.plane import Point, Triple
 from icsolve.solve import solve
+from icsolve.solve.program import Want, evaluate, prepare
 
 
 class Known(NamedTuple):
@@ -69,7 +69,7 @@ def known_of(case: Case, *, reactions: bool = False) -> Known:
     if case.space is not None:
         return Known(case, answer, refusal, None, {}, {}, 0.0)
     if case.profiles is not None:
-        from icsolve.profile.solving import placed
+        from icsolve.cams.solving import placed
 
         case = placed(case)
     whole = _whole(case) or _whole(replace(case, loads=(), expect=(), motion=())) or answer

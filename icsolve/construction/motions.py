@@ -6,12 +6,12 @@ import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
+from icsolve.assembly import Frame
 from icsolve.construction.known import Known
 from icsolve.construction.needed import loaded_links
 from icsolve.errors import SceneError
-from icsolve.figure import Frame
-from icsolve.plane import Triple
-from icsolve.program import Want, evaluate, prepare
+from icsolve.screws.plane import Triple
+from icsolve.solve.program import Want, evaluate, prepare
 
 LEAST = 1e-9
 """A rate below this, of the largest of its motion, can't be the one that a motion is told by."""

@@ -9,7 +9,7 @@ from icsolve.case import Case, Pair
 from icsolve.construction.known import Known
 from icsolve.construction.order import Step, steps_of
 from icsolve.construction.ratios import Ratios, ratios_of
-from icsolve.power import is_unknown, reacting
+from icsolve.statics.power import is_unknown, reacting
 
 
 def loaded_links(case: Case) -> list[str]:

@@ -53,6 +53,6 @@ def _is_placed(centre: Centre | None) -> bool:
 
 
 def _order(known: Known, pair: Pair) -> tuple[tuple[int, int], ...]:
-    from icsolve.names import link_order
+    from icsolve.case.names import link_order
 
     return tuple(link_order(known.case, link) for link in pair)

@@ -9,11 +9,11 @@ from icsolve.case import Case
 from icsolve.case.space import Torque, TorqueVector
 from icsolve.construction.known import Known
 from icsolve.errors import SceneError
-from icsolve.space.figure import Figure, figure_of, in_case
-from icsolve.space.loading import wrenched
-from icsolve.space.shown import unit_of
-from icsolve.space.ties import Tie, ties_of
-from icsolve.space.vectors import Vec, times
+from icsolve.statics.space.figure import Figure, figure_of, in_case
+from icsolve.statics.space.loading import wrenched
+from icsolve.statics.space.shown import unit_of
+from icsolve.statics.space.ties import Tie, ties_of
+from icsolve.statics.space.vectors import Vec, times
 
 
 class Push(NamedTuple):

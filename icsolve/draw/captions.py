@@ -5,12 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from icsolve.case.names import pair_name
 from icsolve.construction import Known, Step
 from icsolve.construction.words import range_words, sense_words
 from icsolve.draw.marks import Group, Mark, Run, Text, bounds
 from icsolve.draw.svg import runs_of
 from icsolve.draw.words import figure_number, quantity, wrapped
-from icsolve.names import pair_name
 
 TITLE, NOTE = 17.0, 12.5
 NARROWEST = 420.0

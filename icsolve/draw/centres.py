@@ -11,6 +11,7 @@ import shapely
 
 from icsolve.answer import Centre
 from icsolve.case import Contact, Pair, Slot
+from icsolve.case.names import pair_name
 from icsolve.construction import Known, Step
 from icsolve.draw.arrows import arrow
 from icsolve.draw.links import guide_in_picture
@@ -20,7 +21,6 @@ from icsolve.draw.scene import Part, Scene, around
 from icsolve.draw.shapes import clipped
 from icsolve.draw.view import along, direction, unit
 from icsolve.draw.words import centre_runs, quantity
-from icsolve.names import pair_name
 
 BEYOND = 16.0
 """How far a line of centres goes on beyond the last of them."""

@@ -9,12 +9,12 @@ from collections.abc import Sequence
 import shapely
 
 from icsolve.case import Pair
+from icsolve.case.names import link_order, pair_name
 from icsolve.construction import Known, Step
 from icsolve.draw.figure import with_labels
 from icsolve.draw.marks import Area, Box, Disc, Group, Mark, Point, Run, Stroke, Text, text_width
 from icsolve.draw.place import Label, Soft
 from icsolve.draw.scene import Part, around
-from icsolve.names import link_order, pair_name
 
 ALONG = (0.5, 0.44, 0.56, 0.38, 0.62, 0.32, 0.68, 0.26, 0.74, 0.2, 0.8)
 """Where on its chord a number may stand."""

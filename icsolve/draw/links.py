@@ -8,14 +8,14 @@ from typing import NamedTuple
 
 import shapely
 
-from icsolve.arithmetic import FLOATS, turn_of
 from icsolve.case import Joint, KnownCentre, Pin, Slide, Slot
 from icsolve.draw.marks import Disc, Group, Mark, Point, Run
 from icsolve.draw.place import Label, Soft
 from icsolve.draw.scene import BLOCK, HALF, PIN, RAIL, SLOT, Part, Scene
 from icsolve.draw.shapes import area, bar, joined, nearest, plate, tilted
 from icsolve.draw.view import along, unit
-from icsolve.joints import guide_direction
+from icsolve.numbers.arithmetic import FLOATS, turn_of
+from icsolve.screws.joints import guide_direction
 
 ROD = 5.0
 """Half the width of a rod on which a block slides."""

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from icsolve.arithmetic import turn_of
+from icsolve.cams.shapes import placed
 from icsolve.case import Case, Contact
 from icsolve.case.profiles import Circle, Flat, Knife, Roller, points_of
 from icsolve.draw.marks import Box
 from icsolve.draw.wheels import Edge, Wheel
 from icsolve.errors import SceneError
-from icsolve.plane import Point
-from icsolve.profile.shapes import placed
+from icsolve.numbers.arithmetic import turn_of
+from icsolve.screws.plane import Point
 
 
 def surfaces(case: Case, joint: Contact, points: Mapping[str, Point]) -> list[Wheel | Edge]:

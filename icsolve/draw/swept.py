@@ -11,10 +11,10 @@ from typing import TYPE_CHECKING
 from icsolve.draw.plot import Curve, Shade, plot_svg
 from icsolve.draw.words import figure_number, unit_word
 from icsolve.errors import Status
-from icsolve.sense import unit_of
+from icsolve.wording.senses import unit_of
 
 if TYPE_CHECKING:
-    from icsolve.turn import Sweep
+    from icsolve.sweep import Sweep
 
 DEAD = (Status.DEAD_CENTRE, Status.NO_VALUE)
 

@@ -6,12 +6,12 @@ import math
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
-from icsolve.arithmetic import FLOATS, turn_of
 from icsolve.case import Belt, Case, Contact, Gears, Pin, Roll
 from icsolve.errors import SceneError
-from icsolve.joints import mesh_weights
-from icsolve.plane import Point
-from icsolve.topology import Bond, topology
+from icsolve.numbers.arithmetic import FLOATS, turn_of
+from icsolve.screws.joints import mesh_weights
+from icsolve.screws.plane import Point
+from icsolve.structure.topology import Bond, topology
 
 NEAR = 0.02
 """A point is a wheel's centre where it is so near, of the radius, to that distance from the contact."""

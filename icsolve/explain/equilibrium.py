@@ -11,7 +11,7 @@ from icsolve.construction import Acting, Known, acting_loads
 from icsolve.explain.document import Block, Inline, Items, Section, Table, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Sum, product
 from icsolve.explain.numbers import Figures, load_name
-from icsolve.plane import Point
+from icsolve.screws.plane import Point
 
 NOTHING = 1e-13
 

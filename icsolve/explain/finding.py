@@ -6,10 +6,10 @@ from collections.abc import Iterable, Sequence
 
 from icsolve.answer import Centre
 from icsolve.case import Belt, Contact, Gears, Joint, KnownCentre, Pair, Pin, Roll, Slide, Slot
+from icsolve.case.names import pair_name
 from icsolve.construction import Known, Step
 from icsolve.explain.document import Block, Inline, Items, Section, words
 from icsolve.explain.numbers import Figures, centre_name, place_words
-from icsolve.names import pair_name
 
 
 def centre_sections(known: Known, figures: Figures, steps: Sequence[Step]) -> list[Section]:

@@ -31,8 +31,8 @@ from icsolve.construction import Known
 from icsolve.construction.words import SENSES
 from icsolve.explain.document import Block, Inline, Items, Section, Table, words
 from icsolve.explain.numbers import Figures, load_name, point_words
-from icsolve.power import is_unknown, reacting
-from icsolve.sentences import listed
+from icsolve.statics.power import is_unknown, reacting
+from icsolve.wording.sentences import listed
 
 
 def given_section(known: Known, figures: Figures) -> Section:

@@ -11,7 +11,7 @@ from icsolve.construction.motions import OneMotion, independent_motions, speed_w
 from icsolve.explain.document import Block, Section, formula, words
 from icsolve.explain.formula import Name, Num, Sum, Trig, product
 from icsolve.explain.numbers import Figures, load_name
-from icsolve.plane import velocity
+from icsolve.screws.plane import velocity
 
 NOTHING = 1e-12
 

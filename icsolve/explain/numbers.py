@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 from icsolve.answer import Centre
 from icsolve.case import Units
+from icsolve.case.names import pair_name
 from icsolve.construction import Known
 from icsolve.explain.formula import Name, Num, Quantity
-from icsolve.names import pair_name
 
 
 class Figures(NamedTuple):

@@ -14,7 +14,7 @@ from icsolve.explain.numbers import Figures, figures_of
 from icsolve.explain.outcome import answer_section, check_section, left_out, remarks_section, sentence
 from icsolve.explain.power import power_section
 from icsolve.explain.speeds import ratio_section
-from icsolve.power import is_unknown
+from icsolve.statics.power import is_unknown
 
 AT_REST = (
     "Nothing moves and no motion is given, so friction may act either way within its limits: the unknown "

@@ -11,10 +11,10 @@ from icsolve.explain.document import Block, Inline, Items, Section, Table, formu
 from icsolve.explain.equilibrium import NOTHING, open_number
 from icsolve.explain.formula import Expr, Name, Num, Sum, product
 from icsolve.explain.numbers import Figures, load_name
-from icsolve.sentences import listed
-from icsolve.space.ties import Tie, kind_of
-from icsolve.space.vectors import Vec, size, sub
-from icsolve.space.words import direction_words
+from icsolve.statics.space.ties import Tie, kind_of
+from icsolve.statics.space.vectors import Vec, size, sub
+from icsolve.statics.space.words import direction_words
+from icsolve.wording.sentences import listed
 
 AXES = "xyz"
 

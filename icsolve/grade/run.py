@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager, ExitStack, nullcontext
 from typing import IO, NamedTuple
 
-from icsolve.forked import can_fork, started
 from icsolve.grade.case_store import CaseStore, unknowns
 from icsolve.grade.course import Course
 from icsolve.grade.importing import Import, expand
@@ -20,6 +19,7 @@ from icsolve.grade.roster import Roster, read_roster
 from icsolve.grade.store import Disk, Entry, Store
 from icsolve.grade.tally import Counts, added
 from icsolve.grade.tolerance import NoKeyError
+from icsolve.sweep.forked import can_fork, started
 
 _WORTH_TWO = 20_000
 """Answers from which another process pays."""

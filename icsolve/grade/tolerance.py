@@ -26,7 +26,7 @@ from icsolve.errors import IcsolveError
 from icsolve.grade.mistakes.engine import solved_for
 from icsolve.grade.written import factors_between
 from icsolve.grade.written.units import unit_word
-from icsolve.sensitivity import band
+from icsolve.solve.sensitivity import band
 from icsolve.units import DIMENSIONS, Unit, parse_unit, split_quantity
 
 SLACK = 1e-9
@@ -98,7 +98,7 @@ class NoKeyError(ValueError):
 
 def unit_of_target(target: Target, answer: Answer) -> str:
     """The unit of a target's value in case units; '' for a ratio."""
-    from icsolve.sense import unit_of
+    from icsolve.wording.senses import unit_of
 
     units = answer.case.units
     match target:
@@ -274,7 +274,7 @@ def _slope(target: Target, answer: Answer, path: str, value: float) -> float:
 
 def _changed(target: Target, answer: Answer, path: str, value: float) -> tuple[float, ...] | None:
     """The target where one number is another; None where it has no value then."""
-    from icsolve.turn.numbers import with_numbers
+    from icsolve.sweep.numbers import with_numbers
 
     near = {name: place for name, place in answer.points.items() if not name.startswith("@")}
     case = replace(with_numbers(answer.case, {path: value}), near={**answer.case.near, **near})

@@ -16,7 +16,7 @@ from icsolve.page.columns import script_json
 from icsolve.page.equation import Equation
 from icsolve.page.pictures import track_svg
 from icsolve.page.sheets import policy, script, style
-from icsolve.sense import unit_of
+from icsolve.wording.senses import unit_of
 
 FEW = 4
 """With so many steps at most there is room for the equation of power beside the figure."""

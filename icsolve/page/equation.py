@@ -13,7 +13,7 @@ from icsolve.explain.mathml import mathml, mathml_equation
 from icsolve.explain.numbers import load_name
 from icsolve.page.columns import exact
 from icsolve.page.motion import Motion
-from icsolve.sense import unit_of
+from icsolve.wording.senses import unit_of
 
 __all__ = ["Equation", "equation_of", "runs_of"]
 

@@ -13,7 +13,7 @@ from icsolve.case import Case, Centroid, Coordinates, Number, Pin, Slide, Slot, 
 from icsolve.construction import Known
 from icsolve.draw.words import figure_number, unit_word
 from icsolve.page.poses import Array
-from icsolve.plane import Point
+from icsolve.screws.plane import Point
 
 STILL = 1e-12
 """A part of the figure's size: a link that turns by less, for a way as long as the figure, only slides."""

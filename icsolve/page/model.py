@@ -10,20 +10,20 @@ import numpy as np
 
 from icsolve.answer import Centre
 from icsolve.case import Pair
+from icsolve.case.names import pair_name
 from icsolve.construction import Acting, Known, Step, acting_loads
 from icsolve.construction.words import range_words
 from icsolve.draw.svg import identifier
 from icsolve.draw.view import View
 from icsolve.draw.words import centre_runs, figure_number, name_runs, unit_word
 from icsolve.errors import Status
-from icsolve.names import pair_name
 from icsolve.page.acting import load_data, senses
 from icsolve.page.columns import FINE, compact, exact, moves
 from icsolve.page.figure import Figure
 from icsolve.page.motion import Motion
 from icsolve.page.plots import dead_centres
 from icsolve.page.poses import Array
-from icsolve.sense import unit_of
+from icsolve.wording.senses import unit_of
 
 INFINITE = 1e9
 """Picture units: what is farther than this is a direction to the page."""

@@ -10,14 +10,14 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from icsolve.case import Case, Contact, ForceVector, KnownCentre, Load, Number, Pair, Pin, Slide, Slot, Torque
+from icsolve.case.names import pair_name
 from icsolve.construction import Known, loaded_links
 from icsolve.errors import SceneError
-from icsolve.names import pair_name
 from icsolve.page.input import Input, places, sliding, ways
 from icsolve.page.poses import Array, Pose, poses_of
-from icsolve.power import is_unknown
-from icsolve.turn import Sweep, sweep
-from icsolve.verdicts import rubs
+from icsolve.solve.refusals import rubs
+from icsolve.statics.power import is_unknown
+from icsolve.sweep import Sweep, sweep
 
 STEP, MIDDLE, COARSE = 1.0, 2.0, 5.0
 """Degrees between positions; cams take longer, and with friction each position is a scene of its own."""

@@ -15,8 +15,8 @@ from icsolve.errors import Status
 from icsolve.page.columns import FINE, compact
 from icsolve.page.motion import Motion
 from icsolve.page.poses import Array
-from icsolve.sense import unit_of
-from icsolve.verdicts import rubs
+from icsolve.solve.refusals import rubs
+from icsolve.wording.senses import unit_of
 
 SIZE = (440.0, 250.0)
 DEAD = (Status.DEAD_CENTRE, Status.NO_VALUE)

@@ -10,7 +10,7 @@ import numpy as np
 
 from icsolve.case import Slide
 from icsolve.construction import Known
-from icsolve.turn import Sweep
+from icsolve.sweep import Sweep
 
 Array = np.ndarray
 

@@ -187,7 +187,7 @@ def _never_given(reading: Reading, name: str, given: set[str]) -> str:
     of = next((point for point, others in reading.centroids.items() if name in others), None)
     if of is None:
         return said
-    from icsolve.sentences import listed
+    from icsolve.wording.sentences import listed
 
     return f"{said}; {of} is the centroid of {listed(reading.centroids[of])}: give {name}, or {of} by lengths"
 

@@ -9,6 +9,7 @@ from functools import cached_property
 
 from icsolve.answer import Answer
 from icsolve.case import Case, CentreIs, DistanceIs, Load, RateIs, RatioIs, Target, Torque
+from icsolve.case.names import pair_name
 from icsolve.check import value_of
 from icsolve.errors import IcsolveError
 from icsolve.grade.mistakes.changed import (
@@ -28,7 +29,6 @@ from icsolve.grade.mistakes.changed import (
     without_friction,
 )
 from icsolve.grade.mistakes.codes import FACTORS, ORDER, Wrong, plain_wrongs
-from icsolve.names import pair_name
 
 _NOTHING = 1e-9
 """A component below this part of the other is rounding."""

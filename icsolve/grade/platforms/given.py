@@ -125,7 +125,7 @@ def _shown(number: Number) -> str:
 
 def _load(load: Load, case: Case) -> str:
     """A load in words: ``100 lbf on link 4 at E, at 180 deg``."""
-    from icsolve.sense import unit_of
+    from icsolve.wording.senses import unit_of
 
     against = getattr(load, "against", None)
     on = f"on link {load.link}" + (f" against link {against}" if against else "")

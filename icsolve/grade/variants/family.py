@@ -14,28 +14,28 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.answer import Answer
+from icsolve.assembly import Figure, solve_figure
+from icsolve.assembly.group import Group
+from icsolve.assembly.loci import is_round
+from icsolve.assembly.order import order_of
+from icsolve.assembly.steps import Meet
 from icsolve.case import Case, Corner, Force, Load, Number, Torque, Weight
-from icsolve.figure import Figure, solve_figure
-from icsolve.figure.group import Group
-from icsolve.figure.loci import is_round
-from icsolve.figure.order import order_of
-from icsolve.figure.steps import Meet
-from icsolve.names import pair_name
-from icsolve.power import is_unknown
+from icsolve.case.names import pair_name
 from icsolve.read.document import Mapping as Tree
 from icsolve.read.document import Node, Scalar, parse
 from icsolve.read.document import Sequence as Items
 from icsolve.read.formula import names_in, replaced
 from icsolve.read.problems import Problems
-from icsolve.sense import unit_of
-from icsolve.topology import topology
-from icsolve.turn.drivers import Drive
-from icsolve.turn.numbers import numbers_of
-from icsolve.turn.program import Asked, Setting, sheet_of, wanted_points
-from icsolve.turn.runner import Runner
-from icsolve.turn.scene import pairs
+from icsolve.solve.refusals import rubs
+from icsolve.statics.power import is_unknown
+from icsolve.structure.topology import topology
+from icsolve.sweep.drivers import Drive
+from icsolve.sweep.numbers import numbers_of
+from icsolve.sweep.program import Asked, Setting, sheet_of, wanted_points
+from icsolve.sweep.runner import Runner
+from icsolve.sweep.scene import pairs
 from icsolve.units import Unit, converted, parse_unit, split_quantity
-from icsolve.verdicts import rubs
+from icsolve.wording.senses import unit_of
 
 Array = npt.NDArray[np.float64]
 Values = Mapping[str, str]

@@ -9,6 +9,7 @@ import numpy as np
 
 from icsolve.answer import Answer
 from icsolve.case import Case, Coordinates, Corner, Force, Load, Number, Slope, Torque, Toward, Weight
+from icsolve.case.names import pair_name
 from icsolve.errors import IcsolveError
 from icsolve.grade.mistakes.changed import known_loads, same_kind
 from icsolve.grade.variants.family import (
@@ -23,7 +24,6 @@ from icsolve.grade.variants.family import (
     written_numbers,
 )
 from icsolve.grade.variants.varied import APART, DRAWING, SWING, Mistake, Seen
-from icsolve.names import pair_name
 
 _NOTHING = 1e-9
 _FAR = 1e-9

@@ -31,9 +31,9 @@ from icsolve.read.document import Sequence as Items
 from icsolve.read.formula import names_in, replaced
 from icsolve.read.problems import Problems
 from icsolve.read.variables import count, first_values, value_at
-from icsolve.sense import unit_of
-from icsolve.sensitivity import band
+from icsolve.solve.sensitivity import band
 from icsolve.units import converted, parse_unit, split_quantity
+from icsolve.wording.senses import unit_of
 
 if TYPE_CHECKING:
     from icsolve.grade.variants.together import Together

@@ -1,0 +1,13 @@
+"""The figure: lengths, angles, guides and coordinates of a case become points in one position.
+
+`solve_figure` constructs the points that are wanted and settles the branches; `place` runs the same
+construction again with another arithmetic (arrays, numbers on a tape, more digits).
+"""
+
+from __future__ import annotations
+
+from icsolve.assembly.board import Key, Point
+from icsolve.assembly.frame import Frame, case_point
+from icsolve.assembly.solution import Figure, Placement, place, solve_figure
+
+__all__ = ["Figure", "Frame", "Key", "Placement", "Point", "case_point", "place", "solve_figure"]

@@ -1,0 +1,215 @@
+"""Loci of a point and where two of them meet: the kernels, written once for every kind of number.
+
+Nothing here branches on a value. A crossing comes as its middle and half the chord between its two
+points, with the margins that must not be negative; callers test those.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from icsolve.assembly.board import Board, Key, Point
+from icsolve.assembly.data import Datum, X
+from icsolve.assembly.heading import Heading, Span, data_in, ends_of
+from icsolve.numbers.arithmetic import Arithmetic, Scalar
+
+
+class Crossing(NamedTuple):
+    """Where two loci meet: at middle + half and at middle - half (``half`` None: one place only).
+
+    ``margins`` are negative where they do not meet; ``scale`` is what rounding is measured by. Of
+    two lines ``scale`` is the sine of the angle between them.
+    """
+
+    middle: Point
+    half: Point | None
+    margins: tuple[Scalar, ...]
+    scale: Scalar
+
+
+Values = tuple[Scalar, ...]
+"""Circle: centre x, y and radius. Line: a point x, y and a unit direction."""
+
+
+def meet_circles(p: Values, q: Values, arithmetic: Arithmetic, tangent: bool) -> Crossing:
+    """Two circles, by Heron's formula in factors.
+
+    The first of the two places (+) lies to the left of the line from p's centre to q's. With
+    ``tangent`` the chord is zero by decree. Heron's area in factors loses nothing where the
+    triangle is nearly flat (Kahan, "Miscalculating area and angles of a needle-like triangle").
+    """
+    (px, py, a), (qx, qy, b) = p, q
+    dx, dy = qx - px, qy - py
+    d = arithmetic.sqrt(dx * dx + dy * dy)
+    ux, uy = dx / d, dy / d
+    along = ((d - b) * (d + b) + a * a) / (2.0 * d)
+    middle = (px + along * ux, py + along * uy)
+    far, over, under = (a + b) - d, d - (a - b), d + (a - b)
+    margins = (far, over, under)
+    if tangent:
+        return Crossing(middle, None, margins, d + a + b)
+    h = arithmetic.sqrt((d + (a + b)) * far * over * under) / (2.0 * d)
+    return Crossing(middle, (-uy * h, ux * h), margins, d + a + b)
+
+
+def meet_line_circle(line: Values, circle: Values, arithmetic: Arithmetic, tangent: bool) -> Crossing:
+    """A line and a circle; the first place (+) is the farther along the line."""
+    (px, py, vx, vy), (cx, cy, r) = line, circle
+    wx, wy = cx - px, cy - py
+    off = vx * wy - vy * wx
+    along = vx * wx + vy * wy
+    middle = (px + along * vx, py + along * vy)
+    margins = (r - off, r + off)
+    scale = r + arithmetic.sqrt(wx * wx + wy * wy)
+    if tangent:
+        return Crossing(middle, None, margins, scale)
+    h = arithmetic.sqrt((r - off) * (r + off))
+    return Crossing(middle, (vx * h, vy * h), margins, scale)
+
+
+def meet_lines(p: Values, q: Values) -> Crossing:
+    """Two lines (whether they are parallel is the caller's to test)."""
+    (px, py, ux, uy), (qx, qy, vx, vy) = p, q
+    wx, wy = qx - px, qy - py
+    sine = ux * vy - uy * vx
+    t = (wx * vy - wy * vx) / sine
+    return Crossing((px + t * ux, py + t * uy), None, (), sine)
+
+
+class Circle(NamedTuple):
+    """The circle about a point."""
+
+    centre: Key
+    radius: Span
+
+    def values(self, board: Board) -> Values:
+        """Centre and radius."""
+        return (*board.points[self.centre], board.length(self.radius))
+
+    def data(self) -> tuple[Datum, ...]:
+        """The data that it comes from."""
+        return data_in(self.radius)
+
+    def needs(self) -> tuple[Key, ...]:
+        """The points that it comes from."""
+        return (self.centre, *ends_of(self.radius))
+
+
+class Arc(NamedTuple):
+    """The circle from which two points are seen under a corner's angle (Euclid III 21)."""
+
+    a: Key
+    b: Key
+    corner: Datum
+
+    def values(self, board: Board) -> Values:
+        """Centre and radius: the centre stands off the chord's middle by half the chord times cot."""
+        (ax, ay), (bx, by) = board.points[self.a], board.points[self.b]
+        c, s = board.turn(self.corner)
+        k = c / (2.0 * s)
+        dx, dy = bx - ax, by - ay
+        cx, cy = (ax + bx) / 2.0 - k * dy, (ay + by) / 2.0 + k * dx
+        return cx, cy, board.arithmetic.sqrt((ax - cx) * (ax - cx) + (ay - cy) * (ay - cy))
+
+    def data(self) -> tuple[Datum, ...]:
+        """The corner."""
+        return (self.corner,)
+
+    def needs(self) -> tuple[Key, ...]:
+        """The chord's ends."""
+        return (self.a, self.b)
+
+
+class Line(NamedTuple):
+    """A line through a point; with ``ray`` only the half of it that lies ahead."""
+
+    through: Key
+    heading: Heading
+    ray: bool
+
+    def values(self, board: Board) -> Values:
+        """Point and unit direction."""
+        return (*board.points[self.through], *board.unit(self.heading))
+
+    def data(self) -> tuple[Datum, ...]:
+        """The data that it comes from."""
+        return self.heading.data()
+
+    def needs(self) -> tuple[Key, ...]:
+        """The points that it comes from."""
+        return (self.through, *self.heading.needs())
+
+
+class Axis(NamedTuple):
+    """The line of a known x or a known y."""
+
+    datum: Datum
+
+    def values(self, board: Board) -> Values:
+        """Point and unit direction: toward +y for a known x, toward +x for a known y."""
+        value = board.coordinate(self.datum)
+        return (value, 0.0, 0.0, 1.0) if self.datum.kind == X else (0.0, value, 1.0, 0.0)
+
+    def data(self) -> tuple[Datum, ...]:
+        """The coordinate."""
+        return (self.datum,)
+
+    def needs(self) -> tuple[Key, ...]:
+        """Nothing."""
+        return ()
+
+
+class Shifted(NamedTuple):
+    """The locus of another point, moved by the known vector from this point to that one."""
+
+    base: Circle | Arc | Line | Axis | Shifted
+    span: Span
+    heading: Heading
+
+    def values(self, board: Board) -> Values:
+        """Those of the base, moved back along the vector."""
+        x, y, *rest = self.base.values(board)
+        length = board.length(self.span)
+        c, s = board.unit(self.heading)
+        return (x - length * c, y - length * s, *rest)
+
+    def data(self) -> tuple[Datum, ...]:
+        """The data of the base and of the vector."""
+        return (*self.base.data(), *data_in(self.span), *self.heading.data())
+
+    def needs(self) -> tuple[Key, ...]:
+        """The points that it comes from."""
+        return (*self.base.needs(), *ends_of(self.span), *self.heading.needs())
+
+
+Locus = Circle | Arc | Line | Axis | Shifted
+
+
+def is_round(locus: Locus) -> bool:
+    """Whether it is a circle, not a line."""
+    while type(locus) is Shifted:
+        locus = locus.base
+    return type(locus) is Circle or type(locus) is Arc
+
+
+def is_ray(locus: Locus) -> bool:
+    """Whether only the half of a line that lies ahead will do."""
+    while type(locus) is Shifted:
+        locus = locus.base
+    return type(locus) is Line and locus.ray
+
+
+def headings_of(locus: Locus) -> list[Heading]:
+    """The directions that a locus goes by."""
+    if isinstance(locus, Shifted):
+        return [locus.heading, *headings_of(locus.base)]
+    return [locus.heading] if isinstance(locus, Line) else []
+
+
+def crossing(first: Locus, second: Locus, board: Board, tangent: bool = False) -> Crossing:
+    """Where two loci meet; a line comes first if there is one."""
+    p, q = first.values(board), second.values(board)
+    if not is_round(second):
+        return meet_lines(p, q)
+    meet = meet_circles if is_round(first) else meet_line_circle
+    return meet(p, q, board.arithmetic, tangent)

@@ -1,0 +1,111 @@
+"""The order of construction: which steps place the points that are asked for, and no others.
+
+Topology alone decides; numbers come later. Closed forms first; where they stall, the shapes of
+loose links (their distances then serve as lengths); where these stall too, the smallest group of
+points that only all their data together determine.
+"""
+
+from collections.abc import Collection
+from typing import NamedTuple
+
+from icsolve.assembly.data import LENGTH, Datum, Facts, facts_of, given_points
+from icsolve.assembly.lead import leading_to, points_of
+from icsolve.assembly.shapes import Base
+from icsolve.assembly.sheet import ALL_SHEETS, LOOSE_SHEETS, NOBODY, Drawing, Sheet
+from icsolve.assembly.step import Step
+from icsolve.case import Case
+
+
+class Order(NamedTuple):
+    """Steps in the order in which they run, the points that they place on the ground, and all data."""
+
+    steps: tuple[Step, ...]
+    points: tuple[str, ...]
+    facts: Facts
+
+    def used(self) -> frozenset[Datum]:
+        """The data of which the construction is made."""
+        return frozenset(datum for step in self.steps for datum in step.data())
+
+
+def order_of(
+    case: Case,
+    goal: Collection[str],
+    banned: frozenset[frozenset[object]] = frozenset(),
+    best_effort: bool = False,
+) -> Order:
+    """The order of construction of the goal's points.
+
+    Parameters
+    ----------
+    goal : points to place
+    banned : pairs of loci that are known not to determine a point
+    best_effort : place whatever closed forms reach, and be silent about the rest
+
+    Raises
+    ------
+    SceneError
+        ``underdetermined``, ``ambiguous`` (a group without ``near``).
+    """
+    drawing = Drawing(facts_of(case), banned)
+    ground, wanted = drawing.ground, set(goal)
+    ground.begin(given_points(case))
+    ground.run(wanted)
+    while not wanted <= ground.placed.keys():
+        if not grow(drawing) and not _group(drawing, case, goal, best_effort):
+            break
+        ground.run(wanted)
+    steps = leading_to(wanted & ground.placed.keys() if best_effort else wanted, drawing.steps)
+    return Order(steps, points_of(steps), drawing.facts)
+
+
+def grow(drawing: Drawing) -> bool:
+    """Draw the shapes of loose links, by no more than is needed; whether the ground may go on.
+
+    First by their own data alone, then by distances that they lend one another, then point by point
+    by those that the ground lends.
+    """
+    before = len(drawing.steps)
+    _start(drawing)
+    for lenders in (NOBODY, LOOSE_SHEETS, ALL_SHEETS):
+        drawing.lenders = lenders
+        _extend(drawing, most=1 if lenders == ALL_SHEETS else None)
+        if len(drawing.steps) > before:
+            for point in [p for sheet in drawing.sheets[1:] for p in sheet.placed]:
+                drawing.ground.mark(point)
+            return True
+    return False
+
+
+def _extend(drawing: Drawing, most: int | None) -> None:
+    """Let every loose sheet take what is within its reach; with ``most``, the first that can."""
+    for sheet in drawing.sheets[1:]:
+        for point in list(sheet.placed):
+            sheet.reach_from(point)
+        if sheet.run(most=most) and most is not None:
+            return
+
+
+def _start(drawing: Drawing) -> None:
+    """A loose sheet for every length that no sheet holds."""
+    for datum in drawing.facts.data:
+        if datum.kind != LENGTH:
+            continue
+        a, b = datum.points
+        if any(b in sheet.placed for sheet in drawing.holding.get(a, ())):
+            continue
+        sheet = Sheet(drawing)
+        drawing.sheets.append(sheet)
+        sheet.put(Base(sheet.key(a), sheet.key(b), datum), (a, b), (100, 100, 0))
+        sheet.run()
+
+
+def _group(drawing: Drawing, case: Case, goal: Collection[str], best_effort: bool) -> bool:
+    """The smallest group that its data determine together becomes one step; else say what is free."""
+    if best_effort:
+        return False
+    from icsolve.assembly.group import next_group
+
+    step, points = next_group(drawing, case, goal)
+    drawing.ground.put(step, points, (400, 400, 1))
+    return True

@@ -1,0 +1,173 @@
+"""What a figure can be refused for, in words: the facts of a step that failed, and of data that clash."""
+
+import math
+from typing import NamedTuple
+
+from icsolve.assembly.board import Board
+from icsolve.assembly.data import CORNER, LENGTH, LINE, MEAN, RAY, Datum, X, Y, number_of
+from icsolve.assembly.loci import Circle, Crossing, is_round
+from icsolve.assembly.step import Step
+from icsolve.assembly.steps import Meet
+from icsolve.assembly.words import datum_words, joined, locus_words, plain, span_words
+from icsolve.case import Coordinates
+from icsolve.errors import Status
+
+
+class Miss(NamedTuple):
+    """A way in which the figure does not assemble.
+
+    ``amount`` is how far off (normalised); ``loci`` the pair that turned out to be one locus;
+    ``vague`` where an earlier miss says more.
+    """
+
+    status: str
+    message: str
+    amount: float = math.inf
+    loci: frozenset[object] | None = None
+    vague: bool = False
+
+
+def measure(board: Board, length: float) -> str:
+    """A normalised length with its unit."""
+    return f"{length / board.frame.scale:.6g} {board.case.units.length}"
+
+
+def bare(board: Board, length: float) -> str:
+    """A normalised length in case units."""
+    return f"{length / board.frame.scale:.6g}"
+
+
+def too_far(step: Meet, board: Board, found: Crossing) -> Miss:
+    """Two loci that do not meet."""
+    gap = -min(found.margins)
+    if isinstance(step.first, Circle) and isinstance(step.second, Circle):
+        return Miss(Status.CANNOT_ASSEMBLE, _circles(step, step.first, step.second, board, found), gap)
+    message = (
+        f"the figure cannot be assembled at {plain(step.target)}: {locus_words(step.first)} and "
+        f"{locus_words(step.second)} do not meet (closest gap {measure(board, gap)})"
+    )
+    return Miss(Status.CANNOT_ASSEMBLE, message, gap)
+
+
+def _circles(step: Meet, one: Circle, two: Circle, board: Board, found: Crossing) -> str:
+    a, b, at = plain(one.centre), plain(two.centre), plain(step.target)
+    gap = -min(found.margins)
+    apart = math.dist(board.points[one.centre], board.points[two.centre])
+    kind = "too far" if found.margins[0] < 0.0 else "too close"
+    first, second = (f"{span_words(c.radius)} = {bare(board, board.length(c.radius))}" for c in (one, two))
+    return (
+        f"{first} and {second} cannot meet at {at}: {a} and {b} are {bare(board, apart)} apart, "
+        f"{bare(board, gap)} {kind} (closest gap {measure(board, gap)})"
+    )
+
+
+def concentric(step: Meet, board: Board) -> Miss:
+    """Two circles about one centre."""
+    (_, _, a), (_, _, b) = step.first.values(board), step.second.values(board)
+    at = plain(step.target)
+    centres = " and ".join(plain(c.centre) for c in (step.first, step.second) if isinstance(c, Circle))
+    if math.isclose(a, b, rel_tol=1e-12, abs_tol=1e-300):
+        message = (
+            f"{at} may lie anywhere about {centres}: they coincide and their distances to {at} are equal, "
+            f"so any angle fits; give a direction (angles) or coordinates of {at}"
+        )
+        return Miss(Status.UNDERDETERMINED, message, 0.0, frozenset((step.first, step.second)))
+    message = (
+        f"the figure cannot be assembled at {at}: {centres} coincide, but their distances to {at} are "
+        f"{bare(board, a)} and {bare(board, b)} (gap {measure(board, abs(a - b))})"
+    )
+    return Miss(Status.CANNOT_ASSEMBLE, message, abs(a - b))
+
+
+def parallel(step: Meet, board: Board) -> Miss:
+    """Two lines that are parallel, or are one line."""
+    (px, py, ux, uy), (qx, qy, _, _) = step.first.values(board), step.second.values(board)
+    off = abs(ux * (qy - py) - uy * (qx - px))
+    lines = f"{locus_words(step.first)} and {locus_words(step.second)}"
+    at = plain(step.target)
+    if off <= 1e-12 * (1.0 + math.hypot(px, py) + math.hypot(qx, qy)):
+        message = (
+            f"{at} may lie anywhere on a line: {lines} coincide; give one more length or coordinate for {at}"
+        )
+        return Miss(Status.UNDERDETERMINED, message, 0.0, frozenset((step.first, step.second)))
+    message = (
+        f"the figure cannot be assembled at {at}: {lines} are parallel, {measure(board, off)} apart, "
+        "and never meet"
+    )
+    return Miss(Status.CANNOT_ASSEMBLE, message, off)
+
+
+def behind(step: Meet, board: Board, amount: float) -> Miss:
+    """A point that lies on the wrong side of a ray's start."""
+    message = (
+        f"the figure cannot be assembled at {plain(step.target)}: {locus_words(step.first)} meets "
+        f"{locus_words(step.second)} only on the wrong side, {measure(board, -amount)} behind the ray's start"
+    )
+    return Miss(Status.CANNOT_ASSEMBLE, message, abs(amount))
+
+
+def merged(target: str, a: str, b: str) -> Miss:
+    """A direction between two points that coincide."""
+    message = f"{target} has no place: its data go by the direction from {a} to {b}, and these coincide"
+    return Miss(Status.CANNOT_ASSEMBLE, message, vague=True)
+
+
+def degenerate(step: Step, board: Board) -> Miss:
+    """A step that divides by zero: parallel lines, concentric circles."""
+    if isinstance(step, Meet):
+        return concentric(step, board) if is_round(step.second) else parallel(step, board)
+    message = f"{plain(step.targets[0])} has no place ({step.name})"
+    return Miss(Status.CANNOT_ASSEMBLE, message, vague=True)
+
+
+def clash(board: Board, datum: Datum, off: float, ahead: bool) -> Miss:
+    """A datum that the points contradict."""
+    return Miss(Status.INCONSISTENT, _clash(board, datum, off, ahead), abs(off) if ahead else math.inf)
+
+
+def _clash(board: Board, datum: Datum, off: float, ahead: bool) -> str:
+    points, kind = datum.points, datum.kind
+    name = plain(points[0])
+    if kind == MEAN:
+        return f"{name} is {measure(board, abs(off))} off the centroid of {', '.join(map(plain, points[1:]))}"
+    if kind in (LENGTH, RAY, CORNER, X, Y):
+        subject, value, found = _values(board, datum, off)
+        makers = "the coordinates make" if _all_given(board, points) else "the other data make"
+        return f"{subject} is given as {value}, {makers} it {found}"
+    if not ahead:
+        return f"{datum_words(datum)} has no direction: {joined(*points[2:])} are one point"
+    along = joined(*points[2:]) if kind == LINE else f"{number_of(board.case, datum).value:.6g} deg"
+    line = f"the line through {plain(points[1])} along {along}"
+    return f"{name} is {measure(board, abs(off))} off its guide, {line}"
+
+
+def _values(board: Board, datum: Datum, off: float) -> tuple[str, str, str]:
+    """What a number is of, the number, and what the points make it."""
+    points, kind = datum.points, datum.kind
+    if kind == LENGTH:
+        length = board.length(datum)
+        return joined(*points), bare(board, length), bare(board, length + off)
+    value = number_of(board.case, datum).value
+    if kind in (X, Y):
+        return datum_words(datum), f"{value:.6g}", f"{value + off / board.frame.scale:.6g}"
+    return datum_words(datum), f"{value:.6g}", _angle(board, datum)
+
+
+def _all_given(board: Board, points: tuple[str, ...]) -> bool:
+    """Whether coordinates alone place the points."""
+    places = (board.case.points.get(p) for p in points)
+    return all(isinstance(at, Coordinates) and None not in (at.x, at.y) for at in places)
+
+
+def _angle(board: Board, datum: Datum) -> str:
+    """What the points make of an angle: 0 to 360 degrees, -180 to 180 where a negative one is given."""
+    at = [board.points[p] for p in datum.points]
+    if datum.kind == RAY:
+        (ax, ay), (bx, by) = at
+        angle = math.atan2(by - ay, bx - ax)
+    else:
+        (ax, ay), (vx, vy), (bx, by) = at
+        angle = math.atan2(by - vy, bx - vx) - math.atan2(ay - vy, ax - vx)
+    degrees = math.degrees(angle)
+    negative = number_of(board.case, datum).value < 0.0
+    return f"{math.remainder(degrees, 360.0) if negative else degrees % 360.0:.6g}"

@@ -1,0 +1,117 @@
+"""From a case to the points of its figure."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from typing import TYPE_CHECKING, NamedTuple
+
+from icsolve.assembly.board import Board, Key, Point
+from icsolve.assembly.data import GUIDE, LINE, Datum, data_of, names_of
+from icsolve.assembly.frame import Frame, frame_of
+from icsolve.assembly.given import Given
+from icsolve.assembly.misfit import agrees, size_of
+from icsolve.case import Case, Coordinates
+from icsolve.errors import SceneError
+from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
+
+if TYPE_CHECKING:
+    from icsolve.assembly.step import Step
+
+
+class Figure(NamedTuple):
+    """The points of one position, and the construction that found them.
+
+    ``points`` are in the normalised frame; ``steps`` ran in this order, with the branches that
+    they settled on; ``notes`` are sentences for the reader; ``skipped`` names the points that
+    nothing asked for.
+    """
+
+    frame: Frame
+    points: dict[str, Point]
+    steps: tuple[Step, ...]
+    notes: tuple[str, ...] = ()
+    skipped: tuple[str, ...] = ()
+
+
+class Placement(NamedTuple):
+    """Points of the same construction in another arithmetic.
+
+    ``margins`` has, for each point where two loci meet, what must not be negative (normalised):
+    gaps of circles, distances along rays. Callers with arrays test them outside. (Points on the
+    sheet of a loose shape have keys of the sheet's number and the name.)
+    """
+
+    points: dict[str, Point]
+    margins: dict[Key, tuple[Scalar, ...]]
+
+
+def place(
+    figure: Figure,
+    case: Case,
+    arithmetic: Arithmetic = FLOATS,
+    rounds: int = 1,
+    starts: Mapping[str, Point] | None = None,
+) -> Placement:
+    """Run a figure's construction again, on the numbers of a case of the same shape.
+
+    The same steps with the same branches, without a test on any value.
+
+    Parameters
+    ----------
+    rounds : Newton steps for groups without an order of construction; 1 is enough at the
+        figure's own numbers, where that step carries the derivatives by all data
+    starts : where such groups start (normalised); left out, at the figure's own points
+    """
+    board = Board(case, figure.frame, arithmetic)
+    board.rounds, board.starts = rounds, starts or {}
+    for step in figure.steps:
+        step.place(board)
+    return Placement({p: at for p, at in board.points.items() if isinstance(p, str)}, board.margins)
+
+
+def solve_figure(case: Case, wanted: Collection[str] | None = None) -> Figure:
+    """The figure of a case: the wanted points (None: every point), and those that they need.
+
+    Raises
+    ------
+    SceneError
+        ``underdetermined``, ``inconsistent``, ``cannot-assemble``, ``ambiguous``,
+        ``near-singular``; the message says where, by how much, and what would mend it.
+    """
+    frame = frame_of(case)
+    names = names_of(case)
+    goal = list(names if wanted is None else dict.fromkeys(wanted))
+    if all(_is_given(case, p) for p in goal):
+        return _drawn(case, frame, goal, names)
+    from icsolve.assembly.construct import construct
+
+    return construct(case, frame, goal, names)
+
+
+def _is_given(case: Case, point: str) -> bool:
+    place = case.points.get(point)
+    return type(place) is Coordinates and place.x is not None and place.y is not None
+
+
+def _drawn(case: Case, frame: Frame, goal: list[str], names: list[str]) -> Figure:
+    """The figure where every point is given: nothing to construct, the other data are compared."""
+    board = Board(case, frame, FLOATS)
+    steps: tuple[Step, ...] = (Given(tuple(goal)),)
+    steps[0].place(board)
+    data = [d for d in data_of(case) if all(p in board.points for p in d.points)]
+    notes = _compared(board, steps, data, goal) if data else ()
+    points = {p: board.points[p] for p in goal}
+    return Figure(frame, points, steps, notes, tuple(p.lstrip("@") for p in names if p not in points))
+
+
+def _compared(board: Board, steps: tuple[Step, ...], data: list[Datum], goal: list[str]) -> tuple[str, ...]:
+    """Notes on the data that the coordinates make spare; guides that are met need none."""
+    size = size_of(board, goal)
+    if agrees(board, data, size) and all(d.kind in (GUIDE, LINE) for d in data):
+        return ()
+    from icsolve.assembly.compare import compare, notes_of
+
+    miss, offs = compare(board, steps, data, size)
+    if miss is not None:
+        raise SceneError(miss.status, miss.message)
+    return notes_of(board, offs, frozenset(), True, size)

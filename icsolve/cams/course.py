@@ -1,0 +1,236 @@
+"""A case with profiles on the move: its cams turn as the sweep says, and each follower rests on its cam.
+
+Without its contacts the mechanism has a freedom more for each follower. In every row a cam is where the
+others put it; the follower is moved along its guide to the first meeting from outside; the sweep with these
+motions given places everything that hangs on it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from icsolve.answer.contacts import Touching
+from icsolve.cams.anchored import anchored, coordinates
+from icsolve.cams.curve import Curve
+from icsolve.cams.found import Seeking, found
+from icsolve.cams.freedom import places_of
+from icsolve.cams.lift import Freedom, Turn, Way, outermost
+from icsolve.cams.pieces import Point
+from icsolve.cams.pose import Pose, pose_of
+from icsolve.cams.shapes import Body, placed
+from icsolve.cams.touching import gap_of, meeting_of
+from icsolve.cams.words import not_guided
+from icsolve.case import Case, Contact, Length, Number
+from icsolve.case.profiles import Circle, Roller, points_of
+from icsolve.errors import SceneError, Status
+from icsolve.numbers.replay import Array
+from icsolve.sweep.ask import Columns
+from icsolve.sweep.program import Asked
+from icsolve.sweep.second import CODE, Codes
+from icsolve.sweep.start import start_of
+from icsolve.sweep.work import Work
+
+FAR = 4.0
+"""Where the way of a sliding follower is measured from, in sizes of the figure: it stays positive."""
+
+MARKERS = ("@pose.", "@origin.", "@follower.", "@profile.")
+"""Hidden points that tell where links are; no part of a row's figure."""
+
+
+class Follow(NamedTuple):
+    """A follower on its cam in the position as written.
+
+    ``driver`` is the link that a sweep turns, or the length that it varies from ``start``, to move the
+    follower; ``frame`` has two points of the cam. A face has its body on ``side``; the gap grows as the
+    follower moves on where ``sense`` is 1.
+    """
+
+    seeking: Seeking
+    curve: Curve
+    body: Body
+    freedom: Freedom
+    side: float
+    sense: float
+    driver: str
+    start: float
+    frame: tuple[str, str]
+    written: tuple[Point, Point]
+
+    def driven(self, by: Array) -> Array:
+        """The driver's values for motions along the freedom."""
+        return np.degrees(by) if isinstance(self.freedom, Turn) else self.start + by
+
+    def met(self, pose: Pose) -> Way | None:
+        """Where the follower meets the cam first, in this pose of the cam; as the cam sees it."""
+        body, freedom = pose.body_back(self.body), pose.freedom_back(self.freedom)
+        return outermost(self.curve, body, freedom, self.side, self.sense)
+
+    def contact(self, case: Case, pose: Pose, way: Way) -> tuple[Case, Touching]:
+        """A row's case with this contact."""
+        meeting = meeting_of(self.curve, way.body, self.side, self.seeking.what)
+        return self.seeking.contact(case, self.curve, pose.meeting(meeting), self.freedom, note=False)
+
+
+class Course:
+    """A case that moves; ``open`` is without its contacts, ``whole`` has them where they are as written.
+
+    Raises SceneError where the position as written has no contact, or a follower is not guided by the frame.
+    """
+
+    def __init__(self, case: Case) -> None:
+        assert case.profiles is not None
+        known = found(case)
+        self.case, self.touching = case, known.touching
+        self.whole = anchored(known.case)
+        contacts = [joint for joint in self.whole.joints if isinstance(joint, Contact) and joint.at[0] == "@"]
+        hidden = {joint.at for joint in contacts}
+        joints = tuple(j for j in self.whole.joints if getattr(j, "at", None) not in hidden)
+        points = {name: place for name, place in self.whole.points.items() if name not in hidden}
+        carries = {link: tuple(n for n in ns if n not in hidden) for link, ns in self.whole.carries.items()}
+        bare = replace(self.whole, joints=joints, profiles=None, expect=())
+        self.open = replace(bare, points=points, carries=carries)
+        self.follows = [self._follow(k) for k in range(len(self.touching))]
+
+    def _follow(self, k: int) -> Follow:
+        """One follower as written; what moves it is added to the open case."""
+        assert self.case.profiles is not None and self.whole.profiles is not None
+        touch = self.case.profiles.touches[k]
+        seeking = Seeking(self.case, self.whole.profiles, touch, self.whole)
+        freedom = seeking.guide()
+        if freedom is None:
+            raise SceneError(Status.UNSUPPORTED, not_guided(seeking.guided, seeking.cam))
+        own = points_of(seeking.shape)
+        curve = placed(seeking.shape, places_of(self.whole, own), seeking.where)
+        body = seeking.body(places_of(self.whole, points_of(seeking.follower)))
+        side = min((1.0, -1.0), key=lambda side: abs(gap_of(curve, body, side)[0]))
+        normal = seeking.normal(meeting_of(curve, body, side, seeking.what))
+        x, y = freedom.velocity(seeking.trace(self.touching[k].at, normal))
+        sense = math.copysign(1.0, x * normal[0] + y * normal[1])
+        frame, written = self._frame(seeking.cam, own[0])
+        driver, start = self._driver(seeking.guided, body.at, freedom)
+        return Follow(seeking, curve, body, freedom, side, sense, driver, start, frame, written)
+
+    def _frame(self, cam: str, first: str) -> tuple[tuple[str, str], tuple[Point, Point]]:
+        """Two points of a cam that tell its pose."""
+        name = f"@pose.{cam}"
+        x, y = places_of(self.open, (first,))[first]
+        second = (x + self._size(), y)
+        self._carry(cam, {name: second})
+        return (first, name), ((x, y), second)
+
+    def _driver(self, link: str, at: Point, freedom: Freedom) -> tuple[str, float]:
+        """What a sweep varies to move a follower, and its value as written."""
+        if isinstance(freedom, Turn):
+            return link, 0.0
+        origin, carried, start = f"@origin.{link}", f"@follower.{link}", FAR * self._size()
+        away = (at[0] - start * freedom.along[0], at[1] - start * freedom.along[1])
+        self._carry(self.open.ground, {origin: away})
+        self._carry(link, {carried: at})
+        path = f"lengths.{origin}.{carried}"
+        length = Length(origin, carried, Number(start, 0.0, path, repr(start)))
+        self.open = replace(self.open, lengths=(*self.open.lengths, length))
+        return path, start
+
+    def _carry(self, link: str, places: Mapping[str, Point]) -> None:
+        """Hidden points that a link carries."""
+        points = {name: coordinates(name, place) for name, place in places.items()}
+        carries = {**self.open.carries, link: (*self.open.carries.get(link, ()), *places)}
+        self.open = replace(self.open, points={**self.open.points, **points}, carries=carries)
+
+    def _size(self) -> float:
+        """The extent of everything that a follower can reach."""
+        names = [name for names in self.whole.carries.values() for name in names]
+        places = places_of(self.whole, tuple(dict.fromkeys(names))).values()
+        xs, ys = [x for x, _ in places], [y for _, y in places]
+        assert self.whole.profiles is not None
+        shapes = self.whole.profiles.shapes.values()
+        radii = (shape.radius.value for shape in shapes if isinstance(shape, Circle | Roller))
+        return math.hypot(max(xs) - min(xs), max(ys) - min(ys)) + 2.0 * math.fsum(radii)
+
+
+class Rows:
+    """The rows of a sweep that one course runs through."""
+
+    def __init__(self, course: Course, columns: Columns) -> None:
+        self.course, self.columns = course, columns
+        self.codes: Codes = np.zeros(columns.rows, dtype=np.int8)
+        self.ways: list[list[tuple[Pose, Way] | None]] = []
+        self.drivers = {f.driver: np.full(columns.rows, f.start) for f in course.follows}
+        for follow in course.follows:
+            self._place(follow)
+        self.work = self._work(())
+        self.work.run()
+        moved = np.where(self.work.codes == CODE[Status.CHANGE_POINT], 0, self.work.codes)
+        self.codes = np.where(self.codes == 0, moved, self.codes).astype(np.int8)
+
+    def _work(self, points: tuple[str, ...]) -> Work:
+        """The sweep of the open case with what is known of the drivers."""
+        links = {f.driver for f in self.course.follows if isinstance(f.freedom, Turn)}
+        paths = {**self.columns.paths, **{k: v for k, v in self.drivers.items() if k not in links}}
+        turned = {**self.columns.links, **{k: v for k, v in self.drivers.items() if k in links}}
+        names = {**self.columns.names, **{k: k for k in self.drivers}}
+        columns = Columns(paths, turned, names)
+        return Work(start_of(self.course.open, columns, Asked(False, points)), columns, False)
+
+    def _place(self, follow: Follow) -> None:
+        """Move a follower to its cam in every row."""
+        work = self._work(follow.frame)
+        work.run()
+        first, second = (work.values["points", name] for name in follow.frame)
+        found: list[tuple[Pose, Way] | None] = []
+        for row in range(self.columns.rows):
+            found.append(None)
+            if work.codes[row] in (0, CODE[Status.CHANGE_POINT]) and self.codes[row] == 0:
+                now = (_point(first[row]), _point(second[row]))
+                pose = pose_of(follow.written, now)
+                way = follow.met(pose)
+                found[-1] = (pose, way) if way is not None else None
+            if found[-1] is None and self.codes[row] == 0:
+                self.codes[row] = CODE[Status.CANNOT_ASSEMBLE]
+        self.ways.append(found)
+        by = np.array([one[1].by if one is not None else 0.0 for one in found])
+        self.drivers[follow.driver] = follow.driven(by)
+
+    def plain(self, row: int) -> tuple[Case, list[Touching]]:
+        """A row as a case with plain contacts, and the contacts.
+
+        Raises SceneError where there is no one contact.
+        """
+        return self._with_contacts(self.work.case_of(row), row)
+
+    def _with_contacts(self, case: Case, row: int) -> tuple[Case, list[Touching]]:
+        """A case with the contacts of a row."""
+        touching = []
+        for follow, ways in zip(self.course.follows, self.ways, strict=True):
+            one = ways[row]
+            assert one is not None
+            case, touched = follow.contact(case, *one)
+            touching.append(touched)
+        return case, touching
+
+    def touching(self, row: int) -> list[Touching]:
+        """Where the links touch in a row.
+
+        Raises SceneError where there is no one contact.
+        """
+        return self._with_contacts(self.course.open, row)[1]
+
+    def case_of(self, row: int) -> Case:
+        """A row as a case whose contacts are to be found on its profiles."""
+        profiles, touches = self.course.whole.profiles, self.course.case.profiles
+        assert profiles is not None and touches is not None
+        case = self.work.case_of(row)
+        carries = {
+            link: tuple(name for name in names if not name.startswith(MARKERS))
+            for link, names in case.carries.items()
+        }
+        return replace(case, profiles=profiles._replace(touches=touches.touches), carries=carries)
+
+
+def _point(place: Array) -> Point:
+    return (float(place[0]), float(place[1]))

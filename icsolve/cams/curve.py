@@ -1,0 +1,155 @@
+"""A profile in one position: exact pieces run ccw, and the chords by which shapely finds a piece quickly."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import Any, NamedTuple
+
+from icsolve.cams.pieces import Piece, Point, Polar, Straight, unit
+
+CORNER = 1e-9
+"""Pieces whose tangents differ by less (sine) meet smoothly."""
+MEETING = 1e-9
+"""Ends that are nearer than this fraction of the profile's size are one point."""
+
+
+class Foot(NamedTuple):
+    """A point of a profile: on which piece, where there, and the outward unit normals of that place.
+
+    One normal where the profile is smooth; at a corner those of both pieces, before and after.
+    """
+
+    point: Point
+    piece: int
+    u: float
+    normals: tuple[Point, ...]
+
+    @property
+    def is_corner(self) -> bool:
+        """Whether the profile has a corner there."""
+        return len(self.normals) > 1
+
+    @property
+    def is_convex(self) -> bool:
+        """Whether the profile turns left at the corner: then its normals spread outward."""
+        (ax, ay), (bx, by) = self.normals[0], self.normals[-1]
+        return ax * by - ay * bx >= 0.0
+
+
+class Curve(NamedTuple):
+    """Pieces in order, ccw and closed; ``size`` is the profile's; ``chords`` their ends with piece and u.
+
+    ``tree`` is shapely's tree of the chords, ``inside`` its polygon of them.
+    """
+
+    pieces: tuple[Piece, ...]
+    size: float
+    chords: tuple[tuple[Point, int, float], ...]
+    tree: Any
+    inside: Any
+
+    def foot(self, piece: int, u: float) -> Foot:
+        """A point of a piece with its normals; an end that is a corner has two."""
+        at = self.pieces[piece].at(u)
+        own = self.normal(piece, u)
+        if isinstance(self.pieces[piece], Polar) or 0.0 < u < 1.0:
+            return Foot(at, piece, u, (own,))
+        other = (piece - 1 if u <= 0.0 else piece + 1) % len(self.pieces)
+        beside = self.normal(other, 1.0 if u <= 0.0 else 0.0)
+        if abs(own[0] * beside[1] - own[1] * beside[0]) < CORNER and _dot(own, beside) > 0.0:
+            return Foot(at, piece, u, (own,))
+        return Foot(at, piece, u, (beside, own) if u <= 0.0 else (own, beside))
+
+    def normal(self, piece: int, u: float) -> Point:
+        """Outward unit normal of a piece."""
+        tx, ty = self.pieces[piece].tangent(u)
+        return (ty, -tx)
+
+    def nearest(self, p: Point) -> list[Foot]:
+        """The feet of a point, nearest first: of the piece that shapely finds, and of those beside it."""
+        from shapely import Point as ShapelyPoint
+
+        _, piece, u = self.chords[int(self.tree.nearest(ShapelyPoint(p)))]
+        near = dict.fromkeys(n % len(self.pieces) for n in (piece - 1, piece, piece + 1))
+        feet = [self.foot(n, self.pieces[n].nearest(p, u if n == piece else 0.5)) for n in near]
+        return sorted(feet, key=lambda foot: math.dist(foot.point, p))
+
+    def farthest(self, way: Point) -> list[Foot]:
+        """Where the profile reaches farthest in a direction, and its corners that come next."""
+        start = max(range(len(self.chords)), key=lambda n: _dot(self.chords[n][0], way))
+        begin = self.chords[start][2]
+        feet = [
+            self.foot(n, piece.farthest(way, begin if n == self.chords[start][1] else 0.5))
+            for n, piece in enumerate(self.pieces)
+        ]
+        return sorted(feet, key=lambda foot: -_dot(foot.point, way))
+
+    def height(self, p: Point) -> tuple[float, Foot]:
+        """How far a point lies outside the profile (negative: inside), and its nearest foot."""
+        foot = self.nearest(p)[0]
+        x, y = p[0] - foot.point[0], p[1] - foot.point[1]
+        if not foot.is_corner:
+            return x * foot.normals[0][0] + y * foot.normals[0][1], foot
+        return math.hypot(x, y) * (1.0 if foot.is_convex else -1.0), foot
+
+
+def curve_of(pieces: Sequence[Piece]) -> Curve | None:
+    """The closed curve of pieces in order, joined by straight lines where ends are apart.
+
+    None where it crosses itself.
+    """
+    from numpy import errstate
+    from shapely import LinearRing, Polygon, STRtree, linestrings, prepare
+
+    size = _size(pieces)
+    joined = _joined(pieces, size)
+    chords = tuple(_chords(joined))
+    points = [p for p, _, _ in chords]
+    with errstate(all="ignore"):  # a size that overflows is no simple line
+        if len(points) < 3 or not LinearRing(points).is_simple:
+            return None
+    if _area(points) < 0.0:
+        return curve_of([piece.reversed() for piece in reversed(joined) if not isinstance(piece, Polar)])
+    lines = linestrings([[p, points[(n + 1) % len(points)]] for n, p in enumerate(points)])
+    inside = Polygon(points)
+    prepare([inside, inside.exterior])
+    return Curve(joined, size, chords, STRtree(lines), inside)
+
+
+def _size(pieces: Sequence[Piece]) -> float:
+    ends = [piece.at(u) for piece in pieces for u in (0.0, 0.25, 0.5, 0.75, 1.0)]
+    xs, ys = [x for x, _ in ends], [y for _, y in ends]
+    return math.hypot(max(xs) - min(xs), max(ys) - min(ys))
+
+
+def _joined(pieces: Sequence[Piece], size: float) -> tuple[Piece, ...]:
+    """Pieces with a straight line wherever one ends away from the start of the next."""
+    found: list[Piece] = []
+    for n, piece in enumerate(pieces):
+        found.append(piece)
+        end, start = piece.at(1.0), pieces[(n + 1) % len(pieces)].at(0.0)
+        if math.dist(end, start) > MEETING * size:
+            found.append(Straight(end, start))
+    return tuple(found)
+
+
+def _chords(pieces: Sequence[Piece]) -> Iterator[tuple[Point, int, float]]:
+    for n, piece in enumerate(pieces):
+        count = piece.chords()
+        for k in range(count):
+            yield piece.at(k / count), n, (k + 0.5) / count
+
+
+def _area(points: Sequence[Point]) -> float:
+    """Twice the area, positive ccw."""
+    x, y = points[0]
+    both = zip(points, [*points[1:], points[0]], strict=True)
+    return math.fsum((a - x) * (d - y) - (c - x) * (b - y) for (a, b), (c, d) in both)
+
+
+def _dot(a: Point, b: Point) -> float:
+    return a[0] * b[0] + a[1] * b[1]
+
+
+__all__ = ["Curve", "Foot", "curve_of", "unit"]

@@ -1,0 +1,188 @@
+"""A case with profiles to the same case with its contacts where they are."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import NamedTuple
+
+from icsolve.answer.contacts import Touching
+from icsolve.cams.curve import Curve
+from icsolve.cams.freedom import Missing, Places, along_data, carrier, guided, missing, places_of
+from icsolve.cams.lift import Freedom, Way, ways
+from icsolve.cams.pieces import Point
+from icsolve.cams.shapes import Body, body_of, placed
+from icsolve.cams.touching import Meeting, gap_of, meeting_of
+from icsolve.cams.words import corner_refusal, left_open, never_meets, piece_words, several_ways
+from icsolve.case import Case, Contact, Coordinates, Number
+from icsolve.case.profiles import Flat, Follower, Knife, Profiles, Roller, Shape, Touch, points_of
+from icsolve.errors import SceneError, Status
+
+FITS = 2e-3
+"""A follower whose place is given may miss the profile by this fraction of the profile's size."""
+ROUNDED = 1e-14
+"""A pressure angle of this sine is rounding."""
+CLEARLY = 0.9
+"""A way is meant where it is nearer to `near` than this fraction of the distance of the next."""
+
+
+class Found(NamedTuple):
+    """The case with plain contacts, and what was found of each."""
+
+    case: Case
+    touching: tuple[Touching, ...]
+    used: frozenset[str]
+    """the points that profiles name"""
+
+
+def found(case: Case) -> Found:
+    """The contacts of a case with profiles.
+
+    Raises SceneError where a profile crosses itself, a follower never meets it or does so in several ways,
+    and where the figure is not determined.
+    """
+    assert case.profiles is not None
+    current = replace(case, profiles=case.profiles._replace(touches=()))
+    touching = []
+    for touch in case.profiles.touches:
+        current, one = Seeking(case, case.profiles, touch, current).found()
+        touching.append(one)
+    used = (name for shape in case.profiles.shapes.values() for name in points_of(shape))
+    return Found(current, tuple(touching), frozenset(used))
+
+
+class Seeking:
+    """One contact while it is looked for; ``case`` has the contacts that were found before."""
+
+    def __init__(self, original: Case, profiles: Profiles, touch: Touch, case: Case) -> None:
+        self.touch, self.case = touch, case
+        a, b = touch.links
+        self.cam, self.link = (b, a) if isinstance(profiles.shapes[a], Flat | Roller | Knife) else (a, b)
+        shape, follower = profiles.shapes[self.cam], profiles.shapes[self.link]
+        assert isinstance(follower, Flat | Roller | Knife) and not isinstance(shape, Flat | Roller | Knife)
+        self.shape: Shape = shape
+        self.follower: Follower = follower
+        self.guided = carrier(case, self.link, follower)
+        mark = original.marks.get(f"profile.{self.cam}")
+        self.hidden = f"@{'-'.join(touch.links)}.{touch.place}"
+        """the name of the point of contact"""
+        self.profile = f"the profile of link {self.cam}"
+        self.where = self.profile + (f" ({original.path}:{mark[0]}:{mark[1]})" if mark else "")
+        self.what = f"link {self.link} on {self.where}"
+
+    def found(self) -> tuple[Case, Touching]:
+        """The case with this contact, and what was found of it."""
+        own = points_of(self.shape)
+        curve = placed(self.shape, places_of(self.case, own), self.where)
+        try:
+            body = self.body(places_of(self.case, points_of(self.follower)))
+        except SceneError as refusal:
+            if refusal.status != Status.UNDERDETERMINED:
+                raise
+            self.case, way = self.followed(curve, refusal)
+            side = way.side
+            body = self.body(places_of(self.case, points_of(self.follower)))
+        else:
+            side = min((1.0, -1.0), key=lambda side: abs(gap_of(curve, body, side)[0]))
+        gap = gap_of(curve, body, side)[0]
+        if abs(gap) > FITS * curve.size:
+            raise SceneError(Status.CANNOT_ASSEMBLE, never_meets(self.what, body.kind, gap))
+        return self.contact(self.case, curve, meeting_of(curve, body, side, self.what), self.guide())
+
+    def guide(self) -> Freedom | None:
+        """How the frame guides the follower; None where something else does."""
+        guide = guided(self.case, self.guided)
+        return guide.freedom if guide is not None and guide.against == self.case.ground else None
+
+    def body(self, places: Places) -> Body:
+        """The follower with its points at these places."""
+        return body_of(self.follower, places, f"link {self.link}")
+
+    def followed(self, curve: Curve, refusal: SceneError) -> tuple[Case, Way]:
+        """The case with the follower where it touches."""
+        guide = guided(self.case, self.guided)
+        if guide is None:
+            raise refusal
+        names = points_of(self.follower)
+        datum = missing(self.case, self.guided, names, guide.freedom)
+        freedom = along_data(self.case, names, datum, guide.freedom, self.guided)
+        trial = datum.given(self.case, 0.0, freedom)
+        body = self.body(places_of(trial, names))
+        all_ways = ways(curve, body, freedom)
+        if not all_ways:
+            raise SceneError(Status.CANNOT_ASSEMBLE, never_meets(self.what, body.kind, None))
+        chosen = self.meant(all_ways, freedom, datum, trial)
+        return datum.given(self.case, chosen.by, freedom), chosen
+
+    def meant(self, all_ways: list[Way], freedom: Freedom, datum: Missing, trial: Case) -> Way:
+        """The way that `near` means, or the only one."""
+        if len(all_ways) == 1:
+            return all_ways[0]
+        own = (*points_of(self.follower), *self.case.carries.get(self.guided, ()))
+        names = [name for name in dict.fromkeys(own) if name in self.case.near]
+        start = places_of(trial, tuple(names) or (datum.point,))
+        off = sorted((self.off(way, freedom, start), n) for n, way in enumerate(all_ways))
+        if not names or off[0][0] > CLEARLY * off[1][0]:
+            here = places_of(trial, (datum.point,))[datum.point]
+            ends = [_moved(freedom, way.by, here) for way in all_ways]
+            raise SceneError(Status.AMBIGUOUS, several_ways(self.what, datum.point, ends, bool(names)))
+        return all_ways[off[0][1]]
+
+    def off(self, way: Way, freedom: Freedom, start: Places) -> float:
+        """How far a way is from where `near` says."""
+        near = self.case.near
+        return math.fsum(math.dist(_moved(freedom, way.by, p), near.get(n, p)) for n, p in start.items())
+
+    def contact(
+        self, case: Case, curve: Curve, meeting: Meeting, guide: Freedom | None, note: bool = True
+    ) -> tuple[Case, Touching]:
+        """A case with a plain contact in the place of this one."""
+        nx, ny = self.normal(meeting)
+        sign = 1.0 if self.touch.links[0] == self.cam else -1.0
+        degrees = math.degrees(math.atan2(sign * ny, sign * nx))
+        at, path = meeting.foot.point, f"profile.{self.cam}.{self.link}"
+        x, y, normal = (
+            Number(value, 0.0, f"{path}.{key}", repr(value))
+            for key, value in (("x", at[0]), ("y", at[1]), ("normal", degrees))
+        )
+        joint = Contact(self.touch.links, self.hidden, normal, self.touch.friction)
+        joints = (*case.joints[: self.touch.place], joint, *case.joints[self.touch.place :])
+        case = replace(case, joints=joints, points={**case.points, self.hidden: Coordinates(x, y)})
+        said = left_open(self.shape, curve, meeting.foot, self.profile) if note else ""
+        on = piece_words(self.shape, curve, meeting.foot)
+        trace = self.trace(at, (nx, ny))
+        pressure = pressure_angle(guide, trace, (nx, ny)) if guide is not None else None
+        return case, Touching(self.touch.links, at, degrees % 360.0, on, pressure, said)
+
+    def trace(self, at: Point, normal: Point) -> Point:
+        """The point whose motion makes the pressure angle: a roller's centre, else the contact."""
+        r = self.follower.radius.value if isinstance(self.follower, Roller) else 0.0
+        return (at[0] + r * normal[0], at[1] + r * normal[1])
+
+    def normal(self, meeting: Meeting) -> Point:
+        """The normal from the profile into the follower."""
+        if len(meeting.normals) == 1:
+            return meeting.normals[0]
+        before, after = (math.degrees(math.atan2(y, x)) for x, y in meeting.normals)
+        spread = (after - before) % 360.0
+        given = self.touch.normal
+        if given is not None:
+            inward = 0.0 if self.touch.links[0] == self.cam else 180.0
+            turned = (given.value + inward - before) % 360.0
+            if min(turned, 360.0 - turned) < 1e-9 or turned <= spread + 1e-9:
+                angle = math.radians(before + turned)
+                return (math.cos(angle), math.sin(angle))
+        raise SceneError(Status.UNSUPPORTED, corner_refusal(self.what, before, spread, given))
+
+
+def pressure_angle(guide: Freedom, at: Point, normal: Point) -> float:
+    """Degrees between the normal and the motion of a point of the follower."""
+    x, y = guide.velocity(at)
+    along, across = x * normal[0] + y * normal[1], x * normal[1] - y * normal[0]
+    if abs(across) <= ROUNDED * abs(along):
+        return 0.0
+    return math.degrees(math.atan2(abs(across), abs(along)))
+
+
+def _moved(freedom: Freedom, by: float, p: Point) -> Point:
+    return freedom.moved(Body("", p), by).at

@@ -1,0 +1,192 @@
+"""The exact pieces of a profile: straight lines, circular arcs, and a radius against the angle.
+
+Every piece runs from ``u`` = 0 to 1; a profile is run ccw, so that its outside lies to the right.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+from icsolve.cams.spline import Spline
+
+Point = tuple[float, float]
+Slope = Callable[[float], tuple[float, float]]
+"""A derivative by the angle, and its own derivative, at u."""
+TURN = 2.0 * math.pi
+NEWTON = 60
+"""Steps of Newton's method at most; it halves where it does not get nearer."""
+
+
+class Straight(NamedTuple):
+    """A straight line from a to b."""
+
+    a: Point
+    b: Point
+
+    def at(self, u: float) -> Point:
+        """The point at u; exact at both ends."""
+        if u == 1.0:
+            return self.b
+        return (self.a[0] + u * (self.b[0] - self.a[0]), self.a[1] + u * (self.b[1] - self.a[1]))
+
+    def tangent(self, u: float) -> Point:
+        """Unit vector along the line."""
+        return unit(self.b[0] - self.a[0], self.b[1] - self.a[1])
+
+    def nearest(self, p: Point, start: float) -> float:
+        """Where the line is nearest to p."""
+        dx, dy = self.b[0] - self.a[0], self.b[1] - self.a[1]
+        u = ((p[0] - self.a[0]) * dx + (p[1] - self.a[1]) * dy) / (dx * dx + dy * dy)
+        return min(max(u, 0.0), 1.0)
+
+    def farthest(self, way: Point, start: float) -> float:
+        """Where the line reaches farthest in a direction."""
+        rise = way[0] * (self.b[0] - self.a[0]) + way[1] * (self.b[1] - self.a[1])
+        return 1.0 if rise > 0.0 else 0.0
+
+    def reversed(self) -> Straight:
+        """The same line from its end to its start."""
+        return Straight(self.b, self.a)
+
+    def chords(self) -> int:
+        """Into how many chords it is cut for a rough look."""
+        return 1
+
+
+class Bow(NamedTuple):
+    """An arc about a centre from the angle ``start`` over the angle ``sweep``, rad, ccw positive."""
+
+    centre: Point
+    radius: float
+    start: float
+    sweep: float
+
+    def at(self, u: float) -> Point:
+        """The point at u."""
+        angle = self.start + u * self.sweep
+        return (
+            self.centre[0] + self.radius * math.cos(angle),
+            self.centre[1] + self.radius * math.sin(angle),
+        )
+
+    def tangent(self, u: float) -> Point:
+        """Unit vector along the arc."""
+        angle = self.start + u * self.sweep
+        sign = 1.0 if self.sweep > 0.0 else -1.0
+        return (-sign * math.sin(angle), sign * math.cos(angle))
+
+    def nearest(self, p: Point, start: float) -> float:
+        """Where the arc is nearest to p."""
+        x, y = p[0] - self.centre[0], p[1] - self.centre[1]
+        u = self.place(math.atan2(y, x))
+        if u <= 1.0:
+            return u
+        return min((0.0, 1.0), key=lambda end: math.dist(self.at(end), p))
+
+    def farthest(self, way: Point, start: float) -> float:
+        """Where the arc reaches farthest in a direction."""
+        u = self.place(math.atan2(way[1], way[0]))
+        if u <= 1.0:
+            return u
+        return max((0.0, 1.0), key=lambda end: _along(self.at(end), way))
+
+    def place(self, angle: float) -> float:
+        """u of a direction from the centre; above 1 where the arc does not go there."""
+        return ((angle - self.start) * math.copysign(1.0, self.sweep)) % TURN / abs(self.sweep)
+
+    def reversed(self) -> Bow:
+        """The same arc from its end to its start."""
+        return Bow(self.centre, self.radius, self.start + self.sweep, -self.sweep)
+
+    def chords(self) -> int:
+        """Two degrees each."""
+        return max(2, math.ceil(abs(self.sweep) / TURN * 180.0))
+
+
+class Polar(NamedTuple):
+    """A closed curve: the radius about a point as a spline of the angle (rad) from the direction ``zero``.
+
+    ``turn`` is 1 where the angle is ccw, -1 where it is cw; u runs ccw in both cases.
+    """
+
+    about: Point
+    zero: float
+    turn: float
+    radius: Spline
+
+    def angle(self, u: float) -> float:
+        """The angle of the table at u."""
+        return self.turn * u * TURN
+
+    def at(self, u: float) -> Point:
+        """The point at u."""
+        r, _, _ = self.radius.at(self.angle(u))
+        way = self.zero + u * TURN
+        return (self.about[0] + r * math.cos(way), self.about[1] + r * math.sin(way))
+
+    def derivatives(self, u: float) -> tuple[Point, Point, Point]:
+        """The point from ``about``, and its first two derivatives by the ccw angle."""
+        r, slope, bend = self.radius.at(self.angle(u))
+        slope *= self.turn
+        c, s = math.cos(self.zero + u * TURN), math.sin(self.zero + u * TURN)
+        first = (slope * c - r * s, slope * s + r * c)
+        second = ((bend - r) * c - 2.0 * slope * s, (bend - r) * s + 2.0 * slope * c)
+        return (r * c, r * s), first, second
+
+    def tangent(self, u: float) -> Point:
+        """Unit vector along the curve."""
+        return unit(*self.derivatives(u)[1])
+
+    def nearest(self, p: Point, start: float) -> float:
+        """Where the curve is nearest to p, from a start near there."""
+        x, y = p[0] - self.about[0], p[1] - self.about[1]
+
+        def slope(u: float) -> tuple[float, float]:
+            (cx, cy), (tx, ty), (bx, by) = self.derivatives(u)
+            dx, dy = cx - x, cy - y
+            return dx * tx + dy * ty, tx * tx + ty * ty + dx * bx + dy * by
+
+        return self._flat(slope, start)
+
+    def farthest(self, way: Point, start: float) -> float:
+        """Where the curve reaches farthest in a direction, from a start near there."""
+
+        def slope(u: float) -> tuple[float, float]:
+            _, (tx, ty), (bx, by) = self.derivatives(u)
+            return -(tx * way[0] + ty * way[1]), -(bx * way[0] + by * way[1])
+
+        return self._flat(slope, start)
+
+    def _flat(self, slope: Slope, start: float) -> float:
+        """Newton to where a slope vanishes, kept between a chord before and a chord after the start."""
+        room = 1.5 / self.chords()
+        low, high = start - room, start + room
+        u = start
+        for _ in range(NEWTON):
+            value, rate = slope(u)
+            low, high = (low, u) if value > 0.0 else (u, high)
+            step = value / rate / TURN if rate > 0.0 else math.inf
+            new = u - step if low <= u - step <= high else 0.5 * (low + high)
+            if new == u or value == 0.0:
+                break
+            u = new
+        return u % 1.0
+
+    def chords(self) -> int:
+        """Two thirds of a degree at most, and eight to a value of the table."""
+        return max(540, 8 * len(self.radius.places))
+
+
+Piece = Straight | Bow | Polar
+
+
+def unit(x: float, y: float) -> Point:
+    """Unit vector along (x, y)."""
+    length = math.hypot(x, y)
+    return (x / length, y / length)
+
+
+def _along(p: Point, way: Point) -> float:
+    return p[0] * way[0] + p[1] * way[1]

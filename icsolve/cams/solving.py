@@ -1,0 +1,113 @@
+"""Solve a case with profiles: its contacts are found, and then it is a case like any other."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from icsolve.answer import Answer, Deferred
+from icsolve.answer.bodies import Reactions, names_of
+from icsolve.answer.contacts import Touching
+from icsolve.cams.found import Found, found
+from icsolve.cams.words import contact_said, lost_said
+from icsolve.case import Case, Contact
+from icsolve.errors import SceneError, Status
+from icsolve.statics.power import is_unknown
+
+WHY = "its contacts are found on profiles, of which no bound is proven"
+
+
+def solve_touching(case: Case, **options: Any) -> Answer:
+    """The answer of a case with profiles; ``options`` are those of `icsolve.solve`.
+
+    Raises SceneError as `icsolve.solve`, and where no contact can be found.
+    """
+    known = found(case)
+    answer, reactions = _solved(known.case, options)
+    touching = tuple(pressed(one, known.case, reactions) for one in known.touching)
+    return replace(
+        answer,
+        case=case,
+        answers={name: value._replace(error=None, why=WHY) for name, value in answer.answers.items()},
+        centres=Deferred(lambda: {pair: c._replace(error=None) for pair, c in answer.centres.items()}),
+        errors={},
+        sensitivities=Deferred(_no_sensitivities),
+        skipped=tuple(name for name in answer.skipped if name not in known.used),
+        notes=(*answer.notes, *_notes(touching, bool(options.get("reactions")))),
+        touching=touching,
+        reactions=_with_pressure_angles(answer.reactions, known.case, touching),
+    )
+
+
+def placed(case: Case) -> Case:
+    """A case whose contacts are where its profiles put them; the same case where it has no profiles, or where
+    they place none."""
+    if case.profiles is None or not case.profiles.touches:
+        return case
+    try:
+        return found(case).case
+    except SceneError:
+        return case
+
+
+def _solved(case: Case, options: Mapping[str, Any]) -> tuple[Answer, Reactions | None]:
+    """The answer, and the reactions, which tell whether a contact pulls, where there is a load to find."""
+    from icsolve.solve import solve
+
+    if options.get("reactions") or not any(map(is_unknown, case.loads)):
+        answer = solve(case, **options)
+        return answer, answer.reactions
+    answer = solve(case, **options)
+    try:
+        return answer, solve(case, bound=False, reactions=True).reactions
+    except SceneError:
+        return answer, None
+
+
+def pressed(one: Touching, case: Case, reactions: Reactions | None) -> Touching:
+    """A contact with its normal force, where the reactions determine it."""
+    if reactions is None:
+        return one
+    name = _name(one, case, reactions)
+    force = dict(reactions[name].parts).get("normal") if name else None
+    return one._replace(force=force, lost=force is not None and force < 0.0)
+
+
+def _name(one: Touching, case: Case, reactions: Reactions) -> str | None:
+    """The name of the force in a contact, None where there is none."""
+    hidden = next(j.at for j in case.joints if isinstance(j, Contact) and j.links == one.links)
+    return next((name for name in names_of(*one.links, hidden) if name in reactions), None)
+
+
+def _with_pressure_angles(
+    reactions: Reactions | None, case: Case, touching: tuple[Touching, ...]
+) -> Reactions | None:
+    """The reactions with each contact's own pressure angle: of a roller, that of its centre."""
+    if reactions is None:
+        return None
+    found = Reactions(reactions)
+    for one in touching:
+        if name := _name(one, case, reactions):
+            angle = () if one.pressure_angle is None else (("pressure angle", one.pressure_angle),)
+            others = tuple(part for part in found[name].parts if part[0] != "pressure angle")
+            found[name] = found[name]._replace(parts=(*others, *angle))
+    return found
+
+
+def _notes(touching: tuple[Touching, ...], reactions: bool) -> tuple[str, ...]:
+    """What is said of the contacts; with reactions, a lost one is said with them."""
+    said = [contact_said(one) for one in touching] + [one.note for one in touching if one.note]
+    lost = [lost_said(one) for one in touching if one.lost and not reactions]
+    return (*said, *lost)
+
+
+def _no_sensitivities() -> dict[str, dict[str, float]]:
+    raise SceneError(
+        Status.UNSUPPORTED,
+        "sensitivities and tolerance bands are not worked out where contacts come from profiles: give the "
+        "contact its `at` and `normal`.",
+    )
+
+
+__all__ = ["Found", "placed", "solve_touching"]

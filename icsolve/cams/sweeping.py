@@ -1,0 +1,194 @@
+"""Sweeps of cases with profiles: each row is posed by its course and solved as a scene of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from icsolve.answer import Answer
+from icsolve.answer.contacts import Touching
+from icsolve.cams.course import Course, Rows
+from icsolve.cams.lift import Turn
+from icsolve.cams.solving import pressed
+from icsolve.cams.words import follower_driven, lost_rows, widest_pressure
+from icsolve.case import Case
+from icsolve.errors import SceneError, Status
+from icsolve.numbers.replay import Array
+from icsolve.screws.plane import Point
+from icsolve.solve import solve
+from icsolve.statics.power import is_unknown
+from icsolve.sweep.ask import Columns, Wanted
+from icsolve.sweep.numbers import with_numbers
+from icsolve.sweep.program import Asked, setting_of
+from icsolve.sweep.runner import Progress
+from icsolve.sweep.runner import Rows as Which
+from icsolve.sweep.scenes import Table
+from icsolve.sweep.swept import Sweep
+
+SAID = "each row is solved as a scene of its own, with its contacts found on the profiles."
+SHAPING = ("points", "lengths", "angles", "profile", "joints")
+
+
+class Part(NamedTuple):
+    """Rows of one figure: what they are run by; None where no link moves."""
+
+    case: Case
+    rows: Which
+    run: Rows | None
+
+
+class _Seen:
+    """What the rows tell of each contact: the widest pressure angle and where, and the rows that lose it."""
+
+    def __init__(self) -> None:
+        self.widest: dict[tuple[str, ...], tuple[float, int]] = {}
+        self.lost: dict[tuple[str, ...], list[int]] = {}
+        self.at: dict[tuple[str, ...], dict[int, Point]] = {}
+
+    def take(self, row: int, touching: Iterable[Touching]) -> None:
+        """Note a row's contacts."""
+        for one in touching:
+            self.at.setdefault(one.links, {})[row] = one.at
+            angle = one.pressure_angle
+            if angle is not None and angle > self.widest.get(one.links, (-1.0, 0))[0]:
+                self.widest[one.links] = (angle, row)
+            if one.lost:
+                self.lost.setdefault(one.links, []).append(row)
+
+    def places(self, count: int) -> dict[str, Array]:
+        """Where the contacts are in all rows."""
+        found = {"-".join(links): np.full((count, 2), np.nan) for links in self.at}
+        for links, rows in self.at.items():
+            found["-".join(links)][list(rows)] = list(rows.values())
+        return found
+
+    def notes(self, columns: Columns) -> Iterator[str]:
+        """Sentences about them."""
+
+        def where(row: int) -> str:
+            return ", ".join(f"{columns.names[k]} = {float(a[row]):.6g}" for k, a in columns.arrays.items())
+
+        for links, (angle, row) in self.widest.items():
+            yield widest_pressure(links, angle, where(row))
+        for links, rows in self.lost.items():
+            yield lost_rows(links, len(rows), where(rows[0]))
+
+
+def sweep_touching(case: Case, columns: Columns, wanted: Wanted, progress: Progress | None = None) -> Sweep:
+    """The sweep of a case with profiles; ``progress`` is told each row.
+
+    Raises SceneError as `icsolve.sweep`, and where a follower cannot be followed.
+    """
+    table, seen, parts = Table(columns.rows, wanted.asked), _Seen(), []
+    first = Course(case)
+    moving = _moving(first, columns)
+    for part in _parts(case, columns, moving, table):
+        parts.append(part)
+        for n, row in enumerate(part.rows.tolist()):
+            _fill(table, part, n, row, columns, seen)
+            if progress is not None:
+                progress(1)
+    notes = (SAID, *(one.note for one in first.touching if one.note), *seen.notes(columns))
+
+    def case_of(row: int) -> Case:
+        part = next(part for part in parts if row in part.rows)
+        at = int(np.flatnonzero(part.rows == row)[0])
+        return part.run.case_of(at) if part.run else _written(part.case, columns, row)
+
+    shown = {columns.names[own]: array for own, array in columns.arrays.items()}
+    swept = table.sweep(case, shown, wanted.error, notes, case_of)
+    return replace(swept, touching=seen.places(columns.rows)) if wanted.asked.points else swept
+
+
+def _moving(course: Course, columns: Columns) -> set[str]:
+    """The varied paths that move the mechanism.
+
+    Raises SceneError where a follower is to be turned, or a link cannot be.
+    """
+    for follow in course.follows:
+        if follow.seeking.guided in columns.links:
+            cams = [one.seeking.cam for one in course.follows if one.driver == follow.driver]
+            raise SceneError(Status.MOBILITY, follower_driven(follow.seeking.guided, cams))
+    turned = [follow.driver for follow in course.follows if isinstance(follow.freedom, Turn)]
+    slid = [follow.driver for follow in course.follows if not isinstance(follow.freedom, Turn)]
+    own = [path for path in columns.paths if not path.startswith("profile.")]
+    setting = setting_of(course.open, [*own, *slid], [*columns.links, *turned])
+    return {path for path in setting.drive.moving if path in columns.paths}
+
+
+def _parts(case: Case, columns: Columns, moving: set[str], table: Table) -> Iterator[Part]:
+    """The rows by figures: those whose reshaping numbers are the same."""
+    shaping = [p for p in columns.paths if p not in moving and p.split(".")[0] in SHAPING]
+    for values, rows in _alike(columns, shaping):
+        try:
+            changed = with_numbers(case, values) if values else case
+            yield Part(changed, rows, _run(changed, columns, rows, moving, shaping))
+        except SceneError as error:
+            if not shaping:
+                raise
+            for row in rows.tolist():
+                table.refuse(row, error)
+
+
+def _alike(columns: Columns, shaping: list[str]) -> Iterator[tuple[dict[str, float], Which]]:
+    """Sets of numbers, and the rows that have them."""
+    if not shaping:
+        yield {}, np.arange(columns.rows)
+        return
+    table = np.stack([columns.paths[p] for p in shaping], axis=1)
+    sets, which = np.unique(table, axis=0, return_inverse=True)
+    for n, numbers in enumerate(sets):
+        yield dict(zip(shaping, map(float, numbers), strict=True)), np.flatnonzero(which.ravel() == n)
+
+
+def _run(case: Case, columns: Columns, rows: Which, moving: set[str], shaping: list[str]) -> Rows | None:
+    """What runs the rows of a figure; None where nothing moves."""
+    if not moving and not columns.links:
+        return None
+    paths = {path: a[rows] for path, a in columns.paths.items() if path not in shaping}
+    links = {link: a[rows] for link, a in columns.links.items()}
+    return Rows(Course(case), Columns(paths, links, columns.names))
+
+
+def _written(case: Case, columns: Columns, row: int) -> Case:
+    """The case of a row as if written so."""
+    return with_numbers(case, {path: float(a[row]) for path, a in columns.paths.items()})
+
+
+def _fill(table: Table, part: Part, n: int, row: int, columns: Columns, seen: _Seen) -> None:
+    """Solve one row."""
+    asked = table.asked
+    if part.run is not None and part.run.codes[n]:
+        table.codes[row] = part.run.codes[n]
+        return
+    try:
+        if part.run is None:
+            answer = solve(_written(part.case, columns, row), **_options(asked))
+            touching: Iterable[Touching] = answer.touching
+        else:
+            plain, found = part.run.plain(n)
+            answer = _solved(plain, asked)
+            touching = [pressed(one, plain, answer.reactions) for one in found]
+    except SceneError as error:
+        table.refuse(row, error)
+        return
+    table.fill(row, answer)
+    seen.take(row, touching)
+
+
+def _options(asked: Asked) -> Mapping[str, bool]:
+    options = {"rates": asked.rates, "all_centres": bool(asked.centres), "examine": bool(asked.points)}
+    return {**options, "bound": False}
+
+
+def _solved(case: Case, asked: Asked) -> Answer:
+    """A row's answer, with the reactions that tell whether a contact pulls."""
+    if any(map(is_unknown, case.loads)):
+        try:
+            return solve(case, **_options(asked), reactions=True)
+        except SceneError:
+            pass
+    return solve(case, **_options(asked))

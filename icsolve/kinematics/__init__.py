@@ -1,0 +1,1 @@
+"""Twists of the links, instant centres by Aronhold and Kennedy, rates, and what moves to second order."""

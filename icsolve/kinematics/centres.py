@@ -1,0 +1,175 @@
+"""The centres that are asked for, each with the way in which it was found.
+
+The construction by lines gives the place that is shown; the relative twist of the two links, which
+comes from the loop equations group by group, must agree with it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+
+from icsolve.answer import Centre
+from icsolve.assembly.frame import Frame
+from icsolve.case import Belt, Case, Gears, KnownCentre, Pair, Weld
+from icsolve.case.names import ordered_pair
+from icsolve.kinematics.kennedy import BodyPair, Kennedy, Known, ordered, sine_between, unit
+from icsolve.numbers.arithmetic import Arithmetic
+from icsolve.numbers.null_space import ROUNDING
+from icsolve.screws.joints import Points, freedoms, joint_freedoms, joint_points, pitch_point
+from icsolve.screws.plane import Triple, cross, subtract
+from icsolve.structure.topology import FREEDOMS, Topology
+
+LinkTwists = Mapping[str, Sequence[Triple]]
+ONE = 1e-13
+"""Links whose twists differ by less than this fraction move as one (rounding)."""
+SPREAD = 1e-9
+"""Relative twists of two motions nearer than this angle share their centre."""
+TRUSTED = 1e-8
+"""A construction that loses more digits than this is not shown; the loop equations are. So too where
+the two disagree by more than the construction can have lost."""
+
+
+class CentreFinder:
+    """Centres of one scene; ``twists`` has the motions that are meant, per link."""
+
+    def __init__(
+        self, case: Case, top: Topology, twists: LinkTwists, frame: Frame, points: Points, a: Arithmetic
+    ) -> None:
+        self.case, self.top, self.frame = case, top, frame
+        self.twists = {top.body_of[link]: motions for link, motions in twists.items()}
+        self.points, self.arithmetic = points, a
+        self.fastest = max((_length(t) for ts in twists.values() for t in ts), default=0.0)
+
+    def find(self, pairs: Iterable[Pair], slack: float = 0.0) -> dict[Pair, Centre]:
+        """A `Centre` for every pair of links; ``slack`` is how far given centres contradict."""
+        pairs = list(pairs)
+        moving = self._moving()
+        primaries, normals = self._by_inspection()
+        search = Kennedy(sorted(self.twists), primaries, normals, moving)
+        search.find(ordered(self.top.body_of[a], self.top.body_of[b]) for a, b in pairs)
+        return {pair: self._centre(pair, search, moving, primaries, slack) for pair in pairs}
+
+    def _moving(self) -> dict[BodyPair, Triple]:
+        """Relative twist of every pair of bodies that has one centre in all motions meant."""
+        moving = {}
+        bodies = sorted(self.twists)
+        for n, i in enumerate(bodies):
+            for j in bodies[n + 1 :]:
+                twist = self._relative(i, j)
+                if twist is not None and twist != REST:
+                    moving[(i, j)] = twist
+        return moving
+
+    def _relative(self, i: int, j: int) -> Triple | None:
+        """The relative twist; REST where the two move as one, None where the centre is open."""
+        best, size = REST, 0.0
+        relatives: list[Triple] = []
+        for ti, tj in zip(self.twists[i], self.twists[j], strict=True):
+            t = subtract(tj, ti)
+            length = _length(t)
+            if length > ONE * self.fastest:
+                relatives.append(t)
+                if length > size:
+                    best, size = t, length
+        if any(sine_between(best, t) > SPREAD for t in relatives if _length(t) > ONE * size):
+            return None
+        return best
+
+    def _by_inspection(
+        self,
+    ) -> tuple[dict[BodyPair, tuple[Triple, str]], dict[BodyPair, tuple[Triple, ...]]]:
+        primaries: dict[BodyPair, tuple[Triple, str]] = {}
+        normals: dict[BodyPair, tuple[Triple, ...]] = {}
+        for bond in self.top.bonds:
+            if bond.a not in self.twists or bond.b not in self.twists:
+                continue
+            pair = ordered(bond.a, bond.b)
+            if isinstance(bond.joint, Gears | Belt):
+                primaries.setdefault(pair, (pitch_point(bond, self.points, self.arithmetic), "inspection"))
+                continue
+            basis = freedoms(bond, self.points, self.arithmetic)
+            if len(basis) == 2:
+                normals[pair] = (*normals.get(pair, ()), cross(*basis))
+            else:
+                by = "given" if isinstance(bond.joint, KnownCentre) else "inspection"
+                primaries.setdefault(pair, (basis[0], by))
+        return primaries, normals
+
+    def _centre(
+        self,
+        pair: Pair,
+        search: Kennedy,
+        moving: Mapping[BodyPair, Triple],
+        primaries: Mapping[BodyPair, tuple[Triple, str]],
+        slack: float,
+    ) -> Centre:
+        i, j = (self.top.body_of[link] for link in pair)
+        bodies = ordered(i, j)
+        own = self._own(pair)
+        if own is not None or (bodies in primaries and bodies in moving):
+            point, by = own or primaries[bodies]
+            return self._placed(pair, Known(point, ROUNDING, by))
+        if i == j or (bodies not in moving and self._relative(*bodies) == REST):
+            return Centre(pair, "undefined", why=f"{pair[0]} and {pair[1]} move as one")
+        if bodies not in moving:
+            why = f"{pair[0]} and {pair[1]} have no one centre: they have more than one relative freedom"
+            return Centre(pair, "undetermined", why=why)
+        known = search.known[bodies]
+        if known.error > TRUSTED or not _agree(known, moving[bodies], slack):
+            known = Known(unit(moving[bodies]), ROUNDING, "loop equations")
+        return self._placed(pair, known)
+
+    def _own(self, pair: Pair) -> tuple[Triple, str] | None:
+        """The centre of the joint between two links, which stands even where they do not move (a weld
+        has none)."""
+        if any(isinstance(joint, Weld) and set(joint.links) == set(pair) for joint in self.case.joints):
+            return None
+        for joint in self.case.joints:
+            single = {*pair} <= {*joint.links} and FREEDOMS.get(type(joint)) == 1
+            if single and all(point in self.points for point in joint_points(joint)):
+                by = "given" if isinstance(joint, KnownCentre) else "inspection"
+                return joint_freedoms(joint, self.points, self.arithmetic)[0], by
+        return None
+
+    def _placed(self, pair: Pair, known: Known) -> Centre:
+        x, y, w = known.point
+        lines = tuple(tuple(self._names(end) for end in line.ends) for line in known.lines)
+        if abs(w) <= max(16 * ROUNDING, min(4 * known.error, 1e-10)) * max(abs(x), abs(y)):
+            return Centre(pair, "toward", (direction_of(x, y),), known.by, lines)
+        place = (x / w / self.frame.scale + self.frame.ox, y / w / self.frame.scale + self.frame.oy)
+        return Centre(pair, "at", (place[0] + 0.0, place[1] + 0.0), known.by, lines)
+
+    def _names(self, pair: BodyPair) -> Pair:
+        return ordered_pair(self.case, self.top.members[pair[0]][0], self.top.members[pair[1]][0])
+
+
+def own_centre(top: Topology, pair: Pair, points: Points, arithmetic: Arithmetic) -> Triple | None:
+    """The centre by a joint or a mesh of just these two links; None where there is none."""
+    bodies = ordered(*(top.body_of[link] for link in pair))
+    for bond in top.bonds:
+        if ordered(bond.a, bond.b) == bodies:
+            if isinstance(bond.joint, Gears | Belt):
+                return pitch_point(bond, points, arithmetic)
+            basis = freedoms(bond, points, arithmetic)
+            if len(basis) == 1:
+                return basis[0]
+    return None
+
+
+def direction_of(x: float, y: float) -> float:
+    """Direction of a point at infinity, degrees in [0, 180)."""
+    toward = math.degrees(math.atan2(y, x)) % 180.0
+    return 0.0 if toward == 180.0 else toward
+
+
+def _agree(known: Known, twist: Triple, slack: float) -> bool:
+    """Whether a construction and the loop equations give one place, as far as its digits go."""
+    return sine_between(known.point, twist) <= max(1e-12, 1e3 * known.error, 10.0 * slack)
+
+
+REST: Triple = (0.0, 0.0, 0.0)
+
+
+def _length(t: Triple) -> float:
+    return math.sqrt(t[0] * t[0] + t[1] * t[1] + t[2] * t[2])

@@ -1,0 +1,46 @@
+"""What lies on one line where a group of a plan is dead or leaves a body at rest, and how nearly."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from icsolve.kinematics.twists import SINGULAR, Closure, is_dead, products, rate_sizes
+from icsolve.structure.topology import Topology
+
+
+def lined_up(closure: Closure, top: Topology, body: int) -> tuple[int, ...]:
+    """The bonds whose centres lie on one line and so hold a body at rest; empty where none do.
+
+    A dead group holds the bodies before it. A body of the group itself rests where the line of its own
+    two centres passes through the relative centre of the bodies that drive the group, where that is a
+    joint's.
+    """
+    bodies, bonds = closure.group.bodies, closure.group.bonds
+    if not closure.columns:
+        return ()
+    if body not in bodies:
+        return tuple(sorted(bonds)) if is_dead(closure) else ()
+    if not _rests(closure, n := bodies.index(body)):
+        return ()
+    kept = (bonds[1], bonds[2 if n == 0 else 0]) if closure.group.kind == "dyad" else bonds[1:]
+    ends = closure.group.ends
+    shared = (k for k in top.at[ends[0]] if top.bonds[k].other(ends[0]) == ends[1])
+    driver = next((k for k in shared if top.bonds[k].freedom == 1), None)
+    return () if driver is None else tuple(sorted((driver, *kept)))
+
+
+def _rests(closure: Closure, n: int) -> bool:
+    """Whether the rate of a group's n-th body vanishes."""
+    return bool(abs(closure.numerators[n]) <= SINGULAR * rate_sizes(closure)[n])
+
+
+def tightest(closures: Iterable[Closure]) -> Closure | None:
+    """The group that is nearest to dead, or to leaving a body at rest."""
+    return min((closure for closure in closures if closure.columns), key=_tightness, default=None)
+
+
+def _tightness(closure: Closure) -> float:
+    """The smallest determinant of a group, over the products that it is summed from."""
+    *bases, _ = closure.columns
+    pairs = zip((closure.factor, *closure.numerators), (products(*bases), *rate_sizes(closure)), strict=True)
+    return min(abs(value) / size if size > 0.0 else 1.0 for value, size in pairs)

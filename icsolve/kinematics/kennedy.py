@@ -1,0 +1,147 @@
+"""Centres by the construction of Aronhold and Kennedy, each by the best pair of lines.
+
+Three bodies in relative motion have their three centres on one line. A centre is therefore the
+meet of two such lines; of all pairs of lines the search takes the one whose error, carried along
+from the joints, is smallest (a shortest-path search on the estimated error). Where no two lines
+are left the construction has stalled, and a centre from the loop equations lets it go on.
+"""
+
+import heapq
+import math
+from collections.abc import Iterable, Mapping
+from typing import NamedTuple
+
+from icsolve.numbers.null_space import ROUNDING
+from icsolve.screws.plane import Triple, cross
+
+BodyPair = tuple[int, int]
+
+
+class Line(NamedTuple):
+    """A line on which a centre lies: through the centres ``ends``, or the common normal of a joint
+    between the pair itself (one entry)."""
+
+    ends: tuple[BodyPair, ...]
+    line: Triple
+    error: float
+
+
+class Known(NamedTuple):
+    """A centre as it was found: a homogeneous point of unit length and the estimated error (sine)."""
+
+    point: Triple
+    error: float
+    by: str
+    lines: tuple[Line, ...] = ()
+
+
+class Kennedy:
+    """The construction over the bodies of a scene.
+
+    ``primaries`` are the centres by inspection, ``normals`` the common normals of slots and
+    contacts, ``twists`` the relative twists (of pairs that move), which serve as seeds where the
+    construction stalls.
+    """
+
+    def __init__(
+        self,
+        bodies: Iterable[int],
+        primaries: Mapping[BodyPair, tuple[Triple, str]],
+        normals: Mapping[BodyPair, tuple[Triple, ...]],
+        twists: Mapping[BodyPair, Triple],
+    ) -> None:
+        self.bodies = tuple(bodies)
+        self.twists = twists
+        self.known: dict[BodyPair, Known] = {}
+        self.lines: dict[BodyPair, list[Line]] = {}
+        self.heap: list[tuple[float, int, BodyPair, Known]] = []
+        for pair, (point, by) in primaries.items():
+            self._offer(pair, Known(unit(point), ROUNDING, by))
+        for pair, normal in normals.items():
+            for line in normal:
+                self._draw(pair, Line((pair,), unit(line), ROUNDING))
+
+    def find(self, wanted: Iterable[BodyPair]) -> None:
+        """Construct until every wanted pair that moves is known."""
+        missing = [pair for pair in wanted if pair in self.twists]
+        while True:
+            missing = [pair for pair in missing if pair not in self.known]
+            if not missing:
+                return
+            if not self._settle_next():
+                seed = self._seed(missing)
+                self._offer(seed, Known(unit(self.twists[seed]), ROUNDING, "loop equations"))
+
+    def _seed(self, missing: list[BodyPair]) -> BodyPair:
+        """The missing pair that most lines wait for: it lets the most others follow."""
+        return max(missing, key=lambda pair: (len(self.lines.get(pair, ())), -pair[0], -pair[1]))
+
+    def _settle_next(self) -> bool:
+        while self.heap:
+            _, _, pair, known = heapq.heappop(self.heap)
+            if pair not in self.known:
+                self.known[pair] = known
+                self._spread(pair)
+                return True
+        return False
+
+    def _spread(self, pair: BodyPair) -> None:
+        i, j = pair
+        for k in self.bodies:
+            if k in pair:
+                continue
+            for here, there in ((i, j), (j, i)):
+                side, target = ordered(there, k), ordered(here, k)
+                if side in self.known and target not in self.known and target in self.twists:
+                    self._join(target, pair, side)
+
+    def _join(self, target: BodyPair, one: BodyPair, two: BodyPair) -> None:
+        p, q = self.known[one], self.known[two]
+        line, sine = _meet(p.point, q.point)
+        error = p.error + q.error
+        if sine <= SAME + error:
+            point = p if p.error <= q.error else q
+            through = Line((one, two), point.point, error)
+            self._offer(target, Known(point.point, error, "construction", (through,)))
+            return
+        self._draw(target, Line((one, two), line, ROUNDING + error / sine))
+
+    def _draw(self, pair: BodyPair, line: Line) -> None:
+        for other in self.lines.get(pair, ()):
+            point, sine = _meet(line.line, other.line)
+            error = line.error + other.error
+            if sine > SAME + error:
+                lines = (other, line)
+                self._offer(pair, Known(point, ROUNDING + error / sine, "construction", lines))
+        self.lines.setdefault(pair, []).append(line)
+
+    def _offer(self, pair: BodyPair, known: Known) -> None:
+        if pair not in self.known:
+            heapq.heappush(self.heap, (known.error, len(self.heap), pair, known))
+
+
+SAME = 64 * ROUNDING
+"""Two points (lines) nearer than this angle are one: they have no join (meet)."""
+
+
+def ordered(i: int, j: int) -> BodyPair:
+    """The pair with the lower number first."""
+    return (i, j) if i < j else (j, i)
+
+
+def unit(a: Triple) -> Triple:
+    """The homogeneous triple with unit length."""
+    length = math.sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2])
+    return (a[0] / length, a[1] / length, a[2] / length)
+
+
+def _meet(a: Triple, b: Triple) -> tuple[Triple, float]:
+    """Cross product of unit triples, made unit, and its length: the sine between them."""
+    c = cross(a, b)
+    sine = math.sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2])
+    return (c if sine == 0.0 else (c[0] / sine, c[1] / sine, c[2] / sine)), sine
+
+
+def sine_between(a: Triple, b: Triple) -> float:
+    """Sine of the angle between two homogeneous vectors, of any length."""
+    return _meet(unit(a), unit(b))[1]

@@ -1,0 +1,110 @@
+"""The loop equations of a group of bodies: twists from the rates of the joints on a spanning tree.
+
+Every body hangs on a known one by a path of joints; each joint that closes a loop says that the
+wrenches that it transmits do no work on the relative twist of its two bodies. (Independent loop
+equations on screws: Valderrama-Rodriguez, Rico and others, Robotics 2022, 11(1), 6.)
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
+
+from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.null_space import ZERO, NullSpace, null_space
+from icsolve.screws.joints import transmitted
+from icsolve.screws.plane import Triple, add, blend, pairing, subtract
+from icsolve.structure.topology import Topology
+
+Bases = Mapping[int, tuple[Triple, ...]]
+ORIGIN: Triple = (0.0, 0.0, 0.0)
+
+
+class Branch(NamedTuple):
+    """A body on the spanning tree: its known root and the (column, basis twist) on its path."""
+
+    root: int
+    path: tuple[tuple[int, Triple], ...]
+
+
+class Tree(NamedTuple):
+    """A spanning tree of a group: a branch per body, the bonds that close loops, the unknown rates."""
+
+    branches: dict[int, Branch]
+    closing: tuple[int, ...]
+    columns: int
+
+
+def span(top: Topology, bonds: Sequence[int], roots: Iterable[int], bases: Bases) -> Tree:
+    """Spanning tree over ``bonds`` from the known ``roots``; joints with one freedom come first."""
+    branches = {root: Branch(root, ()) for root in roots}
+    left = sorted(bonds, key=lambda k: top.bonds[k].freedom)
+    columns = 0
+    grown = True
+    while grown:
+        grown = False
+        for k in left:
+            a, b = top.bonds[k].a, top.bonds[k].b
+            if (a in branches) == (b in branches):
+                continue
+            known, new = (a, b) if a in branches else (b, a)
+            steps = tuple((columns + n, basis) for n, basis in enumerate(bases[k]))
+            branches[new] = Branch(branches[known].root, branches[known].path + steps)
+            columns += len(steps)
+            left.remove(k)
+            grown = True
+            break
+    return Tree(branches, tuple(left), columns)
+
+
+def loop_rows(top: Topology, tree: Tree, bases: Bases, roots: Mapping[int, Triple]) -> list[list[Scalar]]:
+    """One row a wrench of each closing joint; the last column multiplies the twists of the roots."""
+    rows = []
+    for k in tree.closing:
+        one, two = tree.branches[top.bonds[k].a], tree.branches[top.bonds[k].b]
+        for wrench in transmitted(bases[k]):
+            row: list[Scalar] = [0.0] * (tree.columns + 1)
+            shared = _shared(one.path, two.path)
+            for column, basis in two.path[shared:]:
+                row[column] = pairing(wrench, basis)
+            for column, basis in one.path[shared:]:
+                row[column] = -pairing(wrench, basis)
+            if one.root != two.root:
+                row[-1] = pairing(wrench, subtract(roots[two.root], roots[one.root]))
+            rows.append(row)
+    return rows
+
+
+def _shared(one: tuple[tuple[int, Triple], ...], two: tuple[tuple[int, Triple], ...]) -> int:
+    shared = 0
+    for (a, _), (b, _) in zip(one, two, strict=False):
+        if a != b:
+            break
+        shared += 1
+    return shared
+
+
+def twists_on(tree: Tree, rates: Sequence[Scalar], roots: Mapping[int, Triple]) -> dict[int, Triple]:
+    """Twist of each body of the tree; ``rates`` ends with the factor on the roots' twists."""
+    twists = {}
+    for body, branch in tree.branches.items():
+        root = roots[branch.root]
+        twist = blend(rates[-1], root, 0.0, root)
+        for column, basis in branch.path:
+            twist = add(twist, (rates[column] * basis[0], rates[column] * basis[1], rates[column] * basis[2]))
+        twists[body] = twist
+    return twists
+
+
+class LoopMotions(NamedTuple):
+    """All motions of a scene: for each body one twist per freedom, relative to the frame."""
+
+    twists: dict[int, tuple[Triple, ...]]
+    found: NullSpace
+
+
+def all_motions(top: Topology, bases: Bases, zero: float = ZERO) -> LoopMotions:
+    """Null space of the loop equations of the bonds in ``bases``, from the frame."""
+    tree = span(top, sorted(bases), (top.ground,), bases)
+    rows = [row[:-1] for row in loop_rows(top, tree, bases, {top.ground: ORIGIN})]
+    found = null_space(rows, tree.columns, zero, 1.0)
+    motions = [twists_on(tree, (*rates, 0.0), {top.ground: ORIGIN}) for rates in found.basis]
+    return LoopMotions({body: tuple(m[body] for m in motions) for body in tree.branches}, found)

@@ -1,0 +1,104 @@
+"""All motions that the joints allow: by the plan where one freedom follows group by group, else from
+the loop equations of the whole scene. What is singular, redundant or rigid is said here."""
+
+from typing import NamedTuple
+
+from icsolve.assembly.frame import Frame
+from icsolve.case import Case, KnownCentre, Roll
+from icsolve.errors import SceneError, Status
+from icsolve.kinematics.loops import ORIGIN, Bases, LoopMotions, all_motions
+from icsolve.kinematics.twists import Closure, is_singular, run
+from icsolve.numbers.arithmetic import Arithmetic
+from icsolve.screws.joints import Points, freedoms, points_of
+from icsolve.screws.plane import Triple, subtract
+from icsolve.structure.plan import Plan
+from icsolve.structure.topology import Topology
+from icsolve.wording.sentences import contradiction, near_structure, structure
+
+
+class Motions(NamedTuple):
+    """For each link of the plan one twist per freedom, relative to the frame (normalised).
+
+    ``closures`` are the groups of the plan (empty where the loop equations gave all at once);
+    ``redundant`` counts constraints beyond those that the motion needs.
+    """
+
+    twists: dict[str, tuple[Triple, ...]]
+    bases: Bases
+    mobility: int
+    redundant: int
+    closures: tuple[Closure, ...]
+    notes: tuple[str, ...]
+    slack: float = 0.0
+    """by how much given centres and rolling contacts miss each other, of the figure's size"""
+
+
+def needed_bonds(plan: Plan | None, top: Topology) -> tuple[int, ...]:
+    """The bonds whose places the plan needs; every one where the plan is not closed."""
+    if plan is None or not plan.closed:
+        return tuple(range(len(top.bonds)))
+    return plan.bonds
+
+
+def needed_points(bonds: tuple[int, ...], top: Topology) -> list[str]:
+    """The points that these bonds need."""
+    return list(dict.fromkeys(p for k in bonds for p in points_of(top.bonds[k])))
+
+
+def by_plan(plan: Plan, top: Topology, points: Points, arithmetic: Arithmetic) -> Motions | None:
+    """The one motion by the groups of the plan; None where a group is singular."""
+    bases = {k: freedoms(top.bonds[k], points, arithmetic) for k in plan.bonds}
+    found = run(plan, top, bases, arithmetic)
+    if any(map(is_singular, found.closures)):
+        return None
+    frame = found.twists.get(top.ground)
+    twists: dict[str, tuple[Triple, ...]] = {}
+    for body, twist in found.twists.items():
+        relative = twist if frame is None or frame is ORIGIN else subtract(twist, frame)
+        for link in top.members[body]:
+            twists[link] = (relative,)
+    return Motions(twists, bases, 1, 0, found.closures, ())
+
+
+def by_loops(case: Case, top: Topology, points: Points, arithmetic: Arithmetic, frame: Frame) -> Motions:
+    """Every motion from the loop equations of the whole scene.
+
+    Raises SceneError for a structure, for given centres that contradict each other, and where the
+    rank is in doubt.
+    """
+    bases = {k: freedoms(bond, points, arithmetic) for k, bond in enumerate(top.bonds)}
+    motions = all_motions(top, bases)
+    notes: tuple[str, ...] = ()
+    exact = bool(motions.found.basis)
+    if not exact:
+        motions, notes = _almost(case, top, bases, motions, frame)
+    mobility = len(motions.found.basis)
+    redundant = max(mobility - top.freedoms_by_count, 0)
+    twists = {link: motions.twists[body] for body, links in enumerate(top.members) for link in links}
+    slack = 0.0 if exact else motions.found.dropped
+    return Motions(twists, bases, mobility, redundant, (), notes, slack)
+
+
+AGREE = 2e-3
+"""Given centres and rolling contacts may miss each other by this fraction of the figure's size."""
+DOUBT = 1e-6
+"""A structure whose last pivot is below this may move as far as its data can tell."""
+
+
+def _almost(
+    case: Case, top: Topology, bases: Bases, rigid: LoopMotions, frame: Frame
+) -> tuple[LoopMotions, tuple[str, ...]]:
+    """The motion that data of few digits just miss; refuses a structure and what is in doubt."""
+    pivots = rigid.found.pivots
+    last = pivots[-1] if pivots else 1.0
+    inexact = [joint for joint in case.joints if isinstance(joint, KnownCentre | Roll)]
+    if inexact and last < AGREE:
+        motions = all_motions(top, bases, AGREE / len(pivots))
+        if len(motions.found.basis) == 1:
+            miss = f"{motions.found.dropped:.1g} of the figure's size"
+            return motions, (f"the given centres and rolling contacts agree with each other to {miss}.",)
+    if any(isinstance(joint, KnownCentre) for joint in inexact):
+        raise SceneError(Status.CONTRADICTORY, contradiction(top, bases, frame, case.units.length))
+    if last < DOUBT:
+        raise SceneError(Status.NEAR_SINGULAR, near_structure(last))
+    raise SceneError(Status.STRUCTURE, structure(top))

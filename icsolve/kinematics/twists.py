@@ -1,0 +1,258 @@
+"""A plan on a figure: the twist of every planned body, from one virtual input, without division.
+
+Each group gives a factor D that multiplies all that was known before it, so a dead centre of the
+virtual input (D = 0) is a value like any other: the bodies before the group then stand still.
+"""
+
+import math
+from typing import NamedTuple
+
+from icsolve.case import Pin
+from icsolve.kinematics.loops import ORIGIN, Bases, loop_rows, span, twists_on
+from icsolve.numbers.arithmetic import Arithmetic, Scalar, magnitude
+from icsolve.numbers.null_space import ROUNDING, null_space
+from icsolve.screws.joints import weights_of
+from icsolve.screws.plane import Point, Triple, blend, cross, dyad_twists, monad_twist, shift, subtract, times
+from icsolve.structure.plan import Group, Plan
+from icsolve.structure.topology import Bond, Topology
+
+LONG = 4
+"""Plans with more groups are rescaled by powers of two on the way: determinants multiply up."""
+
+
+class Closure(NamedTuple):
+    """How a group closed: ``factor`` is D, ``numerators`` the rates times D.
+
+    ``columns`` are the triples whose determinants these are, the relative twist of the known bodies
+    last (empty for a group that was eliminated).
+    """
+
+    group: Group
+    factor: Scalar
+    numerators: tuple[Scalar, ...]
+    columns: tuple[Triple, ...] = ()
+
+
+class Run(NamedTuple):
+    """Twists relative to the entry's first body, all to one scale, and how each group closed."""
+
+    twists: dict[int, Triple]
+    closures: tuple[Closure, ...]
+
+
+class _Pool:
+    """Known twists: each as seen from an origin of its own, so that nothing of a long chain is lost to
+    its distance, and at the level (number of groups) to which its scale belongs."""
+
+    def __init__(self) -> None:
+        self.held: dict[int, tuple[Triple, Point, int]] = {}
+        self.factors: list[Scalar] = []
+        self.drift = 0.0
+        """log2 of what rescaling by whole powers of two has left of the common scale"""
+
+    def put(self, found: dict[int, Triple], o: Point) -> None:
+        """Hold twists at the present level."""
+        level = len(self.factors)
+        for body, twist in found.items():
+            self.held[body] = (twist, o, level)
+
+    def now(self, body: int, o: Point) -> Triple:
+        """The twist at the present level, as seen from o."""
+        twist, own, level = self.held[body]
+        if twist is ORIGIN:
+            return twist
+        if level < len(self.factors):
+            for factor in self.factors[level:]:
+                twist = times(factor, twist)
+            self.put({body: twist}, own)
+        return twist if own is o else shift(twist, (o[0] - own[0], o[1] - own[1]))
+
+    def all_now(self) -> dict[int, Triple]:
+        """Every twist at the present level, in linear time, as seen from the frame's origin."""
+        suffix: list[Scalar] = [1.0]
+        for factor in reversed(self.factors):
+            suffix.append(suffix[-1] * factor)
+        last, result = len(self.factors), {}
+        for body, (twist, (ox, oy), level) in self.held.items():
+            if twist is not ORIGIN:
+                x, y, w = twist if level == last else times(suffix[last - level], twist)
+                result[body] = (x + w * ox, y + w * oy, w)
+            else:
+                result[body] = ORIGIN
+        return result
+
+
+def run(plan: Plan, top: Topology, bases: Bases, arithmetic: Arithmetic) -> Run:
+    """Twists of the planned bodies; ``bases`` has the basis twists of every bond in the plan."""
+    pool = _Pool()
+    entry = top.bonds[plan.entry]
+    o = _origin(bases[plan.entry][0])
+    pool.put({entry.a: ORIGIN, entry.b: _seen(bases[plan.entry][0], o)}, o)
+    closures = []
+    for group in plan.groups:
+        closure, found, o = _close(group, top, bases, arithmetic, pool)
+        if len(plan.groups) > LONG:
+            closure, found = _rescaled(closure, found, pool)
+        closures.append(closure)
+        pool.factors.append(closure.factor)
+        pool.put(found, o)
+    return Run(pool.all_now(), tuple(closures))
+
+
+Closed = tuple[Closure, dict[int, Triple], Point]
+"""How a group closed, the twists of its bodies, and the origin from which they are seen."""
+
+
+def _rescaled(closure: Closure, found: dict[int, Triple], pool: _Pool) -> tuple[Closure, dict[int, Triple]]:
+    """Times a power of two that brings the largest determinant, and what was left over before, near 1.
+
+    The largest alone would lie between 1/2 and 1 at every step, and all twists fade along a chain.
+    """
+    largest = max(magnitude(value) for value in (closure.factor, *closure.numerators))
+    scale = 1.0
+    if 0.0 < largest < math.inf:
+        exponent = round(math.log2(largest) + pool.drift)
+        pool.drift += math.log2(largest) - exponent
+        scale = math.ldexp(1.0, -exponent)
+    numerators = tuple(scale * value for value in closure.numerators)
+    columns = tuple(times(scale, column) for column in closure.columns[:1]) + closure.columns[1:]
+    scaled = {body: times(scale, twist) for body, twist in found.items()}
+    return Closure(closure.group, scale * closure.factor, numerators, columns), scaled
+
+
+def _close(group: Group, top: Topology, bases: Bases, arithmetic: Arithmetic, pool: _Pool) -> Closed:
+    if group.kind == "dyad":
+        return _dyad(group, bases, pool)
+    if group.kind == "monad":
+        mesh = top.bonds[group.bonds[1]]
+        if mesh.pivots[0] and _on_carrier(group, top):
+            return _wheel(group, mesh, bases, weights_of(mesh, arithmetic), pool)
+        return _monad(group, bases, pool)
+    return _eliminated(group, top, bases, pool)
+
+
+def _monad(group: Group, bases: Bases, pool: _Pool) -> Closed:
+    (body,), (one, two), (a, c) = group.bodies, group.bonds, group.ends
+    basis, line = bases[one][0], bases[two]
+    o = _origin(basis, line[0])
+    ta, tc = pool.now(a, o), pool.now(c, o)
+    here = _seen(basis, o)
+    first, second = _seen(line[0], o), _seen(line[1], o)
+    r = subtract(tc, ta)
+    d, s = monad_twist(here, cross(first, second), r)
+    return Closure(group, d, (s,), (first, second, here, r)), {body: blend(d, ta, s, here)}, o
+
+
+def _on_carrier(group: Group, top: Topology) -> bool:
+    """Whether a wheel hangs on a body that carries the pivots of both wheels of its mesh."""
+    one, two = (top.bonds[k] for k in group.bonds)
+    carrier, other = group.ends
+    mine, its = two.pivots if two.b == other else two.pivots[::-1]
+    if not isinstance(one.joint, Pin) or one.joint.at != mine:
+        return False
+    at_its = [b for b in top.bonds if isinstance(b.joint, Pin) and b.joint.at == its]
+    here = {body for bond in at_its for body in (bond.a, bond.b)}
+    return carrier in here and other in here
+
+
+def _wheel(
+    group: Group, mesh: Bond, bases: Bases, weights: tuple[Scalar, Scalar], pool: _Pool
+) -> Closed:
+    """A wheel on the carrier of its mesh, seen from which the two rates are as -q : p (weights crosswise).
+
+    No point enters: a pitch point rounded in the frame costs digits where the wheels are small.
+    """
+    (body,), (a, c) = group.bodies, group.ends
+    basis = bases[group.bonds[0]][0]
+    o = _origin(basis)
+    here, ta = _seen(basis, o), pool.now(a, o)
+    spin = pool.now(c, o)[2] - ta[2]
+    p, q = weights if body == mesh.b else weights[::-1]
+    d, s = p, -(q * spin)
+    columns: tuple[Triple, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, d), (0.0, 0.0, s))
+    return Closure(group, d, (s,), columns), {body: blend(d, ta, s, here)}, o
+
+
+def _dyad(group: Group, bases: Bases, pool: _Pool) -> Closed:
+    (u, v), (outer_u, inner, outer_v), (a, c) = group.bodies, group.bonds, group.ends
+    b1, b3, b2 = bases[outer_u][0], bases[inner][0], bases[outer_v][0]
+    o = _origin(b3, b1, b2)  # the inner pin is in every determinant: each is of differences then
+    ta, tc = pool.now(a, o), pool.now(c, o)
+    columns = (_seen(b1, o), _seen(b3, o), _seen(b2, o), subtract(tc, ta))
+    d, s1, s2 = dyad_twists(*columns)
+    found = {u: blend(d, ta, s1, columns[0]), v: blend(d, tc, s2, columns[2])}
+    return Closure(group, d, (s1, s2), columns), found, o
+
+
+def _origin(*bases: Triple) -> Point:
+    """A pin of the group."""
+    for x, y, w in bases:
+        if type(w) is float and w == 1.0:
+            return (x, y)
+    return FRAME
+
+
+FRAME: Point = (0.0, 0.0)
+PIN: Triple = (0.0, 0.0, 1.0)
+"""A pin as seen from its own point."""
+
+
+def _seen(basis: Triple, o: Point) -> Triple:
+    """A basis twist as seen from o."""
+    if basis[0] is o[0] and basis[1] is o[1] and type(basis[2]) is float and basis[2] == 1.0:
+        return PIN
+    return shift(basis, o)
+
+
+def _eliminated(group: Group, top: Topology, bases: Bases, pool: _Pool) -> Closed:
+    ends = {body for k in group.bonds for body in (top.bonds[k].a, top.bonds[k].b)}
+    roots = {body: pool.now(body, FRAME) for body in sorted(ends - set(group.bodies))}
+    tree = span(top, group.bonds, roots, bases)
+    if not ends <= tree.branches.keys():  # part of it hangs on nothing known: all joints at once then
+        return Closure(group, 0.0, (0.0,)), dict.fromkeys(group.bodies, ORIGIN), FRAME
+    solved = null_space(loop_rows(top, tree, bases, roots), tree.columns + 1, unit=1.0)
+    if len(solved.basis) != 1:
+        return Closure(group, 0.0, (0.0,)), dict.fromkeys(group.bodies, ORIGIN), FRAME
+    rates = solved.basis[0]
+    twists = twists_on(tree, rates, roots)
+    found = {body: twists[body] for body in group.bodies}
+    return Closure(group, rates[-1], tuple(rates[:-1])), found, FRAME
+
+
+SINGULAR = 64 * ROUNDING
+"""A determinant below this fraction of the products that it is summed from is zero."""
+CLEAR = 1e-6
+"""Above this it is not: in the normalised frame the products are of order 1."""
+
+
+def is_singular(closure: Closure) -> bool:
+    """Whether D and all rates vanish: the group leaves a freedom of its own (a change point)."""
+    if not closure.columns:
+        return bool(closure.factor == 0.0 and all(n == 0.0 for n in closure.numerators))
+    return is_dead(closure) and all(
+        abs(n) <= SINGULAR * size for n, size in zip(closure.numerators, rate_sizes(closure), strict=True)
+    )
+
+
+def is_dead(closure: Closure) -> bool:
+    """Whether D vanishes: what drives the group from before stands still."""
+    if not closure.columns:
+        return bool(abs(closure.factor) <= SINGULAR * max(map(abs, closure.numerators)))
+    if abs(closure.factor) > CLEAR:
+        return False
+    *bases, _ = closure.columns
+    return bool(abs(closure.factor) <= SINGULAR * products(*bases))
+
+
+def rate_sizes(closure: Closure) -> tuple[float, ...]:
+    """For each numerator the products that it is summed from."""
+    b1, b3, b2, r = closure.columns
+    if closure.group.kind == "monad":
+        return (products(b1, b3, r),)
+    return (products(r, b3, b2), products(b1, b3, r))
+
+
+def products(*columns: Triple) -> float:
+    """Sum of the absolute values of the products in the determinant of three columns."""
+    (a, b, c), (d, e, f), (g, h, i) = (tuple(map(abs, column)) for column in columns)
+    return float(a * (e * i + f * h) + b * (f * g + d * i) + c * (d * h + e * g))

@@ -1,0 +1,1 @@
+"""Arithmetics on which the same kernels run, the operations with their derivatives, linear systems, roots."""

@@ -1,0 +1,99 @@
+"""Bounds of the rounding errors of every row: the backward pass of `icsolve.numbers.tape`, on arrays.
+
+The weight of a value (the derivative of the result by it) times its own rounding error, summed over all
+values that lead to the result. In a product, a quotient or a root the relative errors of the factors
+weigh the same and are counted together. Values that are the same in every row bring the bound of
+their own errors; a group that Newton's method solved brings those of its equations.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+
+import numpy as np
+
+from icsolve.numbers.noise import still_noise
+from icsolve.numbers.passing import Pass, Passed
+from icsolve.numbers.record import Op, Record, Traced
+from icsolve.numbers.replay import Array, Code, operands
+from icsolve.sweep.together import Together
+
+SLICE = 1024
+"""Rows of one pass; fewer where there are very many values."""
+MANY = 600
+
+
+class Backward:
+    """Backward passes over a record from some of its nodes.
+
+    ``exact`` are inputs that carry no rounding: signs, guesses, counts of turns. ``leaves`` are nodes that
+    are given like inputs, and exact. At most ``rows`` rows go through at once.
+    """
+
+    def __init__(
+        self,
+        record: Record,
+        targets: Sequence[int],
+        groups: Sequence[Together],
+        exact: Iterable[int],
+        leaves: Iterable[int] = (),
+    ) -> None:
+        self.record, self.targets, self.exact = record, targets, frozenset(exact)
+        self.leaves = frozenset(leaves)
+        self.groups = {min(group.solved): group for group in groups}
+        self.member = {k: group for group in groups for k in group.solved}
+        nodes = self.reached(targets)
+        self.guesses = {
+            g: s for group in groups for g, s in zip(group.guesses, group.solved, strict=True) if g in nodes
+        }
+        self.code = Code(record, sorted(nodes), self.leaves & nodes, keep=True)
+        self.rows = SLICE if len(nodes) < MANY else SLICE // 4
+        self._still: dict[int, float] = {}
+        self._passes: dict[tuple[int, int], Pass] = {}
+
+    def reached(self, targets: Iterable[int]) -> set[int]:
+        """The nodes that vary and lead to the targets, through groups as well."""
+        seen: set[int] = set()
+        stack = [k for k in targets if self.record.nodes[k].row]
+        while stack:
+            k = stack.pop()
+            if k not in seen:
+                seen.add(k)
+                stack += [n for n in self._behind(k) if self.record.nodes[n].row]
+        return seen
+
+    def _behind(self, k: int) -> Iterable[int]:
+        if k in self.leaves:
+            return ()
+        op = self.record.nodes[k].op
+        if op in (Op.COS, Op.SIN):
+            return (*operands(self.record, k), k + 1 if op == Op.COS else self.record.nodes[k].b)
+        if k not in self.member:
+            return operands(self.record, k)
+        group = self.member[k]
+        parts = (*group.residuals, *(v for row in group.derivatives for v in row))
+        return [*(v.index for v in parts if isinstance(v, Traced)), *group.solved, *group.guesses]
+
+    def noise(self, k: int) -> float:
+        """Bound of the error of a value that is the same in every row."""
+        if k not in self._still:
+            self._still[k] = still_noise(self.record, k)
+        return self._still[k]
+
+    def run(self, given: Mapping[int, Array], rows: int) -> list[Passed]:
+        """Bounds of the targets for the given inputs."""
+        self.code.run({**given, **{g: given[s] for g, s in self.guesses.items()}}, rows)
+        with np.errstate(all="ignore"):
+            return [self._passed(target, rows) for target in self.targets]
+
+    def _passed(self, target: int, rows: int) -> Passed:
+        if not self.record.nodes[target].row:
+            return Passed(np.full(rows, self.noise(target)), {})
+        room = self.code.bound(rows)[1].shape[1]
+        if (target, room) not in self._passes:
+            self._passes[target, room] = Pass(self, target, room)
+        return self._passes[target, room].run(rows)
+
+    def value(self, k: int, rows: int) -> Array:
+        """A node's value in the last run."""
+        return self.code.value(k, rows)

@@ -1,0 +1,287 @@
+"""One backward pass as straight-line steps: the weights of all values from the last to the first."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, NamedTuple, Protocol
+
+import numpy as np
+
+from icsolve.numbers.noise import ANGLE_NOISE
+from icsolve.numbers.record import Op, Record, Traced
+from icsolve.numbers.replay import Array, Code, Step, operands
+from icsolve.numbers.tape import TURN_NOISE, UNIT
+from icsolve.sweep.constraints import RADIAN
+from icsolve.sweep.together import Together
+
+FACTORED = (Op.MUL, Op.DIV, Op.SQRT, Op.NEG)
+"""Operations whose operands' relative errors are those of the result."""
+
+Weight = tuple[Array, float]
+"""An array and a sign."""
+
+
+class Source(Protocol):
+    """What a pass goes through: a record, its values, what is exact, and groups that were solved."""
+
+    record: Record
+    code: Code
+    exact: frozenset[int]
+    leaves: frozenset[int]
+    groups: dict[int, Together]
+    member: dict[int, Together]
+
+    def reached(self, targets: Iterable[int]) -> set[int]:
+        """The nodes that lead to the targets."""
+
+    def noise(self, k: int) -> float:
+        """Bound of the error of a value that is the same in every row."""
+
+
+class Passed(NamedTuple):
+    """Bounds of a result and its derivatives by the inputs, a row each."""
+
+    bound: Array
+    by: dict[int, Array]
+
+
+class Pass:
+    """One target's pass as straight-line steps on buffers of so many rows."""
+
+    def __init__(self, backward: Source, target: int, room: int) -> None:
+        self.backward, self.record, self.room = backward, backward.record, room
+        self.steps: list[Step] = []
+        self.weights: dict[int, Weight] = {}
+        self.by: dict[int, Weight] = {}
+        self.factors: list[float] = []
+        self.free: list[Array] = []
+        self.holders: dict[int, int] = {}
+        nodes = sorted(backward.reached((target,)), reverse=True)
+        self.merged = _merged(self.record, nodes) - backward.leaves
+        self.products = np.empty((3 * len(nodes) + 3, room))
+        self.weights[target] = self._held((np.ones(room), 1.0), forever=True)
+        for k in nodes:
+            self._node(k)
+        self.products = self.products[: len(self.factors)]
+        self.row = np.array(self.factors)
+
+    def run(self, rows: int) -> Passed:
+        """The bound of every row, and the weights of the inputs."""
+        for function, arguments in self.steps:
+            function(*arguments)
+        np.abs(self.products, self.products)
+        by = {k: sign * w[:rows] for k, (w, sign) in self.by.items()}
+        return Passed((self.row @ self.products)[:rows], by)
+
+    # --- buffers ----------------------------------------------------------------------------------
+
+    def _fresh(self) -> Array:
+        return self.free.pop() if self.free else np.empty(self.room)
+
+    def _held(self, weight: Weight, forever: bool = False) -> Weight:
+        """A weight that one more node has."""
+        key = id(weight[0])
+        self.holders[key] = self.holders.get(key, 0) + 1 + (1 << 30) * forever
+        return weight
+
+    def _released(self, weight: Weight) -> None:
+        """A weight that one node less has: its buffer may be free."""
+        key = id(weight[0])
+        self.holders[key] -= 1
+        if not self.holders[key]:
+            self.free.append(weight[0])
+
+    def _do(self, function: Callable[..., Any], *arguments: Any) -> None:
+        self.steps.append((function, arguments))
+
+    # --- the nodes, last to first -----------------------------------------------------------------
+
+    def _node(self, k: int) -> None:
+        if k in self.backward.member:
+            if k in self.backward.groups:
+                self._group(self.backward.groups[k])
+            return
+        weight = self.weights.pop(k, None)
+        if weight is None:
+            return
+        node = self.record.nodes[k]
+        if node.op == Op.INPUT or k in self.backward.leaves:
+            self.by[k] = self._held(weight, forever=True)
+        if k in self.backward.leaves:
+            return
+        if k not in self.merged:
+            self._error(self._share(k), weight, self._value(k))
+        if node.op == Op.ANGLE:
+            self._error(ANGLE_NOISE, weight, None)
+        for n, part in self._parts(k, weight):
+            if self.record.nodes[n].row:
+                self._add(n, part)
+            elif node.op in (Op.ADD, Op.SUB) or not self.record.nodes[n].value:
+                self._error(self.backward.noise(n), part, None)
+        self._released(weight)
+
+    def _error(self, factor: float, weight: Weight, value: Array | None) -> None:
+        """A term of the bound: a factor times the weight (times a value)."""
+        if not factor:
+            return
+        out = self.products[len(self.factors)]
+        self.factors.append(factor)
+        if value is None:
+            self._do(np.copyto, out, weight[0])
+        else:
+            self._do(np.multiply, weight[0], value, out)
+
+    def _share(self, k: int) -> float:
+        """Relative error of a value, with that of the factors that are counted with it."""
+        node = self.record.nodes[k]
+        if not node.row:
+            return self.backward.noise(k) / abs(node.value) if node.value else 0.0
+        if node.op == Op.INPUT:
+            return 0.0 if k in self.backward.exact else UNIT
+        if node.op in (Op.COS, Op.SIN):
+            return TURN_NOISE
+        own = 0.0 if node.op in (Op.NEG, Op.ANGLE, Op.NEAREST) or _shifted(self.record, k) else UNIT
+        if node.op in FACTORED:
+            part = 0.5 if node.op == Op.SQRT else 1.0
+            own += part * sum(self._share(n) for n in operands(self.record, k) if self._counted(n))
+        return own
+
+    def _counted(self, n: int) -> bool:
+        return n in self.merged or not self.record.nodes[n].row
+
+    def _add(self, k: int, weight: Weight) -> None:
+        """One more part of a node's weight."""
+        known = self.weights.get(k)
+        if known is None:
+            self.weights[k] = self._held(weight)
+            return
+        out = self._fresh()
+        self._do(np.add if known[1] == weight[1] else np.subtract, known[0], weight[0], out)
+        self._released(known)
+        if not self.holders.get(id(weight[0])):
+            self.free.append(weight[0])
+        self.weights[k] = self._held((out, known[1]))
+
+    def _value(self, k: int) -> Array:
+        return self.backward.code.place_of(k, self.room)
+
+    def _times(self, weight: Weight, value: Array, sign: float = 1.0, factor: float = 1.0) -> Weight:
+        """A weight times a value (and a factor) in a buffer of its own."""
+        out = self._fresh()
+        self._do(np.multiply, weight[0], value, out)
+        if factor != 1.0:
+            self._do(np.multiply, out, factor, out)
+        return (out, sign * weight[1])
+
+    def _over(self, weight: Weight, value: Array) -> Weight:
+        out = self._fresh()
+        self._do(np.divide, weight[0], value, out)
+        return (out, weight[1])
+
+    def _parts(self, k: int, weight: Weight) -> list[tuple[int, Weight]]:
+        """The weights of what a node was made of."""
+        node = self.record.nodes[k]
+        a, b = node.a, node.b
+        match node.op:
+            case Op.ADD:
+                return [(a, weight), (b, weight)]
+            case Op.SUB:
+                return [(a, weight), (b, (weight[0], -weight[1]))]
+            case Op.MUL:
+                pairs = ((a, b), (b, a))
+                return [(m, self._times(weight, self._value(n))) for m, n in pairs if self._asked(m)]
+            case Op.DIV:
+                part = self._over(weight, self._value(b))
+                rest = [(b, self._times(part, self._value(k), -1.0))] if self._asked(b) else []
+                return [*rest, (a, part)]
+            case Op.NEG:
+                return [(a, (weight[0], -weight[1]))]
+            case Op.SQRT:
+                half = self._over(weight, self._value(k))
+                self._do(np.multiply, half[0], 0.5, half[0])
+                return [(a, half)]
+            case Op.COS:
+                return [(a, self._times(weight, self._value(k + 1), -1.0, RADIAN))]
+            case Op.SIN:
+                return [(a, self._times(weight, self._value(b), 1.0, RADIAN))]
+            case Op.ANGLE:
+                return self._of_angle(a, b, weight)
+        return []
+
+    def _asked(self, k: int) -> bool:
+        """Whether a node needs a weight: it varies, or is a zero with an error."""
+        node = self.record.nodes[k]
+        return node.row or (not node.value and bool(self.backward.noise(k)))
+
+    def _of_angle(self, a: int, b: int, weight: Weight) -> list[tuple[int, Weight]]:
+        x, y = self._value(a), self._value(b)
+        size, square = np.empty(self.room), np.empty(self.room)
+        self._do(np.multiply, x, x, size)
+        self._do(np.multiply, y, y, square)
+        self._do(np.add, size, square, size)
+        self._do(np.multiply, size, RADIAN, size)
+        part = self._over(weight, size)
+        return [(a, self._times(part, y, -1.0)), (b, self._times(part, x))]
+
+    def _group(self, group: Together) -> None:
+        """Through a solved group: the weights of its equations (implicit differentiation)."""
+        mine = [self.weights.get(k) for k in group.solved]
+        if not any(mine):
+            return
+        flat = [v for row in group.derivatives for v in row]
+        values = [self._value(v.index) if isinstance(v, Traced) else v for v in flat]
+        outs = np.empty((len(group.residuals), self.room))
+        self._do(_implicit, mine, values, (self.room, len(group.residuals), len(group.solved)), outs)
+        for n, residual in enumerate(group.residuals):
+            if isinstance(residual, Traced):
+                self._add(residual.index, self._held((outs[n], -1.0), forever=True))
+
+
+def _implicit(
+    mine: list[Weight | None], values: list[Array | float], shape: tuple[int, int, int], outs: Array
+) -> None:
+    """Weights of the equations of a group from those of its unknowns (degrees in every third)."""
+    w = np.zeros((shape[0], shape[2]))
+    for n, weight in enumerate(mine):
+        if weight is not None:
+            w[:, n] = weight[0] * weight[1]
+    w[:, 2::3] /= RADIAN
+    j = np.empty((shape[0], len(values)))
+    for n, value in enumerate(values):
+        j[:, n] = value
+    outs[:] = adjoint(j.reshape(shape), w).T
+
+
+def _shifted(record: Record, k: int) -> bool:
+    """A product with a power of two rounds nothing."""
+    node = record.nodes[k]
+    if node.op not in (Op.MUL, Op.DIV):
+        return False
+    factors = (node.a, node.b) if node.op == Op.MUL else (node.b,)
+    constants = (record.nodes[n] for n in factors)
+    return any(n.op == Op.CONST and abs(np.frexp(n.value)[0]) == 0.5 for n in constants)
+
+
+def _merged(record: Record, nodes: Sequence[int]) -> set[int]:
+    """Nodes that are a factor of one product and nothing else: their relative error is counted with its."""
+    count: dict[int, int] = {}
+    factor: set[int] = set()
+    for k in nodes:
+        for n in operands(record, k):
+            count[n] = count.get(n, 0) + 1
+            if record.nodes[k].op in FACTORED:
+                factor.add(n)
+    return {n for n in factor if count[n] == 1 and record.nodes[n].op not in (Op.ANGLE, Op.NEAREST)}
+
+
+def adjoint(j: Array, w: Array) -> Array:
+    """Solutions of the transposed systems; of the least squares where there are more equations."""
+    turned = np.swapaxes(j, 1, 2)
+    try:
+        if j.shape[1] == j.shape[2]:
+            found = np.linalg.solve(turned, w[:, :, None])
+        else:
+            found = j @ np.linalg.solve(turned @ j, w[:, :, None])
+    except np.linalg.LinAlgError:
+        found = np.swapaxes(np.linalg.pinv(np.nan_to_num(j)), 1, 2) @ w[:, :, None]
+    return np.asarray(found[:, :, 0], dtype=np.float64)

@@ -1,0 +1,235 @@
+"""Numbers that record a program: the kernels of one scene run on them once, and then on arrays of rows.
+
+A `Traced` number knows the operation that made it and its value in one position of the sweep, so that
+the kernels may choose pivots and branches by it. Operations on numbers that are the same in every row
+are carried out at once, those on 0 and 1 not at all, equal ones once.
+"""
+
+from __future__ import annotations
+
+import math
+
+from icsolve.case import Number
+from icsolve.numbers.arithmetic import ROUNDING_NOISE, Scalar, turn_of
+from icsolve.numbers.tape import decimal_noise
+from icsolve.numbers.traced import Node, Op, Root, Traced, is_plainly, varies
+
+
+class Record:
+    """The nodes in order; an `icsolve.numbers.arithmetic.Arithmetic` whose numbers are `Traced` or floats."""
+
+    def __init__(self) -> None:
+        self.nodes: list[Node] = []
+        self.inputs: dict[str, Traced] = {}
+        self.roots: dict[int, Root] = {}
+        self.counted: dict[int, tuple[Traced, Scalar]] = {}
+        """angles that count whole turns: the guess, and the angle with the turns of the guess"""
+        self.vary: dict[str, Scalar] = {}
+        """by path, what stands for a number of the case; the number itself where there is nothing"""
+        self.directions: dict[int, tuple[Number, Scalar, Scalar]] = {}
+        """by the number's id: cosine and sine of a direction that moves with a link"""
+        self._known: dict[tuple[int, int, int], Traced] = {}
+        self._constants: dict[tuple[float, str], Traced] = {}
+
+    # --- numbers of the case ----------------------------------------------------------------------
+
+    def given(self, number: Number) -> Scalar:
+        """A number of the case: what stands for it, or a constant with the rounding of its decimals."""
+        held = self.vary.get(number.path)
+        if held is not None:
+            return held
+        noise = decimal_noise(number)
+        if not noise and number.value in (0.0, 1.0, -1.0):
+            return number.value
+        return self._constant(number.value, noise, number.path)
+
+    def turn(self, number: Number) -> tuple[Scalar, Scalar]:
+        """Cosine and sine of an angle of the case (degrees)."""
+        moved = self.directions.get(id(number))
+        return (moved[1], moved[2]) if moved is not None else self.turned(self.given(number))
+
+    def turned(self, degrees: Scalar) -> tuple[Scalar, Scalar]:
+        """Cosine and sine of an angle in degrees."""
+        c, s = turn_of(float(degrees))
+        if abs(c) in (0.0, 1.0) and not varies(degrees) and self._is_exact(degrees):
+            return c, s
+        angle = self.lifted(degrees)
+        cos = self._put(Op.COS, angle.index, 0, c, angle.row)
+        return cos, self._put(Op.SIN, angle.index, cos.index, s, angle.row)
+
+    def direct(self, number: Number, direction: tuple[Scalar, Scalar]) -> Number:
+        """A number that stands for a direction which moves with a link."""
+        own = number._replace(path=f"{number.path}@")
+        self.directions[id(own)] = (own, *direction)
+        return own
+
+    def stand(self, number: Number, value: Scalar) -> Number:
+        """A number of its own for which a value stands."""
+        own = number._replace(path=f"{number.path}@")
+        self.vary[own.path] = value
+        return own
+
+    def input(self, name: str, value: float) -> Traced:
+        """A number that varies from row to row."""
+        found = Traced(self, len(self.nodes), value, True)
+        self.nodes.append(Node(Op.INPUT, 0, 0, value, True))
+        self.inputs[name] = found
+        return found
+
+    def about(self, value: float, noise: float) -> Traced:
+        """A constant that is known to within some noise."""
+        return self._constant(value, noise, f"about {noise!r}")
+
+    def _constant(self, value: float, noise: float, name: str) -> Traced:
+        found = self._constants.get((value, name))
+        if found is None:
+            found = Traced(self, len(self.nodes), value, False)
+            self.nodes.append(Node(Op.CONST, 0, 0, value, False, noise))
+            self._constants[value, name] = found
+        return found
+
+    # --- operations -------------------------------------------------------------------------------
+
+    def sqrt(self, value: Scalar) -> Scalar:
+        """Square root; of what is below zero: zero."""
+        root = math.sqrt(max(float(value), 0.0))
+        return self._put(Op.SQRT, value.index, 0, root, value.row) if isinstance(value, Traced) else root
+
+    def root(self, one: tuple[Scalar, Scalar], two: tuple[Scalar, Scalar]) -> Scalar:
+        """Square root of a product of two margins, each with the size of its terms."""
+        radicand = one[0] * two[0]
+        found = self.sqrt(radicand)
+        if isinstance(found, Traced) and found.row:
+            margins = (self._indices(one), self._indices(two))
+            self.roots[found.index] = Root(found.index, self.lifted(radicand).index, margins)
+        return found
+
+    def _indices(self, pair: tuple[Scalar, Scalar]) -> tuple[int, int]:
+        return self.lifted(pair[0]).index, self.lifted(pair[1]).index
+
+    def angle(self, x: Scalar, y: Scalar) -> Scalar:
+        """Direction of a vector in degrees, within half a turn."""
+        degrees = math.degrees(math.atan2(float(y), float(x)))
+        if not (isinstance(x, Traced) or isinstance(y, Traced)):
+            return degrees
+        one, two = self.lifted(x), self.lifted(y)
+        return self._put(Op.ANGLE, one.index, two.index, degrees, one.row or two.row)
+
+    def turns(self, x: Scalar, y: Scalar) -> Scalar:
+        """By how much a vector has turned from +x, whole turns too: those nearest to a guess, which
+        becomes an input of the record (one of ``counted``)."""
+        angle = self.angle(x, y)
+        if not (isinstance(angle, Traced) and angle.row):
+            return angle
+        if angle.index not in self.counted:
+            guess = self.input(f"turns {len(self.counted)}", angle.value)
+            self.counted[angle.index] = (guess, angle + 360.0 * self.nearest((guess - angle) / 360.0))
+        return self.counted[angle.index][1]
+
+    def nearest(self, value: Scalar) -> Scalar:
+        """The nearest whole number."""
+        whole = float(round(float(value)))
+        return self._put(Op.NEAREST, value.index, 0, whole, value.row) if isinstance(value, Traced) else whole
+
+    def vanishes(self, value: Scalar, size: float) -> bool:
+        """Zero in every row, as its value in this one tells."""
+        return bool(abs(value) <= ROUNDING_NOISE * size)
+
+    def add(self, a: Scalar, b: Scalar) -> Scalar:
+        """a + b"""
+        if is_plainly(b, 0.0):
+            return a
+        if is_plainly(a, 0.0):
+            return b
+        one, two = self.lifted(a), self.lifted(b)
+        if self.nodes[two.index].op == Op.NEG:
+            return self.subtract(one, self.at(self.nodes[two.index].a))
+        if self.nodes[one.index].op == Op.NEG:
+            return self.subtract(two, self.at(self.nodes[one.index].a))
+        first, second = sorted((one.index, two.index))
+        return self._put(Op.ADD, first, second, one.value + two.value, one.row or two.row)
+
+    def subtract(self, a: Scalar, b: Scalar) -> Scalar:
+        """a - b"""
+        if is_plainly(b, 0.0):
+            return a
+        if is_plainly(a, 0.0):
+            return self.negate(b)
+        one, two = self.lifted(a), self.lifted(b)
+        if one.index == two.index:
+            return 0.0
+        if self.nodes[two.index].op == Op.NEG:
+            return self.add(one, self.at(self.nodes[two.index].a))
+        return self._put(Op.SUB, one.index, two.index, one.value - two.value, one.row or two.row)
+
+    def multiply(self, a: Scalar, b: Scalar) -> Scalar:
+        """a b"""
+        if is_plainly(a, 0.0) or is_plainly(b, 0.0):
+            return 0.0
+        for one, other in ((a, b), (b, a)):
+            if is_plainly(one, 1.0):
+                return other
+            if is_plainly(one, -1.0):
+                return self.negate(other)
+        one, two = self.lifted(a), self.lifted(b)
+        first, second = sorted((one.index, two.index))
+        return self._put(Op.MUL, first, second, one.value * two.value, one.row or two.row)
+
+    def divide(self, a: Scalar, b: Scalar) -> Scalar:
+        """a / b"""
+        if is_plainly(a, 0.0):
+            return 0.0
+        if is_plainly(b, 1.0):
+            return a
+        if is_plainly(b, -1.0):
+            return self.negate(a)
+        one, two = self.lifted(a), self.lifted(b)
+        value = one.value / two.value if two.value else math.copysign(math.inf, one.value)
+        return self._put(Op.DIV, one.index, two.index, value, one.row or two.row)
+
+    def negate(self, a: Scalar) -> Scalar:
+        """-a"""
+        if not isinstance(a, Traced):
+            return -a
+        node = self.nodes[a.index]
+        if node.op == Op.NEG:
+            return self.at(node.a)
+        if node.op == Op.SUB:
+            return self._put(Op.SUB, node.b, node.a, -a.value, a.row)
+        return self._put(Op.NEG, a.index, 0, -a.value, a.row)
+
+    def lifted(self, value: Scalar) -> Traced:
+        """A number as a node of this record."""
+        return value if isinstance(value, Traced) else self._constant(float(value), 0.0, "exact")
+
+    def at(self, index: int) -> Traced:
+        """The number at a node."""
+        return Traced(self, index, self.nodes[index].value, self.nodes[index].row)
+
+    def _put(self, op: Op, a: int, b: int, value: float, row: bool) -> Scalar:
+        """A new value; two exact numbers that cancel leave nothing."""
+        if value == 0.0 and not row and op in (Op.ADD, Op.SUB) and self._exact(a) and self._exact(b):
+            return 0.0
+        found = self._known.get((op, a, b))
+        if found is None:
+            found = Traced(self, len(self.nodes), value, row)
+            self.nodes.append(Node(op, a, b, value, row))
+            self._known[op, a, b] = found
+        return found
+
+    def _is_exact(self, value: Scalar) -> bool:
+        return not isinstance(value, Traced) or self._exact(value.index)
+
+    def _exact(self, k: int) -> bool:
+        """Whether a number was given and is exact, or a multiple of one by a power of two."""
+        node = self.nodes[k]
+        if node.op == Op.MUL and not node.row:
+            return (
+                self._exact(node.a)
+                and self._exact(node.b)
+                and abs(math.frexp(self.nodes[node.b].value)[0]) == 0.5
+            )
+        return node.op == Op.CONST and not node.noise
+
+
+__all__ = ["Node", "Op", "Record", "Root", "Traced", "varies"]

@@ -1,0 +1,200 @@
+"""A record replayed on arrays: straight-line code on a few buffers that stay in the cache.
+
+Only what leads to the wanted nodes is run. A buffer is free again after the last use of its value.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from threading import get_ident
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from icsolve.numbers.arithmetic import turn_of
+from icsolve.numbers.record import Op, Record
+
+Array = npt.NDArray[np.float64]
+BLOCK = 4096
+"""Rows that run at once: some thirty buffers of them fit the second-level cache."""
+FEW = 512
+MOST_SIZES = 24
+
+Step = tuple[Callable[..., Any], tuple[Any, ...]]
+
+BINARY = {Op.ADD: np.add, Op.SUB: np.subtract, Op.MUL: np.multiply, Op.DIV: np.divide}
+
+
+def live(record: Record, wanted: Iterable[int], given: Collection[int]) -> list[int]:
+    """The nodes that vary and lead to the wanted ones from the given ones, in order."""
+    nodes, seen = record.nodes, set[int]()
+    stack = [k for k in wanted if nodes[k].row]
+    while stack:
+        k = stack.pop()
+        if k in seen:
+            continue
+        seen.add(k)
+        if k not in given:
+            stack += [n for n in operands(record, k) if nodes[n].row]
+    return sorted(seen)
+
+
+def operands(record: Record, k: int) -> tuple[int, ...]:
+    """The nodes that a node is made of."""
+    node = record.nodes[k]
+    if node.op in BINARY or node.op == Op.ANGLE:
+        return (node.a, node.b)
+    return () if node.op in (Op.INPUT, Op.CONST) else (node.a,)
+
+
+def not_negative(values: Array, out: Array) -> None:
+    """The values, with zero where they are negative."""
+    np.maximum(values, 0.0, out=out)
+
+
+class Code:
+    """Straight-line code from the given nodes to the wanted ones.
+
+    Parameters
+    ----------
+    record : the record, which may grow afterwards
+    wanted : nodes whose values are asked for
+    given : nodes whose values are put in: inputs, and what was found by other means
+    keep : whether every value is kept, for a pass backwards
+    """
+
+    def __init__(
+        self, record: Record, wanted: Sequence[int], given: Collection[int] = (), keep: bool = False
+    ) -> None:
+        self.record, self.keep = record, keep
+        self.wanted = tuple(wanted)
+        found = live(record, wanted, given)
+        self.given = tuple(k for k in found if k in given or record.nodes[k].op == Op.INPUT)
+        self.order = [k for k in found if k not in set(self.given)]
+        self.place, self.buffers = self._allocated()
+        self._bound: dict[tuple[int, int], tuple[list[Step], Array]] = {}
+
+    def _allocated(self) -> tuple[dict[int, int], int]:
+        """The buffer of every node, and how many there are."""
+        last: dict[int, int] = {}
+        for at, k in enumerate(self.order):
+            for n in operands(self.record, k):
+                last[n] = at
+        keep = {*self.wanted, *self.given, *(self.order if self.keep else ())}
+        place = {k: at for at, k in enumerate(self.given)}
+        free: list[int] = []
+        count = len(place)
+        for at, k in enumerate(self.order):
+            dying = {n for n in operands(self.record, k) if n in place and last[n] == at and n not in keep}
+            gone = [place[n] for n in dying]
+            if self.record.nodes[k].op not in (Op.COS, Op.SIN):
+                free += gone
+            if not free:
+                free.append(count)
+                count += 1
+            place[k] = free.pop()
+            if self.record.nodes[k].op in (Op.COS, Op.SIN):
+                free += gone
+            if k not in last and k not in keep:
+                free.append(place[k])
+        return place, count
+
+    def bound(self, rows: int) -> tuple[list[Step], Array]:
+        """The steps on buffers for so many rows (few rows: up to the next power of two), one set a thread."""
+        room = rows if rows > FEW else 1 << (rows - 1).bit_length()
+        key = (room, get_ident())
+        if key not in self._bound:
+            if len(self._bound) > MOST_SIZES:
+                self._bound.clear()
+            buffers = np.zeros((self.buffers + 2, room))
+            self._bound[key] = (list(self._steps(buffers)), buffers)
+        return self._bound[key]
+
+    def _steps(self, buffers: Array) -> Iterable[Step]:
+        nodes = self.record.nodes
+        sines = {nodes[k].b: k for k in self.order if nodes[k].op == Op.SIN}
+        done: set[int] = set()
+        for k in self.order:
+            node, out = nodes[k], buffers[self.place[k]]
+            if k in done:
+                continue
+            if node.op in BINARY:
+                yield BINARY[node.op], (self._value(node.a, buffers), self._value(node.b, buffers), out)
+            elif node.op == Op.NEG:
+                yield np.negative, (self._value(node.a, buffers), out)
+            elif node.op == Op.SQRT:
+                yield not_negative, (self._value(node.a, buffers), out)
+                yield np.sqrt, (out, out)
+            elif node.op == Op.ANGLE:
+                yield np.arctan2, (self._value(node.b, buffers), self._value(node.a, buffers), out)
+                yield np.degrees, (out, out)
+            elif node.op == Op.NEAREST:
+                yield np.rint, (self._value(node.a, buffers), out)
+            else:
+                sine = k if node.op == Op.SIN else sines.get(k)
+                cosine = k if node.op == Op.COS else None
+                done.update(() if sine is None else (sine,))
+                outs = [None if n is None else buffers[self.place[n]] for n in (cosine, sine)]
+                yield turn, (self._value(node.a, buffers), *outs, buffers[-2], buffers[-1])
+
+    def _value(self, k: int, buffers: Array) -> Array:
+        found: Array = buffers[self.place[k]] if k in self.place else np.array(self.record.nodes[k].value)
+        return found
+
+    def run(self, given: Mapping[int, Array], rows: int) -> list[Array]:
+        """The wanted nodes for the given ones (each of so many rows, or one number).
+
+        The arrays are the code's own buffers: they hold until the next run.
+        """
+        steps, buffers = self.bound(rows)
+        for k in self.given:
+            np.copyto(buffers[self.place[k], :rows], given[k])
+        with np.errstate(all="ignore"):
+            for function, arguments in steps:
+                function(*arguments)
+        return [self._cut(k, buffers, rows) for k in self.wanted]
+
+    def place_of(self, k: int, room: int) -> Array:
+        """The whole buffer of a node (or its number) in runs of so many rows."""
+        return self._value(k, self.bound(room)[1])
+
+    def _cut(self, k: int, buffers: Array, rows: int) -> Array:
+        value = self._value(k, buffers)
+        return value[:rows] if value.ndim else value
+
+    def value(self, k: int, rows: int) -> Array:
+        """A node's value in the last run of so many rows (of any node, where all are kept)."""
+        return self._cut(k, self.bound(rows)[1], rows)
+
+
+def turn(degrees: Array, cosine: Array | None, sine: Array | None, a: Array, b: Array) -> None:
+    """Cosine and sine of angles in degrees, exact at multiples of 90; ``a`` and ``b`` are scratch.
+
+    As `arithmetic.turn_of`: reduced exactly to r within 45 degrees of an axis before pi is met.
+    With m quarter turns (-2 to 2) the cosine is ``cos r (1 - |m|) + sin r m (|m| - 2)``, and cos r is
+    the root of ``(1 - sin r)(1 + sin r)``, which loses nothing so near to 1.
+    """
+    if degrees.size == 1:
+        _turn_one(float(degrees.flat[0]), cosine, sine)
+        return
+    c, s = np.empty_like(a), np.empty_like(a)
+    quarters = np.rint(np.divide(degrees, 90.0, a), a)
+    np.subtract(degrees, np.multiply(quarters, 90.0, b), s)
+    np.sin(np.multiply(s, np.pi / 180.0, s), s)
+    np.sqrt(np.multiply(np.subtract(1.0, s, b), np.add(s, 1.0, c), c), c)
+    quarters -= np.multiply(np.rint(np.multiply(quarters, 0.25, b), b), 4.0, b)
+    across = np.subtract(np.abs(quarters, b), 2.0, b)
+    quarters *= across
+    along = np.negative(np.add(across, 1.0, b), b)
+    if cosine is not None:
+        np.add(np.multiply(c, along, cosine), s * quarters, cosine)
+    if sine is not None:
+        np.subtract(np.multiply(s, along, sine), c * quarters, sine)
+
+
+def _turn_one(degrees: float, cosine: Array | None, sine: Array | None) -> None:
+    found = turn_of(degrees) if np.isfinite(degrees) else (np.nan, np.nan)
+    for out, value in zip((cosine, sine), found, strict=True):
+        if out is not None:
+            out.fill(value)

@@ -1,0 +1,137 @@
+"""What a joint leaves free and what it transmits: basis twists and wrenches, per joint kind.
+
+Each basis twist is a homogeneous point: the relative centre of a joint with one freedom is that
+point; with two freedoms it lies on the line that joins them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from icsolve.case import Belt, Contact, Gears, Guide, Joint, KnownCentre, Pin, Roll, Slide, Slot
+from icsolve.numbers.arithmetic import Arithmetic
+from icsolve.screws.plane import Point, Triple, normal_twist, pin_twist, slide_twist
+from icsolve.structure.topology import Bond
+
+Points = Mapping[str, Point]
+
+
+def freedoms(bond: Bond, points: Points, arithmetic: Arithmetic) -> tuple[Triple, ...]:
+    """Basis twists (normalised frame) that the bond leaves to its two bodies."""
+    joint = bond.joint
+    if type(joint) is Pin:
+        return (pin_twist(points[joint.at]),)
+    if isinstance(joint, Gears | Belt):
+        return _mesh(bond, points, arithmetic)
+    return joint_freedoms(joint, points, arithmetic)
+
+
+def joint_freedoms(joint: Joint, points: Points, arithmetic: Arithmetic) -> tuple[Triple, ...]:
+    """Basis twists of a joint that needs no pivots of its own links."""
+    match joint:
+        case Pin() | Roll():
+            return (pin_twist(points[joint.at]),)
+        case Slide():
+            return (slide_twist(guide_direction(joint.guide, points, arithmetic)),)
+        case Slot():
+            along = slide_twist(guide_direction(joint.guide, points, arithmetic))
+            return (pin_twist(points[joint.at]), along)
+        case Contact():
+            return (pin_twist(points[joint.at]), normal_twist(arithmetic.turn(joint.normal)))
+        case KnownCentre():
+            return (_known_centre(joint, points, arithmetic),)
+    raise TypeError(f"{type(joint).__name__} leaves no freedom of its own")
+
+
+def points_of(bond: Bond) -> tuple[str, ...]:
+    """The points whose places the basis twists need."""
+    return bond.pivots if isinstance(bond.joint, Gears | Belt) else joint_points(bond.joint)
+
+
+def joint_points(joint: Joint) -> tuple[str, ...]:
+    """The points whose places the basis twists of a joint need, without pivots."""
+    match joint:
+        case Slide():
+            return joint.guide.ends or ()
+        case Slot():
+            return (joint.at, *(joint.guide.ends or ()))
+        case KnownCentre():
+            return (joint.at,) if joint.at else ()
+        case Pin() | Roll() | Contact():
+            return (joint.at,)
+    return ()
+
+
+def guide_direction(guide: Guide, points: Points, arithmetic: Arithmetic) -> Point:
+    """Unit vector along a guide."""
+    if guide.angle is not None:
+        return arithmetic.turn(guide.angle)
+    assert guide.ends is not None
+    (ax, ay), (bx, by) = points[guide.ends[0]], points[guide.ends[1]]
+    dx, dy = bx - ax, by - ay
+    length = arithmetic.sqrt(dx * dx + dy * dy)
+    return (dx / length, dy / length)
+
+
+def _known_centre(joint: KnownCentre, points: Points, arithmetic: Arithmetic) -> Triple:
+    if joint.at is not None:
+        return pin_twist(points[joint.at])
+    assert joint.toward is not None
+    return normal_twist(arithmetic.turn(joint.toward))
+
+
+def mesh_weights(joint: Gears | Belt, arithmetic: Arithmetic) -> tuple[float, float]:
+    """Weights (p, q) of the pivots in the pitch point ``(p O_a + q O_b, p + q)``.
+
+    Teeth or radii n_a, n_b: the pitch point divides the line of the pivots as n_a : n_b, inside for
+    external gears and crossed belts, outside for internal gears and open belts.
+    """
+    if isinstance(joint, Gears):
+        a, b = (arithmetic.given(n) for n in joint.teeth)
+        outside = (joint.teeth[0].value < 0) != (joint.teeth[1].value < 0)
+    else:
+        a, b = (arithmetic.given(n) for n in joint.radii)
+        outside = not joint.crossed
+    a, b = _size(a), _size(b)
+    whole = a + b
+    return (b / whole, -a / whole) if outside else (b / whole, a / whole)
+
+
+def weights_of(bond: Bond, arithmetic: Arithmetic) -> tuple[float, float]:
+    """The same for the bond of a mesh."""
+    assert isinstance(bond.joint, Gears | Belt)
+    return mesh_weights(bond.joint, arithmetic)
+
+
+def _size(n: float) -> float:
+    return -n if n < 0 else n
+
+
+def _mesh(bond: Bond, points: Points, arithmetic: Arithmetic) -> tuple[Triple, Triple]:
+    """The pitch point and the point at infinity square to the line of the pivots."""
+    p, q = weights_of(bond, arithmetic)
+    (ax, ay), (bx, by) = points[bond.pivots[0]], points[bond.pivots[1]]
+    pitch = (p * ax + q * bx, p * ay + q * by, p + q)
+    return pitch, (ay - by, bx - ax, 0.0)
+
+
+def pitch_point(bond: Bond, points: Points, arithmetic: Arithmetic) -> Triple:
+    """Relative centre of two gears or pulleys, homogeneous."""
+    return _mesh(bond, points, arithmetic)[0]
+
+
+def transmitted(basis: tuple[Triple, ...]) -> tuple[Triple, ...]:
+    """Wrenches that a joint with these freedoms transmits: rows that vanish on its basis twists.
+
+    Two freedoms leave the line that joins them. One freedom (X, Y, W) leaves two: for a finite centre
+    the forces along x and y through it; for one at infinity the couple and the force square to the
+    guide through the origin.
+    """
+    if len(basis) == 2:
+        (x1, y1, w1), (x2, y2, w2) = basis
+        return ((y1 * w2 - w1 * y2, w1 * x2 - x1 * w2, x1 * y2 - y1 * x2),)
+    x, y, w = basis[0]
+    if type(w) is float and w == 0.0:
+        return ((0.0, 0.0, 1.0), (y, -x, 0.0))
+    return ((w, 0.0, -x), (0.0, w, -y))
+

@@ -1,0 +1,146 @@
+"""The pipeline: a case, its figure, the motions that its joints allow, the sum of power, the answer.
+
+1. topology: which links move as one, and the joints between them
+2. plan: the groups of links that the wanted twists need, and no others
+3. figure: the points that those groups and the loads need
+4. motions: the twist of every planned link (a centre that keeps its weight)
+5. power: the loads' wrenches on the twists give the unknown loads
+6. centres and rates, as far as they are asked for
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import lru_cache
+from typing import TYPE_CHECKING
+
+from icsolve.answer import Answer
+from icsolve.case import Case
+from icsolve.errors import SceneError, Status
+from icsolve.solve import refusals
+from icsolve.solve.bounds import Value, bounded_values, evaluate_bounded, unbounded_values
+from icsolve.solve.parts import Parts
+from icsolve.solve.program import Program, Want, evaluate, prepare
+from icsolve.statics import power
+
+if TYPE_CHECKING:
+    from icsolve.statics.ties import Position
+
+
+def solve(
+    case: Case,
+    *,
+    all_centres: bool = False,
+    rates: bool = False,
+    examine: bool = False,
+    bound: bool = True,
+    reactions: bool = False,
+) -> Answer:
+    """Solve a case.
+
+    Parameters
+    ----------
+    case : Case
+        As `icsolve.load` returns it.
+    all_centres : bool
+        All n(n-1)/2 centres rather than those that the loads need.
+    rates : bool
+        Link rates and point velocities too.
+    examine : bool
+        Solve and check the whole figure, also what the answer does not need.
+    bound : bool
+        Bound the error of every answer, rate and centre (three times the work).
+    reactions : bool
+        The force of each link on each other at every joint too; a structure is then solved as well.
+
+    Raises SceneError where the scene has no answer; its ``status`` is a member of `icsolve.errors.Status`.
+    """
+    if case.space is not None:
+        from icsolve.statics.space.solve import solve_space
+
+        return solve_space(case)
+    if case.profiles is not None and case.profiles.touches:
+        from icsolve.cams.solving import solve_touching
+
+        asked = {"all_centres": all_centres, "rates": rates, "examine": examine}
+        return solve_touching(case, **asked, bound=bound, reactions=reactions)
+    return _solved(case, _wanted(case, Want(all_centres, rates, examine, reactions)), bound, reactions)
+
+
+@lru_cache(maxsize=32)
+def _wanted(case: Case, asked: Want) -> Want:
+    """What is to be found for what was asked: without an unknown, what moves; with friction, all forces."""
+    if not any(power.is_unknown(load) for load in case.loads):
+        return asked._replace(centres=True, rates=True)
+    return asked._replace(bodies=asked.bodies or refusals.rubs(case))
+
+
+def _solved(case: Case, want: Want, bound: bool, reactions: bool) -> Answer:
+    """Position, centres, power: the answer of a planar case whose contacts are given."""
+    program = prepare(case, want)  # the steps that are needed, and the figure in its position
+    try:
+        parts = _evaluated(program, bound)  # the twist of every link, and the power of the loads on them
+    except SceneError as refusal:
+        if reactions and refusal.status == Status.STRUCTURE:
+            return _structure(program, refusal)
+        raise
+    if want.bodies and refusals.rubs(case):
+        return _with_friction(parts, reactions)
+    _refuse_unbalanced(parts)
+    parts.unknowns = bounded_values(parts.scene) if parts.scene else unbounded_values(parts.traced)
+    return _with_bodies(parts) if reactions else parts.answer()
+
+
+def _evaluated(program: Program, bound: bool) -> Parts:
+    """Motions and the sum of power; on a tape where the answer is to have its bound."""
+    if not bound:
+        return Parts(*evaluate(program), None)
+    scene = evaluate_bounded(program)
+    return Parts(scene.program, scene.outcome, scene)
+
+
+def _refuse_unbalanced(parts: Parts) -> None:
+    """Refuse unknown loads that power does not determine."""
+    top, outcome = parts.program.top, parts.traced
+    refusals.refuse_unbalanced(parts.case, top, outcome.motions, outcome.balance, outcome.solution)
+
+
+def _with_bodies(parts: Parts) -> Answer:
+    """The answer with the reactions, and with the unknown loads as free bodies give them."""
+    from icsolve.statics.statics import free_bodies
+
+    by_power = {root: (value.value, value.error or 0.0) for root, value in parts.unknowns.items()}
+    found = free_bodies(_position(parts), parts.figure.frame, parts.outcome.balance, by_power)
+    return found.added_to(parts.answer())
+
+
+def _with_friction(parts: Parts, reactions: bool) -> Answer:
+    """The answer with friction, from free bodies; its motion or the range in which it holds."""
+    from icsolve.statics.friction import solved
+    from icsolve.statics.rubbing import Scene
+
+    def answer_with(values: Mapping[str, Value]) -> Answer:
+        parts.unknowns = dict(values)
+        return parts.answer()
+
+    outcome = parts.outcome
+    if not refusals.is_workless(outcome.motions, outcome.solution):
+        _refuse_unbalanced(parts)
+    scene = Scene(_position(parts), parts.figure.frame, outcome.balance, outcome.solution, parts.speed)
+    return solved(scene._replace(traced=parts.scene), answer_with, reactions)
+
+
+def _position(parts: Parts) -> Position:
+    """The scene as free bodies take it."""
+    from icsolve.statics.ties import Position
+
+    figure, moves = parts.figure, parts.outcome.motions
+    scale, slack = figure.frame.scale, float(moves.slack)
+    return Position(parts.case, parts.program.top, figure.points, scale, moves.twists, slack)
+
+
+def _structure(program: Program, refusal: SceneError) -> Answer:
+    """A structure by statics alone; it has no unknown load that anything would determine."""
+    from icsolve.statics.statics import structure
+
+    return structure(program, refusal)

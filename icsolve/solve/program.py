@@ -1,0 +1,130 @@
+"""What of a scene does not depend on its numbers, and its evaluation in any arithmetic.
+
+The program of a case (topology, plan, construction of the figure with its branches) is made once.
+It runs on floats, on numbers that carry their error bound, on arrays of positions, in more digits.
+"""
+
+from functools import lru_cache
+from typing import NamedTuple
+
+from icsolve.assembly import Figure, place, solve_figure
+from icsolve.case import Case, Gears
+from icsolve.kinematics import motion, speeds
+from icsolve.numbers.arithmetic import FLOATS, Arithmetic
+from icsolve.screws.joints import Points
+from icsolve.solve import refusals
+from icsolve.statics import power
+from icsolve.structure.plan import Plan, make_plan
+from icsolve.structure.topology import Topology, topology
+
+
+class Want(NamedTuple):
+    """What is asked of a scene beside its unknown loads."""
+
+    centres: bool = False
+    rates: bool = False
+    examine: bool = False
+    bodies: bool = False
+    """reactions or friction: the equilibrium of every link"""
+
+    @property
+    def everything(self) -> bool:
+        """Whether every link is to be solved."""
+        return self.centres or self.rates or self.examine or self.bodies
+
+
+class Program(NamedTuple):
+    """A case with its topology, the plan for what is wanted, and the construction of its figure."""
+
+    case: Case
+    want: Want
+    top: Topology
+    plan: Plan | None
+    figure: Figure
+
+
+class Outcome(NamedTuple):
+    """A program's values in one arithmetic: places (normalised), motions, the sum of power."""
+
+    points: Points
+    motions: motion.Motions
+    balance: power.Balance
+    solution: power.Solution
+
+
+@lru_cache(maxsize=32)
+def prepare(case: Case, want: Want) -> Program:
+    """The program of a case.
+
+    Raises SceneError where a link is loose, the figure can't be constructed, or teeth do not fit.
+    """
+    top = topology(case)
+    refusals.refuse_loose(case, top)
+    wanted = _wanted_bodies(case, top, want)
+    plan = make_plan(top, wanted)
+    if plan is not None and not plan.closed:
+        plan = None
+    bonds = motion.needed_bonds(plan, top)
+    figure = solve_figure(case, None if want.examine else _wanted_points(case, top, bonds, want))
+    refusals.refuse_no_direction(case, top, figure.points)
+    if any(isinstance(joint, Gears) for joint in case.joints):
+        from icsolve.assembly.meshing import refuse_misfit
+
+        refuse_misfit(case, top, figure.points, figure.frame.scale)
+    return Program(case, want, top, plan, figure)
+
+
+def without_plan(program: Program) -> Program:
+    """The program that takes the loop equations of the whole scene at once."""
+    bonds = motion.needed_bonds(None, program.top)
+    points = _wanted_points(program.case, program.top, bonds, program.want)
+    figure = solve_figure(program.case, None if program.want.examine else points)
+    return program._replace(plan=None, figure=figure)
+
+
+def _wanted_bodies(case: Case, top: Topology, want: Want) -> frozenset[int]:
+    """The bodies whose twists the answer needs: those that loads act on, or all.
+
+    Where nothing is to be balanced, whether an unknown is zero or can have any value hangs on whether
+    its link can move at all.
+    """
+    if want.everything or not any(map(power.has_number, case.loads)):
+        return frozenset(range(len(top.members)))
+    links = {link for load in case.loads for link in (load.link, power.reacting(case, load))}
+    links |= {given.link for given in case.motion}
+    return frozenset(top.body_of[link] for link in links)
+
+
+def _wanted_points(case: Case, top: Topology, bonds: tuple[int, ...], want: Want) -> list[str]:
+    """The points whose places the plan, the loads and the given motions need."""
+    points = motion.needed_points(bonds, top)
+    points += [p for load in case.loads for p in power.points_of(load)]
+    points += [given.point for given in case.motion if given.point is not None]
+    if want.bodies:
+        points += [p for joint in case.joints if (p := getattr(joint, "at", None)) is not None]
+    if want.everything:
+        points += [p for link in case.links for p in speeds.moving_points(case, link)]
+    return list(dict.fromkeys(points))
+
+
+def evaluate(program: Program, arithmetic: Arithmetic = FLOATS) -> tuple[Program, Outcome]:
+    """Places, motions and unknown loads; the program that ran (without a plan where a group of it
+    is singular in this position).
+
+    Raises SceneError for a structure and for given centres that contradict each other.
+    """
+    figure, case, top = program.figure, program.case, program.top
+    # position
+    points = figure.points if arithmetic is FLOATS else place(figure, case, arithmetic).points
+    # centres, which keep their weight: the twists of the links
+    motions = None
+    if program.plan is not None:
+        motions = motion.by_plan(program.plan, top, points, arithmetic)
+        if motions is None:
+            return evaluate(without_plan(program), arithmetic)
+    if motions is None:
+        motions = motion.by_loops(case, top, points, arithmetic, figure.frame)
+    # power
+    wrenches = power.wrenches(case, figure.frame, points, arithmetic)
+    balance = power.balance(wrenches, motions.twists, motions.mobility)
+    return program, Outcome(points, motions, balance, power.solve_balance(balance, arithmetic))

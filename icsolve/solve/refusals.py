@@ -1,0 +1,111 @@
+"""Why a scene has no answer: the refusals, each with its status and a full sentence."""
+
+from __future__ import annotations
+
+from icsolve.case import Case
+from icsolve.errors import SceneError, Status
+from icsolve.kinematics.collinear import lined_up, tightest
+from icsolve.kinematics.motion import Motions
+from icsolve.screws.joints import Points
+from icsolve.statics import power
+from icsolve.structure.topology import Topology
+from icsolve.wording import sentences
+
+
+def refuse_loose(case: Case, top: Topology) -> None:
+    """Refuse links that no chain of joints ties to the frame."""
+    seen, stack = {top.ground}, [top.ground]
+    while stack:
+        for k in top.at[stack.pop()]:
+            for body in (top.bonds[k].a, top.bonds[k].b):
+                if body not in seen:
+                    seen.add(body)
+                    stack.append(body)
+    names = [link for body, links in enumerate(top.members) if body not in seen for link in links]
+    if names:
+        raise SceneError(Status.LOOSE, sentences.loose(case, names))
+
+
+def refuse_no_direction(case: Case, top: Topology, points: Points) -> None:
+    """Refuse loads, guides and wheels whose direction two points give that lie at one place."""
+    lines = [(f"load {load.name}", power.line_of(load)) for load in case.loads]
+    for bond in top.bonds:
+        names = sentences.listed(bond.links)
+        guide = getattr(bond.joint, "guide", None)
+        lines.append((f"the guide of links {names}", guide.ends if guide is not None else None))
+        lines.append((f"the wheels {names}", bond.pivots if bond.pivots[0] else None))
+    for what, ends in lines:
+        if ends and ends[0] in points and ends[1] in points and points[ends[0]] == points[ends[1]]:
+            raise SceneError(
+                Status.INCONSISTENT,
+                f"there is no direction for {what}: {sentences.listed(ends)} lie at one place. Give it by an "
+                "angle, or correct the points.",
+            )
+
+
+def rubs(case: Case) -> bool:
+    """Whether friction has a part in the answer: a joint rubs, and a load is unknown."""
+    if not any(power.is_unknown(load) for load in case.loads):
+        return False
+    frictions = (getattr(joint, "friction", None) for joint in case.joints)
+    return any(friction is not None and friction.mu.value > 0 for friction in frictions)
+
+
+def is_workless(motions: Motions, solution: power.Solution) -> bool:
+    """Whether the one unknown load of a mechanism does no work: with friction it may still balance."""
+    return solution.verdict in ("no value", "any value") and motions.mobility == 1
+
+
+def refuse_unbalanced(
+    case: Case, top: Topology, motions: Motions, balance: power.Balance, solution: power.Solution
+) -> None:
+    """Refuse unknown loads that have no value, or any, or are not as many as the freedoms."""
+    unknowns = sum(power.is_unknown(load) for load in case.loads)
+    if solution.verdict == "balanced" or not unknowns:
+        return
+    active = motions.mobility - len(solution.idle)
+    if solution.verdict in ("too few unknowns", "too many unknowns") or unknowns > max(active, 1):
+        if motions.redundant and top.freedoms_by_count == unknowns:
+            message = sentences.change_point(motions.mobility, top.freedoms_by_count)
+            raise SceneError(Status.CHANGE_POINT, message)
+        message = sentences.wrong_count(motions.mobility, unknowns, len(solution.idle))
+        raise SceneError(Status.MOBILITY, message)
+    raise _no_work(top, motions, balance, solution)
+
+
+def _no_work(
+    top: Topology, motions: Motions, balance: power.Balance, solution: power.Solution
+) -> SceneError:
+    """An unknown that does no work: a dead centre, no value, or any value."""
+    culprit = next(w for w in balance.wrenches if w.load.name == solution.culprit)
+    others = solution.verdict == "no value"
+    if culprit.load.link == culprit.against:
+        status = Status.NO_VALUE if others else Status.ANY_VALUE
+        return SceneError(status, sentences.on_the_frame(culprit.load.name, culprit.load.link, others))
+    largest = max(abs(x) for ts in motions.twists.values() for t in ts for x in t)
+    on, off = motions.twists[culprit.load.link], motions.twists[culprit.against]
+    apart = max(abs(x - y) for a, b in zip(on, off, strict=True) for x, y in zip(a, b, strict=True))
+    at_rest = apart <= AT_REST * largest
+    clause = _why_at_rest(top, motions, culprit.load.link) if at_rest else ""
+    message = sentences.workless(culprit.load.name, culprit.load.link, at_rest, others, clause)
+    status = Status.DEAD_CENTRE if at_rest and others else Status.NO_VALUE if others else Status.ANY_VALUE
+    return SceneError(status, message)
+
+
+def _why_at_rest(top: Topology, motions: Motions, link: str) -> str:
+    """Which centres on one line hold a link at rest."""
+    body = top.body_of[link]
+    own_first = sorted(motions.closures, key=lambda closure: body not in closure.group.bodies)
+    clauses = (sentences.aligned(top, lined_up(closure, top, body)) for closure in own_first)
+    return next(filter(None, clauses), "")
+
+
+def too_close(top: Topology, motions: Motions, load: str, open_by: float | None) -> SceneError:
+    """The refusal of a scene whose data do not decide it."""
+    group = tightest(motions.closures)
+    why = sentences.aligned(top, sorted(group.group.bonds), "lie nearly on") if group else ""
+    return SceneError(Status.NEAR_SINGULAR, sentences.too_close(load, why, open_by))
+
+
+AT_REST = 1e-13
+"""A link whose twist is below this fraction of the fastest stands still (rounding)."""

@@ -1,0 +1,133 @@
+"""How an answer depends on every number of the case: exact derivatives, and the band of a drawing.
+
+The derivatives come from the backward pass that bounds the rounding error (see `icsolve.numbers.tape`).
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from icsolve.answer import Answer
+from icsolve.case import Case, Coordinates, Corner, Direction, Number
+
+
+class Influence(NamedTuple):
+    """What one number of the case does to an answer.
+
+    ``per_unit`` is the derivative (answer's unit per the number's, degrees for angles), ``percent``
+    the change of the answer in percent for one percent of the number; None where either is zero.
+    """
+
+    path: str
+    value: float
+    per_unit: float
+    percent: float | None
+
+
+def influences(answer: Answer, load: str) -> list[Influence]:
+    """Every number of the case that the answer depends on, the strongest first.
+
+    Raises KeyError for a load that was not found, or an answer that was solved without its bound.
+    """
+    found = answer.answers[load].value
+    numbers = numbers_of(answer.case)
+    result = []
+    for path, slope in answer.sensitivities[load].items():
+        if slope != 0.0 and path in numbers:
+            value = numbers[path].value
+            percent = slope * value / found if found != 0.0 and value != 0.0 else None
+            result.append(Influence(path, value, slope, percent))
+    return sorted(result, key=lambda i: (-abs(i.percent or 0.0), -abs(i.per_unit), i.path))
+
+
+def band(answer: Answer, load: str, tolerance: float) -> float:
+    """Largest change of an answer when every point of the drawing may be off by ``tolerance``.
+
+    Coordinates and lengths (case units) may each be off by it; an angle by the tolerance over its
+    arms. All errors are taken at their worst, to first order.
+    """
+    lengths, arms = _lengths(answer.case), _arms(answer)
+    total = 0.0
+    for path, slope in answer.sensitivities[load].items():
+        if path in lengths:
+            total += abs(slope) * tolerance
+        elif path in arms:
+            total += abs(slope) * math.degrees(tolerance * arms[path])
+    return total
+
+
+def entries(answer: Answer, influence: bool, tolerance: float | None) -> dict[str, Any]:
+    """What ``--json`` adds: ``sensitivity`` by load, the strongest first, and the ``band`` of a drawing."""
+    shown: dict[str, Any] = {}
+    if influence:
+        shown["sensitivity"] = {
+            load: [i._asdict() for i in influences(answer, load)] for load in answer.answers
+        }
+    if tolerance is not None:
+        shown["band"] = {load: band(answer, load, tolerance) for load in answer.answers}
+    return shown
+
+
+def text(answer: Answer, influence: bool, tolerance: float | None, digits: int) -> str:
+    """The same as lines."""
+    lines = []
+    for load, found in answer.answers.items():
+        if tolerance is not None:
+            reach = format(band(answer, load, tolerance), ".2g")
+            unit = answer.case.units.length
+            off = f"where the drawing is off by {tolerance:g} {unit}"
+            lines.append(f"{load} within {reach} {found.unit} {off}")
+        if influence:
+            lines += [f"Sensitivity of {load}, in % a % and in {found.unit} a unit of the number"]
+            lines += [f"  {row}" for row in _rows(influences(answer, load), digits)]
+    return "\n".join(lines)
+
+
+def _rows(found: list[Influence], digits: int) -> list[str]:
+    width = max((len(i.path) for i in found), default=0)
+    places = min(digits, 4)
+    return [
+        f"{i.path:<{width}}  {'' if i.percent is None else format(i.percent, f'.{places}g'):>10}  "
+        f"{format(i.per_unit, f'.{places}g'):>10}"
+        for i in found
+    ]
+
+
+def numbers_of(case: Case) -> dict[str, Number]:
+    """All numbers of a case by their path."""
+    found: dict[str, Number] = {}
+    stack: list[object] = [case.points, case.lengths, case.angles, case.joints, case.loads, case.gravity]
+    while stack:
+        item = stack.pop()
+        if isinstance(item, Number):
+            found[item.path] = item
+        elif isinstance(item, dict):
+            stack.extend(item.values())
+        elif isinstance(item, tuple):
+            stack.extend(item)
+    return found
+
+
+def _lengths(case: Case) -> set[str]:
+    """Paths of coordinates and lengths."""
+    paths = {length.value.path for length in case.lengths}
+    for place in case.points.values():
+        if isinstance(place, Coordinates):
+            paths |= {number.path for number in place if number is not None}
+    return paths
+
+
+def _arms(answer: Answer) -> dict[str, float]:
+    """For every angle the sum of the reciprocal lengths of its arms."""
+    result = {}
+    for angle in answer.case.angles:
+        if isinstance(angle, Direction):
+            arms = [(angle.a, angle.b)]
+        else:
+            assert isinstance(angle, Corner)
+            arms = [(angle.at, angle.a), (angle.at, angle.b)]
+        if all(p in answer.points and q in answer.points for p, q in arms):
+            spans = [math.dist(answer.points[p], answer.points[q]) for p, q in arms]
+            result[angle.value.path] = sum(1.0 / span for span in spans if span > 0.0)
+    return result

@@ -1,0 +1,229 @@
+"""How far rounding can have moved an unknown load that was found with friction.
+
+In the solution the equilibrium of every link and the friction of every rub leave a residual. Each unknown
+load has weights, one an equation (the adjoint solution): their sum over the residuals is a step of Newton's
+method for that load. Evaluated on a tape, the sum carries the rounding of the figure, of the file's decimals
+and of every term into the load, and gives its slope by every number of the case. Like all bounds of a tape
+it is of first order.
+
+Where next to no force presses, its size has a kink: there the friction is left out of the derivatives and
+counted as open between its limits, for as large a force as rounding can make of it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
+
+from icsolve.case import ForceVector, Number
+from icsolve.numbers.arithmetic import Arithmetic, Scalar
+from icsolve.numbers.sparse import Row, eliminate
+from icsolve.screws.plane import Point
+from icsolve.statics.equilibrium import Rub, Statics, equations_of
+from icsolve.statics.power import Balance, Wrench, vector_size
+from icsolve.statics.ties import Force, Position, Tie
+
+KINK = 1e-6
+"""A force that presses where links rub has a slope only well above zero: this fraction of the largest."""
+OPEN = 1e-9
+"""What is left of a unit of an unknown load below this is rounding."""
+
+
+class Sliding(NamedTuple):
+    """A solution with friction: values of all columns of its statics (scaled), the senses of the rubs."""
+
+    statics: Statics
+    values: Row
+    senses: tuple[float, ...]
+
+    @property
+    def kinks(self) -> tuple[int, ...]:
+        """The rubs at which next to no force presses."""
+        least = KINK * max(map(abs, self.values.values()))
+        sizes = [math.hypot(*pressing(self.statics, rub, self.values)) for rub in self.statics.rubs]
+        return tuple(k for k, size in enumerate(sizes) if self.senses[k] and size <= least)
+
+
+class Weights(NamedTuple):
+    """What a unit of each residual does to an unknown load, as a motion does power on forces.
+
+    ``links`` has those of the force along x and y and of the moment about a point of each link, ``rubs``
+    those of the frictions.
+    """
+
+    links: Mapping[str, tuple[Point, Force]]
+    rubs: tuple[float, ...]
+
+
+class Exact(NamedTuple):
+    """A scene's ties, rubs, loads and values of the columns in one arithmetic."""
+
+    ties: Sequence[Tie]
+    rubs: Sequence[Rub]
+    wrenches: Sequence[Wrench]
+    values: Mapping[int, Scalar]
+    numbers: Arithmetic
+
+
+Output = dict[int, float]
+"""A combination of columns whose error is asked for."""
+
+
+def outputs_of(found: Sliding) -> list[Output]:
+    """The unknown loads, then the components of the forces that press at kinks."""
+    statics = found.statics
+    loads: list[Output] = [{statics.root(q): 1.0} for q in range(len(statics.roots))]
+    for k in found.kinks:
+        rub = statics.rubs[k]
+        loads += [{statics.first[rub.tie] + n: a for n, a in enumerate(row)} for row in rub.normal]
+    return loads
+
+
+def weights_of(
+    position: Position, balance: Balance, found: Sliding, outputs: Sequence[Output]
+) -> list[Weights] | None:
+    """The weights of every output; None where the equations do not determine one."""
+    equations = equations_of(position, found.statics, balance)
+    rows = [row for _, three in equations.values() for row in three] + _frictions(found)
+    by_column: dict[int, Row] = {}
+    for n, row in enumerate(rows):
+        for column, a in row.items():
+            if column != found.statics.known:
+                by_column.setdefault(column, {})[n] = a
+    for q, output in enumerate(outputs):
+        for column, a in output.items():
+            by_column.setdefault(column, {})[len(rows) + q] = -a
+    general = eliminate([by_column[c] for c in sorted(by_column)], len(rows))
+    if any(abs(a) > OPEN for left in general.left for a in left.values()):
+        return None
+    return [
+        _weights({link: about for link, (about, _) in equations.items()}, all_weights)
+        for q in range(len(outputs))
+        if (all_weights := [general.of(n).get(len(rows) + q, 0.0) for n in range(len(rows))])
+    ]
+
+
+def _weights(about: Mapping[str, Point], values: Sequence[float]) -> Weights:
+    links: dict[str, tuple[Point, Force]] = {}
+    for k, (link, at) in enumerate(about.items()):
+        links[link] = (at, (values[3 * k], values[3 * k + 1], values[3 * k + 2]))
+    return Weights(links, tuple(values[3 * len(about) :]))
+
+
+def _frictions(found: Sliding) -> list[Row]:
+    """Derivatives of each friction's residual: itself, and its coefficient times the size of its force."""
+    rows, kinks = [], found.kinks
+    for k, rub in enumerate(found.statics.rubs):
+        force = pressing(found.statics, rub, found.values)
+        size = math.hypot(*force) or 1.0
+        row: Row = {found.statics.rub(k): 1.0}
+        for n in range(len(rub.normal[0]) if k not in kinks else 0):
+            share = sum(f * part[n] for f, part in zip(force, rub.normal, strict=True)) / size
+            row[found.statics.first[rub.tie] + n] = found.senses[k] * rub.limit * share
+        rows.append(row)
+    return rows
+
+
+def pressing(statics: Statics, rub: Rub, values: Mapping[int, Scalar]) -> tuple[Scalar, ...]:
+    """The force that bounds the friction of a rub, by components."""
+    first = statics.first[rub.tie]
+    return tuple(_sum(values[first + n] * a for n, a in enumerate(row)) for row in rub.normal)
+
+
+def _sum(terms: Iterable[Scalar]) -> Scalar:
+    total: Scalar = 0.0
+    for term in terms:
+        total = term + total
+    return total
+
+
+def step(found: Sliding, weights: Weights, exact: Exact) -> Scalar:
+    """The weighted sum of all residuals (scaled): the unknown load is too large by so much."""
+    links = _sum(_of_tie(found.statics, weights, exact, t) for t in range(len(exact.ties)))
+    loads = _sum(_of_load(found.statics, weights, exact, w) for w in exact.wrenches)
+    rubs = _sum(_of_rub(found, weights, exact, k) for k in range(len(exact.rubs)))
+    return links + loads + rubs
+
+
+def _of_tie(statics: Statics, weights: Weights, exact: Exact, t: int) -> Scalar:
+    """What passes in a joint, on its second link and back on its first."""
+    tie = exact.ties[t]
+    apart = _apart(weights, tie.on, tie.by, tie.at)
+    passing = [(statics.first[t] + n, unit) for n, unit in enumerate(tie.units)]
+    passing += [(statics.rub(k), rub.unit) for k, rub in enumerate(exact.rubs) if rub.tie == t]
+    return _sum(exact.values[c] * _pairing(unit, apart) for c, unit in passing)
+
+
+def _of_load(statics: Statics, weights: Weights, exact: Exact, w: Wrench) -> Scalar:
+    x, y, couple = w.unit[1], -w.unit[0], w.unit[2]
+    unit = _pairing((x, y, couple), _apart(weights, w.load.link, w.against, (0.0, 0.0)))
+    return _number(statics, exact, w) * w.gain * w.measure * w.ratio * unit
+
+
+def _number(statics: Statics, exact: Exact, w: Wrench) -> Scalar:
+    """The number of a load, scaled."""
+    if w.root in statics.roots:
+        return exact.values[statics.root(statics.roots.index(w.root))]
+    if isinstance(w.source, ForceVector):
+        return vector_size(w.source) * statics.scale
+    assert isinstance(w.source.value, Number)
+    return exact.numbers.given(w.source.value) * statics.scale
+
+
+def _of_rub(found: Sliding, weights: Weights, exact: Exact, k: int) -> Scalar:
+    """A friction, which is against its sense and as large as its coefficient makes it."""
+    rub = exact.rubs[k]
+    if k in found.kinks:
+        return weights.rubs[k] * exact.values[found.statics.rub(k)]
+    force = pressing(found.statics, rub, exact.values)
+    if len(force) == 1:
+        size = force[0] if float(force[0]) >= 0.0 else -force[0]
+    else:
+        size = exact.numbers.sqrt(force[0] * force[0] + force[1] * force[1])
+    rest = exact.values[found.statics.rub(k)] + found.senses[k] * (rub.limit * size)
+    return weights.rubs[k] * rest
+
+
+def _apart(weights: Weights, on: str, by: str, at: Point) -> Force:
+    """Weights of a force along x and y and of a couple at a point, on one link and back on the other."""
+    a, b = _at(weights, on, at), _at(weights, by, at)
+    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
+
+
+def _at(weights: Weights, link: str, at: Point) -> Force:
+    if link not in weights.links:
+        return (0.0, 0.0, 0.0)
+    (ox, oy), (x, y, couple) = weights.links[link]
+    return (x - couple * (at[1] - oy), y + couple * (at[0] - ox), couple)
+
+
+def _pairing(force: Force, apart: Force) -> Scalar:
+    return _sum(f * a for f, a in zip(force, apart, strict=True))
+
+
+def open_frictions(found: Sliding, outputs: Sequence[Weights], bounds: Sequence[float]) -> list[float] | None:
+    """What the frictions at kinks can be at most (scaled), in the order of the kinks; None without a limit.
+
+    ``outputs`` and ``bounds`` are the weights and the errors of the forces that press there, without
+    these frictions, which can press too.
+    """
+    places: list[tuple[int, int]] = []
+    for k in found.kinks:
+        places += [(k, n) for n in range(len(found.statics.rubs[k].normal))]
+    most = dict.fromkeys(found.kinks, 2.0**-60 * max(map(abs, found.values.values())))
+    for _ in range(ROUNDS):
+        before = dict(most)
+        for k in found.kinks:
+            rub = found.statics.rubs[k]
+            force = pressing(found.statics, rub, found.values)
+            rows = [m for m, (at, _) in enumerate(places) if at == k]
+            off = [bounds[m] + sum(abs(outputs[m].rubs[j]) * most[j] for j in most) for m in rows]
+            most[k] = rub.limit * math.hypot(*(abs(f) + b for f, b in zip(force, off, strict=True)))
+        if all(most[k] <= before[k] * (1.0 + 1e-9) for k in most):
+            return [2.0 * most[k] for k in found.kinks]
+    return None
+
+
+ROUNDS = 60
+"""More often than this the frictions at kinks press each other without limit."""

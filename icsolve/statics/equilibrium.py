@@ -1,0 +1,205 @@
+"""Equilibrium of every link: the sum of forces and of moments, linear in what the joints transmit.
+
+The moments of each link are taken about a point of its own, so that nothing of a long chain is lost
+to its distance from the origin.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
+
+from icsolve.case import Torque
+from icsolve.numbers.sparse import General, Row, eliminate
+from icsolve.screws.plane import Point
+from icsolve.statics.power import Balance, Wrench, force_scale, is_unknown, known_value
+from icsolve.statics.ties import Force, Position, Tie
+
+
+class Rub(NamedTuple):
+    """A place where a joint rubs: ``unit`` is the friction on the tie's link ``on`` per unit of it.
+
+    ``tie`` is its place among the ties; ``normal`` has, for each of the tie's units, its share in the
+    vector whose length (times ``limit``) bounds the friction.
+    """
+
+    tie: int
+    unit: Force
+    normal: tuple[tuple[float, ...], ...]
+    limit: float
+
+
+class Statics(NamedTuple):
+    """The general solution of the equilibrium of all links.
+
+    Column numbers: the units of the ties from ``first[t]`` on, then the parameters: the known loads
+    together (1), the unknown loads ``roots``, the friction of each rub. Loads are ``scale`` times
+    their number in case units.
+    """
+
+    ties: tuple[Tie, ...]
+    first: tuple[int, ...]
+    known: int
+    roots: tuple[str, ...]
+    rubs: tuple[Rub, ...]
+    scale: float
+    general: General
+
+    def root(self, n: int) -> int:
+        """Column of an unknown load."""
+        return self.known + 1 + n
+
+    def rub(self, n: int) -> int:
+        """Column of the friction at a rub."""
+        return self.known + 1 + len(self.roots) + n
+
+    def parameters(self, unknowns: Mapping[str, float], friction: Sequence[float] = ()) -> Row:
+        """Values of all parameters, from numbers in case units (friction scaled)."""
+        row = {self.known: 1.0}
+        row.update({self.root(n): unknowns[name] * self.scale for n, name in enumerate(self.roots)})
+        row.update({self.rub(n): f for n, f in enumerate(friction)})
+        return row
+
+    def value(self, column: int, parameters: Mapping[int, float]) -> float:
+        """A joint's unknown, scaled, where the free columns are zero."""
+        return sum(a * parameters.get(c, 0.0) for c, a in self.general.of(column).items())
+
+    def filled(self, parameters: Mapping[int, float]) -> Row:
+        """Values of all columns, scaled."""
+        return {c: self.value(c, parameters) for c in range(self.known)} | dict(parameters)
+
+
+def equilibrium(
+    position: Position, ties: Sequence[Tie], balance: Balance, rubs: Sequence[Rub] = ()
+) -> Statics:
+    """Solve the equilibrium of every link but the frame for what the joints transmit."""
+    rows = _Rows(position, ties)
+    first = []
+    column = 0
+    for tie in ties:
+        first.append(column)
+        for unit in tie.units:
+            rows.between(tie, unit, column)
+            column += 1
+    scale = force_scale(balance)
+    roots = tuple(w.load.name for w in balance.wrenches if is_unknown(w.load))
+    for w in balance.wrenches:
+        rows.load(w, *_share(w, balance, roots, column, scale))
+    for n, rub in enumerate(rubs):
+        rows.between(ties[rub.tie], rub.unit, column + 1 + len(roots) + n)
+    general = _eliminated(rows.all(), column, position.mobility)
+    return Statics(tuple(ties), tuple(first), column, roots, tuple(rubs), scale, general)
+
+
+def _eliminated(rows: list[Row], columns: int, mobility: int) -> General:
+    """The elimination in which as many equations lose all joints as the links have motions.
+
+    Where rounding hides that number, it is looked for a little above and below.
+    """
+    tries = [eliminate(rows, columns)]
+    for spent in SPENT_TRIES:
+        if len(tries[-1].left) == mobility:
+            return tries[-1]
+        tries.append(eliminate(rows, columns, spent))
+    return tries[-1] if len(tries[-1].left) == mobility else tries[0]
+
+
+SPENT_TRIES = (1e-12, 1e-11, 1e-10, 1e-14, 1e-15)
+
+
+def _share(w: Wrench, balance: Balance, roots: Sequence[str], known: int, scale: float) -> tuple[int, float]:
+    """The parameter that a load's number belongs to, and its factor."""
+    value = known_value(w)
+    if value is None:
+        return known + 1 + roots.index(w.root), float(w.ratio)
+    return known, value * scale * float(w.ratio)
+
+
+class _Rows:
+    """Three equations a link: forces along x and y, moments about the link's first point."""
+
+    def __init__(self, position: Position, ties: Iterable[Tie]) -> None:
+        self.position = position
+        self.about: dict[str, Point] = {}
+        for tie in ties:
+            self.about.setdefault(tie.by, tie.at)
+            self.about.setdefault(tie.on, tie.at)
+        self.about.pop(position.case.ground, None)
+        self.rows: dict[str, tuple[Row, Row, Row]] = {link: ({}, {}, {}) for link in self.about}
+
+    def between(self, tie: Tie, unit: Force, column: int) -> None:
+        """A unit on the tie's second link, the opposite on its first."""
+        self.add(tie.on, tie.at, unit, column)
+        self.add(tie.by, tie.at, (-unit[0], -unit[1], -unit[2]), column)
+
+    def load(self, w: Wrench, column: int, factor: float) -> None:
+        """A load on its link, the opposite on the link against which it acts."""
+        gain = float(w.gain) * w.measure * factor
+        x, y, couple = (gain * float(u) for u in (w.unit[1], -w.unit[0], w.unit[2]))
+        if isinstance(w.load, Torque):
+            at, unit = (0.0, 0.0), (0.0, 0.0, couple)
+        else:
+            at, unit = self.position.points[w.load.at], (x, y, 0.0)
+        self.add(w.load.link, at, unit, column)
+        self.add(w.against, at, (-unit[0], -unit[1], -unit[2]), column)
+
+    def add(self, link: str, at: Point, force: Force, column: int) -> None:
+        """A force and couple at a point of a link."""
+        if link not in self.rows:
+            return
+        x, y, couple = force
+        px, py = at[0] - self.about[link][0], at[1] - self.about[link][1]
+        for row, value in zip(self.rows[link], (x, y, couple + px * y - py * x), strict=True):
+            row[column] = row.get(column, 0.0) + value
+
+    def all(self) -> list[Row]:
+        """The equations of all links."""
+        return [row for link in self.rows.values() for row in link]
+
+
+def terms_of(
+    position: Position, statics: Statics, balance: Balance, parameters: Mapping[int, float]
+) -> Terms:
+    """What the equations of every link are summed from, in the solution with these parameters."""
+    x = statics.filled(parameters)
+    equations = equations_of(position, statics, balance)
+    return {link: (about, _summed(three, x)) for link, (about, three) in equations.items()}
+
+
+def equations_of(position: Position, statics: Statics, balance: Balance) -> Equations:
+    """The equations of every link, by the columns of the statics."""
+    rows = _Rows(position, statics.ties)
+    for t, tie in enumerate(statics.ties):
+        for n, unit in enumerate(tie.units):
+            rows.between(tie, unit, statics.first[t] + n)
+    for w in balance.wrenches:
+        rows.load(w, *_share(w, balance, statics.roots, statics.known, statics.scale))
+    for n, rub in enumerate(statics.rubs):
+        rows.between(statics.ties[rub.tie], rub.unit, statics.rub(n))
+    return {link: (rows.about[link], three) for link, three in rows.rows.items()}
+
+
+def _summed(rows: tuple[Row, Row, Row], x: Mapping[int, float]) -> tuple[tuple[float, float], ...]:
+    """Size and sum of each equation; a moment is as uncertain as the forces on the figure's size."""
+    terms = [[a * x[c] for c, a in row.items()] for row in rows]
+    sizes = [sum(map(abs, row)) for row in terms]
+    return tuple(
+        (size + (sizes[0] + sizes[1] if n == 2 else 0.0), math.fsum(row))
+        for n, (size, row) in enumerate(zip(sizes, terms, strict=True))
+    )
+
+
+def residual(terms: Terms) -> float:
+    """What is left of the equilibrium of any link, as a fraction of the largest sum of all."""
+    sums = [both for _, equations in terms.values() for both in equations]
+    largest = max((size for size, _ in sums), default=0.0)
+    return max((abs(rest) for _, rest in sums), default=0.0) / (largest or 1.0)
+
+
+Terms = dict[str, tuple[Point, tuple[tuple[float, float], ...]]]
+"""For each link the point of its moments; of its equations the sum of absolute terms, and the sum."""
+Equations = dict[str, tuple[Point, tuple[Row, Row, Row]]]
+"""For each link the point of its moments, and its three equations."""
+
+__all__ = ["Equations", "Rub", "Statics", "Terms", "equations_of", "equilibrium", "residual", "terms_of"]

@@ -1,0 +1,295 @@
+"""Conservation of power: the loads' wrenches on the twists give the unknown loads, a term a load.
+
+In equilibrium the power of all loads is zero for every motion that the joints allow. Each load is a
+number times a unit wrench; its factor for a motion is the pairing of that wrench with the relative
+twist of the bodies between which it acts.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from icsolve.assembly.frame import Frame
+from icsolve.case import Case, Force, ForceVector, Like, Load, Number, Slope, Spring, Torque, Toward, Weight
+from icsolve.numbers.arithmetic import Arithmetic, Scalar, magnitude
+from icsolve.numbers.null_space import null_space
+from icsolve.screws.plane import Point, Triple, force_wrench, pairing
+
+Points = Mapping[str, Point]
+
+
+class Wrench(NamedTuple):
+    """A load per unit of its number: ``gain * measure * unit`` acts on ``link``, the opposite on
+    ``against``.
+
+    ``unit`` is a wrench in the normalised frame (a force of length 1, or a couple of 1); ``gain``
+    brings the load's own unit to force units, or force times case length; ``measure`` is the power
+    of two that brings case lengths into the normalised frame (for a torque, else 1), kept apart so
+    that nothing overflows. ``root`` names the load whose number it takes, ``ratio`` times as large, and
+    ``source`` is that load.
+    """
+
+    load: Load
+    against: str
+    unit: Triple
+    gain: Scalar
+    root: str
+    ratio: Scalar
+    measure: float
+    source: Load
+
+
+def wrenches(case: Case, frame: Frame, points: Points, arithmetic: Arithmetic) -> tuple[Wrench, ...]:
+    """The unit wrenches of all loads of a case."""
+    by_name = {load.name: load for load in case.loads}
+    result = []
+    for load in case.loads:
+        source, ratio = _source(load, by_name, arithmetic)
+        unit, gain = _unit_wrench(load, case, frame, points, arithmetic)
+        measure = frame.scale if isinstance(load, Torque) else 1.0
+        result.append(Wrench(load, reacting(case, load), unit, gain, source.name, ratio, measure, source))
+    return tuple(result)
+
+
+def reacting(case: Case, load: Load) -> str:
+    """The link that takes the opposite of a load: the one it is against, or the frame."""
+    return getattr(load, "against", None) or case.ground
+
+
+def points_of(load: Load) -> tuple[str, ...]:
+    """The points that a load's wrench needs."""
+    if isinstance(load, Torque):
+        return ()
+    if isinstance(load, Spring):
+        return (load.at, load.to)
+    if isinstance(load, Force) and isinstance(load.heading, Toward):
+        return (load.at, load.heading.point)
+    return (load.at,)
+
+
+def line_of(load: Load) -> tuple[str, str] | None:
+    """The two points that give a load its direction, where points do."""
+    if isinstance(load, Spring):
+        return (load.at, load.to)
+    if isinstance(load, Force) and isinstance(load.heading, Toward):
+        return (load.at, load.heading.point)
+    return None
+
+
+def _source(load: Load, by_name: Mapping[str, Load], arithmetic: Arithmetic) -> tuple[Load, Scalar]:
+    """The load whose number another takes, and how many times."""
+    ratio: Scalar = 1.0
+    while not isinstance(load, ForceVector) and isinstance(load.value, Like):
+        if load.value.times is not None:
+            ratio = ratio * arithmetic.given(load.value.times)
+        load = by_name[load.value.load]
+    return load, ratio
+
+
+def _unit_wrench(
+    load: Load, case: Case, frame: Frame, points: Points, arithmetic: Arithmetic
+) -> tuple[Triple, Scalar]:
+    match load:
+        case Torque():
+            sign = -1.0 if load.turns == "cw" else 1.0
+            return (0.0, 0.0, sign), 1.0 / case.units.torque_per_force_length
+        case Weight():
+            gain: Scalar = 1.0
+            if load.mass:
+                gain = arithmetic.given(case.gravity) * case.units.force_per_newton
+            return force_wrench((0.0, -1.0), points[load.at]), gain
+        case Spring():
+            toward, length = _between(points[load.at], points[load.to], arithmetic)
+            stretch = length / frame.scale - arithmetic.given(load.free)
+            return force_wrench(toward, points[load.at]), stretch
+        case ForceVector():
+            size = vector_size(load) or 1.0
+            x, y = arithmetic.given(load.x) / size, arithmetic.given(load.y) / size
+            return force_wrench((x, y), points[load.at]), 1.0
+        case Force():
+            return force_wrench(direction(load, points, arithmetic), points[load.at]), 1.0
+    raise TypeError(type(load).__name__)
+
+
+def direction(load: Force, points: Points, arithmetic: Arithmetic) -> Point:
+    """Unit vector along which a force acts."""
+    heading = load.heading
+    if isinstance(heading, Toward):
+        x, y = _between(points[load.at], points[heading.point], arithmetic)[0]
+        return (-x, -y) if heading.away else (x, y)
+    if isinstance(heading, Slope):
+        run, rise = arithmetic.given(heading.run), arithmetic.given(heading.rise)
+        return _between((0.0, 0.0), (run, rise), arithmetic)[0]
+    return arithmetic.turn(heading)
+
+
+def _between(a: Point, b: Point, arithmetic: Arithmetic) -> tuple[Point, Scalar]:
+    """Unit vector from a to b, and the distance."""
+    dx, dy = b[0] - a[0], b[1] - a[1]
+    length = arithmetic.sqrt(dx * dx + dy * dy)
+    return (dx / length, dy / length), length
+
+
+class Balance(NamedTuple):
+    """Factors of every load for every motion.
+
+    ``factors[m][n]`` is the power of load n per unit, over its ``measure``, in motion m;
+    ``sizes[m][n]`` what it would be summed from if its links moved as fast as the fastest, against
+    which a zero is judged.
+    """
+
+    wrenches: tuple[Wrench, ...]
+    factors: tuple[tuple[Scalar, ...], ...]
+    sizes: tuple[tuple[float, ...], ...]
+
+
+def balance(all_wrenches: Sequence[Wrench], twists: Mapping[str, Sequence[Triple]], motions: int) -> Balance:
+    """Factors of the loads on the twists of their links; ``twists[link][m]`` relative to the frame."""
+    factors, sizes = [], []
+    for m in range(motions):
+        row, scale = [], []
+        fastest = max([magnitude(x) for ts in twists.values() for x in ts[m]], default=0.0)
+        for w in all_wrenches:
+            on, off = twists[w.load.link][m], twists[w.against][m]
+            relative = (on[0] - off[0], on[1] - off[1], on[2] - off[2])
+            row.append(w.gain * pairing(w.unit, relative))
+            scale.append(magnitude(w.gain) * sum(map(magnitude, w.unit)) * fastest)
+        factors.append(tuple(row))
+        sizes.append(tuple(scale))
+    return Balance(tuple(all_wrenches), tuple(factors), tuple(sizes))
+
+
+class Solution(NamedTuple):
+    """Values of the unknown loads by name, or why there are none.
+
+    ``verdict`` is ``balanced``; ``no value`` / ``any value`` (an unknown does no work; the known
+    loads do, do not), ``too few unknowns`` or ``too many unknowns``. ``idle`` names the motions in
+    which no load does work.
+    """
+
+    verdict: str
+    values: dict[str, Scalar]
+    idle: tuple[int, ...] = ()
+    culprit: str = ""
+
+
+def solve_balance(b: Balance, arithmetic: Arithmetic) -> Solution:
+    """The unknown loads from the sums of power of all motions."""
+    unknown = [w for w in b.wrenches if is_unknown(w.load)]
+    place = {w.root: k for k, w in enumerate(unknown)}
+    scale = force_scale(b)
+    shares = [_share(w, unknown, place, scale, arithmetic) for w in b.wrenches]
+    columns = len(unknown) + 1
+    rows = [_row(shares, b.factors[m], b.sizes[m], columns, arithmetic) for m in range(len(b.factors))]
+    still = [0.0] * columns
+    idle = tuple([m for m, row in enumerate(rows) if row == still])
+    return _solved(rows, list(place), idle, [(scale, w.measure) for w in unknown])
+
+
+def is_unknown(load: Load) -> bool:
+    """Whether a load's own number is to find."""
+    return not isinstance(load, ForceVector) and load.value is None
+
+
+def has_number(load: Load) -> bool:
+    """Whether a load's own number is known, and not zero."""
+    if isinstance(load, ForceVector):
+        return vector_size(load) > 0.0
+    return load.value is not None and not isinstance(load.value, Like) and load.value.value != 0.0
+
+
+def force_scale(b: Balance) -> float:
+    """A power of two that brings the largest known load near 1, so that nothing overflows."""
+    largest = 0.0
+    for w in b.wrenches:
+        value = known_value(w)
+        if value is not None:
+            largest = max(largest, abs(value) * abs(w.gain) * w.measure)
+    return math.ldexp(1.0, -math.frexp(largest)[1]) if 0.0 < largest < math.inf else 1.0
+
+
+def vector_size(load: ForceVector) -> float:
+    """Magnitude of a force that is given by its components."""
+    return math.hypot(load.x.value, load.y.value)
+
+
+def known_value(w: Wrench) -> float | None:
+    """The number of a load in its own unit; None where it hangs on an unknown."""
+    if isinstance(w.source, ForceVector):
+        return vector_size(w.source)
+    number = w.source.value
+    return None if number is None or isinstance(number, Like) else number.value
+
+
+def _share(
+    w: Wrench, unknown: Sequence[Wrench], place: Mapping[str, int], scale: float, arithmetic: Arithmetic
+) -> tuple[int, Scalar]:
+    """The unknown that a load belongs to and how many times; a known load, to the last by its number."""
+    k = place.get(w.root)
+    if k is not None:
+        return k, w.ratio * (w.measure / unknown[k].measure)
+    if isinstance(w.source, ForceVector):
+        return len(unknown), vector_size(w.source) * scale * w.measure * w.ratio
+    assert isinstance(w.source.value, Number)
+    return len(unknown), arithmetic.given(w.source.value) * scale * w.measure * w.ratio
+
+
+def _row(
+    shares: Sequence[tuple[int, Scalar]],
+    factors: Sequence[Scalar],
+    sizes: Sequence[float],
+    columns: int,
+    arithmetic: Arithmetic,
+) -> list[Scalar]:
+    """Factor of each unknown in one motion, then the (scaled) power of the known loads."""
+    sums: list[Scalar] = [0.0] * columns
+    terms = [0.0] * columns
+    for (k, amount), factor, size in zip(shares, factors, sizes, strict=True):
+        sums[k] = sums[k] + amount * factor
+        terms[k] += abs(amount) * size
+    vanishes = arithmetic.vanishes
+    return [0.0 if vanishes(x, size) else x for x, size in zip(sums, terms, strict=True)]
+
+
+def _solved(
+    rows: list[list[Scalar]], roots: list[str], idle: tuple[int, ...], scales: list[tuple[float, float]]
+) -> Solution:
+    working = [row for m, row in enumerate(rows) if m not in idle]
+    if len(working) == 1 and len(roots) == 1:
+        factor, known = working[0]
+        if factor == 0.0:
+            return Solution("no value", {}, idle, roots[0])
+        return Solution("balanced", {roots[0]: -known / factor / scales[0][0] / scales[0][1]}, idle)
+    return _solved_many(_equilibrated(working), roots, idle, scales)
+
+
+def _equilibrated(rows: list[list[Scalar]]) -> list[list[Scalar]]:
+    sizes = [max(abs(value) for value in row) for row in rows]
+    return [[value / size for value in row] for row, size in zip(rows, sizes, strict=True)]
+
+
+def _solved_many(
+    rows: list[list[Scalar]], roots: list[str], idle: tuple[int, ...], scales: list[tuple[float, float]]
+) -> Solution:
+    count = len(roots)
+    free = null_space([row[:count] for row in rows], count, 1e-13)
+    whole = null_space(rows, count + 1, 1e-13)
+    if whole.rank > free.rank:
+        verdict = "no value" if free.rank < count and len(rows) <= count else "too few unknowns"
+        return Solution(verdict, {}, idle, _workless(rows, roots))
+    if free.rank < count:
+        verdict = "too many unknowns" if count > len(rows) + len(idle) else "any value"
+        return Solution(verdict, {}, idle, _workless(rows, roots))
+    if not whole.basis or not roots:
+        return Solution("balanced", dict.fromkeys(roots, 0.0), idle)
+    vector = whole.basis[0]
+    values = {root: vector[k] / vector[-1] / scales[k][0] / scales[k][1] for k, root in enumerate(roots)}
+    return Solution("balanced", values, idle)
+
+
+def _workless(rows: list[list[Scalar]], roots: list[str]) -> str:
+    """The first unknown that does no work in any motion."""
+    for k, root in enumerate(roots):
+        if all(row[k] == 0.0 for row in rows):
+            return root
+    return roots[0] if roots else ""

@@ -1,0 +1,166 @@
+"""The force of each link on each other at every joint, in case units, under the names of the format."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Mapping
+
+from icsolve.answer.bodies import Reaction, Reactions, names_of
+from icsolve.assembly import Frame, case_point
+from icsolve.case import Belt, Case, Contact, Gears, KnownCentre, Roll, Slide, Slot
+from icsolve.case.names import ordered_pair
+from icsolve.numbers.sparse import Row
+from icsolve.screws.plane import velocity
+from icsolve.statics.equilibrium import Statics
+from icsolve.statics.gears import axial_shares, tangent_and_separating
+from icsolve.statics.ties import Force, Position, Tie, kind_of
+
+UNIQUE = 1e-9
+"""A share in what the joints leave open that is below this, of the largest, is none (rounding)."""
+NOTHING = 1e-14
+"""A force below this fraction of the largest in the mechanism is none (rounding)."""
+
+
+def reactions_of(
+    position: Position, frame: Frame, statics: Statics, parameters: Mapping[int, float]
+) -> Reactions:
+    """Every joint's reaction; ``parameters`` are the known loads, the unknown ones and the friction."""
+    combined = [_combined(statics, t) for t in range(len(statics.ties))]
+    sizes = _open_sizes(statics)
+    values = [tuple(_value(statics, row, parameters) for row in rows) for rows in combined]
+    least = _least(values)
+    names = names_by_tie(position.case, statics.ties)
+    found = Reactions()
+    for tie, rows, forces, name in zip(statics.ties, combined, values, names, strict=True):
+        unique = [all(abs(row.get(c, 0.0)) <= UNIQUE * size for c, size in sizes.items()) for row in rows]
+        clean = [0.0 if abs(f) <= small else f for f, small in zip(forces, least, strict=True)]
+        kept = [f if u else None for f, u in zip(clean, unique, strict=True)]
+        found[name] = _reaction(position, frame, tie, kept, statics.scale)
+        if isinstance(tie.joint, Belt):
+            pull = _net_pull(position, tie.joint, tie, forces) / statics.scale
+            found[name] = found[name]._replace(parts=(("net pull", pull),))
+    return found
+
+
+def _net_pull(position: Position, belt: Belt, tie: Tie, force: tuple[float, ...]) -> float:
+    """What the tight strand pulls more than the slack one: the torque on the second pulley over its radius.
+
+    The part of the force that is left open lies along the line of the pivots and makes no torque.
+    """
+    px, py = position.points[tie.pivots[1]]
+    torque = force[2] + (tie.at[0] - px) * force[1] - (tie.at[1] - py) * force[0]
+    return float(abs(torque) / (abs(belt.radii[1].value) * position.scale))
+
+
+def names_by_tie(case: Case, ties: tuple[Tie, ...]) -> list[str]:
+    """``F34``, ``F3-14``, ``Fcrank-rod``; with the place where a pair has two joints: ``F3-4@B``."""
+    pairs = [ordered_pair(case, tie.by, tie.on) for tie in ties]
+    shared = Counter(pairs)
+    names: list[str] = []
+    for tie, (by, on) in zip(ties, pairs, strict=True):
+        options = names_of(by, on, tie.where or kind_of(tie.joint))
+        name = options[0] if shared[by, on] == 1 else options[-1]
+        names.append(name if name not in names else f"{name} {kind_of(tie.joint)} {names.count(name) + 1}")
+    return names
+
+
+def _combined(statics: Statics, t: int) -> tuple[Row, Row, Row]:
+    """Force along x and y and couple of a tie, each as a combination of parameters and free columns."""
+    rows: tuple[Row, Row, Row] = ({}, {}, {})
+    for n, unit in enumerate(statics.ties[t].units):
+        _add(rows, unit, statics.general.of(statics.first[t] + n))
+    for n, rub in enumerate(statics.rubs):
+        if rub.tie == t:
+            _add(rows, rub.unit, {statics.rub(n): 1.0})
+    return rows
+
+
+def _add(rows: tuple[Row, Row, Row], unit: Force, amounts: Row) -> None:
+    for row, share in zip(rows, unit, strict=True):
+        if share:
+            for c, a in amounts.items():
+                row[c] = row.get(c, 0.0) + share * a
+
+
+def _open_sizes(statics: Statics) -> dict[int, float]:
+    """For each free column the largest share that any joint unknown has in it."""
+    sizes = dict.fromkeys(statics.general.free, 1.0)
+    for row in statics.general.solved.values():
+        for c, a in row.items():
+            if c in sizes:
+                sizes[c] = max(sizes[c], abs(a))
+    return sizes
+
+
+def is_unique(statics: Statics, t: int, unit: int) -> bool:
+    """Whether equilibrium determines a tie's force along one of its units."""
+    row = statics.general.of(statics.first[t] + unit)
+    return all(abs(row.get(c, 0.0)) <= UNIQUE * size for c, size in _open_sizes(statics).items())
+
+
+def _value(statics: Statics, row: Row, parameters: Mapping[int, float]) -> float:
+    return sum(a * parameters.get(c, 0.0) for c, a in row.items() if c >= statics.known)
+
+
+def _least(values: list[tuple[float, ...]]) -> tuple[float, float, float]:
+    """Below which a force, and a couple, is rounding."""
+    force = NOTHING * max((abs(v) for three in values for v in three[:2]), default=0.0)
+    couple = max((abs(three[2]) for three in values), default=0.0)
+    return force, force, NOTHING * max(couple, force / NOTHING)
+
+
+def _reaction(position: Position, frame: Frame, tie: Tie, kept: list[float | None], scale: float) -> Reaction:
+    case = position.case
+    x, y, couple = (None if f is None else f / scale + 0.0 for f in kept)
+    per_torque = frame.scale / case.units.torque_per_force_length
+    moment = None if couple is None else couple / per_torque
+    at = case_point(frame, tie.at)
+    why, parts = _why(tie, kept), _parts(position, tie, x, y)
+    found = Reaction(tie.by, tie.on, kind_of(tie.joint), tie.where, at, x, y, moment, why, parts)
+    return found if ordered_pair(case, tie.by, tie.on) == (tie.by, tie.on) else found.reversed()
+
+
+def _parts(position: Position, tie: Tie, x: float | None, y: float | None) -> tuple[tuple[str, float], ...]:
+    """Shares of a force in the directions that the joint is about."""
+    if x is None or y is None:
+        return ()
+    if isinstance(tie.joint, Gears) or (isinstance(tie.joint, Roll) and tie.joint.pressure_angle is not None):
+        (tx, ty), (sx, sy) = tangent_and_separating(position, tie)
+        tangential = abs(x * tx + y * ty)
+        shares = (("tangential", tangential), ("separating", x * sx + y * sy))
+        return (*shares, *axial_shares(position, tie, tangential))
+    if isinstance(tie.joint, Contact | Slot | Slide):
+        nx, ny = next((u[0], u[1]) for u in tie.units if not u[2])
+        normal = x * nx + y * ny
+        parts = [("normal", normal if isinstance(tie.joint, Contact) else abs(normal))]
+        parts += [("friction", abs(x * ny - y * nx))] if tie.joint.friction else []
+        angle = pressure_angle(position, tie) if isinstance(tie.joint, Contact) else None
+        return (*parts, ("pressure angle", angle)) if angle is not None else tuple(parts)
+    return ()
+
+
+def pressure_angle(position: Position, tie: Tie) -> float | None:
+    """Degrees between the normal of a contact and the velocity of its second link there.
+
+    None where that link is at rest there, or has more than one motion.
+    """
+    motions = [
+        velocity(position.relative(position.case.ground, tie.on, m), tie.at) for m in range(position.mobility)
+    ]
+    fastest = max((abs(x) for ts in position.twists.values() for t in ts for x in t), default=0.0)
+    moving = [v for v in motions if math.hypot(*v) > 1e-12 * fastest]
+    nx, ny = tie.units[0][0], tie.units[0][1]
+    angles = [math.degrees(math.atan2(abs(x * ny - y * nx), abs(x * nx + y * ny))) for x, y in moving]
+    return angles[0] if angles and max(angles) - min(angles) < 1e-9 else None
+
+
+def _why(tie: Tie, kept: list[float | None]) -> str:
+    if None not in kept:
+        boxed = isinstance(tie.joint, KnownCentre)
+        return "a given centre stands for joints that the case does not show" if boxed else ""
+    if isinstance(tie.joint, Belt):
+        return "the pull of the slack strand is not given: only the difference of the two pulls is determined"
+    if isinstance(tie.joint, Gears) and tie.joint.pressure_angle is None:
+        return "the part that pushes the gears apart needs `pressure angle`"
+    return "the joints share the load in a way that equilibrium alone does not determine"

@@ -1,0 +1,162 @@
+"""The force of each link on each other at every joint in space, in case units."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
+
+from icsolve.answer.bodies import names_of
+from icsolve.answer.space import Parts, Reaction, Reactions
+from icsolve.case import Case
+from icsolve.case.names import ordered_pair
+from icsolve.case.space import Gears, Hinge, Radial, Thrust
+from icsolve.numbers.sparse import Row
+from icsolve.statics.space.equilibrium import Statics
+from icsolve.statics.space.figure import Frame
+from icsolve.statics.space.ties import Tie, kind_of
+from icsolve.statics.space.vectors import AXES, Vec, dot, square_to
+
+UNIQUE = 1e-9
+"""A share in what the joints leave open that is below this, of the largest, is none (rounding)."""
+NOTHING = 1e-14
+"""A force below this fraction of the largest is none (rounding)."""
+ROUNDING = 1e-15
+"""A sum below this fraction of its terms is none."""
+OPEN = "the joints share the load in a way that equilibrium alone does not determine"
+
+
+def reactions_of(case: Case, frame: Frame, statics: Statics, parameters: Mapping[int, float]) -> Reactions:
+    """Every joint's reaction; ``parameters`` are the known loads and the unknown ones."""
+    reader = _Reader(case, frame, statics, parameters)
+    found = Reactions()
+    for t, name in enumerate(names_by_tie(case, statics.ties)):
+        found[name] = reader.reaction(t)
+    return found
+
+
+def names_by_tie(case: Case, ties: Sequence[Tie]) -> list[str]:
+    """``F34``, ``F3-14``, ``Fcrank-rod``; with the place where a pair has several joints: ``F1-2@B``."""
+    pairs = [ordered_pair(case, tie.by, tie.on) for tie in ties]
+    shared = Counter(pairs)
+    names: list[str] = []
+    for tie, (by, on) in zip(ties, pairs, strict=True):
+        options = names_of(by, on, tie.where)
+        name = options[0] if shared[by, on] == 1 else options[-1]
+        names.append(name if name not in names else f"{name} {kind_of(tie.joint)} {names.count(name) + 1}")
+    return names
+
+
+def open_sizes(statics: Statics) -> dict[int, float]:
+    """For each free column the largest share that any joint unknown has in it."""
+    sizes = dict.fromkeys(statics.general.free, 1.0)
+    for row in statics.general.solved.values():
+        for c, a in row.items():
+            if c in sizes:
+                sizes[c] = max(sizes[c], abs(a))
+    return sizes
+
+
+def is_determined(statics: Statics, row: Row, sizes: Mapping[int, float]) -> bool:
+    """Whether equilibrium determines a combination of the joints' unknowns."""
+    return all(abs(row.get(c, 0.0)) <= UNIQUE * size for c, size in sizes.items())
+
+
+class _Reader:
+    """Reads forces and couples along given directions off the general solution."""
+
+    def __init__(self, case: Case, frame: Frame, statics: Statics, parameters: Mapping[int, float]) -> None:
+        self.case, self.frame, self.statics, self.parameters = case, frame, statics, parameters
+        self.sizes = open_sizes(statics)
+        values = [abs(statics.value(c, parameters)) for c in range(statics.known)]
+        self.least = NOTHING * max(values, default=0.0)
+
+    def along(self, t: int, which: int, direction: Vec) -> float | None:
+        """The force (``which`` 0) or couple (1) of a tie along a direction, scaled; None where it is open."""
+        statics = self.statics
+        row: Row = {}
+        for column, wrench in zip(statics.columns(t), statics.ties[t].units, strict=True):
+            share = dot(wrench[which], direction)
+            for c, a in statics.general.of(column).items() if share else ():
+                row[c] = row.get(c, 0.0) + share * a
+        if not is_determined(statics, row, self.sizes):
+            return None
+        terms = [a * self.parameters.get(c, 0.0) for c, a in row.items()]
+        value, size = math.fsum(terms), math.fsum(map(abs, terms))
+        return 0.0 if abs(value) <= max(self.least, ROUNDING * size) else value
+
+    def shown(self, value: float | None, which: int) -> float | None:
+        """A scaled force or couple in case units."""
+        if value is None:
+            return None
+        per_torque = self.frame.scale / self.case.units.torque_per_force_length
+        return value / self.statics.scale / (per_torque if which else 1.0) + 0.0
+
+    def triple(self, t: int, which: int) -> Parts:
+        """Components of the force or couple of a tie, case units."""
+        x, y, z = (self.shown(self.along(t, which, axis), which) for axis in AXES)
+        return (x, y, z)
+
+    def reaction(self, t: int) -> Reaction:
+        """The reaction of a tie, in the order of its links' names."""
+        tie = self.statics.ties[t]
+        force, couple = self.triple(t, 0), self.triple(t, 1)
+        at = self.frame.shown(tie.at)
+        why = OPEN if None in (*force, *couple) else ""
+        parts = tuple((name, value) for name, value in self.parts(t, tie))
+        found = Reaction(tie.by, tie.on, kind_of(tie.joint), tie.where, at, force, couple, why, parts)
+        ordered = ordered_pair(self.case, tie.by, tie.on) == (tie.by, tie.on)
+        return found if ordered else found.reversed()
+
+    def parts(self, t: int, tie: Tie) -> list[tuple[str, float | None]]:
+        """Shares of the force that the joint is about."""
+        if isinstance(tie.joint, Gears):
+            return self.tooth_parts(t, tie)
+        if not isinstance(tie.joint, Radial | Thrust | Hinge):
+            return []
+        square = [self.shown(self.along(t, 0, e), 0) for e in square_to(tie.axis)]
+        known = [part for part in square if part is not None]
+        parts: list[tuple[str, float | None]] = [("radial", math.hypot(*known) if len(known) == 2 else None)]
+        if not isinstance(tie.joint, Radial):
+            thrust = self.shown(self.along(t, 0, tie.axis), 0)
+            parts.append(("thrust", None if thrust is None else abs(thrust)))
+        return parts
+
+    def tooth_parts(self, t: int, tie: Tie) -> list[tuple[str, float | None]]:
+        """Shares of a tooth force, the couples of its axial share, and what bearings carry of them."""
+        mesh = tie.mesh
+        assert mesh is not None
+        tangential = self.shown(self.along(t, 0, mesh.tangent), 0)
+        if tangential is None:
+            return [("tangential", None)]
+        size = abs(tangential)
+        apart, axial = size * mesh.separating, size * abs(mesh.axial)
+        parts: list[tuple[str, float | None]] = [("tangential", size), ("separating", apart)]
+        parts.append(("transverse", math.hypot(size, apart)))
+        if axial:
+            parts.append(("axial", axial))
+            parts += self.axial_couples(tie, axial)
+        return parts
+
+    def axial_couples(self, tie: Tie, axial: float) -> list[tuple[str, float | None]]:
+        """The couple that the axial share makes about each wheel's centre, and its load on two bearings."""
+        assert isinstance(tie.joint, Gears) and tie.mesh is not None
+        parts: list[tuple[str, float | None]] = []
+        alone = len(tie.mesh.radii) == 1
+        for link, radius in zip(tie.joint.links, tie.mesh.radii, strict=False):
+            of = "" if alone else f" {link}"
+            couple = axial * radius
+            parts.append((f"couple{of}", couple * self.case.units.torque_per_force_length))
+            span = self.span(link, tie.axis)
+            if span:
+                parts.append((f"bearing{of}", couple / span))
+        return parts
+
+    def span(self, link: str, axis: Vec) -> float | None:
+        """How far apart along the axis a link's two bearings are, case lengths; None for other than two."""
+        places = [
+            dot(tie.at, axis) / self.frame.scale
+            for tie in self.statics.ties
+            if link in (tie.by, tie.on) and isinstance(tie.joint, Radial | Thrust | Hinge)
+        ]
+        return abs(places[0] - places[1]) if len(places) == 2 else None

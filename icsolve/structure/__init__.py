@@ -1,0 +1,1 @@
+"""Topology, groups of links and the plan of a scene: combinatorics alone."""

@@ -1,0 +1,190 @@
+"""Topology -> the ordered steps that the wanted twists need, and no others: pure combinatorics.
+
+Only relative motion matters, so any joint with one freedom may serve as the virtual input: its two
+bodies are known, and every further group of bodies that their constraints determine follows: one
+link (monad), two links (dyad), or the smallest larger group. The input is chosen so that the
+wanted bodies need the fewest steps.
+"""
+
+from collections import deque
+from collections.abc import Collection, Iterable
+from typing import NamedTuple
+
+from icsolve.structure.groups import smallest_group
+from icsolve.structure.topology import Topology
+
+
+class Group(NamedTuple):
+    """One step: the bodies that ``bonds`` determine from the bodies known before.
+
+    ``kind`` is ``monad`` (one body; the bonds are that with one freedom, that with two), ``dyad`` (two
+    bodies; the bonds are the first's to what is known, the one between them, the second's to what is
+    known) or empty; ``ends`` are the known bodies of the first and last bond of a monad or dyad.
+    """
+
+    bodies: tuple[int, ...]
+    bonds: tuple[int, ...]
+    kind: str = ""
+    ends: tuple[int, int] = (-1, -1)
+
+
+class Plan(NamedTuple):
+    """``entry`` is the bond of the virtual input; then the groups in order.
+
+    ``closed`` says that the groups reach every body of the scene and use every bond once: counting
+    finds one freedom and nothing redundant. Where it is False the loop equations of the whole scene
+    are to be solved at once.
+    """
+
+    entry: int
+    groups: tuple[Group, ...]
+    closed: bool
+    bodies: frozenset[int]
+    """the bodies whose twists the plan finds"""
+    bonds: tuple[int, ...] = ()
+    """the bonds whose places it needs"""
+
+
+CANDIDATES = 12
+"""Virtual inputs that are tried; those at the wanted bodies come first."""
+
+
+def make_plan(top: Topology, wanted: Collection[int]) -> Plan | None:
+    """The cheapest plan for the twists of the wanted bodies, relative to one another.
+
+    None where no joint with one freedom can serve as input. A plan that is not ``closed`` has no
+    groups to run.
+    """
+    best: Plan | None = None
+    for entry in _entries(top, wanted):
+        plan = _pruned(top, _grown(top, entry), wanted)
+        if best is None or _cost(plan) < _cost(best):
+            best = plan
+        if best.closed and len(best.bodies) <= max(2, len(set(wanted))) and _largest(best) <= 2:
+            break
+    return best
+
+
+def _entries(top: Topology, wanted: Collection[int]) -> list[int]:
+    singles = [k for k, bond in enumerate(top.bonds) if bond.freedom == 1]
+    inside = [k for k in singles if top.bonds[k].a in wanted or top.bonds[k].b in wanted]
+    both = [k for k in inside if top.bonds[k].a in wanted and top.bonds[k].b in wanted]
+    return list(dict.fromkeys(both + inside + singles))[:CANDIDATES]
+
+
+def _largest(plan: Plan) -> int:
+    return max((len(group.bodies) for group in plan.groups), default=0)
+
+
+def _cost(plan: Plan) -> tuple[bool, int]:
+    return (not plan.closed, sum(len(group.bodies) ** 3 for group in plan.groups))
+
+
+def _grown(top: Topology, entry: int) -> Plan:
+    """All bodies that follow from this input, group by group."""
+    bond = top.bonds[entry]
+    growth = _Growth(top, (bond.a, bond.b), entry)
+    groups = tuple(growth.groups())
+    used = {entry}.union(*(group.bonds for group in groups))
+    closed = len(growth.known) == len(top.members) and len(used) == len(top.bonds) and not growth.surplus
+    return Plan(entry, groups, closed, frozenset(growth.known))
+
+
+class _Growth:
+    """The set of known bodies as it grows; each body is looked at again only when a neighbour is found."""
+
+    def __init__(self, top: Topology, known: Iterable[int], entry: int) -> None:
+        self.top = top
+        self.entry = entry
+        self.known = set(known)
+        self.queue = deque(self._neighbours(self.known))
+        self.surplus = any(
+            k != entry and top.bonds[k].a in self.known and top.bonds[k].b in self.known
+            for body in self.known
+            for k in top.at[body]
+        )
+
+    def groups(self) -> Iterable[Group]:
+        while True:
+            bodies = self._next()
+            if not bodies:
+                return
+            yield self._take(bodies)
+
+    def _next(self) -> tuple[int, ...]:
+        while self.queue:
+            body = self.queue.popleft()
+            if body in self.known:
+                continue
+            if self._held(body) >= 3:
+                return (body,)
+            for other in self._neighbours((body,)):
+                if self._held(body) + self._held(other) + self._between(body, other) >= 6:
+                    return (body, other)
+        return smallest_group(self.top, self.known)
+
+    def _take(self, bodies: tuple[int, ...]) -> Group:
+        self.known.update(bodies)
+        bonds = tuple(
+            dict.fromkeys(
+                k
+                for body in bodies
+                for k in self.top.at[body]
+                if self.top.bonds[k].other(body) in self.known
+            )
+        )
+        if sum(self.top.bonds[k].constraints for k in bonds) > 3 * len(bodies):
+            self.surplus = True
+        self.queue.extend(self._neighbours(bodies))
+        return Group(bodies, bonds)
+
+    def _neighbours(self, bodies: Iterable[int]) -> list[int]:
+        found = (self.top.bonds[k].other(body) for body in bodies for k in self.top.at[body])
+        return list(dict.fromkeys(body for body in found if body not in self.known))
+
+    def _held(self, body: int) -> int:
+        """Constraints of a body against known bodies."""
+        bonds = (self.top.bonds[k] for k in self.top.at[body])
+        return sum(bond.constraints for bond in bonds if bond.other(body) in self.known)
+
+    def _between(self, a: int, b: int) -> int:
+        bonds = (self.top.bonds[k] for k in self.top.at[a])
+        return sum(bond.constraints for bond in bonds if bond.other(a) == b)
+
+
+def _pruned(top: Topology, plan: Plan, wanted: Collection[int]) -> Plan:
+    """The plan without the groups that no wanted body needs."""
+    if not plan.closed:
+        return plan._replace(groups=())
+    needed = set(wanted)
+    kept: list[Group] = []
+    for group in reversed(plan.groups):
+        if needed.isdisjoint(group.bodies):
+            continue
+        kept.append(group)
+        for k in group.bonds:
+            needed.update((top.bonds[k].a, top.bonds[k].b))
+    entry = top.bonds[plan.entry]
+    bodies = frozenset({entry.a, entry.b}.union(*(group.bodies for group in kept)))
+    groups = tuple(_classified(top, group) for group in reversed(kept))
+    bonds = dict.fromkeys((plan.entry, *(k for group in kept for k in group.bonds)))
+    return plan._replace(groups=groups, bodies=bodies, bonds=tuple(bonds))
+
+
+def _classified(top: Topology, group: Group) -> Group:
+    """The group as a monad or dyad, if it is one."""
+    bonds = sorted(group.bonds, key=lambda k: top.bonds[k].freedom)
+    shape = [top.bonds[k].freedom for k in bonds]
+    if len(group.bodies) == 1 and shape == [1, 2]:
+        (body,) = group.bodies
+        ends = (top.bonds[bonds[0]].other(body), top.bonds[bonds[1]].other(body))
+        return Group(group.bodies, tuple(bonds), "monad", ends)
+    if len(group.bodies) != 2 or shape != [1, 1, 1]:
+        return group
+    u, v = group.bodies
+    inner = [k for k in bonds if {top.bonds[k].a, top.bonds[k].b} == {u, v}]
+    outer = [[k for k in bonds if k not in inner and k in top.at[body]] for body in (u, v)]
+    if len(inner) != 1 or any(len(held) != 1 for held in outer):
+        return group
+    ends = (top.bonds[outer[0][0]].other(u), top.bonds[outer[1][0]].other(v))
+    return Group(group.bodies, (outer[0][0], inner[0], outer[1][0]), "dyad", ends)

@@ -1,0 +1,180 @@
+"""What a sweep is asked: columns of varied numbers, zipped, and what is wanted of every row."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from icsolve.assembly.data import names_of
+from icsolve.case import Case, Pair
+from icsolve.numbers.replay import Array
+from icsolve.read.names import pairs
+from icsolve.read.problems import shown, suggestion
+from icsolve.sweep.numbers import find_number
+from icsolve.sweep.program import Asked
+from icsolve.sweep.scene import pairs as all_pairs
+
+WORDS = ("answers", "status", "error", "points", "centres", "rates")
+
+
+class AskError(ValueError):
+    """What is asked of a sweep makes no sense: the message says what would."""
+
+
+MOST_NUMBERS = 400_000_000
+"""More numbers than these (3 GB) are not made at once."""
+MOST_PAIRS = 100_000
+FARTHEST = 1e7
+"""Degrees: what is farther takes as many steps on the way as would fill the memory."""
+
+
+class Columns(NamedTuple):
+    """Varied numbers by path, links turned (degrees) by name: arrays of the same length."""
+
+    paths: dict[str, Array]
+    links: dict[str, Array]
+    names: dict[str, str]
+    """by path or link, as it was asked for"""
+
+    @property
+    def arrays(self) -> dict[str, Array]:
+        """All of them by path or link."""
+        return {**self.links, **self.paths}
+
+    @property
+    def rows(self) -> int:
+        """Number of rows."""
+        return len(next(iter(self.arrays.values())))
+
+
+def columns_of(
+    case: Case, vary: Mapping[str, npt.ArrayLike] | None, drive: Mapping[str, npt.ArrayLike] | None
+) -> Columns:
+    """The columns of a sweep; single numbers are the same in every row.
+
+    Raises AskError for arrays that can't be columns, CaseError for paths that the case does not have.
+    """
+    asked = {**{("vary", path): v for path, v in (vary or {}).items()}}
+    asked |= {("drive", str(link)): v for link, v in (drive or {}).items()}
+    if not asked:
+        raise AskError("nothing is varied: give vary={'angles.AB': values} or drive={'2': degrees}")
+    arrays = {key: _column(key[1], value) for key, value in asked.items()}
+    rows = max(len(a) if a.ndim else 1 for a in arrays.values())
+    paths: dict[str, Array] = {}
+    links: dict[str, Array] = {}
+    names: dict[str, str] = {}
+    for (kind, name), array in arrays.items():
+        if array.ndim and len(array) != rows:
+            raise AskError(f"{shown(name)} has {len(array)} values where another has {rows}")
+        own = _path(case, name) if kind == "vary" else _link(case, name)
+        if own in names:
+            raise AskError(f"{shown(name)} and {shown(names[own])} are the same number")
+        names[own] = name
+        _refuse_values(name, own, array, kind == "drive" or own.startswith("angles."))
+        (paths if kind == "vary" else links)[own] = np.ascontiguousarray(np.broadcast_to(array, rows))
+    return Columns(paths, links, names)
+
+
+@lru_cache(maxsize=256)
+def _path(case: Case, name: str) -> str:
+    return find_number(case, name).path
+
+
+def _column(name: str, values: npt.ArrayLike) -> Array:
+    try:
+        array = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise AskError(f"the values of {shown(name)} should be numbers, in the units of the case") from None
+    if array.ndim > 1:
+        raise AskError(
+            f"the values of {shown(name)} should be one row of numbers, not {array.ndim} dimensions"
+        )
+    if not array.size:
+        raise AskError(f"there are no values for {shown(name)}")
+    if not np.isfinite(array).all():
+        raise AskError(f"the values of {shown(name)} are not all finite numbers")
+    return array
+
+
+def _refuse_values(name: str, own: str, array: Array, turns: bool) -> None:
+    """Refuse numbers that no case may have there, and turns that nobody would count."""
+    if (own.startswith("lengths.") or own.endswith((".mu", ".radius", ".length"))) and (array < 0.0).any():
+        raise AskError(f"the values of {shown(name)} should not be negative")
+    if turns and (np.abs(array) > FARTHEST).any():
+        raise AskError(f"the values of {shown(name)} lie beyond {FARTHEST:.0f} degrees; take turns off")
+
+
+def _link(case: Case, name: str) -> str:
+    if name not in case.links:
+        raise AskError(f"there is no link {shown(name)} to turn{suggestion(name, case.links)}")
+    return name
+
+
+class Wanted(NamedTuple):
+    """What is wanted of every row, in words and resolved; ``error``: the bounds of the answers."""
+
+    asked: Asked
+    error: bool
+    words: tuple[str, ...] = ()
+
+
+@lru_cache(maxsize=64)
+def wanted_of(case: Case, want: tuple[str, ...]) -> Wanted:
+    """What is wanted: whole kinds (``points``) or single ones (``points.C``, ``centres.2-4``).
+
+    Raises AskError for a word that is none.
+    """
+    points: dict[str, None] = {}
+    centres: dict[Pair, None] = {}
+    kinds = set()
+    if "centres" in want and (count := len(case.links) * (len(case.links) - 1) // 2) > MOST_PAIRS:
+        raise AskError(f"all centres are {count}, more than a table has columns; ask for single ones")
+    for word in want:
+        kind, dot, name = word.partition(".")
+        if kind not in WORDS or (dot and kind not in ("points", "centres")):
+            likely = suggestion(word, WORDS) or f"; one of {', '.join(WORDS)}"
+            raise AskError(f"{shown(word)} can't be wanted{likely}")
+        kinds.add(kind)
+        if kind == "points":
+            points.update(dict.fromkeys(_points(case, name) if dot else shown_points(case)))
+        elif kind == "centres":
+            centres.update(dict.fromkeys(_pairs(case, name) if dot else all_pairs(case)))
+    answers = bool(kinds & {"answers", "error", "status"})
+    asked = Asked(answers, tuple(points), tuple(centres), "rates" in kinds)
+    return Wanted(asked, "error" in kinds, want)
+
+
+def refuse_size(columns: Columns, asked: Asked, error: bool) -> None:
+    """Raise AskError where the arrays would not fit."""
+    width = len(columns.arrays) + 2 * len(asked.points) + 3 * len(asked.centres) + 2
+    numbers = columns.rows * (width * 2 if error else width)
+    if numbers > MOST_NUMBERS:
+        raise AskError(
+            f"{columns.rows} rows of {width} columns are {numbers} numbers; at most {MOST_NUMBERS} fit. "
+            "Ask for fewer rows, or for single points and centres."
+        )
+
+
+def shown_points(case: Case) -> list[str]:
+    """The points that have a name in the case."""
+    return [name for name in names_of(case) if not name.startswith("@")]
+
+
+def _points(case: Case, name: str) -> list[str]:
+    known = shown_points(case)
+    if name not in known:
+        raise AskError(f"there is no point {shown(name)}{suggestion(name, known)}")
+    return [name]
+
+
+def _pairs(case: Case, name: str) -> Iterable[Pair]:
+    """The pair that a centre's name means, as the format lets it be written."""
+    found = {frozenset(pair) for pair in pairs(name, lambda link: link in case.links)}
+    meant = [pair for pair in all_pairs(case) if frozenset(pair) in found]
+    if len(meant) != 1:
+        raise AskError(f"{shown(name)} is not a pair of links of this case; write it as 2-4")
+    return meant

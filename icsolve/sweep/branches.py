@@ -1,0 +1,241 @@
+"""Change points on the way: where two places of a pin meet and part again, the motion goes straight on.
+
+The radicand under a branch's root vanishes there like a square, so the root itself goes through zero: its
+sign changes. Where it only comes near zero, the branch stays; where it goes below, the mechanism cannot
+assemble. The places are found on the way from the position as written to the rows.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from icsolve.numbers.record import Root, Traced
+from icsolve.numbers.replay import BLOCK, Array, Code, live
+from icsolve.sweep.program import Sheet, Signs
+from icsolve.sweep.track import Track
+from icsolve.sweep.way import State, Touches, Way
+
+TOUCH = 64 * 2.0**-53
+"""Margins below this fraction of their terms are zero (rounding of shapes, twice squared)."""
+STEEP = 2.0
+"""A radicand that may vanish between two places is smaller than so many of its steps there."""
+POINTS = 33
+ZOOMS = 10
+PAST = 0.125
+"""A way is followed beyond its last place by this part of its longest step."""
+MOST_PLACES = 4096
+"""Limits are looked for at so many places."""
+
+Remake = Callable[[Signs], Sheet]
+
+
+class Passing(NamedTuple):
+    """Where the branch of a spot changes (``touches``), where its places only meet and part again on their
+    own sides (``grazes``), and where it cannot assemble in less than a row (``gaps``)."""
+
+    touches: tuple[float, ...]
+    gaps: tuple[float, ...]
+    grazes: tuple[float, ...] = ()
+
+
+class Followed(NamedTuple):
+    """A way that was followed: its sheet (changing signs are inputs), its track, what was passed."""
+
+    sheet: Sheet
+    track: Track
+    passed: dict[str, Passing]
+
+
+class _Radicands:
+    """The radicands of branches along a track."""
+
+    def __init__(self, sheet: Sheet, track: Track) -> None:
+        self.sheet, self.track = sheet, track
+
+    def values(self, nodes: Sequence[int], at: Array) -> list[Array]:
+        """Nodes at places of the way; not a number where the links do not assemble."""
+        code = Code(self.sheet.record, nodes)
+        parts = []
+        for start in range(0, len(at), BLOCK):
+            here = at[start : start + BLOCK]
+            given, good = self.track.given(here)
+            found = [np.broadcast_to(v, len(here)).copy() for v in code.run(given, len(here))]
+            for v in found:
+                v[~good] = np.nan
+            parts.append(found)
+        return [np.concatenate(column) for column in zip(*parts, strict=True)]
+
+    def passing(self, root: Root, grid: Array) -> Passing:
+        """Touches and gaps of a branch on a grid of the way."""
+        radicand = self._radicand(root, grid)
+        touches: list[float] = []
+        gaps: list[float] = []
+        grazes: list[float] = []
+        for k in _valleys(radicand):
+            low, high = grid[max(k - 1, 0)], grid[min(k + 1, len(grid) - 1)]
+            at = self._lowest(root, low, high)
+            margin = self._margin(root, at)
+            if margin < -TOUCH:
+                gaps.append(at)
+            elif margin <= TOUCH:
+                crosses = self._order(root, at, high - low) % 4 == 2
+                (touches if crosses else grazes).append(at)
+        return Passing(tuple(touches), tuple(gaps), tuple(grazes))
+
+    def _order(self, root: Root, at: float, wide: float) -> int:
+        """The order to which a radicand vanishes: the root goes through zero where half of it is odd."""
+        h = max(wide / 4.0, self.track.way.widest / 8.0)
+        values = self._radicand(root, at + h * np.array([-1.0, 1.0, -0.5, 0.5]))
+        far, near = values[:2], values[2:]
+        good = np.isfinite(far) & np.isfinite(near) & (far > 0.0) & (near > 0.0)
+        return 2 * round(float(np.log2(far[good].sum() / near[good].sum())) / 2.0) if good.any() else 2
+
+    def _radicand(self, root: Root, at: Array) -> Array:
+        """The radicand of a branch; not a number where those before it have no place to meet."""
+        record = self.sheet.record
+        behind = set(live(record, [root.radicand], ()))
+        before = [r for r in live_roots(self.sheet) if r.node in behind]
+        nodes = [n for r in before for margin in r.margins for n in margin]
+        radicand, *margins = self.values([root.radicand, *nodes], at)
+        for margin, size in zip(margins[::2], margins[1::2], strict=True):
+            radicand[margin < -TOUCH * size] = np.nan
+        return radicand
+
+    def limits(self, grid: Array) -> tuple[float, float]:
+        """The nearest places to both sides of the start to which no motion leads."""
+        grid = grid[:: max(1, len(grid) // MOST_PLACES)]
+        nodes = [n for r in live_roots(self.sheet) for margin in r.margins for n in margin]
+        gone = np.zeros(len(grid), dtype=bool)
+        found = self.values(nodes, grid) if nodes else []
+        for margin, size in zip(found[::2], found[1::2], strict=True):
+            gone |= ~(margin >= -TOUCH * size)
+        apart, start, (low, high) = grid[gone], self.track.way.start, self.track.ends
+        low = max(low, float(apart[apart < start].max(initial=-math.inf)))
+        return low, min(high, float(apart[apart > start].min(initial=math.inf)))
+
+    def _lowest(self, root: Root, low: float, high: float) -> float:
+        for _ in range(ZOOMS):
+            at = np.linspace(low, high, POINTS)
+            values = self._radicand(root, at)
+            k = int(np.argmin(np.where(np.isnan(values), np.inf, values)))
+            low, high = float(at[max(k - 1, 0)]), float(at[min(k + 1, POINTS - 1)])
+        return (low + high) / 2.0
+
+    def _margin(self, root: Root, at: float) -> float:
+        """The smaller margin over its size."""
+        nodes = [n for margin in root.margins for n in margin]
+        a, a_size, b, b_size = (float(v[0]) for v in self.values(nodes, np.array([at])))
+        return min(a / a_size, b / b_size)
+
+
+def _valleys(radicand: Array) -> Iterator[int]:
+    """Where it is lower than on both sides, and near enough to zero that it may vanish between places."""
+    radicand = np.where(np.isnan(radicand), -np.inf, radicand)
+    with np.errstate(invalid="ignore"):
+        step = np.abs(np.diff(radicand))
+    step = np.where(np.isfinite(step), step, 0.0)
+    around = np.maximum(np.concatenate([step[:1], step]), np.concatenate([step, step[-1:]]))
+    beside = np.concatenate([[np.inf], radicand, [np.inf]])
+    left, right = beside[:-2], beside[2:]
+    valley = (radicand <= left) & (radicand <= right) & (radicand <= STEEP * around) & np.isfinite(radicand)
+    last = -2
+    for k in np.flatnonzero(valley & (np.minimum(left, right) > 0.0)):
+        if k > last + 1:
+            yield int(k)
+        last = int(k)
+
+
+def grid_of(rows: Array, start: float, widest: float) -> Array:
+    """The rows' places and the start in order, with places between so that no step is too wide."""
+    known = np.unique(np.append(rows, start))
+    steps = np.diff(known)
+    between = [
+        np.linspace(known[k], known[k + 1], int(steps[k] / widest) + 2)[1:-1]
+        for k in np.flatnonzero(steps > widest)
+    ]
+    return np.unique(np.concatenate([known, *between])) if between else known
+
+
+def follow(remake: Remake, sheet: Sheet, way: Way, start: State, rows: Array) -> Followed:
+    """Follow a way from a state to the rows, and find where branches change.
+
+    ``remake`` makes the sheet with the signs of some branches as inputs.
+    """
+    grid = grid_of(rows, way.start, way.widest)
+    track = Track(sheet, way, start, Touches({}), _reach(grid, way))
+    if _has_limits(sheet, track, grid):
+        grid = grid_of(np.append(grid, _turns_of(way)), way.start, way.widest)
+        track = Track(sheet, way, start, Touches({}), _reach(grid, way))
+    found: dict[str, Passing] = {}
+    done: set[str] = set()
+    while True:
+        name = _next_passing(sheet, track, grid, found, done)
+        if name is None:
+            return Followed(sheet, track, found)
+        sheet = remake(signs_of(sheet, (n for n, p in found.items() if p.touches)))
+        places = {name: passing.touches for name, passing in found.items() if passing.touches}
+        track = Track(sheet, way, start, Touches(places), track.reach)
+
+
+def _next_passing(
+    sheet: Sheet, track: Track, grid: Array, found: dict[str, Passing], done: set[str]
+) -> str | None:
+    """The next branch that changes its sign; those that were looked at are noted."""
+    radicands = _Radicands(sheet, track)
+    assert sheet.motion is not None
+    if track.way.period is not None:
+        track.touches = track.touches._replace(limits=radicands.limits(grid))
+    for root in live_roots(sheet):
+        name = sheet.motion.branches[root.node]
+        if name in done:
+            continue
+        done.add(name)
+        passing = radicands.passing(root, grid)
+        if any(passing):
+            found[name] = passing
+        if passing.touches:
+            return name
+    return None
+
+
+def _has_limits(sheet: Sheet, track: Track, grid: Array) -> bool:
+    """Whether the way turns a link beyond where the motion leads: what lies there may be reached by
+    turning it the other way round."""
+    if track.way.period is None or not live_roots(sheet):
+        return False
+    return any(math.isfinite(end) for end in _Radicands(sheet, track).limits(grid))
+
+
+def _reach(grid: Array, way: Way) -> tuple[float, float]:
+    """From the first to the last place and a little beyond, so that none is at the very end of the way."""
+    return float(grid[0]) - PAST * way.widest, float(grid[-1]) + PAST * way.widest
+
+
+def _turns_of(way: Way) -> list[float]:
+    """A whole turn to both sides of the start."""
+    return [way.start - (way.period or 0.0), way.start + (way.period or 0.0)]
+
+
+def signs_of(sheet: Sheet, more: Iterable[str] = ()) -> Signs:
+    """The branches whose signs are inputs of a sheet, and more of them."""
+    assert sheet.motion is not None
+    written = sheet.motion.written
+    names = {*more, *(name for name in written if name in sheet.inputs)}
+    return tuple(sorted((name, written[name]) for name in names))
+
+
+def live_roots(sheet: Sheet) -> list[Root]:
+    """The branches that bear on what is asked, in order."""
+    record, groups = sheet.record, sheet.motion.groups if sheet.motion else ()
+    stack = [v.index for values in sheet.outputs.values() for v in values if isinstance(v, Traced) and v.row]
+    alive: set[int] = set()
+    while stack:
+        alive.update(live(record, stack, ()))
+        used = [group for group in groups if alive.intersection(group.solved)]
+        parts = [v for g in used for v in (*g.residuals, *(v for row in g.derivatives for v in row))]
+        stack = [v.index for v in parts if isinstance(v, Traced) and v.row and v.index not in alive]
+    return [record.roots[k] for k in sorted(alive) if k in record.roots]

@@ -1,0 +1,265 @@
+"""The order in which a driven mechanism closes, link by link, from the frame.
+
+Closed forms as far as they go: a link turns as another does, hangs on one or two places that are
+known, swings until its slot meets one; two loci of a pin meet. Where nothing of this kind is left,
+the smallest set of links that their conditions determine goes to Newton's method.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Iterator
+from typing import NamedTuple
+
+from icsolve.errors import SceneError, Status
+from icsolve.sweep.constraints import Apart, Constraint, OnLine, Pointed, RolledRound, RolledStraight, Turning
+from icsolve.sweep.loci import By, Through, ThroughTurned, reference
+from icsolve.sweep.meeting import sine
+from icsolve.sweep.poses import Shape, Spot
+from icsolve.sweep.trains import together
+
+TOUCHING = 1e-7
+"""Loci that cross at a smaller angle (sine) in the position as written touch."""
+
+
+class Turn(NamedTuple):
+    """A body's rotation from those of the others in a `Turning`, or from a driver; ``instead`` of a
+    condition where several were taken together."""
+
+    body: int
+    by: Turning | Pointed | RolledStraight | RolledRound
+    instead: Turning | None = None
+
+
+class Hang(NamedTuple):
+    """A body whose rotation is known is placed by a spot."""
+
+    body: int
+    spot: Spot
+
+
+class Hold(NamedTuple):
+    """A body is placed by two spots."""
+
+    body: int
+    spots: tuple[Spot, Spot]
+
+
+class Meet(NamedTuple):
+    """A spot is where two of its loci meet."""
+
+    spot: Spot
+    loci: tuple[By, By]
+
+
+class Swing(NamedTuple):
+    """Bodies turn alike about ``pivot`` of the first until its line passes beside ``aim`` as it is to."""
+
+    bodies: tuple[int, ...]
+    pivot: Spot
+    aim: Spot
+    by: OnLine
+
+
+class Newton(NamedTuple):
+    """Bodies that only all their conditions together determine."""
+
+    bodies: tuple[int, ...]
+    constraints: tuple[Constraint, ...]
+
+
+Closing = Turn | Hang | Hold | Meet | Swing | Newton
+
+
+class Order:
+    """The closings as they are found; ``full`` bodies are placed, ``turned`` have their rotation.
+
+    A point in ``near`` may be where two loci only touch as written: `near` tells which way it goes on.
+    """
+
+    def __init__(
+        self,
+        shape: Shape,
+        spots: dict[int, list[Spot]],
+        constraints: list[Constraint],
+        near: Collection[str] = (),
+    ) -> None:
+        self.shape, self.spots, self.constraints, self.near = shape, spots, constraints, near
+        self.full, self.turned = {shape.ground}, {shape.ground}
+        self.located = {shape.one(spot) for spot in spots.get(shape.ground, ())}
+        self.steps: list[Closing] = []
+        self.used: set[int] = set()
+        self.nearest: str | None = None
+        """a spot whose loci only touch as written"""
+        self.members: dict[Spot, list[Spot]] = {}
+        for carried in spots.values():
+            for spot in carried:
+                self.members.setdefault(shape.one(spot), []).append(spot)
+
+    def advance(self) -> bool:
+        """Take the next closed form; False where there is none."""
+        for rule in (self._turns, self._hangs, self._holds, self._swings, self._meets, self._trains):
+            step = next(rule(), None)
+            if step is not None:
+                self.take(step)
+                return True
+        return False
+
+    def take(self, step: Closing) -> None:
+        """Note what a closing makes known."""
+        self.steps.append(step)
+        match step:
+            case Turn(body, by, instead):
+                self.turned.add(body)
+                self.used.update((id(by), id(instead)))
+            case Hang(body) | Hold(body):
+                self._fill((body,))
+            case Meet(spot, loci):
+                self.located.add(self.shape.one(spot))
+                self.used.update(id(locus.by) for locus in loci if isinstance(locus, ThroughTurned))
+            case Swing(bodies, _, _, by):
+                self.turned.update(bodies)
+                self.used.add(id(by))
+            case Newton(bodies, constraints):
+                self._fill(bodies)
+                self.used.update(map(id, constraints))
+
+    def _fill(self, bodies: Iterable[int]) -> None:
+        for body in bodies:
+            self.full.add(body)
+            self.turned.add(body)
+            self.located.update(self.shape.one(spot) for spot in self.spots[body])
+
+    def known(self, spot: Spot) -> bool:
+        """Whether the place of a spot is known."""
+        return spot[0] in self.full or self.shape.one(spot) in self.located
+
+    def _open(self) -> list[int]:
+        return [body for body in self.spots if body not in self.full]
+
+    # --- rules ------------------------------------------------------------------------------------
+
+    def _turns(self) -> Iterator[Turn]:
+        for c in self.constraints:
+            left = [body for body in c.bodies if body not in self.turned]
+            if len(left) != 1 or not isinstance(c, Turning | Pointed | RolledStraight | RolledRound):
+                continue
+            if id(c) in self.used:
+                continue
+            if self._tells(c):
+                yield Turn(left[0], c)
+
+    def _trains(self) -> Iterator[Turn]:
+        """A rotation that several ratios of wheels tell together."""
+        ratios = [c for c in self.constraints if isinstance(c, Turning) and id(c) not in self.used]
+        found = together(ratios, self.turned)
+        if found is not None:
+            yield Turn(*found)
+
+    def _tells(self, c: Turning | Pointed | RolledStraight | RolledRound) -> bool:
+        """Whether a condition tells the one rotation in it that is not known."""
+        if isinstance(c, RolledStraight):
+            return c.line.body in self.full and self.known(c.centre)
+        return not isinstance(c, RolledRound) or (self.known(c.one) and self.known(c.two))
+
+    def _hangs(self) -> Iterator[Hang]:
+        for body in self._open():
+            if body in self.turned:
+                yield from (Hang(body, spot) for spot in self.spots[body] if self.known(spot))
+
+    def _holds(self) -> Iterator[Hold]:
+        """By the two known spots that are farthest apart."""
+        for body in self._open():
+            known = [spot for spot in self.spots[body] if self.known(spot)]
+            pairs = [(p, q) for n, p in enumerate(known) for q in known[n + 1 :]]
+            apart = max(pairs, key=lambda pair: self.shape.apart(*pair), default=None)
+            if apart is not None and self.shape.apart(*apart) > TOUCHING:
+                yield Hold(body, apart)
+
+    def _swings(self) -> Iterator[Swing]:
+        for c in self.constraints:
+            if not isinstance(c, OnLine) or c.line.body in self.turned:
+                continue
+            pivot = self._pivot(c.line.body)
+            if pivot is None:
+                continue
+            if self.known(c.spot):
+                yield Swing((c.line.body,), pivot, c.spot, c)
+                continue
+            aim = self._pivot(c.spot[0])
+            if aim is not None and c.spot[0] not in self.turned and self._alike(*c.bodies):
+                yield Swing((c.line.body, c.spot[0]), pivot, aim, c)
+
+    def _pivot(self, body: int) -> Spot | None:
+        return next((spot for spot in self.spots[body] if self.known(spot)), None)
+
+    def _alike(self, a: int, b: int) -> bool:
+        """Whether two bodies turn alike: the block of a slide and its guide."""
+        return any(
+            isinstance(c, Turning) and c.alike and c.bodies == frozenset((a, b)) for c in self.constraints
+        )
+
+    def _meets(self) -> Iterator[Meet]:
+        """The spot whose two loci cross best."""
+        best: tuple[float, Meet] | None = None
+        for one, members in self.members.items():
+            if one in self.located or any(spot[0] in self.full for spot in members):
+                continue
+            loci = list(self._loci(members))
+            for n, first in enumerate(loci):
+                for second in loci[n + 1 :]:
+                    found = self._crossing(one, first, second)
+                    if best is None or found > best[0]:
+                        best = (found, Meet(one, (first, second)))
+        if best is not None and (best[0] > TOUCHING or best[1].spot[1] in self.near):
+            yield best[1]
+        elif best is not None:
+            self.nearest = best[1].spot[1]
+
+    def _crossing(self, spot: Spot, first: By, second: By) -> float:
+        still, at = reference(self.shape, first, spot), reference(self.shape, second, spot)
+        place = tuple(map(float, self.shape.ref[spot[1]]))
+        return sine(still, at, (place[0], place[1]))
+
+    def _loci(self, members: list[Spot]) -> Iterator[By]:
+        for spot in members:
+            body = spot[0]
+            pivot = max(
+                (p for p in self.spots[body] if self.known(p)),
+                key=lambda p: self.shape.apart(p, spot),
+                default=None,
+            )
+            if pivot is not None and self.shape.apart(pivot, spot) > TOUCHING:
+                yield Through(spot, pivot)
+            for c in self.constraints:
+                if body in c.bodies and id(c) not in self.used:
+                    yield from self._through(spot, c)
+
+    def _through(self, spot: Spot, c: Constraint) -> Iterator[ThroughTurned]:
+        """The locus that a condition gives to a spot: of the spot itself, or of a body that has turned."""
+        body, turned = spot[0], spot[0] in self.turned
+        if isinstance(c, OnLine):
+            if c.line.body in self.full and c.spot[0] == body and (turned or self._same(c.spot, spot)):
+                yield ThroughTurned(spot, c, c.spot)
+            elif c.line.body == body and turned and self.known(c.spot):
+                yield ThroughTurned(spot, c, None)
+        elif isinstance(c, Apart):
+            for mine, other in ((c.one, c.two), (c.two, c.one)):
+                if mine[0] == body and self.known(other) and (turned or self._same(mine, spot)):
+                    yield ThroughTurned(spot, c, mine)
+        elif isinstance(c, RolledStraight) and c.bodies <= self.turned:
+            if c.line.body in self.full and c.centre[0] == body:
+                yield ThroughTurned(spot, c, c.centre)
+            elif c.line.body == body and self.known(c.centre):
+                yield ThroughTurned(spot, c, None)
+
+    def _same(self, a: Spot, b: Spot) -> bool:
+        return self.shape.one(a) == self.shape.one(b)
+
+
+def touching(name: str) -> SceneError:
+    """The refusal of a position as written in which a pin could go on in two ways."""
+    return SceneError(
+        Status.CHANGE_POINT,
+        f"the position as written is a limit or a change point: at {name} the links are in line, and nothing "
+        "says which way it goes on. Write the case in another position.",
+    )

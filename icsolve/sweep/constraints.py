@@ -1,0 +1,282 @@
+"""Joints and drivers as conditions on where the links are; each with its derivatives, for Newton's method.
+
+A pin is no condition here but one spot of several bodies. A slide is a `Turning` (its two bodies turn
+alike) and an `OnLine`; a slot is an `OnLine`; gears and belts are a `Turning`; rolling is in `rolling`.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from icsolve.assembly.board import Board
+from icsolve.assembly.data import Datum
+from icsolve.assembly.equations import Equation
+from icsolve.errors import SceneError
+from icsolve.numbers.arithmetic import Scalar
+from icsolve.screws.plane import Point, Triple
+from icsolve.sweep.poses import Places, Rotation, Shape, Spot, dot, minus, square
+
+RADIAN = math.pi / 180.0
+
+
+class Line(NamedTuple):
+    """A line that a body carries: a point and the unit direction, as written."""
+
+    body: int
+    through: Point
+    along: Point
+
+
+class OnLine(NamedTuple):
+    """A spot lies ``offset`` to the left of a line."""
+
+    spot: Spot
+    line: Line
+    offset: Scalar = 0.0
+
+    @property
+    def bodies(self) -> frozenset[int]:
+        """The bodies that it ties."""
+        return frozenset((self.spot[0], self.line.body))
+
+
+class Apart(NamedTuple):
+    """Two spots are so far apart."""
+
+    one: Spot
+    two: Spot
+    distance: Scalar
+
+    @property
+    def bodies(self) -> frozenset[int]:
+        """The bodies that it ties."""
+        return frozenset((self.one[0], self.two[0]))
+
+
+class Turning(NamedTuple):
+    """The degrees by which bodies have turned, each times its factor, add up to ``degrees``."""
+
+    terms: tuple[tuple[int, Scalar], ...]
+    degrees: Scalar = 0.0
+
+    @property
+    def bodies(self) -> frozenset[int]:
+        """The bodies that it ties."""
+        return frozenset(body for body, _ in self.terms)
+
+    @property
+    def alike(self) -> bool:
+        """Whether it says that two bodies turn alike."""
+        factors = [factor for _, factor in self.terms]
+        return factors == [1.0, -1.0] and type(self.degrees) is float and self.degrees == 0.0
+
+
+class Pointed(NamedTuple):
+    """A body has the rotation of a driver: the direction of two of its spots is given."""
+
+    body: int
+    rotation: Rotation
+
+    @property
+    def bodies(self) -> frozenset[int]:
+        """The bodies that it ties."""
+        return frozenset((self.body,))
+
+
+class RolledStraight(NamedTuple):
+    """A round body has rolled along a straight flank: its centre's way is its turning times the radius.
+
+    The flank's line runs so that the centre is on its left.
+    """
+
+    centre: Spot
+    line: Line
+    radius: Scalar
+
+    @property
+    def bodies(self) -> frozenset[int]:
+        """The bodies that it ties."""
+        return frozenset((self.centre[0], self.line.body))
+
+
+class RolledRound(NamedTuple):
+    """Two round bodies have rolled on one another: equal arcs. A negative radius is hollow."""
+
+    one: Spot
+    two: Spot
+    radii: tuple[Scalar, Scalar]
+
+    @property
+    def bodies(self) -> frozenset[int]:
+        """The bodies that it ties."""
+        return frozenset((self.one[0], self.two[0]))
+
+
+class Drawn(NamedTuple):
+    """A length, an angle or a coordinate of the case that no kind above is: by its equation."""
+
+    datum: Datum
+    owners: tuple[Spot, ...]
+
+    @property
+    def bodies(self) -> frozenset[int]:
+        """The bodies that it ties."""
+        return frozenset(body for body, _ in self.owners)
+
+
+class Immovable(NamedTuple):
+    """A joint that is known as written only: the wrenches that it transmits, and why it cannot be moved."""
+
+    ends: tuple[int, int]
+    wrench: Triple
+    refusal: SceneError
+
+    @property
+    def bodies(self) -> frozenset[int]:
+        """The bodies that it ties."""
+        return frozenset(self.ends)
+
+
+Constraint = OnLine | Apart | Turning | Pointed | RolledStraight | RolledRound | Drawn | Immovable
+
+
+class Row(NamedTuple):
+    """An equation: its value, which is to vanish, and its derivatives by (body, part): the steps of
+    the body's base along x and y, and its turning in radians."""
+
+    value: Scalar
+    by: dict[tuple[int, int], Scalar]
+
+
+class Rows:
+    """The equations of constraints on bodies that are at places."""
+
+    def __init__(self, shape: Shape, places: Places, bases: dict[int, Spot], board: Board) -> None:
+        self.shape, self.places, self.bases, self.board = shape, places, bases, board
+
+    def of(self, constraint: Constraint) -> Row:
+        """The equation of a constraint."""
+        match constraint:
+            case OnLine():
+                return self._on_line(constraint)
+            case Apart():
+                return self._apart(constraint)
+            case Turning():
+                return self._turning(constraint)
+            case Pointed():
+                return self._pointed(constraint)
+            case RolledStraight():
+                return self._straight(constraint)
+            case RolledRound():
+                return self._round(constraint)
+            case Immovable():
+                return self._immovable(constraint)
+        return self._drawn(constraint)
+
+    def pinned(self, one: Spot, two: Spot) -> list[Row]:
+        """The two equations of a pin."""
+        p, q = self.places.place(one), self.places.place(two)
+        rows = []
+        for axis in (0, 1):
+            w = (1.0 - axis, float(axis))
+            rows.append(Row(p[axis] - q[axis], self._pushed((one[0], w, p), (two[0], _less(w), q))))
+        return rows
+
+    def held(self, spot: Spot, at: Point) -> list[Row]:
+        """The two equations of a pin whose place is known."""
+        p = self.places.place(spot)
+        axes = (((1.0, 0.0), p[0] - at[0]), ((0.0, 1.0), p[1] - at[1]))
+        return [Row(value, self._pushed((spot[0], w, p))) for w, value in axes]
+
+    def _pushed(self, *pushes: tuple[int, Point, Point]) -> dict[tuple[int, int], Scalar]:
+        """Derivatives of a force's work: (body, force, point) for each."""
+        by: dict[tuple[int, int], Scalar] = {}
+        for body, w, p in pushes:
+            if body == self.shape.ground or body not in self.bases:
+                continue
+            arm = minus(p, self.places.place(self.bases[body]))
+            for part, value in enumerate((w[0], w[1], dot(w, square(arm)))):
+                by[body, part] = by.get((body, part), 0.0) + value
+        return by
+
+    def _on_line(self, c: OnLine) -> Row:
+        p, through = self.places.place(c.spot), self.places.point(c.line.body, c.line.through)
+        normal = square(self.places.vector(c.line.body, c.line.along))
+        by = self._pushed((c.spot[0], normal, p), (c.line.body, _less(normal), p))
+        return Row(dot(normal, minus(p, through)) - c.offset, by)
+
+    def _apart(self, c: Apart) -> Row:
+        p, q = self.places.place(c.one), self.places.place(c.two)
+        e = minus(p, q)
+        value = (dot(e, e) - c.distance * c.distance) * 0.5
+        return Row(value, self._pushed((c.one[0], e, p), (c.two[0], _less(e), q)))
+
+    def _turning(self, c: Turning) -> Row:
+        by = {(body, 2): factor for body, factor in c.terms if body in self.bases}
+        if c.alike:
+            a, b = (self.places.vector(body, (1.0, 0.0)) for body, _ in c.terms)
+            return Row(dot(square(b), a), by)
+        total: Scalar = -c.degrees
+        for body, factor in c.terms:
+            total = total + factor * self.places.degrees(body)
+        return Row(total * RADIAN, by)
+
+    def _pointed(self, c: Pointed) -> Row:
+        z = self.places.vector(c.body, c.rotation.ref)
+        return Row(dot(square(c.rotation.z), z), {(c.body, 2): dot(c.rotation.z, z)})
+
+    def _straight(self, c: RolledStraight) -> Row:
+        o, b = self.places.place(c.centre), c.line.body
+        along = self.places.vector(b, c.line.along)
+        contact = minus(o, _times(c.radius, square(along)))
+        turned = (self.places.degrees(c.centre[0]) - self.places.degrees(b)) * RADIAN
+        value = dot(along, minus(o, self.places.point(c.line.body, c.line.through))) + c.radius * turned
+        return Row(value, self._pushed((c.centre[0], along, contact), (b, _less(along), contact)))
+
+    def _round(self, c: RolledRound) -> Row:
+        """Slip of the arcs; the line of the centres may have turned any number of times."""
+        (one, two), (r, q) = (c.one, c.two), c.radii
+        p, o = self.places.place(one), self.places.place(two)
+        e, written = minus(o, p), self.shape.between(one, two)
+        x, y = dot(written, e), dot(square(written), e)
+        turned = self.shape.record.angle(x, y)
+        whole = r + q
+        value = r * self.places.degrees(one[0]) + q * self.places.degrees(two[0]) - whole * turned
+        around = whole * 360.0
+        value = value - around * self.shape.record.nearest(value / around)
+        normal = (e[0] / whole, e[1] / whole)
+        along = square(normal)
+        contact = (p[0] + r * normal[0], p[1] + r * normal[1])
+        return Row(value * RADIAN, self._pushed((one[0], along, contact), (two[0], _less(along), contact)))
+
+    def _immovable(self, c: Immovable) -> Row:
+        """Power of the wrench on the relative step of the two bodies."""
+        x, y, m = c.wrench
+        by: dict[tuple[int, int], Scalar] = {}
+        for body, sign in zip(c.ends, (-1.0, 1.0), strict=True):
+            if body in self.bases:
+                px, py = self.places.place(self.bases[body])
+                for part, value in enumerate((y, -x, x * px + y * py + m)):
+                    by[body, part] = sign * value
+        return Row(0.0, by)
+
+    def _drawn(self, c: Drawn) -> Row:
+        owners = {name: (body, name) for body, name in c.owners}
+        for name, spot in owners.items():
+            self.board.points[name] = self.places.place(spot)
+        row = Equation(c.datum).row(self.board)
+        by: dict[tuple[int, int], Scalar] = {}
+        for (name, axis), value in row.by.items():
+            w = (value, 0.0) if axis == 0 else (0.0, value)
+            for key, part in self._pushed((owners[name][0], w, self.board.points[name])).items():
+                by[key] = by.get(key, 0.0) + part
+        return Row(row.value, by)
+
+
+def _less(v: Point) -> Point:
+    return (-v[0], -v[1])
+
+
+def _times(k: Scalar, v: Point) -> Point:
+    return (k * v[0], k * v[1])

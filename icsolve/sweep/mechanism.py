@@ -1,0 +1,278 @@
+"""A case as links that keep their shapes: which points and lines each carries, and what ties them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import NamedTuple
+
+from icsolve.assembly.frame import Frame
+from icsolve.case import (
+    Belt,
+    Case,
+    Centroid,
+    Contact,
+    Gears,
+    Guide,
+    Joint,
+    KnownCentre,
+    Pin,
+    Roll,
+    Slide,
+    Slot,
+    Toward,
+)
+from icsolve.errors import SceneError, Status
+from icsolve.numbers.arithmetic import FLOATS, Scalar
+from icsolve.numbers.record import Record
+from icsolve.screws.joints import guide_direction, joint_freedoms, transmitted
+from icsolve.screws.plane import Point
+from icsolve.structure.topology import Bond, Topology
+from icsolve.sweep import rolling
+from icsolve.sweep.constraints import Constraint, Immovable, Line, OnLine, Turning
+from icsolve.sweep.poses import Shape, Spot, dot, minus, square
+from icsolve.sweep.rolling import ROUNDED, Side
+
+
+class Mechanism(NamedTuple):
+    """The links and their conditions.
+
+    ``spots`` has the points that each body carries, ``owners`` the spot that a point's name stands
+    for, ``lines`` the guide of each slide and slot (by the joint's place in the case) as its body
+    carries it, ``contacts`` the rolling contacts by their point.
+    """
+
+    case: Case
+    top: Topology
+    frame: Frame
+    shape: Shape
+    spots: dict[int, list[Spot]]
+    owners: dict[str, Spot]
+    constraints: list[Constraint]
+    lines: dict[int, Line]
+    contacts: dict[str, rolling.Contact]
+
+
+def mechanism(case: Case, top: Topology, frame: Frame, record: Record, ref: Mapping[str, Point]) -> Mechanism:
+    """The mechanism of a case whose points are at ``ref`` (normalised) as written."""
+    places = dict(ref)
+    spots = _spots(case, top, places)
+    joined = _joined(case, top)
+    shape = Shape(record, places, joined, _spans(case, frame, record, places), top.ground)
+    lines = {
+        i: _line(joint.guide, joint.at, top.body_of[joint.links[1]], places, record)
+        for i, joint in enumerate(case.joints)
+        if isinstance(joint, Slide | Slot)
+    }
+    constraints: list[Constraint] = []
+    contacts: dict[str, rolling.Contact] = {}
+    for i, joint in enumerate(case.joints):
+        if isinstance(joint, Slide | Slot):
+            constraints += _guided(joint, lines[i], top, places)
+        elif isinstance(joint, Roll):
+            try:
+                found = rolling.rolling(joint, _sides(joint, case, top, frame, record), places)
+            except SceneError as refusal:
+                constraints += _immovable(joint, top, places, refusal)
+                continue
+            places.update(found.centres)
+            _carry(spots, found.constraints)
+            constraints += found.constraints
+            contacts[joint.at] = found.contact
+        elif isinstance(joint, Contact | KnownCentre):
+            constraints += _immovable(joint, top, places, _refusal(joint))
+    constraints += [_meshed(bond, top, record) for bond in top.bonds if isinstance(bond.joint, Gears | Belt)]
+    _base(spots, lines.values(), places)
+    owners = _owners(case, top, spots, contacts)
+    return Mechanism(case, top, frame, shape, spots, owners, constraints, lines, contacts)
+
+
+def _refusal(joint: Contact | KnownCentre) -> SceneError:
+    """Why a joint of which only one position is known cannot be moved."""
+    names = " and ".join(joint.links)
+    if isinstance(joint, Contact):
+        why = (
+            f"the contact of links {names} at {joint.at} cannot be moved: its profile is not known beyond "
+            "the position as written. Vary a load, or put joints in its place that describe the profile."
+        )
+    else:
+        why = (
+            f"the given centre of links {names} cannot be moved: it holds in the position as written only. "
+            "Put the joints between the two links in its place."
+        )
+    return SceneError(Status.UNSUPPORTED, why)
+
+
+def _immovable(
+    joint: Joint, top: Topology, ref: Mapping[str, Point], refusal: SceneError
+) -> Iterator[Immovable]:
+    """What such a joint transmits in the position as written."""
+    ends = (top.body_of[joint.links[0]], top.body_of[joint.links[1]])
+    if ends[0] != ends[1]:
+        still = {name: (float(x), float(y)) for name, (x, y) in ref.items()}
+        for wrench in transmitted(joint_freedoms(joint, still, FLOATS)):
+            yield Immovable(ends, wrench, refusal)
+
+
+def _spots(case: Case, top: Topology, ref: Mapping[str, Point]) -> dict[int, list[Spot]]:
+    """The points of each body, in order of mention; points that no link carries go to one by inference."""
+    found: dict[int, dict[Spot, None]] = {body: {} for body in range(len(top.members))}
+    for link in case.links:
+        for name in case.carries.get(link, ()):
+            if name in ref:
+                found[top.body_of[link]][top.body_of[link], name] = None
+    carried = {name for spots in found.values() for _, name in spots}
+    for name in ref:
+        if name not in carried:
+            body = _inferred(case, name, found, top)
+            if body is not None:
+                found[body][body, name] = None
+    return {body: list(spots) for body, spots in found.items()}
+
+
+def _inferred(case: Case, name: str, spots: Mapping[int, Iterable[Spot]], top: Topology) -> int | None:
+    """The body that a point belongs to which no link is said to carry: the one that takes the opposite of a
+    force toward it, or that carries all the points to which its data tie it; the frame where nothing
+    does (None: a centroid, or torn)."""
+    if isinstance(case.points.get(name), Centroid) or any(
+        isinstance(joint, Roll) and joint.at == name for joint in case.joints
+    ):
+        return None
+    for load in case.loads:
+        heading, against = getattr(load, "heading", None), getattr(load, "against", None)
+        if isinstance(heading, Toward) and heading.point == name and against is not None:
+            return top.body_of[against]
+    tied: set[str] = set()
+    for datum in (*case.lengths, *case.angles):
+        names = {getattr(datum, key) for key in ("a", "at", "b") if hasattr(datum, key)}
+        if name in names:
+            tied |= names - {name}
+    if name in case.points or not tied:
+        return top.ground
+    bodies = [body for body, carried in spots.items() if tied <= {own for _, own in carried}]
+    return bodies[0] if bodies else None
+
+
+def _joined(case: Case, top: Topology) -> dict[Spot, Spot]:
+    """For each pinned spot the one that stands for its pin; the frame's where it has one."""
+    groups: list[tuple[str, set[int]]] = []
+    for joint in case.joints:
+        if isinstance(joint, Pin):
+            bodies = {top.body_of[link] for link in joint.links}
+            for group in [g for g in groups if g[0] == joint.at and g[1] & bodies]:
+                groups.remove(group)
+                bodies |= group[1]
+            groups.append((joint.at, bodies))
+    joined: dict[Spot, Spot] = {}
+    for name, bodies in groups:
+        first = top.ground if top.ground in bodies else min(bodies)
+        joined.update({(body, name): (first, name) for body in bodies})
+    return joined
+
+
+def _spans(
+    case: Case, frame: Frame, record: Record, ref: Mapping[str, Point]
+) -> dict[frozenset[str], Scalar]:
+    """The lengths that the case gives, where the figure has them to rounding."""
+    spans: dict[frozenset[str], Scalar] = {}
+    for length in case.lengths:
+        if length.a in ref and length.b in ref:
+            x, y = minus(ref[length.b], ref[length.a])
+            value = record.given(length.value) * frame.scale
+            if abs(abs(complex(float(x), float(y))) - float(value)) <= ROUNDED:
+                spans[frozenset((length.a, length.b))] = value
+    return spans
+
+
+def _line(guide: Guide, at: str, body: int, ref: Mapping[str, Point], record: Record) -> Line:
+    """The guide's line: through its own point, or through the joint's where that misses it."""
+    along = guide_direction(guide, ref, record)
+    name = guide.through or (guide.ends[0] if guide.ends else at)
+    off = dot(square(along), minus(ref[at], ref[name]))
+    return Line(body, ref[name] if abs(float(off)) <= ROUNDED else ref[at], along)
+
+
+def _guided(joint: Slide | Slot, line: Line, top: Topology, ref: Mapping[str, Point]) -> list[Constraint]:
+    body = top.body_of[joint.links[0]]
+    if body == line.body:
+        return []
+    on: list[Constraint] = [OnLine((body, joint.at), line)]
+    if isinstance(joint, Slide):
+        on.append(Turning(((body, 1.0), (line.body, -1.0))))
+    return on
+
+
+def _sides(joint: Roll, case: Case, top: Topology, frame: Frame, record: Record) -> tuple[Side, Side]:
+    pins = frozenset(pin.at for pin in case.joints if isinstance(pin, Pin))
+    sides = []
+    for k, link in enumerate(joint.links):
+        body = top.body_of[link]
+        points = tuple(dict.fromkeys(p for name in top.members[body] for p in case.carries.get(name, ())))
+        radius = record.given(joint.radii[k]) * frame.scale if joint.radii else 0.0
+        sides.append(Side(link, body, radius, points, pins))
+    return sides[0], sides[1]
+
+
+def _carry(spots: dict[int, list[Spot]], constraints: Iterable[Constraint]) -> None:
+    """The centres of rolling links become spots of theirs."""
+    for c in constraints:
+        for spot in (getattr(c, key, None) for key in ("centre", "one", "two")):
+            if spot is not None and spot not in spots[spot[0]]:
+                spots[spot[0]].append(spot)
+
+
+def _meshed(bond: Bond, top: Topology, record: Record) -> Turning:
+    """Two gears or pulleys seen from their carrier: ``n_a (w_a - w_c) = -+ n_b (w_b - w_c)``."""
+    joint = bond.joint
+    assert isinstance(joint, Gears | Belt)
+    pair = joint.teeth if isinstance(joint, Gears) else joint.radii
+    a, b = (record.given(n) for n in pair)
+    a, b = (-n if float(n) < 0.0 else n for n in (a, b))
+    inside = pair[0].value * pair[1].value < 0.0 if isinstance(joint, Gears) else not joint.crossed
+    b = -b if inside else b
+    return Turning(((bond.a, a), (bond.b, b), (_carrier(bond, top), -(a + b))))
+
+
+def _carrier(bond: Bond, top: Topology) -> int:
+    """The body that carries both pivots."""
+    around: list[set[int]] = []
+    for pivot in bond.pivots:
+        pins = (other for other in top.bonds if isinstance(other.joint, Pin) and other.joint.at == pivot)
+        around.append({body for pin in pins for body in (pin.a, pin.b)})
+    carriers = around[0] & around[1] - {bond.a, bond.b}
+    joint = bond.joint
+    named = getattr(joint, "carrier", None)
+    return top.body_of[named] if named else min(carriers)
+
+
+def _base(spots: dict[int, list[Spot]], lines: Iterable[Line], ref: dict[str, Point]) -> None:
+    """A body that carries no point has one of its own: on a guide of its, else at the origin."""
+    for line in lines:
+        if not spots[line.body]:
+            _add_base(spots, line.body, line.through, ref)
+    for body, own in spots.items():
+        if not own:
+            _add_base(spots, body, (0.0, 0.0), ref)
+
+
+def _add_base(spots: dict[int, list[Spot]], body: int, at: Point, ref: dict[str, Point]) -> None:
+    name = f"@base {body}"
+    ref[name] = at
+    spots[body].append((body, name))
+
+
+def _owners(
+    case: Case, top: Topology, spots: Mapping[int, list[Spot]], contacts: Mapping[str, rolling.Contact]
+) -> dict[str, Spot]:
+    """The spot that a name stands for: a pin's, the first link's of a slide or slot, a carrier's."""
+    owners: dict[str, Spot] = {}
+    for joint in case.joints:
+        if isinstance(joint, Pin):
+            owners.setdefault(joint.at, (top.body_of[joint.links[0]], joint.at))
+    for joint in case.joints:
+        if isinstance(joint, Slide | Slot):
+            owners.setdefault(joint.at, (top.body_of[joint.links[0]], joint.at))
+    for carried in spots.values():
+        for spot in carried:
+            if spot[1] not in contacts:
+                owners.setdefault(spot[1], spot)
+    return owners

@@ -1,0 +1,252 @@
+"""A mechanism in motion on a record: the closings run in order, each place an expression of the drivers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import NamedTuple
+
+from icsolve.assembly.board import Board
+from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.record import Traced, varies
+from icsolve.screws.plane import Point
+from icsolve.sweep.closing import TOUCHING, Closing, Hang, Hold, Meet, Newton, Order, Swing, Turn
+from icsolve.sweep.constraints import (
+    RADIAN,
+    Constraint,
+    Immovable,
+    Pointed,
+    RolledRound,
+    RolledStraight,
+    Rows,
+    Turning,
+)
+from icsolve.sweep.loci import locus, reference
+from icsolve.sweep.mechanism import Mechanism
+from icsolve.sweep.meeting import Locus, meet, side, sine, swung
+from icsolve.sweep.poses import Moved, Rotation, Spot, dot, minus, scaled, square
+from icsolve.sweep.smallest import smallest
+from icsolve.sweep.together import Together, settled
+
+
+class Motion(NamedTuple):
+    """A mechanism whose places are expressions on a record.
+
+    ``branches`` has for each root of the record the name by which its sign is set, ``written`` that
+    sign in the position as written.
+    """
+
+    mechanism: Mechanism
+    moved: Moved
+    steps: tuple[Closing, ...]
+    branches: dict[int, str]
+    written: dict[str, float]
+    groups: tuple[Together, ...]
+    checks: tuple[int, ...]
+    """what the conditions leave that were not needed: it is to vanish"""
+
+
+def order_of(mechanism: Mechanism, drivers: list[Constraint]) -> Order:
+    """The order in which the mechanism closes.
+
+    Raises SceneError where a joint cannot be moved, links stay loose, or the position as written is singular.
+    """
+    constraints = [*drivers, *mechanism.constraints]
+    for constraint in constraints:
+        if isinstance(constraint, Immovable):
+            raise constraint.refusal
+    order = Order(mechanism.shape, mechanism.spots, constraints, mechanism.case.near)
+    while True:
+        while order.advance():
+            pass
+        left = tuple(body for body in mechanism.spots if body not in order.full)
+        if not left:
+            return order
+        order.take(smallest(mechanism, order, left))
+
+
+def set_moving(mechanism: Mechanism, order: Order, signs: Mapping[str, Scalar]) -> Motion:
+    """Run the closings; ``signs`` has those of branches that change on the way, by name."""
+    run = _Run(mechanism, signs)
+    for step in order.steps:
+        run.take(step)
+    return Motion(
+        mechanism,
+        run.moved,
+        tuple(order.steps),
+        run.branches,
+        run.written,
+        tuple(run.groups),
+        tuple(run.checked(c for c in order.constraints if id(c) not in order.used)),
+    )
+
+
+class _Run:
+    """The closings on a record."""
+
+    def __init__(self, mechanism: Mechanism, signs: Mapping[str, Scalar]) -> None:
+        self.mechanism, self.shape, self.signs = mechanism, mechanism.shape, signs
+        self.record = mechanism.shape.record
+        self.moved = Moved(self.shape)
+        self.branches: dict[int, str] = {}
+        self.written: dict[str, float] = {}
+        self.groups: list[Together] = []
+        self.spare: list[Scalar] = []
+        ground = self.shape.ground
+        self._locate((ground, name) for _, name in mechanism.spots[ground])
+
+    def _locate(self, spots: Iterable[Spot]) -> None:
+        """Spots on one pin with a body that is placed are where that has them."""
+        for spot in spots:
+            self.moved.located.setdefault(self.shape.one(spot), self.moved.place(spot))
+
+    def take(self, step: Closing) -> None:
+        """Run one closing."""
+        match step:
+            case Turn(body, by):
+                self.moved.rotations[body] = self._rotation(body, by)
+            case Hang(body, spot):
+                self._placed(body, spot, (spot,))
+            case Hold(body, (p, q)):
+                z = minus(self.moved.place(q), self.moved.place(p))
+                self.moved.rotations[body] = Rotation(z, self.shape.between(p, q))
+                self._placed(body, p, (p, q))
+            case Meet():
+                self._meet(step)
+            case Swing():
+                self._swing(step)
+            case Newton():
+                self._newton(step)
+
+    def _placed(self, body: int, base: Spot, used: tuple[Spot, ...]) -> None:
+        """A body is placed by spots; its other pins are, too, or have to agree with where they are."""
+        moved, shape = self.moved, self.shape
+        moved.bases[body] = base
+        for spot in self.mechanism.spots[body]:
+            if spot not in shape.joined:
+                continue
+            known = moved.located.get(shape.one(spot))
+            if known is None:
+                self._locate((spot,))
+            elif spot not in used:
+                self.spare += minus(moved.point(body, shape.ref[spot[1]]), known)
+
+    def checked(self, left: Iterable[Constraint]) -> Iterator[int]:
+        """Nodes that vanish where the conditions that were not needed are met."""
+        board = Board(self.mechanism.case, self.mechanism.frame, self.record)
+        rows = Rows(self.shape, self.moved, {}, board)
+        for value in (*self.spare, *(rows.of(c).value for c in left)):
+            if isinstance(value, Traced) and value.row:
+                yield value.index
+
+    # --- rotations --------------------------------------------------------------------------------
+
+    def _rotation(self, body: int, by: Turning | Pointed | RolledStraight | RolledRound) -> Rotation:
+        match by:
+            case Pointed():
+                return by.rotation
+            case Turning():
+                return self._from_others(body, by)
+            case RolledStraight():
+                return self._turned(self._on_flank(body, by))
+        return self._turned(self._on_round(body, by))
+
+    def _turned(self, degrees: Scalar) -> Rotation:
+        return Rotation(self.record.turned(degrees), (1.0, 0.0), degrees)
+
+    def _from_others(self, body: int, by: Turning) -> Rotation:
+        if by.alike:
+            (other,) = by.bodies - {body}
+            return self.moved.rotations[other]._replace(arm=None)
+        total, own = by.degrees, 1.0
+        for other, factor in by.terms:
+            if other == body:
+                own = factor
+            else:
+                total = total - factor * self.moved.degrees(other)
+        return self._turned(total / own)
+
+    def _on_flank(self, body: int, by: RolledStraight) -> Scalar:
+        """The centre's way along the flank is the turning times the radius, backwards."""
+        line, moved = by.line, self.moved
+        along = moved.vector(line.body, line.along)
+        through = moved.point(line.body, line.through)
+        way = dot(along, minus(moved.place(by.centre), through))
+        turned = -way / by.radius / RADIAN
+        if body == line.body:
+            return moved.degrees(by.centre[0]) - turned
+        return moved.degrees(line.body) + turned
+
+    def _on_round(self, body: int, by: RolledRound) -> Scalar:
+        """r a + q b = (r + q) c with c the turning of the line of centres."""
+        (one, two), (r, q) = (by.one, by.two), by.radii
+        e, written = minus(self.moved.place(two), self.moved.place(one)), self.shape.between(one, two)
+        centres = (r + q) * self.record.turns(dot(written, e), dot(square(written), e))
+        if body == one[0]:
+            return (centres - q * self.moved.degrees(two[0])) / r
+        return (centres - r * self.moved.degrees(one[0])) / q
+
+    # --- closed forms -----------------------------------------------------------------------------
+
+    def _meet(self, step: Meet) -> None:
+        one, two = (locus(self.shape, self.moved, by) for by in step.loci)
+        first, second = (reference(self.shape, by, step.spot) for by in step.loci)
+        written = side(first, second, self._written(step.spot[1], first, second))
+        name = f"branch {step.spot[0]} {step.spot[1]}"
+        place = meet(self.record, one, two, self.signs.get(name, written))
+        self._branch(name, written)
+        self.moved.located[self.shape.one(step.spot)] = place
+
+    def _written(self, name: str, first: Locus, second: Locus) -> Point:
+        """Where a spot is as written; where its loci only touch there, where `near` would have it."""
+        x, y = self.shape.ref[name]
+        at = (float(x), float(y))
+        near = self.mechanism.case.near.get(name)
+        if near is None or sine(first, second, at) > TOUCHING:
+            return at
+        ox, oy, scale = self.mechanism.frame
+        return ((near[0] - ox) * scale, (near[1] - oy) * scale)
+
+    def _swing(self, step: Swing) -> None:
+        line, c, moved = step.by.line, step.by, self.moved
+        name = f"swing {step.bodies[0]} {c.spot[1]}"
+        e = minus(moved.place(step.aim), moved.place(step.pivot))
+        normal = square(line.along)
+        h = c.offset + dot(normal, minus(line.through, self.shape.ref[step.pivot[1]]))
+        if len(step.bodies) > 1:
+            h = h - dot(normal, minus(self.shape.ref[c.spot[1]], self.shape.ref[step.aim[1]]))
+        written = minus(self.shape.ref[step.aim[1]], self.shape.ref[step.pivot[1]])
+        sign = 1.0 if float(dot(line.along, written)) >= 0.0 else -1.0
+        rotation = Rotation(self._swung(e, line.along, h, self.signs.get(name, sign)))
+        self._branch(name, sign)
+        for body in step.bodies:
+            moved.rotations[body] = rotation
+
+    def _swung(self, e: Point, along: Point, h: Scalar, sign: Scalar) -> Point:
+        """The rotation of a swing; a line that passes its pivot by rounding only passes through it."""
+        if varies(h) or abs(float(h)) > FLUSH:
+            return swung(self.record, e, along, h, sign)
+        z = swung(self.record, e, along, 0.0, sign)
+        if isinstance(h, float) and h == 0.0:
+            return z
+        return scaled(self.record.about(1.0, FLUSH), z)
+
+    def _branch(self, name: str, written: float) -> None:
+        """The roots that were new belong to the branch of this name."""
+        self.written[name] = written
+        for node in self.record.roots:
+            self.branches.setdefault(node, name)
+
+    def _newton(self, step: Newton) -> None:
+        group = settled(self.mechanism, self.moved, step, len(self.groups))
+        self.groups.append(group)
+        for body, rotation in group.rotations.items():
+            self.moved.rotations[body] = rotation
+            base = group.bases[body]
+            self.moved.bases[body] = base
+            self.moved.located.setdefault(self.shape.one(base), group.places[body])
+        for body in step.bodies:
+            self._placed(body, group.bases[body], tuple(self.mechanism.spots[body]))
+
+
+FLUSH = 1e-15
+"""A line that passes its pivot by less than this passes through it (rounding; normalised)."""

@@ -1,0 +1,169 @@
+"""Which rows of a sweep are run together, and along which way their inputs are followed.
+
+Most rows can be run at once: no branch comes near a change point on the way to them. The others are
+followed from the position as written, the main input last.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from icsolve.numbers.replay import BLOCK, Array, Code
+from icsolve.sweep.ask import Columns
+from icsolve.sweep.branches import Followed, follow, live_roots, signs_of
+from icsolve.sweep.numbers import numbers_of
+from icsolve.sweep.program import Sheet, Signs
+from icsolve.sweep.runner import STEEP, Found, Progress, Rows, Runner
+from icsolve.sweep.start import Start
+from icsolve.sweep.track import Mask
+from icsolve.sweep.way import State, Way, written_state
+
+FEW = 64
+"""So few rows are always followed from the position as written."""
+WIDEST = 4.0
+"""Longest step of a way along an angle, degrees."""
+PART = 2.0**-7
+"""Longest step of a way along a length, as a part of the figure's size."""
+GLANCES = 96
+"""Places on the straight way to a row at which its branches are glanced at."""
+
+
+class Part(NamedTuple):
+    """Rows that are run together; ``places`` on the way along which they are followed, if they are."""
+
+    runner: Runner
+    rows: Rows
+    followed: Followed | None = None
+    places: Array = np.empty(0)
+    found: Found | None = None
+    """what was found already"""
+    ordered: bool = False
+    """whether these are all rows in their order"""
+
+    def some(self, which: Rows) -> Part:
+        """Some of its rows, by their place among them."""
+        return self._replace(
+            rows=self.rows[which],
+            places=self.places[which] if self.followed else self.places,
+            found=None,
+            ordered=False,
+        )
+
+
+class Parts:
+    """The rows of a sweep in parts."""
+
+    def __init__(self, start: Start, columns: Columns, progress: Progress | None = None) -> None:
+        self.start, self.columns, self.progress = start, columns, progress
+        self.arrays = columns.arrays
+
+    def given(self, part: Part) -> tuple[dict[int, Array], Mask]:
+        """The inputs of a part's rows, and which of the rows are reached."""
+        inputs = part.runner.sheet.inputs
+        given = {inputs[name]: a[part.rows] for name, a in self.arrays.items() if name in inputs}
+        if part.followed is None:
+            return given, np.ones(len(part.rows), dtype=bool)
+        along, good = part.followed.track.given(part.places)
+        return {**along, **given}, good
+
+    def all(self) -> Iterator[Part]:
+        """Every row in some part."""
+        runner = self.start.runner()
+        sheet, rows = runner.sheet, np.arange(self.columns.rows)
+        bearing = [name for name in runner.bearing if name in self.arrays]
+        if not bearing:
+            yield Part(runner, rows)
+            return
+        moving = (*self.start.links, *self.start.setting.drive.moving)
+        main = next(name for name in (*moving, *bearing) if name in bearing)
+        others = [name for name in bearing if name != main]
+        at_once, left = (None, rows) if runner.sequential else self._at_once(runner, rows, main, others)
+        if at_once is not None:
+            yield at_once
+        for alike in self._alike(left, others):
+            yield self._followed(sheet, main, others, alike)
+
+    # --- at once ----------------------------------------------------------------------------------
+
+    def _at_once(
+        self, runner: Runner, rows: Rows, main: str, others: list[str]
+    ) -> tuple[Part | None, Rows]:
+        """What can be run at once, and the rows that are left."""
+        if others:
+            clear = self._clear(runner.sheet, [main, *others])
+            return (Part(runner, rows[clear]) if clear.any() else None), rows[~clear]
+        at = self.arrays[main]
+        order = rows if bool(np.all(at[1:] >= at[:-1])) else np.argsort(at, kind="stable")
+        if len(at) < FEW or not at[order[0]] <= self._written(main) <= at[order[-1]]:
+            return None, rows
+        inputs = runner.sheet.inputs
+        given = {inputs[name]: a if order is rows else a[order] for name, a in self.arrays.items()}
+        found = runner.run(given, len(at), self.progress)
+        if found.touching:
+            return None, rows
+        return Part(runner, order, found=found, ordered=order is rows), rows[:0]
+
+    def _clear(self, sheet: Sheet, names: list[str]) -> Mask:
+        """Rows on whose straight way from the position as written no branch comes near a change point."""
+        code = Code(sheet.record, [root.radicand for root in live_roots(sheet)])
+        clear = np.ones(self.columns.rows, dtype=bool)
+        step = max(1, 4 * BLOCK // GLANCES)
+        share = np.linspace(0.0, 1.0, GLANCES)
+        for start in range(0, self.columns.rows, step):
+            rows = slice(start, min(start + step, self.columns.rows))
+            count = rows.stop - rows.start
+            given = {}
+            for name in names:
+                written, to = self._written(name), self.arrays[name][rows]
+                given[sheet.inputs[name]] = (written + (to[:, None] - written) * share).ravel()
+            for found in code.run(given, count * GLANCES):
+                radicand = np.broadcast_to(found, count * GLANCES).reshape(count, GLANCES)
+                steps = np.abs(np.diff(radicand, axis=1)).max(axis=1)
+                clear[rows] &= radicand.min(axis=1) > STEEP * steps
+        return clear
+
+    # --- followed ---------------------------------------------------------------------------------
+
+    def _alike(self, rows: Rows, others: list[str]) -> Iterator[Rows]:
+        """Rows that differ in the main input only."""
+        if not others or not len(rows):
+            if len(rows):
+                yield rows
+            return
+        table = np.stack([self.arrays[name][rows] for name in others], axis=1)
+        which = np.unique(table, axis=0, return_inverse=True)[1].ravel()
+        order = np.argsort(which, kind="stable")
+        yield from (rows[part] for part in np.split(order, np.flatnonzero(np.diff(which[order])) + 1))
+
+    def _written(self, name: str) -> float:
+        """An input's value as written; a link turned from there starts at zero."""
+        return 0.0 if name in self.start.links else numbers_of(self.start.case)[name].value
+
+    def _is_angle(self, name: str) -> bool:
+        return name in self.start.links or name.startswith("angles.")
+
+    def _followed(self, sheet: Sheet, main: str, others: list[str], rows: Rows) -> Part:
+        """Rows on one way: first the other inputs go to their values, then the main one."""
+        state = written_state(sheet)
+        here = {name: float(self.arrays[name][rows[0]]) for name in others}
+        base = {name: self._written(name) for name in sheet.inputs if name in self.arrays}
+        slope = {name: here[name] - base[name] for name in others}
+        if any(slope.values()):
+            first = follow(self.start.sheet, sheet, Way(base, slope, 0.0, 2.0**-6), state, np.array([1.0]))
+            state = first.track.end(1.0)
+        places, angle = self.arrays[main][rows], self._is_angle(main)
+        widest = WIDEST if angle else PART / self.start.setting.figure.frame.scale
+        others_here = {**base, **here, main: 0.0}
+        way = Way(others_here, {main: 1.0}, self._written(main), widest, 360.0 if angle else None)
+        followed = follow(self.start.sheet, self.start.sheet(_changed(sheet, state)), way, state, places)
+        return Part(self.start.runner(signs_of(followed.sheet)), rows, followed, places)
+
+
+def _changed(sheet: Sheet, state: State) -> Signs:
+    """The branches whose sign is no longer as written."""
+    assert sheet.motion is not None
+    written = sheet.motion.written
+    return tuple(sorted((n, written[n]) for n, sign in state.signs.items() if sign != written[n]))

@@ -1,0 +1,203 @@
+"""Where the links are: each by a place of one of its points and a rotation since the position as written.
+
+A link's shape is that of the position as written. What it carries (points, lines, directions) moves with
+it: as complex numbers, place = base + z (ref - ref base) / z_ref with z a vector that the link carries
+and z_ref the same vector in the position as written.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import NamedTuple, Protocol
+
+from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.record import Record
+from icsolve.screws.plane import Point
+
+Spot = tuple[int, str]
+"""A point as a body carries it: the body and the point's name."""
+
+
+class Shape:
+    """The bodies as written: places of their points (normalised), and which points pins make one.
+
+    ``ref`` has the places; ``joined`` the spot that stands for all spots on one pin; ``spans`` the
+    distances that the case gives, by the pair of names.
+    """
+
+    def __init__(
+        self,
+        record: Record,
+        ref: Mapping[str, Point],
+        joined: Mapping[Spot, Spot],
+        spans: Mapping[frozenset[str], Scalar],
+        ground: int,
+    ) -> None:
+        self.record, self.ref, self.joined, self.spans, self.ground = record, ref, joined, spans, ground
+
+    def one(self, spot: Spot) -> Spot:
+        """The spot that stands for all on its pin."""
+        return self.joined.get(spot, spot)
+
+    def between(self, p: Spot, q: Spot) -> Point:
+        """Vector from p to q as written."""
+        (px, py), (qx, qy) = self.ref[p[1]], self.ref[q[1]]
+        return (qx - px, qy - py)
+
+    def span(self, p: Spot, q: Spot) -> Scalar:
+        """Distance of two points of a body: as the case gives it, else from their places."""
+        given = self.spans.get(frozenset((p[1], q[1])))
+        if given is not None:
+            return given
+        x, y = self.between(p, q)
+        return self.record.sqrt(x * x + y * y)
+
+    def apart(self, p: Spot, q: Spot) -> float:
+        """The distance in the position as written, to choose by."""
+        x, y = self.between(p, q)
+        return float(abs(complex(float(x), float(y))))
+
+
+class Rotation(NamedTuple):
+    """A vector ``z`` that a body carries, ``ref`` the same vector as written; ``degrees`` since then.
+
+    ``arm`` are two spots with their distance where ``z`` is the unit vector from the one to the other.
+    """
+
+    z: Point
+    ref: Point = (1.0, 0.0)
+    degrees: Scalar | None = None
+    arm: tuple[Spot, Spot, Scalar] | None = None
+
+
+class Places(Protocol):
+    """What a place, a vector, an angle can be asked of: the bodies moved, or still as written."""
+
+    def place(self, spot: Spot) -> Point:
+        """Where a body's point is."""
+
+    def point(self, body: int, at: Point) -> Point:
+        """Where a place of a body is that was at ``at`` as written."""
+
+    def vector(self, body: int, v: Point) -> Point:
+        """A vector that a body carries."""
+
+    def degrees(self, body: int) -> Scalar:
+        """By how much a body has turned."""
+
+
+class Still:
+    """The bodies in the position as written."""
+
+    def __init__(self, shape: Shape) -> None:
+        self.shape = shape
+
+    def place(self, spot: Spot) -> Point:
+        """Where a body's point is."""
+        x, y = self.shape.ref[spot[1]]
+        return (float(x), float(y))
+
+    def point(self, body: int, at: Point) -> Point:
+        """Where a place of a body is that was at ``at`` as written."""
+        return (float(at[0]), float(at[1]))
+
+    def vector(self, body: int, v: Point) -> Point:
+        """A vector that a body carries."""
+        return (float(v[0]), float(v[1]))
+
+    def degrees(self, body: int) -> Scalar:
+        """By how much a body has turned."""
+        return 0.0
+
+
+class Moved:
+    """The bodies in motion, as far as they are known; numbers are those of a record."""
+
+    def __init__(self, shape: Shape) -> None:
+        self.shape = shape
+        self.located: dict[Spot, Point] = {}
+        self.rotations: dict[int, Rotation] = {shape.ground: Rotation((1.0, 0.0), (1.0, 0.0), 0.0)}
+        self.bases: dict[int, Spot] = {}
+
+    def place(self, spot: Spot) -> Point:
+        """Where a body's point is."""
+        found = self.located.get(self.shape.one(spot))
+        if found is not None:
+            return found
+        body, name = spot
+        if body == self.shape.ground:
+            return self.shape.ref[name]
+        base, rotation = self.bases[body], self.rotations[body]
+        x, y = self._arm(rotation, base, spot) or self.vector(body, self.shape.between(base, spot))
+        bx, by = self.place(base)
+        return (bx + x, by + y)
+
+    def _arm(self, rotation: Rotation, base: Spot, spot: Spot) -> Point | None:
+        if rotation.arm is None:
+            return None
+        p, q, length = rotation.arm
+        (x, y), one = rotation.z, self.shape.one
+        if (one(base), one(spot)) == (one(p), one(q)):
+            return (x * length, y * length)
+        return (-x * length, -y * length) if (one(base), one(spot)) == (one(q), one(p)) else None
+
+    def point(self, body: int, at: Point) -> Point:
+        """Where a place of a body is that was at ``at`` as written."""
+        if body == self.shape.ground:
+            return at
+        base = self.bases[body]
+        return plus(self.place(base), self.vector(body, minus(at, self.shape.ref[base[1]])))
+
+    def vector(self, body: int, v: Point) -> Point:
+        """A vector that a body carries."""
+        if body == self.shape.ground:
+            return v
+        rotation = self.rotations[body]
+        return product(rotation.z, quotient(v, rotation.ref))
+
+    def degrees(self, body: int) -> Scalar:
+        """By how much a body has turned."""
+        rotation = self.rotations[body]
+        if rotation.degrees is None:
+            c, s = self.vector(body, (1.0, 0.0))
+            rotation = rotation._replace(degrees=self.shape.record.turns(c, s))
+            self.rotations[body] = rotation
+        return rotation.degrees
+
+
+def product(a: Point, b: Point) -> Point:
+    """Of two complex numbers."""
+    return (a[0] * b[0] - a[1] * b[1], a[1] * b[0] + a[0] * b[1])
+
+
+def quotient(a: Point, b: Point) -> Point:
+    """Of two complex numbers."""
+    if type(b[0]) is float and type(b[1]) is float and b == (1.0, 0.0):
+        return a
+    size = b[0] * b[0] + b[1] * b[1]
+    return ((a[0] * b[0] + a[1] * b[1]) / size, (a[1] * b[0] - a[0] * b[1]) / size)
+
+
+def square(v: Point) -> Point:
+    """A vector turned by +90 degrees."""
+    return (-v[1], v[0])
+
+
+def dot(a: Point, b: Point) -> Scalar:
+    """Scalar product."""
+    return a[0] * b[0] + a[1] * b[1]
+
+
+def minus(a: Point, b: Point) -> Point:
+    """Vector from b to a."""
+    return (a[0] - b[0], a[1] - b[1])
+
+
+def plus(a: Point, b: Point) -> Point:
+    """Sum."""
+    return (a[0] + b[0], a[1] + b[1])
+
+
+def scaled(k: Scalar, v: Point) -> Point:
+    """A multiple."""
+    return (k * v[0], k * v[1])

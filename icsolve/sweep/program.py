@@ -1,0 +1,235 @@
+"""The program of a sweep: a case and what is varied become one record, made once for any number of rows.
+
+First the position as written, then the drivers and the closings of the links, then statics, rates and
+centres: each with the kernels that one scene has.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from icsolve.assembly import Figure, place, solve_figure
+from icsolve.assembly.data import names_of, number_of
+from icsolve.assembly.meshing import refuse_misfit
+from icsolve.case import Case, Pair
+from icsolve.errors import SceneError, Status
+from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.record import Record, varies
+from icsolve.screws.plane import Point
+from icsolve.solve import refusals
+from icsolve.structure.topology import Topology, topology
+from icsolve.sweep.constraints import Constraint, Turning
+from icsolve.sweep.drivers import Drive, drive_of
+from icsolve.sweep.mechanism import Mechanism, mechanism
+from icsolve.sweep.moving import Motion, order_of, set_moving
+from icsolve.sweep.numbers import find_number, numbers_of
+from icsolve.sweep.posing import condition, pose_of, turning
+from icsolve.sweep.reshaping import turns_a_wheel
+from icsolve.sweep.scene import Scene, centre, moved_scene, rates, statics
+from icsolve.wording.sentences import listed
+
+Signs = tuple[tuple[str, float], ...]
+"""Branches whose sign is an input, with their sign as written."""
+
+
+class Asked(NamedTuple):
+    """What is asked of every row."""
+
+    answers: bool = True
+    points: tuple[str, ...] = ()
+    centres: tuple[Pair, ...] = ()
+    rates: bool = False
+
+
+class Setting(NamedTuple):
+    """A case whose position as written is solved, and what is varied: paths of numbers, and links that
+    are turned."""
+
+    case: Case
+    top: Topology
+    figure: Figure
+    paths: tuple[str, ...]
+    links: tuple[str, ...]
+    drive: Drive
+
+    @property
+    def moves(self) -> bool:
+        """Whether the mechanism moves, rather than being another in each row."""
+        return bool(self.drive.moving or self.links)
+
+
+class Sheet(NamedTuple):
+    """The record of a sweep.
+
+    ``inputs`` are nodes by path (or link), ``outputs`` expressions by what they are: ``("answers",
+    "T12")``, ``("points", "C")``, ``("centres", "2-4")``, ``("rates", "4")``.
+    """
+
+    setting: Setting
+    record: Record
+    inputs: dict[str, int]
+    outputs: dict[tuple[str, str], tuple[Scalar, ...]]
+    motion: Motion | None
+    scene: Scene
+    refusal: SceneError | None
+    margins: tuple[int, ...] = ()
+    """of the figure as written, where it is another in each row: none may be negative"""
+    delicate: bool = False
+    """whether the mechanism moves only because its data are exact, or nearly so"""
+
+
+def setting_of(case: Case, paths: Sequence[str], links: Sequence[str]) -> Setting:
+    """Solve the position as written and find out what the varied numbers do.
+
+    Raises CaseError for a path that the case does not have, SceneError where the case as written has
+    no figure, or cannot be moved so.
+    """
+    own = tuple(find_number(case, path).path for path in paths)
+    top = topology(case)
+    refusals.refuse_loose(case, top)
+    figure = solve_figure(case, wanted_points(case))
+    refuse_misfit(case, top, figure.points, figure.frame.scale)
+    drive = Drive((), (), ())
+    if links or any(path.split(".")[0] in ("points", "lengths", "angles") for path in own):
+        drive = _drive(case, top, figure, own, links)
+    return Setting(case, top, figure, own, tuple(links), drive)
+
+
+def wanted_points(case: Case) -> list[str]:
+    """Every point that a joint, a link or a load has, and those that are given."""
+    carried = [p for points in case.carries.values() for p in points]
+    used = [p for joint in case.joints if (p := getattr(joint, "at", None)) is not None]
+    given = [name for name in names_of(case) if name in case.points]
+    loads = [getattr(getattr(load, "heading", None), "point", None) for load in case.loads]
+    return list(dict.fromkeys([*carried, *used, *given, *(p for p in loads if p)]))
+
+
+def _drive(case: Case, top: Topology, figure: Figure, paths: Sequence[str], links: Sequence[str]) -> Drive:
+    """What moves, found on a record that is thrown away."""
+    scratch = mechanism(case, top, figure.frame, Record(), figure.points)
+    poses = [path for path in paths if _poses(case, figure, scratch, path)]
+    return drive_of(scratch, poses, links)
+
+
+def _poses(case: Case, figure: Figure, scratch: Mechanism, path: str) -> bool:
+    """Whether a number of the figure places a joint, and not only points that links carry besides (but for
+    those of a wheel, which it turns); numbers that are only compared with the figure may."""
+    record = Record()
+    record.vary[path] = record.input(path, numbers_of(case)[path].value)
+    placed = place(figure, case, record).points
+    moved = {name for name, p in placed.items() if any(map(varies, p))}
+    if not moved or any(getattr(joint, "at", None) in moved for joint in case.joints):
+        return True
+    return turns_a_wheel(scratch, path, moved, numbers_of(case)[path].value)
+
+
+# --- the record -----------------------------------------------------------------------------------
+
+NUDGES = (2.0**-9, -(2.0**-9), 2.0**-14, -(2.0**-14), 2.0**-6, -(2.0**-6))
+"""Where the record is made: this far (of half a turn, of the figure's size) from the position as written,
+so that nothing in it is zero by chance."""
+
+
+def sheet_of(setting: Setting, asked: Asked, signs: Signs = ()) -> Sheet:
+    """The record of a sweep; the branches in ``signs`` have theirs as inputs."""
+    refusal: SceneError | None = None
+    for nudge in NUDGES:
+        try:
+            sheet = _sheet(setting, asked, nudge, signs)
+        except (SceneError, ZeroDivisionError) as error:
+            refusal = error if isinstance(error, SceneError) else refusal
+            continue
+        if all(sheet.record.nodes[root.radicand].value > 0.0 for root in sheet.record.roots.values()):
+            return sheet
+    raise refusal or SceneError(
+        Status.CHANGE_POINT,
+        "the position as written is a limit: the mechanism assembles there, but not beside it. Write the "
+        "case in another position.",
+    )
+
+
+def _sheet(setting: Setting, asked: Asked, nudge: float, signs: Signs) -> Sheet:
+    case, record, frame = setting.case, Record(), setting.figure.frame
+    numbers = numbers_of(case)
+    inputs: dict[str, int] = {}
+    for path in setting.paths:
+        if path not in setting.drive.moving:
+            value = numbers[path].value
+            node = record.input(path, value + (abs(value) or 1.0) * nudge)
+            record.vary[path], inputs[path] = node, node.index
+    placed = place(setting.figure, case, record)
+    ref = placed.points
+    margins = tuple(m.index for step in placed.margins.values() for m in step if varies(m))
+    names = {name: ref[name] for name in setting.figure.points}
+    if setting.moves:
+        motion = _motion(setting, record, names, nudge, inputs, signs)
+        scene = moved_scene(motion.mechanism, motion.moved)
+    else:
+        motion, scene = None, Scene(case, setting.top, frame, record, names)
+    outputs, refusal, delicate = _outputs(scene, asked)
+    return Sheet(setting, record, inputs, outputs, motion, scene, refusal, margins, delicate)
+
+
+def _motion(
+    setting: Setting,
+    record: Record,
+    ref: Mapping[str, Point],
+    nudge: float,
+    inputs: dict[str, int],
+    signs: Signs,
+) -> Motion:
+    """The mechanism driven by the inputs."""
+    case, numbers, drive = setting.case, numbers_of(setting.case), setting.drive
+    held: Mechanism = mechanism(case, setting.top, setting.figure.frame, record, ref)
+    drivers: list[Constraint] = []
+    for link in setting.links:
+        node = record.input(link, 180.0 * nudge)
+        inputs[link] = node.index
+        drivers.append(turning(held, link, node))
+    for path in drive.moving:
+        size = 180.0 if path.startswith("angles.") else 1.0 / setting.figure.frame.scale
+        node = record.input(path, numbers[path].value + size * nudge)
+        record.vary[path], inputs[path] = node, node.index
+        pose = pose_of(held, path)
+        if pose is None:
+            raise _not_together(path, setting.paths)
+        drivers.append(condition(held, pose, node))
+    for pose in drive.held:
+        drivers.append(condition(held, pose, record.given(number_of(case, pose.datum))))
+    drivers += [Turning(((body, 1.0),), 0.0) for body in drive.locked]
+    turns = {name: record.input(name, sign) for name, sign in signs}
+    inputs |= {name: node.index for name, node in turns.items()}
+    return set_moving(held, order_of(held, drivers), turns)
+
+
+def _not_together(path: str, paths: Sequence[str]) -> SceneError:
+    """A number that poses the figure as written, but not where the others have changed."""
+    others = listed(other for other in paths if other != path)
+    only = f"{path} moves the mechanism only as long as {others} stay as written"
+    return SceneError(Status.UNSUPPORTED, f"{only}: vary one at a time.")
+
+
+def _outputs(
+    scene: Scene, asked: Asked
+) -> tuple[dict[tuple[str, str], tuple[Scalar, ...]], SceneError | None, bool]:
+    """Expressions of all that is asked, in case units; a refusal of every row; whether it is delicate."""
+    ox, oy, scale = scene.frame
+    out: dict[tuple[str, str], tuple[Scalar, ...]] = {}
+    for name in asked.points:
+        if name in scene.points:
+            x, y = scene.points[name]
+            out["points", name] = (x / scale + ox, y / scale + oy)
+    if not (asked.answers or asked.rates or asked.centres):
+        return out, None, False
+    found = statics(scene, asked.rates or bool(asked.centres))
+    for name, value in found.answers.items():
+        if asked.answers:
+            out["answers", name] = (value,)
+    if asked.rates:
+        out |= {("rates", link): (rate,) for link, rate in rates(scene, found.motions).items()}
+    for pair in asked.centres:
+        triple = centre(scene, found.motions, pair)
+        if triple is not None:
+            out["centres", f"{pair[0]}-{pair[1]}"] = triple
+    return out, found.refusal, found.delicate

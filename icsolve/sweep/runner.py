@@ -1,0 +1,242 @@
+"""The rows of a sweep, block by block: the outputs as arrays, and which rows need a second look.
+
+A row is looked at again where something that is divided by, or whose root is taken, is small beside what
+it is in the other rows, or where the answer nearly vanishes. The others are what one scene would give.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from icsolve.numbers.backward import Backward
+from icsolve.numbers.noise import noise_of
+from icsolve.numbers.record import Node, Op, Root, varies
+from icsolve.numbers.replay import BLOCK, Array, Code, live
+from icsolve.sweep.branches import live_roots
+from icsolve.sweep.program import Sheet
+from icsolve.sweep.rows import RowCases
+
+SMALL = 1e-7
+"""Below this fraction of its size elsewhere a divisor or radicand makes its row doubtful."""
+CLOSE = 1e-7
+"""Below this a margin of the figure makes its row doubtful (normalised)."""
+AGREED = 1e-9
+"""Conditions that were not needed to place the links are met to this (normalised)."""
+FAINT = 1e-9
+"""Below this fraction of its size elsewhere an answer may be zero."""
+BATCH = 8
+"""So many outputs are bounded at once: each takes a few megabytes."""
+STEEP = 2.0
+"""A radicand that may vanish between rows is smaller than so many of its steps from row to row."""
+
+Key = tuple[str, str]
+Rows = npt.NDArray[np.int64]
+Progress = Callable[[int], None]
+"""Called with a number of rows that were done."""
+
+
+class Found(NamedTuple):
+    """Arrays by output; rows to look at again; whether a branch may change between rows."""
+
+    values: dict[Key, Array]
+    doubtful: Rows
+    touching: bool
+
+
+class Runner:
+    """A sheet compiled for its outputs; may run in several threads, each with its own."""
+
+    def __init__(self, sheet: Sheet) -> None:
+        self.sheet = sheet
+        record = sheet.record
+        flat = [(key, part, v) for key, values in sheet.outputs.items() for part, v in enumerate(values)]
+        self.still = [(key, part, float(v)) for key, part, v in flat if not varies(v)]
+        self.moving = [(key, part, v.index) for key, part, v in flat if varies(v)]
+        wanted = [index for _, _, index in self.moving]
+        alive = Code(record, wanted).order
+        self.roots = [record.roots[k] for k in alive if k in record.roots]
+        self.divisors = _divisors(record.nodes, alive)
+        self.faint = [n for n, (key, _, _) in enumerate(self.moving) if key[0] == "answers"]
+        self.margins = sheet.margins
+        self.checks = _living(sheet, alive)
+        watched = [*(root.radicand for root in self.roots), *self.divisors, *self.margins, *self.checks]
+        self.code = Code(record, [*wanted, *watched])
+        self.typical = np.array([abs(record.nodes[k].value) for k in self.divisors])
+        self.deep = np.array([record.nodes[root.radicand].value for root in self.roots])
+
+    @cached_property
+    def sequential(self) -> bool:
+        """Whether states have to be followed from row to row."""
+        motion = self.sheet.motion
+        return motion is not None and bool(motion.groups or self.sheet.record.counted)
+
+    @cached_property
+    def bearing(self) -> tuple[str, ...]:
+        """The inputs on which branches, groups and counted turns hang."""
+        sheet = self.sheet
+        if sheet.motion is None:
+            return ()
+        if self.sequential:
+            return tuple(sheet.inputs)
+        behind = set(live(sheet.record, [root.radicand for root in self.roots], ()))
+        return tuple(name for name, k in sheet.inputs.items() if k in behind)
+
+    @cached_property
+    def constants(self) -> list[tuple[Key, int, float]]:
+        """Bounds of the outputs that are the same in every row, by output and part."""
+        outputs, record = self.sheet.outputs, self.sheet.record
+        return [(key, part, noise_of(record, outputs[key][part])) for key, part, _ in self.still]
+
+    @cached_property
+    def answers(self) -> list[tuple[Key, int]]:
+        """The answers that vary, and their nodes."""
+        return [(key, index) for key, _, index in self.moving if key[0] == "answers"]
+
+    @cached_property
+    def bounds(self) -> Backward:
+        """Backward passes from the answers."""
+        return self.passes([index for _, index in self.answers])
+
+    def batches(self) -> Iterator[tuple[list[tuple[Key, int]], Backward]]:
+        """Outputs that vary, some at a time, by output and part, and the backward passes from them."""
+        if self.answers:
+            yield [(key, 0) for key, _ in self.answers], self.bounds
+        others = [(key, part, index) for key, part, index in self.moving if key[0] != "answers"]
+        for start in range(0, len(others), BATCH):
+            some = others[start : start + BATCH]
+            yield [(key, part) for key, part, _ in some], self.passes([index for *_, index in some])
+
+    @cached_property
+    def branches(self) -> list[Root]:
+        """The branches that bear on what is asked, those behind groups too."""
+        return live_roots(self.sheet)
+
+    @cached_property
+    def reaching(self) -> Code:
+        """The margins of the branches, each with its size."""
+        return Code(self.sheet.record, [n for r in self.branches for margin in r.margins for n in margin])
+
+    @cached_property
+    def conditions(self) -> Code:
+        """Margins of the figure as written, and what is to vanish."""
+        return Code(self.sheet.record, [*self.margins, *self.checks])
+
+    @cached_property
+    def cases(self) -> RowCases:
+        """Rows as cases of their own."""
+        return RowCases(self.sheet)
+
+    @cached_property
+    def doubts(self) -> Backward:
+        """Backward passes from the answers, then from what is divided by."""
+        return self.passes([*(index for _, index in self.answers), *self.divisors])
+
+    @cached_property
+    def places(self) -> Backward:
+        """Backward passes from the (normalised) places of all points."""
+        values = (v for p in self.sheet.scene.points.values() for v in p)
+        return self.passes(sorted({v.index for v in values if varies(v)}))
+
+    def passes(self, targets: Sequence[int], leaves: Sequence[int] = ()) -> Backward:
+        """Backward passes from some nodes, as far as to the leaves."""
+        sheet = self.sheet
+        groups = sheet.motion.groups if sheet.motion else ()
+        exact = [k for name, k in sheet.inputs.items() if name.startswith(("branch ", "swing "))]
+        exact += [guess.index for guess, _ in sheet.record.counted.values()]
+        exact += [k for group in groups for k in (*group.guesses, *group.solved)]
+        return Backward(sheet.record, targets, groups, exact, leaves)
+
+    def blank(self, rows: int) -> dict[Key, Array]:
+        """Arrays for the outputs."""
+        return {
+            key: np.empty(rows) if len(parts) == 1 else np.empty((rows, len(parts)))
+            for key, parts in self.sheet.outputs.items()
+        }
+
+    def empty(self, rows: int) -> dict[Key, Array]:
+        """Arrays for the outputs; those that are the same in every row are filled."""
+        values = self.blank(rows)
+        for key, part, value in self.still:
+            column(values[key], part)[:] = value
+        return values
+
+    def run(self, given: Mapping[int, Array], rows: int, progress: Progress | None = None) -> Found:
+        """All rows; ``given`` has an array or one number for every input."""
+        values, doubtful, touching = self.empty(rows), [], False
+        last: list[float] = []
+        for start in range(0, rows, BLOCK):
+            stop = min(start + BLOCK, rows)
+            here = {k: v[start:stop] if v.ndim else v for k, v in given.items()}
+            found = self.code.run(here, stop - start)
+            for (key, part, _), array in zip(self.moving, found, strict=False):
+                column(values[key], part)[start:stop] = array
+            again, steep, last = self._watch(found, last)
+            touching = touching or steep
+            if again.size:
+                doubtful.append(again + start)
+            if progress is not None:
+                progress(stop - start)
+        return Found(values, np.concatenate(doubtful) if doubtful else np.empty(0, np.int64), touching)
+
+    def _watch(self, found: list[Array], last: list[float]) -> tuple[Rows, bool, list[float]]:
+        """Rows of a block to look at again; whether a radicand may vanish between its rows."""
+        ends = (len(self.moving), len(self.roots), len(self.divisors), len(self.margins), len(self.checks))
+        cuts = np.cumsum(ends)
+        radicands, divisors = found[cuts[0] : cuts[1]], found[cuts[1] : cuts[2]]
+        rows = max((array.size for array in found), default=1)
+        scratch, steep = self.code.bound(rows)[1][-1][:rows], False
+        bad: list[Rows] = []
+        with np.errstate(all="ignore"):
+            for n, radicand in enumerate(radicands):
+                high = max(float(np.maximum.reduce(radicand)), float(self.deep[n]))
+                low = self._below(radicand, SMALL * high, bad)
+                steep = steep or low <= STEEP * _step(radicand, last[n] if last else None, scratch)
+            for n, divisor in enumerate(divisors):
+                size = np.abs(divisor, scratch)
+                self._below(size, SMALL * max(float(self.typical[n]), float(np.maximum.reduce(size))), bad)
+            for margin in found[cuts[2] : cuts[3]]:
+                self._below(margin, CLOSE, bad)
+            for check in found[cuts[3] :]:
+                self._below(np.negative(np.abs(check, scratch), scratch), -AGREED, bad)
+            for n in self.faint:
+                size = np.abs(found[n], scratch)
+                self._below(size, FAINT * float(np.maximum.reduce(size)), bad)
+        again = np.unique(np.concatenate(bad)) if bad else np.empty(0, np.int64)
+        return again, steep, [float(radicand[-1]) for radicand in radicands]
+
+    def _below(self, values: Array, limit: float, bad: list[Rows]) -> float:
+        """The least value; rows that are not above a limit are noted."""
+        low = float(np.minimum.reduce(values))
+        if not low > limit:
+            bad.append(np.flatnonzero(~(values > limit)))
+        return low
+
+
+def _step(radicand: Array, before: float | None, scratch: Array) -> float:
+    """The largest step from row to row, that from the last block too."""
+    step = np.subtract(radicand[1:], radicand[:-1], scratch[1:])
+    largest = float(np.maximum.reduce(np.abs(step, step))) if len(step) else 0.0
+    return largest if before is None else max(largest, abs(float(radicand[0]) - before))
+
+
+def _living(sheet: Sheet, alive: Sequence[int]) -> list[int]:
+    """The checks of links that bear on what is asked."""
+    checks = sheet.motion.checks if sheet.motion else ()
+    known = set(alive)
+    return [k for k in checks if known.intersection(live(sheet.record, [k], ()))]
+
+
+def column(array: Array, part: int) -> Array:
+    """One part of an output's array."""
+    return array if array.ndim == 1 else array[:, part]
+
+
+def _divisors(nodes: Sequence[Node], alive: Sequence[int]) -> list[int]:
+    """What is divided by and varies."""
+    found = {nodes[k].b for k in alive if nodes[k].op == Op.DIV and nodes[nodes[k].b].row}
+    return sorted(found)

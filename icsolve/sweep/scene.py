@@ -1,0 +1,254 @@
+"""The statics of every row: plan, twists and power of one scene, with the same kernels, on the record."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+from icsolve.assembly.frame import Frame
+from icsolve.case import (
+    Belt,
+    Case,
+    Centroid,
+    Force,
+    ForceVector,
+    Gears,
+    Guide,
+    Joint,
+    Load,
+    Number,
+    Pair,
+    Slide,
+    Slope,
+    Slot,
+    Spring,
+    Weight,
+)
+from icsolve.case.names import ordered_pair
+from icsolve.errors import SceneError
+from icsolve.kinematics import motion, speeds
+from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.record import Record
+from icsolve.screws.joints import freedoms, pitch_point
+from icsolve.screws.plane import Point, Triple, subtract
+from icsolve.solve import refusals
+from icsolve.statics import power
+from icsolve.structure.plan import make_plan
+from icsolve.structure.topology import Topology, topology
+from icsolve.sweep.mechanism import Mechanism
+from icsolve.sweep.poses import Moved, Spot, product
+
+Points = dict[str, Point]
+
+
+class Scene(NamedTuple):
+    """A case whose points, guides and headings are expressions on a record (normalised)."""
+
+    case: Case
+    top: Topology
+    frame: Frame
+    record: Record
+    points: Points
+
+
+class Statics(NamedTuple):
+    """Expressions of the unknown loads by name; of twists by link, one a freedom; or why there are none."""
+
+    answers: dict[str, Scalar]
+    motions: motion.Motions
+    refusal: SceneError | None
+
+    @property
+    def delicate(self) -> bool:
+        """Whether it moves only because its data are exact, or nearly so."""
+        return bool(self.motions.redundant or self.motions.slack)
+
+
+# --- a case in motion -----------------------------------------------------------------------------
+
+
+class _Writer:
+    """Rewrites joints and loads so that what they name is told by the links that carry it."""
+
+    def __init__(self, mechanism: Mechanism, moved: Moved) -> None:
+        self.mechanism, self.moved = mechanism, moved
+        self.record, self.body_of = mechanism.shape.record, mechanism.top.body_of
+        self.points = {name: moved.place(spot) for name, spot in mechanism.owners.items()}
+        self.points |= {name: contact.place(moved) for name, contact in mechanism.contacts.items()}
+        for name, place in mechanism.case.points.items():
+            if isinstance(place, Centroid) and set(place.of) <= self.points.keys():
+                self.points.setdefault(name, _mean([self.points[p] for p in place.of]))
+
+    def on(self, spot: Spot) -> str:
+        """A name for the point as this body carries it."""
+        one, owner = self.mechanism.shape.one, self.mechanism.owners.get(spot[1])
+        if owner is not None and one(owner) == one(spot):
+            return spot[1]
+        key = f"@{spot[1]} on {self.mechanism.top.members[spot[0]][0]}"
+        self.points[key] = self.moved.place(spot)
+        return key
+
+    def joint(self, index: int, joint: Joint) -> Joint:
+        """A joint whose guide is a direction that its link carries."""
+        if not isinstance(joint, Slide | Slot):
+            return joint
+        line = self.mechanism.lines[index]
+        number = joint.guide.angle or Number(0.0, 0.0, f"joints.{index}.along", "0")
+        along = self.record.direct(number, self.moved.vector(line.body, line.along))
+        at = self.on((self.body_of[joint.links[0]], joint.at))
+        return joint._replace(at=at, guide=Guide(along, None, None))
+
+    def load(self, load: Load) -> Load:
+        """A load at points that its links carry, in a direction that holds or turns with a link."""
+        ground = self.mechanism.case.ground
+        if not isinstance(load, Force | ForceVector | Weight | Spring):
+            return load
+        load = load._replace(at=self.on((self.body_of[load.link], load.at)))
+        if isinstance(load, Weight):
+            return load
+        if isinstance(load, Spring):
+            return load._replace(to=self.on((self.body_of[load.against or ground], load.to)))
+        return self._turned(load) if load.turns_with else load
+
+    def _turned(self, load: Force | ForceVector) -> Load:
+        """A load whose direction turns with a link."""
+        record = self.record
+        z = self.moved.vector(self.body_of[load.turns_with or ""], (1.0, 0.0))
+        if isinstance(load, ForceVector):
+            x, y = product(z, (record.given(load.x), record.given(load.y)))
+            return load._replace(x=record.stand(load.x, x), y=record.stand(load.y, y))
+        if isinstance(load.heading, Slope):
+            run, rise = load.heading
+            x, y = product(z, (record.given(run), record.given(rise)))
+            return load._replace(heading=Slope(record.stand(run, x), record.stand(rise, y)))
+        assert isinstance(load.heading, Number)
+        return load._replace(heading=record.direct(load.heading, product(z, record.turn(load.heading))))
+
+
+def _mean(places: Sequence[Point]) -> Point:
+    x, y = places[0]
+    for px, py in places[1:]:
+        x, y = x + px, y + py
+    return (x / float(len(places)), y / float(len(places)))
+
+
+def moved_scene(mechanism: Mechanism, moved: Moved) -> Scene:
+    """The case with each point told by the link that carries it, and directions that links carry."""
+    write, case = _Writer(mechanism, moved), mechanism.case
+    joints = tuple(write.joint(i, joint) for i, joint in enumerate(case.joints))
+    loads = tuple(map(write.load, case.loads))
+    rewritten = replace(case, joints=joints, loads=loads)
+    return Scene(rewritten, topology(rewritten), mechanism.frame, mechanism.shape.record, write.points)
+
+
+# --- statics --------------------------------------------------------------------------------------
+
+
+def statics(scene: Scene, everything: bool) -> Statics:
+    """Unknown loads and twists of the scene on the record; with ``everything`` the twist of every link."""
+    case, top = scene.case, scene.top
+    links = {link for load in case.loads for link in (load.link, power.reacting(case, load))}
+    unknown = any(power.is_unknown(load) for load in case.loads)
+    wanted = frozenset(top.body_of[link] for link in links) if unknown and not everything else None
+    motions = _motions(scene, wanted)
+    wrenches = power.wrenches(case, scene.frame, scene.points, scene.record)
+    balance = power.balance(wrenches, motions.twists, motions.mobility)
+    solution = power.solve_balance(balance, scene.record)
+    try:
+        refusals.refuse_unbalanced(case, top, motions, balance, solution)
+    except SceneError as error:
+        return Statics({}, motions, error)
+    answers = {w.load.name: w.ratio * solution.values[w.root] for w in wrenches if w.root in solution.values}
+    return Statics(answers, motions, None)
+
+
+def _motions(scene: Scene, wanted: Collection[int] | None) -> motion.Motions:
+    top = scene.top
+    plan = make_plan(top, wanted if wanted is not None else range(len(top.members)))
+    if plan is not None and plan.closed:
+        found = motion.by_plan(plan, top, scene.points, scene.record)
+        if found is not None:
+            return found
+    return motion.by_loops(scene.case, top, scene.points, scene.record, scene.frame)
+
+
+# --- rates and centres ----------------------------------------------------------------------------
+
+
+def rates(scene: Scene, found: motion.Motions) -> dict[str, Scalar]:
+    """Angular velocity of every link in rad/s, scaled as in one scene; those left open are not there."""
+    if found.mobility > 1:
+        speed = speeds.speed_of(scene.case, found.twists, scene.frame, scene.points)
+        told = speeds.link_rates(scene.case, found.twists, speed)
+        return {link: rate for link, rate in told.items() if not isinstance(rate, str)}
+    divisor, target = _scale(scene, found.twists)
+    largest = speeds.fastest(found.twists)
+    shown = {}
+    for link in scene.case.links:
+        rate = found.twists[link][0][2]
+        shown[link] = 0.0 if abs(rate) <= speeds.STILL * largest else rate * target / divisor
+    return shown
+
+
+def _scale(scene: Scene, twists: Mapping[str, tuple[Triple, ...]]) -> tuple[Scalar, float]:
+    """What the rates are divided by, and what they are scaled to."""
+    floats = {link: tuple((float(x), float(y), float(w)) for x, y, w in ts) for link, ts in twists.items()}
+    places = {name: (float(x), float(y)) for name, (x, y) in scene.points.items()}
+    speed = speeds.speed_of(_plain(scene.case), floats, scene.frame, places)
+    (target,) = speed.particular
+    if speed.reference is not None:
+        link, point = speed.reference
+        x, y, w = twists[link][0]
+        if point is None:
+            return w, target
+        px, py = scene.points[point]
+        return _signed(scene, (y - w * py, w * px - x), speed.divisor), target
+    link = next(n for n in speeds.joint_order(scene.case) if max(map(abs, floats[n][0])) > 0.0)
+    return _signed(scene, (twists[link][0][1], -twists[link][0][0]), speed.divisor), target
+
+
+def _plain(case: Case) -> Case:
+    """A point's given direction holds as written only; in a sweep its sense goes on."""
+    return replace(case, motion=tuple(m._replace(angle=None) if m.point else m for m in case.motion))
+
+
+def _signed(scene: Scene, v: Point, divisor: float) -> Scalar:
+    size = scene.record.sqrt(v[0] * v[0] + v[1] * v[1])
+    return size if divisor > 0.0 else -size
+
+
+def centre(scene: Scene, found: motion.Motions, pair: Pair) -> Triple | None:
+    """Relative centre in case units, homogeneous; None where the pair has no one centre."""
+    own = _own(scene, pair)
+    if own is None:
+        relative = [subtract(b, a) for a, b in zip(*(found.twists[link] for link in pair), strict=True)]
+        largest = speeds.fastest(found.twists)
+        moving = [t for t in relative if max(abs(float(x)) for x in t) > speeds.STILL * largest]
+        if len(moving) != 1:
+            return None
+        (own,) = moving
+    x, y, w = own
+    ox, oy, scale = scene.frame
+    return (x / scale + ox * w, y / scale + oy * w, w)
+
+
+def _own(scene: Scene, pair: Pair) -> Triple | None:
+    """The centre of a joint between the two links."""
+    bodies = {scene.top.body_of[link] for link in pair}
+    for bond in scene.top.bonds:
+        if {bond.a, bond.b} == bodies:
+            if isinstance(bond.joint, Gears | Belt):
+                return pitch_point(bond, scene.points, scene.record)
+            basis = freedoms(bond, scene.points, scene.record)
+            if len(basis) == 1:
+                return basis[0]
+    return None
+
+
+def pairs(case: Case) -> Iterable[Pair]:
+    """All pairs of links, in the order in which they are named."""
+    links = list(case.links)
+    if all(link.isdigit() for link in links):
+        links.sort(key=int)
+    return (ordered_pair(case, a, b) for n, a in enumerate(links) for b in links[n + 1 :])

@@ -1,0 +1,130 @@
+"""The position from which a sweep starts: the case as written, or the first row that assembles."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from icsolve.assembly.group import Group
+from icsolve.assembly.loci import is_round
+from icsolve.assembly.steps import Meet
+from icsolve.case import Case
+from icsolve.errors import SceneError, Status
+from icsolve.sweep.ask import Columns
+from icsolve.sweep.numbers import with_numbers
+from icsolve.sweep.program import Asked, Setting, Sheet, Signs, setting_of, sheet_of
+from icsolve.sweep.runner import Runner
+
+MOST_TRIED = 400
+"""Rows that are tried as the position to start from."""
+ELSEWHERE = (Status.CANNOT_ASSEMBLE, Status.CHANGE_POINT)
+"""Why another row may serve where the case as written does not."""
+
+
+@lru_cache(maxsize=64)
+def setting(case: Case, paths: tuple[str, ...], links: tuple[str, ...]) -> Setting:
+    """As `program.setting_of`, once a case."""
+    return setting_of(case, paths, links)
+
+
+@lru_cache(maxsize=64)
+def runner(case: Case, paths: tuple[str, ...], links: tuple[str, ...], asked: Asked, signs: Signs) -> Runner:
+    """The compiled sheet of a sweep, once a case and what is asked."""
+    return Runner(sheet_of(setting(case, paths, links), asked, signs))
+
+
+def is_hard(setting: Setting) -> bool:
+    """Whether numbers are varied that reshape a figure whose construction holds as written only: with a
+    group that Newton's method places, or with circles that touch; or that a given motion has to fit."""
+    reshaping = [path for path in setting.paths if path not in setting.drive.moving]
+    if any(path.startswith("motion.") for path in reshaping):
+        return True
+    if not any(map(_shapes, reshaping)):
+        return False
+    return any(
+        isinstance(step, Group) or (isinstance(step, Meet) and step.sign == 0 and is_round(step.second))
+        for step in setting.figure.steps
+    )
+
+
+class Start(NamedTuple):
+    """The case whose position as written a sweep starts from, what is varied and asked; a note if it is
+    not the case as it was given."""
+
+    case: Case
+    paths: tuple[str, ...]
+    links: tuple[str, ...]
+    asked: Asked
+    note: str = ""
+    one_by_one: bool = False
+    """whether each row has to be solved as a scene of its own"""
+
+    @property
+    def setting(self) -> Setting:
+        """Its position, and what the varied numbers do."""
+        return setting(self.case, self.paths, self.links)
+
+    def runner(self, signs: Signs = ()) -> Runner:
+        """The compiled sheet; the branches in ``signs`` have theirs as inputs."""
+        return runner(self.case, self.paths, self.links, self.asked, signs)
+
+    def sheet(self, signs: Signs = ()) -> Sheet:
+        """The sheet of the runner."""
+        return self.runner(signs).sheet
+
+
+def start_of(case: Case, columns: Columns, asked: Asked) -> Start:
+    """Where a sweep starts.
+
+    Raises SceneError where the case as written cannot be moved so, or no row assembles.
+    """
+    start = Start(case, tuple(columns.paths), tuple(columns.links), asked)
+    try:
+        return _checked(start)
+    except SceneError as error:
+        if error.status not in ELSEWHERE or start.links or not start.paths:
+            raise
+        return _elsewhere(start, columns, error)
+
+
+def _checked(start: Start) -> Start:
+    """The start with the way in which its rows are run."""
+    if is_hard(start.setting):
+        return start._replace(one_by_one=True)
+    try:
+        sheet = start.sheet()
+    except SceneError:
+        if start.setting.moves:
+            raise
+        return start._replace(one_by_one=True)
+    special = (sheet.delicate or sheet.refusal is not None) and not sheet.setting.moves
+    return start._replace(one_by_one=special and any(map(_shapes, start.paths)))
+
+
+def _shapes(path: str) -> bool:
+    """Whether a number is one of the figure or of a joint."""
+    return path.split(".", maxsplit=1)[0] in ("points", "lengths", "angles", "joints")
+
+
+def _elsewhere(start: Start, columns: Columns, refusal: SceneError) -> Start:
+    """The first row, along sorted values, that assembles and from which it can go on."""
+    for values in _candidates(columns):
+        try:
+            found = _checked(start._replace(case=with_numbers(start.case, values)))
+        except SceneError:
+            continue
+        said = ", ".join(f"{columns.names[path]} = {value:.6g}" for path, value in values.items())
+        note = f"the case as written is no position to start from; the first row that is: {said}."
+        return found._replace(note=note)
+    raise refusal
+
+
+def _candidates(columns: Columns) -> Iterator[dict[str, float]]:
+    """Rows in order of their values: the first ones, then some over the whole range."""
+    order = np.lexsort(list(columns.paths.values())[::-1])
+    spread = order[:: max(1, len(order) // MOST_TRIED)]
+    for row in spread:
+        yield {path: float(a[row]) for path, a in columns.paths.items()}

@@ -1,0 +1,150 @@
+"""A sweep: many positions of one mechanism, or a family of mechanisms, with the kernels of one scene."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+
+import numpy as np
+import numpy.typing as npt
+
+from icsolve.case import Case
+from icsolve.errors import SceneError, Status
+from icsolve.numbers.replay import Array
+from icsolve.solve.refusals import rubs
+from icsolve.statics.power import is_unknown
+from icsolve.sweep.ask import Columns, Wanted, columns_of, refuse_size, shown_points, wanted_of
+from icsolve.sweep.numbers import with_numbers
+from icsolve.sweep.program import Asked
+from icsolve.sweep.runner import Progress
+from icsolve.sweep.scenes import Table, by_scenes, families
+from icsolve.sweep.second import CODE
+from icsolve.sweep.start import Start, start_of
+from icsolve.sweep.swept import Sweep
+from icsolve.sweep.work import Work
+
+BY_SCENES = "with friction each row is solved as a scene of its own."
+IN_SPACE = (
+    "a sweep moves a planar mechanism, and this case is in space: its points have three coordinates. Solve "
+    "it position by position, with --set."
+)
+
+
+def sweep(
+    case: Case,
+    vary: Mapping[str, npt.ArrayLike] | None = None,
+    want: Sequence[str] = ("answers", "status"),
+    *,
+    drive: Mapping[str, npt.ArrayLike] | None = None,
+    progress: Progress | None = None,
+) -> Sweep:
+    """Solve a case for many values of some of its numbers.
+
+    A number that only poses the figure moves the mechanism from the position as written; one that would
+    reshape a link, or a load's, gives another case in each row, as if written so.
+
+    Parameters
+    ----------
+    case : as `icsolve.load` returns it
+    vary : arrays of values by path (``angles.AB``, ``loads.P``), zipped; case units, degrees
+    want : ``answers``, ``status``, ``error``, ``points``, ``centres``, ``rates``; or single ones,
+        ``points.C``, ``centres.2-4``
+    drive : arrays of degrees by which links are turned from the position as written, by link
+    progress : called with the number of rows that were done, time and again
+
+    Raises
+    ------
+    CaseError
+        For a path that the case does not have.
+    SceneError
+        Where no row can be solved: the case as written has no figure, or cannot be moved so.
+    ValueError
+        For arrays that can't be columns, or words that can't be wanted.
+    """
+    if case.space is not None:
+        raise SceneError(Status.UNSUPPORTED, IN_SPACE)
+    columns = columns_of(case, vary, drive)
+    wanted = wanted_of(case, tuple(want) if not isinstance(want, str) else (want,))
+    refuse_size(columns, wanted.asked, wanted.error)
+    if case.profiles is not None and case.profiles.touches:
+        from icsolve.cams.sweeping import sweep_touching
+
+        return sweep_touching(case, columns, wanted, progress)
+    start = start_of(case, columns, _told(case, wanted.asked))
+    if start.one_by_one:
+        return _family(start, columns, wanted, progress)
+    if _rubs(case):
+        return _rubbing(start, columns, wanted, progress)
+    return _together(start, columns, wanted, progress)
+
+
+def _together(start: Start, columns: Columns, wanted: Wanted, progress: Progress | None) -> Sweep:
+    """All rows by one record."""
+    work = Work(start, columns, wanted.error, progress)
+    work.run()
+    tables = work.tables()
+    if not wanted.asked.rates:
+        tables = tables._replace(rates={}, errors={**tables.errors, "rates": {}})
+    return Sweep(
+        start.case,
+        _shown(columns),
+        tables.answers,
+        tables.points,
+        tables.centres,
+        tables.rates,
+        tables.errors if wanted.error else {},
+        notes=tuple(work.notes),
+        codes=work.codes,
+        _case_of=work.case_of,
+    )
+
+
+@lru_cache(maxsize=64)
+def _rubs(case: Case) -> bool:
+    return rubs(case)
+
+
+def _rubbing(start: Start, columns: Columns, wanted: Wanted, progress: Progress | None) -> Sweep:
+    """A sweep with friction: positions at once, each row then a scene of its own."""
+    placed = start._replace(asked=Asked(answers=False, points=tuple(shown_points(start.case))))
+    work = Work(placed, columns, False)
+    work.run()
+    table = Table(columns.rows, wanted.asked)
+    table.codes[:] = np.where(work.codes == CODE[Status.CHANGE_POINT], 0, work.codes)
+    by_scenes(table, np.flatnonzero(table.codes == 0).tolist(), work.case_of, progress)
+    table.codes[:] = np.where(table.codes == 0, work.codes, table.codes)
+    return table.sweep(start.case, _shown(columns), wanted.error, (*work.notes, BY_SCENES), work.case_of)
+
+
+def _family(start: Start, columns: Columns, wanted: Wanted, progress: Progress | None) -> Sweep:
+    """A family of figures without a construction for all: each solved as if written so."""
+    table, moving = Table(columns.rows, wanted.asked), start.setting.drive.moving
+    notes: dict[str, None] = dict.fromkeys([start.note] if start.note else [])
+
+    def case_of(row: int) -> Case:
+        return with_numbers(start.case, {path: float(a[row]) for path, a in columns.paths.items()})
+
+    for case, rows in families(start.case, columns, moving):
+        if not moving and not columns.links:
+            by_scenes(table, rows.tolist(), lambda _, case=case: case, progress)  # type: ignore[misc]
+            continue
+        vary = {path: columns.paths[path][rows] for path in moving}
+        drive = {link: array[rows] for link, array in columns.links.items()}
+        try:
+            part = sweep(case, vary, wanted.words, drive=drive, progress=progress)
+        except SceneError as error:
+            table.codes[rows] = CODE.get(error.status, CODE[Status.NEAR_SINGULAR])
+            continue
+        notes |= dict.fromkeys(part.notes)
+        table.take(rows, part)
+    return table.sweep(start.case, _shown(columns), wanted.error, tuple(notes), case_of)
+
+
+def _told(case: Case, asked: Asked) -> Asked:
+    """What has to be run: where no load is unknown, rates, so that the status means something."""
+    unknown = any(map(is_unknown, case.loads))
+    return asked if unknown or asked.rates or asked.centres else asked._replace(rates=True)
+
+
+def _shown(columns: Columns) -> dict[str, Array]:
+    return {columns.names[own]: array for own, array in columns.arrays.items()}

@@ -1,0 +1,183 @@
+"""A group of links that Newton's method places: its equations on a record, and their solution on rows.
+
+The equations and their derivatives are expressions of a guess; what solves them enters the record as
+inputs of their own, on which all that follows hangs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from icsolve.assembly.board import Board
+from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.record import Op, Record, Traced
+from icsolve.numbers.replay import Array, Code
+from icsolve.screws.plane import Point
+from icsolve.sweep.closing import Newton
+from icsolve.sweep.constraints import RADIAN, Row, Rows
+from icsolve.sweep.mechanism import Mechanism
+from icsolve.sweep.poses import Moved, Rotation, Spot, minus, plus, product
+from icsolve.sweep.smallest import bases_of, equations
+
+ROUNDS = 25
+CLOSE = 1e-9
+"""A step that is smaller (normalised, radians) leaves an error below rounding."""
+SOLVED = 1e-11
+"""The largest residual of a solution (normalised)."""
+
+
+class Guess:
+    """Where the bodies of a group are supposed to be; the others are where they are."""
+
+    def __init__(self, moved: Moved, bases: Mapping[int, Spot], q: Mapping[int, tuple[Scalar, ...]]) -> None:
+        self.moved, self.bases, self.q = moved, bases, q
+        self.turns = {body: moved.shape.record.turned(state[2]) for body, state in q.items()}
+
+    def place(self, spot: Spot) -> Point:
+        """Where a body's point is."""
+        body = spot[0]
+        if body not in self.q:
+            return self.moved.place(spot)
+        x, y, _ = self.q[body]
+        return plus((x, y), self.vector(body, self.moved.shape.between(self.bases[body], spot)))
+
+    def point(self, body: int, at: Point) -> Point:
+        """Where a place of a body is."""
+        if body not in self.q:
+            return self.moved.point(body, at)
+        x, y, _ = self.q[body]
+        return plus((x, y), self.vector(body, minus(at, self.moved.shape.ref[self.bases[body][1]])))
+
+    def vector(self, body: int, v: Point) -> Point:
+        """A vector that a body carries."""
+        return product(self.turns[body], v) if body in self.q else self.moved.vector(body, v)
+
+    def degrees(self, body: int) -> Scalar:
+        """By how much a body has turned."""
+        return self.q[body][2] if body in self.q else self.moved.degrees(body)
+
+
+class Together(NamedTuple):
+    """The group on the record: three numbers a body (place of its base, degrees), guessed and solved.
+
+    ``residuals`` and ``derivatives`` (a row each) are nodes or floats.
+    """
+
+    bodies: tuple[int, ...]
+    guesses: tuple[int, ...]
+    solved: tuple[int, ...]
+    residuals: tuple[Scalar, ...]
+    derivatives: tuple[tuple[Scalar, ...], ...]
+    bases: dict[int, Spot]
+    rotations: dict[int, Rotation]
+    places: dict[int, Point]
+
+
+def settled(mechanism: Mechanism, moved: Moved, step: Newton, number: int) -> Together:
+    """Write the equations of a group, and solve them in the position in which the record is made."""
+    record = mechanism.shape.record
+    bases = bases_of(mechanism, step.bodies)
+    start = [x for body in step.bodies for x in (*mechanism.shape.ref[bases[body][1]], 0.0)]
+    guessed = [record.input(f"guess {number} {k}", float(x)) for k, x in enumerate(start)]
+    q = {body: tuple(guessed[3 * n : 3 * n + 3]) for n, body in enumerate(step.bodies)}
+    board = Board(mechanism.case, mechanism.frame, record)
+    rows = list(_equations(mechanism, moved, step, Guess(moved, bases, q), board))
+    columns = [(body, part) for body in step.bodies for part in range(3)]
+    group = Together(
+        step.bodies,
+        tuple(g.index for g in guessed),
+        (),
+        tuple(row.value for row in rows),
+        tuple(tuple(row.by.get(column, 0.0) for column in columns) for row in rows),
+        bases,
+        {},
+        {},
+    )
+    values = _at_record(record, group)
+    solved = [record.input(f"state {number} {k}", float(v)) for k, v in enumerate(values)]
+    states = {body: solved[3 * n : 3 * n + 3] for n, body in enumerate(step.bodies)}
+    return group._replace(
+        solved=tuple(s.index for s in solved),
+        rotations={b: Rotation(record.turned(s[2]), (1.0, 0.0), s[2]) for b, s in states.items()},
+        places={b: (s[0], s[1]) for b, s in states.items()},
+    )
+
+
+def _equations(mechanism: Mechanism, moved: Moved, step: Newton, guess: Guess, board: Board) -> Iterator[Row]:
+    rows = Rows(mechanism.shape, guess, dict(guess.bases), board)
+    return equations(mechanism, rows, step.constraints, moved)
+
+
+def _at_record(record: Record, group: Together) -> Array:
+    """The solution at the values that the record was made with."""
+    solver = Solver(record, group)
+    env = {k: np.array([node.value]) for k, node in enumerate(record.nodes) if node.op == Op.INPUT}
+    start = np.array([[record.nodes[k].value for k in group.guesses]])
+    q, good = solver.solve(env, start)
+    found: Array = q[0] if good[0] else start[0]
+    return found
+
+
+class Solver:
+    """Newton's method on rows of a group."""
+
+    def __init__(self, record: Record, group: Together) -> None:
+        self.group = group
+        flat = [value for row in group.derivatives for value in row]
+        self.traced = [n for n, value in enumerate(flat) if isinstance(value, Traced)]
+        self.still = np.array([0.0 if isinstance(v, Traced) else float(v) for v in flat])
+        wanted = [record.lifted(value).index for value in group.residuals]
+        self.equations = len(wanted)
+        self.code = Code(record, [*wanted, *(flat[n].index for n in self.traced)])
+
+    def system(self, env: Mapping[int, Array], q: Array) -> tuple[Array, Array]:
+        """Residuals (rows, equations) and derivatives (rows, equations, unknowns) at a guess."""
+        rows, unknowns = q.shape
+        given = {**env, **{k: q[:, n] for n, k in enumerate(self.group.guesses)}}
+        found = self.code.run(given, rows)
+        f = np.empty((rows, self.equations))
+        for n in range(self.equations):
+            f[:, n] = found[n]
+        j = np.empty((rows, len(self.still)))
+        j[:] = self.still
+        for n, value in zip(self.traced, found[self.equations :], strict=True):
+            j[:, n] = value
+        return f, j.reshape(rows, self.equations, unknowns)
+
+    def step(self, f: Array, j: Array) -> Array:
+        """The step of Newton's method; of least squares where there are more equations than unknowns."""
+        if j.shape[1] != j.shape[2]:
+            turned = np.swapaxes(j, 1, 2)
+            f, j = (turned @ f[:, :, None])[:, :, 0], turned @ j
+        try:
+            found = np.linalg.solve(j, f[:, :, None])
+        except np.linalg.LinAlgError:
+            found = np.linalg.pinv(np.nan_to_num(j)) @ f[:, :, None]
+        return np.asarray(found[:, :, 0], dtype=np.float64)
+
+    def solve(self, env: Mapping[int, Array], start: Array, rounds: int = ROUNDS) -> tuple[Array, Array]:
+        """Solutions from a start (rows, unknowns), and whether each row has one."""
+        q, good = start.copy(), np.zeros(len(start), dtype=bool)
+        active = np.arange(len(start))
+        for _ in range(rounds):
+            here = {k: v[active] if v.ndim and len(v) > 1 else v for k, v in env.items()}
+            move, size = self._move(here, q[active])
+            q[active] -= move
+            good[active] = size < CLOSE
+            active = active[~good[active] & np.isfinite(size)]
+            if not active.size:
+                break
+        residual = np.abs(self.system(env, q)[0]).max(axis=1)
+        return q, good & (residual < SOLVED)
+
+    def _move(self, env: Mapping[int, Array], q: Array) -> tuple[Array, Array]:
+        """The next step of every row, cut to half the figure, and its full size."""
+        move = self.step(*self.system(env, q))
+        size = np.abs(move).max(axis=1)
+        with np.errstate(all="ignore"):
+            move = move * np.minimum(1.0, 0.5 / size)[:, None]
+        move[:, 2::3] /= RADIAN
+        return np.nan_to_num(move), size

@@ -1,0 +1,265 @@
+"""A way that is followed: groups that Newton's method places, and turns that are counted, step by step.
+
+Each step starts from the last ones, so that rows between two steps start from near their solution and
+stay on the branch. Beyond a limit nothing is taken up: where the links assemble again, no motion leads.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from icsolve.numbers.replay import Array, Code
+from icsolve.sweep.program import Sheet
+from icsolve.sweep.stretch import Step, Stretch, counts, cubic, goes_on, stretch_of
+from icsolve.sweep.together import ROUNDS, Solver
+from icsolve.sweep.way import State, Touches, Way
+
+FIRST = 2.0**-5
+"""The first step, as a part of the longest."""
+SHORTEST = 2.0**-16
+"""A way that needs shorter steps, as a part of the longest, has come to a limit."""
+TRIALS = 64
+QUICK = 6
+"""Rounds of Newton's method that a step may take."""
+HALVINGS = 30
+
+Mask = npt.NDArray[np.bool_]
+
+
+class Track:
+    """A way that is followed from a state; ``touches`` has the places at which branches change."""
+
+    def __init__(
+        self, sheet: Sheet, way: Way, start: State, touches: Touches, reach: tuple[float, float]
+    ) -> None:
+        self.sheet, self.way, self.start, self.touches = sheet, way, start, touches
+        record, motion = sheet.record, sheet.motion
+        assert motion is not None
+        self.groups = [(group, Solver(record, group)) for group in motion.groups]
+        self.counted = list(record.counted.values())
+        self.turning = Code(record, [record.lifted(value).index for _, value in self.counted])
+        self.breaks: list[tuple[float, float]] = []
+        """steps in which a group goes through a singular position and on"""
+        self.senses: dict[float, Array] = {}
+        self.reach = reach
+        self.ends = (-math.inf, math.inf)
+        """how far groups were followed to both sides, where that ended"""
+        self.stretches = self._followed(reach) if self.groups or self.counted else []
+
+    # --- inputs -----------------------------------------------------------------------------------
+
+    def given(self, s: Array) -> tuple[dict[int, Array], Mask]:
+        """All inputs at places of the way, and at which of them the groups have a solution."""
+        given, good = self._plain(s), np.ones(len(s), dtype=bool)
+        if self.stretches:
+            q, turns, good = self._between(s)
+            solved, _, right = self._solved(given, q, turns)
+            solved = np.where(right[:, None], solved, q)
+            good &= right | self.singular(s)
+            given = {**given, **self._state(solved, turns)}
+        elif self.groups or self.counted:
+            good[:] = False
+        return given, good
+
+    def singular(self, s: Array) -> Mask:
+        """Which places lie in a step through a singular position."""
+        found = np.zeros(len(s), dtype=bool)
+        for one, two in self.breaks:
+            found |= (s > min(one, two)) & (s < max(one, two))
+        return found
+
+    def passages(self) -> list[float]:
+        """The singular positions that groups go through."""
+        return [self._passage(one, two) for one, two in self.breaks]
+
+    def _passage(self, one: float, two: float) -> float:
+        sense = self.senses[one]
+        for _ in range(HALVINGS):
+            middle = np.array([(one + two) / 2.0])
+            q, turns, _ = self._between(middle)
+            given = self._plain(middle)
+            q, turns, _ = self._solved(given, q, turns)
+            if np.array_equal(self._senses(given, q, turns), sense):
+                one = float(middle[0])
+            else:
+                two = float(middle[0])
+        return (one + two) / 2.0
+
+    def _plain(self, s: Array) -> dict[int, Array]:
+        """Inputs and signs."""
+        given = self.way.inputs(self.sheet, s)
+        for name in self.sheet.motion.written if self.sheet.motion else ():
+            if name in self.sheet.inputs:
+                sign = self.start.signs[name]
+                given[self.sheet.inputs[name]] = sign * self.touches.flips(name, s, self.way)
+        return given
+
+    def _state(self, q: Array, turns: Array) -> dict[int, Array]:
+        columns = [k for group, _ in self.groups for k in group.solved]
+        given = {k: q[:, n] for n, k in enumerate(columns)}
+        return {**given, **{guess.index: turns[:, n] for n, (guess, _) in enumerate(self.counted)}}
+
+    def end(self, s: float) -> State:
+        """The state at a place."""
+        at = np.array([s])
+        signs = {
+            name: sign * float(self.touches.flips(name, at, self.way)[0])
+            for name, sign in self.start.signs.items()
+        }
+        if not self.stretches:
+            return State(self.start.q, self.start.turns, signs)
+        q, turns, _ = self._between(at)
+        given = self._plain(at)
+        q, turns, _ = self._solved(given, q, turns)
+        return State(q[0], turns[0], signs)
+
+    # --- steps ------------------------------------------------------------------------------------
+
+    def _solved(
+        self, given: Mapping[int, Array], q: Array, turns: Array, rounds: int = ROUNDS
+    ) -> tuple[Array, Array, Mask]:
+        """Solutions of all groups from a guess, the turns counted on, and where it went well."""
+        rows = len(q)
+        good, found = np.ones(rows, dtype=bool), q.copy()
+        first = 0
+        for group, solver in self.groups:
+            last = first + len(group.solved)
+            env = {**given, **self._state(found, turns)}
+            found[:, first:last], right = solver.solve(env, q[:, first:last], rounds)
+            good &= right
+            first = last
+        if self.counted:
+            values = self.turning.run({**given, **self._state(found, turns)}, rows)
+            turns = np.stack([np.broadcast_to(v, rows) for v in values], axis=1)
+        return found, turns, good
+
+    def _followed(self, reach: tuple[float, float]) -> list[Stretch]:
+        """Stretches from the start to both ends of the reach."""
+        at = np.array([self.way.start])
+        q, turns, good = self._solved(self._plain(at), self.start.q[None, :], self.start.turns[None, :])
+        if not good[0]:
+            return []
+        first = (self.way.start, q[0], turns[0])
+        self.senses[self.way.start] = self._senses(self._plain(at), q, turns)
+        down, up = self._both(first, reach)
+        steps = [*reversed(down[1:]), *up]
+        self.ends = (
+            down[-1][0] if down[-1][0] > reach[0] else -math.inf,
+            up[-1][0] if up[-1][0] < reach[1] else math.inf,
+        )
+        more = [
+            stretch
+            for last, end in ((down[-1], reach[0]), (up[-1], reach[1]))
+            for stretch in self._beyond(last, end, steps)
+        ]
+        return sorted([stretch_of(steps), *more], key=lambda stretch: float(stretch.s[0]))
+
+    def _both(self, first: Step, reach: tuple[float, float]) -> tuple[list[Step], list[Step]]:
+        """Steps down and up; from a limit on what lies beyond is reached from the other side."""
+        down, up = self._steps(first, reach[0]), self._steps(first, reach[1])
+        if self.way.period is not None and up[-1][0] < reach[1]:
+            further = min(reach[0], up[-1][0] - self.way.period)
+            down = self._steps(first, further)
+        elif self.way.period is not None and down[-1][0] > reach[0]:
+            up = self._steps(first, max(reach[1], down[-1][0] + self.way.period))
+        return down, up
+
+    def _beyond(self, last: Step, end: float, known: Sequence[Step]) -> Iterator[Stretch]:
+        """Stretches beyond a limit, where it is as it was a turn before."""
+        while abs(last[0] - end) > self.way.widest * SHORTEST:
+            again = self._again(last, end, known)
+            if again is None:
+                break
+            back, on = self._steps(again, last[0]), self._steps(again, end)
+            yield stretch_of(sorted([*back[1:], *on], key=lambda step: step[0]))
+            last = on[-1]
+
+    def _again(self, last: Step, end: float, steps: Sequence[Step]) -> Step | None:
+        """The first place beyond a limit that is a whole turn from one of the steps: there it is as before.
+
+        Elsewhere beyond a limit the links may assemble, but no motion leads there.
+        """
+        if self.way.period is None:
+            return None
+        sense = 1.0 if end >= last[0] else -1.0
+        trials = np.linspace(last[0], end, TRIALS)[1:]
+        known = stretch_of(sorted(steps, key=lambda step: step[0]))
+        back = trials - sense * self.way.period * np.ceil(np.abs(trials - last[0]) / self.way.period)
+        inside = (back >= known.s[0]) & (back <= known.s[-1])
+        if not inside.any():
+            return None
+        trials, back = trials[inside], back[inside]
+        guess, ahead = cubic(known.s, known.q, back), cubic(known.s, known.turns, back)
+        guess += (trials - back)[:, None] * self._driven()
+        found, counted, good = self._solved(self._plain(trials), guess, ahead, QUICK)
+        for k in np.flatnonzero(good):
+            if goes_on(guess[k], guess[k], found[k], False):
+                return (float(trials[k]), found[k], counted[k])
+        return None
+
+    def _driven(self) -> Array:
+        """Which of the unknowns is the turning of the link that is driven (1, the others 0)."""
+        setting = self.sheet.setting
+        driven = {setting.top.body_of[link] for link in setting.links if link in self.way.slope}
+        bodies = [body for group, _ in self.groups for body in group.bodies]
+        return np.array([float(body in driven and part == 2) for body in bodies for part in range(3)])
+
+    def _steps(self, first: Step, end: float) -> list[Step]:
+        """Steps toward an end, as far as they go."""
+        steps, widest = [first], self.way.widest
+        sense = 1.0 if end >= first[0] else -1.0
+        h = widest * FIRST
+        while sense * (end - steps[-1][0]) > 0.0 and h > widest * SHORTEST:
+            s, q, turns = steps[-1]
+            there = s + sense * min(h, sense * (end - s))
+            at = np.array([there])
+            known = stretch_of(steps[-4:])
+            guess, ahead = cubic(known.s, known.q, at), cubic(known.s, known.turns, at)
+            found, counted, good = self._solved(self._plain(at), guess, ahead, QUICK)
+            if good[0] and goes_on(q, guess[0], found[0], len(steps) > 1) and counts(turns, counted[0]):
+                self._orient(s, there, at, found, counted)
+                steps.append((there, found[0], counted[0]))
+                h = min(1.5 * h, widest)
+            else:
+                h /= 2.0
+        return steps
+
+    def _orient(self, s: float, there: float, at: Array, q: Array, turns: Array) -> None:
+        """Note a singular position between two steps: the groups' determinants change sign there."""
+        now = self._senses(self._plain(at), q, turns)
+        if s in self.senses and not np.array_equal(self.senses[s], now):
+            self.breaks.append((s, there))
+        self.senses[there] = now
+
+    def _senses(self, given: Mapping[int, Array], q: Array, turns: Array) -> Array:
+        """Signs of the determinants of the groups at one place."""
+        signs, first = [], 0
+        for group, solver in self.groups:
+            last = first + len(group.solved)
+            _, j = solver.system({**given, **self._state(q, turns)}, q[:, first:last])
+            if j.shape[1] == j.shape[2]:
+                signs.append(np.linalg.slogdet(j[0])[0])
+            first = last
+        return np.array(signs)
+
+    # --- between steps ----------------------------------------------------------------------------
+
+    def _between(self, s: Array) -> tuple[Array, Array, Mask]:
+        """States between the steps, by the cubic through the four nearest."""
+        q = np.full((len(s), self.start.q.size), np.nan)
+        turns = np.zeros((len(s), self.start.turns.size))
+        good = np.zeros(len(s), dtype=bool)
+        slack = self.way.widest * SHORTEST * 16.0
+        for stretch in self.stretches:
+            here = (s >= stretch.s[0] - slack) & (s <= stretch.s[-1] + slack)
+            if here.any():
+                at = np.clip(s[here], stretch.s[0], stretch.s[-1])
+                q[here] = cubic(stretch.s, stretch.q, at)
+                turns[here] = cubic(stretch.s, stretch.turns, at)
+                good |= here
+        q[~good] = self.start.q
+        return q, turns, good

@@ -1,0 +1,156 @@
+"""An answer as the JSON object of the format, ``icsolve/solve/1``: keys may be added, none goes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from icsolve.answer import Answer, Centre, Found, Term
+from icsolve.case import Case
+from icsolve.case.names import pair_name
+
+SCHEMA = "icsolve/solve/1"
+
+
+def shown_points(answer: Answer) -> dict[str, tuple[float, float]]:
+    """The points that have a name in the case (hidden ones start with ``@``)."""
+    return {name: place for name, place in answer.points.items() if not name.startswith("@")}
+
+
+def to_dict(answer: Answer) -> dict[str, Any]:
+    """The object that ``icsolve solve --json`` prints for a case.
+
+    Values are in case units, rates in rad/s, velocities in length units a second, angles in
+    degrees. ``rates`` and ``velocities`` are there where they were asked for. Negative zeros
+    become zeros, so that equal answers print equal bytes.
+    """
+    case = answer.case
+    return {
+        "schema": SCHEMA,
+        "case": case.name,
+        "status": answer.status,
+        **_header(case),
+        "answers": {name: _found(found) for name, found in answer.answers.items()},
+        "centres": {pair_name(case, pair): _centre(case, c) for pair, c in answer.centres.items()},
+        **_motion(answer),
+        **_contacts(answer),
+        **_bodies(answer),
+        "points": {name: _numbers(place) for name, place in _places(answer).items()},
+        "errors": _errors(answer),
+        "advantage": None if answer.advantage is None else _plain(answer.advantage),
+        "mobility": answer.mobility,
+        "terms": [_term(term) for term in answer.terms],
+        "notes": list(answer.notes),
+        "skipped": list(answer.skipped),
+    }
+
+
+def refusal_dict(name: str, status: str, message: str) -> dict[str, Any]:
+    """The object of a case that was read but has no answer."""
+    return {"schema": SCHEMA, "case": name, "status": status, "message": message}
+
+
+def _plain(value: float) -> float:
+    """The number itself; a negative zero becomes zero."""
+    return value + 0.0
+
+
+def _numbers(values: tuple[float, ...]) -> list[float]:
+    return [_plain(value) for value in values]
+
+
+def _header(case: Case) -> dict[str, str]:
+    """Title, and the warning that a reconstruction carries wherever it is shown."""
+    shown = {"title": case.title, "reconstructed": case.reconstructed}
+    return {key: text for key, text in shown.items() if text}
+
+
+def _found(found: Found) -> dict[str, Any]:
+    if found.holds is not None:
+        ends = [_plain(end) if math.isfinite(end) else None for end in found.holds]
+        held: dict[str, Any] = {"value": None, "holds": ends, "self_locking": found.self_locking}
+        held |= {"unit": found.unit, "sense": "", "error": found.error}
+        return held if found.error is not None else {**held, "why": found.why}
+    entry = {
+        "value": _plain(found.value),
+        "unit": found.unit,
+        "sense": found.sense,
+        "error": found.error,
+    }
+    return entry if found.error is not None else {**entry, "why": found.why}
+
+
+def _centre(case: Case, centre: Centre) -> dict[str, Any]:
+    entry: dict[str, Any] = {centre.kind: _place(centre)}
+    if centre.by:
+        entry["by"] = centre.by
+    if centre.lines:
+        entry["lines"] = [[pair_name(case, pair) for pair in line] for line in centre.lines]
+    return entry
+
+
+def _place(centre: Centre) -> list[float] | float | str:
+    if centre.kind == "at":
+        return _numbers(centre.place)
+    if centre.kind == "toward":
+        return _plain(centre.place[0])
+    return centre.why
+
+
+def _motion(answer: Answer) -> dict[str, Any]:
+    shown: dict[str, Any] = {}
+    if answer.rates is not None:
+        shown["rates"] = {link: _rate(rate) for link, rate in answer.rates.items()}
+    if answer.velocities is not None:
+        shown["velocities"] = {
+            f"{point} on {link}": _velocity(velocity)
+            for (point, link), velocity in answer.velocities.items()
+            if not point.startswith("@")
+        }
+    return shown
+
+
+def _contacts(answer: Answer) -> dict[str, Any]:
+    """The contacts that profiles gave, by their links."""
+    if not answer.touching:
+        return {}
+    shown = {"-".join(one.links): one._asdict() for one in answer.touching}
+    return {"contacts": {name: {k: v for k, v in one.items() if k != "links"} for name, one in shown.items()}}
+
+
+def _places(answer: Answer) -> Mapping[str, tuple[float, ...]]:
+    """The points to show; of a case in space they have three coordinates."""
+    return shown_points(answer) if answer.spatial is None else answer.spatial.points
+
+
+def _bodies(answer: Answer) -> dict[str, Any]:
+    """Reactions and friction, where there are some; free bodies are not even imported before."""
+    if answer.spatial is not None:
+        from icsolve.statics.space.shown import space_dict
+
+        return space_dict(answer.spatial)
+    if answer.reactions is None and answer.friction is None:
+        return {}
+    from icsolve.statics.shown import bodies_dict
+
+    return bodies_dict(answer)
+
+
+def _rate(rate: float | str) -> float | dict[str, str]:
+    return {"undetermined": rate} if isinstance(rate, str) else _plain(rate)
+
+
+def _velocity(velocity: tuple[float, float] | str) -> list[float] | dict[str, str]:
+    return {"undetermined": velocity} if isinstance(velocity, str) else _numbers(velocity)
+
+
+def _errors(answer: Answer) -> dict[str, Any]:
+    case = answer.case
+    known = {pair_name(case, pair): c.error for pair, c in answer.centres.items() if c.error is not None}
+    return {**answer.errors, **({"centres": known} if known else {})}
+
+
+def _term(term: Term) -> dict[str, Any]:
+    numbers = {"value": term.value, "factor": term.factor, "power": term.power}
+    return {**term._asdict(), **{key: _plain(number) for key, number in numbers.items()}}

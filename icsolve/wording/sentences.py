@@ -1,0 +1,191 @@
+"""Refusals in full sentences that name links and points, with what would mend them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+from icsolve.assembly.frame import Frame
+from icsolve.case import Case, Contact, KnownCentre, Pin, Slot
+from icsolve.kinematics.loops import Bases, all_motions
+from icsolve.screws.plane import cross, subtract
+from icsolve.structure.topology import Bond, Topology
+
+
+def listed(names: Iterable[str]) -> str:
+    """a, b and c."""
+    *head, last = list(names)
+    return f"{', '.join(head)} and {last}" if head else last
+
+
+def plural(count: int, word: str) -> str:
+    """1 load, 2 loads."""
+    return f"{count} {word}" + ("" if count == 1 else "s")
+
+
+def structure(top: Topology) -> str:
+    """No joint lets anything move."""
+    bodies = len(top.members) - 1
+    constraints = sum(bond.constraints for bond in top.bonds)
+    return (
+        f"the links form a structure: 3 x {bodies} freedoms of {plural(bodies, 'link')} beside the frame, of "
+        f"which the joints take {constraints}. Nothing moves, so power gives no equation. Take out a joint "
+        "or a link to make it move, or ask for its reactions by statics (`--reactions`)."
+    )
+
+
+def on_the_frame(load: str, link: str, others: bool) -> str:
+    """An unknown load that acts between the frame and itself; ``others``: the known loads do work."""
+    outcome = "no value of it balances the known loads" if others else "it can have any value"
+    return (
+        f"{load} acts on link {link}, which never moves: it does no work, {outcome}. "
+        "Put it on a moving link."
+    )
+
+
+def near_structure(last: float) -> str:
+    """Rigid as written, but a hair from moving."""
+    return (
+        f"as the data stand this is a structure, but within {last:.1g} of the figure's size of moving. "
+        "Give the coordinates with more digits, or lengths and angles from which they follow."
+    )
+
+
+def too_close(load: str, why: str, open_by: float | None) -> str:
+    """The data do not tell this position from the singular one beside it."""
+    cause = f"a dead centre ({why})" if why else "a dead centre or a change point"
+    how = "" if open_by is None else f" (the data leave it open by {100 * open_by:.2g} %)"
+    return f"the position is too close to {cause} to give {load}{how}. Take a position farther from it."
+
+
+def loose(case: Case, names: list[str]) -> str:
+    """Links that no chain of joints ties to the frame."""
+    which = f"link {names[0]} is" if len(names) == 1 else f"links {listed(names)} are"
+    return (
+        f"{which} held by nothing: no chain of joints leads to the frame (link {case.ground}). "
+        "Add the joint that is missing."
+    )
+
+
+def contradiction(top: Topology, bases: Bases, frame: Frame, unit: str) -> str:
+    """Which given centre lies off the place that the others give it, and how far."""
+    worst: tuple[float, str] | None = None
+    for k, bond in enumerate(top.bonds):
+        if not isinstance(bond.joint, KnownCentre):
+            continue
+        off = _off_place(top, bases, k)
+        if off is not None and (worst is None or off < worst[0]):
+            worst = (off, f"{bond.links[0]}-{bond.links[1]}")
+    if worst is None:
+        return (
+            "the given centres contradict each other: no motion has all of them. Correct one, or leave it "
+            "out."
+        )
+    distance = worst[0] / frame.scale
+    return (
+        f"the given centres contradict each other: centre {worst[1]} lies {distance:.3g} {unit} from where "
+        "the other centres and joints put it. Correct it, or leave it out."
+    )
+
+
+def _off_place(top: Topology, bases: Bases, k: int) -> float | None:
+    """Distance (normalised) of a given finite centre from the point, or the line, that all else gives."""
+    bond, (px, py, pw) = top.bonds[k], bases[k][0]
+    motions = all_motions(top, {n: basis for n, basis in bases.items() if n != k})
+    if pw == 0.0 or bond.a not in motions.twists or bond.b not in motions.twists:
+        return None
+    both = zip(motions.twists[bond.a], motions.twists[bond.b], strict=True)
+    relative = [subtract(b, a) for a, b in both]
+    if len(relative) == 2:
+        x, y, w = cross(*relative)
+        return abs(x * px + y * py + w) / math.hypot(x, y) if x or y else None
+    if len(relative) != 1:
+        return None
+    x, y, w = relative[0]
+    return math.hypot(x / w - px, y / w - py) if abs(w) > 1e-12 * max(abs(x), abs(y)) else None
+
+
+def aligned(top: Topology, bonds: Iterable[int], verb: str = "lie on") -> str:
+    """Names the centres of bonds that lie on one line; empty where one of them has no name."""
+    joints = [top.bonds[k] for k in bonds]
+    names = [_place(bond) for bond in joints if bond.freedom == 1]
+    normals = [_normal(bond) for bond in joints if bond.freedom == 2]
+    if not all((*names, *normals)):
+        return ""
+    if len(names) == 3:
+        return f"{listed(names)} {verb} one line"
+    if len(names) == len(normals) == 1:
+        return f"{normals[0]} {'passes through' if verb == 'lie on' else 'nearly passes through'} {names[0]}"
+    return ""
+
+
+def _place(bond: Bond) -> str:
+    return bond.joint.at if isinstance(bond.joint, Pin) and not bond.joint.at.startswith("@") else ""
+
+
+def _normal(bond: Bond) -> str:
+    if not isinstance(bond.joint, Slot | Contact) or bond.joint.at.startswith("@"):
+        return ""
+    what = "the normal to the slot" if isinstance(bond.joint, Slot) else "the common normal"
+    return f"{what} at {bond.joint.at}"
+
+
+def workless(load: str, link: str, at_rest: bool, others_work: bool, why: str) -> str:
+    """The unknown does no work: no value balances, or any value does."""
+    clause = f" ({why})" if why else ""
+    cause = (
+        f"link {link} stands still in this position{clause}, so it is a dead centre for {load}"
+        if at_rest
+        else f"{load} does no work on link {link}: where it acts, its line is square to the motion"
+    )
+    if others_work:
+        return (
+            f"no value of {load} balances: {cause}, but the known loads do work. "
+            "Put the unknown on another link, or take another position."
+        )
+    return (
+        f"any value of {load} balances: {cause}, and the known loads do none either. "
+        "The joints carry it; ask for another load."
+    )
+
+
+def wrong_count(mobility: int, unknowns: int, idle: int) -> str:
+    """Freedoms that do not match the unknowns."""
+    active = mobility - idle
+    if unknowns > active:
+        extra = unknowns - active
+        return (
+            f"{plural(unknowns, 'unknown load')} for a mobility of {active}: {extra} too many. "
+            f"Give {'one of them a number' if extra == 1 else f'{extra} of them numbers'}, or tie it to "
+            "another with `like`."
+        )
+    missing = active - unknowns
+    return (
+        f"the mechanism has {plural(active, 'degree')} of freedom but {plural(unknowns, 'unknown load')}: it "
+        f"would not stay in equilibrium. Add {plural(missing, 'unknown load')}, or "
+        f"{plural(missing, 'joint')} to lock it."
+    )
+
+
+def redundant(count: int, goes_on: bool | None, bodies: bool) -> str:
+    """Redundant constraints, and whether the motion is more than a moment's (None: not known).
+
+    Without ``bodies`` nobody looked which reactions are unique.
+    """
+    cause = f"the joints have {plural(count, 'redundant constraint')}"
+    end = "." if bodies else "; reactions that share a load are not unique (`--reactions` tells which)."
+    if goes_on is False:
+        return (
+            f"{cause}: the links yield only for an instant, then they bind (second order), so the answer is "
+            f"for this position alone{end}"
+        )
+    onward = ", and it goes on moving to second order" if goes_on else ""
+    return f"{cause}: it moves only because the figure is exact{onward}{end}"
+
+
+def change_point(mobility: int, count: int) -> str:
+    """Momentarily more freedoms than the joints leave elsewhere."""
+    return (
+        f"change point: in this position the mechanism has {plural(mobility, 'degree')} of freedom where "
+        f"counting leaves {count}, so it can go on in more than one way. Take a position beside it."
+    )

@@ -1,0 +1,292 @@
+"""An answer as text for people: the unknown with its unit and its sense in words, and why."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+
+from icsolve.answer import Answer, Centre, Found, Term
+from icsolve.case import Case, Coordinates, Pair, Torque
+from icsolve.case.names import link_order, pair_name
+from icsolve.wording.result import shown_points
+
+Format = Callable[[float], str]
+"""A number with the digits that were asked for."""
+
+_WORDS = {"ccw": "counterclockwise", "cw": "clockwise"}
+
+
+def answer_text(answer: Answer, digits: int = 6) -> str:
+    """The answer in lines, each section apart by an empty line; numbers to ``digits`` digits."""
+    show = _formatter(digits)
+    case = answer.case
+    sections = [
+        _title(case),
+        _unknowns(answer, digits),
+        _points(answer, show),
+        _centres(answer, digits),
+        _power(answer, digits),
+        _rates(answer, digits),
+        _velocities(answer, digits),
+        _reactions(answer, show),
+        _sentences("Notes", answer.notes),
+        _sentences("Not examined", answer.skipped),
+    ]
+    return "\n\n".join("\n".join(lines) for lines in sections if lines)
+
+
+def _formatter(digits: int) -> Format:
+    def show(value: float) -> str:
+        rounded = float(format(value, f".{digits}g")) + 0.0
+        return format(rounded, f".{max(digits, 12)}g")
+
+    return show
+
+
+def _title(case: Case) -> list[str]:
+    lines = [case.title or case.name]
+    if case.source:
+        lines.append(f"Source: {case.source}")
+    if case.reconstructed:
+        lines.append(f"RECONSTRUCTED: {case.reconstructed}")
+    return lines
+
+
+def _unknowns(answer: Answer, digits: int) -> list[str]:
+    lines = [_unknown(answer.case, name, found, digits) for name, found in answer.answers.items()]
+    if answer.advantage is None:
+        return lines
+    least = min((certain_digits(found, digits) for found in answer.answers.values()), default=digits)
+    return [*lines, _advantage(answer, answer.advantage, _formatter(least))]
+
+
+def _advantage(answer: Answer, advantage: float, show: Format) -> str:
+    """The unknown over the known load, by name; a mechanical advantage where both are of one kind."""
+    units = {term.load: term.unit for term in answer.terms}
+    known = [term.load for term in answer.terms if term.load not in answer.answers and " " not in term.load]
+    names = [*answer.answers, *known]
+    above, below = (units.get(name, "") for name in (names[0], names[-1]))
+    unit = "" if above == below else f" {above} per {below}"
+    return f"{'/'.join(names)} = {show(advantage)}{unit}" + (" (mechanical advantage)" if not unit else "")
+
+
+def _unknown(case: Case, name: str, found: Found, digits: int) -> str:
+    """One line: size, unit and sense; the signed value where the sign is not plus."""
+    show = _formatter(certain_digits(found, digits))
+    if found.holds is not None:
+        return _range(name, found, show)
+    line = f"{name} = {show(abs(found.value))} {found.unit}".rstrip()
+    if found.sense:
+        line += f", {_sense(found.sense)}"
+    if found.value < 0.0:
+        line += f"   ({name} = {show(found.value)}, {_positive(case, name)})"
+    return line
+
+
+def _range(name: str, found: Found, show: Format) -> str:
+    """The values at which the mechanism holds still."""
+    least, most = found.holds or (0.0, 0.0)
+    if most - least <= 2.0 * (found.error or 0.0):
+        reach = f"only at {show(least)} {found.unit}"
+    elif math.isfinite(least) and math.isfinite(most):
+        reach = f"from {show(least)} to {show(most)} {found.unit}"
+    elif math.isfinite(least):
+        reach = f"from {show(least)} {found.unit} up"
+    else:
+        reach = f"up to {show(most)} {found.unit}" if math.isfinite(most) else "at any value"
+    return f"{name}: holds still {reach}" + (", self-locking" if found.self_locking else "")
+
+
+def certain_digits(found: Found, digits: int) -> int:
+    """How many digits to show: those asked for, but none that the error bound leaves open."""
+    ends = [abs(end) for end in found.holds or (found.value,) if math.isfinite(end)]
+    return _certain(max(ends, default=0.0), found.error, digits)
+
+
+def _certain(value: float, error: float | None, digits: int) -> int:
+    """How many of the digits of a number its error bound leaves certain, at least one."""
+    if not error or not value or not math.isfinite(value) or not math.isfinite(error):
+        return digits
+    first = math.floor(math.log10(abs(value))) + 1
+    return max(1, min(digits, math.floor(first - math.log10(2.0 * error))))
+
+
+def _shown(value: float, error: float | None, digits: int) -> str:
+    """A number with the digits that its error bound leaves certain."""
+    return _formatter(_certain(value, error, digits))(value)
+
+
+def _sense(sense: str) -> str:
+    return _WORDS.get(sense, sense)
+
+
+def _positive(case: Case, name: str) -> str:
+    """What a plus sign means for the load of that name."""
+    load = next((load for load in case.loads if load.name == name), None)
+    if isinstance(load, Torque):
+        return f"positive {_WORDS[load.turns]}"
+    return "positive along its line as the case gives it"
+
+
+def _centres(answer: Answer, digits: int) -> list[str]:
+    if not answer.centres:
+        return []
+    case = answer.case
+    names = [f"I{pair_name(case, pair)}" for pair in answer.centres]
+    places = [_place(answer, centre, digits) for centre in answer.centres.values()]
+    hows = [_how(case, centre) for centre in answer.centres.values()]
+    return ["Instant centres", *_table(names, places, hows)]
+
+
+def _place(answer: Answer, centre: Centre, digits: int) -> str:
+    if centre.kind == "at":
+        shows = [_formatter(_certain(value, centre.error, digits)) for value in centre.place]
+        x, y = (_coordinate(answer, value, show) for value, show in zip(centre.place, shows, strict=True))
+        return f"({x}, {y})"
+    if centre.kind == "toward":
+        return f"at infinity, toward {_shown(centre.place[0], centre.error, digits)} deg"
+    return f"{centre.kind}: {centre.why}"
+
+
+def _coordinate(answer: Answer, value: float, show: Format) -> str:
+    """A coordinate; rounding noise beside the size of the figure is shown as 0."""
+    size = max((abs(c) for place in answer.points.values() for c in place), default=0.0)
+    return "0" if abs(value) < 1e-13 * size else show(value)
+
+
+def _how(case: Case, centre: Centre) -> str:
+    """How a centre was found, in words."""
+    if centre.lines:
+        return "where " + " meets ".join(_line(case, line) for line in centre.lines)
+    return {"inspection": "a joint", "given": "given by the case"}.get(centre.by, centre.by)
+
+
+def _line(case: Case, line: tuple[Pair, ...]) -> str:
+    if len(line) == 1:
+        return f"the normal of joint {pair_name(case, line[0])}"
+    ends = sorted(line, key=lambda pair: sorted(link_order(case, link) for link in pair))
+    return "line " + " ".join(f"I{pair_name(case, pair)}" for pair in ends)
+
+
+def _power(answer: Answer, digits: int) -> list[str]:
+    if not answer.terms:
+        return []
+    error = _power_error(answer)
+    rows = [_term(answer, term, _certain(term.power, error, digits), digits) for term in answer.terms]
+    columns: list[list[str]] = [list(column) for column in zip(*rows, strict=True)]
+    summed = _sum_of_powers(answer, _formatter(digits))
+    return [f"Power in {answer.case.units.torque}/s: {summed}", *_table(*columns)]
+
+
+def _power_error(answer: Answer) -> float:
+    """What is open of the powers that unknowns balance: by the bounds of these, and by what is left over
+    where an answer was confirmed in more digits than the terms have."""
+    unknown = [(term, answer.answers[term.load]) for term in answer.terms if term.load in answer.answers]
+    left = abs(math.fsum(term.power for term in answer.terms)) if unknown else 0.0
+    return max([left, *(abs(term.factor) * (found.error or 0.0) for term, found in unknown)])
+
+
+def _sum_of_powers(answer: Answer, show: Format) -> str:
+    """What the terms add up to: zero where an unknown balances them; else it shows whether known loads do."""
+    if answer.answers:
+        return "the terms add up to zero"
+    powers = [term.power * answer.case.units.torque_per_force_length for term in answer.terms]
+    total = math.fsum(powers)
+    if abs(total) <= 1e-12 * max(map(abs, powers)):
+        return "the terms add up to zero, the loads are in equilibrium"
+    return f"the terms add up to {show(total)}, the loads are not in equilibrium"
+
+
+def _term(answer: Answer, term: Term, certain: int, digits: int) -> tuple[str, str, str]:
+    """A load times its velocity is its power, in torque units a second; so many digits are certain."""
+    units, show = answer.case.units, _formatter(certain)
+    load = answer.answers.get(term.load)
+    value = _formatter(certain_digits(load, digits) if load else digits)(term.value)
+    power, factor = (number * units.torque_per_force_length for number in (term.power, term.factor))
+    velocity = f"{show(factor)} per {term.unit}"
+    if term.unit == units.torque:
+        velocity = f"{show(factor)} rad/s"
+    elif term.unit == units.force:
+        velocity = f"{show(term.factor)} {units.length}/s"
+    product = f"{value} {term.unit} x {velocity} = {show(power)}"
+    return (term.load, product, term.words.removeprefix(f"{term.load} "))
+
+
+def _rates(answer: Answer, digits: int) -> list[str]:
+    if answer.rates is None:
+        return []
+    unit = "Angular velocities, rad/s" if _has_speed(answer.case) else "Angular velocities, scaled"
+    errors = answer.errors.get("rates", {})
+    rows = [(f"w{link}", _rate(rate, errors.get(link), digits)) for link, rate in answer.rates.items()]
+    return [unit, *_table([name for name, _ in rows], [value for _, value in rows])]
+
+
+def _has_speed(case: Case) -> bool:
+    return any(motion.speed is not None for motion in case.motion)
+
+
+def _rate(rate: float | str, error: float | None, digits: int) -> str:
+    if isinstance(rate, str):
+        return f"undetermined: {rate}"
+    if rate == 0.0:
+        return "0"
+    return f"{_shown(abs(rate), error, digits)} {'ccw' if rate > 0.0 else 'cw'}"
+
+
+def _velocities(answer: Answer, digits: int) -> list[str]:
+    if not answer.velocities:
+        return []
+    error = _velocity_error(answer)
+    named = {key: v for key, v in answer.velocities.items() if not key[0].startswith("@")}
+    names = [f"{point} on {link}" for point, link in named]
+    shown = [v if isinstance(v, str) else [_shown(c, error, digits) for c in v] for v in named.values()]
+    values = [v if isinstance(v, str) else f"({', '.join(v)})" for v in shown]
+    unit = f"{answer.case.units.length}/s" if _has_speed(answer.case) else "scaled"
+    return [f"Velocities, {unit}", *_table(names, values)]
+
+
+def _velocity_error(answer: Answer) -> float:
+    """What the bounds of the rates leave open of velocities: the same part of the largest."""
+    rates = [abs(rate) for rate in (answer.rates or {}).values() if isinstance(rate, float)]
+    speeds = [abs(c) for v in (answer.velocities or {}).values() if not isinstance(v, str) for c in v]
+    turning, fastest = max(rates, default=0.0), max(speeds, default=0.0)
+    open_ = max(answer.errors.get("rates", {}).values(), default=0.0)
+    return open_ / turning * fastest if turning else 0.0
+
+
+def _points(answer: Answer, show: Format) -> list[str]:
+    """The points that the figure's data, and not their coordinates, determine."""
+    coordinates = {n: data for n, data in answer.case.points.items() if isinstance(data, Coordinates)}
+    given = {name for name, data in coordinates.items() if None not in data}
+    points = {name: place for name, place in shown_points(answer).items() if name not in given}
+    if not points:
+        return []
+    places = [", ".join(_coordinate(answer, c, show) for c in place) for place in points.values()]
+    return [f"Points found, {answer.case.units.length}", *_table(list(points), [f"({p})" for p in places])]
+
+
+def _reactions(answer: Answer, show: Format) -> list[str]:
+    if answer.spatial is not None:
+        from icsolve.statics.space.shown import space_lines
+
+        return space_lines(answer, answer.spatial, show, _table)
+    if answer.reactions is None and answer.friction is None:
+        return []
+    from icsolve.statics.shown import bodies_lines
+
+    return bodies_lines(answer, show, _table)
+
+
+def _sentences(title: str, sentences: Iterable[str]) -> list[str]:
+    lines = [f"  {sentence}" for sentence in sentences]
+    return [title, *lines] if lines else []
+
+
+def _table(*columns: list[str]) -> list[str]:
+    """Columns side by side, each as wide as its widest entry."""
+    widths = [max(len(entry) for entry in column) for column in columns]
+    rows = zip(*columns, strict=True)
+    return [
+        "  " + "  ".join(entry.ljust(width) for entry, width in zip(row, widths, strict=True)).rstrip()
+        for row in rows
+    ]
