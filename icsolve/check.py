@@ -183,7 +183,7 @@ def _found(answer: Answer, expected: Expected) -> tuple[float, ...]:
 
 
 def _in_space(answer: Answer, spatial: Spatial, expected: Expected) -> float:
-    from icsolve.statics.space.compared import found_value
+    from icsolve.statics.space.report import found_value
 
     try:
         return found_value(answer, spatial, expected.target, expected.sense)
@@ -192,7 +192,7 @@ def _in_space(answer: Answer, spatial: Spatial, expected: Expected) -> float:
 
 
 def _of_bodies(answer: Answer, target: ReactionIs | ArmIs | FrictionRadiusIs) -> float:
-    from icsolve.statics.compared import found_value
+    from icsolve.statics.published import found_value
 
     if answer.reactions is None and not isinstance(target, FrictionRadiusIs):
         if any(found.holds is not None for found in answer.answers.values()):

@@ -22,11 +22,11 @@ from growth import random_mechanism
 from icsolve.answer.bodies import Witness
 from icsolve.solve.program import Want, evaluate, prepare
 from icsolve.solve.sensitivity import influences
-from icsolve.statics import certain
-from icsolve.statics.agreement import refuse_apart
-from icsolve.statics.bounding import Exact, Sliding, Weights, step
-from icsolve.statics.rubs import rubs_of
-from icsolve.statics.ties import Position, ties_of
+from icsolve.statics import error_bound
+from icsolve.statics.equilibrium import refuse_apart
+from icsolve.statics.error_bound import Exact, Sliding, Weights, step
+from icsolve.statics.friction_interface import rubs_of
+from icsolve.statics.reaction_basis import Position, ties_of
 from icsolve.wording.text import answer_text
 from more_digits import SixtyDigits
 from test_friction import BLOCK, MORE, QUICK_RETURN, SIX_BAR, brake, lever, slider_crank, turning, wedge
@@ -47,7 +47,7 @@ class Seen:
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.found: list[Sliding] = []
-        monkeypatch.setattr(certain, "step", self.step)
+        monkeypatch.setattr(error_bound, "step", self.step)
 
     def step(self, found: Sliding, weights: Weights, exact: Exact) -> Any:
         self.found.append(found)

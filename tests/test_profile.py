@@ -18,9 +18,9 @@ from hypothesis import strategies as st
 
 from cams import HEAD, sliding, swinging, table
 from icsolve.answer import Answer
-from icsolve.cams.freedom import places_of
-from icsolve.cams.shapes import placed
-from icsolve.cams.spline import spline
+from icsolve.cams.contact_search import places_of
+from icsolve.cams.curve import placed
+from icsolve.cams.pieces import spline
 from icsolve.case import Motion
 from icsolve.case.profiles import points_of
 from icsolve.errors import CaseError, SceneError, Status

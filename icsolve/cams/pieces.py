@@ -1,15 +1,18 @@
 """The exact pieces of a profile: straight lines, circular arcs, and a radius against the angle.
 
 Every piece runs from ``u`` = 0 to 1; a profile is run ccw, so that its outside lies to the right.
+
+Periodic cubic spline: twice continuously differentiable through values at given places of a period.
+
+C. de Boor, A Practical Guide to Splines, 1978, ch. IV; the cyclic system by Sherman and Morrison's formula.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from bisect import bisect_right
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
-
-from icsolve.cams.spline import Spline
 
 Point = tuple[float, float]
 Slope = Callable[[float], tuple[float, float]]
@@ -55,7 +58,7 @@ class Straight(NamedTuple):
         return 1
 
 
-class Bow(NamedTuple):
+class CircularArc(NamedTuple):
     """An arc about a centre from the angle ``start`` over the angle ``sweep``, rad, ccw positive."""
 
     centre: Point
@@ -96,9 +99,9 @@ class Bow(NamedTuple):
         """u of a direction from the centre; above 1 where the arc does not go there."""
         return ((angle - self.start) * math.copysign(1.0, self.sweep)) % TURN / abs(self.sweep)
 
-    def reversed(self) -> Bow:
+    def reversed(self) -> CircularArc:
         """The same arc from its end to its start."""
-        return Bow(self.centre, self.radius, self.start + self.sweep, -self.sweep)
+        return CircularArc(self.centre, self.radius, self.start + self.sweep, -self.sweep)
 
     def chords(self) -> int:
         """Two degrees each."""
@@ -179,7 +182,7 @@ class Polar(NamedTuple):
         return max(540, 8 * len(self.radius.places))
 
 
-Piece = Straight | Bow | Polar
+Piece = Straight | CircularArc | Polar
 
 
 def unit(x: float, y: float) -> Point:
@@ -190,3 +193,63 @@ def unit(x: float, y: float) -> Point:
 
 def _along(p: Point, way: Point) -> float:
     return p[0] * way[0] + p[1] * way[1]
+
+
+class Spline(NamedTuple):
+    """``values`` and second derivatives ``bends`` at increasing ``places``, repeated with the ``period``."""
+
+    places: tuple[float, ...]
+    values: tuple[float, ...]
+    bends: tuple[float, ...]
+    period: float
+
+    def at(self, x: float) -> tuple[float, float, float]:
+        """Value, first and second derivative."""
+        x = self.places[0] + (x - self.places[0]) % self.period
+        k = min(bisect_right(self.places, x), len(self.places)) - 1
+        n = (k + 1) % len(self.places)
+        h = self.places[n] - self.places[k] + (self.period if n <= k else 0.0)
+        b = (x - self.places[k]) / h
+        a = 1.0 - b
+        p, q, r, s = self.values[k], self.values[n], self.bends[k], self.bends[n]
+        value = a * p + b * q + ((a**3 - a) * r + (b**3 - b) * s) * h * h / 6.0
+        slope = (q - p) / h + ((3.0 * b * b - 1.0) * s - (3.0 * a * a - 1.0) * r) * h / 6.0
+        return value, slope, a * r + b * s
+
+
+def spline(places: Sequence[float], values: Sequence[float], period: float) -> Spline:
+    """The spline through the values; at least three places, increasing, within one period."""
+    n = len(places)
+    steps = [places[(k + 1) % n] - places[k] + (period if k == n - 1 else 0.0) for k in range(n)]
+    slopes = [(values[(k + 1) % n] - values[k]) / steps[k] for k in range(n)]
+    middle = [2.0 * (steps[k - 1] + steps[k]) for k in range(n)]
+    right = [6.0 * (slopes[k] - slopes[k - 1]) for k in range(n)]
+    return Spline(tuple(places), tuple(values), tuple(_cyclic(steps, middle, right)), period)
+
+
+def _cyclic(steps: Sequence[float], middle: Sequence[float], right: Sequence[float]) -> list[float]:
+    """Solve ``steps[k-1] x[k-1] + middle[k] x[k] + steps[k] x[k+1] = right[k]``, cyclic."""
+    corner, gamma = steps[-1], -middle[0]
+    diagonal = list(middle)
+    diagonal[0] -= gamma
+    diagonal[-1] -= corner * corner / gamma
+    u = [gamma, *([0.0] * (len(steps) - 2)), corner]
+    y, z = _tridiagonal(steps, diagonal, right), _tridiagonal(steps, diagonal, u)
+    ratio = corner / gamma
+    factor = (y[0] + ratio * y[-1]) / (1.0 + z[0] + ratio * z[-1])
+    return [a - factor * b for a, b in zip(y, z, strict=True)]
+
+
+def _tridiagonal(steps: Sequence[float], diagonal: Sequence[float], right: Sequence[float]) -> list[float]:
+    """Thomas's elimination; the matrix is symmetric with ``steps`` beside the diagonal."""
+    n = len(diagonal)
+    ratios, x = [0.0] * n, [0.0] * n
+    pivot = diagonal[0]
+    x[0] = right[0] / pivot
+    for k in range(1, n):
+        ratios[k] = steps[k - 1] / pivot
+        pivot = diagonal[k] - steps[k - 1] * ratios[k]
+        x[k] = (right[k] - steps[k - 1] * x[k - 1]) / pivot
+    for k in range(n - 2, -1, -1):
+        x[k] -= ratios[k + 1] * x[k + 1]
+    return x

@@ -10,8 +10,8 @@ import numpy as np
 
 from icsolve.answer import Answer
 from icsolve.answer.contacts import Touching
-from icsolve.cams.course import Course, Rows
-from icsolve.cams.lift import Turn
+from icsolve.cams.cam_motion import CamMotion, Rows
+from icsolve.cams.contact_candidates import Turn
 from icsolve.cams.solving import pressed
 from icsolve.cams.words import follower_driven, lost_rows, widest_pressure
 from icsolve.case import Case
@@ -83,7 +83,7 @@ def sweep_touching(case: Case, columns: Columns, wanted: Wanted, progress: Progr
     Raises SceneError as `icsolve.sweep`, and where a follower cannot be followed.
     """
     table, seen, parts = Table(columns.rows, wanted.asked), _Seen(), []
-    first = Course(case)
+    first = CamMotion(case)
     moving = _moving(first, columns)
     for part in _parts(case, columns, moving, table):
         parts.append(part)
@@ -103,7 +103,7 @@ def sweep_touching(case: Case, columns: Columns, wanted: Wanted, progress: Progr
     return replace(swept, touching=seen.places(columns.rows)) if wanted.asked.points else swept
 
 
-def _moving(course: Course, columns: Columns) -> set[str]:
+def _moving(course: CamMotion, columns: Columns) -> set[str]:
     """The varied paths that move the mechanism.
 
     Raises SceneError where a follower is to be turned, or a link cannot be.
@@ -150,7 +150,7 @@ def _run(case: Case, columns: Columns, rows: Which, moving: set[str], shaping: l
         return None
     paths = {path: a[rows] for path, a in columns.paths.items() if path not in shaping}
     links = {link: a[rows] for link, a in columns.links.items()}
-    return Rows(Course(case), Columns(paths, links, columns.names))
+    return Rows(CamMotion(case), Columns(paths, links, columns.names))
 
 
 def _written(case: Case, columns: Columns, row: int) -> Case:

@@ -6,9 +6,8 @@ import math
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from icsolve.cams.curve import Curve, Foot
-from icsolve.cams.pieces import Bow, Point, Polar
-from icsolve.cams.shapes import table_spline
+from icsolve.cams.curve import Curve, Foot, table_spline
+from icsolve.cams.pieces import CircularArc, Point, Polar
 from icsolve.case import Number
 from icsolve.case.profiles import Arcs, Circle, Polygon, Radii, Shape
 from icsolve.wording.sentences import listed, plural
@@ -64,7 +63,7 @@ def piece_words(shape: Shape, curve: Curve, foot: Foot) -> str:
     if isinstance(shape, Polygon):
         return "edge"
     piece = curve.pieces[foot.piece]
-    if isinstance(shape, Arcs) and isinstance(piece, Bow):
+    if isinstance(shape, Arcs) and isinstance(piece, CircularArc):
         return f"arc of radius {piece.radius:.6g}"
     return "line between arcs" if isinstance(shape, Arcs) else "spline"
 

@@ -9,11 +9,10 @@ from icsolve.case import Case
 from icsolve.case.space import Torque, TorqueVector
 from icsolve.construction.known import Known
 from icsolve.errors import SceneError
-from icsolve.statics.space.figure import Figure, figure_of, in_case
-from icsolve.statics.space.loading import wrenched
-from icsolve.statics.space.shown import unit_of
-from icsolve.statics.space.ties import Tie, ties_of
-from icsolve.statics.space.vectors import Vec, times
+from icsolve.statics.space.figure import Figure, Vec, figure_of, in_case, times
+from icsolve.statics.space.power import wrenched
+from icsolve.statics.space.reaction_basis import Tie, ties_of
+from icsolve.statics.space.report import unit_of
 
 
 class Push(NamedTuple):

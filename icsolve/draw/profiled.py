@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from icsolve.cams.shapes import placed
+from icsolve.cams.curve import placed
 from icsolve.case import Case, Contact
 from icsolve.case.profiles import Circle, Flat, Knife, Roller, points_of
 from icsolve.draw.marks import Box

@@ -34,8 +34,8 @@ from icsolve.draw.scene import HALF, PIN, Part, around, together
 from icsolve.draw.shapes import area, bar, hatched, joined, plate, tilted
 from icsolve.draw.view import View, along, unit, view_of
 from icsolve.draw.words import name_runs, quantity
-from icsolve.statics.space.ties import Tie, kind_of
-from icsolve.statics.space.vectors import AXES, Vec, add, cross, dot, size, sub, times
+from icsolve.statics.space.figure import AXES, Vec, add, cross, dot, size, sub, times
+from icsolve.statics.space.reaction_basis import Tie, kind_of
 
 TURN, RISE = math.radians(32.0), math.radians(24.0)
 """Where the picture is seen from: turned about z, and raised."""

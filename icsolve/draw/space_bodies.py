@@ -12,7 +12,7 @@ from icsolve.draw.place import Label
 from icsolve.draw.scene import Part, around, together
 from icsolve.draw.space import ARROW, Sketch, along_arrow, body_part, moving_links, outline_of, vector
 from icsolve.draw.words import force_runs, name_runs, quantity
-from icsolve.statics.space.vectors import Vec, size, times
+from icsolve.statics.space.figure import Vec, size, times
 
 
 def space_panels(known: Known, sketch: Sketch, left: float, top: float, width: float) -> list[Mark]:

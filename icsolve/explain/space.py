@@ -11,9 +11,9 @@ from icsolve.explain.document import Block, Inline, Items, Section, Table, formu
 from icsolve.explain.equilibrium import NOTHING, open_number
 from icsolve.explain.formula import Expr, Name, Num, Sum, product
 from icsolve.explain.numbers import Figures, load_name
-from icsolve.statics.space.ties import Tie, kind_of
-from icsolve.statics.space.vectors import Vec, size, sub
-from icsolve.statics.space.words import direction_words
+from icsolve.statics.space.figure import Vec, size, sub
+from icsolve.statics.space.reaction_basis import Tie, kind_of
+from icsolve.statics.space.report import direction_words
 from icsolve.wording.sentences import listed
 
 AXES = "xyz"

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from icsolve.case import Helix, Number
 from icsolve.case.space import Teeth
 from icsolve.read.entry import Entry
-from icsolve.statics.space.teeth import transverse_angle
+from icsolve.statics.space.reaction_basis import transverse_angle
 
 SECTIONS = ("", "normal ", "transverse ")
 ANGLES = tuple(f"{section}pressure angle" for section in SECTIONS)

@@ -24,7 +24,7 @@ from icsolve.solve.program import Program, Want, evaluate, prepare
 from icsolve.statics import power
 
 if TYPE_CHECKING:
-    from icsolve.statics.ties import Position
+    from icsolve.statics.reaction_basis import Position
 
 
 def solve(
@@ -107,7 +107,7 @@ def _refuse_unbalanced(parts: Parts) -> None:
 
 def _with_bodies(parts: Parts) -> Answer:
     """The answer with the reactions, and with the unknown loads as free bodies give them."""
-    from icsolve.statics.statics import free_bodies
+    from icsolve.statics.free_bodies import free_bodies
 
     by_power = {root: (value.value, value.error or 0.0) for root, value in parts.unknowns.items()}
     found = free_bodies(_position(parts), parts.figure.frame, parts.outcome.balance, by_power)
@@ -116,8 +116,7 @@ def _with_bodies(parts: Parts) -> Answer:
 
 def _with_friction(parts: Parts, reactions: bool) -> Answer:
     """The answer with friction, from free bodies; its motion or the range in which it holds."""
-    from icsolve.statics.friction import solved
-    from icsolve.statics.rubbing import Scene
+    from icsolve.statics.friction import Scene, solved
 
     def answer_with(values: Mapping[str, Value]) -> Answer:
         parts.unknowns = dict(values)
@@ -132,7 +131,7 @@ def _with_friction(parts: Parts, reactions: bool) -> Answer:
 
 def _position(parts: Parts) -> Position:
     """The scene as free bodies take it."""
-    from icsolve.statics.ties import Position
+    from icsolve.statics.reaction_basis import Position
 
     figure, moves = parts.figure, parts.outcome.motions
     scale, slack = figure.frame.scale, float(moves.slack)
@@ -141,6 +140,6 @@ def _position(parts: Parts) -> Position:
 
 def _structure(program: Program, refusal: SceneError) -> Answer:
     """A structure by statics alone; it has no unknown load that anything would determine."""
-    from icsolve.statics.statics import structure
+    from icsolve.statics.free_bodies import structure
 
     return structure(program, refusal)

@@ -1,44 +1,52 @@
-"""A scene with friction: the unknown loads in the given motion, or the range in which it holds still."""
+"""A scene with friction: the unknown loads in the given motion, or the range in which it holds still.
+
+What rubs, which way, and what it takes: of a scene and of its solution, in case units and in words.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 from icsolve.answer import Answer, Deferred, Found
-from icsolve.answer.bodies import Friction, Witness
+from icsolve.answer.bodies import Friction, Rubbing, Witness
+from icsolve.assembly import Frame
 from icsolve.case import Belt, Gears
 from icsolve.errors import SceneError, Status
-from icsolve.solve.bounds import Value
-from icsolve.statics import gears
-from icsolve.statics.agreement import bounds_of, refuse_apart, witnesses
-from icsolve.statics.certain import Certain, certain
-from icsolve.statics.equilibrium import Statics, equilibrium, residual, terms_of
-from icsolve.statics.holding import End, Held, held
-from icsolve.statics.losses import unknowns_by_power
-from icsolve.statics.power import is_unknown
-from icsolve.statics.pressing import pressed
-from icsolve.statics.reactions import names_by_tie, reactions_of
-from icsolve.statics.reduction import forces_of
-from icsolve.statics.rubbing import (
-    Scene,
-    place_of,
-    refuse_power,
-    rubbing_of,
-    said_at_rest,
-    said_in_motion,
-    senses_of,
+from icsolve.kinematics.speeds import STILL, Speed
+from icsolve.solve.bounds import Bounded, Value
+from icsolve.statics import reaction_basis
+from icsolve.statics.equilibrium import (
+    Statics,
+    bounds_of,
+    equilibrium,
+    refuse_apart,
+    residual,
+    terms_of,
+    witnesses,
 )
-from icsolve.statics.rubs import rubs_of
-from icsolve.statics.said import said_of
+from icsolve.statics.error_bound import ErrorBounds, error_bounds
+from icsolve.statics.free_bodies import (
+    FreeBodies,
+    Solved,
+    carrying_flanks,
+    frictionless,
+    on_flanks,
+    refuse_doubt,
+)
+from icsolve.statics.friction_equations import forces_of
+from icsolve.statics.friction_interface import kind_of_rub, rates_of, rubs_of, unknowns_by_power
+from icsolve.statics.power import Balance, Solution, is_unknown
+from icsolve.statics.reaction_basis import Position, Tie, ties_of
+from icsolve.statics.reactions import names_by_tie, notes_of, reactions_of
 from icsolve.statics.sliding import Slid, slid
-from icsolve.statics.statics import Bodies, Solved, carrying_flanks, frictionless, on_flanks, refuse_doubt
-from icsolve.statics.ties import Tie, ties_of
-from icsolve.wording.sentences import plural
+from icsolve.statics.static_range import End, StaticRange, pressed, static_range
+from icsolve.wording.sentences import listed, plural
 
 
-def in_motion(scene: Scene) -> tuple[dict[str, float], Bodies, Certain]:
+def in_motion(scene: Scene) -> tuple[dict[str, float], FreeBodies, ErrorBounds]:
     """The unknown loads (case units) that keep up the given motion, the free bodies, and bounds.
 
     Raises SceneError where no value does, where several do without one to prefer, and where the sense
@@ -57,11 +65,11 @@ def in_motion(scene: Scene) -> tuple[dict[str, float], Bodies, Certain]:
     return solved.unknowns, _bodies(scene, solved, slides[-1], workless), sure
 
 
-def _certain(scene: Scene, solved: Solved, senses: Sequence[float]) -> Certain:
-    return certain(scene.position, scene.balance, solved, senses, scene.traced, scene.speed)
+def _certain(scene: Scene, solved: Solved, senses: Sequence[float]) -> ErrorBounds:
+    return error_bounds(scene.position, scene.balance, solved, senses, scene.traced, scene.speed)
 
 
-def at_rest(scene: Scene) -> tuple[Held, float | None, str]:
+def at_rest(scene: Scene) -> tuple[StaticRange, float | None, str]:
     """The range of the one unknown load in which the mechanism holds still.
 
     With it the bound of its ends (case units), None with the reason where none is proven.
@@ -76,9 +84,9 @@ def at_rest(scene: Scene) -> tuple[Held, float | None, str]:
         raise SceneError(Status.MOBILITY, message)
     ties, workless = ties_of(scene.position), _is_workless(scene)
     flanks = _flanks(scene, ties, workless)
-    statics = _statics(scene, gears.with_flanks(scene.position, ties, flanks))
+    statics = _statics(scene, reaction_basis.with_flanks(scene.position, ties, flanks))
     senses = senses_of(scene, statics).signs
-    found = pressed(statics, senses) if workless else held(statics, senses)
+    found = pressed(statics, senses) if workless else static_range(statics, senses)
     sure = [_certain_end(scene, statics, end) for end in found.ends]
     bounds = [bound for each in sure for bound in each.bounds.values()]
     why = next((each.why for each in sure if not each.bounds), "" if bounds else PRESSED)
@@ -88,7 +96,7 @@ def at_rest(scene: Scene) -> tuple[Held, float | None, str]:
 PRESSED = "no bound is proven of a range whose ends no motion sets"
 
 
-def _certain_end(scene: Scene, statics: Statics, end: End) -> Certain:
+def _certain_end(scene: Scene, statics: Statics, end: End) -> ErrorBounds:
     """The bound of an end, at which the mechanism is about to move."""
     (root,) = statics.roots
     return _certain(scene, Solved(statics, {root: end.value}, end.friction), end.senses)
@@ -96,7 +104,7 @@ def _certain_end(scene: Scene, statics: Statics, end: End) -> Certain:
 
 def _flanks(scene: Scene, ties: Sequence[Tie], workless: bool) -> Mapping[int, float]:
     """The flanks of the teeth that carry without friction: friction seldom turns them."""
-    if not gears.meshes(ties):
+    if not reaction_basis.meshes(ties):
         return {}
     if workless:
         raise SceneError(
@@ -142,7 +150,7 @@ def _shared(tie: Tie, ties: Sequence[Tie]) -> str:
     )
 
 
-def _bodies(scene: Scene, solved: Solved, found: Slid, workless: bool) -> Bodies:
+def _bodies(scene: Scene, solved: Solved, found: Slid, workless: bool) -> FreeBodies:
     position, statics, parameters = scene.position, solved.statics, solved.parameters
     terms = terms_of(position, statics, scene.balance, parameters)
     senses = senses_of(scene, statics)
@@ -156,9 +164,9 @@ def _bodies(scene: Scene, solved: Solved, found: Slid, workless: bool) -> Bodies
     rubbing = rubbing_of(scene, solved, found, senses)
     refuse_power(rubbing)
     friction = Friction(rubbing, residual(terms), found.error, found.unique, sum(r.loss for r in rubbing))
-    notes = said_of(statics, reactions, names_by_tie(position.case, statics.ties))
-    return Bodies(
-        reactions, shown, residual(terms), (*notes, *said_in_motion(scene, statics, found, senses)), friction
+    notes = notes_of(statics, reactions, names_by_tie(position.case, statics.ties))
+    return FreeBodies(
+        reactions, shown, residual(terms), (*notes, *notes_in_motion(scene, statics, found, senses)), friction
     )
 
 
@@ -178,7 +186,7 @@ def solved(scene: Scene, answer_with: Callable[[Mapping[str, Value]], Answer], r
     (root,) = (w.load.name for w in scene.balance.wrenches if is_unknown(w.load))
     answer = answer_with({root: Value(0.0, bound, why)})
     answers = {name: _held(scene, name, found, shown) for name, shown in answer.answers.items()}
-    notes = (*answer.notes, *said_at_rest(root, found))
+    notes = (*answer.notes, *notes_at_rest(root, found))
     friction = Friction((), 0.0, 0.0, found.how, possible=found.possible)
     bare = replace(answer, answers=answers, terms=(), advantage=None, sensitivities=Deferred(_no_slopes))
     return replace(bare, notes=notes, friction=friction)
@@ -191,7 +199,7 @@ def _moving(scene: Scene, answer_with: Callable[[Mapping[str, Value]], Answer], 
     return bodies.added_to(answer, reactions)
 
 
-def _slopes(scene: Scene, sure: Certain) -> dict[str, dict[str, float]]:
+def _slopes(scene: Scene, sure: ErrorBounds) -> dict[str, dict[str, float]]:
     """Slopes of every unknown load and of those like it, friction included."""
     if not sure.slopes:
         raise SceneError(Status.UNSUPPORTED, f"{NO_SLOPES}: {sure.why}.")
@@ -210,10 +218,125 @@ def _no_slopes() -> dict[str, dict[str, float]]:
     raise SceneError(Status.UNSUPPORTED, f"{NO_SLOPES}: {said}")
 
 
-def _held(scene: Scene, name: str, found: Held, shown: Found) -> Found:
+def _held(scene: Scene, name: str, found: StaticRange, shown: Found) -> Found:
     """The range of a load that is the unknown, or a multiple of it; ``shown`` has its bound."""
     ratio = next(float(w.ratio) for w in scene.balance.wrenches if w.load.name == name)
     ends = sorted((ratio * found.least, ratio * found.most))
     return shown._replace(
         value=math.nan, sense="", holds=(ends[0], ends[1]), self_locking=found.self_locking
     )
+
+
+class Scene(NamedTuple):
+    """What is known of a scene before its friction: position, sum of power, and the motion that is meant."""
+
+    position: Position
+    frame: Frame
+    balance: Balance
+    solution: Solution
+    speed: Speed
+    traced: Bounded | None = None
+    """the same on a tape, where bounds are asked for"""
+
+
+class Sense(NamedTuple):
+    """Of each rub the rate in the motion that is meant, 0.0 where it is at rest."""
+
+    rates: tuple[float, ...]
+
+    @property
+    def signs(self) -> tuple[float, ...]:
+        """1, -1, or 0."""
+        return tuple(math.copysign(1.0, rate) if rate else 0.0 for rate in self.rates)
+
+
+def senses_of(scene: Scene, statics: Statics) -> Sense:
+    """Rates of all rubs in the motion that is meant.
+
+    Raises SceneError where a freedom that no motion fixes moves one.
+    """
+    motions = range(scene.position.mobility)
+    by_motion = [rates_of(scene.position, statics.ties, statics.rubs, m) for m in motions]
+    fastest = max((abs(x) for ts in scene.position.twists.values() for t in ts for x in t), default=0.0)
+    found = []
+    for k, rub in enumerate(statics.rubs):
+        rate = scene.speed.of([row[k] for row in by_motion], fastest)
+        if rate is None:
+            raise SceneError(Status.MOBILITY, _open(statics.ties[rub.tie]))
+        found.append(rate if abs(rate * scene.speed.divisor) > STILL * fastest else 0.0)
+    return Sense(tuple(found))
+
+
+def _open(tie: Tie) -> str:
+    return (
+        f"the sense of the friction of links {tie.by} and {tie.on}{place_of(tie)} is open: a freedom that no "
+        "given motion fixes moves them. Give its `motion` too, or weld what does not turn."
+    )
+
+
+def place_of(tie: Tie) -> str:
+    return f" at {tie.where}" if tie.where else ""
+
+
+def rubbing_of(scene: Scene, solved: Solved, found: Slid, senses: Sense) -> tuple[Rubbing, ...]:
+    statics, case = solved.statics, scene.position.case
+    names = names_by_tie(case, statics.ties)
+    rows = []
+    for k, rub in enumerate(statics.rubs):
+        tie, kind = statics.ties[rub.tie], kind_of_rub(statics.ties[rub.tie])
+        turns = kind == "pin"
+        per_unit = statics.scale * (scene.frame.scale / case.units.torque_per_force_length if turns else 1.0)
+        rate = senses.rates[k] / (1.0 if turns else scene.frame.scale)
+        loss = 0.0 - solved.friction[k] / statics.scale * (senses.rates[k] / scene.frame.scale)
+        value, limit = solved.friction[k] / per_unit + 0.0, found.limits[k] / per_unit
+        radius = rub.limit / scene.frame.scale if turns else None
+        rows.append(Rubbing(names[rub.tie], tie.where, kind, value, limit, rate, loss, radius))
+    return tuple(rows)
+
+
+def refuse_power(rubbing: Sequence[Rubbing]) -> None:
+    """Friction that gave power would be a fault: it opposes the rates, or is none."""
+    for rub in rubbing:
+        if rub.loss < 0.0:
+            raise AssertionError(f"friction at {rub.joint} gives power")
+
+
+def notes_in_motion(scene: Scene, statics: Statics, found: Slid, senses: Sense) -> Sequence[str]:
+    notes = []
+    still = [statics.ties[rub.tie] for rub, rate in zip(statics.rubs, senses.rates, strict=True) if not rate]
+    if still:
+        places = listed(dict.fromkeys(f"{tie.by}-{tie.on}{place_of(tie)}" for tie in still))
+        notes.append(f"{places} does not rub in this motion: its friction has no sense and is left out.")
+    if found.others:
+        values = listed(f"{value:.6g}" for value in found.others)
+        notes.append(
+            f"with this friction the motion is in equilibrium at other values of {statics.roots[0]} too: "
+            f"{values}."
+        )
+    if not found.unique:
+        notes.append("there are too many rubbing joints to count all solutions: there may be others.")
+    return notes
+
+
+def notes_at_rest(root: str, found: StaticRange) -> Sequence[str]:
+    """Sentences about the range."""
+    notes = [
+        "without `motion` the friction at the joints, and with it their reactions, is open within its limits."
+    ]
+    if found.self_locking and found.least <= 0.0 <= found.most:
+        notes.append(f"self-locking: it holds still with {root} = 0.")
+    if math.isinf(found.least) and math.isinf(found.most):
+        notes.append(f"no value of {root}, however large, moves it either way.")
+    elif math.isinf(found.most):
+        notes.append(f"no value of {root} above the range moves it, however large: it locks that way.")
+    elif math.isinf(found.least):
+        notes.append(f"no value of {root} below the range moves it, however large: it locks that way.")
+    for value in found.again:
+        notes.append(f"beyond {root} = {value:.6g}, where it is about to move too, it may hold again.")
+    for end, more in zip((found.least, found.most), found.possible, strict=True):
+        if end != more and abs(end - more) > 1e-9 * max(abs(end), abs(more)):
+            notes.append(
+                f"from {end:.6g} to {more:.6g} it may still hold, if friction was left the other way round "
+                "at some joint (the end is that of impending motion)."
+            )
+    return notes

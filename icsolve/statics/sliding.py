@@ -10,11 +10,9 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from icsolve.errors import SceneError, Status
-from icsolve.statics.affine import error_of, is_sound
-from icsolve.statics.continuation import COUNTED, Solutions, solutions
 from icsolve.statics.equilibrium import Statics
-from icsolve.statics.reduction import Reduced, reduced, reduced_workless
-from icsolve.statics.roots import all_roots, can_count
+from icsolve.statics.friction_equations import Reduced, error_of, is_sound, reduced, reduced_workless
+from icsolve.statics.homotopy import COUNTED, Solutions, all_roots, can_count, solutions
 from icsolve.wording.sentences import listed
 
 

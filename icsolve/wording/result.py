@@ -127,12 +127,12 @@ def _places(answer: Answer) -> Mapping[str, tuple[float, ...]]:
 def _bodies(answer: Answer) -> dict[str, Any]:
     """Reactions and friction, where there are some; free bodies are not even imported before."""
     if answer.spatial is not None:
-        from icsolve.statics.space.shown import space_dict
+        from icsolve.statics.space.report import space_dict
 
         return space_dict(answer.spatial)
     if answer.reactions is None and answer.friction is None:
         return {}
-    from icsolve.statics.shown import bodies_dict
+    from icsolve.statics.report import bodies_dict
 
     return bodies_dict(answer)
 

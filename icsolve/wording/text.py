@@ -267,12 +267,12 @@ def _points(answer: Answer, show: Format) -> list[str]:
 
 def _reactions(answer: Answer, show: Format) -> list[str]:
     if answer.spatial is not None:
-        from icsolve.statics.space.shown import space_lines
+        from icsolve.statics.space.report import space_lines
 
         return space_lines(answer, answer.spatial, show, _table)
     if answer.reactions is None and answer.friction is None:
         return []
-    from icsolve.statics.shown import bodies_lines
+    from icsolve.statics.report import bodies_lines
 
     return bodies_lines(answer, show, _table)
 

@@ -17,16 +17,19 @@ from icsolve.answer.space import Spatial, Witness
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.linear import solve_square
-from icsolve.statics.agreement import independent
-from icsolve.statics.space.adjoint import Bounds, bounds_of
-from icsolve.statics.space.equilibrium import Statics, statics_of
+from icsolve.statics.equilibrium import independent
+from icsolve.statics.space.equilibrium import Bounds, Statics, bounds_of, statics_of
 from icsolve.statics.space.figure import Figure, figure_of, in_case
-from icsolve.statics.space.loading import Wrenched, is_unknown, wrenched
-from icsolve.statics.space.motions import Balance, Twist, balance_of, motions_of
-from icsolve.statics.space.reactions import reactions_of
-from icsolve.statics.space.shown import advantage_of, sense_of, terms_of, unit_of
-from icsolve.statics.space.ties import Tie, flanked, ties_of
-from icsolve.statics.space.verdicts import notes_of, refuse_huge, refuse_loose, refuse_unbalanced
+from icsolve.statics.space.power import Balance, Twist, Wrenched, balance_of, is_unknown, motions_of, wrenched
+from icsolve.statics.space.reaction_basis import Tie, flanked, ties_of
+from icsolve.statics.space.reactions import (
+    notes_of,
+    reactions_of,
+    refuse_huge,
+    refuse_loose,
+    refuse_unbalanced,
+)
+from icsolve.statics.space.report import advantage_of, sense_of, terms_of, unit_of
 
 MOST_TURNS = 4
 """The flanks that carry are tried again so often, where a separating force turns a tangential one."""

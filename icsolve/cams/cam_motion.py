@@ -3,6 +3,10 @@
 Without its contacts the mechanism has a freedom more for each follower. In every row a cam is where the
 others put it; the follower is moved along its guide to the first meeting from outside; the sweep with these
 motions given places everything that hangs on it.
+
+How far a link has moved from the position as written: a turning and where a point of it is.
+
+Profiles whose every direction is told by points of their link, so that all of them moves with it.
 """
 
 from __future__ import annotations
@@ -15,18 +19,22 @@ from typing import NamedTuple
 import numpy as np
 
 from icsolve.answer.contacts import Touching
-from icsolve.cams.anchored import anchored, coordinates
-from icsolve.cams.curve import Curve
-from icsolve.cams.found import Seeking, found
-from icsolve.cams.freedom import places_of
-from icsolve.cams.lift import Freedom, Turn, Way, outermost
+from icsolve.cams.contact_candidates import (
+    Candidate,
+    Freedom,
+    Meeting,
+    Shift,
+    Turn,
+    gap_of,
+    meeting_of,
+    outermost,
+)
+from icsolve.cams.contact_search import ContactSearch, Places, found, places_of
+from icsolve.cams.curve import Body, Curve, Foot, placed
 from icsolve.cams.pieces import Point
-from icsolve.cams.pose import Pose, pose_of
-from icsolve.cams.shapes import Body, placed
-from icsolve.cams.touching import gap_of, meeting_of
 from icsolve.cams.words import not_guided
-from icsolve.case import Case, Contact, Length, Number
-from icsolve.case.profiles import Circle, Roller, points_of
+from icsolve.case import Case, Contact, Coordinates, Length, Number
+from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Radii, Roller, Shape, points_of
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
 from icsolve.sweep.ask import Columns
@@ -50,7 +58,7 @@ class Follow(NamedTuple):
     follower moves on where ``sense`` is 1.
     """
 
-    seeking: Seeking
+    seeking: ContactSearch
     curve: Curve
     body: Body
     freedom: Freedom
@@ -65,18 +73,18 @@ class Follow(NamedTuple):
         """The driver's values for motions along the freedom."""
         return np.degrees(by) if isinstance(self.freedom, Turn) else self.start + by
 
-    def met(self, pose: Pose) -> Way | None:
+    def met(self, pose: Pose) -> Candidate | None:
         """Where the follower meets the cam first, in this pose of the cam; as the cam sees it."""
         body, freedom = pose.body_back(self.body), pose.freedom_back(self.freedom)
         return outermost(self.curve, body, freedom, self.side, self.sense)
 
-    def contact(self, case: Case, pose: Pose, way: Way) -> tuple[Case, Touching]:
+    def contact(self, case: Case, pose: Pose, way: Candidate) -> tuple[Case, Touching]:
         """A row's case with this contact."""
         meeting = meeting_of(self.curve, way.body, self.side, self.seeking.what)
         return self.seeking.contact(case, self.curve, pose.meeting(meeting), self.freedom, note=False)
 
 
-class Course:
+class CamMotion:
     """A case that moves; ``open`` is without its contacts, ``whole`` has them where they are as written.
 
     Raises SceneError where the position as written has no contact, or a follower is not guided by the frame.
@@ -100,7 +108,7 @@ class Course:
         """One follower as written; what moves it is added to the open case."""
         assert self.case.profiles is not None and self.whole.profiles is not None
         touch = self.case.profiles.touches[k]
-        seeking = Seeking(self.case, self.whole.profiles, touch, self.whole)
+        seeking = ContactSearch(self.case, self.whole.profiles, touch, self.whole)
         freedom = seeking.guide()
         if freedom is None:
             raise SceneError(Status.UNSUPPORTED, not_guided(seeking.guided, seeking.cam))
@@ -156,10 +164,10 @@ class Course:
 class Rows:
     """The rows of a sweep that one course runs through."""
 
-    def __init__(self, course: Course, columns: Columns) -> None:
+    def __init__(self, course: CamMotion, columns: Columns) -> None:
         self.course, self.columns = course, columns
         self.codes: Codes = np.zeros(columns.rows, dtype=np.int8)
-        self.ways: list[list[tuple[Pose, Way] | None]] = []
+        self.ways: list[list[tuple[Pose, Candidate] | None]] = []
         self.drivers = {f.driver: np.full(columns.rows, f.start) for f in course.follows}
         for follow in course.follows:
             self._place(follow)
@@ -182,7 +190,7 @@ class Rows:
         work = self._work(follow.frame)
         work.run()
         first, second = (work.values["points", name] for name in follow.frame)
-        found: list[tuple[Pose, Way] | None] = []
+        found: list[tuple[Pose, Candidate] | None] = []
         for row in range(self.columns.rows):
             found.append(None)
             if work.codes[row] in (0, CODE[Status.CHANGE_POINT]) and self.codes[row] == 0:
@@ -234,3 +242,119 @@ class Rows:
 
 def _point(place: Array) -> Point:
     return (float(place[0]), float(place[1]))
+
+
+class Pose(NamedTuple):
+    """``turn`` is (cos, sin) of the turning; ``written`` and ``now`` are the places of one of its points."""
+
+    turn: Point
+    written: Point
+    now: Point
+
+    def out(self, v: Point) -> Point:
+        """A vector that the link carries, as it is now."""
+        (c, s), (x, y) = self.turn, v
+        return (c * x - s * y, s * x + c * y)
+
+    def back(self, v: Point) -> Point:
+        """A vector as the link carried it in the position as written."""
+        (c, s), (x, y) = self.turn, v
+        return (c * x + s * y, c * y - s * x)
+
+    def place(self, p: Point) -> Point:
+        """A point that the link carries, as it is now."""
+        x, y = self.out((p[0] - self.written[0], p[1] - self.written[1]))
+        return (x + self.now[0], y + self.now[1])
+
+    def place_back(self, p: Point) -> Point:
+        """Where a point is as the link sees it, in the position as written."""
+        x, y = self.back((p[0] - self.now[0], p[1] - self.now[1]))
+        return (x + self.written[0], y + self.written[1])
+
+    def body_back(self, body: Body) -> Body:
+        """A follower as the link sees it."""
+        return body._replace(at=self.place_back(body.at), face=self.back(body.face))
+
+    def freedom_back(self, freedom: Freedom) -> Freedom:
+        """A follower's freedom as the link sees it."""
+        if isinstance(freedom, Turn):
+            return Turn(self.place_back(freedom.about))
+        return Shift(self.back(freedom.along))
+
+    def meeting(self, meeting: Meeting) -> Meeting:
+        """A meeting that the link sees, as it is now."""
+        foot = meeting.foot
+        turned = Foot(self.place(foot.point), foot.piece, foot.u, tuple(map(self.out, foot.normals)))
+        return Meeting(meeting.gap, turned, tuple(map(self.out, meeting.normals)))
+
+
+def pose_of(written: tuple[Point, Point], now: tuple[Point, Point]) -> Pose:
+    """The pose of a link by two of its points."""
+    (ax, ay), (bx, by) = written
+    (cx, cy), (dx, dy) = now
+    ux, uy, vx, vy = bx - ax, by - ay, dx - cx, dy - cy
+    c, s = ux * vx + uy * vy, ux * vy - uy * vx
+    size = math.hypot(c, s)
+    return Pose((c / size, s / size), written[0], now[0])
+
+
+def anchored(case: Case) -> Case:
+    """The case with hidden points in the place of directions in degrees, carried by the links that have them.
+
+    Raises SceneError where a point of a profile is not determined.
+    """
+    assert case.profiles is not None
+    shapes, points, carries = {}, dict(case.points), dict(case.carries)
+    for link, shape in case.profiles.shapes.items():
+        own = _Anchors(link, places_of(case, points_of(shape)))
+        shapes[link] = own.of(shape)
+        points |= {name: coordinates(name, place) for name, place in own.added.items()}
+        carries[link] = (*carries.get(link, ()), *own.added)
+    profiles = case.profiles._replace(shapes=shapes)
+    return replace(case, profiles=profiles, points=points, carries=carries)
+
+
+def coordinates(name: str, place: Point) -> Coordinates:
+    """A hidden point's place as it would be given."""
+    x, y = (Number(v, 0.0, f"points.{name}.{axis}", repr(v)) for v, axis in zip(place, "xy", strict=True))
+    return Coordinates(x, y)
+
+
+class _Anchors:
+    """The points that stand for the directions of one profile."""
+
+    def __init__(self, link: str, places: Places) -> None:
+        self.link, self.places = link, places
+        self.added: dict[str, Point] = {}
+
+    def of(self, shape: Shape | Follower) -> Shape | Follower:
+        """The profile with points for directions."""
+        match shape:
+            case Flat(at, Number(degrees)):
+                return Flat(at, (at, self.point(at, degrees, 1.0)))
+            case Radii(about, Number(degrees)):
+                return shape._replace(zero=(about, self.point(about, degrees, 1.0)))
+            case Arcs(arcs):
+                return Arcs(tuple(map(self.arc, arcs)))
+        return shape
+
+    def arc(self, arc: Arc) -> Arc:
+        """An arc whose ends are points of it."""
+        radius = arc.radius.value if arc.radius is not None else self.distance(arc)
+        start, stop = (
+            self.point(arc.centre, end.value, radius) if isinstance(end, Number) else end
+            for end in (arc.start, arc.stop)
+        )
+        return arc._replace(start=start, stop=stop)
+
+    def distance(self, arc: Arc) -> float:
+        """The radius of an arc that is given by a point of it."""
+        ends = (end for end in (arc.start, arc.stop) if isinstance(end, str))
+        return max(math.dist(self.places[end], self.places[arc.centre]) for end in ends)
+
+    def point(self, at: str, degrees: float, away: float) -> str:
+        """A new point, so far from another in a direction."""
+        (x, y), angle = self.places[at], math.radians(degrees)
+        name = f"@profile.{self.link}.{len(self.added)}"
+        self.added[name] = (x + away * math.cos(angle), y + away * math.sin(angle))
+        return name

@@ -4,20 +4,34 @@ Its ends are the equilibria in which the mechanism is about to move one way and 
 have them. Friction that is not at its limit everywhere, or that a history has left the other way round,
 can hold more: the set of values for which any equilibrium exists with every friction within its limit.
 Where the rubs have little influence on each other the two are proven to be one, else it is looked for.
+
+Friction at rest where the unknown load does no work: it presses links together until friction holds.
+
+The mechanism holds where the most that friction can do against the motion that the known loads drive is
+at least what they do. The ends of the range are the loads at which it is just that.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from itertools import product
+from itertools import pairwise, product
 from typing import NamedTuple
 
-from icsolve.statics.affine import at, contraction, is_sound
-from icsolve.statics.continuation import followed, solutions, without_friction
+from icsolve.errors import SceneError, Status
 from icsolve.statics.equilibrium import Statics
-from icsolve.statics.reduction import Reduced, reduced
-from icsolve.statics.roots import all_roots, can_count
+from icsolve.statics.friction_equations import (
+    Reduced,
+    at,
+    contraction,
+    fixed_point,
+    forces_of,
+    is_sound,
+    reduced,
+    reduced_workless,
+)
+from icsolve.statics.homotopy import all_roots, can_count, followed, solutions, without_friction
+from icsolve.statics.reaction_basis import is_touching
 
 PROVEN = "proven: no friction within its limits holds more"
 SEARCHED = "every combination of full friction was tried"
@@ -37,7 +51,7 @@ class End(NamedTuple):
     friction: tuple[float, ...] = ()
 
 
-class Held(NamedTuple):
+class StaticRange(NamedTuple):
     """The interval, in case units; infinite where no value moves the mechanism that way.
 
     ``possible`` is the range in which friction within its limits can hold; ``how`` says how that was
@@ -54,7 +68,7 @@ class Held(NamedTuple):
     again: tuple[float, ...] = ()
 
 
-def held(statics: Statics, senses: Sequence[float]) -> Held:
+def static_range(statics: Statics, senses: Sequence[float]) -> StaticRange:
     """The interval of the one unknown load; ``senses`` are those of the rubs in the motion.
 
     Self-locking: it holds with the unknown at zero (against loads), or no value moves it one way.
@@ -66,7 +80,7 @@ def held(statics: Statics, senses: Sequence[float]) -> Held:
     about_to_move = tuple(end for end in ends if math.isfinite(end.value))
     possible, how = _possible(statics, senses, (least, most))
     again = _again(statics, senses, least, most) if unbounded else ()
-    return Held(least, most, possible, how, locks, about_to_move, again)
+    return StaticRange(least, most, possible, how, locks, about_to_move, again)
 
 
 def _again(statics: Statics, senses: Sequence[float], least: float, most: float) -> tuple[float, ...]:
@@ -167,3 +181,71 @@ def _is_proven(statics: Statics, senses: Sequence[float]) -> bool:
     ]
     reach = [sum(spread[k][j] * own[k] for k in range(n)) for j in range(n)]
     return all(sum(factors[k][j] * reach[k] for k in range(n)) < own[j] for j in range(n) if gains[j])
+
+
+SAID = "the unknown load does no work; between the ends friction was compared with the known loads"
+
+
+def pressed(statics: Statics, senses: Sequence[float]) -> StaticRange:
+    """The range of an unknown load that does no work; ``senses`` are those of the rubs in the motion.
+
+    Raises SceneError where nothing drives the mechanism (any value holds) and where none holds it.
+    """
+    name = statics.roots[0]
+    (left,) = statics.general.left
+    powers = [left.get(statics.rub(k), 0.0) for k in range(len(senses))]
+    drive = left.get(statics.known, 0.0)
+    if abs(drive) <= 1e-12 * max(map(abs, (*left.values(), drive)), default=0.0):
+        raise SceneError(
+            Status.ANY_VALUE, f"any value of {name} holds: it does no work, and nothing drives the mechanism."
+        )
+    against = [-math.copysign(1.0, drive * p) if p else 0.0 for p in powers]
+    equations = reduced_workless(statics, [-a for a in against])
+    if equations is None or not can_count(equations.equations):
+        raise SceneError(Status.NO_VALUE, f"no value of {name} holds: it does no work, and no friction does.")
+    ends = sorted({equations.load(y)[0] for y in all_roots(equations.equations)})
+    marks = [-math.inf, *ends, math.inf]
+    holding = [
+        (a, b)
+        for a, b in pairwise(marks)
+        if a < b and _capacity(statics, against, powers, _between(a, b)) >= abs(drive)
+    ]
+    if not holding:
+        raise SceneError(
+            Status.NO_VALUE, f"no value of {name} holds: the friction that it makes is never enough."
+        )
+    least, most = max(holding, key=lambda pair: (pair[1] == math.inf, pair[1]))
+    both = (least / statics.scale, most / statics.scale)
+    others = {end / statics.scale for pair in holding if pair != (least, most) for end in pair}
+    again = sorted(end for end in others if math.isfinite(end) and end not in both)
+    return StaticRange(*both, both, SAID, again=tuple(again))
+
+
+def _between(a: float, b: float) -> float:
+    if a == -math.inf:
+        return b - max(1.0, abs(b)) if b < math.inf else 0.0
+    return a + max(1.0, abs(a)) if b == math.inf else (a + b) / 2.0
+
+
+def _capacity(statics: Statics, against: Sequence[float], powers: Sequence[float], load: float) -> float:
+    """The most power that friction can take at this value of the load (scaled); -1 where a contact parts."""
+    limits = [rub.limit * a for rub, a in zip(statics.rubs, against, strict=True)]
+    vectors = [
+        tuple(
+            (
+                row.get(statics.known, 0.0) + row.get(statics.root(0), 0.0) * load,
+                *(row.get(statics.rub(k), 0.0) * limit for k, limit in enumerate(limits)),
+            )
+            for row in rows
+        )
+        for rows in forces_of(statics)
+    ]
+    touching = [is_touching(statics.ties[rub.tie].joint) for rub in statics.rubs]
+    equations = fixed_point(vectors, touching)
+    y, _, _ = followed(equations)
+    if y is None:
+        return math.inf
+    for forms, only in zip(equations.vectors, touching, strict=True):
+        if only and forms[0][0] + sum(a * b for a, b in zip(forms[0][1:], y, strict=True)) < 0.0:
+            return -1.0
+    return sum(abs(p) * rub.limit * size for p, rub, size in zip(powers, statics.rubs, y, strict=True))

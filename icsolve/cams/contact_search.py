@@ -1,4 +1,7 @@
-"""A case with profiles to the same case with its contacts where they are."""
+"""A case with profiles to the same case with its contacts where they are.
+
+How the joints of a follower let it move against a link that stands, and the datum that is missing.
+"""
 
 from __future__ import annotations
 
@@ -7,16 +10,24 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from icsolve.answer.contacts import Touching
-from icsolve.cams.curve import Curve
-from icsolve.cams.freedom import Missing, Places, along_data, carrier, guided, missing, places_of
-from icsolve.cams.lift import Freedom, Way, ways
-from icsolve.cams.pieces import Point
-from icsolve.cams.shapes import Body, body_of, placed
-from icsolve.cams.touching import Meeting, gap_of, meeting_of
+from icsolve.assembly import case_point, solve_figure
+from icsolve.cams.contact_candidates import (
+    Candidate,
+    Freedom,
+    Meeting,
+    Shift,
+    Turn,
+    candidates,
+    gap_of,
+    meeting_of,
+)
+from icsolve.cams.curve import Body, Curve, body_of, placed
+from icsolve.cams.pieces import Point, unit
 from icsolve.cams.words import corner_refusal, left_open, never_meets, piece_words, several_ways
-from icsolve.case import Case, Contact, Coordinates, Number
+from icsolve.case import Case, Contact, Coordinates, Direction, Number, Pin, Slide
 from icsolve.case.profiles import Flat, Follower, Knife, Profiles, Roller, Shape, Touch, points_of
 from icsolve.errors import SceneError, Status
+from icsolve.numbers.arithmetic import turn_of
 
 FITS = 2e-3
 """A follower whose place is given may miss the profile by this fraction of the profile's size."""
@@ -45,13 +56,13 @@ def found(case: Case) -> Found:
     current = replace(case, profiles=case.profiles._replace(touches=()))
     touching = []
     for touch in case.profiles.touches:
-        current, one = Seeking(case, case.profiles, touch, current).found()
+        current, one = ContactSearch(case, case.profiles, touch, current).found()
         touching.append(one)
     used = (name for shape in case.profiles.shapes.values() for name in points_of(shape))
     return Found(current, tuple(touching), frozenset(used))
 
 
-class Seeking:
+class ContactSearch:
     """One contact while it is looked for; ``case`` has the contacts that were found before."""
 
     def __init__(self, original: Case, profiles: Profiles, touch: Touch, case: Case) -> None:
@@ -98,7 +109,7 @@ class Seeking:
         """The follower with its points at these places."""
         return body_of(self.follower, places, f"link {self.link}")
 
-    def followed(self, curve: Curve, refusal: SceneError) -> tuple[Case, Way]:
+    def followed(self, curve: Curve, refusal: SceneError) -> tuple[Case, Candidate]:
         """The case with the follower where it touches."""
         guide = guided(self.case, self.guided)
         if guide is None:
@@ -108,13 +119,13 @@ class Seeking:
         freedom = along_data(self.case, names, datum, guide.freedom, self.guided)
         trial = datum.given(self.case, 0.0, freedom)
         body = self.body(places_of(trial, names))
-        all_ways = ways(curve, body, freedom)
+        all_ways = candidates(curve, body, freedom)
         if not all_ways:
             raise SceneError(Status.CANNOT_ASSEMBLE, never_meets(self.what, body.kind, None))
         chosen = self.meant(all_ways, freedom, datum, trial)
         return datum.given(self.case, chosen.by, freedom), chosen
 
-    def meant(self, all_ways: list[Way], freedom: Freedom, datum: Missing, trial: Case) -> Way:
+    def meant(self, all_ways: list[Candidate], freedom: Freedom, datum: Missing, trial: Case) -> Candidate:
         """The way that `near` means, or the only one."""
         if len(all_ways) == 1:
             return all_ways[0]
@@ -128,7 +139,7 @@ class Seeking:
             raise SceneError(Status.AMBIGUOUS, several_ways(self.what, datum.point, ends, bool(names)))
         return all_ways[off[0][1]]
 
-    def off(self, way: Way, freedom: Freedom, start: Places) -> float:
+    def off(self, way: Candidate, freedom: Freedom, start: Places) -> float:
         """How far a way is from where `near` says."""
         near = self.case.near
         return math.fsum(math.dist(_moved(freedom, way.by, p), near.get(n, p)) for n, p in start.items())
@@ -186,3 +197,136 @@ def pressure_angle(guide: Freedom, at: Point, normal: Point) -> float:
 
 def _moved(freedom: Freedom, by: float, p: Point) -> Point:
     return freedom.moved(Body("", p), by).at
+
+
+Places = dict[str, Point]
+
+
+class Guided(NamedTuple):
+    """A follower's freedom, and the link against which it has it."""
+
+    freedom: Freedom
+    against: str
+
+
+def places_of(case: Case, names: tuple[str, ...]) -> Places:
+    """Points of the figure, in case units.
+
+    Raises SceneError as `icsolve.assembly.solve_figure`.
+    """
+    figure = solve_figure(case, names)
+    return {name: case_point(figure.frame, figure.points[name]) for name in names}
+
+
+def carrier(case: Case, link: str, follower: Follower) -> str:
+    """The link by whose guide a follower moves: that on which a roller of its own turns, else itself."""
+    for joint in case.joints if isinstance(follower, Roller) else ():
+        if isinstance(joint, Pin) and link in joint.links and joint.at == follower.at:
+            return next(other for other in joint.links if other != link)
+    return link
+
+
+def guided(case: Case, link: str) -> Guided | None:
+    """How a link is guided: by a slide, or by a pin whose place is known; None where neither is.
+
+    The frame guides it where it can.
+    """
+    own = [joint for joint in case.joints if link in joint.links and isinstance(joint, Pin | Slide)]
+    for joint in sorted(own, key=lambda joint: case.ground not in joint.links):
+        others = [other for other in joint.links if other != link]
+        against = case.ground if case.ground in others else others[0]
+        try:
+            freedom = _freedom(case, joint)
+        except SceneError:
+            continue
+        return Guided(freedom, against)
+    return None
+
+
+def _freedom(case: Case, joint: Pin | Slide) -> Freedom:
+    if isinstance(joint, Pin):
+        return Turn(places_of(case, (joint.at,))[joint.at])
+    guide = joint.guide
+    if guide.angle is not None:
+        return Shift(turn_of(guide.angle.value))
+    assert guide.ends is not None
+    (ax, ay), (bx, by) = places_of(case, guide.ends).values()
+    return Shift(unit(bx - ax, by - ay))
+
+
+class Missing(NamedTuple):
+    """The datum that fixes a follower: the direction of a point from its pivot, or one of its coordinates."""
+
+    point: str
+    pivot: str
+    axis: int
+    trial: float
+
+    def given(self, case: Case, by: float, freedom: Freedom) -> Case:
+        """The case with the datum as it is after the follower has moved."""
+        if isinstance(freedom, Turn):
+            value = self.trial + math.degrees(by)
+            datum = Direction(self.pivot, self.point, self.number(value))
+            return replace(case, angles=(*case.angles, datum))
+        value = self.trial + by * freedom.along[self.axis]
+        old = case.points.get(self.point)
+        kept = old if isinstance(old, Coordinates) else Coordinates(None, None)
+        number = self.number(value)
+        point = kept._replace(y=number) if self.axis else kept._replace(x=number)
+        return replace(case, points={**case.points, self.point: point})
+
+    def number(self, value: float) -> Number:
+        """A number that the profile gives."""
+        return Number(value, 0.0, f"profile.{self.point}", repr(value))
+
+
+def missing(case: Case, link: str, points: tuple[str, ...], freedom: Freedom) -> Missing:
+    """Which datum to try, and where to start.
+
+    Raises SceneError where the follower has no point that could carry it.
+    """
+    if isinstance(freedom, Shift):
+        axis = 0 if abs(freedom.along[0]) > abs(freedom.along[1]) else 1
+        return Missing(points[0], "", axis, case.near.get(points[0], (0.0, 0.0))[axis])
+    pivot = next(
+        joint.at
+        for joint in case.joints
+        if isinstance(joint, Pin) and link in joint.links and _is_at(case, joint.at, freedom.about)
+    )
+    arm = next((p for p in (*points, *case.carries.get(link, ())) if p != pivot), None)
+    if arm is None:
+        raise SceneError(
+            Status.UNDERDETERMINED,
+            f"link {link} has no point besides its pin {pivot} by which its face could be turned. Give the "
+            "face by two points, `along: [D, E]`.",
+        )
+    x, y = case.near.get(arm, (freedom.about[0] + 1.0, freedom.about[1]))
+    return Missing(arm, pivot, 0, math.degrees(math.atan2(y - freedom.about[1], x - freedom.about[0])))
+
+
+def along_data(case: Case, names: tuple[str, ...], datum: Missing, freedom: Freedom, link: str) -> Freedom:
+    """The way in which the data let a follower slide: a coordinate that they give may lead beside its guide.
+
+    Raises SceneError where they let it turn as well.
+    """
+    if isinstance(freedom, Turn):
+        return freedom
+    unit_way = tuple(float(axis == datum.axis) for axis in (0, 1))
+    there = datum.given(case, 1.0, Shift((unit_way[0], unit_way[1])))
+    first, second = (places_of(one, names) for one in (datum.given(case, 0.0, freedom), there))
+    moves = [(second[n][0] - first[n][0], second[n][1] - first[n][1]) for n in names]
+    x, y = moves[0]
+    if any(math.dist(move, moves[0]) > 1e-9 * math.hypot(x, y) for move in moves):
+        raise SceneError(
+            Status.UNDERDETERMINED,
+            f"the data of link {link} do not say how it slides: give its points by lengths and angles from "
+            "one of them.",
+        )
+    return Shift(unit(x, y))
+
+
+def _is_at(case: Case, name: str, place: Point) -> bool:
+    try:
+        return places_of(case, (name,))[name] == place
+    except SceneError:
+        return False

@@ -1,4 +1,7 @@
-"""Free bodies of a scene without friction: reactions, and the witness for the unknown loads."""
+"""Free bodies of a scene without friction: reactions, and the witness for the unknown loads.
+
+A mechanism without an unknown load: its known loads hold it still, or what they do is named.
+"""
 
 from __future__ import annotations
 
@@ -10,25 +13,32 @@ from typing import NamedTuple
 from icsolve.answer import Answer
 from icsolve.answer.bodies import Friction, Reactions, Witness
 from icsolve.assembly import Frame, case_point
+from icsolve.case import ForceVector, Number
 from icsolve.errors import SceneError, Status
+from icsolve.kinematics.speeds import joint_order
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.numbers.sparse import Row
-from icsolve.screws.plane import Triple
+from icsolve.screws.plane import Triple, velocity
 from icsolve.solve.program import Program
-from icsolve.statics import gears
-from icsolve.statics.agreement import bounds_of, refuse_apart, unknowns_of, witnesses
-from icsolve.statics.equilibrium import Statics, equilibrium, residual, terms_of
-from icsolve.statics.imbalance import refuse_imbalance
-from icsolve.statics.losses import efficiency, friction_terms
-from icsolve.statics.power import Balance, is_unknown, wrenches
-from icsolve.statics.reactions import is_unique, names_by_tie, reactions_of
-from icsolve.statics.rubs import has_friction
-from icsolve.statics.said import said_of
-from icsolve.statics.ties import Position, Tie, ties_of
-from icsolve.wording.sentences import plural
+from icsolve.statics import reaction_basis
+from icsolve.statics.equilibrium import (
+    Statics,
+    bounds_of,
+    equilibrium,
+    refuse_apart,
+    residual,
+    terms_of,
+    unknowns_of,
+    witnesses,
+)
+from icsolve.statics.friction_interface import efficiency, friction_terms, has_friction
+from icsolve.statics.power import Balance, Wrench, is_unknown, known_value, wrenches
+from icsolve.statics.reaction_basis import Position, Tie, ties_of
+from icsolve.statics.reactions import is_unique, names_by_tie, notes_of, reactions_of
+from icsolve.wording.sentences import listed, plural
 
 
-class Bodies(NamedTuple):
+class FreeBodies(NamedTuple):
     """What free bodies say of a scene."""
 
     reactions: Reactions
@@ -76,7 +86,7 @@ def structure(program: Program, refusal: SceneError) -> Answer:
 
 def free_bodies(
     position: Position, frame: Frame, balance: Balance, power: Mapping[str, tuple[float, float]]
-) -> Bodies:
+) -> FreeBodies:
     """Equilibrium of every link; ``power`` has the unknown loads as power found them, and their bounds.
 
     Raises SceneError where the two disagree.
@@ -91,8 +101,8 @@ def free_bodies(
     found = witnesses(power, solved.unknowns, bounds)
     refuse_apart(found, position.slack)
     reactions = reactions_of(position, frame, statics, parameters)
-    notes = said_of(statics, reactions, names_by_tie(position.case, statics.ties))
-    return Bodies(reactions, found, residual(terms), (*left, *notes))
+    notes = notes_of(statics, reactions, names_by_tie(position.case, statics.ties))
+    return FreeBodies(reactions, found, residual(terms), (*left, *notes))
 
 
 class Solved(NamedTuple):
@@ -110,21 +120,21 @@ class Solved(NamedTuple):
 
 def frictionless(position: Position, balance: Balance, ties: Sequence[Tie]) -> Solved:
     """The statics without friction, with the tooth forces on the flanks that carry."""
-    return with_tooth_forces(position, ties, lambda flanked: _solved(position, balance, flanked))
+    return with_tooth_forces(position, ties, lambda flanked: _without_friction(position, balance, flanked))
 
 
 def carrying_flanks(position: Position, ties: Sequence[Tie], found: Solved) -> dict[int, float]:
     """The flanks on which the tooth forces of a solution lie."""
     flanks = {}
-    for t in gears.meshes(ties):
+    for t in reaction_basis.meshes(ties):
         if len(found.statics.ties[t].units) == 1:
-            tangent, _ = gears.tangent_and_separating(position, ties[t])
+            tangent, _ = reaction_basis.tangent_and_separating(position, ties[t])
             x, y, _ = found.statics.ties[t].units[0]
             flanks[t] = math.copysign(1.0, x * tangent[0] + y * tangent[1])
     return flanks
 
 
-def _solved(position: Position, balance: Balance, ties: Sequence[Tie]) -> Solved:
+def _without_friction(position: Position, balance: Balance, ties: Sequence[Tie]) -> Solved:
     statics = equilibrium(position, ties, balance)
     refuse_doubt(position, statics)
     unknowns = unknowns_of(statics)
@@ -161,10 +171,10 @@ def with_tooth_forces(position: Position, ties: Sequence[Tie], solve: Solve) -> 
     The tangential forces are found first, with the separating ones open. Where equilibrium determines
     both parts of a force (wheels that no bearing keeps apart), it needs no pressure angle.
     """
-    meshes = gears.meshes(ties)
+    meshes = reaction_basis.meshes(ties)
     if not meshes:
         return solve(ties)
-    found = solve(gears.with_flanks(position, ties, dict.fromkeys(meshes, 0.0)))
+    found = solve(reaction_basis.with_flanks(position, ties, dict.fromkeys(meshes, 0.0)))
     flanks = {t: carrying(found, t) for t in meshes if is_unique(found.statics, t, 0)}
     flanks = {t: flank for t, flank in flanks.items() if not is_unique(found.statics, t, 1)}
     return on_flanks(position, ties, flanks, solve)
@@ -173,7 +183,7 @@ def with_tooth_forces(position: Position, ties: Sequence[Tie], solve: Solve) -> 
 def on_flanks(position: Position, ties: Sequence[Tie], flanks: Mapping[int, float], solve: Solve) -> Solved:
     """Solve with tooth forces on these flanks first; where a force pulls, on the other one."""
     for _ in range(MOST_TURNS):
-        found = solve(gears.with_flanks(position, ties, flanks))
+        found = solve(reaction_basis.with_flanks(position, ties, flanks))
         turned = {t: flank * carrying(found, t) for t, flank in flanks.items()}
         if turned == flanks:
             break
@@ -184,3 +194,95 @@ def on_flanks(position: Position, ties: Sequence[Tie], flanks: Mapping[int, floa
 def carrying(found: Solved, t: int) -> float:
     """Sign of the force in a mesh along its first unit."""
     return math.copysign(1.0, found.statics.value(found.statics.first[t], found.parameters))
+
+
+ROUNDED = 1e-9
+"""Power of this fraction of the largest term is rounding, where all numbers are exact."""
+NOISE = 1e-13
+"""A power below this fraction of the products that it is summed from is none."""
+
+
+def refuse_imbalance(position: Position, balance: Balance) -> tuple[str, ...]:
+    """Refuse reactions of known loads that do not balance; the notes on what their decimals leave open.
+
+    What half a unit of the last decimals may be the cause of is no refusal: it is said. With friction nothing
+    says how much of it acts, unless a load is unknown.
+    """
+    notes = []
+    if has_friction(position.case):
+        raise SceneError(
+            Status.UNBALANCED,
+            "with friction, and no unknown load, nothing says how much of the friction acts: make one load "
+            "`unknown`, or take out `mu`.",
+        )
+    for motion, factors in enumerate(balance.factors):
+        powers = [_power(w, float(f)) for w, f in zip(balance.wrenches, factors, strict=True)]
+        room = sum(_room(w, float(f)) for w, f in zip(balance.wrenches, factors, strict=True))
+        sizes = [_power(w, size) for w, size in zip(balance.wrenches, balance.sizes[motion], strict=True)]
+        rounding = ROUNDED * max(map(abs, powers), default=0.0) + NOISE * sum(map(abs, sizes))
+        if abs(sum(powers)) > room + rounding:
+            raise SceneError(Status.UNBALANCED, _named(position, balance, motion, powers))
+        if abs(sum(powers)) > rounding:
+            notes.append(_within_decimals(position, balance, motion, powers))
+    return tuple(notes)
+
+
+def _power(w: Wrench, factor: float) -> float:
+    return (known_value(w) or 0.0) * float(w.ratio) * factor * w.measure
+
+
+def _room(w: Wrench, factor: float) -> float:
+    """Power of half a unit of the last decimal of a load's number."""
+    source = w.source
+    if isinstance(source, ForceVector):
+        half = max(source.x.half, source.y.half)
+    else:
+        half = source.value.half if isinstance(source.value, Number) else 0.0
+    return abs(half * float(w.ratio) * factor * w.measure)
+
+
+def _named(position: Position, balance: Balance, motion: int, powers: Sequence[float]) -> str:
+    """What the loads leave on which link, and what would mend it."""
+    return (
+        f"the known loads do not balance: {_leave(position, balance, motion, powers)}, so there are no "
+        "reactions at rest. Make one of the loads `unknown`, or add one."
+    )
+
+
+def _within_decimals(position: Position, balance: Balance, motion: int, powers: Sequence[float]) -> str:
+    """What the loads leave, where the decimals that they are written with may be the cause."""
+    return (
+        f"{_leave(position, balance, motion, powers)}, which is within half a unit of the last decimals: "
+        "the reactions are given without it. To balance the loads, make one of them `unknown`."
+    )
+
+
+def _leave(position: Position, balance: Balance, motion: int, powers: Sequence[float]) -> str:
+    working = [w.load.name for w, power in zip(balance.wrenches, powers, strict=True) if power]
+    verb = "leaves" if len(working) == 1 else "leave"
+    return f"{listed(working)} {verb} {_left(position, motion, sum(powers))}"
+
+
+def _left(position: Position, motion: int, drive: float) -> str:
+    """The power that is left, as a torque on a link that turns or a force along a link's motion."""
+    link, rate = _first_turning(position, motion)
+    units = position.case.units
+    if rate:
+        torque = drive / rate / position.scale * units.torque_per_force_length
+        return f"{abs(torque):.6g} {units.torque} {'ccw' if torque > 0.0 else 'cw'} on link {link}"
+    x, y = velocity(position.twists[link][motion], (0.0, 0.0))
+    force = drive / math.hypot(x, y)
+    toward = math.degrees(math.atan2(y * force, x * force)) % 360.0
+    return f"{abs(force):.6g} {units.force} at {toward:.6g} deg on link {link}"
+
+
+def _first_turning(position: Position, motion: int) -> tuple[str, float]:
+    """The first link, as the joints name them, that turns in a motion, and its rate; else that moves."""
+    case, twists = position.case, position.twists
+    fastest = max((abs(x) for ts in twists.values() for x in ts[motion]), default=0.0)
+    for link in joint_order(case):
+        rate = twists[link][motion][2] - twists[case.ground][motion][2]
+        if abs(rate) > 1e-12 * fastest:
+            return link, rate
+    moving = [q for q in joint_order(case) if max(map(abs, twists[q][motion])) > 1e-12 * fastest]
+    return (moving or [case.ground])[0], 0.0

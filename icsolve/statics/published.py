@@ -11,7 +11,6 @@ from icsolve.case import ArmIs, FrictionRadiusIs, Pin, ReactionIs
 if TYPE_CHECKING:
     from icsolve.answer import Answer
 
-
 def found_value(answer: Answer, target: ReactionIs | ArmIs | FrictionRadiusIs) -> float:
     """The value of a target, in case units.
 

@@ -1,0 +1,244 @@
+"""The one freedom that a follower has, and the positions along it in which it touches the profile.
+
+Where a follower touches a profile: the gap between the two, the point, the normal.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from icsolve.cams.curve import Body, Curve, Foot
+from icsolve.cams.pieces import TURN, Point
+from icsolve.errors import SceneError, Status
+from icsolve.numbers.roots import zero_between
+
+SAMPLES = 720
+"""Positions that are looked at; touching positions nearer to each other than that may be missed."""
+
+
+class Shift(NamedTuple):
+    """A follower that slides along a unit direction; moved by a length."""
+
+    along: Point
+
+    def moved(self, body: Body, by: float) -> Body:
+        """The follower after sliding."""
+        x, y = body.at
+        return body._replace(at=(x + by * self.along[0], y + by * self.along[1]))
+
+    def velocity(self, at: Point) -> Point:
+        """The way in which a point of the follower moves."""
+        return self.along
+
+    def reach(self, curve: Curve, body: Body) -> tuple[float, float]:
+        """Lengths between which it can touch the profile."""
+        along = [_dot(p, self.along) - _dot(body.at, self.along) for p, _, _ in curve.chords]
+        room = body.radius + 0.01 * curve.size
+        return min(along) - room, max(along) + room
+
+
+class Turn(NamedTuple):
+    """A follower that turns about a point; moved by an angle, rad."""
+
+    about: Point
+
+    def moved(self, body: Body, by: float) -> Body:
+        """The follower after turning."""
+        c, s = math.cos(by), math.sin(by)
+        x, y = body.at[0] - self.about[0], body.at[1] - self.about[1]
+        u, v = body.face
+        at = (self.about[0] + c * x - s * y, self.about[1] + s * x + c * y)
+        return body._replace(at=at, face=(c * u - s * v, s * u + c * v))
+
+    def velocity(self, at: Point) -> Point:
+        """The way in which a point of the follower moves."""
+        return (self.about[1] - at[1], at[0] - self.about[0])
+
+    def reach(self, curve: Curve, body: Body) -> tuple[float, float]:
+        """A whole turn; it starts where samples do not fall on round angles."""
+        return 0.001 - TURN / 2.0, 0.001 + TURN / 2.0
+
+
+Freedom = Shift | Turn
+
+
+class Candidate(NamedTuple):
+    """A position in which a follower touches: how far it is moved, and on which side a face has its body.
+
+    ``sense`` is 1 where the gap grows when it is moved on, -1 where it shrinks.
+    """
+
+    by: float
+    side: float
+    body: Body
+    sense: float
+
+
+def candidates(curve: Curve, body: Body, freedom: Freedom) -> list[Candidate]:
+    """Every position in which the follower touches the profile, along its freedom."""
+    sides = (1.0, -1.0) if body.kind == "flat face" else (1.0,)
+    return [way for side in sides for way in candidates_on(curve, body, freedom, side)]
+
+
+def outermost(curve: Curve, body: Body, freedom: Freedom, side: float, sense: float) -> Candidate | None:
+    """Where a follower that comes from outside meets the profile first; None where it never does.
+
+    Outside is where the gap grows along ``sense``. A follower that turns comes from the widest range of
+    angles in which it is free.
+    """
+    found = candidates_on(curve, body, freedom, side)
+    outer = [way for way in found if way.sense == sense]
+    if not outer:
+        return None
+    if isinstance(freedom, Shift):
+        return max(outer, key=lambda way: sense * way.by)
+    return max(outer, key=lambda way: _free(way, found))
+
+
+def _free(way: Candidate, found: list[Candidate]) -> float:
+    """The angle over which a turning follower is free beyond a position in which it touches."""
+    beyond = [(way.sense * (other.by - way.by)) % TURN for other in found if other is not way]
+    return min(beyond, default=TURN)
+
+
+def candidates_on(curve: Curve, body: Body, freedom: Freedom, side: float) -> list[Candidate]:
+    """As `ways`, of a face on one side."""
+    if isinstance(freedom, Shift) and body.kind == "flat face":
+        return list(_face_shifted(curve, body, freedom, side))
+    found = []
+    for by, sense in _zeros(curve, body, freedom, side):
+        found.append(Candidate(by, side, freedom.moved(body, by), sense))
+    return found
+
+
+def _zeros(curve: Curve, body: Body, freedom: Freedom, side: float) -> Iterator[tuple[float, float]]:
+    """Where the gap changes its sign, and whether it grows there: a rough look at samples, then exactly."""
+
+    def gap(by: float) -> float:
+        return gap_of(curve, freedom.moved(body, by), side)[0]
+
+    low, high = freedom.reach(curve, body)
+    step = (high - low) / SAMPLES
+    rough = gaps_of(curve, [freedom.moved(body, low + k * step) for k in range(SAMPLES + 1)], side)
+    for k in range(SAMPLES):
+        if rough[k] * rough[k + 1] <= 0.0 and rough[k] != rough[k + 1]:
+            a, b = low + k * step, low + (k + 1) * step
+            at_a, at_b = gap(a), gap(b)
+            for _ in range(2):
+                if at_a * at_b > 0.0:
+                    a, b = a - step, b + step
+                    at_a, at_b = gap(a), gap(b)
+            if at_a * at_b <= 0.0 and at_a != at_b:
+                yield zero_between(gap, a, b, at_a, at_b), math.copysign(1.0, at_b - at_a)
+
+
+def _face_shifted(curve: Curve, body: Body, freedom: Shift, side: float) -> Iterator[Candidate]:
+    """A face that slides: the gap grows evenly with the way."""
+    rate = side * (body.face[0] * freedom.along[1] - body.face[1] * freedom.along[0])
+    if abs(rate) > AT_ONE:
+        by = -gap_of(curve, body, side)[0] / rate
+        yield Candidate(by, side, freedom.moved(body, by), math.copysign(1.0, rate))
+
+
+def _dot(a: Point, b: Point) -> float:
+    return a[0] * b[0] + a[1] * b[1]
+
+
+AT_ONE = 1e-9
+"""Places that are nearer than this fraction of the profile's size are one."""
+
+
+class Meeting(NamedTuple):
+    """A gap (negative: overlap), where it is least, and the unit normal from the profile into the follower.
+
+    At a corner on which a knife edge stands there are two normals, and any between them will do.
+    """
+
+    gap: float
+    foot: Foot
+    normals: tuple[Point, ...]
+
+
+def gap_of(curve: Curve, body: Body, side: float) -> tuple[float, Foot]:
+    """The gap between a profile and a follower; ``side`` is that of a flat face on which it has its body."""
+    if body.kind == "flat face":
+        way = (-side * body.face[1], side * body.face[0])
+        foot = curve.farthest(way)[0]
+        x, y = body.at[0] - foot.point[0], body.at[1] - foot.point[1]
+        return way[0] * x + way[1] * y, foot
+    height, foot = curve.height(body.at)
+    return height - body.radius, foot
+
+
+def gaps_of(curve: Curve, bodies: Sequence[Body], side: float) -> list[float]:
+    """The gaps of a follower in several positions, roughly: between it and the chords of the profile."""
+    import numpy as np
+    import shapely
+
+    at = np.array([body.at for body in bodies])
+    if bodies[0].kind == "flat face":
+        way = side * np.array([(-body.face[1], body.face[0]) for body in bodies])
+        corners = np.array([p for p, _, _ in curve.chords])
+        rough = (way * at).sum(axis=1) - (way @ corners.T).max(axis=1)
+    else:
+        inside = shapely.contains_xy(curve.inside, at[:, 0], at[:, 1])
+        apart = shapely.distance(curve.inside.exterior, shapely.points(at))
+        rough = np.where(inside, -apart, apart) - bodies[0].radius
+    found: list[float] = rough.tolist()
+    return found
+
+
+def meeting_of(curve: Curve, body: Body, side: float, what: str) -> Meeting:
+    """The meeting of a profile and a follower that (nearly) touch.
+
+    Raises SceneError where the follower touches it at several places at once.
+    """
+    gap, foot = gap_of(curve, body, side)
+    if body.kind == "flat face":
+        way = (-side * body.face[1], side * body.face[0])
+        _refuse_edge(curve, way, what)
+        return Meeting(gap, foot, (way,))
+    if foot.is_corner and math.dist(foot.point, body.at) <= AT_ONE * curve.size:
+        return Meeting(gap, foot, foot.normals)
+    if body.kind == "roller":
+        _refuse_second(curve, body, foot, what)
+    return Meeting(gap, foot, (_toward(foot, body),))
+
+
+def _toward(foot: Foot, body: Body) -> Point:
+    """The normal of a smooth place; at a corner the direction to the follower's point."""
+    if not foot.is_corner:
+        return foot.normals[0]
+    x, y = body.at[0] - foot.point[0], body.at[1] - foot.point[1]
+    length = math.hypot(x, y) * (1.0 if foot.is_convex else -1.0)
+    return (x / length, y / length)
+
+
+def _refuse_edge(curve: Curve, way: Point, what: str) -> None:
+    """A face flat on a straight edge, or on two corners."""
+    first, *others = curve.farthest(way)
+    reach = way[0] * first.point[0] + way[1] * first.point[1]
+    for foot in others:
+        level = abs(way[0] * foot.point[0] + way[1] * foot.point[1] - reach) <= AT_ONE * curve.size
+        if level and math.dist(foot.point, first.point) > AT_ONE * curve.size:
+            raise SceneError(
+                Status.UNSUPPORTED,
+                f"{what}: the flat face lies on the profile along a line, or at two places, so no one point "
+                "carries the force. Give the contact its `at` and `normal`, or take a `slide` for a block on "
+                "an edge.",
+            )
+
+
+def _refuse_second(curve: Curve, body: Body, foot: Foot, what: str) -> None:
+    """A roller in a hollow corner."""
+    near = math.dist(foot.point, body.at) + AT_ONE * curve.size
+    for other in curve.nearest(body.at)[1:]:
+        apart = math.dist(other.point, foot.point) > AT_ONE * curve.size
+        if apart and math.dist(other.point, body.at) <= near:
+            raise SceneError(
+                Status.UNSUPPORTED,
+                f"{what}: the roller touches the profile at two places at once. Give the contact the `at` "
+                "and the `normal` of the one that carries.",
+            )

@@ -1,0 +1,313 @@
+"""An answer in space: senses, terms of the power equation, JSON, and lines of text.
+
+Motions and directions in space in words.
+
+Published values of a case in space: the found values that they are about.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any
+
+from icsolve.answer import Answer, Term
+from icsolve.answer.space import Parts, Reaction, Spatial
+from icsolve.case import ArmIs, Case, DistanceIs, Like, LoadIs, ReactionIs, Spring, Target, Toward, Weight
+from icsolve.case.space import Along, Force, ForceVector, Line, Load, Torque, TorqueVector, Vector
+from icsolve.statics.report import witness_table
+from icsolve.statics.space.figure import (
+    AXES,
+    Figure,
+    Vec,
+    cross,
+    dot,
+    in_case,
+    size,
+    sub,
+    times,
+    unit,
+    vector_of,
+)
+from icsolve.statics.space.power import STILL, Twist, Wrenched, power_of
+
+Format = Callable[[float], str]
+Table = Callable[..., list[str]]
+
+
+def unit_of(load: Load, case: Case) -> str:
+    """Unit in which a load's number is given and printed."""
+    match load:
+        case Torque() | TorqueVector():
+            return case.units.torque
+        case Weight(mass=True):
+            return "kg"
+        case Spring():
+            return f"{case.units.force}/{case.units.length}"
+    return case.units.force
+
+
+def sense_of(w: Wrenched, value: float) -> str:
+    """Sense of an unknown load: ``along -z``, ``about x``, ``toward A``, ``pull``; '' for zero."""
+    if value == 0.0:
+        return ""
+    forth = value > 0.0
+    match w.load:
+        case Spring():
+            return "pull" if forth == (w.gain > 0.0) else "push"
+        case Weight():
+            return "down" if forth else "up"
+        case Torque(heading=Along() | Vector() | Line() as heading):
+            return f"about {_heading_words(heading, forth)}"
+        case Force(heading=Along() | Vector() | Line() as heading):
+            return f"along {_heading_words(heading, forth)}"
+        case Force(heading=Toward() as toward):
+            drawn = forth != toward.away
+            if w.load.against is not None:
+                return "pull" if drawn else "push"
+            return f"{'toward' if drawn else 'away from'} {toward.point}"
+    return ""
+
+
+def _heading_words(heading: Along | Vector | Line, forth: bool) -> str:
+    """``-z``; ``A to B``; the components of the unit vector."""
+    match heading:
+        case Along(word):
+            return word if forth else word[1:] if word[0] == "-" else f"-{word}"
+        case Line(a, b):
+            return f"{a} to {b}" if forth else f"{b} to {a}"
+        case Vector(x, y, z):
+            sign = 1.0 if forth else -1.0
+            return direction_words(unit((sign * x.value, sign * y.value, sign * z.value)))
+
+
+def terms_of(
+    case: Case, loads: Sequence[Wrenched], motions: Sequence[Mapping[str, Twist]], values: Mapping[str, float]
+) -> tuple[Term, ...]:
+    """The sum of power, for the motion in which the one unknown load moves at 1 (length or rad a second)."""
+    unknown = [w for w in loads if w.known is None]
+    if len({w.root for w in unknown}) != 1:
+        return ()
+    powers = [[power_of(w, motion).value for w in loads] for motion in motions]
+    ones = [sum(p for p, w in zip(row, loads, strict=True) if w.known is None) for row in powers]
+    most = max(range(len(ones)), key=lambda m: abs(ones[m]))
+    turns = isinstance(next(w for w in unknown if w.load.name == w.root).load, Torque)
+    whole = ones[most] * (case.units.torque_per_force_length if turns else 1.0)
+    terms = []
+    for w, power in zip(loads, powers[most], strict=True):
+        factor = power / w.ratio / whole if w.ratio else 0.0
+        name, value = w.load.name, values[w.load.name]
+        words = f"{name} on link {w.load.link}" + _at(w.load)
+        unit_name, is_asked = unit_of(w.load, case), w.known is None
+        terms.append(Term(name, w.load.link, value, unit_name, factor, value * factor, is_asked, words))
+    return tuple(terms)
+
+
+def _at(load: Load) -> str:
+    at = getattr(load, "at", "@")
+    return "" if at.startswith("@") else f" at {at}"
+
+
+def advantage_of(loads: Sequence[Wrenched], values: Mapping[str, float]) -> float | None:
+    """unknown / known where there is one of each and the known one is not zero."""
+    found = [w.load.name for w in loads if w.known is None]
+    known = [w.load.name for w in loads if w.known is not None]
+    if len(found) != 1 or len(known) != 1 or values[known[0]] == 0.0:
+        return None
+    return values[found[0]] / values[known[0]]
+
+
+def space_dict(spatial: Spatial) -> dict[str, Any]:
+    """``reactions`` and ``free_bodies`` of the JSON object."""
+    shown: dict[str, Any] = {"reactions": {name: _reaction(r) for name, r in spatial.reactions.items()}}
+    if spatial.witnesses:
+        shown["free_bodies"] = {w.load: dict(list(w._asdict().items())[1:]) for w in spatial.witnesses}
+    return shown
+
+
+def _reaction(reaction: Reaction) -> dict[str, Any]:
+    x, y, z = reaction.force
+    entry: dict[str, Any] = {
+        "x": x,
+        "y": y,
+        "z": z,
+        "at": list(reaction.at),
+        "moment": list(reaction.couple),
+        "magnitude": reaction.magnitude,
+        "joint": reaction.kind,
+        **dict(reaction.parts),
+    }
+    return {**entry, "undetermined": reaction.why} if reaction.why else entry
+
+
+def space_lines(answer: Answer, spatial: Spatial, show: Format, table: Table) -> list[str]:
+    """A line for each joint: components, size, couple and shares; then the witness."""
+    units = answer.case.units
+    rows = [(name, _triple(r.force, show), _rest(r, show)) for name, r in spatial.reactions.items()]
+    couples = f"; couples in {units.torque}" if any(map(_has_couple, spatial.reactions.values())) else ""
+    title = f"Reactions, {units.force}{couples}: the force of the first link on the second, along x, y, z"
+    columns = (list(column) for column in zip(*rows, strict=True))
+    lines = [title, *table(*columns)]
+    return [*lines, "", *witness_table(spatial.witnesses, show)] if spatial.witnesses else lines
+
+
+def _triple(parts: Parts, show: Format) -> str:
+    return f"({', '.join('?' if part is None else show(part) for part in parts)})"
+
+
+def _has_couple(reaction: Reaction) -> bool:
+    return any(part is None or part != 0.0 for part in reaction.couple)
+
+
+def _rest(reaction: Reaction, show: Format) -> str:
+    size = "" if reaction.magnitude is None else f"= {show(reaction.magnitude)}; "
+    couple = f", couple {_triple(reaction.couple, show)}" if _has_couple(reaction) else ""
+    parts = "".join(f", {name} {'?' if p is None else show(p)}" for name, p in reaction.parts)
+    return f"{size}{reaction.kind} at {reaction.where}{couple}{parts}"
+
+
+SMALL = 1e-9
+"""A part of a twist that is below this fraction of the whole is none (rounding)."""
+
+
+def motion_words(link: str, motion: Mapping[str, Twist], figure: Figure) -> str:
+    """How a link moves: `link 2 turns about the line through A along z`."""
+    v, w = motion.get(link, STILL)
+    fastest = max((size(p) + size(q) for p, q in motion.values()), default=0.0)
+    if size(w) <= SMALL * fastest:
+        return f"link {link} slides along {direction_words(unit(v))}"
+    axis = unit(w)
+    on_axis = times(1.0 / dot(w, w), cross(w, v))
+    pitch = dot(v, axis) / size(w)
+    screw = abs(pitch) > SMALL * (1.0 + size(v) / size(w))
+    verb = "screws" if screw else "turns"
+    return f"link {link} {verb} about the line {_line(on_axis, axis, figure)}"
+
+
+def _line(p: Vec, axis: Vec, figure: Figure) -> str:
+    """A line by the named points on it, or by a point and its direction."""
+    shown = [(name, point) for name, point in figure.points.items() if not name.startswith("@")]
+    named = [(name, point) for name, point in shown if _is_on(point, p, axis)]
+    apart = [name for name, point in named if size(sub(point, named[0][1])) > SMALL]
+    if apart:
+        return f"through {named[0][0]} and {apart[0]}"
+    if named:
+        return f"through {named[0][0]} along {direction_words(axis)}"
+    return f"through {point_words(figure.frame.shown(p))} along {direction_words(axis)}"
+
+
+def _is_on(point: Vec, p: Vec, axis: Vec) -> bool:
+    """Whether a point lies on the line through p along a unit vector."""
+    apart = sub(point, p)
+    return size(cross(apart, axis)) <= SMALL * (1.0 + size(apart))
+
+
+def direction_words(direction: Vec) -> str:
+    """``z``, ``-x``, or the components of the unit vector."""
+    for name, axis in zip("xyz", AXES, strict=True):
+        if size(cross(direction, axis)) <= SMALL:
+            return name if dot(direction, axis) > 0.0 else f"-{name}"
+    return point_words(direction)
+
+
+def point_words(p: Vec) -> str:
+    """Three numbers in brackets."""
+    x, y, z = (0.0 if abs(c) <= SMALL * size(p) else c for c in p)
+    return f"[{x:.6g}, {y:.6g}, {z:.6g}]"
+
+
+def moving(motion: Mapping[str, Twist], first: Iterable[str]) -> str:
+    """The first link that moves: of those named, or else of all."""
+    fastest = max((size(v) + size(w) for v, w in motion.values()), default=0.0)
+    moves = [link for link, (v, w) in motion.items() if size(v) + size(w) > SMALL * fastest]
+    return next((link for link in first if link in moves), moves[0])
+
+
+_AXES = "xyz"
+
+
+def found_value(answer: Answer, spatial: Spatial, target: Target, sense: str | None = None) -> float:
+    """The value of a target, in case units; positive in a published ``sense``.
+
+    Raises LookupError, with a sentence, where the answer has none.
+    """
+    match target:
+        case LoadIs(load):
+            return _load(answer, load, sense)
+        case DistanceIs(str() as a, str() as b):
+            return size(sub(spatial.points[a], spatial.points[b]))
+        case ArmIs(by, on, point):
+            return _arm(answer, spatial, _reaction_between(spatial, by, on, None), point)
+        case ReactionIs():
+            return _share(spatial, target)
+    raise LookupError("a case in space has no such value")
+
+
+def _load(answer: Answer, name: str, sense: str | None) -> float:
+    """A load's number, as found, as given, or as another load has it."""
+    if name in answer.answers:
+        found = answer.answers[name]
+        against = sense is not None and found.sense not in ("", sense)
+        return -abs(found.value) if against else abs(found.value) if sense else found.value
+    load = next(load for load in in_case(answer.case).loads if load.name == name)
+    if isinstance(load, ForceVector | TorqueVector):
+        return size(vector_of(load.parts))
+    if isinstance(load.value, Like):
+        ratio = 1.0 if load.value.times is None else load.value.times.value
+        return ratio * _load(answer, load.value.load, None)
+    assert load.value is not None
+    return load.value.value
+
+
+def _share(spatial: Spatial, target: ReactionIs) -> float:
+    """Part of a reaction."""
+    reaction = _reaction_between(spatial, target.by, target.on, target.at)
+    value = _part(reaction, target.part)
+    if value is None:
+        raise LookupError(f"it is not determined: {reaction.why}")
+    return value
+
+
+def _part(reaction: Reaction, part: str) -> float | None:
+    """Size or component of the force or couple, or a share of it."""
+    if part == "":
+        return reaction.magnitude
+    if part in ("x", "y", "z"):
+        return reaction.force[_AXES.index(part)]
+    if part == "moment":
+        return reaction.moment
+    if part.startswith("moment "):
+        return reaction.couple[_AXES.index(part[-1])]
+    shares = dict(reaction.parts)
+    if part not in shares:
+        raise LookupError(f"a {reaction.kind} has no '{part}' share; it has {', '.join(shares) or 'none'}")
+    return shares[part]
+
+
+def _reaction_between(spatial: Spatial, by: str, on: str, at: str | None) -> Reaction:
+    """The one reaction between two links (at a point, where they have several joints)."""
+    both = [r for r in spatial.reactions.values() if {r.by, r.on} == {by, on}]
+    found = both if at is None else [r for r in both if r.where == at]
+    if not found:
+        place = f" at {at}" if at else ""
+        raise LookupError(f"links {by} and {on} have no joint{place}")
+    if len(found) > 1:
+        which = f"F{by}-{on}@{found[0].where}"
+        raise LookupError(f"links {by} and {on} have {len(found)} joints: say which, as in {which}")
+    return found[0] if (found[0].by, found[0].on) == (by, on) else found[0].reversed()
+
+
+def _arm(answer: Answer, spatial: Spatial, reaction: Reaction, point: str) -> float:
+    """Arm of a force about a point: the size of its moment there, with its couple, over its own size."""
+    if point not in spatial.points:
+        raise LookupError(f"the point {point} was not found")
+    x, y, z = reaction.force
+    u, v, w = reaction.couple
+    if x is None or y is None or z is None or u is None or v is None or w is None:
+        raise LookupError(f"the force is not determined: {reaction.why}")
+    force = math.hypot(x, y, z)
+    if force == 0.0:
+        raise LookupError("the force is zero: it has no arm")
+    per = answer.case.units.torque_per_force_length
+    mx, my, mz = cross(sub(reaction.at, spatial.points[point]), (x, y, z))
+    return size((mx + u / per, my + v / per, mz + w / per)) / force
