@@ -155,6 +155,8 @@ class Case:
     """shapes of cams and followers, and the contacts that they place; these are not among the joints"""
     space: "Space | None" = None
     """figure, joints and loads where the points have three coordinates; those of the plane are then empty"""
+    noticed: tuple[str, ...] = ()
+    """sentences of the reader on what may be a slip, for the notes of an answer"""
     marks: dict[str, Mark] = field(default_factory=dict)
 
     def __repr__(self) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from icsolve.case import (
@@ -18,6 +19,7 @@ from icsolve.case import (
     Number,
     Tolerance,
     Units,
+    Weld,
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
 from icsolve.read.expect import read_expect
@@ -37,6 +39,7 @@ from icsolve.read.motion import read_motion
 from icsolve.read.problems import Problems, shown
 from icsolve.read.quantities import measures, number
 from icsolve.read.reading import Reading
+from icsolve.read.slips import FRAMES, Figure, check_frame, check_loads
 
 if TYPE_CHECKING:
     from icsolve.case.profiles import Profiles
@@ -104,10 +107,17 @@ def build(root: Mapping, problems: Problems, name: str) -> Case:
     mention_links(reading, root.items.get("joints"))
     ground = ground_of(reading, root)
     parts = _parts(reading, root)
+    noticed: tuple[str, ...] = ()
+    welds = [joint.links for joint in parts.joints if isinstance(joint, Weld)]
+    check_frame(reading, "ground" in root.items, ground, welds)
     if readable(root, "points", "lengths", "angles"):
         check_given(reading)
+        figure = Figure(parts.joints, parts.lengths, parts.angles, parts.points, _shaped(parts))
+        if not reading.problems.found:
+            noticed = check_loads(reading, root, figure, parts.loads, parts.motion, ground)
     texts = {key: reading.text(root.items[key], key) for key in TEXTS if key in root.items}
-    return _case(name, problems.path, units, ground, reading, parts, texts, root)
+    case = _case(name, problems.path, units, ground, reading, parts, texts, root)
+    return replace(case, noticed=noticed) if noticed else case
 
 
 def _is_in_space(root: Mapping) -> bool:
@@ -197,7 +207,9 @@ def ground_of(reading: Reading, root: Mapping) -> str:
     if node is not None:
         return reading.link(node, "'ground'") or "1"
     if reading.links and "1" not in reading.links:
-        message = "no joint has link 1, the frame; if another link is the frame, name it with 'ground:'"
+        likely = next((link for link in reading.links if link.lower() in FRAMES), None)
+        how = f"write 'ground: {likely}'" if likely else "name it with 'ground:'"
+        message = f"no joint has link 1, the frame; if another link is the frame, {how}"
         reading.refuse(root.keys["joints"], message)
     return "1"
 

@@ -135,13 +135,14 @@ def wanted_pairs(case: Case, want: Want) -> list[Pair]:
 
 def _notes(program: Program, outcome: Outcome) -> list[str]:
     """Sentences about the mechanism that a reader of the answer should know."""
-    notes = []
+    notes = [*program.case.noticed]
     motions, solution = outcome.motions, outcome.solution
     if motions.redundant and not motions.notes:
         notes.append(_redundancy(program, motions))
     if solution.idle and solution.values:
         count = sentences.plural(len(solution.idle), "passive freedom")
-        notes.append(f"{count} in which no load does work.")
+        ends = sentences.free_ends(program.top)
+        notes.append(f"{count} in which no load does work{': ' if ends else ''}{ends}.")
     return notes
 
 

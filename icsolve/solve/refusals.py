@@ -68,7 +68,8 @@ def refuse_unbalanced(
         if motions.redundant and top.freedoms_by_count == unknowns:
             message = sentences.change_point(motions.mobility, top.freedoms_by_count)
             raise SceneError(Status.CHANGE_POINT, message)
-        message = sentences.wrong_count(motions.mobility, unknowns, len(solution.idle))
+        ends = sentences.free_ends(top)
+        message = sentences.wrong_count(motions.mobility, unknowns, len(solution.idle), ends)
         raise SceneError(Status.MOBILITY, message)
     raise _no_work(top, motions, balance, solution)
 
@@ -88,6 +89,8 @@ def _no_work(
     at_rest = apart <= AT_REST * largest
     clause = _why_at_rest(top, motions, culprit.load.link) if at_rest else ""
     message = sentences.workless(culprit.load.name, culprit.load.link, at_rest, others, clause)
+    if len(top.members) > 2 and (ends := sentences.free_ends(top)):
+        message += f" Is a joint missing? {ends[0].upper()}{ends[1:]}."
     status = Status.DEAD_CENTRE if at_rest and others else Status.NO_VALUE if others else Status.ANY_VALUE
     return SceneError(status, message)
 

@@ -38,8 +38,7 @@ def on_the_frame(load: str, link: str, others: bool) -> str:
     """An unknown load that acts between the frame and itself; ``others``: the known loads do work."""
     outcome = "no value of it balances the known loads" if others else "it can have any value"
     return (
-        f"{load} acts on link {link}, which never moves: it does no work, {outcome}. "
-        "Put it on a moving link."
+        f"{load} acts on link {link}, which never moves: it does no work, {outcome}. Put it on a moving link."
     )
 
 
@@ -149,8 +148,20 @@ def workless(load: str, link: str, at_rest: bool, others_work: bool, why: str) -
     )
 
 
-def wrong_count(mobility: int, unknowns: int, idle: int) -> str:
-    """Freedoms that do not match the unknowns."""
+def free_ends(top: Topology) -> str:
+    """Which links beside the frame have a free end: ``link 4 has a free end (its only joint is at C)``."""
+    ends = {b: top.at[b][0] for b in range(len(top.members)) if b != top.ground and len(top.at[b]) == 1}
+    names = [top.members[body][0] for body in ends]
+    if len(names) > 1:
+        return f"links {listed(names)} have a free end (only one joint each)"
+    if not names:
+        return ""
+    at = getattr(top.bonds[next(iter(ends.values()))].joint, "at", None)
+    return f"link {names[0]} has a free end (its only joint is {f'at {at}' if at else 'a mesh'})"
+
+
+def wrong_count(mobility: int, unknowns: int, idle: int, ends: str = "") -> str:
+    """Freedoms that do not match the unknowns; ``ends``: which links have a free end."""
     active = mobility - idle
     if unknowns > active:
         extra = unknowns - active
@@ -160,11 +171,16 @@ def wrong_count(mobility: int, unknowns: int, idle: int) -> str:
             "another with `like`."
         )
     missing = active - unknowns
-    return (
+    wrong = (
         f"the mechanism has {plural(active, 'degree')} of freedom but {plural(unknowns, 'unknown load')}: it "
-        f"would not stay in equilibrium. Add {plural(missing, 'unknown load')}, or "
-        f"{plural(missing, 'joint')} to lock it."
+        "would not stay in equilibrium."
     )
+    several = missing > 2  # the freedoms that one pin takes
+    if ends:
+        lost = "joints are missing" if several else "one joint is missing"
+        return f"{wrong} It seems that {lost}: {ends}. Add it, or {plural(missing, 'unknown load')}."
+    lock = f"joints that take {missing} freedoms" if several else "one more joint"
+    return f"{wrong} Add {plural(missing, 'unknown load')}, or {lock} to lock it."
 
 
 def redundant(count: int, goes_on: bool | None, bodies: bool) -> str:
