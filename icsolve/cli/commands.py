@@ -44,6 +44,15 @@ class Verbs(click.Group):
         )
         return command
 
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        """As click does; of a file without its ending it is said how it is called."""
+        files = [f"{args[0]}{ending}" for ending in (".yaml", ".yml") if os.path.exists(f"{args[0]}{ending}")]
+        if args[0] not in VERBS and files:
+            ctx.fail(f"there is no command '{args[0]}'; to solve the file write `icsolve {files[0]}`")
+        return super().resolve_command(ctx, args)
+
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """The verbs with the whole first sentence of each."""
         commands = [(name, self.get_command(ctx, name)) for name in VERBS]

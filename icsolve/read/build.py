@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from icsolve.case import (
@@ -107,17 +106,15 @@ def build(root: Mapping, problems: Problems, name: str) -> Case:
     mention_links(reading, root.items.get("joints"))
     ground = ground_of(reading, root)
     parts = _parts(reading, root)
-    noticed: tuple[str, ...] = ()
     welds = [joint.links for joint in parts.joints if isinstance(joint, Weld)]
     check_frame(reading, "ground" in root.items, ground, welds)
     if readable(root, "points", "lengths", "angles"):
         check_given(reading)
         figure = Figure(parts.joints, parts.lengths, parts.angles, parts.points, _shaped(parts))
         if not reading.problems.found:
-            noticed = check_loads(reading, root, figure, parts.loads, parts.motion, ground)
+            reading.noticed += check_loads(reading, root, figure, parts.loads, parts.motion, ground)
     texts = {key: reading.text(root.items[key], key) for key in TEXTS if key in root.items}
-    case = _case(name, problems.path, units, ground, reading, parts, texts, root)
-    return replace(case, noticed=noticed) if noticed else case
+    return _case(name, problems.path, units, ground, reading, parts, texts, root)
 
 
 def _is_in_space(root: Mapping) -> bool:
@@ -270,6 +267,7 @@ def _case(
         gravity=_gravity(reading, root) or Case.gravity,
         tolerance=tolerance_of_case(reading, root),
         profiles=parts.profiles,
+        noticed=tuple(reading.noticed),
         marks=reading.marks,
     )
 

@@ -169,8 +169,27 @@ class _Tree:
             raise self.problems.stop(node.mark, "a list or mapping stands where a key should")
         self._enter(top, key, node)
 
+    def _goes_on(self, mapping: Mapping, name: str, mark: Mark) -> bool:
+        """Whether a key without a value is the rest of the value before it, cut off at a comma: ``3,5``."""
+        before = next(reversed(mapping.items.values()), None)
+        if type(before) is not Scalar or not before.plain:
+            return False
+        if before.text[:1] == "(" and name[-1:] == ")":
+            said = f"write square brackets, [{before.text[1:]}, {name[:-1]}]"
+        elif name[:1].isdigit() and (mark[0], mark[1] - 1) == (
+            before.mark[0],
+            before.mark[1] + len(before.text),
+        ):
+            said = f"'{before.text},{name}' is cut at its comma; write a decimal point, {before.text}.{name}"
+        else:
+            return False
+        self.problems.refuse(before.mark, said)
+        return True
+
     def _enter(self, mapping: Mapping, key: tuple[str, Mark], node: Node) -> None:
         name, mark = key
+        if type(node) is Scalar and node.text == "" and node.plain and self._goes_on(mapping, name, mark):
+            return
         first = mapping.keys.get(name)
         if first is not None:
             place = f"line {first[0]}, column {first[1]}"

@@ -23,7 +23,7 @@ from icsolve.case import (
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.names import Names, point_key
 from icsolve.read.problems import shown, suggestion
-from icsolve.read.quantities import number
+from icsolve.read.quantities import COMPASS, number
 from icsolve.read.reading import Reading
 
 
@@ -48,8 +48,10 @@ def read_points(reading: Reading, section: Mapping) -> dict[str, Coordinates | C
 
 def _coordinates(reading: Reading, name: str, node: Node) -> Coordinates | None:
     if type(node) is not Sequence or len(node.items) != 2:
-        message = f"point {name} should have two coordinates, as in [3, 0.5] or [unknown, 0.5]"
-        reading.refuse(node.mark, message)
+        if type(node) is Scalar and node.text[:1] == "(" and node.text[-1] != ")":
+            return None  # refused where the comma cut it
+        form = decimals(node) or "as in [3, 0.5] or [unknown, 0.5]"
+        reading.refuse(node.mark, f"point {name} should have two coordinates, {form}")
         return None
     open_ones = [type(item) is Scalar and item.text == "unknown" for item in node.items]
     if all(open_ones):
@@ -61,6 +63,16 @@ def _coordinates(reading: Reading, name: str, node: Node) -> Coordinates | None:
     ]
     missing = sum(value is None for value in values) - sum(open_ones)
     return None if missing else Coordinates(*values)
+
+
+def decimals(node: Node) -> str:
+    """How four numbers in place of two, or numbers in round brackets, are to be written."""
+    if type(node) is Scalar and node.text[:1] == "(":
+        return "in square brackets, as in [3, 0.5]"
+    if type(node) is not Sequence or len(node.items) != 4:
+        return ""
+    a, b, c, d = (item.text if type(item) is Scalar else "" for item in node.items)
+    return f"with decimal points, [{a}.{b}, {c}.{d}]" if b.isdigit() and d.isdigit() else ""
 
 
 def centroid_of(reading: Reading, name: str, node: Mapping) -> Centroid | None:
@@ -141,7 +153,8 @@ def read_near(reading: Reading, section: Mapping) -> dict[str, tuple[float, floa
         if name is None:
             continue
         if type(node) is not Sequence or len(node.items) != 2:
-            reading.refuse(node.mark, f"near {name} should be two coordinates, as in [3.5, 2.4]")
+            form = decimals(node) or "as in [3.5, 2.4]"
+            reading.refuse(node.mark, f"near {name} should be two coordinates, {form}")
             continue
         x = number(reading, node.items[0], "length", f"near.{name}.x")
         y = number(reading, node.items[1], "length", f"near.{name}.y")
@@ -182,7 +195,10 @@ def _given_backwards(reading: Reading) -> set[str]:
 
 
 def _never_given(reading: Reading, name: str, given: set[str]) -> str:
-    likely = suggestion(name, sorted(given)) if len(name) > 1 else ""
+    if name in COMPASS:
+        meant = f"for a direction write 'angle: {COMPASS[name]}'"
+        return f"a point stands here, and nothing gives a point '{name}'; {meant}"
+    likely = _likely(reading, name, given)
     said = f"point {name} is named here, but nothing gives it: no coordinates, length, angle or guide{likely}"
     of = next((point for point, others in reading.centroids.items() if name in others), None)
     if of is None:
@@ -190,6 +206,21 @@ def _never_given(reading: Reading, name: str, given: set[str]) -> str:
     from icsolve.wording.sentences import listed
 
     return f"{said}; {of} is the centroid of {listed(reading.centroids[of])}: give {name}, or {of} by lengths"
+
+
+def _likely(reading: Reading, name: str, given: set[str]) -> str:
+    """What a point that nothing gives may be: another one, a link, the middle of two points."""
+    cased = next((point for point in sorted(given) if point.lower() == name.lower()), "")
+    near = f"; did you mean '{cased}'?" if cased else suggestion(name, sorted(given)) if len(name) > 1 else ""
+    if near:
+        return near
+    if reading.links and name in reading.links:
+        return f"; {name} is a link, and a point of it is wanted here"
+    return (
+        f"; the middle of two points is '{name}: {{centroid: [A, B]}}' under 'points'"
+        if name[0] in "MG"
+        else ""
+    )
 
 
 def carried(

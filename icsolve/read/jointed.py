@@ -11,7 +11,7 @@ from typing import TypeVar
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.entry import Entry
 from icsolve.read.names import is_name
-from icsolve.read.problems import shown, suggestion
+from icsolve.read.problems import nearest, shown, suggestion
 from icsolve.read.reading import RESERVED, Reading
 
 T = TypeVar("T")
@@ -89,6 +89,10 @@ def _joint(reading: Reading, node: Mapping, shared: Counter[str], kinds: Kinds[T
     if kind is None:
         reading.given.add(_at(node))  # it may have been the guide that gives the point
         return None
+    if type(node.items[kind]) is Scalar and "links" in node.items:
+        node.items["at"] = node.items[kind]
+        reading.refuse(node.mark, f"write {_rewritten(node, kind, {kind: kinds[kind]})}")
+        return None
     links = _links(reading, kind, node.items[kind])
     pair = "-".join(links) if links else "?"
     at = _at(node)
@@ -138,6 +142,11 @@ def _kind(reading: Reading, node: Mapping, kinds: Kinds[T]) -> str | None:
             reading.unknown_key(key, node.keys[key], (), "a joint")
             return None
     strange = [key for key in node.items if key not in parts]
+    named = [key for key in ("type", "kind", "joint") if key in node.items]
+    if named:
+        form = _rewritten(node, named[0], kinds)
+        reading.refuse(node.keys[named[0]], f"a joint is named by its kind; write {form}")
+        return None
     first = strange[0] if strange else None
     likely = suggestion(first, kinds) if first else ""
     mark = node.keys[first] if first else node.mark
@@ -146,12 +155,21 @@ def _kind(reading: Reading, node: Mapping, kinds: Kinds[T]) -> str | None:
     return None
 
 
+def _rewritten(node: Mapping, said: str, kinds: Kinds[T]) -> str:
+    """A joint that was written with a key for its kind, as the format has it."""
+    word, at = node.items[said], _at(node) or "A"
+    links = next((value for value in node.items.values() if type(value) is Sequence), None)
+    names = [item.text for item in links.items if type(item) is Scalar] if links else ["1", "2"]
+    kind = nearest(word.text, kinds) if type(word) is Scalar else ""
+    return f"{{{kind or 'pin'}: [{', '.join(names)}], at: {at}}}"
+
+
 def _elsewhere(kind: str) -> str:
     """A joint of the plane in space, or the other way round."""
     if kind in SPATIAL:
         return (
             f"a '{kind}' is a joint in space, and the points of this case have two coordinates: give each as "
-            "[x, y, z], or take a joint of the plane"
+            f"[x, y, z], or take a joint of the plane{', a pin' if kind == 'hinge' else ''}"
         )
     return (
         f"a '{kind}' is a joint of the plane, and the points of this case have three coordinates: in space "

@@ -95,7 +95,7 @@ def _check_keys(entry: Entry, kind: str, forms: Forms[T]) -> None:
     """Refuse what this kind has no use for; other kinds' keys are explained."""
     takes = forms.keys[kind]
     others = {key for keys in forms.keys.values() for key in keys}
-    for key, mark in entry.node.keys.items():
+    for key, mark in list(entry.node.keys.items()):
         if key == kind or key in takes:
             continue
         if key in others:
@@ -105,6 +105,7 @@ def _check_keys(entry: Entry, kind: str, forms: Forms[T]) -> None:
             entry.refuse(mark, f"{entry.what} has no '{key}': {forms.elsewhere[key]}")
         else:
             entry.reading.unknown_key(key, mark, (kind, *takes), entry.what)
+            entry.reading.take_for(entry.node, key, takes)
 
 
 def magnitude(entry: Entry, name: str, kind: str, likes: Likes, bound: str = "") -> tuple[bool, Magnitude]:
@@ -113,11 +114,46 @@ def magnitude(entry: Entry, name: str, kind: str, likes: Likes, bound: str = "")
     entry.reading.marks[entry.path] = node.mark
     if type(node) is Scalar and node.text == "unknown":
         return True, None
+    if type(node) is Scalar and node.text.strip().lower() in _WANTED:
+        entry.refuse(node.mark, f"write 'unknown' for what is to find, {kind}: unknown")
+        return False, None
+    if type(node) is Mapping and "like" not in node.items:
+        entry.refuse(node.mark, _no_mapping(kind, node))
+        return False, None
+    if type(node) is Sequence and [type(one) is Scalar and one.text for one in node.items] == ["unknown"]:
+        entry.refuse(node.mark, f"write it without brackets, {kind}: unknown")
+        return False, None
     if type(node) is Mapping:
         like = _like(entry, name, node, likes)
         return like is not None, like
     number = entry.value(node, DIMENSION[kind], entry.path, kind, bound)
     return number is not None, number
+
+
+_WANTED = (
+    "?",
+    "??",
+    "???",
+    "x",
+    "find",
+    "to find",
+    "wanted",
+    "solve",
+    "tbd",
+    "unk",
+    "required",
+    "to be found",
+)
+"""What people write for the unknown."""
+
+
+def _no_mapping(kind: str, node: Mapping) -> str:
+    """A mapping in place of a number: what it may have been."""
+    parts = [node.items[key] for key in ("value", "magnitude", "size", "unit", "units") if key in node.items]
+    text = (
+        " ".join(part.text for part in parts if type(part) is Scalar) or next(iter(node.items), "") or "100"
+    )
+    return f"a number stands here without braces, '{kind}: {text}', or the name of another load, {{like: M2}}"
 
 
 def _like(entry: Entry, name: str, node: Mapping, likes: Likes) -> Like | None:

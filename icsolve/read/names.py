@@ -19,6 +19,8 @@ def is_name(text: str) -> bool:
 
 def why_no_name(text: str) -> str:
     """What a name is, for a text that is none."""
+    if len(text.split()) > 1:
+        return f"with a comma between, {', '.join(text.split())}, these are two names"
     if "’" in text or "′" in text:
         return "write the prime as a straight apostrophe (')"
     return "a name is a letter or digit followed by letters, digits, _ and '"

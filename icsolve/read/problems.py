@@ -52,11 +52,60 @@ def shown(text: str) -> str:
     return f"'{text}'" if len(text) <= 60 else f"'{text[:40]}...'"
 
 
+_OTHER_WORDS = {
+    "torque": "moment couple twist momentum drehmoment",
+    "force": "load pull push thrust tension f kraft",
+    "weight": "gravity_force w",
+    "angle": "direction dir orientation theta bearing heading degrees inclination",
+    "link": "body member bar part element on acts_on links",
+    "at": "point position location where node p applied_at",
+    "against": "from between reaction other",
+    "pin": "revolute hinge pivot joint r turning pinned rotational",
+    "slide": "prismatic slider track rail sliding guide p translational piston",
+    "slot": "pin_in_slot pinslot",
+    "roll": "rolling wheel rack",
+    "gears": "gear mesh",
+    "contact": "cam",
+    "weld": "fixed rigid welded fix",
+    "ground": "frame fixed base fixed_link earth",
+    "loads": "forces load actions torques unknowns",
+    "joints": "constraints connections pairs pins kinematic_pairs",
+    "lengths": "dimensions distances length links_lengths sizes",
+    "angles": "directions angle orientations",
+    "points": "nodes coordinates positions joints_positions point",
+    "near": "guess initial start approx",
+    "expect": "answer answers expected results published",
+    "title": "name heading",
+    "source": "reference book",
+    "motion": "speed speeds velocity input",
+    "along": "direction dir axis angle guide",
+    "through": "on passing",
+    "mu": "friction coefficient",
+    "speed": "omega velocity rate w v",
+    "turns": "sense rotation direction",
+    "cw": "clockwise right negative",
+    "ccw": "counterclockwise anticlockwise counter-clockwise left positive",
+    "free": "unstretched natural length rest free_length l0",
+    "spring": "stiffness k",
+    "centroid": "midpoint middle mean centre center",
+    "length": "lengths distance",
+}
+"""Words that people write for a key of the format, where they are no slip of the pen."""
+
+
 def suggestion(name: str, options: Iterable[str]) -> str:
     """``; did you mean ...?`` for the nearest option, else nothing."""
+    near = nearest(name, options)
+    return f"; did you mean '{near}'?" if near else ""
+
+
+def nearest(name: str, options: Iterable[str]) -> str:
+    """The option that is meant by a name: in other letters, by another word, by a slip of the pen; or ''."""
     from difflib import get_close_matches
 
     known = list(islice(options, _MOST_OPTIONS))
-    lower = [option for option in known if option.lower() == name.lower()]
-    near = lower or get_close_matches(name[:60], known, 1, 0.6)
-    return f"; did you mean '{near[0]}'?" if near else ""
+    word = name.lower().strip()
+    lower = [option for option in known if option.lower() == word]
+    other = [option for option in known if word.replace(" ", "_") in _OTHER_WORDS.get(option, "").split()]
+    near = lower or other or get_close_matches(name[:60], known, 1, 0.6)
+    return near[0] if near else ""

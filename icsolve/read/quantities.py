@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from icsolve.case import Number, Units
 from icsolve.read.document import Mapping, Node, Scalar, is_null
 from icsolve.read.problems import Problems, shown, suggestion
@@ -65,11 +67,21 @@ def _valued(reading: Reading, parts: tuple[Numeral, str], text: str, dimension: 
     if not rest:
         if dimension == "mass":
             raise UnitError("a mass carries its unit: kg, g, t, lbm or slug")
-        return Number(float(numeral.digits), places, path, numeral.digits)
+        value = float(numeral.digits)
+        if dimension == "angle" and _is_of_radians(value, numeral):
+            reading.noticed.append(f"{path} is {text} degrees; if radians are meant, write {text} rad.")
+        return Number(value, places, path, numeral.digits)
     target = reading.targets[dimension]
     unit = _fitting(reading, rest, dimension)
     scale = factor(unit, target)
     return Number(converted(numeral, unit, target), places * scale, path, numeral.digits, scale)
+
+
+def _is_of_radians(value: float, numeral: Numeral) -> bool:
+    """Whether a number is a twelfth of pi or several, as far as three decimals or more tell."""
+    twelfth = math.pi / 12.0
+    near = abs(value - round(value / twelfth) * twelfth) <= 0.51 * 10.0**numeral.exponent
+    return 0.1 < abs(value) < 13.0 and near and (numeral.exponent <= -3 or abs(value) in (1.57, 3.14, 6.28))
 
 
 def _fitting(reading: Reading, text: str, dimension: str) -> Unit:
@@ -121,12 +133,23 @@ def _checked(reading: Reading, node: Scalar, value: Number) -> Number | None:
     return None
 
 
+COMPASS = {
+    **dict.fromkeys(("right", "rightward", "rightwards", "east", "horizontal", "+x", "x"), 0),
+    **dict.fromkeys(("up", "upward", "upwards", "north", "vertical", "+y", "y"), 90),
+    **dict.fromkeys(("left", "leftward", "leftwards", "west", "-x"), 180),
+    **dict.fromkeys(("down", "downward", "downwards", "south", "-y"), -90),
+}
+"""Directions in words, and the angle of each."""
+
+
 def _no_number(node: Scalar, text: str, dimension: str) -> str:
     wanted = _a(dimension)
     if is_null(node):
         return f"{wanted} should stand here, but there is no value"
     if text.lower().lstrip("+-") in (".inf", ".nan", "inf", "nan", "infinity"):
         return f"'{text}' is not a number that a mechanism can have"
+    if dimension == "angle" and text.lower() in COMPASS:
+        return f"an angle is in degrees counterclockwise from +x: write {COMPASS[text.lower()]} for '{text}'"
     if text == "unknown":
         return f"'unknown' cannot stand here; {wanted} is wanted"
     likely = suggestion(text, ("unknown",))

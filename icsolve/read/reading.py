@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from icsolve.case import Coordinates, Mark
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
 from icsolve.read.names import is_name, why_no_name
-from icsolve.read.problems import Problems, shown, suggestion
+from icsolve.read.problems import Problems, nearest, shown, suggestion
 from icsolve.read.syntax import missing_space
 from icsolve.units import Unit
 
@@ -28,7 +28,8 @@ class Reading:
     angles, ``on_guides``: each guide), ``centroids`` those of others by their point; ``hidden`` the points
     that a load or centre gives by coordinates; ``kinds`` the kind of each load by its name. ``axes`` are
     those along which a force has components, ``couples`` those about which a couple has. ``profiled`` are the
-    links under ``profile``, ``touches`` the contacts whose places the profiles give.
+    links under ``profile``, ``touches`` the contacts whose places the profiles give, ``noticed`` sentences on
+    what may be a slip.
     """
 
     axes = "xy"
@@ -49,6 +50,7 @@ class Reading:
         self.kinds: dict[str, str] = {}
         self.joint_number = 0
         self.profiled: set[str] = set()
+        self.noticed: list[str] = []
         self.touches: list[tuple[Touch, Mark]] = []
 
     def refuse(self, mark: Mark, message: str) -> None:
@@ -108,10 +110,17 @@ class Reading:
         return [item for item in good if type(item) is Scalar] if len(good) == len(node.items) else None
 
     def check_keys(self, node: Mapping, allowed: Iterable[str], what: str) -> None:
-        """Refuse keys that have no meaning here."""
-        for key in node.items:
+        """Refuse keys that have no meaning here; what is likely meant is taken as said."""
+        for key in list(node.items):
             if key not in allowed:
                 self.unknown_key(key, node.keys[key], allowed, what)
+                self.take_for(node, key, allowed)
+
+    def take_for(self, node: Mapping, key: str, allowed: Iterable[str]) -> None:
+        """Put the value of a strange key under the one that is likely meant."""
+        meant = nearest(key, allowed)
+        if meant and meant not in node.items:
+            node.items[meant], node.keys[meant] = node.items[key], node.keys[key]
 
     def unknown_key(self, key: str, mark: Mark, allowed: Iterable[str], what: str) -> None:
         """Refuse a key: not yet supported, or unknown, with a suggestion."""

@@ -6,7 +6,7 @@ import os
 import re
 
 from icsolve.case import Mark
-from icsolve.read.problems import Problems
+from icsolve.read.problems import Problems, suggestion
 
 LARGEST = 4_000_000
 """Bytes or characters of a case; the largest mechanism in print needs a thousandth of it."""
@@ -28,7 +28,7 @@ def text_of(path: str | os.PathLike[str], problems: Problems) -> str:
         with open(path, "rb") as file:
             data = file.read(LARGEST + 1)
     except (OSError, ValueError) as error:
-        raise problems.stop((1, 1), _unreadable(error)) from None
+        raise problems.stop((1, 1), _unreadable(error) + _likely_file(path, error)) from None
     if len(data) > LARGEST:
         raise problems.stop((1, 1), f"the file is larger than {LARGEST // 10**6} MB, too large for a case")
     return _decoded(data, problems)
@@ -42,6 +42,19 @@ def _unreadable(error: OSError | ValueError) -> str:
     if isinstance(error, PermissionError):
         return "this file may not be read (permission denied)"
     return f"this file cannot be read: {getattr(error, 'strerror', None) or error}"
+
+
+def _likely_file(path: str | os.PathLike[str], error: OSError | ValueError) -> str:
+    """``; did you mean press.yaml?``: the file with its ending, or one of nearly that name beside it."""
+    if not isinstance(error, FileNotFoundError):
+        return ""
+    folder, name = os.path.split(os.fspath(path))
+    try:
+        there = sorted(one for one in os.listdir(folder or ".") if one.endswith((".yaml", ".yml")))
+    except OSError:
+        return ""
+    ended = [one for one in there if os.path.splitext(one)[0] == name]
+    return suggestion(ended[0] if ended else name, there)
 
 
 def _decoded(data: bytes, problems: Problems) -> str:

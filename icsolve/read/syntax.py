@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import yaml
 
 from icsolve.case import Mark
@@ -27,17 +29,36 @@ def _known(error: yaml.MarkedYAMLError, place: Mark, lines: list[str], line: str
     if "\t" in line[: len(line) - len(line.lstrip())] or here == "\t":
         column = line.index("\t") + 1
         return (place[0], column), "a tab stands here; YAML is indented with spaces only"
+    if "\u201c" in line or "\u201d" in line:
+        return (place[0], min(line.find(c) % 10**6 for c in "\u201c\u201d") + 1), (
+            'these quotation marks are letters to YAML; write straight ones (")'
+        )
+    if here == "?" or (here and line[place[1] - 2 : place[1] - 1] == "?"):
+        return place, "a '?' cannot stand here; write 'unknown' for what is to find"
+    if re.search(r":\s*,", line) and "found unexpected ':'" in problem:
+        return place, "there is no value between the colon and the comma"
     if here and here in "@`%&*!|>":
         return place, f"a value cannot start with '{here}'; put the text in quotes"
     if any(sign in problem for sign in _OF_A_COLON):
         cause = _unspaced_line(place[0], lines)
         if cause:
             return cause, "write a space after the colon"
+        text = re.match(r"\s*(\w+): +(?=[^\s\[{\"'])(.*: .*)", line)
+        if text:
+            return (place[0], text.start(2) + 1), (
+                f'a text with a colon in it stands in quotes, {text[1]}: "{text[2].strip()[:60]}"'
+            )
     if "'[' or" in problem or "or ']'" in problem or "or '}'" in problem:
         return place, f"a bracket{_opened(error)} is not closed, or a comma is missing before this"
     if "quoted scalar" in (error.context or "") and "end of stream" in problem:
         return place, f"a quotation mark{_opened(error)} is not closed"
     if "expected key" in problem or "expected <block end>" in problem or "expected '-' indicator" in problem:
+        before = lines[place[0] - 2] if place[0] > 1 else ""
+        if before.lstrip().startswith("{") and line.lstrip().startswith("- "):
+            return (
+                place[0] - 1,
+                before.index("{") + 1,
+            ), "an item of a list starts with a dash, as in - {...}"
         return place, "this line is indented otherwise than the lines that it should stand beside"
     return None
 

@@ -1,0 +1,280 @@
+"""Slips that newcomers make: each is told in the words of their own file, with what would mend it.
+
+The first table changes one thing of a press and says where the refusal stands and what is in it; the second
+holds files that are read and whose scene, answer or notes tell.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+import icsolve
+from icsolve.cli import main
+from icsolve.errors import CaseError, SceneError
+
+PRESS = """\
+icsolve: 1
+title: Four-bar press
+units: {length: in, force: lbf}
+points: {A: [0, 0], D: [4, 0]}
+lengths: {AB: 1, BC: 3.5, CD: 2.5, DE: 1.5}
+angles: {AB: 60, CDE: 0}
+near: {C: [3.5, 2.4]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {pin: [4, 1], at: D}
+loads:
+  P: {force: 100, link: 4, at: E, angle: 180}
+  T12: {torque: unknown, link: 2}
+"""
+
+
+def changed(*changes: tuple[str, str]) -> str:
+    """The press with some words changed."""
+    text = PRESS
+    for old, new in changes:
+        assert old in text, old
+        text = text.replace(old, new, 1)
+    return text
+
+
+# What is written in place of what; line and column of the refusal; what it says.
+REFUSED = {
+    # YAML
+    "colon in a title": ("Four-bar press", "Press: four-bar", 2, 8, 'in quotes, title: "Press: four-bar"'),
+    "curly quotation marks": ("Four-bar press", "“Press: 1”", 2, 8, "write straight ones"),
+    "tab": ("  T12", "\tT12", 15, 1, "indented with spaces only"),
+    "decimal comma": ("BC: 3.5", "BC: 3,5", 5, 22, "write a decimal point, 3.5"),
+    "decimal comma and unit": ("BC: 3.5", "BC: 3,5 in", 5, 22, "write a decimal point, 3.5 in"),
+    "decimal commas of a place": ("[3.5, 2.4]", "[3,5, 2,4]", 7, 11, "with decimal points, [3.5, 2.4]"),
+    "round brackets": ("[4, 0]", "(4, 0)", 4, 24, "write square brackets, [4, 0]"),
+    "no space after a colon": ("AB: 60", "AB:60", 6, 10, "write a space after the colon"),
+    "nothing after a colon": ("force: 100,", "force:,", 14, 12, "no value between the colon and the comma"),
+    "no comma between names": ("[1, 2]", "[1 2]", 9, 12, "with a comma between, 1, 2"),
+    "open bracket": ("[1, 2]", "[1, 2", 9, 23, "not closed"),
+    "a lost dash": ("  - {pin: [2, 3]", "  {pin: [2, 3]", 10, 3, "starts with a dash"),
+    # the unknown
+    "question mark in quotes": ("unknown", '"?"', 15, 17, "write 'unknown' for what is to find"),
+    "question mark": ("unknown", "?", 15, 17, "write 'unknown' for what is to find"),
+    "find": ("unknown", "find", 15, 17, "write 'unknown' for what is to find"),
+    "capital": ("unknown", "Unknown", 15, 17, "did you mean 'unknown'?"),
+    "unknown in brackets": ("unknown", "[unknown]", 15, 17, "without brackets, torque: unknown"),
+    "a pen's slip": ("unknown", "unkown", 15, 17, "did you mean 'unknown'?"),
+    # other words
+    "moment": ("torque:", "moment:", 15, 9, "did you mean 'torque'?"),
+    "direction": ("angle:", "direction:", 14, 35, "load P has no key 'direction'; did you mean 'angle'?"),
+    "body": ("link: 4", "body: 4", 14, 19, "did you mean 'link'?"),
+    "links of a load": ("link: 4", "links: 4", 14, 19, "did you mean 'link'?"),
+    "point": ("at: E", "point: E", 14, 28, "did you mean 'at'?"),
+    "revolute": ("pin: [1, 2]", "revolute: [1, 2]", 9, 6, "did you mean 'pin'?"),
+    "hinge": ("pin: [1, 2]", "hinge: [1, 2]", 9, 6, "take a joint of the plane, a pin"),
+    "prismatic": ("pin: [1, 2]", "prismatic: [1, 2]", 9, 6, "did you mean 'slide'?"),
+    "type of a joint": (
+        "{pin: [1, 2]",
+        "{type: revolute, links: [1, 2]",
+        9,
+        6,
+        "named by its kind; write {pin: [1, 2], at: A}",
+    ),
+    "links of a joint": (
+        "{pin: [1, 2], at: A}",
+        "{pin: A, links: [1, 2]}",
+        9,
+        5,
+        "write {pin: [1, 2], at: A}",
+    ),
+    "forces": ("loads:", "forces:", 13, 1, "did you mean 'loads'?"),
+    "frame as a section": ("title:", "frame: 1\ntitle:", 2, 1, "did you mean 'ground'?"),
+    "clockwise": ("link: 2}", "link: 2, turns: clockwise}", 15, 42, "did you mean 'cw'?"),
+    # directions
+    "up": ("angle: 180", "angle: up", 14, 42, "write 90 for 'up'"),
+    "toward the left": ("angle: 180", "toward: left", 14, 43, "write 'angle: 180'"),
+    "angle and toward": ("angle: 180", "angle: 180, toward: A", 14, 47, "give one of them"),
+    # points and links
+    "small letter": ("at: E", "at: e", 14, 32, "did you mean 'E'?"),
+    "a link for a point": ("at: E", "at: 4", 14, 32, "4 is a link, and a point of it is wanted here"),
+    "a middle": ("at: E", "at: M", 14, 32, "the middle of two points is 'M: {centroid: [A, B]}'"),
+    "a point without data": ("at: E", "at: F", 14, 32, "no coordinates, length, angle or guide"),
+    "a link that no joint has": ("link: 4", "link: 5", 14, 25, "no joint has a link '5'"),
+    "a load on the coupler": ("link: 4, at: E", "link: 3, at: E", 14, 25, "E, which is a point of link 4"),
+    "a load on the frame": ("link: 4, at: E", "link: 1, at: E", 14, 25, "write 'link: 4'"),
+    "a spring to a moving point": (
+        "  T12",
+        "  S: {spring: 5, free: 1, link: 2, at: B, to: E}\n  T12",
+        15,
+        47,
+        "fixed to link 1 at E, which is a point of link 4: write 'against: 4'",
+    ),
+    "the speed of a point of another link": (
+        "loads:",
+        "motion: {point: E, link: 3, speed: 1, angle: 90}\nloads:",
+        13,
+        26,
+        "E, which is a point of link 4",
+    ),
+    # quantities
+    "kilograms of force": ("force: 100", "force: 100 kg", 14, 14, "write 'mass' in place of the force"),
+    "a mass without a unit": (
+        "force: 100, link: 4, at: E, angle: 180",
+        "mass: 100, link: 4, at: E",
+        14,
+        13,
+        "a mass carries its unit",
+    ),
+    "a torque in feet": (
+        "torque: unknown",
+        "torque: 5 ft",
+        15,
+        17,
+        "'ft' is a length, but a torque is wanted",
+    ),
+    "value and unit": (
+        "force: 100",
+        "force: {value: 100, unit: lbf}",
+        14,
+        14,
+        "without braces, 'force: 100 lbf'",
+    ),
+    "braces": ("force: 100", "force: {100}", 14, 14, "without braces, 'force: 100'"),
+    "a negative length": ("AB: 1,", "AB: -1,", 5, 15, "the length AB should not be negative"),
+    "imperial": ("{length: in, force: lbf}", "imperial", 3, 8, "as in {length: in, force: lbf}"),
+    "gravity downward": ("title:", "gravity: -9.81\ntitle:", 2, 10, "given by its size"),
+}
+
+
+@pytest.mark.parametrize("slip", REFUSED)
+def test_a_slip_is_refused_where_it_stands_with_what_would_mend_it(slip: str) -> None:
+    old, new, line, column, said = REFUSED[slip]
+    with pytest.raises(CaseError) as refused:
+        icsolve.load(changed((old, new)))
+    assert len(refused.value.problems) == 1, "one slip, one message"
+    problem = refused.value.problems[0]
+    assert (problem.line, problem.column) == (line, column)
+    assert said in problem.message
+
+
+NUMBERED = (("[1, 2]", "[0, 1]"), ("[2, 3]", "[1, 2]"), ("[3, 4]", "[2, 3]"), ("[4, 1]", "[3, 0]"))
+BY_ONE = (*NUMBERED, ("link: 4", "link: 3"), ("link: 2}", "link: 1}"))
+"""The links from 0 on."""
+
+
+@pytest.mark.parametrize("name", ["0", "frame", "Ground", "base", "fixed"])
+def test_a_frame_by_its_name_alone_is_asked_for(name: str) -> None:
+    text = changed(*((old, new.replace("0", name)) for old, new in BY_ONE))
+    with pytest.raises(CaseError, match=f"write 'ground: {name}', or 'ground: 1'"):
+        icsolve.load(text)
+    case = icsolve.load(f"{text}ground: {name}\n")
+    assert icsolve.solve(case).answers["T12"].value == pytest.approx(-33.7582, rel=1e-5)
+    assert icsolve.load(f"{text}ground: 1\n").ground == "1"
+
+
+def test_a_frame_by_its_name_without_a_link_1_is_named() -> None:
+    with pytest.raises(CaseError, match="write 'ground: frame'"):
+        icsolve.load(changed(("[1, 2]", "[frame, 2]"), ("[4, 1]", "[4, frame]")))
+
+
+def test_a_link_that_is_welded_to_the_frame_may_bear_its_name() -> None:
+    text = changed(("at: D}", "at: D}\n  - {weld: [1, base]}"))
+    assert icsolve.solve(icsolve.load(text)).answers["T12"].sense == "cw"
+
+
+def test_what_the_link_is_said_to_carry_is_believed() -> None:
+    case = icsolve.load(
+        changed(("link: 4, at: E", "link: 3, at: E"), ("joints:", "links: {3: [E]}\njoints:"))
+    )
+    assert icsolve.solve(case).answers["T12"].value == pytest.approx(-74.9533, rel=1e-5)
+
+
+def test_the_free_end_of_an_arm_belongs_to_the_arm() -> None:
+    """An angle to the link before it poses an arm, and fixes its end to that link no more than to itself."""
+    arm = """\
+icsolve: 1
+points: {A: [0, 0]}
+lengths: {AB: 1, BC: 1}
+angles: {AB: 30, ABC: 150}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}]
+loads:
+  P: {weight: 10, link: 3, at: C}
+  T2: {torque: unknown, link: 2}
+  T3: {torque: unknown, link: 3, against: 2}
+"""
+    assert not icsolve.load(arm).noticed
+
+
+# What is changed; the status ('' for an answer) and what message or notes say.
+SCENES = {
+    "the pin at D left out": (
+        [("  - {pin: [4, 1], at: D}\n", "")],
+        "mobility",
+        "one joint is missing: link 4 has a free end (its only joint is at C)",
+    ),
+    "the pin at C left out": (
+        [("  - {pin: [3, 4], at: C}\n", "")],
+        "mobility",
+        "one joint is missing: links 3 and 4 have a free end",
+    ),
+    "the pin at A left out": (
+        [("  - {pin: [1, 2], at: A}\n", "")],
+        "mobility",
+        "link 2 has a free end (its only joint is at B)",
+    ),
+    "a torque on a link of one joint": (
+        [("at: D}", "at: D}\n  - {pin: [3, 5], at: C}"), ("link: 2}", "link: 5}")],
+        "mobility",
+        "link 5 has a free end (its only joint is at C)",
+    ),
+    "a link of one joint": (
+        [("at: D}", "at: D}\n  - {pin: [3, 5], at: C}")],
+        "",
+        "link 5 has a free end (its only joint is at C)",
+    ),
+    "a joint's point of other links": (
+        [("link: 4, at: E", "link: 4, at: B")],
+        "",
+        "at B, a joint of link 2 and link 3; if one of these is meant, write 'link: 2' or 'link: 3'",
+    ),
+    "a known torque on the frame": (
+        [("  T12", "  M: {torque: 5, link: 1}\n  T12")],
+        "",
+        "load M acts on link 1, the frame, which never moves: it does no work",
+    ),
+    "radians": ([("angle: 180", "angle: 3.1416")], "", "if radians are meant, write 3.1416 rad"),
+    "the unknown torque on the frame": ([("link: 2}", "link: 1}")], "no-value", "Put it on a moving link"),
+    "a length left out": ([("CD: 2.5, ", "")], "underdetermined", "one more length, angle or coordinate"),
+    "near left out": ([("near: {C: [3.5, 2.4]}\n", "")], "ambiguous", "add near: {C: [3.61106, 2.46956]}"),
+    "a length of ten times": ([("BC: 3.5", "BC: 35")], "cannot-assemble", "BC = 35 and CD = 2.5 cannot meet"),
+    "two unknowns": ([("force: 100", "force: unknown")], "mobility", "Give one of them a number"),
+}
+
+
+@pytest.mark.parametrize("slip", SCENES)
+def test_a_slip_of_the_scene_is_told(slip: str) -> None:
+    changes, status, said = SCENES[slip]
+    case = icsolve.load(changed(*changes))
+    if status:
+        with pytest.raises(SceneError) as refused:
+            icsolve.solve(case)
+        assert refused.value.status == status
+        assert said in refused.value.message
+    else:
+        assert said in " ".join(icsolve.solve(case).notes)
+
+
+@pytest.mark.parametrize("words", [["press"], ["solve", "press"], ["draw", "pres.yaml"]])
+def test_a_file_without_its_ending_is_named(
+    words: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "press.yaml").write_text(PRESS)
+    with pytest.raises(SystemExit) as left:
+        main(words)
+    assert left.value.code == 2
+    assert "press.yaml" in capsys.readouterr().err
+
+
+def test_there_are_fifty() -> None:
+    assert len(REFUSED) >= 50
