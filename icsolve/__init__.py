@@ -43,8 +43,13 @@ class _Package(ModuleType):
     """
 
     def __setattr__(self, name: str, value: Any) -> None:
-        if name in ("solve", "sweep") and isinstance(value, ModuleType):
-            value = getattr(value, name)
+        if isinstance(value, ModuleType):
+            if name in ("case", "answer", "sweep"):  # what they hold is shown in notebooks
+                from icsolve.notebook import register
+
+                register(value)
+            if name in ("solve", "sweep"):
+                value = getattr(value, name)
         super().__setattr__(name, value)
 
 

@@ -18,9 +18,9 @@ import mechanisms
 import transcribe
 from figures import from_lengths, without_order
 from icsolve.errors import SceneError
+from icsolve.report.text import answer_text
 from icsolve.solve.bounds import bounded_values, evaluate_bounded
 from icsolve.solve.program import Want, evaluate, prepare
-from icsolve.wording.text import answer_text
 from more_digits import SixtyDigits
 
 Measure = Callable[[mechanisms.Scene, Random], mechanisms.Scene | None]

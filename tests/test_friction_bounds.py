@@ -20,6 +20,7 @@ import rubbing
 import transcribe
 from growth import random_mechanism
 from icsolve.answer.bodies import Witness
+from icsolve.report.text import answer_text
 from icsolve.solve.program import Want, evaluate, prepare
 from icsolve.solve.sensitivity import influences
 from icsolve.statics import error_bound
@@ -27,7 +28,6 @@ from icsolve.statics.equilibrium import refuse_apart
 from icsolve.statics.error_bound import Exact, Sliding, Weights, step
 from icsolve.statics.friction_interface import rubs_of
 from icsolve.statics.reaction_basis import Position, ties_of
-from icsolve.wording.text import answer_text
 from more_digits import SixtyDigits
 from test_friction import BLOCK, MORE, QUICK_RETURN, SIX_BAR, brake, lever, slider_crank, turning, wedge
 

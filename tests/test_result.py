@@ -7,9 +7,9 @@ import json
 import pytest
 
 from icsolve.answer import Centre, Found, Term
+from icsolve.answer.as_json import pair_name, refusal_dict, to_dict
 from icsolve.case import Coordinates, Motion, Torque, Units
-from icsolve.wording.result import pair_name, refusal_dict, to_dict
-from icsolve.wording.text import answer_text
+from icsolve.report.text import answer_text
 from made import four_bar_answer, four_bar_case, number
 
 

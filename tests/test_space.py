@@ -17,7 +17,7 @@ from icsolve.check import AGREES, compare
 from icsolve.cli import main
 from icsolve.construction import known_of
 from icsolve.errors import CaseError, SceneError
-from icsolve.wording.text import answer_text
+from icsolve.report.text import answer_text
 
 CHAPTER = Path(__file__).parent.parent / "cases" / "ch13"
 

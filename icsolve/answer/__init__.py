@@ -189,18 +189,6 @@ class Answer:
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of the format (``icsolve/solve/1``)."""
-        from icsolve.wording.result import to_dict
+        from icsolve.answer.as_json import to_dict
 
         return to_dict(self)
-
-    def _repr_svg_(self) -> str:
-        """The figure, for notebooks."""
-        from icsolve.draw import draw
-
-        return draw(self.case)
-
-    def _repr_markdown_(self) -> str:
-        """The worked solution with LaTeX formulas, for notebooks."""
-        from icsolve.explain import explain
-
-        return explain(self.case, "md")

@@ -25,17 +25,7 @@ from icsolve.case.expected import (
     Tolerance,
     Variable,
 )
-from icsolve.case.figure import (
-    Centroid,
-    Coordinates,
-    Corner,
-    Direction,
-    Guide,
-    Length,
-    Mark,
-    Number,
-    Units,
-)
+from icsolve.case.figure import Centroid, Coordinates, Corner, Direction, Guide, Length, Mark, Units
 from icsolve.case.joints import (
     Belt,
     Contact,
@@ -64,6 +54,7 @@ from icsolve.case.loads import (
     Toward,
     Weight,
 )
+from icsolve.numbers.given import Number
 
 if TYPE_CHECKING:
     from icsolve.case.profiles import Profiles
@@ -163,9 +154,3 @@ class Case:
         """Its name and size; the fields of a whole case would fill a page."""
         counts = f"{len(self.links)} links, {len(self.joints)} joints, {len(self.loads)} loads"
         return f"<Case {self.name}: {counts}>"
-
-    def _repr_svg_(self) -> str:
-        """The figure as far as it is known, for notebooks."""
-        from icsolve.draw import draw
-
-        return draw(self)

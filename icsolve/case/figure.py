@@ -2,23 +2,10 @@
 
 from typing import NamedTuple
 
+from icsolve.numbers.given import Number
+
 Mark = tuple[int, int]
 """Line and column of a key or value in its file, both from 1."""
-
-
-class Number(NamedTuple):
-    """A number that the case gives.
-
-    ``value`` is the nearest double in case units, ``half`` half a unit of the last decimal
-    that was written (case units), ``path`` its place (``lengths.AB``, ``loads.P.angle``),
-    ``digits`` the numeral as written and ``factor`` case units per written unit.
-    """
-
-    value: float
-    half: float
-    path: str
-    digits: str
-    factor: float = 1.0
 
 
 class Units(NamedTuple):

@@ -2,7 +2,8 @@
 
 from typing import NamedTuple
 
-from icsolve.case.figure import Guide, Number
+from icsolve.case.figure import Guide
+from icsolve.numbers.given import Number
 
 
 class Friction(NamedTuple):

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from icsolve.case.figure import Number
+from icsolve.numbers.given import Number
 
 
 class Like(NamedTuple):

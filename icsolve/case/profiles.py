@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from icsolve.case.figure import Number
 from icsolve.case.joints import Friction
+from icsolve.numbers.given import Number
 
 Direction = Number | str
 """Degrees ccw from +x in this position, or a point that lies that way."""

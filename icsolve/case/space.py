@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from icsolve.case.figure import Centroid, Number
+from icsolve.case.figure import Centroid
 from icsolve.case.loads import Magnitude, Spring, Toward, Weight
+from icsolve.numbers.given import Number
 
 
 class Coordinates(NamedTuple):

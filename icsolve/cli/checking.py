@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING
 
 import click
 
-from icsolve.check import AGREES, DISAGREES, ERRATUM, NOT_EXAMINED, Row, compare, wanted
+from icsolve.check import AGREES, DISAGREES, ERRATUM, HEADER, NOT_EXAMINED, Row, compare, table_row, wanted
 from icsolve.cli.options import CASES, JSON, SET
 from icsolve.cli.run import DONE, NO_ANSWER, complain, for_each, on_stderr
 from icsolve.cli.solving import print_json
-from icsolve.wording.check_table import HEADER, table_row
 from icsolve.wording.sentences import plural
 
 if TYPE_CHECKING:

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from icsolve.answer import Answer
     from icsolve.case import Case
     from icsolve.errors import SceneError
-    from icsolve.report import Report
+    from icsolve.report.mechanism import Report
 
 
 class Options(NamedTuple):
@@ -80,7 +80,7 @@ def _solve(case: Case, options: Options) -> Answer:
 
 def _report(case: Case) -> Report:
     """The report; it needs every point of the figure, where the answer needs only its own."""
-    from icsolve.report import report
+    from icsolve.report.mechanism import report
     from icsolve.solve import solve
 
     return report(solve(case, examine=True))
@@ -111,7 +111,7 @@ def _as_text(options: Options, several: bool) -> Work:
     shown = 0
 
     def work(case: Case, path: str) -> int:
-        from icsolve.wording.text import answer_text
+        from icsolve.report.text import answer_text
 
         nonlocal shown
         answer = _solve(case, options)
@@ -131,6 +131,6 @@ def _as_text(options: Options, several: bool) -> Work:
 
 
 def _refuse_json(case: Case, path: str, error: SceneError) -> None:
-    from icsolve.wording.result import refusal_dict
+    from icsolve.answer.as_json import refusal_dict
 
     print_json(refusal_dict(case.name, error.status, error.message))

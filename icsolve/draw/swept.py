@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING
@@ -36,19 +35,11 @@ def sweep_svg(found: Sweep) -> str:
     return plot_svg(x, curves, axis, found.case.title or found.case.name, list(_shades(x, status)))
 
 
-def outcome(found: Sweep) -> str:
-    """What was varied, and how many rows came out how, in words."""
-    counts = Counter(str(word) for word in found.status)
-    rows = "1 row" if len(found) == 1 else f"{len(found)} rows"
-    varied = f" of {', '.join(found.vary)}" if found.vary else ""
-    return f"{rows}{varied}: " + (", ".join(f"{n} {word}" for word, n in counts.most_common()) or "none")
-
-
 def sweep_markdown(found: Sweep) -> str:
     """The ranges of what was varied and of the answers, as a Markdown table."""
     units = {load.name: unit_of(load, found.case) for load in found.case.loads}
     columns = [*found.vary.items(), *found.answers.items()]
-    lines = [f"{outcome(found)}.", "", "| | least | most | unit |", "|---|---|---|---|"]
+    lines = [f"{found.outcome}.", "", "| | least | most | unit |", "|---|---|---|---|"]
     for name, column in columns:
         some = [float(v) for v in column if math.isfinite(v)]
         ends = (figure_number(min(some), 6), figure_number(max(some), 6)) if some else ("", "")

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from icsolve.case import Contact, Pin, Slot
 from icsolve.kinematics.twists import SINGULAR, Closure, is_dead, products, rate_sizes
-from icsolve.structure.topology import Topology
+from icsolve.structure.topology import Bond, Topology
+from icsolve.wording.sentences import listed
 
 
 def lined_up(closure: Closure, top: Topology, body: int) -> tuple[int, ...]:
@@ -44,3 +46,28 @@ def _tightness(closure: Closure) -> float:
     *bases, _ = closure.columns
     pairs = zip((closure.factor, *closure.numerators), (products(*bases), *rate_sizes(closure)), strict=True)
     return min(abs(value) / size if size > 0.0 else 1.0 for value, size in pairs)
+
+
+def aligned(top: Topology, bonds: Iterable[int], verb: str = "lie on") -> str:
+    """Names the centres of bonds that lie on one line; empty where one of them has no name."""
+    joints = [top.bonds[k] for k in bonds]
+    names = [_place(bond) for bond in joints if bond.freedom == 1]
+    normals = [_normal(bond) for bond in joints if bond.freedom == 2]
+    if not all((*names, *normals)):
+        return ""
+    if len(names) == 3:
+        return f"{listed(names)} {verb} one line"
+    if len(names) == len(normals) == 1:
+        return f"{normals[0]} {'passes through' if verb == 'lie on' else 'nearly passes through'} {names[0]}"
+    return ""
+
+
+def _place(bond: Bond) -> str:
+    return bond.joint.at if isinstance(bond.joint, Pin) and not bond.joint.at.startswith("@") else ""
+
+
+def _normal(bond: Bond) -> str:
+    if not isinstance(bond.joint, Slot | Contact) or bond.joint.at.startswith("@"):
+        return ""
+    what = "the normal to the slot" if isinstance(bond.joint, Slot) else "the common normal"
+    return f"{what} at {bond.joint.at}"

@@ -1,6 +1,7 @@
 """All motions that the joints allow: by the plan where one freedom follows group by group, else from
 the loop equations of the whole scene. What is singular, redundant or rigid is said here."""
 
+import math
 from typing import NamedTuple
 
 from icsolve.assembly.frame import Frame
@@ -10,10 +11,10 @@ from icsolve.kinematics.loops import ORIGIN, Bases, LoopMotions, all_motions
 from icsolve.kinematics.twists import Closure, is_singular, run
 from icsolve.numbers.arithmetic import Arithmetic
 from icsolve.screws.joints import Points, freedoms, points_of
-from icsolve.screws.plane import Triple, subtract
+from icsolve.screws.plane import Triple, cross, subtract
 from icsolve.structure.plan import Plan
 from icsolve.structure.topology import Topology
-from icsolve.wording.sentences import contradiction, near_structure, structure
+from icsolve.wording.sentences import near_structure, structure
 
 
 class Motions(NamedTuple):
@@ -101,4 +102,43 @@ def _almost(
         raise SceneError(Status.CONTRADICTORY, contradiction(top, bases, frame, case.units.length))
     if last < DOUBT:
         raise SceneError(Status.NEAR_SINGULAR, near_structure(last))
-    raise SceneError(Status.STRUCTURE, structure(top))
+    constraints = sum(bond.constraints for bond in top.bonds)
+    raise SceneError(Status.STRUCTURE, structure(len(top.members) - 1, constraints))
+
+
+def contradiction(top: Topology, bases: Bases, frame: Frame, unit: str) -> str:
+    """Which given centre lies off the place that the others give it, and how far."""
+    worst: tuple[float, str] | None = None
+    for k, bond in enumerate(top.bonds):
+        if not isinstance(bond.joint, KnownCentre):
+            continue
+        off = _off_place(top, bases, k)
+        if off is not None and (worst is None or off < worst[0]):
+            worst = (off, f"{bond.links[0]}-{bond.links[1]}")
+    if worst is None:
+        return (
+            "the given centres contradict each other: no motion has all of them. Correct one, or leave it "
+            "out."
+        )
+    distance = worst[0] / frame.scale
+    return (
+        f"the given centres contradict each other: centre {worst[1]} lies {distance:.3g} {unit} from where "
+        "the other centres and joints put it. Correct it, or leave it out."
+    )
+
+
+def _off_place(top: Topology, bases: Bases, k: int) -> float | None:
+    """Distance (normalised) of a given finite centre from the point, or the line, that all else gives."""
+    bond, (px, py, pw) = top.bonds[k], bases[k][0]
+    motions = all_motions(top, {n: basis for n, basis in bases.items() if n != k})
+    if pw == 0.0 or bond.a not in motions.twists or bond.b not in motions.twists:
+        return None
+    both = zip(motions.twists[bond.a], motions.twists[bond.b], strict=True)
+    relative = [subtract(b, a) for a, b in both]
+    if len(relative) == 2:
+        x, y, w = cross(*relative)
+        return abs(x * px + y * py + w) / math.hypot(x, y) if x or y else None
+    if len(relative) != 1:
+        return None
+    x, y, w = relative[0]
+    return math.hypot(x / w - px, y / w - py) if abs(w) > 1e-12 * max(abs(x), abs(y)) else None

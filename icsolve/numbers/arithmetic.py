@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import Any, Protocol
 
-from icsolve.case import Number
+from icsolve.numbers.given import Number
 
 Scalar = Any
 """A float, an array of them, or any number type with + - * /."""

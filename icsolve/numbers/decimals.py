@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from decimal import Context, Decimal
 
-from icsolve.case import Number
 from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.given import Number
 
 PRECISION = 50
 CONTEXT = Context(prec=PRECISION)

@@ -9,8 +9,8 @@ from __future__ import annotations
 
 import math
 
-from icsolve.case import Number
 from icsolve.numbers.arithmetic import ROUNDING_NOISE, Scalar, turn_of
+from icsolve.numbers.given import Number
 from icsolve.numbers.tape import decimal_noise
 from icsolve.numbers.traced import Node, Op, Root, Traced, is_plainly, varies
 

@@ -13,8 +13,8 @@ import math
 from collections.abc import Iterable
 from typing import NamedTuple, Union
 
-from icsolve.case import Number
 from icsolve.numbers.arithmetic import Scalar, turn_of
+from icsolve.numbers.given import Number
 
 UNIT = 2.0**-53
 TURN_NOISE = 3.0 * UNIT

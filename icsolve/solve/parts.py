@@ -23,10 +23,10 @@ from icsolve.solve.bounds import (
     slopes,
 )
 from icsolve.solve.program import Outcome, Program, Want
+from icsolve.solve.terms import advantage, load_values, power_terms
 from icsolve.statics import power
 from icsolve.wording import sentences
 from icsolve.wording.senses import sense_of, unit_of
-from icsolve.wording.terms import advantage, load_values, power_terms
 
 
 class Parts:

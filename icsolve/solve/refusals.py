@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
-from icsolve.kinematics.collinear import lined_up, tightest
+from icsolve.kinematics.collinear import aligned, lined_up, tightest
 from icsolve.kinematics.motion import Motions
 from icsolve.screws.joints import Points
 from icsolve.statics import power
@@ -99,14 +99,14 @@ def _why_at_rest(top: Topology, motions: Motions, link: str) -> str:
     """Which centres on one line hold a link at rest."""
     body = top.body_of[link]
     own_first = sorted(motions.closures, key=lambda closure: body not in closure.group.bodies)
-    clauses = (sentences.aligned(top, lined_up(closure, top, body)) for closure in own_first)
+    clauses = (aligned(top, lined_up(closure, top, body)) for closure in own_first)
     return next(filter(None, clauses), "")
 
 
 def too_close(top: Topology, motions: Motions, load: str, open_by: float | None) -> SceneError:
     """The refusal of a scene whose data do not decide it."""
     group = tightest(motions.closures)
-    why = sentences.aligned(top, sorted(group.group.bonds), "lie nearly on") if group else ""
+    why = aligned(top, sorted(group.group.bonds), "lie nearly on") if group else ""
     return SceneError(Status.NEAR_SINGULAR, sentences.too_close(load, why, open_by))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -55,21 +56,15 @@ class Sweep:
 
     def __repr__(self) -> str:
         """What was varied, and how the rows came out."""
-        from icsolve.draw.swept import outcome
+        return f"<Sweep {self.case.name}: {self.outcome}>"
 
-        return f"<Sweep {self.case.name}: {outcome(self)}>"
-
-    def _repr_svg_(self) -> str | None:
-        """The answers over the range, for notebooks; None where there is not one range to draw them over."""
-        from icsolve.draw.swept import sweep_svg
-
-        return sweep_svg(self) if len(self.vary) == 1 and len(self) else None
-
-    def _repr_markdown_(self) -> str | None:
-        """A table of the answers' ranges, for notebooks; None where there is a picture."""
-        from icsolve.draw.swept import sweep_markdown
-
-        return sweep_markdown(self) if len(self.vary) != 1 or not len(self) else None
+    @property
+    def outcome(self) -> str:
+        """What was varied, and how many rows came out how, in words."""
+        counts = Counter(str(word) for word in self.status)
+        rows = "1 row" if len(self) == 1 else f"{len(self)} rows"
+        varied = f" of {', '.join(self.vary)}" if self.vary else ""
+        return f"{rows}{varied}: " + (", ".join(f"{n} {word}" for word, n in counts.most_common()) or "none")
 
     @cached_property
     def status(self) -> npt.NDArray[np.str_]:

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from icsolve.case import Case, Force, Load, Spring, Torque, Toward, Weight
-from icsolve.statics.power import Wrench
+
+if TYPE_CHECKING:
+    from icsolve.statics.power import Wrench
 
 
 def sense_of(w: Wrench, value: float) -> str:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
+from typing import TYPE_CHECKING
 
-from icsolve.assembly.frame import Frame
-from icsolve.case import Case, Contact, KnownCentre, Pin, Slot
-from icsolve.kinematics.loops import Bases, all_motions
-from icsolve.screws.plane import cross, subtract
-from icsolve.structure.topology import Bond, Topology
+from icsolve.case import Case
+
+if TYPE_CHECKING:
+    from icsolve.structure.topology import Topology
 
 
 def listed(names: Iterable[str]) -> str:
@@ -23,10 +22,8 @@ def plural(count: int, word: str) -> str:
     return f"{count} {word}" + ("" if count == 1 else "s")
 
 
-def structure(top: Topology) -> str:
-    """No joint lets anything move."""
-    bodies = len(top.members) - 1
-    constraints = sum(bond.constraints for bond in top.bonds)
+def structure(bodies: int, constraints: int) -> str:
+    """No joint lets anything move: moving links, and the freedoms that the joints take."""
     return (
         f"the links form a structure: 3 x {bodies} freedoms of {plural(bodies, 'link')} beside the frame, of "
         f"which the joints take {constraints}. Nothing moves, so power gives no equation. Take out a joint "
@@ -64,69 +61,6 @@ def loose(case: Case, names: list[str]) -> str:
         f"{which} held by nothing: no chain of joints leads to the frame (link {case.ground}). "
         "Add the joint that is missing."
     )
-
-
-def contradiction(top: Topology, bases: Bases, frame: Frame, unit: str) -> str:
-    """Which given centre lies off the place that the others give it, and how far."""
-    worst: tuple[float, str] | None = None
-    for k, bond in enumerate(top.bonds):
-        if not isinstance(bond.joint, KnownCentre):
-            continue
-        off = _off_place(top, bases, k)
-        if off is not None and (worst is None or off < worst[0]):
-            worst = (off, f"{bond.links[0]}-{bond.links[1]}")
-    if worst is None:
-        return (
-            "the given centres contradict each other: no motion has all of them. Correct one, or leave it "
-            "out."
-        )
-    distance = worst[0] / frame.scale
-    return (
-        f"the given centres contradict each other: centre {worst[1]} lies {distance:.3g} {unit} from where "
-        "the other centres and joints put it. Correct it, or leave it out."
-    )
-
-
-def _off_place(top: Topology, bases: Bases, k: int) -> float | None:
-    """Distance (normalised) of a given finite centre from the point, or the line, that all else gives."""
-    bond, (px, py, pw) = top.bonds[k], bases[k][0]
-    motions = all_motions(top, {n: basis for n, basis in bases.items() if n != k})
-    if pw == 0.0 or bond.a not in motions.twists or bond.b not in motions.twists:
-        return None
-    both = zip(motions.twists[bond.a], motions.twists[bond.b], strict=True)
-    relative = [subtract(b, a) for a, b in both]
-    if len(relative) == 2:
-        x, y, w = cross(*relative)
-        return abs(x * px + y * py + w) / math.hypot(x, y) if x or y else None
-    if len(relative) != 1:
-        return None
-    x, y, w = relative[0]
-    return math.hypot(x / w - px, y / w - py) if abs(w) > 1e-12 * max(abs(x), abs(y)) else None
-
-
-def aligned(top: Topology, bonds: Iterable[int], verb: str = "lie on") -> str:
-    """Names the centres of bonds that lie on one line; empty where one of them has no name."""
-    joints = [top.bonds[k] for k in bonds]
-    names = [_place(bond) for bond in joints if bond.freedom == 1]
-    normals = [_normal(bond) for bond in joints if bond.freedom == 2]
-    if not all((*names, *normals)):
-        return ""
-    if len(names) == 3:
-        return f"{listed(names)} {verb} one line"
-    if len(names) == len(normals) == 1:
-        return f"{normals[0]} {'passes through' if verb == 'lie on' else 'nearly passes through'} {names[0]}"
-    return ""
-
-
-def _place(bond: Bond) -> str:
-    return bond.joint.at if isinstance(bond.joint, Pin) and not bond.joint.at.startswith("@") else ""
-
-
-def _normal(bond: Bond) -> str:
-    if not isinstance(bond.joint, Slot | Contact) or bond.joint.at.startswith("@"):
-        return ""
-    what = "the normal to the slot" if isinstance(bond.joint, Slot) else "the common normal"
-    return f"{what} at {bond.joint.at}"
 
 
 def workless(load: str, link: str, at_rest: bool, others_work: bool, why: str) -> str:

@@ -6,9 +6,9 @@ import math
 from collections.abc import Callable, Iterable
 
 from icsolve.answer import Answer, Centre, Found, Term
+from icsolve.answer.as_json import shown_points
 from icsolve.case import Case, Coordinates, Pair, Torque
 from icsolve.case.names import link_order, pair_name
-from icsolve.wording.result import shown_points
 
 Format = Callable[[float], str]
 """A number with the digits that were asked for."""
