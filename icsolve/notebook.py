@@ -44,14 +44,14 @@ def worked_solution(answer: Answer) -> str:
 
 def sweep_curve(found: Sweep) -> str | None:
     """The answers over the range; None where there is not one range to draw them over."""
-    from icsolve.draw.swept import sweep_svg
+    from icsolve.draw.plot import sweep_svg
 
     return sweep_svg(found) if len(found.vary) == 1 and len(found) else None
 
 
 def sweep_table(found: Sweep) -> str | None:
     """A table of the answers' ranges; None where there is a picture."""
-    from icsolve.draw.swept import sweep_markdown
+    from icsolve.draw.plot import sweep_markdown
 
     return sweep_markdown(found) if len(found.vary) != 1 or not len(found) else None
 

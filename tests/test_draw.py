@@ -23,7 +23,7 @@ import mechanisms
 import transcribe
 from growth import random_mechanism
 from icsolve.case import Case
-from icsolve.construction import known_of, needed_steps
+from icsolve.derivation import known_of, needed_steps
 from icsolve.draw import Drawing, draw
 from pictures import Picture, on_arrows, outside, overlaps, parsed, shapes
 
@@ -115,14 +115,14 @@ def test_a_drawing_is_plain_svg() -> None:
 
 def test_colours_hold_on_paper_and_in_the_dark() -> None:
     """WCAG AA: text at 4.5 to 1 or more, strokes at 3 to 1 or more, on both papers."""
-    from icsolve.draw import style
+    from icsolve.draw import svg
 
-    for name, ink, _ in style._TEXTS:
-        assert min(contrast(ink.light, style.PAPER.light), contrast(ink.dark, style.PAPER.dark)) >= 4.5, name
-    for name, stroke, _, _ in style._RULES:
+    for name, ink, _ in svg._TEXTS:
+        assert min(contrast(ink.light, svg.PAPER.light), contrast(ink.dark, svg.PAPER.dark)) >= 4.5, name
+    for name, stroke, _, _ in svg._RULES:
         if stroke is not None and name != "grid":
-            assert contrast(stroke.light, style.PAPER.light) >= 3.0, name
-            assert contrast(stroke.dark, style.PAPER.dark) >= 3.0, name
+            assert contrast(stroke.light, svg.PAPER.light) >= 3.0, name
+            assert contrast(stroke.dark, svg.PAPER.dark) >= 3.0, name
 
 
 def contrast(a: str, b: str) -> float:

@@ -22,7 +22,7 @@ import mechanisms
 import transcribe
 from growth import random_mechanism
 from icsolve.case import Case
-from icsolve.construction import known_of
+from icsolve.derivation import known_of
 from icsolve.explain import explain
 from test_draw import DEAD_CENTRE, FOUR_BAR, HOSTILE
 

@@ -14,7 +14,7 @@ import pytest
 
 import icsolve
 from icsolve.cli import main
-from icsolve.gallery import ENDINGS, exhibit, index_html
+from icsolve.page.gallery import ENDINGS, exhibit, index_html
 from test_draw import DEAD_CENTRE, FOUR_BAR, HOSTILE
 
 ROOT = Path(__file__).parent.parent

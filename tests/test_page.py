@@ -24,7 +24,7 @@ import pytest
 
 import icsolve
 from icsolve.cli import main
-from icsolve.construction import known_of, needed_steps
+from icsolve.derivation import known_of, needed_steps
 from icsolve.page import page_html
 from icsolve.page.motion import Motion, motion_of
 from icsolve.solve.refusals import rubs

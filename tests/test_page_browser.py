@@ -17,7 +17,7 @@ import pytest
 
 import icsolve
 from browser import REQUIRED, Browser, NoBrowserError, browser, required
-from icsolve.construction import known_of, needed_steps
+from icsolve.derivation import known_of, needed_steps
 from icsolve.draw import Drawing, draw
 from icsolve.draw.words import figure_number, unit_word
 from icsolve.page import page_html

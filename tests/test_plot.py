@@ -17,9 +17,7 @@ import pytest
 
 import icsolve
 from icsolve.cli import main
-from icsolve.draw.curves import Curve, asymptotes, limits
-from icsolve.draw.plot import Shade, plot_svg
-from icsolve.draw.swept import sweep_svg
+from icsolve.draw.plot import Curve, Shade, asymptotes, limits, plot_svg, sweep_svg
 from pictures import SVG, Picture, coordinates, outside, overlaps, parsed
 from test_draw import HOSTILE
 

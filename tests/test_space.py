@@ -15,7 +15,7 @@ from icsolve import Answer, load, solve
 from icsolve.answer.space import Reaction
 from icsolve.check import AGREES, compare
 from icsolve.cli import main
-from icsolve.construction import known_of
+from icsolve.derivation import known_of
 from icsolve.errors import CaseError, SceneError
 from icsolve.report.text import answer_text
 

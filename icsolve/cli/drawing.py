@@ -51,7 +51,7 @@ def draw_case(
         return UNREADABLE
 
     def work(case: Case, path: str) -> int:
-        from icsolve.construction import known_of
+        from icsolve.derivation import known_of
         from icsolve.draw import Drawing, draw
 
         drawing = Drawing(**asked)

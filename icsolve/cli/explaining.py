@@ -56,7 +56,7 @@ def explain_case(
         return UNREADABLE
 
     def work(case: Case, path: str) -> int:
-        from icsolve.construction import known_of
+        from icsolve.derivation import known_of
         from icsolve.explain import explain
 
         known = known_of(case, reactions=True)

@@ -38,7 +38,7 @@ def page_case(argument: str, output: str | None, settings: Mapping[str, str]) ->
         return UNREADABLE
 
     def work(case: Case, path: str) -> int:
-        from icsolve.construction import known_of
+        from icsolve.derivation import known_of
         from icsolve.page import page_html
 
         known = known_of(case, reactions=True)

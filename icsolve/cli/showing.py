@@ -17,7 +17,7 @@ from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain
 from icsolve.errors import CaseError, NotACase
 
 if TYPE_CHECKING:
-    from icsolve.gallery import Exhibit
+    from icsolve.page.gallery import Exhibit
 
 INDEX = "index"
 
@@ -87,7 +87,7 @@ def _stem(source: Source) -> str:
 
 def _taken(items: Iterable[Item], output: str) -> list[str]:
     """Files that are there already."""
-    from icsolve.gallery import ENDINGS
+    from icsolve.page.gallery import ENDINGS
 
     names = [f"{INDEX}.html", *(item.name + ending for item in items for ending in ENDINGS)]
     paths = [os.path.join(output, *name.split("/")) for name in names]
@@ -96,7 +96,7 @@ def _taken(items: Iterable[Item], output: str) -> list[str]:
 
 def _write(items: list[Item], output: str, title: str, inputs: Iterable[str]) -> int:
     """Show each case and write its files, then the index; returns the exit status."""
-    from icsolve.gallery import index_html
+    from icsolve.page.gallery import index_html
 
     exhibits: list[Exhibit] = []
     worst = DONE
@@ -121,7 +121,7 @@ def _watched() -> bool:
 def _shown(item: Item) -> tuple[Exhibit | None, int]:
     """A file as it is shown, and the exit status that it calls for; None for a file of a folder that is no
     case."""
-    from icsolve.gallery import exhibit, unreadable
+    from icsolve.page.gallery import exhibit, unreadable
 
     path = item.source.path
     try:

@@ -143,7 +143,7 @@ def _table(read: Case, path: str, asked: Asked) -> int:
 
 
 def _pictured(found: Sweep, asked: Asked) -> int:
-    from icsolve.draw.swept import sweep_svg
+    from icsolve.draw.plot import sweep_svg
 
     return _written(sweep_svg(found), asked.plot, asked)
 

@@ -4,6 +4,6 @@ Marks are made in picture units, shapely shapes and places them, and `svg` write
 
 from __future__ import annotations
 
-from icsolve.draw.picture import Drawing, draw
+from icsolve.draw.figure import Drawing, draw
 
 __all__ = ["Drawing", "draw"]

@@ -10,16 +10,13 @@ from typing import NamedTuple
 import shapely
 
 from icsolve.answer.bodies import Reaction
-from icsolve.construction import Acting, acting_loads
-from icsolve.draw.arrows import arrow, turning
-from icsolve.draw.figure import with_labels
+from icsolve.derivation import Acting, acting_loads
 from icsolve.draw.frame import point_parts
 from icsolve.draw.links import bars, body_of, link_part, wheel_parts
 from icsolve.draw.loads import ARC, axle, heads, hidden, ways
-from icsolve.draw.marks import Box, Disc, Group, Mark, Point, Run, Stroke, Text, bounds, moved
-from icsolve.draw.place import Label, Soft
-from icsolve.draw.scene import Part, Scene, around, together
-from icsolve.draw.shapes import nearest
+from icsolve.draw.marks import Box, Disc, Group, Mark, Point, Run, Stroke, Text, arrow, bounds, moved, turning
+from icsolve.draw.place import Label, Soft, nearest
+from icsolve.draw.scene import Part, Scene, around, together, with_labels
 from icsolve.draw.words import force_runs, name_runs, quantity
 
 LONGEST = 78.0

@@ -1,26 +1,26 @@
-"""The figure of a mechanism: its parts in order, its labels where they can be read, its captions."""
+"""The figure of a mechanism: its parts in order, its labels where they can be read; the drawing that is
+asked for: which steps and panels, what stands above and below them."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
 from itertools import combinations
+from typing import NamedTuple
 
 import shapely
 
-from icsolve.case import Pin
-from icsolve.construction import Known, Step
-from icsolve.draw.centres import centre_parts
+from icsolve.case import Case, Pin
+from icsolve.derivation import Known, Step, all_steps, known_of, needed_steps
+from icsolve.draw.centres import centre_parts, circle_marks
 from icsolve.draw.frame import belts, frame_parts, joint_parts, point_parts, rims
 from icsolve.draw.links import Body, bars, body_of, inside_plate, link_part, outline, wheel_parts
-from icsolve.draw.loads import load_parts
-from icsolve.draw.marks import Box, Mark
-from icsolve.draw.place import Label, Placer
-from icsolve.draw.scene import Part, Scene, together
-from icsolve.draw.shapes import joined
-from icsolve.draw.velocities import velocity_parts
-from icsolve.draw.view import HEIGHT, WIDTH, view_of
-from icsolve.draw.wheels import Round, round_things
+from icsolve.draw.loads import legend, load_parts, velocity_parts
+from icsolve.draw.marks import HEIGHT, WIDTH, Box, Mark, bounds, view_of
+from icsolve.draw.place import joined
+from icsolve.draw.scene import Part, Round, Scene, outline_boxes, round_things, together, with_labels
+from icsolve.draw.svg import document
+from icsolve.draw.words import captioned, description
 
 SHORT, LARGER = 52.0, 1.5
 """A mechanism with a link that would be shorter is drawn so many times larger at most."""
@@ -36,7 +36,7 @@ def scene_of(known: Known, steps: Sequence[Step] = ()) -> Scene:
     used = {name for names in known.case.carries.values() for name in names}
     used |= {at for joint in known.case.joints if (at := getattr(joint, "at", None))}
     boxes = [(*known.points[p], *known.points[p]) for p in known.points if p in used]
-    boxes += [*_wheel_boxes(shapes), *_outline_boxes(known)]
+    boxes += [*_wheel_boxes(shapes), *outline_boxes(known.case, known.points)]
     centres = [step.centre.place for step in steps if step.centre.kind == "at"]
     finite = [(x, y) for x, y in centres if math.isfinite(x) and math.isfinite(y)]
     view = view_of(boxes, finite, known.size)
@@ -56,15 +56,6 @@ def _shortest(known: Known) -> float:
     places = ([known.points[p] for p in sorted(some)] for some in ends.values() if len(some) > 1)
     spans = (max(math.dist(p, q) for p, q in combinations(some, 2)) for some in places)
     return min((span for span in spans if span > TOGETHER * known.size), default=math.inf)
-
-
-def _outline_boxes(known: Known) -> list[Box]:
-    """The room of the profiles that the case gives."""
-    if known.case.profiles is None:
-        return []
-    from icsolve.draw.profiled import outline_boxes
-
-    return outline_boxes(known.case, known.points)
 
 
 def _wheel_boxes(shapes: Round) -> list[Box]:
@@ -114,16 +105,95 @@ def _depth(body: Body) -> tuple[int, float]:
     return (len(body.blocks), -float(shapely.area(outline(body))))
 
 
-ORDER = ("t-point", "t-unknown", "t-known", "t-centre", "t-velocity", "t-link")
-"""Whose labels choose their places first."""
+# --- the drawing that is asked for -----------------------------------------------------------------------
 
 
-def with_labels(part: Part, window: Box) -> list[Mark]:
-    """The marks of a part and its labels, placed."""
-    placer = Placer(part.solid, part.soft, window)
-    labels = sorted(part.labels, key=lambda label: ORDER.index(label.kind) if label.kind in ORDER else 9)
-    return [*part.marks, *(placer.put(label) for label in _told(labels))]
+PAD = 14.0
 
 
-def _told(labels: Iterable[Label]) -> Iterable[Label]:
-    return (label for label in labels if label.runs)
+class Drawing(NamedTuple):
+    """What to draw beside the mechanism and its loads.
+
+    ``centres`` is ``needed``, ``all`` or ``none``; ``step`` cuts the construction after so many
+    centres found; ``circle`` adds the Kennedy circle, ``velocities`` the velocities of the points,
+    ``bodies`` the free-body diagrams of all links. Without ``captions`` title and answer are left to the
+    page around it.
+    """
+
+    centres: str = "needed"
+    step: int | None = None
+    circle: bool = False
+    velocities: bool = False
+    bodies: bool = False
+    captions: bool = True
+
+
+PLAIN = Drawing()
+
+
+def draw(case: Case, drawing: Drawing = PLAIN, known: Known | None = None) -> str:
+    """The drawing of a case as an SVG document, the same bytes every time.
+
+    A case that has no answer is drawn as far as it is known, with the reason below.
+    """
+    known = known or known_of(case, reactions=drawing.bodies)
+    marks, steps = _in_space(known, drawing) if case.space is not None else _in_plane(known, drawing)
+    if drawing.captions or not marks:
+        marks = captioned(known, marks, steps, drawing.step)
+    left, top, right, bottom = bounds(marks)
+    view = (left - PAD, top - PAD, right + PAD, bottom + PAD)
+    return document(marks, view, known.title, description(known))
+
+
+def _in_space(known: Known, drawing: Drawing) -> tuple[list[Mark], tuple[Step, ...]]:
+    """The figure of a case in space, which has no centres."""
+    from icsolve.draw.space import space_marks
+
+    sketch, marks = space_marks(known)
+    if drawing.bodies:
+        from icsolve.draw.space import space_panels
+
+        left, _, right, bottom = bounds(marks)
+        marks += space_panels(known, sketch, left, bottom + 30.0, max(right - left, 760.0))
+    return marks, ()
+
+
+def _in_plane(known: Known, drawing: Drawing) -> tuple[list[Mark], tuple[Step, ...]]:
+    """Figure, circle and free bodies of a case in the plane."""
+    steps = steps_shown(known, drawing)
+    scene = scene_of(known, steps)
+    marks = figure_marks(scene, steps, velocities=drawing.velocities)
+    marks += _beside(scene, steps, drawing, marks)
+    marks += _under(scene, drawing, marks)
+    return marks, steps
+
+
+def steps_shown(known: Known, drawing: Drawing) -> tuple[Step, ...]:
+    """The centres to draw, in order."""
+    if drawing.centres == "none" or known.whole is None or known.case.space is not None:
+        return ()
+    steps = all_steps(known) if drawing.centres == "all" else needed_steps(known)
+    return tuple(s for s in steps if drawing.step is None or s.number <= drawing.step)
+
+
+def _beside(scene: Scene, steps: Sequence[Step], drawing: Drawing, marks: Sequence[Mark]) -> list[Mark]:
+    """The circle diagram, at the right of the figure."""
+    if not drawing.circle or not steps:
+        return []
+    _, top, right, _ = bounds(marks)
+    return circle_marks(scene.known, steps, (right + 34.0, top), drawing.step)
+
+
+def _under(scene: Scene, drawing: Drawing, marks: Sequence[Mark]) -> list[Mark]:
+    """The scale of the velocities, and the free bodies, below the figure."""
+    found: list[Mark] = []
+    left, _, right, bottom = bounds(marks)
+    if drawing.velocities:
+        scale = legend(scene, (left + 6.0, bottom + 20.0))
+        found += [scale] if scale is not None else []
+        bottom = max(bottom, bounds(found)[3]) if found else bottom
+    if drawing.bodies:
+        from icsolve.draw.bodies import body_panels
+
+        found += body_panels(scene, left, bottom + 30.0, max(right - left, 760.0))
+    return found

@@ -9,12 +9,9 @@ import shapely
 
 from icsolve.case import Contact, Joint, KnownCentre, Pin, Roll, Slide, Slot, Weld
 from icsolve.draw.links import guide_in_picture
-from icsolve.draw.marks import Disc, Group, Mark, Point, Run, Stroke
-from icsolve.draw.place import Label, Soft
-from icsolve.draw.scene import BLOCK, PIN, RAIL, SLOT, Part, Scene, around, fixed_springs
-from icsolve.draw.shapes import area, hatched
-from icsolve.draw.view import along, unit
-from icsolve.draw.wheels import Edge, Loop, Wheel
+from icsolve.draw.marks import Disc, Group, Mark, Point, Run, Stroke, along, unit
+from icsolve.draw.place import Label, Soft, area, hatched
+from icsolve.draw.scene import BLOCK, PIN, RAIL, SLOT, Edge, Loop, Part, Scene, Wheel, around, fixed_springs
 from icsolve.draw.words import name_runs
 
 FOOT = (17.0, 13.0)

@@ -9,11 +9,9 @@ from typing import NamedTuple
 import shapely
 
 from icsolve.case import Joint, KnownCentre, Pin, Slide, Slot
-from icsolve.draw.marks import Disc, Group, Mark, Point, Run
-from icsolve.draw.place import Label, Soft
-from icsolve.draw.scene import BLOCK, HALF, PIN, RAIL, SLOT, Part, Scene
-from icsolve.draw.shapes import area, bar, joined, nearest, plate, tilted
-from icsolve.draw.view import along, unit
+from icsolve.draw.marks import Disc, Group, Mark, Point, Run, along, unit
+from icsolve.draw.place import Label, Soft, area, bar, joined, nearest, plate, tilted
+from icsolve.draw.scene import BLOCK, HALF, PIN, RAIL, SLOT, Part, Scene, outlines
 from icsolve.numbers.arithmetic import FLOATS, turn_of
 from icsolve.screws.joints import guide_direction
 
@@ -180,10 +178,6 @@ def _cams(scene: Scene, link: str) -> Iterable[shapely.Geometry]:
 
 def _profiles(scene: Scene, link: str) -> Iterable[shapely.Geometry]:
     """The cam of a link whose profile the case gives."""
-    if scene.case.profiles is None:
-        return
-    from icsolve.draw.profiled import outlines
-
     for own, corners in outlines(scene.case, scene.known.points):
         if own == link:
             yield shapely.Polygon([scene.view.at(p) for p in corners])

@@ -6,7 +6,7 @@ A mark knows its class (the style sheet has its colours) and where it lies; noth
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 Point = tuple[float, float]
@@ -170,3 +170,105 @@ def text_box(text: Text) -> Box:
 def plain_text(runs: Iterable[Run]) -> str:
     """The characters of a text."""
     return "".join(run.text for run in runs)
+
+
+# --- case units to picture units -------------------------------------------------------------------------
+
+
+WIDTH, HEIGHT = 560.0, 420.0
+"""The largest that the mechanism and its near centres are drawn."""
+MARGIN = 58.0
+"""Room for symbols and loads around what is drawn to scale."""
+NEAR = 2.1
+"""Centres that make the figure no larger than so many times the mechanism are drawn in place."""
+
+
+class View(NamedTuple):
+    """``scale`` picture units per case unit; ``origin`` is the case point at picture (0, 0); y turns."""
+
+    scale: float
+    origin: Point
+    window: Box
+
+    def at(self, p: Point) -> Point:
+        """A point of the case in the picture."""
+        return ((p[0] - self.origin[0]) * self.scale, (self.origin[1] - p[1]) * self.scale)
+
+    def holds(self, p: Point) -> bool:
+        """Whether a picture point lies in the window."""
+        left, top, right, bottom = self.window
+        return left <= p[0] <= right and top <= p[1] <= bottom
+
+
+def view_of(
+    mechanism: Sequence[Box], centres: Iterable[Point], size: float, room: Point = (WIDTH, HEIGHT)
+) -> View:
+    """The view of a mechanism (rectangles in case units) and of those centres that are not far, in a room."""
+    left, low, right, high = _grown(mechanism) if mechanism else (0.0, 0.0, 0.0, 0.0)
+    span = max(right - left, high - low, 0.2 * size) or 1.0
+    middle = ((left + right) / 2.0, (low + high) / 2.0)
+    for x, y in sorted(centres, key=lambda p: math.dist(p, middle)):
+        wider = (min(left, x), min(low, y), max(right, x), max(high, y))
+        if max(wider[2] - wider[0], wider[3] - wider[1]) <= NEAR * span:
+            left, low, right, high = wider
+    width, height = max(right - left, 1e-9 * span), max(high - low, 1e-9 * span)
+    scale = min(room[0] / width, room[1] / height, 0.75 * max(room) / (0.4 * span))
+    half = (width * scale / 2.0 + MARGIN, height * scale / 2.0 + MARGIN)
+    return View(scale, ((left + right) / 2.0, (low + high) / 2.0), (-half[0], -half[1], *half))
+
+
+def _grown(boxes: Sequence[Box]) -> Box:
+    lefts, lows, rights, highs = zip(*boxes, strict=True)
+    return (min(lefts), min(lows), max(rights), max(highs))
+
+
+def direction(degrees: float) -> Point:
+    """Unit vector in the picture (y down) of a direction counterclockwise from +x."""
+    angle = math.radians(degrees)
+    return (math.cos(angle), -math.sin(angle))
+
+
+def along(p: Point, u: Point, distance: float) -> Point:
+    """The point at a distance from p in the direction u."""
+    return (p[0] + u[0] * distance, p[1] + u[1] * distance)
+
+
+def unit(dx: float, dy: float) -> Point:
+    """The vector with length 1; of no length: to the right."""
+    size = math.hypot(dx, dy)
+    return (dx / size, dy / size) if size else (1.0, 0.0)
+
+
+# --- arrows ----------------------------------------------------------------------------------------------
+
+
+HEAD = 11.0
+"""Length of an arrow's head; it is 0.8 times as wide."""
+
+
+def head(tip: Point, u: Point, kind: str, size: float = HEAD) -> Area:
+    """A head that ends at ``tip``, pointing along u."""
+    back, v = along(tip, u, -size), (-u[1], u[0])
+    return Area(
+        ((tip, along(back, v, 0.4 * size), along(tip, u, -0.75 * size), along(back, v, -0.4 * size)),), kind
+    )
+
+
+def arrow(tail: Point, tip: Point, kind: str, size: float = HEAD) -> tuple[Mark, ...]:
+    """A straight arrow; its head is no longer than the whole."""
+    u = unit(tip[0] - tail[0], tip[1] - tail[1])
+    size = min(size, 0.9 * math.dist(tail, tip))
+    neck = along(tip, u, -0.7 * size)
+    return (Stroke((tail, neck), kind), head(tip, u, f"{kind}-head", size))
+
+
+def turning(
+    centre: Point, radius: float, start: float, ccw: bool, kind: str, sweep: float = 250.0
+) -> tuple[Mark, ...]:
+    """An arc with a head, counterclockwise or clockwise as seen, from a direction in degrees."""
+    sign = 1.0 if ccw else -1.0
+    lean = math.degrees(0.75 * HEAD / radius)
+    arc = Arc(centre, radius, start, sign * (sweep - lean), kind)
+    tip = arc.at(sign * sweep)
+    tail = arc.at(sign * (sweep - lean * 1.25))
+    return (arc, head(tip, unit(tip[0] - tail[0], tip[1] - tail[1]), f"{kind}-head"))

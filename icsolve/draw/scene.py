@@ -1,17 +1,242 @@
-"""What a drawing is made from: a known scene in a view, and the parts that each room of a drawing adds."""
+"""What a drawing is made from: a known scene in a view, with its round things and straight edges.
+
+Gears, pulleys, rolling wheels, cams and racks are found in case units; the rooms of a drawing add `Part`s.
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
-from icsolve.case import Case, Contact, Joint, KnownCentre, Pin, Roll, Slide, Slot, Spring, Weld
-from icsolve.construction import Known
-from icsolve.draw.marks import Box, Mark, Point
-from icsolve.draw.place import Label, Soft
-from icsolve.draw.view import View, along
-from icsolve.draw.wheels import Round
+from icsolve.case import Belt, Case, Contact, Gears, Joint, KnownCentre, Pin, Roll, Slide, Slot, Spring, Weld
+from icsolve.case.profiles import Circle, Flat, Knife, Roller, points_of
+from icsolve.derivation import Known
+from icsolve.draw.marks import Box, Mark, Point, View, along
+from icsolve.draw.place import Label, Placer, Soft
+from icsolve.errors import SceneError
+from icsolve.numbers.arithmetic import FLOATS, turn_of
+from icsolve.screws.joints import mesh_weights
+from icsolve.structure.topology import Bond, topology
+
+NEAR = 0.02
+"""A point is a wheel's centre where it is so near, of the radius, to that distance from the contact."""
+
+
+class Wheel(NamedTuple):
+    """A circle that belongs to a link; ``rim`` where its teeth are inside (an annulus)."""
+
+    link: str
+    centre: Point
+    radius: float
+    kind: str
+    rim: bool = False
+
+
+class Edge(NamedTuple):
+    """A straight edge of a link through ``at``; the other body lies on the side of ``normal``."""
+
+    link: str
+    at: Point
+    normal: Point
+
+
+class Loop(NamedTuple):
+    """A belt over two wheels."""
+
+    first: Wheel
+    second: Wheel
+    crossed: bool
+
+
+class Round(NamedTuple):
+    """All of them in one mechanism; ``cams`` are contacts whose first link has no circle to draw."""
+
+    wheels: tuple[Wheel, ...]
+    edges: tuple[Edge, ...]
+    loops: tuple[Loop, ...]
+    cams: tuple[Contact, ...]
+
+
+def round_things(case: Case, points: Mapping[str, Point]) -> Round:
+    """The wheels, edges, belts and cams whose places are known."""
+    wheels: list[Wheel] = []
+    edges: list[Edge] = []
+    loops: list[Loop] = []
+    cams: list[Contact] = []
+    for bond in _meshes(case):
+        if set(bond.pivots) <= set(points):
+            both = _mesh(bond, points)
+            wheels += both
+            if isinstance(bond.joint, Belt):
+                loops.append(Loop(both[0], both[1], bond.joint.crossed))
+    for joint in case.joints:
+        if isinstance(joint, Roll) and joint.at in points:
+            rolled = _rolled(case, joint, points)
+            wheels += [thing for thing in rolled if isinstance(thing, Wheel)]
+            edges += [thing for thing in rolled if isinstance(thing, Edge)]
+        if isinstance(joint, Contact) and joint.at in points:
+            if case.profiles is not None and {*joint.links} <= case.profiles.shapes.keys():
+                from icsolve.draw.scene import surfaces
+
+                known = surfaces(case, joint, points)
+                wheels += [thing for thing in known if isinstance(thing, Wheel)]
+                edges += [thing for thing in known if isinstance(thing, Edge)]
+                continue
+            first, second = _touching(case, joint, points)
+            wheels += [thing for thing in (first, second) if isinstance(thing, Wheel)]
+            edges += [thing for thing in (first, second) if isinstance(thing, Edge)]
+            cams += [joint] if first is None else []
+    return Round(tuple(_once(wheels)), tuple(edges), tuple(loops), tuple(cams))
+
+
+def _once(wheels: Iterable[Wheel]) -> Iterable[Wheel]:
+    """Each circle once (a gear may mesh with several)."""
+    seen: dict[tuple[str, int, int, int], Wheel] = {}
+    for wheel in wheels:
+        fine = 1e6 / wheel.radius if wheel.radius else 1.0
+        x, y = wheel.centre
+        seen.setdefault((wheel.link, round(x * fine), round(y * fine), round(wheel.radius * fine)), wheel)
+    return seen.values()
+
+
+def _meshes(case: Case) -> Iterable[Bond]:
+    try:
+        bonds = topology(case).bonds
+    except SceneError:
+        return ()
+    return (bond for bond in bonds if isinstance(bond.joint, Gears | Belt))
+
+
+def _mesh(bond: Bond, points: Mapping[str, Point]) -> tuple[Wheel, ...]:
+    """The two pitch circles, or the two pulleys."""
+    joint = bond.joint
+    assert isinstance(joint, Gears | Belt)
+    a, b = (points[p] for p in bond.pivots)
+    if isinstance(joint, Belt):
+        radii = tuple(abs(r.value) for r in joint.radii)
+    else:
+        p, q = mesh_weights(joint, FLOATS)
+        span, whole = math.dist(a, b), abs(p + q)
+        radii = (abs(q) * span / whole, abs(p) * span / whole) if whole > 1e-9 else (0.0, 0.0)
+    rims = (False, False) if isinstance(joint, Belt) else tuple(n.value < 0 for n in joint.teeth)
+    kind = "pulley" if isinstance(joint, Belt) else "gear"
+    both = zip(bond.links, (a, b), radii, rims, strict=True)
+    return tuple(Wheel(link, centre, radius, kind, rim) for link, centre, radius, rim in both)
+
+
+def _rolled(case: Case, joint: Roll, points: Mapping[str, Point]) -> list[Wheel | Edge]:
+    """Wheels, and edges for the straight ones."""
+    at = points[joint.at]
+    radii: tuple[float | None, ...] = (None, None)
+    if joint.radii is not None:
+        radii = tuple(r.value for r in joint.radii)
+    wheels = [_wheel(case, link, at, r, points) for link, r in zip(joint.links, radii, strict=True)]
+    found: list[Wheel | Edge] = [wheel for wheel in wheels if wheel is not None]
+    for n, link in enumerate(joint.links):
+        other = wheels[1 - n]
+        if wheels[n] is None and other is not None:
+            gap = math.dist(other.centre, at) or 1.0
+            normal = ((other.centre[0] - at[0]) / gap, (other.centre[1] - at[1]) / gap)
+            found.append(Edge(link, at, normal))
+    return found
+
+
+def _wheel(
+    case: Case, link: str, at: Point, radius: float | None, points: Mapping[str, Point]
+) -> Wheel | None:
+    """The circle of a link that rolls at a point; None for a straight one, and where no centre is known."""
+    if radius == 0.0 or (radius is None and link == case.ground):
+        return None
+    pins = [j.at for j in case.joints if isinstance(j, Pin) and link in j.links and j.at in points]
+    if radius is None:
+        found = [points[p] for p in pins if math.dist(points[p], at) > 0.0]
+        return Wheel(link, found[0], math.dist(found[0], at), "roll") if found else None
+    size = abs(radius)
+    near = [*pins, *case.carries.get(link, ()), *points]
+    for p in near:
+        if p in points and abs(math.dist(points[p], at) - size) <= NEAR * size:
+            return Wheel(link, points[p], size, "roll", radius < 0.0)
+    return None
+
+
+def _touching(
+    case: Case, joint: Contact, points: Mapping[str, Point]
+) -> tuple[Wheel | Edge | None, Wheel | Edge]:
+    """The two surfaces of a contact: circles where centres are known, else edges; None: a cam to invent."""
+    at, n = points[joint.at], turn_of(joint.normal.value)
+    back = (-n[0], -n[1])
+    first = _disc(case, joint.links[0], at, back, points, free=True)
+    second = _disc(case, joint.links[1], at, n, points, free=False)
+    if first is None and joint.links[0] == case.ground:
+        return Edge(joint.links[0], at, n), second or Edge(joint.links[1], at, back)
+    return first, second or Edge(joint.links[1], at, back)
+
+
+def _disc(
+    case: Case, link: str, at: Point, side: Point, points: Mapping[str, Point], *, free: bool
+) -> Wheel | None:
+    """A circle about a point of the common normal on the link's side: a pin of it, or a point of no link."""
+    pins = [j.at for j in case.joints if isinstance(j, Pin) and link in j.links]
+    owned = {p for ps in case.carries.values() for p in ps} | {getattr(j, "at", None) for j in case.joints}
+    loose = [p for p in points if p not in owned] if free else []
+    for name in (*loose, *pins):
+        if name not in points:
+            continue
+        dx, dy = points[name][0] - at[0], points[name][1] - at[1]
+        gap = dx * side[0] + dy * side[1]
+        if gap > 0.0 and abs(dx * side[1] - dy * side[0]) <= 0.01 * gap:
+            return Wheel(link, points[name], math.hypot(dx, dy), "cam")
+    return None
+
+
+# --- surfaces of cams and followers whose profiles a case gives ------------------------------------------
+
+
+def surfaces(case: Case, joint: Contact, points: Mapping[str, Point]) -> list[Wheel | Edge]:
+    """The circles and faces that touch at a contact; other profiles are `outlines`."""
+    assert case.profiles is not None
+    found: list[Wheel | Edge] = []
+    for link, sign in zip(joint.links, (1.0, -1.0), strict=True):
+        match case.profiles.shapes[link]:
+            case Circle(centre, radius) | Roller(centre, radius) if centre in points:
+                found.append(Wheel(link, points[centre], radius.value, "cam"))
+            case Flat():
+                x, y = turn_of(joint.normal.value)
+                found.append(Edge(link, points[joint.at], (sign * x, sign * y)))
+    return found
+
+
+def outlines(case: Case, points: Mapping[str, Point]) -> list[tuple[str, list[Point]]]:
+    """Links with the corners of their profiles, curved pieces by short chords; but circles and followers."""
+    if case.profiles is None:
+        return []
+    from icsolve.cams.curve import placed
+
+    found = []
+    for link, shape in case.profiles.shapes.items():
+        if isinstance(shape, Circle | Flat | Roller | Knife) or not set(points_of(shape)) <= points.keys():
+            continue
+        try:
+            curve = placed(shape, points, f"the profile of link {link}")
+        except SceneError:
+            continue
+        found.append((link, [place for place, _, _ in curve.chords]))
+    return found
+
+
+def outline_boxes(case: Case, points: Mapping[str, Point]) -> list[Box]:
+    """The room that outlines take."""
+    boxes = []
+    for _, corners in outlines(case, points):
+        xs, ys = [x for x, _ in corners], [y for _, y in corners]
+        boxes.append((min(xs), min(ys), max(xs), max(ys)))
+    return boxes
+
+
+# --- a known scene in a view, and the parts of a drawing -------------------------------------------------
+
 
 PIN = 5.0
 """Radius of a pin."""
@@ -95,3 +320,18 @@ def together(parts: Iterable[Part]) -> Part:
 def around(p: Point, reach: float) -> Box:
     """A square about a point."""
     return (p[0] - reach, p[1] - reach, p[0] + reach, p[1] + reach)
+
+
+ORDER = ("t-point", "t-unknown", "t-known", "t-centre", "t-velocity", "t-link")
+"""Whose labels choose their places first."""
+
+
+def with_labels(part: Part, window: Box) -> list[Mark]:
+    """The marks of a part and its labels, placed."""
+    placer = Placer(part.solid, part.soft, window)
+    labels = sorted(part.labels, key=lambda label: ORDER.index(label.kind) if label.kind in ORDER else 9)
+    return [*part.marks, *(placer.put(label) for label in _told(labels))]
+
+
+def _told(labels: Iterable[Label]) -> Iterable[Label]:
+    return (label for label in labels if label.runs)

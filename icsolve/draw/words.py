@@ -1,11 +1,16 @@
-"""Names and numbers as a figure writes them."""
+"""Names, numbers and captions as a figure writes them."""
 
 from __future__ import annotations
 
 import math
 import re
+from collections.abc import Iterable, Sequence
 
-from icsolve.draw.marks import Run, text_width
+from icsolve.case.names import pair_name
+from icsolve.derivation import Known, Step
+from icsolve.derivation.words import range_words, sense_words
+from icsolve.draw.marks import Group, Mark, Run, Text, bounds, text_width
+from icsolve.draw.svg import runs_of
 
 DIGITS = 4
 
@@ -85,3 +90,90 @@ def _fitting(word: str, size: float, width: float) -> int:
     while count < len(word) and text_width(word[: count + 1], size) <= width:
         count += 1
     return count
+
+
+# --- what stands above and below a figure ----------------------------------------------------------------
+
+
+TITLE, NOTE = 17.0, 12.5
+NARROWEST = 420.0
+"""Captions are set at least so wide."""
+
+
+def captioned(known: Known, marks: Sequence[Mark], steps: Sequence[Step], step: int | None) -> list[Mark]:
+    """Marks with the title above and the captions below."""
+    left, top, right, bottom = bounds(marks)
+    width = max(right - left, NARROWEST)
+    left = min(left, (left + right - width) / 2.0)
+    title = wrapped(known.title, TITLE, width)
+    above = [
+        Text((left, top - 16.0 - TITLE * 1.3 * n), (Run(line),), "t-title", TITLE, "start")
+        for n, line in enumerate(reversed(title))
+    ]
+    below: list[Mark] = []
+    y = bottom + 20.0
+    for kind, text in _below(known, steps, step):
+        for line in wrapped(text, NOTE, width):
+            runs = runs_of(line) if kind == "t-axis" else (Run(line),)
+            below.append(Text((left, y), runs, kind, NOTE, "start"))
+            y += NOTE * 1.45
+    return [Group("title", "", tuple(reversed(above))), *marks, Group("caption", "", tuple(below))]
+
+
+def _below(known: Known, steps: Sequence[Step], step: int | None) -> Iterable[tuple[str, str]]:
+    if step is not None:
+        yield "t-axis", step_sentence(known, steps, step)
+    for sentence in answer_sentences(known):
+        yield "t-unknown", sentence
+    if known.refusal is not None:
+        yield "t-reason", f"No answer ({known.refusal.status}): {known.refusal.message}"
+    if known.case.reconstructed:
+        yield "t-note", f"Reconstructed: {known.case.reconstructed}"
+
+
+def answer_sentences(known: Known) -> list[str]:
+    """Each unknown with its unit and its sense in words."""
+    if known.answer is None:
+        return []
+    found = []
+    for name, value in known.answer.answers.items():
+        if value.holds is not None:
+            found.append(f"{name} {range_words(value, figure_number)}")
+            continue
+        sense = sense_words(value.sense, figure_number)
+        found.append(f"{name} = {quantity(abs(value.value), value.unit)}" + (f", {sense}" if sense else ""))
+    return found
+
+
+def step_sentence(known: Known, steps: Sequence[Step], number: int) -> str:
+    """How the last centre that is shown was found."""
+    last = next((s for s in steps if s.number == number), None)
+    if number == 0 or last is None:
+        count = max((s.number for s in steps), default=0)
+        return "The centres by inspection." if number == 0 else f"All {count} steps."
+    name = f"I{pair_name(known.case, last.centre.pair)}"
+    if not last.centre.lines:
+        return f"Step {number}: {name} from the loop equations; no two lines of centres give it."
+    lines = " meets ".join(line_words(known, line) for line in last.centre.lines)
+    return f"Step {number}: {name} is where {lines}."
+
+
+def line_words(known: Known, line: tuple[tuple[str, str], ...]) -> str:
+    """A line of centres in words."""
+    names = [
+        f"I{pair_name(known.case, pair)}" for pair in sorted(line, key=lambda p: pair_name(known.case, p))
+    ]
+    if len(names) == 1:
+        return f"the common normal of {names[0][1:]}"
+    return f"the line {names[0]} {names[1]}"
+
+
+def description(known: Known) -> str:
+    """The picture in a sentence, for those who can't see it."""
+    case = known.case
+    moving = [link for link in case.links if link != case.ground]
+    said = [f"Mechanism of {len(moving)} moving links and the frame, {len(case.joints)} joints."]
+    said += [f"{sentence}." for sentence in answer_sentences(known)]
+    if known.refusal is not None:
+        said.append(f"No answer: {known.refusal.message}")
+    return " ".join(said)

@@ -4,7 +4,8 @@ the equation of power, the answer, its check by free bodies. As text, Markdown w
 from __future__ import annotations
 
 from icsolve.case import Case
-from icsolve.construction import Known, known_of
+from icsolve.derivation import Known, known_of
+from icsolve.explain.document import AsHtml, AsMarkdown, AsText
 from icsolve.explain.solution import solution
 
 FORMATS = ("text", "md", "html")
@@ -25,17 +26,12 @@ def explain(
     known = known or known_of(case, reactions=True)
     document = solution(known, digits, bodies=bodies)
     if form == "text":
-        from icsolve.explain.as_text import text_of
-
-        return text_of(document)
+        return AsText().whole(document)
     if form == "md":
-        from icsolve.explain.as_markdown import markdown_of
-
-        return markdown_of(document)
+        return AsMarkdown().whole(document)
     from icsolve.draw import Drawing, draw
-    from icsolve.explain.as_html import html_of
 
-    return html_of(document, draw(case, Drawing(bodies=bodies, captions=False), known))
+    return AsHtml(draw(case, Drawing(bodies=bodies, captions=False), known)).whole(document)
 
 
 __all__ = ["FORMATS", "explain"]

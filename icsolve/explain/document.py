@@ -1,12 +1,17 @@
-"""A worked solution as a document: sections of paragraphs, formulas, lists and tables."""
+"""A worked solution as a document: sections of paragraphs, formulas, lists and tables; as plain text, as
+Markdown with LaTeX, or as one HTML file with MathML and the figure in it, which has nothing to load."""
 
 from __future__ import annotations
 
 import re
+import textwrap
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
-from icsolve.explain.formula import Equation, Expr, Quantity
+from icsolve.draw.svg import escaped
+from icsolve.explain.formula import LATEX, MATHML, PLAIN, Equation, Expr, Notation, Quantity
 
 Inline = str | Expr
 """A piece of a paragraph: words, or a symbol or short formula."""
@@ -74,3 +79,175 @@ def _repeats(after: Expr, before: Expr) -> bool:
 def dotted(text: str) -> str:
     """Units of a text with a dot between: ``lbf·in``."""
     return re.sub(r"(?<=[A-Za-z])\*(?=[A-Za-z])", "·", text)
+
+
+# --- how a document is set --------------------------------------------------------------------------
+
+
+class Layout(ABC):
+    """A way of setting documents; the formulas are in its `Notation`."""
+
+    notation: Notation
+
+    @abstractmethod
+    def whole(self, document: Document) -> str:
+        """A document by itself."""
+
+    @abstractmethod
+    def text(self, text: str) -> str:
+        """Words, whatever a case says."""
+
+    @abstractmethod
+    def symbol(self, expression: Expr) -> str:
+        """A formula in a line of words."""
+
+    def inline(self, parts: Sequence[Inline]) -> str:
+        """Words and symbols on one line."""
+        return "".join(self.text(p) if isinstance(p, str) else self.symbol(p) for p in parts)
+
+    def cells(self, table: Table) -> list[list[str]]:
+        """The heading and the rows of a table."""
+        rows = [[self.inline(cell) for cell in row] for row in table.rows]
+        return [[self.text(cell) for cell in table.heading], *rows]
+
+
+class AsText(Layout):
+    """Sections under underlined titles, formulas indented."""
+
+    notation = PLAIN
+    width = 100
+
+    def text(self, text: str) -> str:
+        return text
+
+    def symbol(self, expression: Expr) -> str:
+        return self.notation.expression(expression)
+
+    def whole(self, document: Document) -> str:
+        lines = [document.title, "=" * len(document.title), *document.lead]
+        for section in document.sections:
+            lines += ["", section.title, "-" * len(section.title)]
+            lines += [line for block in section.blocks for line in self._block(block)]
+        return "\n".join(lines) + "\n"
+
+    def _block(self, block: Block) -> Iterable[str]:
+        match block:
+            case Words():
+                yield from textwrap.wrap(self.inline(block.parts), self.width)
+            case Formula():
+                yield f"    {self.notation.equation(block.equation)}"
+            case Items():
+                for n, entry in enumerate(block.entries, 1):
+                    mark = f"  {n}. " if block.numbered else "  - "
+                    yield from textwrap.wrap(
+                        self.inline(entry), self.width, initial_indent=mark, subsequent_indent="     "
+                    )
+            case Table():
+                rows = self.cells(block)
+                widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
+                for row in rows:
+                    padded = (cell.ljust(width) for cell, width in zip(row, widths, strict=True))
+                    yield f"  {'  '.join(padded)}".rstrip()
+
+
+class AsMarkdown(Layout):
+    """Headings, paragraphs, lists, tables and displayed formulas; words stay words: no markup, no HTML."""
+
+    notation = LATEX
+    special = re.compile(r"([\\`*_{}\[\]<>()#+!|~$&-])")
+
+    def text(self, text: str) -> str:
+        return self.plain(dotted(text))
+
+    def plain(self, text: str) -> str:
+        """Words as they stand, without a look for units in them."""
+        text = "".join(c if c.isprintable() else " " for c in text)
+        text = self.special.sub(r"\\\1", text)
+        return re.sub(r"^(\s*\d+)([.)])", r"\1\\\2", text)
+
+    def symbol(self, expression: Expr) -> str:
+        return f"${self.notation.expression(expression)}$"
+
+    def whole(self, document: Document) -> str:
+        parts = [f"# {self.plain(document.title)}", *(f"*{self.plain(text)}*" for text in document.lead)]
+        for section in document.sections:
+            parts += [f"## {self.plain(section.title)}", *map(self._block, section.blocks)]
+        return "\n\n".join(parts) + "\n"
+
+    def _block(self, block: Block) -> str:
+        match block:
+            case Words():
+                return self.inline(block.parts)
+            case Formula():
+                return f"$$ {self.notation.equation(block.equation)} $$"
+            case Items():
+                marks = (f"{n}." if block.numbered else "-" for n in range(1, len(block.entries) + 1))
+                entries = zip(marks, block.entries, strict=True)
+                return "\n".join(f"{mark} {self.inline(entry)}" for mark, entry in entries)
+            case Table():
+                heading, *rows = self.cells(block)
+                rows = [heading, ["---"] * len(heading), *rows]
+                return "\n".join(f"| {' | '.join(row)} |" for row in rows)
+
+
+STYLE = """
+:root{color-scheme:light dark;--ink:#1b1f24;--paper:#fff;--line:#d0d7de}
+@media screen and (prefers-color-scheme:dark){:root{--ink:#e6e9ed;--paper:#14181d;--line:#3d444d}}
+body{font:1rem/1.55 'Helvetica Neue',Helvetica,Arial,'Liberation Sans',sans-serif;color:var(--ink);
+background:var(--paper);max-width:46rem;margin:2rem auto;padding:0 1rem}
+h1{font-size:1.5rem;line-height:1.25}h2{font-size:1.15rem;margin-top:1.8em}
+.lead{font-style:italic}math[display=block]{margin:.5em 0;overflow-x:auto;overflow-y:hidden}
+table{border-collapse:collapse;display:block;overflow-x:auto}
+th,td{text-align:left;padding:.2em .8em .2em 0;border-bottom:1px solid var(--line)}
+figure{margin:1rem 0}svg{max-width:100%;height:auto}
+"""
+
+
+class AsHtml(Layout):
+    """A whole page; ``figure`` is an SVG drawing."""
+
+    notation = MATHML
+
+    def __init__(self, figure: str = "") -> None:
+        self.figure = figure
+
+    def text(self, text: str) -> str:
+        return escaped(dotted(text))
+
+    def symbol(self, expression: Expr) -> str:
+        return f"<math>{self.notation.expression(expression)}</math>"
+
+    def whole(self, document: Document) -> str:
+        title = escaped(document.title)
+        lead = "".join(f'<p class="lead">{escaped(text)}</p>\n' for text in document.lead)
+        picture = f"<figure>{self.figure}</figure>\n" if self.figure else ""
+        return (
+            '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'
+            '<meta name="viewport" content="width=device-width,initial-scale=1">\n'
+            f"<title>{title}</title>\n<style>{STYLE}</style></head>\n<body><main>\n"
+            f"<h1>{title}</h1>\n{lead}{picture}{self.sections(document)}</main></body></html>\n"
+        )
+
+    def sections(self, document: Document) -> str:
+        """The sections alone, to stand in another page."""
+        return "".join(
+            f"<section><h2>{escaped(section.title)}</h2>\n{''.join(map(self._block, section.blocks))}"
+            "</section>\n"
+            for section in document.sections
+        )
+
+    def _block(self, block: Block) -> str:
+        match block:
+            case Words():
+                return f"<p>{self.inline(block.parts)}</p>\n"
+            case Formula():
+                return f'<math display="block">{self.notation.equation(block.equation)}</math>\n'
+            case Items():
+                tag = "ol" if block.numbered else "ul"
+                entries = "".join(f"<li>{self.inline(entry)}</li>" for entry in block.entries)
+                return f"<{tag}>{entries}</{tag}>\n"
+            case Table():
+                heading, *rows = self.cells(block)
+                head = "".join(f'<th scope="col">{cell}</th>' for cell in heading)
+                body = "".join(f"<tr>{''.join(f'<td>{cell}</td>' for cell in row)}</tr>" for row in rows)
+                return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>\n"

@@ -1,11 +1,15 @@
 """Formulas as values, written out as plain text, LaTeX or MathML.
 
 A formula is a chain of expressions with ``=`` between: symbols, then this case's numbers, then the result.
+One walk decides what is set in brackets and which sign stands where; a `Notation` writes the pieces.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from html import escape
+from typing import ClassVar, NamedTuple
 
 
 class Num(NamedTuple):
@@ -110,71 +114,265 @@ def needs_brackets(child: Expr, *, factor: bool) -> bool:
     return is_negative(child)
 
 
-# --- plain text ----------------------------------------------------------------------------------------
+# --- how a formula is written -----------------------------------------------------------------------
 
 
-def plain(expression: Expr) -> str:
+class Notation(ABC):
+    """A way of writing formulas: `expression` goes through the parts, the methods write one piece each."""
+
+    flat = False
+    """a quotient stands on the line, so that its parts need brackets"""
+    equals = " = "
+
+    def equation(self, equation: Equation) -> str:
+        """All sides with the sign of equality between."""
+        return self.equals.join(self.side(side) for side in equation.sides)
+
+    def side(self, expression: Expr) -> str:
+        """One side of an equation."""
+        return self.expression(expression)
+
+    def expression(self, expression: Expr) -> str:
+        """An expression with all its parts."""
+        match expression:
+            case Num():
+                return self.number(expression.digits)
+            case Quantity():
+                return self.quantity(self.number(expression.number.digits), expression.unit)
+            case Name():
+                return self.name(expression)
+            case Span():
+                return self.span(self.name(expression.a), self.name(expression.b))
+            case Product():
+                symbols = all(isinstance(f, Name | Span) for f in expression.factors)
+                return self.product([self._factor(f, n) for n, f in enumerate(expression.factors)], symbols)
+            case Quotient():
+                return self.quotient(*self._over_and_under(expression))
+            case Sum():
+                return "".join(self._term(n, *term) for n, term in enumerate(expression.terms))
+            case Trig():
+                wide = isinstance(expression.angle, Sum) or is_negative(expression.angle)
+                degrees = not isinstance(expression.angle, Name)
+                return self.trig(expression.function, self.expression(expression.angle), wide, degrees)
+            case Root():
+                return self.root(self.expression(expression.of))
+            case Square():
+                inner = self.expression(expression.of)
+                wide = isinstance(expression.of, Sum) or is_negative(expression.of)
+                return self.square(self.brackets(inner) if wide else inner, wide)
+
+    def _factor(self, child: Expr, place: int) -> str:
+        bare = isinstance(child, Num) and place == 0
+        brackets = needs_brackets(child, factor=True) and not bare
+        brackets = brackets or (self.flat and isinstance(child, Quotient) and place > 0)
+        return self.brackets(self.expression(child)) if brackets else self.expression(child)
+
+    def _over_and_under(self, quotient: Quotient) -> tuple[str, str]:
+        over, under = self.expression(quotient.over), self.expression(quotient.under)
+        if self.flat:
+            compound = isinstance(quotient.under, Product | Quotient | Sum) or is_negative(quotient.under)
+            return self._factor(quotient.over, 0), self.brackets(under) if compound else under
+        return over, under
+
+    def _term(self, place: int, sign: int, term: Expr) -> str:
+        first = place == 0 and sign > 0
+        brackets = not first and (isinstance(term, Sum) or needs_brackets(term, factor=False))
+        text = self.expression(term)
+        return ("" if first else self.sign(sign, place)) + (self.brackets(text) if brackets else text)
+
+    @abstractmethod
+    def number(self, digits: str) -> str:
+        """A number; ``1.2e-05`` is a power of ten."""
+
+    @abstractmethod
+    def quantity(self, number: str, unit: str) -> str:
+        """A number with its unit."""
+
+    @abstractmethod
+    def name(self, name: Name) -> str:
+        """A symbol with what stands low."""
+
+    @abstractmethod
+    def span(self, a: str, b: str) -> str:
+        """A distance."""
+
+    @abstractmethod
+    def product(self, factors: Sequence[str], symbols: bool) -> str:
+        """Factors; of ``symbols`` alone without a sign between."""
+
+    @abstractmethod
+    def quotient(self, over: str, under: str) -> str:
+        """One over another."""
+
+    @abstractmethod
+    def sign(self, sign: int, place: int) -> str:
+        """The sign in front of a term."""
+
+    @abstractmethod
+    def brackets(self, inner: str) -> str:
+        """What is taken together."""
+
+    @abstractmethod
+    def trig(self, function: str, angle: str, wide: bool, degrees: bool) -> str:
+        """A sine or cosine; ``wide``: of more than one number, ``degrees``: of a number."""
+
+    @abstractmethod
+    def root(self, inner: str) -> str:
+        """A square root."""
+
+    @abstractmethod
+    def square(self, inner: str, wide: bool) -> str:
+        """A square, of something that has its brackets where it is ``wide``."""
+
+
+class Plain(Notation):
     """``w4 = 1.5 x 2 / 3``: ASCII, in the order in which a calculator takes it."""
-    match expression:
-        case Num():
-            return expression.digits
-        case Quantity():
-            return f"{expression.number.digits} {expression.unit}".rstrip()
-        case Name():
-            return name_text(expression)
-        case Span():
-            return f"|{name_text(expression.a)} {name_text(expression.b)}|"
-        case Product():
-            return " x ".join(_plain_factor(f, n) for n, f in enumerate(expression.factors))
-        case Quotient():
-            return f"{_plain_factor(expression.over, 0)} / {_plain_under(expression.under)}"
-        case Sum():
-            return _plain_sum(expression)
-        case Trig():
-            return f"{expression.function}({_degrees(expression.angle)})"
-        case Root():
-            return f"sqrt({plain(expression.of)})"
-        case Square():
-            inner = plain(expression.of)
-            return (
-                f"({inner})^2"
-                if isinstance(expression.of, Sum) or is_negative(expression.of)
-                else f"{inner}^2"
-            )
+
+    flat = True
+
+    def number(self, digits: str) -> str:
+        return digits
+
+    def quantity(self, number: str, unit: str) -> str:
+        return f"{number} {unit}".rstrip()
+
+    def name(self, name: Name) -> str:
+        short = name.low[:1].isdigit() or not name.low
+        return f"{name.base}{name.low}" if short else f"{name.base}_{name.low}"
+
+    def span(self, a: str, b: str) -> str:
+        return f"|{a} {b}|"
+
+    def product(self, factors: Sequence[str], symbols: bool) -> str:
+        return " x ".join(factors)
+
+    def quotient(self, over: str, under: str) -> str:
+        return f"{over} / {under}"
+
+    def sign(self, sign: int, place: int) -> str:
+        return "-" if place == 0 else " + " if sign > 0 else " - "
+
+    def brackets(self, inner: str) -> str:
+        return f"({inner})"
+
+    def trig(self, function: str, angle: str, wide: bool, degrees: bool) -> str:
+        return f"{function}({angle} deg)"
+
+    def root(self, inner: str) -> str:
+        return f"sqrt({inner})"
+
+    def square(self, inner: str, wide: bool) -> str:
+        return f"{inner}^2"
 
 
-def _degrees(angle: Expr) -> str:
-    return f"{plain(angle)} deg"
+class Latex(Notation):
+    """LaTeX, as Markdown has it between dollars."""
+
+    greek: ClassVar = {"w": r"\omega"}
+
+    def number(self, digits: str) -> str:
+        mantissa, _, exponent = digits.partition("e")
+        return rf"{mantissa} \cdot 10^{{{int(exponent)}}}" if exponent else mantissa
+
+    def quantity(self, number: str, unit: str) -> str:
+        words = unit.replace("*", r"\!\cdot\!").replace(" ", r"\ ")
+        return rf"{number}\ \mathrm{{{words}}}" if unit else number
+
+    def name(self, name: Name) -> str:
+        """Names of more than one letter stand upright."""
+        letter = _safe(name.base) if len(name.base) == 1 else _roman(name.base)
+        base = self.greek.get(name.base) or letter
+        if not name.low:
+            return base
+        low = name.low if name.low.isdigit() or len(name.low) == 1 else _roman(name.low)
+        return f"{base}_{{{low}}}"
+
+    def span(self, a: str, b: str) -> str:
+        return rf"\overline{{{a}\,{b}}}"
+
+    def product(self, factors: Sequence[str], symbols: bool) -> str:
+        return (r"\," if symbols else r" \cdot ").join(factors)
+
+    def quotient(self, over: str, under: str) -> str:
+        return rf"\frac{{{over}}}{{{under}}}"
+
+    def sign(self, sign: int, place: int) -> str:
+        return "-" if place == 0 else " + " if sign > 0 else " - "
+
+    def brackets(self, inner: str) -> str:
+        return rf"\left({inner}\right)"
+
+    def trig(self, function: str, angle: str, wide: bool, degrees: bool) -> str:
+        if wide:
+            return rf"\{function}{self.brackets(angle)}^\circ"
+        return rf"\{function} {angle}{'^' + chr(92) + 'circ' if degrees else ''}"
+
+    def root(self, inner: str) -> str:
+        return rf"\sqrt{{{inner}}}"
+
+    def square(self, inner: str, wide: bool) -> str:
+        return f"{inner}^{{2}}"
 
 
-def name_text(name: Name) -> str:
-    """``w4``, ``h_P``, ``w_crank``."""
-    short = name.low[:1].isdigit() or not name.low
-    return f"{name.base}{name.low}" if short else f"{name.base}_{name.low}"
+def _roman(text: str) -> str:
+    return rf"\mathrm{{{_safe(text)}}}"
 
 
-def _plain_factor(child: Expr, place: int) -> str:
-    brackets = needs_brackets(child, factor=True) and not (isinstance(child, Num) and place == 0)
-    brackets = brackets or (isinstance(child, Quotient) and place > 0)
-    return f"({plain(child)})" if brackets else plain(child)
+def _safe(text: str) -> str:
+    """A name of a case: letters, digits, ``_`` and primes."""
+    return text.replace("_", r"\_").replace("'", r"{}^{\prime}")
 
 
-def _plain_under(child: Expr) -> str:
-    compound = isinstance(child, Product | Quotient | Sum) or is_negative(child)
-    return f"({plain(child)})" if compound else plain(child)
+class MathML(Notation):
+    """MathML, which browsers set without a library or a network."""
+
+    equals = "<mo>=</mo>"
+    greek: ClassVar = {"w": "\N{GREEK SMALL LETTER OMEGA}"}
+    times, minus = "\N{DOT OPERATOR}", "\N{MINUS SIGN}"
+
+    def side(self, expression: Expr) -> str:
+        return f"<mrow>{self.expression(expression)}</mrow>"
+
+    def number(self, digits: str) -> str:
+        mantissa, _, exponent = digits.partition("e")
+        text = f"<mn>{mantissa.lstrip('-')}</mn>"
+        if exponent:
+            text += f"<mo>{self.times}</mo><msup><mn>10</mn><mn>{int(exponent)}</mn></msup>"
+        return f"<mrow><mo>{self.minus}</mo>{text}</mrow>" if mantissa.startswith("-") else text
+
+    def quantity(self, number: str, unit: str) -> str:
+        words = escape(unit.replace("*", "\N{MIDDLE DOT}"))
+        return f'{number}<mspace width="0.3em"/><mtext>{words}</mtext>'
+
+    def name(self, name: Name) -> str:
+        base = f"<mi>{escape(self.greek.get(name.base, name.base))}</mi>"
+        return f"<msub>{base}<mtext>{escape(name.low)}</mtext></msub>" if name.low else base
+
+    def span(self, a: str, b: str) -> str:
+        return f"<mrow><mo>|</mo>{a}{b}<mo>|</mo></mrow>"
+
+    def product(self, factors: Sequence[str], symbols: bool) -> str:
+        return ('<mspace width="0.17em"/>' if symbols else f"<mo>{self.times}</mo>").join(factors)
+
+    def quotient(self, over: str, under: str) -> str:
+        return f"<mfrac><mrow>{over}</mrow><mrow>{under}</mrow></mfrac>"
+
+    def sign(self, sign: int, place: int) -> str:
+        return f"<mo>{'+' if sign > 0 else self.minus}</mo>"
+
+    def brackets(self, inner: str) -> str:
+        return f"<mrow><mo>(</mo>{inner}<mo>)</mo></mrow>"
+
+    def trig(self, function: str, angle: str, wide: bool, degrees: bool) -> str:
+        mark = "<mi>\N{DEGREE SIGN}</mi>" if degrees else ""
+        whole = (self.brackets(angle) if wide else angle) + mark
+        return f'<mrow><mi>{function}</mi><mspace width="0.17em"/>{whole}</mrow>'
+
+    def root(self, inner: str) -> str:
+        return f"<msqrt>{inner}</msqrt>"
+
+    def square(self, inner: str, wide: bool) -> str:
+        return f"<msup>{inner if wide else f'<mrow>{inner}</mrow>'}<mn>2</mn></msup>"
 
 
-def _plain_sum(expression: Sum) -> str:
-    parts = []
-    for n, (sign, term) in enumerate(expression.terms):
-        first = n == 0 and sign > 0
-        text = plain(term) if first or not needs_brackets(term, factor=False) else f"({plain(term)})"
-        text = f"({plain(term)})" if isinstance(term, Sum) and not first else text
-        lead = ("" if sign > 0 else "-") if n == 0 else (" + " if sign > 0 else " - ")
-        parts.append(lead + text)
-    return "".join(parts)
-
-
-def plain_equation(equation: Equation) -> str:
-    """All sides with `` = `` between."""
-    return " = ".join(plain(side) for side in equation.sides)
+PLAIN, LATEX, MATHML = Plain(), Latex(), MathML()

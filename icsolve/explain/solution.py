@@ -1,20 +1,177 @@
-"""The worked solution of a case, in the textbook's order."""
+"""The worked solution of a case, in the textbook's order, and its last sections: the answer in words, its
+check by free bodies, the rates where they are asked, and what was left out."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
-from icsolve.construction import Known, Step, acting_loads, all_steps, answer_ratios, needed_steps
+from icsolve.answer import Answer, Found
+from icsolve.case import Torque
+from icsolve.derivation import Known, Step, acting_loads, all_steps, answer_ratios, needed_steps
+from icsolve.derivation.words import SENSES, range_words
 from icsolve.errors import SceneError
-from icsolve.explain.document import Document, Section, words
-from icsolve.explain.finding import centre_sections
-from icsolve.explain.given import asked_section, given_section
-from icsolve.explain.motions import motions_section
-from icsolve.explain.numbers import Figures, figures_of
-from icsolve.explain.outcome import answer_section, check_section, left_out, remarks_section, sentence
-from icsolve.explain.power import power_section
-from icsolve.explain.speeds import ratio_section
+from icsolve.explain.centres import centre_sections, ratio_section
+from icsolve.explain.document import Block, Document, Inline, Items, Section, Table, words
+from icsolve.explain.formula import Num, Quantity, Quotient
+from icsolve.explain.given import (
+    Figures,
+    asked_section,
+    centre_name,
+    figures_of,
+    given_section,
+    load_name,
+    rate_name,
+)
+from icsolve.explain.power import motions_section, power_section
 from icsolve.statics.power import is_unknown
+
+
+def answer_section(known: Known, figures: Figures) -> Iterable[Section]:
+    """Each unknown with its unit and sense in words, and the mechanical advantage."""
+    answer = known.answer
+    if answer is None:
+        return
+    if answer.answers:
+        entries = tuple(_found(known, figures, name, found) for name, found in answer.answers.items())
+        blocks: list[Block] = [Items(entries)]
+        blocks += _advantage(known, figures)
+        yield Section("Answer", tuple(blocks))
+    elif known.whole is not None:
+        yield from rates_section(known, figures)
+
+
+def _found(known: Known, figures: Figures, name: str, found: Found) -> tuple[Inline, ...]:
+    if found.holds is not None:
+        return (load_name(name), f" {range_words(found, lambda value: figures.number(value).digits)}.")
+    sense = SENSES.get(found.sense, found.sense)
+    size = figures.quantity(abs(found.value), found.unit)
+    said = f", {sense}" if sense else ""
+    load = next((load for load in known.case.loads if load.name == name), None)
+    if found.value < 0.0 and not isinstance(load, Torque):
+        said += "; the minus in the equation says that it acts against the direction that the case gives"
+    elif found.value < 0.0:
+        said += "; the minus in the equation says that it turns against its positive sense"
+    return (load_name(name), " = ", size, f"{said}.")
+
+
+def _advantage(known: Known, figures: Figures) -> Iterable[Block]:
+    answer = known.answer
+    if answer is None or answer.advantage is None:
+        return
+    loads = [term.load for term in answer.terms if " " not in term.load]
+    top = next(iter(answer.answers))
+    bottom = next(name for name in loads if name not in answer.answers)
+    units = {term.load: term.unit for term in answer.terms}
+    kind = "The mechanical advantage" if units[top] == units[bottom] else "For one unit of the known load"
+    unit = "" if units[top] == units[bottom] else f"{units[top]} per {units[bottom]}"
+    ratio = Quotient(load_name(top), load_name(bottom))
+    yield words(f"{kind}: ", ratio, " = ", figures.quantity(answer.advantage, unit), ".")
+
+
+def rates_section(known: Known, figures: Figures) -> Iterable[Section]:
+    """How fast the links turn, and the points move."""
+    whole = known.whole
+    if whole is None or whole.rates is None:
+        return
+    timed = any(motion.speed is not None for motion in known.case.motion)
+    unit = "rad/s" if timed else "scaled"
+    rows: list[tuple[tuple[Inline, ...], ...]] = []
+    for link, rate in whole.rates.items():
+        value = f"left open: {rate}" if isinstance(rate, str) else figures.number(rate)
+        rows.append(((rate_name(link),), (value,)))
+    blocks: list[Block] = [
+        Table(("link", f"angular velocity, {unit}, counterclockwise positive"), tuple(rows))
+    ]
+    blocks += _velocities(known, figures, timed)
+    yield Section("Speeds", tuple(blocks))
+
+
+def _velocities(known: Known, figures: Figures, timed: bool) -> Iterable[Block]:
+    whole = known.whole
+    if whole is None or not whole.velocities:
+        return
+    unit = f"{known.case.units.length}/s" if timed else "scaled"
+    rows: list[tuple[tuple[Inline, ...], ...]] = []
+    for (point, link), v in whole.velocities.items():
+        if isinstance(v, str) or point.startswith("@"):
+            continue
+        rows.append(((f"{point} on {link}",), (figures.number(v[0]),), (figures.number(v[1]),)))
+    if rows:
+        yield Table(("point", f"x, {unit}", f"y, {unit}"), tuple(rows))
+
+
+def check_section(known: Known, figures: Figures) -> Iterable[Section]:
+    """The unknown loads a second time, by the equilibrium of every link."""
+    answer = known.answer
+    if answer is None or not answer.witnesses:
+        return
+    entries: list[tuple[Inline, ...]] = []
+    units = {name: found.unit for name, found in answer.answers.items()}
+    for w in answer.witnesses:
+        unit = units.get(w.load, "")
+        off = Quantity(Num(f"{abs(w.difference):.1g}"), unit)
+        found = figures.quantity(w.bodies, unit)
+        but: tuple[Inline, ...] = (" but for ", off) if w.difference else ()
+        same = " by free bodies alone; power gave the same"
+        entries.append((load_name(w.load), " = ", found, same, *but, "."))
+    said = words("The equations of equilibrium of all links, without power or centres, give:")
+    yield Section("Check by free bodies", (said, Items(tuple(entries))))
+
+
+def left_out(known: Known, steps: Sequence[Step], *, bodies: bool) -> Iterable[Section]:
+    """What the answer did not need, and why; ``bodies``: the forces in the joints are shown."""
+    if known.answer is None:
+        return
+    entries = tuple(_skipped(known, known.answer, steps, bodies=bodies))
+    if entries:
+        yield Section("Left out", (Items(entries),))
+
+
+def remarks_section(known: Known, figures: Figures) -> Iterable[Section]:
+    """Notes, and what rounding leaves."""
+    if known.answer is None:
+        return
+    entries: list[tuple[Inline, ...]] = [(sentence(note),) for note in known.answer.notes]
+    entries += _rounding(figures, known.answer)
+    if entries:
+        yield Section("Remarks", (Items(tuple(entries)),))
+
+
+def _skipped(
+    known: Known, answer: Answer, steps: Sequence[Step], *, bodies: bool
+) -> Iterable[tuple[Inline, ...]]:
+    needed = {step.centre.pair for step in steps}
+    others = [pair for pair in (known.whole.centres if known.whole else ()) if pair not in needed]
+    if others and answer.answers:
+        names: list[Inline] = []
+        for n, pair in enumerate(others):
+            names += [", " if n else "", centre_name(known, pair)]
+        yield ("The centres ", *names, ": the loaded links are related without them.")
+    if answer.answers and not bodies:
+        idle = "do no work" if answer.friction is None else "do work by friction alone"
+        yield (f"The forces in the joints: they {idle}, and the equation of power is without them.",)
+    if answer.skipped:
+        yield (f"Not examined, as the answer does not need it: {'; '.join(answer.skipped)}.",)
+
+
+def _rounding(figures: Figures, answer: Answer) -> Iterable[tuple[Inline, ...]]:
+    """How far rounding can have moved each answer."""
+    for name, found in answer.answers.items():
+        if found.error is not None and found.error > 0.0:
+            bound = Quantity(Num(f"{found.error:.1e}"), found.unit)
+            yield ("Rounding can have moved ", load_name(name), " by ", bound, " at most.")
+        elif found.error is None and found.why:
+            yield ("No bound is known for what rounding has done to ", load_name(name), f": {found.why}.")
+
+
+def sentence(text: str) -> str:
+    """With a capital and a full stop."""
+    text = text[:1].upper() + text[1:]
+    return text if text.endswith((".", "!", "?")) else f"{text}."
+
+
+# --- the whole solution ----------------------------------------------------------------------------------
+
 
 AT_REST = (
     "Nothing moves and no motion is given, so friction may act either way within its limits: the unknown "
@@ -48,7 +205,7 @@ def _sections(known: Known, figures: Figures, bodies: bool) -> Iterable[Section]
     yield from left_out(known, steps, bodies=bodies)
     yield from check_section(known, figures)
     if bodies:
-        from icsolve.explain.equilibrium import bodies_sections
+        from icsolve.explain.bodies import bodies_sections
 
         yield from bodies_sections(known, figures)
     yield from remarks_section(known, figures)

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from icsolve.construction import Known
-from icsolve.construction.spatial import InSpace, Push, in_space
+from icsolve.derivation import Known
+from icsolve.derivation.spatial import InSpace, Push, in_space
+from icsolve.explain.bodies import NOTHING, open_number
 from icsolve.explain.document import Block, Inline, Items, Section, Table, formula, words
-from icsolve.explain.equilibrium import NOTHING, open_number
 from icsolve.explain.formula import Expr, Name, Num, Sum, product
-from icsolve.explain.numbers import Figures, load_name
+from icsolve.explain.given import Figures, load_name
 from icsolve.statics.space.figure import Vec, size, sub
 from icsolve.statics.space.reaction_basis import Tie, kind_of
 from icsolve.statics.space.report import direction_words

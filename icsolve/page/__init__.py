@@ -4,8 +4,8 @@ step at a time, the equation of power with live numbers, and the answer as a cur
 from __future__ import annotations
 
 from icsolve.case import Case
-from icsolve.construction import Known, known_of, needed_steps
-from icsolve.draw.style import sheet
+from icsolve.derivation import Known, known_of, needed_steps
+from icsolve.draw.svg import sheet
 from icsolve.explain.solution import solution
 from icsolve.page.document import Parts, html_of
 
@@ -34,12 +34,11 @@ def _in_space(known: Known) -> Parts:
 
 
 def _in_plane(known: Known) -> Parts:
-    from icsolve.page.equation import equation_of
+    from icsolve.page.document import equation_of
     from icsolve.page.figure import figure_of
     from icsolve.page.model import model_of
     from icsolve.page.motion import motion_of, why_still
-    from icsolve.page.pictures import ALWAYS, circle_svg, figure_svg, kinds_of, plot_svg
-    from icsolve.page.plots import plot_data, plots_of
+    from icsolve.page.pictures import ALWAYS, circle_svg, figure_svg, kinds_of, plot_data, plot_svg, plots_of
 
     steps = needed_steps(known) if known.whole is not None else ()
     motion = motion_of(known, [step.centre.pair for step in steps])

@@ -1,22 +1,132 @@
-"""The page as one HTML document."""
+"""The page as one HTML document: its equation of power, its script and style sheet, and the policy that
+lets nothing else run or load."""
 
 from __future__ import annotations
 
+import base64
+import hashlib
 import re
 from collections.abc import Iterable
+from functools import cache
 from html import escape
+from pathlib import Path
 from typing import Any, NamedTuple
 
-from icsolve.construction import Known, Step
-from icsolve.draw.captions import answer_sentences, step_sentence
-from icsolve.draw.words import figure_number, name_runs, unit_word
-from icsolve.explain.as_html import sections_html
-from icsolve.explain.document import Document
-from icsolve.page.columns import script_json
-from icsolve.page.equation import Equation
+from icsolve.case import Torque
+from icsolve.derivation import Acting, Known, Step, acting_loads
+from icsolve.draw.words import answer_sentences, figure_number, name_runs, step_sentence, unit_word
+from icsolve.explain.document import AsHtml, Document, Formula, formula
+from icsolve.explain.formula import MATHML, Expr, Name, Num, Quotient, Sum, product
+from icsolve.explain.given import load_name
+from icsolve.page.motion import Motion, exact, script_json
 from icsolve.page.pictures import track_svg
-from icsolve.page.sheets import policy, script, style
 from icsolve.wording.senses import unit_of
+
+
+class Equation(NamedTuple):
+    """The equation in MathML, its rows as names and units, and the columns behind them.
+
+    ``rows``: for each known load its name, its ratio of speeds (MathML both), the unit of that.
+    """
+
+    symbols: str
+    ratio: str
+    rows: tuple[tuple[str, str, str], ...]
+    data: list[dict[str, Any]]
+
+
+def equation_of(known: Known, motion: Motion | None) -> Equation | None:
+    """The equation of one unknown load and the known ones; None where it has no such simple form."""
+    acting = acting_loads(known)
+    unknown = [a for a in acting if a.unknown]
+    others = [a for a in acting if not a.unknown]
+    if motion is None or len(unknown) != 1 or set(motion.shares) != {a.load.name for a in others}:
+        return None
+    root = unknown[0]
+    terms: list[tuple[int, Expr]] = [(1, product(load_name(a.load.name), speed_of(known, a))) for a in others]
+    terms.append((1, product(load_name(root.load.name), speed_of(known, root))))
+    symbols = _displayed(formula(Sum(tuple(terms)), Num("0")))
+    over = [Quotient(speed_of(known, a), speed_of(known, root)) for a in others]
+    solved: list[tuple[int, Expr]] = [
+        (-1, product(load_name(a.load.name), ratio)) for a, ratio in zip(others, over, strict=True)
+    ]
+    ratio = _displayed(formula(load_name(root.load.name), Sum(tuple(solved)))) if solved else ""
+    rows = slice(motion.first, motion.last + 1)
+    data = [
+        {"name": a.load.name, "value": a.value, "ratio": exact(motion.shares[a.load.name][rows].tolist())}
+        for a in others
+    ]
+    shown = tuple(
+        (_math(load_name(a.load.name)), _math(q), ratio_unit(known, root, a))
+        for a, q in zip(others, over, strict=True)
+    )
+    return Equation(symbols, ratio, shown, data)
+
+
+def _displayed(block: Formula) -> str:
+    return f'<math display="block">{MATHML.equation(block.equation)}</math>'
+
+
+def _math(expression: Expr) -> str:
+    return f'<math displaystyle="true">{MATHML.expression(expression)}</math>'
+
+
+def speed_of(known: Known, acting: Acting) -> Name:
+    """The speed that a load works at: the rate of its link, or the speed of its point along it."""
+    if not isinstance(acting.load, Torque):
+        return Name("v", acting.load.name)
+    low = acting.link if acting.against == known.case.ground else f"{acting.link}/{acting.against}"
+    return Name("w", low)
+
+
+def ratio_unit(known: Known, root: Acting, of: Acting) -> str:
+    """The unit of the ratio of speeds, in which the unit of a known load, times it, is the root's."""
+    own, theirs = unit_of(root.load, known.case), unit_of(of.load, known.case)
+    if own == theirs:
+        return ""
+    for one, other, form in ((own, theirs, "{}"), (theirs, own, "1/{}")):
+        parts = one.split("*")
+        if other in parts and len(parts) == 2:
+            parts.remove(other)
+            return form.format(parts[0])
+    return f"{own}/{theirs}" if "*" not in theirs and "/" not in theirs else f"{own}/({theirs})"
+
+
+# --- script, style sheet and policy ----------------------------------------------------------------------
+
+
+HERE = Path(__file__).parent
+PARTS = ("data", "moving", "centres", "labels", "words", "position", "construction")
+"""The parts of the script, in the order in which they run: each uses those before it."""
+
+
+@cache
+def script() -> str:
+    """The script, the same for every page."""
+    parts = ((HERE / "script" / f"{part}.js").read_text(encoding="utf-8") for part in PARTS)
+    return f'"use strict";\n(() => {{\n{"".join(parts)}}})();\n'
+
+
+@cache
+def style() -> str:
+    """The style sheet of the page around the pictures."""
+    return (HERE / "page.css").read_text(encoding="utf-8")
+
+
+def policy(styles: str) -> str:
+    """A Content-Security-Policy: this script and these styles, no network, no frames, no forms."""
+    return (
+        f"default-src 'none'; script-src '{_hash(script())}'; style-src '{_hash(styles)}'; "
+        "base-uri 'none'; form-action 'none'"
+    )
+
+
+def _hash(text: str) -> str:
+    return "sha256-" + base64.b64encode(hashlib.sha256(text.encode()).digest()).decode()
+
+
+# --- the document ----------------------------------------------------------------------------------------
+
 
 FEW = 4
 """With so many steps at most there is room for the equation of power beside the figure."""
@@ -225,5 +335,5 @@ def _solution(parts: Parts) -> str:
     opened = "" if "motion" in parts.model else " open"
     return (
         f'<details class="wide"{opened}><summary>The worked solution, in the position as written</summary>\n'
-        f"{sections_html(parts.solution)}</details>"
+        f"{AsHtml().sections(parts.solution)}</details>"
     )

@@ -14,20 +14,14 @@ import numpy as np
 import shapely
 
 from icsolve.case import Contact, Force, Pin, Roll, Slide, Slot, Spring
-from icsolve.construction import Acting, Known, Step, acting_loads
-from icsolve.draw.figure import ORDER
+from icsolve.derivation import Acting, Known, Step, acting_loads
 from icsolve.draw.frame import belts, frame_parts, joint_name, joint_parts, point_parts, rims
 from icsolve.draw.links import Body, bars, body_of, guide_in_picture, link_part, outline
 from icsolve.draw.loads import load_parts
-from icsolve.draw.marks import Box, Group, Mark, Point, Stroke, Text, bounds
-from icsolve.draw.place import Label, Placer
-from icsolve.draw.profiled import outlines
-from icsolve.draw.scene import Part, Scene, together
-from icsolve.draw.shapes import joined
-from icsolve.draw.view import view_of
-from icsolve.draw.wheels import Wheel, round_things
-from icsolve.page.motion import Motion
-from icsolve.page.poses import Array, moved
+from icsolve.draw.marks import Box, Group, Mark, Point, Stroke, Text, bounds, view_of
+from icsolve.draw.place import Label, Placer, joined
+from icsolve.draw.scene import ORDER, Part, Scene, Wheel, outlines, round_things, together
+from icsolve.page.motion import Array, Motion, moved
 
 ROOM = (430.0, 350.0)
 """The largest that the mechanism is drawn, through all its positions."""

@@ -1,23 +1,270 @@
-"""The positions of a mechanism over the whole range of its input, solved beforehand by the sweep."""
+"""The positions of a mechanism over the whole range of its input, solved beforehand by the sweep: what
+moves it, and where every link then is."""
 
 from __future__ import annotations
 
+import json
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from icsolve.case import Case, Contact, ForceVector, KnownCentre, Load, Number, Pair, Pin, Slide, Slot, Torque
+from icsolve.case import (
+    Case,
+    Centroid,
+    Contact,
+    Coordinates,
+    ForceVector,
+    KnownCentre,
+    Load,
+    Number,
+    Pair,
+    Pin,
+    Slide,
+    Slot,
+    Torque,
+    Weld,
+)
 from icsolve.case.names import pair_name
-from icsolve.construction import Known, loaded_links
+from icsolve.derivation import Known, loaded_links
+from icsolve.draw.words import figure_number, unit_word
 from icsolve.errors import SceneError
-from icsolve.page.input import Input, places, sliding, ways
-from icsolve.page.poses import Array, Pose, poses_of
+from icsolve.screws.plane import Point
 from icsolve.solve.refusals import rubs
 from icsolve.statics.power import is_unknown
 from icsolve.sweep import Sweep, sweep
+
+Array = np.ndarray
+
+
+class Pose(NamedTuple):
+    """Where a link is in every row: the place of one of its points, and its angle from the position as
+    written, degrees counterclockwise."""
+
+    point: str
+    x: Array
+    y: Array
+    angle: Array
+
+
+def poses_of(known: Known, driver: str, degrees: Array, zero: int, found: Sweep) -> dict[str, Pose]:
+    """The pose of every link that carries a point."""
+    case = known.case
+    poses: dict[str, Pose] = {}
+    waiting = [link for link in case.links if link != case.ground]
+    for attempt in (_by_points, _by_guide, _by_rate):
+        for link in list(waiting):
+            pose = attempt(known, link, driver, degrees, zero, found, poses)
+            if pose is not None:
+                poses[link] = pose
+                waiting.remove(link)
+    return poses
+
+
+def _carried(known: Known, link: str, found: Sweep) -> list[str]:
+    return [p for p in known.case.carries.get(link, ()) if p in found.points]
+
+
+def _by_points(
+    known: Known, link: str, driver: str, degrees: Array, zero: int, found: Sweep, poses: Mapping[str, Pose]
+) -> Pose | None:
+    """By two points of the link that lie apart."""
+    names = _carried(known, link, found)
+    if len(names) < 2:
+        return None
+    a, b = max(
+        ((p, q) for p in names for q in names), key=lambda two: math.dist(*(known.points[p] for p in two))
+    )
+    if math.dist(known.points[a], known.points[b]) <= 1e-9 * known.size:
+        return None
+    p, q = found.points[a], found.points[b]
+    angle = np.degrees(np.arctan2(q[:, 1] - p[:, 1], q[:, 0] - p[:, 0]))
+    return Pose(a, p[:, 0], p[:, 1], _from(angle, zero))
+
+
+def _from(angle: Array, zero: int) -> Array:
+    """Angles from that of the position as written, without jumps of a turn."""
+    turned = angle - angle[zero]
+    return np.asarray((turned + 180.0) % 360.0 - 180.0)
+
+
+def _by_guide(
+    known: Known, link: str, driver: str, degrees: Array, zero: int, found: Sweep, poses: Mapping[str, Pose]
+) -> Pose | None:
+    """As the link turns on which it slides."""
+    names = _carried(known, link, found)
+    for joint in known.case.joints:
+        if isinstance(joint, Slide) and link in joint.links and names:
+            other = joint.links[1 - joint.links.index(link)]
+            place = found.points[names[0]]
+            if other == known.case.ground:
+                return Pose(names[0], place[:, 0], place[:, 1], np.zeros(len(degrees)))
+            if other in poses:
+                return Pose(names[0], place[:, 0], place[:, 1], poses[other].angle)
+    return None
+
+
+def _by_rate(
+    known: Known, link: str, driver: str, degrees: Array, zero: int, found: Sweep, poses: Mapping[str, Pose]
+) -> Pose | None:
+    """By its rate beside the driver's, summed from row to row (a gear of which nothing else shows)."""
+    names = _carried(known, link, found)
+    if not names:
+        return None
+    ratio = np.zeros(len(degrees))
+    if link in found.rates and driver in found.rates:
+        with np.errstate(all="ignore"):
+            ratio = np.nan_to_num(found.rates[link] / found.rates[driver], posinf=0.0, neginf=0.0)
+    steps = 0.5 * (ratio[1:] + ratio[:-1]) * np.diff(degrees)
+    total = np.concatenate(([0.0], np.cumsum(steps)))
+    place = found.points[names[0]]
+    return Pose(names[0], place[:, 0], place[:, 1], total - total[zero])
+
+
+def moved(pose: Pose, start: tuple[float, float], p: tuple[float, float]) -> tuple[Array, Array]:
+    """Where a point of a link is in every row; ``start`` is the place of the pose's point as written."""
+    turn = np.radians(pose.angle)
+    dx, dy = p[0] - start[0], p[1] - start[1]
+    co, si = np.cos(turn), np.sin(turn)
+    return pose.x + co * dx - si * dy, pose.y + si * dx + co * dy
+
+
+# --- the input -------------------------------------------------------------------------------------------
+
+
+STILL = 1e-12
+"""A part of the figure's size: a link that turns by less, for a way as long as the figure, only slides."""
+ROWS = 50
+"""Positions to either side of the one as written where everything slides."""
+
+
+class Input(NamedTuple):
+    """A link, and where it slides, for each coordinate that then changes (by its path) its number as written
+    and its change by one unit of the link's way; ``unit`` and ``senses`` say how a position is told."""
+
+    link: str
+    slides: Mapping[str, tuple[float, float]] = {}
+    unit: str = "°"
+    senses: tuple[str, str] = ("counterclockwise", "clockwise")
+
+    @property
+    def verb(self) -> str:
+        """What is done to the link."""
+        return "moved" if self.slides else "turned"
+
+    @property
+    def unit_name(self) -> str:
+        """The unit of its positions as an axis has it."""
+        return self.unit.strip() if self.slides else "degrees"
+
+    def driven(self, rows: Array) -> dict[str, Array]:
+        """The sweep's ``drive``."""
+        return {} if self.slides else {self.link: rows}
+
+    def varied(self, rows: Array) -> dict[str, Array]:
+        """The sweep's ``vary``."""
+        return {path: start + pace * rows for path, (start, pace) in self.slides.items()}
+
+
+def sliding(known: Known) -> tuple[Case, Input] | None:
+    """The case with all points by coordinates, and its input, where every link only slides; None elsewhere.
+
+    No guide turns then, so that every link goes straight on at the velocity of the position as written.
+    """
+    case = known.case
+    if known.answer is None or known.answer.mobility != 1:
+        return None
+    nameless = any(name.startswith("@") for name in known.points)
+    if nameless or not all(isinstance(joint, Slide | Pin | Slot | Weld) for joint in case.joints):
+        return None
+    going = {link: (t[1], -t[0]) for link, t in known.twists.items()}
+    fastest = max((math.hypot(*v) for v in going.values()), default=0.0)
+    if fastest == 0.0 or any(abs(t[2]) * known.size > STILL * fastest for t in known.twists.values()):
+        return None
+    paces = _paces(case, going)
+    driver = _driver(case, going, fastest)
+    if paces is None or driver is None:
+        return None
+    speed = math.hypot(*going[driver])
+    moved = {name: (x / speed, y / speed) for name, (x, y) in paces.items()}
+    return _by_coordinates(known), _input(known, driver, moved)
+
+
+def _driver(case: Case, going: Mapping[str, Point], fastest: float) -> str | None:
+    """The link whose motion is given, else the first that moves."""
+    ranked = (*(m.link for m in case.motion), *case.links)
+    return next((link for link in ranked if math.hypot(*going.get(link, (0.0, 0.0))) > 1e-3 * fastest), None)
+
+
+def _paces(case: Case, going: Mapping[str, Point]) -> dict[str, Point] | None:
+    """The velocity of every point that a link carries; None where a guide's points do not go with it."""
+    paces = {p: going[link] for link in case.links if link != case.ground for p in case.carries.get(link, ())}
+    paces |= dict.fromkeys(case.carries.get(case.ground, ()), (0.0, 0.0))
+    for joint in case.joints:
+        if isinstance(joint, Slide | Slot):
+            ends = {*(joint.guide.ends or ()), joint.guide.through} - {None, joint.at}
+            own = going[joint.links[1]]
+            if any(math.dist(paces.get(str(p), (0.0, 0.0)), own) > STILL * math.hypot(*own) for p in ends):
+                return None
+    return paces
+
+
+def _by_coordinates(known: Known) -> Case:
+    def number(value: float, path: str) -> Number:
+        return Number(value, 0.0, path, repr(value))
+
+    points: dict[str, Coordinates | Centroid] = {
+        name: Coordinates(number(x, f"points.{name}.x"), number(y, f"points.{name}.y"))
+        for name, (x, y) in known.points.items()
+    }
+    return replace(known.case, points=points, lengths=(), angles=(), near={})
+
+
+def _input(known: Known, driver: str, moved: Mapping[str, Point]) -> Input:
+    """The input; its way is positive to the right, straight up where it goes neither right nor left."""
+    t = known.twists[driver]
+    angle = math.degrees(math.atan2(-t[0], t[1]))
+    sign = 1.0 if -90.0 < round(angle, 9) <= 90.0 else -1.0
+    toward = angle if sign > 0.0 else angle + (180.0 if angle <= 0.0 else -180.0)
+    slides = {
+        f"points.{name}.{axis}": (known.points[name][n], sign * pace[n])
+        for name, pace in moved.items()
+        for n, axis in enumerate("xy")
+        if pace[n] != 0.0
+    }
+    senses = (f"at {figure_number(toward % 360.0)}°", f"at {figure_number((toward + 180.0) % 360.0)}°")
+    return Input(driver, slides, f" {unit_word(known.case.units.length)}", senses)
+
+
+def places(known: Known, by: Input, rows: Array) -> dict[str, Array]:
+    """Where every point is, in positions too in which nothing can be solved."""
+    now = by.varied(rows)
+
+    def column(path: str, written: float) -> Array:
+        return now.get(path, np.full(len(rows), written))
+
+    return {
+        name: np.column_stack((column(f"points.{name}.x", x), column(f"points.{name}.y", y)))
+        for name, (x, y) in known.points.items()
+    }
+
+
+def ways(known: Known) -> Array:
+    """Ways to either side, in round numbers, together about as long as the figure.
+
+    The guides have no ends in a case, so that no range is the whole one.
+    """
+    size = max((math.dist(p, q) for p in known.points.values() for q in known.points.values()), default=0.0)
+    size = size or known.size
+    power = 10.0 ** math.floor(math.log10(0.5 * size))
+    half = max(m for m in (1.0, 2.0, 5.0) if m * power <= 0.5 * size * (1.0 + 1e-9)) * power
+    return np.arange(-ROWS, ROWS + 1) * (half / ROWS)
+
+
+# --- the sweep of the page -------------------------------------------------------------------------------
+
 
 STEP, MIDDLE, COARSE = 1.0, 2.0, 5.0
 """Degrees between positions; cams take longer, and with friction each position is a scene of its own."""
@@ -255,3 +502,48 @@ def _zero(load: Load) -> Load:
     if isinstance(load, ForceVector):
         return load._replace(x=nothing, y=nothing)
     return load if is_unknown(load) else load._replace(value=nothing)
+
+
+# --- columns of numbers -----------------------------------------------------------------------------------
+
+FINE = {"px": 10, "deg": 100}
+"""Steps a picture unit, or a degree: a tenth of a unit, a hundredth of a degree."""
+FAR = 1e5
+"""Numbers beyond this are written plainly, to five significant digits."""
+DIGITS = 12
+"""Significant digits of an answer: those that anyone is shown, and more."""
+
+
+def compact(values: Array, fine: int) -> dict[str, Any]:
+    """A column in steps of 1 / ``fine``; what is not a number is null."""
+    if np.isfinite(values).all() and float(np.abs(values).max(initial=0.0)) < FAR:
+        whole = np.rint(values * fine).astype(np.int64)
+        return {"s": fine, "d": [int(whole[0]), *map(int, np.diff(whole))]}
+    return {"v": [_rounded(v, 5) for v in values.tolist()]}
+
+
+def exact(values: Iterable[float]) -> dict[str, Any]:
+    """A column of numbers that are read: all digits that are shown."""
+    return {"v": [_rounded(v, DIGITS) for v in values]}
+
+
+def _rounded(value: float, digits: int) -> float | int | None:
+    if not math.isfinite(value):
+        return None
+    value = float(format(value, f".{digits}g")) + 0.0
+    return int(value) if value == int(value) and abs(value) < 1e15 else value
+
+
+def moves(values: Array, fine: int) -> bool:
+    """Whether a column changes as the picture shows it."""
+    return bool(np.ptp(values) * fine > 0.5) if np.isfinite(values).all() else True
+
+
+_UNSAFE = {"<": "\\u003c", ">": "\\u003e", "&": "\\u0026", "\u2028": "\\u2028", "\u2029": "\\u2029"}
+
+
+def script_json(value: object) -> str:
+    """JSON that can stand in a script element whatever its texts say."""
+    text = json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+    text = "".join(_UNSAFE.get(c, c) for c in text)
+    return text.encode("utf-8", "replace").decode("utf-8")

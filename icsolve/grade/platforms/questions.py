@@ -19,7 +19,7 @@ from icsolve.units import parse_unit
 
 def figure(case: Case) -> str:
     """The case drawn without its answer, as SVG."""
-    from icsolve.construction import known_of
+    from icsolve.derivation import known_of
     from icsolve.draw import Drawing, draw
 
     return draw(case, Drawing(centres="none"), known_of(case)._replace(answer=None))

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from icsolve.case import Case
 from icsolve.case.space import Torque, TorqueVector
-from icsolve.construction.known import Known
+from icsolve.derivation.known import Known
 from icsolve.errors import SceneError
 from icsolve.statics.space.figure import Figure, Vec, figure_of, in_case, times
 from icsolve.statics.space.power import wrenched

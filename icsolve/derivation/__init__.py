@@ -3,11 +3,16 @@ and how the speed of one link follows from another's. Explanations, drawings and
 
 from __future__ import annotations
 
-from icsolve.construction.acting import Acting, acting_loads
-from icsolve.construction.known import Known, known_of
-from icsolve.construction.needed import all_steps, answer_ratios, loaded_links, needed_steps
-from icsolve.construction.order import Step
-from icsolve.construction.ratios import Ratio, Ratios
+from icsolve.derivation.known import Acting, Known, acting_loads, known_of
+from icsolve.derivation.ratios import (
+    Ratio,
+    Ratios,
+    Step,
+    all_steps,
+    answer_ratios,
+    loaded_links,
+    needed_steps,
+)
 
 __all__ = [
     "Acting",

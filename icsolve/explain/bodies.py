@@ -7,10 +7,10 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from icsolve.answer.bodies import Reaction
-from icsolve.construction import Acting, Known, acting_loads
+from icsolve.derivation import Acting, Known, acting_loads
 from icsolve.explain.document import Block, Inline, Items, Section, Table, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Sum, product
-from icsolve.explain.numbers import Figures, load_name
+from icsolve.explain.given import Figures, load_name
 from icsolve.screws.plane import Point
 
 NOTHING = 1e-13
