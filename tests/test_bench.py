@@ -33,6 +33,7 @@ from icsolve.bench.sweeps import BY_HAND, IN_C, SWEPT
 from icsolve.bench.timing import least
 from icsolve.case import Gears
 from icsolve.cli.commands import icsolve as command
+from texts import PAGES
 
 BY_NAME = {family.name: family for family in FAMILIES}
 
@@ -241,7 +242,7 @@ def test_the_picture_in_the_readme_shows_every_method() -> None:
     """As `icsolve bench` writes it now: the same methods and families, and programs that gave a torque."""
     root = Path(__file__).parent.parent
     place = ".pictures/work-precision.svg"
-    assert f"]({place})" in (root / "README.md").read_text(encoding="utf-8")
+    assert f"](../../{place})" in PAGES["accuracy"]
     words = {e.text or "" for e in ElementTree.parse(root / place).iter(f"{SVG}text")}
     assert {*(method.name for method in METHODS), SWEPT, BOUNDED_SWEEP, BY_HAND, IN_C, "kinepy"} <= words
     assert any(line.startswith(f"{len(FAMILIES)} families of up to") for line in words)

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import pytest
 
 from icsolve.cli import main
-from icsolve.templates import kinds, template
+from icsolve.manual import kinds, template
 
 ROOT = str(Path(__file__).parent.parent)
 PRESS = template("four-bar")

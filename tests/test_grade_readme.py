@@ -19,9 +19,9 @@ from icsolve.grade.platforms.export import KINDS as QUESTIONS
 from icsolve.grade.platforms.write import KINDS as OUTPUTS
 from icsolve.grade.results import HEADER
 from icsolve.grade.written import Reader
+from texts import PAGES, files
 
-README = (Path(__file__).parent.parent / "README.md").read_text(encoding="utf-8")
-SECTION = README.partition("\n## Grading\n")[2].partition("\n## ")[0]
+SECTION = PAGES["grading"]
 BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```$", SECTION, re.DOTALL | re.MULTILINE)
 COURSE, VARIANTS = (text for kind, text in BLOCKS if kind == "yml")
 
@@ -30,10 +30,9 @@ COURSE, VARIANTS = (text for kind, text in BLOCKS if kind == "yml")
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """The files that the section speaks of; the case of the README's start, with variables in ``cases``."""
     monkeypatch.chdir(tmp_path)
-    press = re.search(r"```yaml\n(# press\.yaml\n.*?)```", README, re.DOTALL)
-    assert press is not None
-    (tmp_path / "press.yaml").write_text(press[1], encoding="utf-8")
-    varied: dict[str, Any] = yaml.safe_load(press[1])
+    press = files()["press.yaml"]
+    (tmp_path / "press.yaml").write_text(press, encoding="utf-8")
+    varied: dict[str, Any] = yaml.safe_load(press)
     for key, value in yaml.safe_load(VARIANTS).items():
         varied[key] = {**varied.get(key, {}), **value}
     (tmp_path / "cases").mkdir()

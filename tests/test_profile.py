@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
@@ -29,6 +28,7 @@ from icsolve.read import load
 from icsolve.read.profiles import KEYS
 from icsolve.solve import solve
 from icsolve.sweep.numbers import with_numbers
+from texts import PAGES
 
 E, R, ROLLER = 20.0, 40.0, 10.0
 ANGLES = st.floats(-180.0, 180.0).map(lambda x: round(x, 6))
@@ -481,8 +481,7 @@ def test_curve_is_found_from_either_order_of_its_corners() -> None:
         assert curve.height((0.0, 0.0))[0] == pytest.approx(-50.0 / math.sqrt(2.0))
 
 
-README = (Path(__file__).parent.parent / "README.md").read_text(encoding="utf-8")
-SECTION = README.partition("### Cam profiles\n")[2].partition("\n### ")[0]
+SECTION = PAGES["cams"]
 FORMS = re.findall(r"^\| `(\d): (\{.*?\})` \|", SECTION, re.MULTILINE)
 
 

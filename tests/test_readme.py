@@ -1,4 +1,4 @@
-"""Every example of the README is run, and every form in its tables is read.
+"""Every example of the README and of the manual is run, and every form in their tables is read.
 
 Console blocks are sessions: a line with `$` is run, and what stands below is its whole output (`...` for
 what is left out, and white space is then free). Files are the YAML blocks whose first line is a comment
@@ -19,15 +19,13 @@ import click
 import pytest
 
 import icsolve
+import texts
 from icsolve.cli import main
 from icsolve.cli.commands import icsolve as commands
 from icsolve.errors import Status
+from icsolve.manual import TOPICS, kinds
 from icsolve.read.build import SECTIONS
-from icsolve.templates import kinds
-
-ROOT = Path(__file__).parent.parent
-README = (ROOT / "README.md").read_text(encoding="utf-8")
-BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```$", README, re.DOTALL | re.MULTILINE)
+from texts import PAGES, README, ROOT, blocks, section
 
 
 class Session(NamedTuple):
@@ -40,7 +38,8 @@ class Session(NamedTuple):
 def sessions() -> list[Session]:
     return [
         Session(command.strip(), output)
-        for kind, text in BLOCKS
+        for page in PAGES.values()
+        for kind, text in blocks(page)
         if kind == "console"
         for command, output in re.findall(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", text, re.MULTILINE)
     ]
@@ -48,13 +47,10 @@ def sessions() -> list[Session]:
 
 @pytest.fixture
 def files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A folder with the README's files."""
+    """A folder with the files of all pages."""
     monkeypatch.chdir(tmp_path)
-    for kind, text in BLOCKS:
-        if kind == "yaml":
-            name = re.match(r"# (\S+\.yaml)\n", text)
-            assert name, "a YAML block starts with the name of its file"
-            (tmp_path / name[1]).write_text(text, encoding="utf-8")
+    for name, text in texts.files().items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
     return tmp_path
 
 
@@ -72,11 +68,43 @@ def test_every_session_prints_what_the_readme_shows(
     assert doctest.OutputChecker().check_output(session.output, shown.out + shown.err, flags), shown.out
 
 
-def test_the_python_session_says_what_the_readme_shows(files: Path) -> None:
-    texts = [text for kind, text in BLOCKS if kind == "python"]
-    test = doctest.DocTestParser().get_doctest("\n".join(texts), {}, "README", "README.md", 0)
+@pytest.mark.parametrize("topic", ["README", "library"])
+def test_the_python_session_says_what_the_page_shows(topic: str, files: Path) -> None:
+    shown = [text for kind, text in blocks(PAGES[topic]) if kind == "python"]
+    test = doctest.DocTestParser().get_doctest("\n".join(shown), {}, topic, topic, 0)
     assert test.examples
     assert doctest.DocTestRunner(verbose=False).run(test).failed == 0
+
+
+@pytest.mark.parametrize(
+    "example",
+    re.findall(r"\| `(icsolve [^`]*)` \|$", section("README", "The commands, one example each"), re.M),
+)
+def test_every_example_of_a_command_runs(
+    example: str, files: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    _, verb, *arguments = shlex.split(example)
+    (files / "answers.csv").write_text("student_id,case,answer\n1,press,33.76 lbf*in cw\n")
+    (files / "roster.csv").write_text("student_id\n1\n2\n")
+    (files / "cases").mkdir()
+    varied = (
+        texts.files()["press.yaml"].replace("AB: 1,", "AB: $a,") + "variables: {a: {choices: [1, 1.25]}}\n"
+    )
+    (files / "cases" / "press.yaml").write_text(varied)
+    if verb == "bench":
+        arguments = ["--help"]  # its catalogue is run by its own tests
+    with pytest.raises(SystemExit) as left:
+        main([verb, *arguments])
+    assert left.value.code == 0, capsys.readouterr().err
+
+
+def test_the_slips_that_the_readme_shows_are_told_so(files: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (shown,) = (text for kind, text in blocks(README) if kind == "text" and "slip" in text)
+    command, _, said = shown.partition("\n")
+    with pytest.raises(SystemExit) as left:
+        main(shlex.split(command)[2:])
+    assert left.value.code == 2
+    assert capsys.readouterr().err == said
 
 
 def test_the_picture_shows_the_answer_of_its_file(files: Path) -> None:
@@ -86,13 +114,9 @@ def test_the_picture_shows_the_answer_of_its_file(files: Path) -> None:
     assert f"T12 = {abs(found.value):.3g} lbf*in, clockwise" in picture
 
 
-def section(title: str) -> str:
-    return re.split(r"\n#+ ", README.partition(f"# {title}\n")[2])[0]
-
-
 def forms(title: str) -> list[str]:
     """The inline examples of a section that are mappings."""
-    return re.findall(r"`(\{[^`]*\})`", section(title))
+    return re.findall(r"`(\{[^`]*\})`", section("format", title))
 
 
 LETTERS = "ABCDEFGHP"
@@ -125,7 +149,7 @@ def test_every_form_of_a_width_is_read(form: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "entry", re.findall(r"`(\S[^`]*: [^`]*)`", section("Expect").partition("| `{value")[0])
+    "entry", re.findall(r"`(\S[^`]*: [^`]*)`", section("format", "Expect").partition("| `{value")[0])
 )
 def test_every_key_of_expect_is_read(entry: str) -> None:
     loads = "loads:\n  T12: {torque: unknown, link: 2}\n"
@@ -133,7 +157,7 @@ def test_every_key_of_expect_is_read(entry: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "entry", re.findall(r"^\| `((?:points|lengths|angles|near|links): \{.*?\})`", README, re.M)
+    "entry", re.findall(r"^\| `((?:points|lengths|angles|near|links): \{.*?\})`", PAGES["format"], re.M)
 )
 def test_every_entry_of_the_figure_is_read(entry: str) -> None:
     name, key, value = re.fullmatch(r"(\w+): \{(\w+): (.*)\}", entry).groups()  # type: ignore[union-attr]
@@ -145,16 +169,17 @@ def test_every_entry_of_the_figure_is_read(entry: str) -> None:
     )
 
 
-def test_every_status_stands_in_the_readme() -> None:
-    stated = set(re.findall(r"^\| `([a-z-]+)` \|", section("Statuses"), re.MULTILINE))
+def test_every_status_stands_in_the_manual() -> None:
+    stated = set(re.findall(r"^\| `([a-z-]+)` \|", section("statuses", "Statuses"), re.MULTILINE))
     assert stated == {value for name, value in vars(Status).items() if name.isupper()}
 
 
-def test_every_command_and_option_stands_in_the_readme() -> None:
-    text = section("Commands")
+def test_every_command_and_option_stands_in_the_manual() -> None:
+    text = section("commands", "Commands")
     context = click.Context(commands)
     for name in commands.list_commands(context):
         assert f"`icsolve {name}" in text
+        assert f"`icsolve {name}" in README
         command = commands.get_command(context, name)
         assert command is not None
         for parameter in command.params:
@@ -162,8 +187,8 @@ def test_every_command_and_option_stands_in_the_readme() -> None:
             assert not long or any(f"`{option}" in text for option in long) or "--output" in long
 
 
-def test_every_section_stands_in_the_readme() -> None:
-    table = section("The case file")
+def test_every_section_stands_in_the_manual() -> None:
+    table = section("format", "The case file")
     assert [name for name in SECTIONS if f"`{name}" not in table] == []
 
 
@@ -180,7 +205,9 @@ def test_exactly_two_commands_get_a_stranger_going() -> None:
 
 
 def test_the_table_of_the_24_problems_is_what_the_command_prints() -> None:
-    table = README.partition("<!-- the 24 problems -->")[2].partition("<!-- /the 24 problems -->")[0]
+    table = (
+        PAGES["problems"].partition("<!-- the 24 problems -->")[2].partition("<!-- /the 24 problems -->")[0]
+    )
     cases = ROOT / "cases" / "ch13"
     printed = subprocess.run(
         [sys.executable, "-m", "icsolve", "check", "--table", str(cases)],
@@ -192,3 +219,33 @@ def test_the_table_of_the_24_problems_is_what_the_command_prints() -> None:
     assert table.strip() == printed.stdout.strip()
     problems = {int(name[3:5]) for name in re.findall(r"^\| (13_[0-9]{2})_", table, re.MULTILINE)}
     assert problems == set(range(1, 25))
+
+
+def test_the_readme_is_for_a_newcomer_and_leads_to_every_page() -> None:
+    assert len(README.splitlines()) <= 300
+    for topic in TOPICS:
+        assert f"[{topic}](icsolve/manual/{topic}.md)" in README
+
+
+def test_every_link_of_a_page_leads_somewhere() -> None:
+    for topic, text in PAGES.items():
+        here = ROOT if topic == "README" else ROOT / "icsolve" / "manual"
+        for place in re.findall(r"\]\((?!https?:)([^)#]+)\)", text):
+            assert (here / place).exists(), (topic, place)
+
+
+@pytest.mark.parametrize(("word", "says"), [("format", "# The case file"), ("friction", "### Friction")])
+def test_the_manual_prints_a_page_or_a_section(
+    word: str, says: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit) as left:
+        main(["manual", word])
+    assert left.value.code == 0
+    assert capsys.readouterr().out.startswith(says)
+
+
+def test_a_page_that_is_not_there_is_refused_with_the_nearest(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit) as left:
+        main(["manual", "swep"])
+    assert left.value.code == 2
+    assert "did you mean sweeps?" in capsys.readouterr().err

@@ -18,7 +18,7 @@ from trees import document, tree, typed
 
 SCHEMA = schema()
 CASES = sorted((Path(__file__).parent.parent / "cases").rglob("*.yaml"))
-TEMPLATES = sorted((Path(__file__).parent.parent / "icsolve" / "templates").glob("*.yaml"))
+TEMPLATES = sorted((Path(__file__).parent.parent / "icsolve" / "manual" / "templates").glob("*.yaml"))
 NAMED = {"points", "lengths", "angles", "near", "links", "loads", "profile", "expect"}
 
 

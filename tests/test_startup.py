@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from icsolve.templates import kinds, template
+from icsolve.manual import kinds, template
 
 ROOT = Path(__file__).parent.parent
 

@@ -15,6 +15,7 @@ VERBS = {
     "validate": "checking",
     "new": "starting",
     "schema": "starting",
+    "manual": "starting",
     "grade": "grading",
     "variants": "varying",
     "export": "exporting",

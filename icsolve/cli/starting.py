@@ -1,11 +1,11 @@
-"""`icsolve new` and `icsolve schema`: to start a file."""
+"""`icsolve new`, `icsolve schema` and `icsolve manual`: to start a file, and to read how it goes on."""
 
 from __future__ import annotations
 
 import click
 
 from icsolve.cli.run import DONE, UNREADABLE, complain
-from icsolve.templates import kinds, nearest, template
+from icsolve.manual import TOPICS, kinds, nearest, page, section, template
 
 
 @click.command("new")
@@ -32,6 +32,29 @@ def schema_command() -> int:
     return DONE
 
 
+@click.command("manual")
+@click.argument("topic", required=False)
+def manual_command(topic: str | None) -> int:
+    """Print a page of the manual, or the sections of a name; without TOPIC, list the pages.
+
+    \b
+    icsolve manual format
+    icsolve manual friction
+    """
+    if topic is None:
+        width = max(map(len, TOPICS))
+        for name, says in TOPICS.items():
+            click.echo(f"{name:<{width}}  {says}")
+        return DONE
+    text = page(topic) if topic in TOPICS else section(topic)
+    if text is None:
+        hint = nearest(topic, list(TOPICS))
+        complain(f"icsolve manual: there is no page {topic!r}; {hint}`icsolve manual` lists the pages")
+        return UNREADABLE
+    click.echo(text, nl=False)
+    return DONE
+
+
 def list_kinds() -> int:
     """Print every kind and what its first line says of it."""
     width = max(len(kind) for kind in kinds())
@@ -44,8 +67,7 @@ def list_kinds() -> int:
 def write_template(kind: str, output: str | None) -> int:
     """Print or write the case of a kind; never over a file that is there."""
     if kind not in kinds():
-        suggestion = nearest(kind)
-        hint = f"did you mean {suggestion}? " if suggestion else ""
+        hint = nearest(kind, kinds())
         complain(f"icsolve new: there is no kind {kind!r}; {hint}`icsolve new` lists the kinds")
         return UNREADABLE
     if output is None or output == "-":

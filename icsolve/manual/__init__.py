@@ -1,0 +1,61 @@
+"""The manual, a Markdown page a topic, and commented cases to start from, a YAML file a kind of mechanism."""
+
+from __future__ import annotations
+
+import re
+from difflib import get_close_matches
+from pathlib import Path
+
+_HERE = Path(__file__).parent
+TOPICS = {
+    "format": "the case file: names, units, figure, joints, friction, loads, motion, published values",
+    "commands": "every command with its options, exit statuses",
+    "results": "what `--json` holds",
+    "statuses": "why a case has no answer: every status",
+    "sweeps": "a range of positions or loads: paths, motion from the position as written, `--find`",
+    "cams": "profiles of cams and their followers",
+    "pages": "one HTML file that moves",
+    "grading": "students' answers: tables, verdicts, mistakes, course, variants, platforms",
+    "library": "icsolve in Python and in notebooks",
+    "accuracy": "error bounds, and run time against other ways to solve",
+    "problems": "the 24 problems of the source document",
+    "errata": "what is wrong in its print",
+    "history": "what changed",
+    "inside": "for those who work on icsolve",
+}
+"""The pages in their order, and what each tells."""
+
+
+def page(topic: str) -> str:
+    """The page of a topic."""
+    return (_HERE / f"{topic}.md").read_text(encoding="utf-8")
+
+
+def section(word: str) -> str | None:
+    """The sections, of all pages, whose heading starts with a word; None where there are none."""
+    found = []
+    for topic in TOPICS:
+        parts = re.split(r"^(?=#+ )", re.sub(r"(?ms)^```.*?^```$", _hidden, page(topic)), flags=re.MULTILINE)
+        found += [part for part in parts if part.lstrip("# ").lower().startswith(word.lower())]
+    return "\n".join(part.replace("\0", "#").strip() + "\n" for part in found) or None
+
+
+def _hidden(block: re.Match[str]) -> str:
+    """A block with its comments' signs put aside, which are no headings."""
+    return block.group().replace("#", "\0")
+
+
+def kinds() -> list[str]:
+    """The kinds of mechanism that there is a template for, by name."""
+    return sorted(path.stem for path in (_HERE / "templates").glob("*.yaml"))
+
+
+def template(kind: str) -> str:
+    """The template of a kind; its first line is a comment that says what it is."""
+    return (_HERE / "templates" / f"{kind}.yaml").read_text(encoding="utf-8")
+
+
+def nearest(word: str, options: list[str]) -> str:
+    """``did you mean ...? `` for the option that is most like a word, else nothing."""
+    near = get_close_matches(word.lower().replace("_", "-"), options, n=1, cutoff=0.5)
+    return f"did you mean {near[0]}? " if near else ""
