@@ -6,9 +6,13 @@ import errno
 import gc
 import io
 import os
+import signal
 import sys
 from contextlib import suppress
+from types import FrameType
 from typing import NoReturn
+
+from icsolve.files import clear_away, one_call
 
 INTERRUPTED = 130
 CLOSED_PIPE = 141
@@ -24,7 +28,8 @@ def main(arguments: list[str] | None = None) -> NoReturn:
     """
     _plain_streams()
     try:
-        code = _run(arguments)
+        with one_call():
+            code = _run(arguments)
         sys.stdout.flush()
     except BrokenPipeError:
         _silence_stdout()
@@ -42,10 +47,34 @@ def entry() -> NoReturn:
     one by one costs as much as solving a case.
     """
     gc.set_threshold(100_000, 50, 50)
+    for name in ("SIGINT", "SIGTERM", "SIGHUP"):
+        number = getattr(signal, name, None)
+        if number is not None and signal.getsignal(number) is not signal.SIG_IGN:
+            signal.signal(number, _leave)
     try:
         main()
     except SystemExit as left:
         os._exit(left.code if isinstance(left.code, int) else BUG)
+
+
+def _leave(number: int, frame: FrameType | None) -> NoReturn:
+    """End at once on Ctrl-C or a signal to end, with nothing half done left behind.
+
+    No exception is raised for it: one that comes while a package of C loads, or in a callback, is lost or
+    becomes another. Processes split off are ended first; each clears away its own.
+    """
+    processes = sys.modules.get("multiprocessing")
+    for child in processes.active_children() if processes else ():
+        child.terminate()
+        child.join(2.0)
+    clear_away()
+    if number != signal.SIGINT:
+        signal.signal(number, signal.SIG_DFL)
+        os.kill(os.getpid(), number)
+    if processes is None or processes.parent_process() is None:
+        with suppress(OSError):
+            os.write(2, b"icsolve: interrupted\n")
+    os._exit(INTERRUPTED)
 
 
 def _run(arguments: list[str] | None) -> int:

@@ -33,8 +33,8 @@ def export_command(kind: str, cases: str, output: str, **options: Any) -> int:
     """
     from icsolve.cli.grading import course_file, course_of
     from icsolve.cli.varying import existing
+    from icsolve.files import KeptError, check_free
     from icsolve.grade.case_store import CaseStore
-    from icsolve.grade.files import ExistsError, check_free
     from icsolve.grade.platforms.export import Order, export
 
     problems: list[str] = []
@@ -49,9 +49,11 @@ def export_command(kind: str, cases: str, output: str, **options: Any) -> int:
     except CaseError as error:
         complain(str(error))
         return UNREADABLE
-    except (ExistsError, ValueError) as error:
+    except (KeptError, ValueError) as error:
         complain(f"icsolve export: {error}")
         return UNREADABLE
+    except BrokenPipeError:
+        raise
     except OSError as error:
         complain(f"icsolve export: {error.filename or ''}: {error.strerror or error}")
         return UNREADABLE

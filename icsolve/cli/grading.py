@@ -60,7 +60,7 @@ def grade_command(**options: Any) -> int:
 
     Exit status: 0 all answers judged, 1 some could not be and are listed, 2 a file can't be used.
     """
-    from icsolve.grade.files import ExistsError
+    from icsolve.files import KeptError
     from icsolve.grade.tables import HeaderError
 
     try:
@@ -70,10 +70,12 @@ def grade_command(**options: Any) -> int:
         return _graded(_job(options), options)
     except CaseError as error:
         complain(str(error))
-    except ExistsError as error:
+    except KeptError as error:
         complain(f"icsolve grade: {error}")
     except (HeaderError, ValueError) as error:
         complain(f"icsolve grade: {error}")
+    except BrokenPipeError:
+        raise
     except OSError as error:
         complain(f"icsolve grade: {error.filename or ''}: {error.strerror or error}".replace(" : ", " "))
     return UNREADABLE
@@ -85,6 +87,7 @@ def _job(options: dict[str, Any]) -> Job:
     if not os.path.exists(options["cases"]):
         raise FileNotFoundError(2, "there is no such folder", options["cases"])
     _check_kinds(options)
+    _note_inputs(options)
     for path in (options["output"], options["jsonl"], options["html"], *_pairs(options["writes"]).values()):
         _check(path, options)
     course = _course(options)
@@ -96,6 +99,17 @@ def _job(options: dict[str, Any]) -> Job:
         student = student or student_of(options["metadata"])
     submissions = tuple(options["submissions"])
     return Job(submissions, options["cases"], course, options["roster"] or "", jobs, student)
+
+
+def _note_inputs(options: dict[str, Any]) -> None:
+    """Remember all that will be read before anything is written."""
+    from icsolve.files import files_of, note
+    from icsolve.grade.importing import expand
+
+    named = (options[name] for name in ("roster", "course", "metadata", "cases"))
+    submissions = (path for path, _ in expand(options["submissions"]))
+    for path in (*filter(None, named), *submissions, *files_of(options["cases"], (".yaml", ".yml"))):
+        note(path)
 
 
 def _check_kinds(options: dict[str, Any]) -> None:
@@ -111,17 +125,10 @@ def _check_kinds(options: dict[str, Any]) -> None:
 
 def _check(path: str | None, options: dict[str, Any]) -> None:
     """An output may not be there already, nor be one of the inputs."""
-    from icsolve.grade.files import ExistsError, check_free
+    from icsolve.files import check_free
 
-    if path is None or path == "-":
-        return
-    inputs = [*options["submissions"], options["roster"], options["course"], options["template"]]
-    if any(
-        other and os.path.exists(path) and os.path.exists(other) and os.path.samefile(path, other)
-        for other in inputs
-    ):
-        raise ExistsError(f"{path} is one of the files to read; choose another name for the results")
-    check_free(path, options["force"])
+    if path is not None and path != "-":
+        check_free(path, options["force"])
 
 
 def _course(options: dict[str, Any]) -> Course:
@@ -166,15 +173,18 @@ def _pairs(texts: tuple[str, ...]) -> dict[str, str]:
 
 
 def _graded(job: Job, options: dict[str, Any]) -> int:
-    from icsolve.grade.files import whole_file
+    from icsolve.files import folder_of, whole_file
     from icsolve.grade.run import Sinks, grade
 
     with ExitStack() as stack:
         quiet, force = options["quiet"], options["force"]
         csv, results = stack.enter_context(_results(options, force))
-        jsonl = stack.enter_context(whole_file(options["jsonl"], force)) if options["jsonl"] else None
+        jsonl = None
+        if options["jsonl"]:
+            stack.enter_context(folder_of(options["jsonl"]))
+            jsonl = stack.enter_context(whole_file(options["jsonl"], force))
         with _progress(quiet) as progress:
-            graded = grade(job, Sinks(csv, jsonl), progress)  # type: ignore[arg-type]
+            graded = grade(job, Sinks(csv, jsonl), progress)
         for note in graded.notes:
             complain(str(note))
         if csv is not None:
@@ -190,26 +200,23 @@ def _graded(job: Job, options: dict[str, Any]) -> int:
 @contextmanager
 def _results(options: dict[str, Any], force: bool) -> Iterator[tuple[IO[str] | None, str]]:
     """Where the results go, and the file in which other outputs find them."""
-    from tempfile import TemporaryDirectory
-
-    from icsolve.grade.files import whole_file
+    from icsolve.files import folder_of, scratch, whole_file
 
     output, writes = options["output"], options["writes"]
-    if output == "-" and not writes:
-        yield sys.stdout, ""
-    elif output not in (None, "-"):
-        with whole_file(output, force) as file:
-            yield file, file.name  # type: ignore[misc]
-    elif not writes:
-        yield None, ""
-    else:
-        with TemporaryDirectory(prefix="icsolve-grade-") as folder:
-            path = os.path.join(folder, "results.csv")
-            with open(path, "w", encoding="utf-8", newline="") as file:
-                yield file, path
-            if output == "-":
-                with open(path, encoding="utf-8", newline="") as file:
-                    copyfileobj(file, sys.stdout)
+    with ExitStack() as stack:
+        target: IO[str] | None = sys.stdout if output == "-" else None
+        if output not in (None, "-"):
+            stack.enter_context(folder_of(output))
+            target = stack.enter_context(whole_file(output, force))
+        if not writes:
+            yield target, ""
+            return
+        path = os.path.join(stack.enter_context(scratch()), "results.csv")
+        with open(path, "w", encoding="utf-8", newline="") as file:
+            yield file, path
+        if target is not None:
+            with open(path, encoding="utf-8", newline="") as file:
+                copyfileobj(file, target)
 
 
 @contextmanager
@@ -246,7 +253,7 @@ def _further(graded: Graded, job: Job, results: str, options: dict[str, Any]) ->
 
 
 def _page(graded: Graded, job: Job, options: dict[str, Any]) -> None:
-    from icsolve.grade.files import write_whole
+    from icsolve.files import write_whole
     from icsolve.grade.page import page
 
     write_whole(options["html"], page(graded, job.course.title), options["force"])

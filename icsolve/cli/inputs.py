@@ -7,12 +7,15 @@ import sys
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
+from icsolve.files import files_of, is_plain, note, reading
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from icsolve.case import Case
 
 STDIN = "<stdin>"
+YAML = (".yaml", ".yml")
 _LARGEST = 1 << 23
 """Bytes that are read of a stream; the reader refuses far fewer as too large for a case."""
 
@@ -32,6 +35,7 @@ class Source(NamedTuple):
                 from icsolve.errors import CaseError, Problem
 
                 raise CaseError([Problem(STDIN, 1, 1, "standard input is closed")])
+            note(0)
             text = sys.stdin.buffer.read(_LARGEST).decode("utf-8-sig", "surrogateescape")
             return read_text(text, STDIN, settings)
         return read_file(self.path, settings)
@@ -39,30 +43,60 @@ class Source(NamedTuple):
     def may_be_a_case(self) -> bool:
         """Whether the word ``icsolve`` stands in it (or it can't be opened, which the reader explains)."""
         try:
-            with open(self.path, "rb") as file:
+            with reading(self.path) as file:
                 return b"icsolve" in file.read(_LARGEST).replace(b"\0", b"")
         except OSError:
             return True
 
 
 def sources(argument: str) -> Iterator[Source]:
-    """The files that one argument means; of a folder its YAML files and those of the folders in it."""
+    """The files that one argument means, remembered as read; of a folder its YAML files and those of the
+    folders in it."""
+    for source in _sources(argument):
+        note(source.path)
+        yield source
+
+
+def _sources(argument: str) -> Iterator[Source]:
     if argument == "-":
         yield Source(STDIN)
     elif os.path.isdir(argument):
-        yield from (Source(path, argument) for path in _yaml_files(argument))
+        yield from (Source(path, argument) for path in files_of(argument, YAML))
     elif os.path.lexists(argument) or not set("*?[") & set(argument):
         yield Source(argument)
     else:
-        from glob import glob
+        for path in sorted(set(_matches(argument))):
+            if is_plain(path) or os.path.isdir(path):
+                yield from _sources(path)
 
-        for path in sorted(glob(argument, recursive=True)):
-            yield from sources(path)
+
+def _matches(pattern: str) -> Iterator[str]:
+    """What a glob matches; ``**`` stands for a folder and all below it, each once though links lead round."""
+    from glob import escape, glob
+
+    parts = pattern.split("/")
+    if "**" not in parts:
+        yield from glob(pattern)
+        return
+    at = parts.index("**")
+    above, below = "/".join(parts[:at]), "/".join(parts[at + 1 :])
+    for top in glob(above) if above else ["/" if at else ""]:
+        if not below:
+            yield top or "."
+            continue
+        for folder in _folders(top or "."):
+            inside = os.path.relpath(folder) if not top else folder
+            yield from _matches(below if inside == "." else f"{escape(inside.rstrip('/'))}/{below}")
 
 
-def _yaml_files(folder: str) -> Iterator[str]:
-    for here, folders, files in os.walk(folder):
+def _folders(top: str) -> Iterator[str]:
+    """A folder and those below it, through links too, each once; hidden ones are passed over."""
+    seen: set[tuple[int, int]] = set()
+    for here, folders, _ in os.walk(top, followlinks=True):
+        found = os.stat(here)
+        if (found.st_dev, found.st_ino) in seen:
+            folders.clear()
+            continue
+        seen.add((found.st_dev, found.st_ino))
         folders[:] = sorted(name for name in folders if not name.startswith("."))
-        for name in sorted(files):
-            if name.lower().endswith((".yaml", ".yml")):
-                yield os.path.join(here, name)
+        yield here

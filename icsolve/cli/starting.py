@@ -5,6 +5,7 @@ from __future__ import annotations
 import click
 
 from icsolve.cli.run import DONE, UNREADABLE, complain
+from icsolve.files import KeptError, whole_file
 from icsolve.manual import TOPICS, kinds, nearest, page, section, template
 
 
@@ -78,13 +79,15 @@ def write_template(kind: str, output: str | None) -> int:
 
 def _write(text: str, path: str) -> int:
     try:
-        with open(path, "x", encoding="utf-8", newline="\n") as file:
+        with whole_file(path, force=False) as file:
             file.write(text)
-    except FileExistsError:
+    except KeptError:
         complain(f"icsolve new: {path} is there already, and is left as it is; choose another name")
         return UNREADABLE
+    except BrokenPipeError:
+        raise
     except OSError as error:
-        complain(f"icsolve new: {path} can't be written: {error.strerror}")
+        complain(f"icsolve new: {path} can't be written: {error.strerror or error}")
         return UNREADABLE
     click.echo(f"wrote {path}; `icsolve {path}` solves it", err=True)
     return DONE

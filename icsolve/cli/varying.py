@@ -13,6 +13,7 @@ import click
 
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain
 from icsolve.errors import CaseError
+from icsolve.files import reading_text
 
 if TYPE_CHECKING:
     from icsolve.grade.case_store import CaseStore
@@ -52,8 +53,8 @@ def variants_command(
     computes each student's key again. Exit status: 1 where a student has no variant that suits.
     """
     from icsolve.cli.grading import course_of
+    from icsolve.files import KeptError
     from icsolve.grade.case_store import CaseStore
-    from icsolve.grade.files import ExistsError
     from icsolve.grade.roster import read_roster
     from icsolve.grade.tables import HeaderError
 
@@ -63,8 +64,10 @@ def variants_command(
         return _all(case_store, list(people.people.values()), output, figures, force, quiet)
     except CaseError as error:
         complain(str(error))
-    except (ExistsError, HeaderError, ValueError) as error:
+    except (KeptError, HeaderError, ValueError) as error:
         complain(f"icsolve variants: {error}")
+    except BrokenPipeError:
+        raise
     except OSError as error:
         complain(f"icsolve variants: {error.filename or ''}: {error.strerror or error}")
     return UNREADABLE
@@ -97,7 +100,7 @@ def _all(
 
 
 def _text(path: str) -> str:
-    with open(path, encoding="utf-8", errors="replace") as file:
+    with reading_text(path, encoding="utf-8", errors="replace") as file:
         return file.read()
 
 
@@ -114,7 +117,7 @@ def _unreadable(case_store: CaseStore, name: str) -> int:
 
 def _one(varied: Varied, people: list[Person], folder: str, figures: bool, force: bool, quiet: bool) -> int:
     """One case: values and key of all students, then figures and sheets."""
-    from icsolve.grade.files import check_free, write_whole
+    from icsolve.files import check_free, write_whole
     from icsolve.grade.tolerance import NoKeyError
     from icsolve.grade.variants.sheets import key_csv, tasks, values_csv
 
@@ -143,7 +146,7 @@ def _one(varied: Varied, people: list[Person], folder: str, figures: bool, force
 
 def _figures(varied: Varied, found: list[Task], folder: str, force: bool, quiet: bool) -> None:
     """A figure for each variant, and a sheet for each student; by two processes where that pays."""
-    from icsolve.grade.files import check_free
+    from icsolve.files import check_free
     from icsolve.grade.run import processes
     from icsolve.sweep.forked import can_fork, started
 
@@ -171,7 +174,7 @@ _WORTH_TWO = 50
 
 def _draw(varied: Varied, groups: list[list[Task]], folder: str, force: bool, quiet: bool) -> None:
     """The figure of each group of students with the same variant, and their sheets."""
-    from icsolve.grade.files import write_whole
+    from icsolve.files import write_whole
     from icsolve.grade.variants.sheets import figure, sheet
 
     with _bar(groups, len(groups), "figures", quiet) as bar:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from icsolve.answer import Answer
 from icsolve.case import Case, CentreIs, LoadIs, ReactionIs, Target
 from icsolve.errors import CaseError, SceneError
+from icsolve.files import files_of, reading, reading_text
 from icsolve.grade.course import Course
 from icsolve.grade.keys import AnyKey, Key, place_key, scalar_key, scaled_key
 from icsolve.grade.mistakes import wrong_answers
@@ -257,7 +258,7 @@ class CaseStore:
 
     def text(self, name: str) -> str:
         """The file of a case. Raises OSError."""
-        with open(self.paths[name], encoding="utf-8-sig", errors="replace") as file:
+        with reading_text(self.paths[name], encoding="utf-8-sig", errors="replace") as file:
             return file.read()
 
     def canonical(self, question: str) -> str:
@@ -279,18 +280,13 @@ def _yaml_files(folder: str) -> Iterator[str]:
     if os.path.isfile(folder):
         yield folder
         return
-    for here, folders, files in os.walk(folder):
-        folders[:] = sorted(name for name in folders if not name.startswith("."))
-        for name in sorted(files):
-            path = os.path.join(here, name)
-            if name.lower().endswith((".yaml", ".yml")) and _mentions(path):
-                yield path
+    yield from filter(_mentions, files_of(folder, (".yaml", ".yml")))
 
 
 def _mentions(path: str) -> bool:
     """Whether ``icsolve`` stands near the top of a file: else it is no case (a course, say)."""
     try:
-        with open(path, "rb") as file:
+        with reading(path) as file:
             head = file.read(65536)
     except OSError:
         return False

@@ -9,8 +9,10 @@ from collections.abc import Callable, Iterable, Iterator
 from itertools import islice
 from typing import IO
 
+from icsolve.files import is_plain, reading
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.issues import Issues
+from icsolve.grade.results import HEADER
 from icsolve.grade.roster import Roster
 from icsolve.grade.store import Entry, Store
 from icsolve.grade.tables import Columns, HeaderError, Layout, Submission, Table, recognise
@@ -161,15 +163,26 @@ class Import:
         return found
 
 
+def _are_results(path: str) -> bool:
+    """Whether a file is what `grade` itself wrote."""
+    head = (HEADER + "\n").encode()
+    try:
+        with open(path, "rb") as file:
+            return file.read(len(head)) == head
+    except OSError:
+        return False
+
+
 def _opened(path: str) -> IO[bytes]:
     """A file; ``-`` is standard input."""
-    return io.BytesIO(sys.stdin.buffer.read()) if path == "-" else open(path, "rb")
+    return io.BytesIO(sys.stdin.buffer.read()) if path == "-" else reading(path)
 
 
 def expand(paths: Iterable[str]) -> list[tuple[str, str]]:
     """Files of answers in order, each with the student whose it is ('': it says so itself).
 
-    A folder stands for its CSV and text files; Gradescope's export for what each student handed in.
+    A folder stands for its CSV and text files, without results that were written among them;
+    Gradescope's export for what each student handed in.
     """
     found: list[tuple[str, str]] = []
     for path in paths:
@@ -179,5 +192,6 @@ def expand(paths: Iterable[str]) -> list[tuple[str, str]]:
             found += exported(path)
         else:
             names = sorted(n for n in os.listdir(path) if n.lower().endswith((".csv", ".tsv", ".txt")))
-            found += [(os.path.join(path, name), "") for name in names]
+            inside = (os.path.join(path, name) for name in names)
+            found += [(name, "") for name in inside if is_plain(name) and not _are_results(name)]
     return found

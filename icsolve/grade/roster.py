@@ -6,6 +6,7 @@ import os
 from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
+from icsolve.files import reading
 from icsolve.grade.tables import Columns, HeaderError, Table
 from icsolve.grade.tables.columns import identifier
 
@@ -70,7 +71,7 @@ def read_roster(path: str | os.PathLike[str], report: Report) -> Roster:
 
 
 def _read(path: str | os.PathLike[str], report: Report) -> Roster:
-    with open(path, "rb") as file:
+    with reading(path) as file:
         table = Table(file, report)
         columns = Columns(table.header, (), lambda text: None)
         at = _id_columns(columns)

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager, ExitStack, nullcontext
 from typing import IO, NamedTuple
 
+from icsolve.files import scratch
 from icsolve.grade.case_store import CaseStore, unknowns
 from icsolve.grade.course import Course
 from icsolve.grade.importing import Import, expand
@@ -82,12 +83,10 @@ def judged(parts: list[Part], work: Work, sinks: Sinks, report: Report) -> list[
     report(0)
     if len(parts) == 1:
         return [_judge(parts[0], work, work.store.sorted(), sinks, report)]
-    from tempfile import TemporaryDirectory
-
     first, *others = parts
     _foresee(first.questions, work.case_store)
     entries = work.store.sorted(None, first.until)
-    with TemporaryDirectory(prefix="icsolve-grade-") as folder:
+    with scratch() as folder:
         files = [_files(folder, n, sinks) for n in range(len(others))]
         calls = [(_apart, (part, work, names)) for part, names in zip(others, files, strict=True)]
         with started(calls) as waiting:

@@ -5,8 +5,11 @@ from __future__ import annotations
 import os
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator
+from contextlib import ExitStack
 from itertools import islice
 from typing import NamedTuple
+
+from icsolve.files import scratch
 
 _CREATE = (
     "create table s (student text, item text, line integer, answer text, unit text, direction text,"
@@ -83,10 +86,9 @@ class Disk:
 
     def __init__(self, path: str = "") -> None:
         import sqlite3
-        from tempfile import TemporaryDirectory
 
-        self._folder = None if path else TemporaryDirectory(prefix="icsolve-grade-")
-        self.path = path or os.path.join(self._folder.name if self._folder else "", "answers.sqlite")
+        self._own = ExitStack()
+        self.path = path or os.path.join(self._own.enter_context(scratch()), "answers.sqlite")
         self._database = sqlite3.connect(self.path, isolation_level=None)
         for pragma in ("journal_mode=off", "synchronous=off", "cache_size=-20000", "temp_store=file"):
             self._database.execute(f"pragma {pragma}")
@@ -112,5 +114,4 @@ class Disk:
     def close(self) -> None:
         """Close, and delete what is one's own."""
         self._database.close()
-        if self._folder is not None:
-            self._folder.cleanup()
+        self._own.close()

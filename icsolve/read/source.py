@@ -6,6 +6,7 @@ import os
 import re
 
 from icsolve.case import Mark
+from icsolve.files import reading
 from icsolve.read.problems import Problems, suggestion
 
 LARGEST = 4_000_000
@@ -25,7 +26,7 @@ def text_of(path: str | os.PathLike[str], problems: Problems) -> str:
         No such file, a folder, a binary, too large, or not UTF-8 (UTF-16 with its mark is read too).
     """
     try:
-        with open(path, "rb") as file:
+        with reading(path) as file:
             data = file.read(LARGEST + 1)
     except (OSError, ValueError) as error:
         raise problems.stop((1, 1), _unreadable(error) + _likely_file(path, error)) from None

@@ -10,9 +10,9 @@ from html import escape
 from typing import NamedTuple
 
 from icsolve.case import Case
+from icsolve.files import reading_text, write_whole
 from icsolve.grade.case_store import CaseStore, Solved, unknowns
 from icsolve.grade.course import Course
-from icsolve.grade.files import write_whole
 from icsolve.grade.keys import Key
 from icsolve.grade.platforms.given import given
 from icsolve.grade.platforms.gradescope import Source, autograder_zip
@@ -162,7 +162,7 @@ def _of_case(solved: Solved, case: Case, name: str, figures: bool) -> Iterator[Q
 def export(kind: str, order: Order, complain: Complain) -> int:
     """Write all cases as ``kind``; how many questions there are.
 
-    Raises ExistsError or OSError.
+    Raises KeptError or OSError.
     """
     if kind == "gradescope-zip":
         return _zip(order)
@@ -199,7 +199,7 @@ def _zip(order: Order) -> int:
 
 
 def _text(path: str) -> str:
-    with open(path, encoding="utf-8-sig") as file:
+    with reading_text(path, encoding="utf-8-sig") as file:
         return file.read()
 
 

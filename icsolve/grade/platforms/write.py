@@ -7,7 +7,7 @@ import os
 from collections.abc import Callable
 from typing import NamedTuple
 
-from icsolve.grade.files import check_free, write_whole
+from icsolve.files import check_free, write_whole
 from icsolve.grade.platforms.gradebooks import (
     Filled,
     canvas_filled,
@@ -39,7 +39,7 @@ _NAMED = 20
 def write(kind: str, order: Order) -> str:
     """Write the results as ``kind``; what to tell the user, '' for nothing.
 
-    Raises ValueError for a kind or a template that can't be used, ExistsError, OSError.
+    Raises ValueError for a kind or a template that can't be used, KeptError, OSError.
     """
     try:
         return KINDS[kind](order)
@@ -79,6 +79,7 @@ def _filled(order: Order, made: Filled) -> str:
 
 
 def _text(path: str) -> str:
+    """The text of a template, which may be filled where it lies if it is named as the target too."""
     with open(path, encoding="utf-8-sig", errors="icsolve-windows", newline="") as file:
         return file.read()
 

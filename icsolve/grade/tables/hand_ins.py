@@ -7,6 +7,7 @@ import os
 import re
 from collections.abc import Iterator
 
+from icsolve.files import is_plain, reading_text
 from icsolve.grade.tables.columns import Columns, Submission, identifier
 from icsolve.grade.tables.platforms import fields_of, padded
 from icsolve.grade.tables.text import Table
@@ -48,7 +49,7 @@ def student_of(metadata: str) -> str:
 
     Raises ValueError, with a sentence; OSError.
     """
-    with open(metadata, encoding="utf-8") as file:
+    with reading_text(metadata, encoding="utf-8") as file:
         try:
             found = json.load(file)
         except (ValueError, RecursionError):
@@ -72,7 +73,7 @@ def exported(folder: str) -> Iterator[tuple[str, str]]:
 
     Raises ValueError, with a sentence, where the metadata can't be read; OSError.
     """
-    with open(os.path.join(folder, METADATA), encoding="utf-8") as file:
+    with reading_text(os.path.join(folder, METADATA), encoding="utf-8") as file:
         text = file.read()
     problems = Problems(METADATA)
     try:
@@ -86,9 +87,10 @@ def exported(folder: str) -> Iterator[tuple[str, str]]:
     for name, about in sorted(root.items.items()):
         path = os.path.join(folder, name)
         names = sorted(os.listdir(path)) if os.path.isdir(path) else []
-        files = [file_name for file_name in names if file_name.lower().endswith(_ANSWERS)]
-        for file_name in files:
-            yield os.path.join(path, file_name), _student(about) or name
+        inside = (os.path.join(path, n) for n in names if n.lower().endswith(_ANSWERS))
+        files = [at for at in inside if is_plain(at)]
+        for at in files:
+            yield at, _student(about) or name
         if not files:
             yield path, _student(about) or name
 

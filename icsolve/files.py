@@ -1,0 +1,262 @@
+"""Files: what a call reads is remembered, and what it writes appears whole or not at all, never over that.
+
+A file is drafted beside its target under a random name and takes the target's name once all of it is
+written: whoever looks finds the old content or the new. Through a link its target is replaced; a device, a
+pipe and one's own open files (``/dev/stdout``) are written to and stay what they are.
+"""
+
+import os
+import stat
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
+from typing import IO, Any
+
+_LINKS = 40
+"""Links that are followed one after the other, as the kernel does."""
+_MODE = 0o777
+
+
+class KeptError(OSError):
+    """A file that stays as it is; the message is a sentence with the way out."""
+
+
+class _Call:
+    """What one call has read, and what it would leave behind if it ended now."""
+
+    def __init__(self) -> None:
+        self.runs = False
+        self.read: set[tuple[int, int]] = set()
+        self.drafts: set[str] = set()
+        self.scratch: set[str] = set()
+        self.made: list[str] = []
+
+    def forget_others(self) -> None:
+        """In a process split off: drafts and folders are the parent's to remove."""
+        self.drafts, self.scratch, self.made = set(), set(), []
+
+
+_call = _Call()
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_call.forget_others)
+
+
+@contextmanager
+def one_call() -> Iterator[None]:
+    """A call of the command line: files that are read in it are not written over in it."""
+    _call.read, _call.runs = set(), True
+    try:
+        yield
+    finally:
+        _call.runs = False
+
+
+def note(file: str | os.PathLike[str] | int) -> None:
+    """Remember a file, by name or number, as one that this call reads."""
+    if _call.runs:
+        with suppress(OSError, ValueError):
+            found = os.stat(file)
+            if stat.S_ISREG(found.st_mode):
+                _call.read.add((found.st_dev, found.st_ino))
+
+
+def reading(path: str | os.PathLike[str]) -> IO[bytes]:
+    """Open a file to read its bytes. Raises OSError."""
+    file = open(path, "rb")  # noqa: SIM115
+    note(file.fileno())
+    return file
+
+
+def reading_text(path: str | os.PathLike[str], encoding: str, errors: str | None = None) -> IO[str]:
+    """Open a file to read its text. Raises OSError."""
+    file = open(path, encoding=encoding, errors=errors)  # noqa: SIM115
+    note(file.fileno())
+    return file
+
+
+def is_plain(path: str) -> bool:
+    """Whether a name found in a folder is to be read: a regular file, or a link that leads nowhere (which
+    the reader explains); a pipe or a device would hang or never end."""
+    try:
+        return stat.S_ISREG(os.stat(path).st_mode)
+    except OSError:
+        return True
+
+
+def files_of(folder: str, endings: tuple[str, ...]) -> Iterator[str]:
+    """The regular files of a folder and of the folders in it that end so, by name; hidden folders and links
+    to folders are passed over."""
+    for here, folders, names in os.walk(folder):
+        folders[:] = sorted(name for name in folders if not name.startswith("."))
+        for name in sorted(names):
+            path = os.path.join(here, name)
+            if name.lower().endswith(endings) and is_plain(path):
+                yield path
+
+
+def check_free(path: str, force: bool) -> None:
+    """Raises KeptError where a file would be overwritten that may not: one that this call reads, and without
+    ``force`` any that is there."""
+    if _descriptor(path) is not None:
+        return
+    found = _status(path)
+    if found is None or not stat.S_ISREG(found.st_mode):
+        return
+    if _call.runs and (found.st_dev, found.st_ino) in _call.read:
+        raise KeptError(f"{path} is one of the files read here, and is left as it is; choose another name")
+    if not force:
+        raise KeptError(f"{path} is there already, and is left as it is; --force writes over it")
+
+
+@contextmanager
+def whole_file(path: str, force: bool = True, binary: bool = False) -> Iterator[IO[Any]]:
+    """A file to write, in UTF-8 unless ``binary``; it takes its name only when all is written.
+
+    What is there keeps its mode, and its owner where the system allows it. Raises KeptError or OSError.
+    """
+    check_free(path, force)
+    how: dict[str, Any] = {"mode": "wb"} if binary else {"mode": "w", "encoding": "utf-8", "newline": ""}
+    found = _status(path)
+    number = _descriptor(path)
+    if number is not None or (found is not None and not stat.S_ISREG(found.st_mode)):
+        through = os.dup(number) if number is not None else os.open(path, os.O_WRONLY)
+        with open(through, **how) as file:
+            yield file
+        return
+    real = os.path.realpath(path)
+    if found is not None and not os.access(real, os.W_OK):
+        raise PermissionError(13, "it is protected against writing", path)
+    draft = os.path.join(os.path.dirname(real), f".icsolve-{os.urandom(8).hex()}.part")
+    _call.drafts.add(draft)
+    try:
+        with open(draft, opener=_anew if found is None else _anew_for_oneself, **how) as file:
+            if found is not None:
+                _keep_mode(file.fileno(), found)
+            yield file
+        check_free(path, force)
+        _take_name(draft, real, path, force)
+    finally:
+        with suppress(OSError):
+            os.unlink(draft)
+        _call.drafts.discard(draft)
+
+
+def write_whole(path: str, data: str | bytes | Iterable[str | bytes], force: bool = True) -> None:
+    """Write a file, and the folders that it needs; they go again where it fails.
+
+    Raises KeptError or OSError.
+    """
+    with folder_of(path), whole_file(path, force, binary=True) as file:
+        for part in [data] if isinstance(data, str | bytes) else data:
+            file.write(part.encode("utf-8") if isinstance(part, str) else part)
+
+
+@contextmanager
+def folder_of(path: str) -> Iterator[None]:
+    """The folder of a file that is written within; what had to be made for it goes again where that fails."""
+    missing = []
+    folder = os.path.dirname(os.path.abspath(path))
+    while not os.path.lexists(folder):
+        missing.append(folder)
+        folder = os.path.dirname(folder)
+    _call.made += missing
+    try:
+        for folder in reversed(missing):
+            with suppress(FileExistsError):
+                os.mkdir(folder)
+        yield
+    except BaseException:
+        _remove_empty(missing)
+        raise
+    finally:
+        _call.made = [folder for folder in _call.made if folder not in missing]
+
+
+@contextmanager
+def scratch() -> Iterator[str]:
+    """A folder for files of one's own that no one else may read, gone at the end however that comes."""
+    from tempfile import gettempdir
+
+    folder = os.path.join(gettempdir(), f"icsolve-{os.urandom(8).hex()}")
+    _call.scratch.add(folder)
+    try:
+        os.mkdir(folder, 0o700)
+        yield folder
+    finally:
+        _remove(folder)
+        _call.scratch.discard(folder)
+
+
+def clear_away() -> None:
+    """Remove what a call that ends now would leave behind: drafts, scratch files, folders without a file."""
+    for draft in list(_call.drafts):
+        with suppress(OSError):
+            os.unlink(draft)
+    for folder in list(_call.scratch):
+        _remove(folder)
+    _remove_empty(_call.made)
+
+
+def _status(path: str) -> os.stat_result | None:
+    """What is there, through links; None for nothing, and for a link to nothing."""
+    try:
+        return os.stat(path)
+    except FileNotFoundError:
+        return None
+
+
+def _descriptor(path: str) -> int | None:
+    """The number of one's own open file that a name such as ``/dev/stdout`` leads to."""
+    own = f"/proc/{os.getpid()}/fd"
+    for _ in range(_LINKS):
+        folder, name = os.path.split(path)
+        if name.isdigit() and os.path.realpath(folder) == own:
+            return int(name)
+        try:
+            path = os.path.join(folder, os.readlink(path))
+        except OSError:
+            return None
+    return None
+
+
+def _anew(path: str, flags: int) -> int:
+    return os.open(path, flags | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0), 0o666)
+
+
+def _anew_for_oneself(path: str, flags: int) -> int:
+    """For a draft of a file that others perhaps may not read; it gets that file's mode."""
+    return os.open(path, flags | os.O_EXCL | getattr(os, "O_NOFOLLOW", 0), 0o600)
+
+
+def _keep_mode(draft: int, found: os.stat_result) -> None:
+    if os.name == "posix":
+        with suppress(PermissionError):
+            os.fchown(draft, found.st_uid, found.st_gid)
+        os.fchmod(draft, found.st_mode & _MODE)
+
+
+def _take_name(draft: str, real: str, path: str, force: bool) -> None:
+    """The draft becomes the file; without ``force`` never over one that came meanwhile."""
+    if not force:
+        try:
+            os.link(draft, real)
+            return
+        except FileExistsError:
+            raise KeptError(f"{path} is there already, and is left as it is") from None
+        except OSError:  # a file system without links
+            check_free(path, force)
+    os.replace(draft, real)
+
+
+def _remove(folder: str) -> None:
+    """Remove a folder and the files in it."""
+    with suppress(OSError):
+        for name in os.listdir(folder):
+            with suppress(OSError):
+                os.unlink(os.path.join(folder, name))
+        os.rmdir(folder)
+
+
+def _remove_empty(folders: Iterable[str]) -> None:
+    for folder in folders:
+        with suppress(OSError):
+            os.rmdir(folder)
