@@ -61,10 +61,54 @@ def test_structure_is_statics_alone() -> None:
     assert "structure" in answer.notes[-1]
 
 
-def test_structure_without_reactions_asked_is_refused_as_before() -> None:
-    with pytest.raises(icsolve.SceneError) as caught:
-        icsolve.solve(icsolve.load("icsolve: 1\n" + BRACKET))
-    assert caught.value.status == "structure"
+def test_a_structure_whose_loads_are_known_is_solved_without_being_asked_for_reactions() -> None:
+    asked = solved(BRACKET).to_dict()
+    assert icsolve.solve(icsolve.load("icsolve: 1\n" + BRACKET)).to_dict() == asked
+    assert {"F12", "F13", "F23"} == asked["reactions"].keys()
+
+
+def test_an_unknown_load_on_a_structure_and_one_that_nearly_moves_are_refused() -> None:
+    unknown = BRACKET.replace("weight: 10", "weight: unknown")
+    nearly = BRACKET.replace("C: [0, 3]", "C: [0, 0.000000001]")
+    for text, status, said in ((unknown, "structure", "Nothing moves"), (nearly, "near-singular", "moving")):
+        with pytest.raises(icsolve.SceneError, match=said) as caught:
+            icsolve.solve(icsolve.load("icsolve: 1\n" + text))
+        assert caught.value.status == status
+
+
+WELDED = """
+points: {A: [0, 0], C: [2, 4], D: [3, 3]}
+joints: [{pin: [1, 2], at: A}, {weld: [2, 3], at: C}, %s]
+loads: {T: {torque: unknown, link: 2}, P: {force: 5, link: 3, at: C, angle: 0}}
+"""
+
+
+@pytest.mark.parametrize(
+    "joint",
+    [
+        "{gears: [2, 3], teeth: [41, 41]}",
+        "{gears: [2, 3], teeth: [41, 41], pressure angle: 20}",
+        "{belt: [2, 3], radii: [1, 2]}",
+        "{pin: [2, 3], at: D}",
+        "{slide: [2, 3], at: D, along: 0}",
+        "{slot: [2, 3], at: D, along: 0}",
+        "{contact: [2, 3], at: D, normal: 0}",
+        "{roll: [2, 3], at: D}",
+        "{centre: [2, 3], at: [1, 1]}",
+        "{centre: [2, 3], toward: 30}",
+        "{weld: [2, 3], at: D}",
+    ],
+)
+def test_a_joint_of_links_that_are_fixed_to_each_other_carries_what_the_fit_makes_of_it(joint: str) -> None:
+    answer = solved(WELDED % joint)
+    assert answer.answers["T"].value == exactly(20)
+    assert parts(answer, "F12") == near(-5, 0, 0)
+    assert answer.reactions is not None
+    inner = [r for r in answer.reactions.values() if {r.by, r.on} == {"2", "3"}]
+    assert len(inner) == 2
+    assert all(None in (r.x, r.y, r.moment) and r.why for r in inner)
+    assert "redundant" in answer.notes[-1] or "fit" in answer.notes[-1] or "given centre" in answer.notes[-1]
+    json.dumps(answer.to_dict(), allow_nan=False)
 
 
 def test_nothing_determines_an_unknown_load_of_a_structure() -> None:

@@ -6,6 +6,7 @@ least squares, the answers hold to 1e-9.
 
 from __future__ import annotations
 
+import json
 import math
 import os
 from random import Random
@@ -585,3 +586,21 @@ motion: {link: 2, turns: ccw}
     assert error.status == "unsupported"
     assert "links 1 and 2 at A depends" in str(error)
     assert "initial tension of the belt" in str(error)
+
+
+@pytest.mark.parametrize("at", ["A", "B", "C", "D"])
+def test_a_joint_that_rubs_without_pressing_has_no_friction_and_strict_json(at: str) -> None:
+    """Loads on the frame alone press nowhere: nothing bounds a relative error of what is zero."""
+    joints = {"A": "{pin: [1, 2], at: A%s}", "B": "{pin: [2, 3], at: B%s}"}
+    joints |= {"C": "{pin: [3, 4], at: C%s}", "D": "{pin: [4, 1], at: D%s}"}
+    lines = (j % (", mu: 0.2, radius: 0.1" if n == at else "") for n, j in joints.items())
+    answer = solved(f"""
+points: {{A: [0, 0], B: [1, 2], C: [4, 3], D: [5, 0]}}
+joints: [{", ".join(lines)}]
+loads:
+  U: {{force: unknown, link: 1, at: B, angle: 180}}
+  K: {{force: 100, link: 1, at: C, angle: 0}}
+motion: {{link: 2, speed: 10}}
+""")
+    assert answer.answers["U"].value == 0.0
+    json.dumps(answer.to_dict(), allow_nan=False)

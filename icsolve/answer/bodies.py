@@ -96,7 +96,8 @@ class Friction(NamedTuple):
 
     ``rubbing`` has every place that rubs (empty where a range was found, as there nothing moves yet);
     ``residual`` is what is left of the equilibrium of any link, as a fraction of the largest term;
-    ``error`` bounds the relative error of the friction forces from the iteration; ``unique`` says how
+    ``error`` bounds the relative error of the friction forces from the iteration (None: nothing bounds it);
+    ``unique`` says how
     it is known that there is no other solution, '' where that is not known. At rest ``possible`` has
     the range of the unknown load in which friction within its limits can hold, and ``unique`` says how
     it was found.
@@ -104,7 +105,7 @@ class Friction(NamedTuple):
 
     rubbing: tuple[Rubbing, ...]
     residual: float
-    error: float
+    error: float | None
     unique: str
     losses: float = 0.0
     efficiency: float | None = None

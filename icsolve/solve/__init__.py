@@ -51,7 +51,8 @@ def solve(
     bound : bool
         Bound the error of every answer, rate and centre (three times the work).
     reactions : bool
-        The force of each link on each other at every joint too; a structure is then solved as well.
+        The force of each link on each other at every joint too. A structure whose loads are all known is
+        solved for them in any case.
 
     Raises SceneError where the scene has no answer; its ``status`` is a member of `icsolve.errors.Status`.
     """
@@ -70,9 +71,14 @@ def solve(
 @lru_cache(maxsize=32)
 def _wanted(case: Case, asked: Want) -> Want:
     """What is to be found for what was asked: without an unknown, what moves; with friction, all forces."""
-    if not any(power.is_unknown(load) for load in case.loads):
+    if not _asks(case):
         return asked._replace(centres=True, rates=True)
     return asked._replace(bodies=asked.bodies or refusals.rubs(case))
+
+
+def _asks(case: Case) -> bool:
+    """Whether a load is unknown."""
+    return any(power.is_unknown(load) for load in case.loads)
 
 
 def _solved(case: Case, want: Want, bound: bool, reactions: bool) -> Answer:
@@ -81,8 +87,8 @@ def _solved(case: Case, want: Want, bound: bool, reactions: bool) -> Answer:
     try:
         parts = _evaluated(program, bound)  # the twist of every link, and the power of the loads on them
     except SceneError as refusal:
-        if reactions and refusal.status == Status.STRUCTURE:
-            return _structure(program, refusal)
+        if refusal.status == Status.STRUCTURE and (reactions or not _asks(case)):
+            return _structure(prepare(case, want._replace(bodies=True)), refusal)
         raise
     if want.bodies and refusals.rubs(case):
         return _with_friction(parts, reactions)

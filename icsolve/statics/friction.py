@@ -163,7 +163,8 @@ def _bodies(scene: Scene, solved: Solved, found: Slid, workless: bool) -> FreeBo
     reactions = reactions_of(position, scene.frame, statics, parameters)
     rubbing = rubbing_of(scene, solved, found, senses)
     refuse_power(rubbing)
-    friction = Friction(rubbing, residual(terms), found.error, found.unique, sum(r.loss for r in rubbing))
+    error, losses = found.error if math.isfinite(found.error) else None, sum(r.loss for r in rubbing)
+    friction = Friction(rubbing, residual(terms), error, found.unique, losses)
     notes = notes_of(statics, reactions, names_by_tie(position.case, statics.ties))
     return FreeBodies(
         reactions, shown, residual(terms), (*notes, *notes_in_motion(scene, statics, found, senses)), friction

@@ -85,6 +85,9 @@ def _tie(position: Position, bond: Bond, arithmetic: Arithmetic) -> Tie:
     if isinstance(joint, Weld):
         where = joint.at or _meeting(position, by, on)
         return Tie(joint, by, on, position.points.get(where, (0.0, 0.0)), where, (X, Y, COUPLE))
+    if isinstance(joint, Gears | Belt) and not bond.pivots[0]:  # its links move as one: it may carry anything
+        at = position.points.get(_meeting(position, by, on), (0.0, 0.0))
+        return Tie(joint, by, on, at, "", (X, Y, COUPLE))
     where, at = _place(bond, position.points, arithmetic)
     return Tie(joint, by, on, at, where, _units(position, bond, at, arithmetic), bond.pivots)
 

@@ -40,7 +40,7 @@ def reactions_of(
         clean = [0.0 if abs(f) <= small else f for f, small in zip(forces, least, strict=True)]
         kept = [f if u else None for f, u in zip(clean, unique, strict=True)]
         found[name] = _reaction(position, frame, tie, kept, statics.scale)
-        if isinstance(tie.joint, Belt):
+        if isinstance(tie.joint, Belt) and tie.pivots[0]:
             pull = _net_pull(position, tie.joint, tie, forces) / statics.scale
             found[name] = found[name]._replace(parts=(("net pull", pull),))
     return found
@@ -162,6 +162,8 @@ def _why(tie: Tie, kept: list[float | None]) -> str:
     if None not in kept:
         boxed = isinstance(tie.joint, KnownCentre)
         return "a given centre stands for joints that the case does not show" if boxed else ""
+    if isinstance(tie.joint, Gears | Belt) and not tie.pivots[0]:
+        return "its links are fixed to each other: what it carries hangs on how it was fitted"
     if isinstance(tie.joint, Belt):
         return "the pull of the slack strand is not given: only the difference of the two pulls is determined"
     if isinstance(tie.joint, Gears) and tie.joint.pressure_angle is None:
@@ -199,9 +201,10 @@ def _open_parts(shown: Mapping[str, Reaction]) -> list[str]:
 
 
 def _remedy(ties: Sequence[Tie]) -> str:
-    if any(isinstance(tie.joint, Gears) and tie.joint.pressure_angle is None for tie in ties):
+    meshed = [tie for tie in ties if tie.pivots[0]]
+    if any(isinstance(tie.joint, Gears) and tie.joint.pressure_angle is None for tie in meshed):
         return "Give the gears their `pressure angle` for the loads on their bearings."
-    if any(isinstance(tie.joint, Belt) for tie in ties):
+    if any(isinstance(tie.joint, Belt) for tie in meshed):
         return (
             "The bearing loads depend on the belt's initial tension: in place of the belt put its two pulls "
             "on the pulleys as loads."

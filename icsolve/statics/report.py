@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from icsolve.answer.bodies import Friction, Reaction, Rubbing
+from icsolve.answer.bodies import Friction, Reaction, Rubbing, Witness
 from icsolve.case import Units
 
 if TYPE_CHECKING:
@@ -22,11 +22,17 @@ def bodies_dict(answer: Answer) -> dict[str, Any]:
     if answer.reactions is not None:
         shown["reactions"] = {name: _reaction(reaction) for name, reaction in answer.reactions.items()}
     if answer.witnesses:
-        shown["free_bodies"] = {w.load: dict(list(w._asdict().items())[1:]) for w in answer.witnesses}
+        shown["free_bodies"] = {w.load: witness_dict(w) for w in answer.witnesses}
     if answer.friction is not None:
         shown["efficiency"] = answer.friction.efficiency
         shown["friction"] = _friction(answer.friction)
     return shown
+
+
+def witness_dict(w: Witness) -> dict[str, float | None]:
+    """An unknown load both ways; the bound of their difference is null where nothing bounds it."""
+    bound = w.bound if math.isfinite(w.bound) else None
+    return {"power": w.power, "bodies": w.bodies, "difference": w.difference, "bound": bound}
 
 
 def _reaction(reaction: Reaction) -> dict[str, Any]:
@@ -124,11 +130,11 @@ def witness_lines(answer: Answer, show: Format) -> list[str]:
     return witness_table(answer.witnesses, show)
 
 
-def witness_table(witnesses: Sequence[Any], show: Format) -> list[str]:
+def witness_table(witnesses: Sequence[Witness], show: Format) -> list[str]:
     """A line for each unknown load, in the plane and in space."""
     lines = [
-        f"  {w.load} = {show(w.bodies)}, by power {show(w.power)}: {_apart(w.difference)}, rounding may make "
-        f"{w.bound:.1e}"
+        f"  {w.load} = {show(w.bodies)}, by power {show(w.power)}: {_apart(w.difference)}, "
+        f"{_rounding(w.bound)}"
         for w in witnesses
     ]
     return ["By the equilibrium of the links alone", *lines] if lines else []
@@ -136,3 +142,7 @@ def witness_table(witnesses: Sequence[Any], show: Format) -> list[str]:
 
 def _apart(difference: float) -> str:
     return f"{abs(difference):.1e} apart" if difference else "no difference"
+
+
+def _rounding(bound: float) -> str:
+    return f"rounding may make {bound:.1e}" if math.isfinite(bound) else "with no bound on the rounding"

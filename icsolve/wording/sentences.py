@@ -27,7 +27,7 @@ def structure(bodies: int, constraints: int) -> str:
     return (
         f"the links form a structure: 3 x {bodies} freedoms of {plural(bodies, 'link')} beside the frame, of "
         f"which the joints take {constraints}. Nothing moves, so power gives no equation. Take out a joint "
-        "or a link to make it move, or ask for its reactions by statics (`--reactions`)."
+        "or a link to make it move; or give every load a number, and its reactions are found by statics."
     )
 
 

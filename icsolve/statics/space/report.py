@@ -15,7 +15,7 @@ from icsolve.answer import Answer, Term
 from icsolve.answer.space import Parts, Reaction, Spatial
 from icsolve.case import ArmIs, Case, DistanceIs, Like, LoadIs, ReactionIs, Spring, Target, Toward, Weight
 from icsolve.case.space import Along, Force, ForceVector, Line, Load, Torque, TorqueVector, Vector
-from icsolve.statics.report import witness_table
+from icsolve.statics.report import witness_dict, witness_table
 from icsolve.statics.space.figure import (
     AXES,
     Figure,
@@ -121,7 +121,7 @@ def space_dict(spatial: Spatial) -> dict[str, Any]:
     """``reactions`` and ``free_bodies`` of the JSON object."""
     shown: dict[str, Any] = {"reactions": {name: _reaction(r) for name, r in spatial.reactions.items()}}
     if spatial.witnesses:
-        shown["free_bodies"] = {w.load: dict(list(w._asdict().items())[1:]) for w in spatial.witnesses}
+        shown["free_bodies"] = {w.load: witness_dict(w) for w in spatial.witnesses}
     return shown
 
 
