@@ -143,7 +143,7 @@ ENTRIES = (
         FIVE_BAR,
         refused("mobility", says=["2 degrees of freedom", "lock"]),
     ),
-    Stress("20", "triangle frame", TRIANGLE, refused("structure", says=["Nothing moves", "--reactions"])),
+    Stress("20", "triangle frame", TRIANGLE, refused("structure", says=["Nothing moves", "give every load"])),
     Stress(
         "20b",
         "two bars in line between two fixed pins",
