@@ -7,7 +7,8 @@ comes from the loop equations group by group, must agree with it.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from typing import Any
 
 from icsolve.answer import Centre
 from icsolve.assembly.frame import Frame
@@ -44,22 +45,11 @@ class CentreFinder:
     def find(self, pairs: Iterable[Pair], slack: float = 0.0) -> dict[Pair, Centre]:
         """A `Centre` for every pair of links; ``slack`` is how far given centres contradict."""
         pairs = list(pairs)
-        moving = self._moving()
+        moving = _Moving(self._relative)
         primaries, normals = self._by_inspection()
-        search = Kennedy(sorted(self.twists), primaries, normals, moving)
+        search = Kennedy(self.twists, primaries, normals, moving, self.top.ground)
         search.find(ordered(self.top.body_of[a], self.top.body_of[b]) for a, b in pairs)
         return {pair: self._centre(pair, search, moving, primaries, slack) for pair in pairs}
-
-    def _moving(self) -> dict[BodyPair, Triple]:
-        """Relative twist of every pair of bodies that has one centre in all motions meant."""
-        moving = {}
-        bodies = sorted(self.twists)
-        for n, i in enumerate(bodies):
-            for j in bodies[n + 1 :]:
-                twist = self._relative(i, j)
-                if twist is not None and twist != REST:
-                    moving[(i, j)] = twist
-        return moving
 
     def _relative(self, i: int, j: int) -> Triple | None:
         """The relative twist; REST where the two move as one, None where the centre is open."""
@@ -142,6 +132,38 @@ class CentreFinder:
 
     def _names(self, pair: BodyPair) -> Pair:
         return ordered_pair(self.case, self.top.members[pair[0]][0], self.top.members[pair[1]][0])
+
+
+class _Moving(Mapping[BodyPair, Triple]):
+    """Relative twists of the pairs of bodies that have one centre in all motions meant, each made when it
+    is asked for."""
+
+    def __init__(self, relative: Callable[[int, int], Triple | None]) -> None:
+        self._relative = relative
+        self._made: dict[BodyPair, Triple | None] = {}
+
+    def get(self, pair: BodyPair, default: Any = None) -> Any:
+        """The twist of a pair; the default where it has no one centre."""
+        if pair not in self._made:
+            twist = self._relative(*pair)
+            self._made[pair] = None if twist == REST else twist
+        twist = self._made[pair]
+        return default if twist is None else twist
+
+    def __getitem__(self, pair: BodyPair) -> Triple:
+        if pair not in self:
+            raise KeyError(pair)
+        twist: Triple = self.get(pair)
+        return twist
+
+    def __contains__(self, pair: object) -> bool:
+        return isinstance(pair, tuple) and self.get(pair) is not None
+
+    def __iter__(self) -> Iterator[BodyPair]:
+        return (pair for pair, twist in self._made.items() if twist is not None)
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
 
 
 def own_centre(top: Topology, pair: Pair, points: Points, arithmetic: Arithmetic) -> Triple | None:

@@ -8,7 +8,9 @@ are left the construction has stalled, and a centre from the loop equations lets
 
 import heapq
 import math
+from bisect import insort
 from collections.abc import Iterable, Mapping
+from operator import attrgetter
 from typing import NamedTuple
 
 from icsolve.numbers.null_space import ROUNDING
@@ -35,12 +37,19 @@ class Known(NamedTuple):
     lines: tuple[Line, ...] = ()
 
 
+_error = attrgetter("error")
+
+
 class Kennedy:
     """The construction over the bodies of a scene.
 
     ``primaries`` are the centres by inspection, ``normals`` the common normals of slots and
     contacts, ``twists`` the relative twists (of pairs that move), which serve as seeds where the
-    construction stalls.
+    construction stalls. ``hub`` is the body (the frame) that pairs are looked at with in any case.
+
+    Centres are sought first among pairs that have one of the wanted bodies or the hub, or whose bodies
+    are joined by one joint or two: their number grows as that of the bodies does. Only where these stall
+    are all pairs looked at.
     """
 
     def __init__(
@@ -49,12 +58,20 @@ class Kennedy:
         primaries: Mapping[BodyPair, tuple[Triple, str]],
         normals: Mapping[BodyPair, tuple[Triple, ...]],
         twists: Mapping[BodyPair, Triple],
+        hub: int,
     ) -> None:
-        self.bodies = tuple(bodies)
+        self.bodies = frozenset(bodies)
         self.twists = twists
+        self.hub = hub
         self.known: dict[BodyPair, Known] = {}
+        self.missing: set[BodyPair] = set()
         self.lines: dict[BodyPair, list[Line]] = {}
         self.heap: list[tuple[float, int, BodyPair, Known]] = []
+        self.partners: dict[int, frozenset[int]] | None = None
+        self.joined: dict[int, set[int]] = {body: set() for body in self.bodies}
+        for i, j in (*primaries, *normals):
+            self.joined[i].add(j)
+            self.joined[j].add(i)
         for pair, (point, by) in primaries.items():
             self._offer(pair, Known(unit(point), ROUNDING, by))
         for pair, normal in normals.items():
@@ -63,16 +80,29 @@ class Kennedy:
 
     def find(self, wanted: Iterable[BodyPair]) -> None:
         """Construct until every wanted pair that moves is known."""
-        missing = [pair for pair in wanted if pair in self.twists]
-        while True:
-            missing = [pair for pair in missing if pair not in self.known]
-            if not missing:
-                return
-            if not self._settle_next():
-                seed = self._seed(missing)
-                self._offer(seed, Known(unit(self.twists[seed]), ROUNDING, "loop equations"))
+        self.missing = {pair for pair in wanted if pair in self.twists and pair not in self.known}
+        if 2 * len(self.missing) < len(self.bodies):
+            self.partners = self._near({body for pair in self.missing for body in pair} | {self.hub})
+        while self.missing:
+            if self._settle_next():
+                continue
+            if self.partners is not None:
+                self.partners = None
+                for pair in tuple(self.known):
+                    self._spread(pair)
+                continue
+            seed = self._seed(self.missing)
+            self._offer(seed, Known(unit(self.twists[seed]), ROUNDING, "loop equations"))
 
-    def _seed(self, missing: list[BodyPair]) -> BodyPair:
+    def _near(self, centre: set[int]) -> dict[int, frozenset[int]]:
+        """For every body those with which its centre is sought: ``centre``, and those two joints away at
+        most, not over the hub."""
+        around = {body: near - {self.hub} for body, near in self.joined.items()}
+        around[self.hub] = set()
+        near = {b: centre.union(n, *(around[m] for m in n)) for b, n in around.items()}
+        return {b: self.bodies if b in centre else frozenset(n - {b}) for b, n in near.items()}
+
+    def _seed(self, missing: set[BodyPair]) -> BodyPair:
         """The missing pair that most lines wait for: it lets the most others follow."""
         return max(missing, key=lambda pair: (len(self.lines.get(pair, ())), -pair[0], -pair[1]))
 
@@ -81,19 +111,24 @@ class Kennedy:
             _, _, pair, known = heapq.heappop(self.heap)
             if pair not in self.known:
                 self.known[pair] = known
+                self.missing.discard(pair)
                 self._spread(pair)
                 return True
         return False
 
     def _spread(self, pair: BodyPair) -> None:
         i, j = pair
-        for k in self.bodies:
+        known = self.known
+        thirds = self.bodies if self.partners is None else self.partners[i] & self.partners[j]
+        for k in thirds:
             if k in pair:
                 continue
-            for here, there in ((i, j), (j, i)):
-                side, target = ordered(there, k), ordered(here, k)
-                if side in self.known and target not in self.known and target in self.twists:
-                    self._join(target, pair, side)
+            ik, jk = ordered(i, k), ordered(j, k)
+            if jk in known:
+                if ik not in known and ik in self.twists:
+                    self._join(ik, pair, jk)
+            elif ik in known and jk in self.twists:
+                self._join(jk, pair, ik)
 
     def _join(self, target: BodyPair, one: BodyPair, two: BodyPair) -> None:
         p, q = self.known[one], self.known[two]
@@ -107,19 +142,25 @@ class Kennedy:
         self._draw(target, Line((one, two), line, ROUNDING + error / sine))
 
     def _draw(self, pair: BodyPair, line: Line) -> None:
-        for other in self.lines.get(pair, ()):
+        lines = self.lines.setdefault(pair, [])
+        if len(lines) == ENOUGH:
+            if line.error >= lines[-1].error:
+                return
+            lines.pop()
+        for other in lines:
             point, sine = _meet(line.line, other.line)
             error = line.error + other.error
             if sine > SAME + error:
-                lines = (other, line)
-                self._offer(pair, Known(point, ROUNDING + error / sine, "construction", lines))
-        self.lines.setdefault(pair, []).append(line)
+                self._offer(pair, Known(point, ROUNDING + error / sine, "construction", (other, line)))
+        insort(lines, line, key=_error)
 
     def _offer(self, pair: BodyPair, known: Known) -> None:
         if pair not in self.known:
             heapq.heappush(self.heap, (known.error, len(self.heap), pair, known))
 
 
+ENOUGH = 4
+"""The best lines of a centre that are kept: on any two of them it is sought."""
 SAME = 64 * ROUNDING
 """Two points (lines) nearer than this angle are one: they have no join (meet)."""
 

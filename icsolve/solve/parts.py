@@ -124,12 +124,15 @@ def _found(
 
 def wanted_pairs(case: Case, want: Want) -> list[Pair]:
     """Pairs of links whose centres are asked for, in order."""
-    links = sorted(case.links, key=lambda link: link_order(case, link))
+    links = list(case.links)
+    against = {frozenset((load.link, power.reacting(case, load))) for load in case.loads}
+    if not (want.centres or want.examine):
+        loaded = {load.link for load in case.loads} | {case.ground}
+        links = [link for link in links if link in loaded or any(link in pair for pair in against)]
+    links.sort(key=lambda link: link_order(case, link))
     pairs = [(a, b) for n, a in enumerate(links) for b in links[n + 1 :]]
     if want.centres or want.examine:
         return pairs
-    loaded = {load.link for load in case.loads} | {case.ground}
-    against = {frozenset((load.link, power.reacting(case, load))) for load in case.loads}
     return [pair for pair in pairs if {*pair} <= loaded or frozenset(pair) in against]
 
 
