@@ -13,6 +13,8 @@ from typing import NamedTuple
 
 Dimension = tuple[int, int, int, int]
 """Powers of length, mass, time and angle."""
+ExactRatio = tuple[int, int, int]
+"""``num / den * pi**power``, exactly."""
 
 DIMENSIONS: dict[str, Dimension] = {
     "number": (0, 0, 0, 0),
@@ -276,35 +278,48 @@ def split_quantity(text: str) -> tuple[Numeral, str] | None:
     return Numeral(digits, mantissa, exponent - len(decimals)), text[found.end() :].strip()
 
 
-def ratio(unit: Unit, target: Unit) -> tuple[int, int]:
-    """How many ``target`` make one ``unit``, as a ratio of integers (pi to 60 digits)."""
-    num, den = unit.num * target.den, unit.den * target.num
-    power = unit.pi - target.pi
-    top, bottom = _PI if power > 0 else _PI[::-1]
-    for _ in range(abs(power)):
-        num, den = num * top, den * bottom
-    return num, den
+def exact_ratio(unit: Unit, target: Unit) -> ExactRatio:
+    """How many ``target`` make one ``unit``."""
+    return unit.num * target.den, unit.den * target.num, unit.pi - target.pi
 
 
 def factor(unit: Unit, target: Unit) -> float:
-    """How many ``target`` make one ``unit``, rounded once."""
-    num, den = ratio(unit, target)
-    return num / den
+    """The same, rounded once."""
+    return nearest(exact_ratio(unit, target))
 
 
-def converted(numeral: Numeral, unit: Unit, target: Unit) -> float:
-    """The numeral, in ``unit``, as the nearest double in ``target``.
+def exactly(numeral: Numeral, by: ExactRatio = (1, 1, 0)) -> ExactRatio:
+    """A numeral, times a ratio."""
+    num, den, power = by
+    tens: int = 10 ** abs(numeral.exponent)
+    if numeral.exponent >= 0:
+        return numeral.mantissa * num * tens, den, power
+    return numeral.mantissa * num, den * tens, power
+
+
+def quotient(a: ExactRatio, b: ExactRatio) -> ExactRatio:
+    """a over b."""
+    return a[0] * b[1], a[1] * b[0], a[2] - b[2]
+
+
+def nearest(exact: ExactRatio) -> float:
+    """The nearest double (pi to 60 digits).
 
     Raises
     ------
     OverflowError
         The value is beyond a double.
     """
-    num, den = ratio(unit, target)
-    scale: int = 10 ** abs(numeral.exponent)
-    if numeral.exponent >= 0:
-        return numeral.mantissa * num * scale / den
-    return numeral.mantissa * num / (den * scale)
+    num, den, power = exact
+    top, bottom = _PI if power > 0 else _PI[::-1]
+    for _ in range(abs(power)):
+        num, den = num * top, den * bottom
+    return num / den
+
+
+def converted(numeral: Numeral, unit: Unit, target: Unit) -> float:
+    """The numeral, in ``unit``, as the nearest double in ``target``."""
+    return nearest(exactly(numeral, exact_ratio(unit, target)))
 
 
 def canonical(name: str) -> str:

@@ -47,7 +47,7 @@ loads:
     ],
 )
 def test_arithmetic_in_a_quantity(text: str, result: str) -> None:
-    assert replaced(text, VALUES) == result
+    assert replaced(text, VALUES)[0] == result
 
 
 @pytest.mark.parametrize(
@@ -71,9 +71,10 @@ def test_what_is_no_arithmetic_is_refused(text: str, said: str) -> None:
 
 @given(st.integers(-9, 9), st.integers(1, 9), st.integers(-9, 9), st.sampled_from("+-*"))
 def test_arithmetic_agrees_with_fractions(a: int, b: int, c: int, sign: str) -> None:
-    text = replaced(f"($x {sign} {c})/{b} + $x", {"x": str(a)})
+    text, exact = replaced(f"($x {sign} {c})/{b} + $x", {"x": str(a)})
     inner = {"+": a + c, "-": a - c, "*": a * c}[sign]
     assert Fraction(text) == pytest.approx(Fraction(inner, b) + a, rel=1e-15, abs=1e-15)
+    assert (Fraction(text) if exact is None else exact) == Fraction(inner, b) + a
 
 
 @given(st.decimals(allow_nan=False, allow_infinity=False, places=6, min_value=-(10**6), max_value=10**6))
@@ -146,3 +147,31 @@ def test_a_tolerance_of_the_case(text: str, tolerance: Tolerance) -> None:
 def test_what_is_no_tolerance(text: str) -> None:
     with pytest.raises(CaseError, match="'tolerance'"):
         icsolve.load(f"{LEVER}tolerance: {text}\n")
+
+
+def test_arithmetic_is_exact_in_the_answer_s_digits_too() -> None:
+    """A third is a third: its first sixteen digits are only what is shown."""
+    case = icsolve.load(CASE_WITH_A_THIRD)
+    (load,) = (each for each in case.loads if each.name == "P")
+    assert load.value.exact == (100, 3, 0)
+    assert load.value.value == 100 / 3
+    num, den, power = case.lengths[0].value.exact
+    assert (Fraction(num, den), power) == (Fraction(127, 5000 * 3), 0)
+
+
+CASE_WITH_A_THIRD = """
+icsolve: 1
+units: {length: m, force: N}
+variables: {P: {choices: [100]}}
+points: {A: [0, 0], B: [unknown, 0]}
+lengths: {AB: $P/300 in}
+near: {B: [1, 0]}
+joints: [{pin: [1, 2], at: A}]
+loads: {P: {force: $P/3, link: 2, at: B, angle: 90}, T: {torque: unknown, link: 2}}
+"""
+
+
+@pytest.mark.parametrize("force", ["$P/1e400", "$P/1e300/1e300 lbf", "-$P/1e999"])
+def test_arithmetic_that_underflows_is_refused_and_no_zero(force: str) -> None:
+    with pytest.raises(icsolve.CaseError, match="too small"):
+        icsolve.load(CASE_WITH_A_THIRD.replace("$P/3,", f"{force},"))

@@ -3,6 +3,7 @@
 from typing import NamedTuple
 
 from icsolve.numbers.given import Number
+from icsolve.units import ExactRatio
 
 Mark = tuple[int, int]
 """Line and column of a key or value in its file, both from 1."""
@@ -19,6 +20,10 @@ class Units(NamedTuple):
     force_per_newton: float = 1.0
     """How many ``force`` units make one newton: a mass in kg times gravity in m/s^2, in ``force``."""
     length_per_metre: float = 1.0
+    exact_torque: ExactRatio = (1, 1, 0)
+    """``torque_per_force_length``, exactly"""
+    exact_newton: ExactRatio = (1, 1, 0)
+    """``force_per_newton``, exactly"""
 
 
 class Coordinates(NamedTuple):

@@ -2,13 +2,16 @@
 
 from typing import NamedTuple
 
+from icsolve.units import ExactRatio
+
 
 class Number(NamedTuple):
     """A number that the case gives.
 
     ``value`` is the nearest double in case units, ``half`` half a unit of the last decimal
     that was written (case units), ``path`` its place (``lengths.AB``, ``loads.P.angle``),
-    ``digits`` the numeral as written and ``factor`` case units per written unit.
+    ``digits`` the numeral as written and ``factor`` case units per written unit. ``exact`` is the value as
+    it was meant, where that is not the decimal ``digits``: a unit was converted, or arithmetic gave it.
     """
 
     value: float
@@ -16,3 +19,4 @@ class Number(NamedTuple):
     path: str
     digits: str
     factor: float = 1.0
+    exact: ExactRatio | None = None

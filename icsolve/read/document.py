@@ -7,7 +7,7 @@ too deep, too large, or given twice.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import yaml
 from yaml.events import (
@@ -25,6 +25,9 @@ from icsolve.case import Mark
 from icsolve.read.problems import Problems, Stop
 from icsolve.read.syntax import explained, missing_space
 
+if TYPE_CHECKING:
+    from fractions import Fraction
+
 LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 """libyaml's parser; the pure one where libyaml is missing."""
 
@@ -33,11 +36,15 @@ MOST_NODES = 200_000
 
 
 class Scalar(NamedTuple):
-    """A text; ``plain`` where it stands without quotes."""
+    """A text; ``plain`` where it stands without quotes.
+
+    ``exact`` is the number that arithmetic gave, where the decimal in the text is not quite it.
+    """
 
     text: str
     plain: bool
     mark: Mark
+    exact: Fraction | None = None
 
 
 class Sequence(NamedTuple):

@@ -34,14 +34,15 @@ def with_texts(text: str, values: Mapping[str, str]) -> str:
     return _NAME.sub(lambda found: values.get(found.group(1) or found.group(2), found.group()), text)
 
 
-def replaced(text: str, values: Mapping[str, str]) -> str:
-    """A quantity with its arithmetic worked out and its unit kept.
+def replaced(text: str, values: Mapping[str, str]) -> tuple[str, Fraction | None]:
+    """A quantity with its arithmetic worked out and its unit kept; and the exact number, where that is no
+    decimal of few digits.
 
     Raises FormulaError.
     """
     whole = _NAME.fullmatch(text.strip())
     if whole is not None:
-        return values[whole.group(1) or whole.group(2)]
+        return values[whole.group(1) or whole.group(2)], None
     if len(text) > _LONGEST:
         raise FormulaError(f"more than {_LONGEST} characters of arithmetic")
     parser = _Parser(text, values)
@@ -49,7 +50,8 @@ def replaced(text: str, values: Mapping[str, str]) -> str:
     unit = text[parser.at :].strip()
     if unit and (unit[0] in "*/)+-$(" or unit[0].isdigit()):
         raise FormulaError(f"'{unit[:20]}' is out of place after the arithmetic")
-    return f"{decimal(value)} {unit}".strip()
+    digits = decimal(value)
+    return f"{digits} {unit}".strip(), None if Fraction(digits) == value else value
 
 
 def decimal(value: Fraction) -> str:
@@ -65,7 +67,10 @@ def decimal(value: Fraction) -> str:
         scaled = value * 10**places
         if scaled.denominator == 1:
             return _placed(int(scaled), places)
-    return repr(float(value))
+    try:
+        return repr(float(value))
+    except OverflowError:
+        raise FormulaError("the arithmetic gives a number that is too large") from None
 
 
 def _placed(digits: int, places: int) -> str:

@@ -7,7 +7,7 @@ import re
 from icsolve.case import Number
 from icsolve.read.document import Mapping, Scalar
 from icsolve.read.entry import Entry
-from icsolve.units import DIMENSIONS, ONE, UNITS, Numeral, Unit, parse_unit, ratio, split_quantity, times
+from icsolve.units import DIMENSIONS, ONE, UNITS, Unit, exactly, nearest, quotient, split_quantity
 
 
 def torque_number(entry: Entry) -> Number | None:
@@ -29,33 +29,16 @@ def torque_number(entry: Entry) -> Number | None:
     if speed.value == 0.0:
         entry.refuse(entry.mark("speed"), f"at the speed 0 {entry.what} would need an endless torque")
         return None
-    return _quotient(entry, node, power)
-
-
-def _quotient(entry: Entry, node: Scalar, power: Number) -> Number | None:
-    """The exact quotient of the two decimals and their units, as the nearest double."""
-    speed_node = entry.node.items["speed"]
-    above, below = split_quantity(node.text.strip()), None
-    if type(speed_node) is Scalar:
-        below = split_quantity(speed_node.text.strip())
-    if above is None or below is None:
-        return None
-    if not above[1]:
+    if power.exact is None:
         entry.refuse(node.mark, f"the power of {entry.what} carries its unit: W, kW or hp")
         return None
-    unit = times(parse_unit(above[1]), parse_unit(below[1] or "rad/s"), -1)
-    num, den = ratio(unit, entry.reading.targets["torque"])
-    value = _divided(above[0], below[0], num, den)
+    numeral = split_quantity(speed.digits)
+    assert numeral is not None
+    exact = quotient(power.exact, speed.exact or exactly(numeral[0]))
+    value = nearest(exact)
     per_power = value / power.value if power.value else 1.0
     half = abs(per_power) * power.half
-    return Number(value, half, entry.path, above[0].digits, per_power * power.factor)
-
-
-def _divided(a: Numeral, b: Numeral, num: int, den: int) -> float:
-    above, below = a.mantissa * num, b.mantissa * den
-    power: int = a.exponent - b.exponent
-    tens: int = 10 ** abs(power)
-    return above * tens / below if power >= 0 else above / (below * tens)
+    return Number(value, half, entry.path, power.digits, per_power * power.factor, exact)
 
 
 def is_through_speed(unit: Unit, text: str, dimension: str) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING
 
 from icsolve.case import Number, Units
 from icsolve.read.document import Mapping, Node, Scalar, is_null
@@ -15,13 +16,18 @@ from icsolve.units import (
     Unit,
     UnitError,
     canonical,
-    converted,
+    exact_ratio,
+    exactly,
     factor,
     kind_of,
+    nearest,
     parse_unit,
     split_quantity,
     times,
 )
+
+if TYPE_CHECKING:
+    from fractions import Fraction
 
 SMALLEST, LARGEST = 1e-305, 1e305
 """Magnitudes between which a number stays; the solver scales figures and forces by powers of two."""
@@ -52,7 +58,7 @@ def quantity(reading: Reading, node: Scalar, text: str, dimension: str, path: st
         if parts is None:
             reading.refuse(node.mark, _no_number(node, text, dimension))
             return None
-        return _checked(reading, node, _valued(reading, parts, text, dimension, path))
+        return _checked(reading, node, _valued(reading, parts, node.exact, dimension, path))
     except UnitError as error:
         reading.refuse(node.mark, f"{shown(text)}: {error}")
     except OverflowError:
@@ -60,8 +66,13 @@ def quantity(reading: Reading, node: Scalar, text: str, dimension: str, path: st
     return None
 
 
-def _valued(reading: Reading, parts: tuple[Numeral, str], text: str, dimension: str, path: str) -> Number:
-    """The numeral in the case's unit; one division, or none where the unit is the case's own."""
+def _valued(
+    reading: Reading, parts: tuple[Numeral, str], worked: Fraction | None, dimension: str, path: str
+) -> Number:
+    """The numeral in the case's unit; one division, or none where the unit is the case's own.
+
+    ``worked`` is what arithmetic gave, of which the numeral has only the first digits.
+    """
     numeral, rest = parts
     places = float(f"5e{numeral.exponent - 1}")
     if not rest:
@@ -69,12 +80,20 @@ def _valued(reading: Reading, parts: tuple[Numeral, str], text: str, dimension: 
             raise UnitError("a mass carries its unit: kg, g, t, lbm or slug")
         value = float(numeral.digits)
         if dimension == "angle" and _is_of_radians(value, numeral):
-            reading.noticed.append(f"{path} is {text} degrees; if radians are meant, write {text} rad.")
-        return Number(value, places, path, numeral.digits)
+            reading.noticed.append(
+                f"{path} is {numeral.digits} degrees; if radians are meant, write {numeral.digits} rad."
+            )
+        exact = None if worked is None else (worked.numerator, worked.denominator, 0)
+        return Number(value, places, path, numeral.digits, 1.0, exact)
     target = reading.targets[dimension]
     unit = _fitting(reading, rest, dimension)
     scale = factor(unit, target)
-    return Number(converted(numeral, unit, target), places * scale, path, numeral.digits, scale)
+    exact = exact_ratio(unit, target)
+    if worked is None:
+        exact = exactly(numeral, exact)
+    else:
+        exact = (worked.numerator * exact[0], worked.denominator * exact[1], exact[2])
+    return Number(nearest(exact), places * scale, path, numeral.digits, scale, exact)
 
 
 def _is_of_radians(value: float, numeral: Numeral) -> bool:
@@ -126,6 +145,7 @@ def _a(dimension: str | None) -> str:
 def _checked(reading: Reading, node: Scalar, value: Number) -> Number | None:
     size = abs(value.value)
     zero = value.value == 0.0 and not value.digits.lower().partition("e")[0].strip("+-0.")
+    zero = zero and (value.exact is None or value.exact[0] == 0)
     if zero or SMALLEST <= size <= LARGEST:
         return value
     extreme = "large" if size > LARGEST else "small"
@@ -175,6 +195,8 @@ def measures(node: Node | None, problems: Problems) -> tuple[Units, dict[str, Un
         factor(product, torque),
         factor(parse_unit("N"), force),
         factor(parse_unit("m"), length),
+        exact_ratio(product, torque),
+        exact_ratio(parse_unit("N"), force),
     )
     return units, _targets(length, force, torque), _shown(units)
 

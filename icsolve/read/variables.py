@@ -156,8 +156,10 @@ def _put_in(node: Node, values: dict[str, str], used: set[str], problems: Proble
         return Scalar("1", node.plain, node.mark)
     used.update(() if free else names)
     try:
-        text = with_texts(node.text, values) if free else replaced(node.text, values)
-        return Scalar(text, node.plain, node.mark)
+        if free:
+            return Scalar(with_texts(node.text, values), node.plain, node.mark)
+        text, exact = replaced(node.text, values)
+        return Scalar(text, node.plain, node.mark, exact)
     except FormulaError as error:
         problems.refuse(node.mark, f"{shown(node.text)}: {error}")
         return node

@@ -120,7 +120,7 @@ def _column(number: Written, draws: Sequence[Values]) -> Array:
 
 
 def _value(number: Written, values: Values) -> float:
-    parts = split_quantity(replaced(number.text, values).strip())
+    parts = split_quantity(replaced(number.text, values)[0].strip())
     if parts is None:
         raise UnsuitedError("what was drawn is not a number")
     numeral, unit = parts

@@ -78,7 +78,7 @@ class Magnitudes:
         """The numbers of the loads that depend on variables, in case units."""
         found = {}
         for name, written in self._texts.items():
-            parts = split_quantity(replaced(written, values))
+            parts = split_quantity(replaced(written, values)[0])
             assert parts is not None
             numeral, unit = parts
             own = parse_unit(self._units[name])

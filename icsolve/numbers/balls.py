@@ -1,0 +1,430 @@
+"""Balls: decimals of as many digits as are asked for, each with a bound on its error.
+
+A `Ball` stands for every number within ``radius`` of ``value``. Each operation encloses its result: the
+errors of its operands, carried through, and its own rounding, at p digits at most 5 in the (p + 1)-th
+(R. E. Moore, R. B. Kearfott, M. J. Cloud, Introduction to Interval Analysis, 2009, ch. 2 and 4; centred
+form: A. Neumaier, Interval Methods for Systems of Equations, 1990, ch. 1). The numbers of a case are exact
+here: the decimals of the file times the exact ratios of their units.
+
+A question that a ball leaves open (a sign, a zero) raises `MoreDigits`, and the caller asks again with more.
+At the highest precision what is zero to within 1e-40 of its terms is zero.
+
+The operations go through contexts of their own, never the default context of `decimal`.
+"""
+
+import math
+from collections.abc import Sequence
+from decimal import (
+    MAX_EMAX,
+    MIN_EMIN,
+    ROUND_HALF_EVEN,
+    Context,
+    Decimal,
+    DivisionByZero,
+    InvalidOperation,
+    Overflow,
+)
+from functools import cache
+from typing import Union, final
+
+from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.given import Number
+from icsolve.units import ExactRatio
+
+UP = 1.0 + 2.0**-49
+"""Times this, a few roundings of floats err upward."""
+TINY = 5e-323
+"""More than what a few products of floats that underflow have lost."""
+ZERO_FRACTION = 1e-40
+"""What is smaller than this fraction of its terms, at the highest precision, is zero."""
+PRECISIONS = (30, 60, 120)
+"""Digits with which a scene is evaluated, one after the other, until everything is decided."""
+NORMAL = 1e-300
+"""Above this floats have all their digits."""
+INEXACT = -(10**9)
+"""The last digit's exponent of a number that is not known to be exact."""
+
+Operand = Union["Ball", float]
+
+
+class MoreDigits(Exception):
+    """A question that this many digits leave open."""
+
+
+class BelowZero(ValueError):
+    """The square root of a number that is less than zero."""
+
+
+@final
+class Ball:
+    """A decimal and a bound on its error.
+
+    ``size`` is an upper bound of ``abs(value)``. Where ``radius`` is zero the value is exact, and a whole
+    multiple of ten to the power ``last``.
+    """
+
+    __slots__ = ("arithmetic", "last", "radius", "size", "value")
+
+    def __init__(self, arithmetic: "Balls", value: Decimal, radius: float, size: float, last: int) -> None:
+        self.arithmetic, self.value, self.radius, self.size = arithmetic, value, radius, size
+        self.last = last
+
+    def __repr__(self) -> str:
+        return f"<{self.value} +- {self.radius:.3g}>"
+
+    def __add__(self, other: Operand) -> "Ball":
+        a = self.arithmetic
+        if type(other) is not Ball:
+            if other == 0.0:
+                return self
+            other = a.ball(other)
+        x, y = self.value, other.value
+        value = a.add(x, y)
+        if x.is_signed() is y.is_signed():
+            size = (self.size + other.size) * a.up
+        else:
+            size = abs(float(value)) * UP + TINY
+        return self._summed(other, value, size)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Operand) -> "Ball":
+        a = self.arithmetic
+        if type(other) is not Ball:
+            if other == 0.0:
+                return self
+            other = a.ball(other)
+        x, y = self.value, other.value
+        value = a.subtract(x, y)
+        if x.is_signed() is y.is_signed():
+            size = abs(float(value)) * UP + TINY
+        else:
+            size = (self.size + other.size) * a.up
+        return self._summed(other, value, size)
+
+    def _summed(self, other: "Ball", value: Decimal, size: float) -> "Ball":
+        """A sum or difference with its bound: exact where no digit fell off the end."""
+        a, spread = self.arithmetic, self.radius + other.radius
+        if not value:
+            return Ball(a, value, spread * UP, 0.0, self.last if self.last < other.last else other.last)
+        if spread == 0.0:
+            last = self.last if self.last < other.last else other.last
+            if value.adjusted() - last < a.digits:
+                return Ball(a, value, 0.0, size, last)
+        return Ball(a, value, (spread + a.unit * size) * UP + TINY, size, INEXACT)
+
+    def __rsub__(self, other: float) -> "Ball":
+        if other == 0.0:
+            return -self
+        return self.arithmetic.ball(other) - self
+
+    def __neg__(self) -> "Ball":
+        return Ball(self.arithmetic, self.value.copy_negate(), self.radius, self.size, self.last)
+
+    def __mul__(self, other: Operand) -> Scalar:
+        a = self.arithmetic
+        if type(other) is not Ball:
+            if other == 1.0:
+                return self
+            if other == 0.0:
+                return 0.0
+            other = a.ball(other)
+        value = a.multiply(self.value, other.value)
+        m, n, r, s = self.size, other.size, self.radius, other.radius
+        size = m * n * a.up + TINY
+        if r == 0.0 and s == 0.0:
+            last = self.last + other.last
+            if not value or value.adjusted() - last < a.digits:
+                return Ball(a, value, 0.0, size, last)
+            return Ball(a, value, (a.unit * size) * UP + TINY, size, INEXACT)
+        return Ball(a, value, (m * s + n * r + r * s + a.unit * size) * UP + TINY, size, INEXACT)
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Operand) -> "Ball":
+        a = self.arithmetic
+        if type(other) is not Ball:
+            if other == 1.0:
+                return self
+            if abs(math.frexp(other)[0]) == 0.5 and abs(other) < 2.0**1000:
+                halved: Ball = self * (1.0 / other)
+                return halved
+            other = a.ball(other)
+        least = abs(float(other.value)) / UP - other.radius
+        if not least > NORMAL:
+            raise ZeroDivisionError if not other.value and other.radius == 0.0 else MoreDigits
+        if not self.value and self.radius == 0.0:
+            return self
+        value = a.divide(self.value, other.value)
+        size = abs(float(value)) * UP + TINY
+        radius = (self.radius + size * other.radius) / least
+        if radius == 0.0 and (last := _exact_quotient(self, other, value)) is not None:
+            return Ball(a, value, 0.0, size, last)
+        return Ball(a, value, (radius + a.unit * size) * UP + TINY, size, INEXACT)
+
+    def __rtruediv__(self, other: float) -> "Ball":
+        return self.arithmetic.ball(other) / self
+
+    def __abs__(self) -> float:
+        return abs(float(self.value))
+
+    def __float__(self) -> float:
+        return float(self.value)
+
+    def __bool__(self) -> bool:
+        """False for the exact zero alone."""
+        return bool(self.value) or self.radius != 0.0
+
+    def __eq__(self, other: object) -> bool:
+        """Whether the two are known to be the same exact number; never open."""
+        if type(other) is Ball:
+            return self.radius == 0.0 and other.radius == 0.0 and self.value == other.value
+        return self.radius == 0.0 and isinstance(other, int | float) and self.value == Decimal(other)
+
+    def __lt__(self, other: Operand) -> bool:
+        return (self - other).sign < 0
+
+    def __gt__(self, other: Operand) -> bool:
+        return (self - other).sign > 0
+
+    def __le__(self, other: Operand) -> bool:
+        return (self - other).sign <= 0
+
+    def __ge__(self, other: Operand) -> bool:
+        return (self - other).sign >= 0
+
+    __hash__ = None  # type: ignore[assignment]
+
+    @property
+    def sign(self) -> int:
+        """-1, 0 or 1; raises MoreDigits where the ball leaves it open (0 is exact)."""
+        if self.holds_zero:
+            if self.radius == 0.0:
+                return 0
+            raise MoreDigits
+        return -1 if self.value.is_signed() else 1
+
+    @property
+    def holds_zero(self) -> bool:
+        """Whether zero lies in the ball."""
+        return not self.value if self.radius == 0.0 else not abs(float(self.value)) > self.radius * UP + TINY
+
+    @property
+    def exact(self) -> bool:
+        """Whether the ball is a single number."""
+        return self.radius == 0.0
+
+
+def _exact_quotient(above: Ball, below: Ball, value: Decimal) -> int | None:
+    """The last digit's exponent of a quotient of exact numbers that has no remainder; else None."""
+    quotient = value.normalize(_WIDE)
+    _, digits, last = quotient.as_tuple()
+    assert isinstance(last, int)
+    if len(digits) >= above.arithmetic.digits or _WIDE.multiply(quotient, below.value) != above.value:
+        return None
+    return last
+
+
+def _context(digits: int) -> Context:
+    """A context that owes nothing to the default one."""
+    traps = [InvalidOperation, DivisionByZero, Overflow]
+    return Context(digits, ROUND_HALF_EVEN, MIN_EMIN, MAX_EMAX, capitals=1, clamp=0, flags=[], traps=traps)
+
+
+_WIDE = _context(20_000)
+"""Wide enough that sums and products of two numbers of a scene are exact."""
+
+
+class Balls:
+    """The arithmetic of `Ball` at a number of digits; an `icsolve.numbers.arithmetic.Arithmetic`.
+
+    ``highest`` says that no more digits will be asked for: then what is zero to within 1e-40 of its terms
+    is zero.
+    """
+
+    def __init__(self, digits: int, highest: bool = False) -> None:
+        self.digits, self.highest = digits, highest
+        context = _context(digits)
+        self.add, self.subtract = context.add, context.subtract
+        self.multiply, self.divide, self.root = context.multiply, context.divide, context.sqrt
+        self.unit = max(float(f"1e-{digits}"), TINY) * UP * 5.0
+        """half a unit of the last digit, over the value: at most 5 in the digit after it"""
+        self.up = UP * (1.0 + self.unit)
+        self.inputs: dict[str, tuple[Number, Ball]] = {}
+        self.turns: dict[str, tuple[Number, tuple[Scalar, Scalar]]] = {}
+        self.floats: dict[float, Ball] = {}
+
+    def ball(self, value: float) -> Ball:
+        """An exact number."""
+        found = self.floats.get(value)
+        if found is None:
+            found = self.floats[value] = self.exactly(Decimal(value))
+        return found
+
+    def exactly(self, value: Decimal) -> Ball:
+        """A decimal, however many digits it has."""
+        last = value.as_tuple().exponent
+        assert isinstance(last, int)
+        return Ball(self, value, 0.0, abs(float(value)) * UP + (TINY if value else 0.0), last)
+
+    def ratio(self, exact: ExactRatio) -> Ball:
+        """``num / den * pi**power``."""
+        num, den, power = exact
+        found = self.exactly(Decimal(num)) / self.exactly(Decimal(den))
+        for _ in range(abs(power)):
+            found = found * self.pi() if power > 0 else found / self.pi()
+        return found
+
+    def pi(self) -> Ball:
+        """The ratio of the circumference of a circle to its diameter."""
+        places = self.digits + GUARD
+        return self._placed(_pi(places), -places, float(f"1e-{self.digits}") + TINY)
+
+    def given(self, number: Number) -> Ball:
+        """A number of the case in case units, as its file writes it."""
+        found = self.inputs.get(number.path)
+        if found is None or found[0] is not number:
+            found = self.inputs[number.path] = (number, self._read(number))
+        return found[1]
+
+    def _read(self, number: Number) -> Ball:
+        if number.exact is not None:
+            return self.ratio(number.exact)
+        if number.factor != 1.0:
+            return self.ball(number.value)
+        return self.exactly(Decimal(number.digits.replace("−", "-")))
+
+    def turn(self, number: Number) -> tuple[Scalar, Scalar]:
+        """Cosine and sine of an angle of the case (degrees)."""
+        found = self.turns.get(number.path)
+        if found is None or found[0] is not number:
+            found = self.turns[number.path] = (number, self.cos_sin(self.given(number)))
+        return found[1]
+
+    def cos_sin(self, degrees: Ball) -> tuple[Scalar, Scalar]:
+        """Cosine and sine of an angle in degrees; exact at multiples of 90, and the halves at 30."""
+        within = _WIDE.remainder(degrees.value, _TURN)
+        quarter = round(float(within) / 90.0)
+        rest = _WIDE.subtract(within, Decimal(90 * quarter))
+        c: Scalar = 1.0
+        s: Scalar = 0.0
+        if rest or degrees.radius:
+            c, s = self._series(rest, degrees.radius)
+            if degrees.radius == 0.0 and abs(rest) == 30:
+                s = self.ball(0.5 if rest > 0 else -0.5)
+        return ((c, s), (-s, c), (-c, -s), (s, -c))[quarter % 4]
+
+    def _series(self, rest: Decimal, radius: float) -> tuple[Ball, Ball]:
+        """Cosine and sine of an angle within 45 degrees, by power series in whole numbers.
+
+        The terms alternate and fall, so what is left out is less than the first of it; each of some
+        hundred divisions loses less than one unit of the `GUARD` digits.
+        """
+        places = self.digits + GUARD
+        one = 10**places
+        x = int(rest.scaleb(places, _WIDE)) * _pi(places) // (180 * one)
+        square = x * x // one
+        sums = []
+        for first, start in ((one, 0), (x, 1)):
+            term, total, n = first, first, start
+            while term:
+                n += 2
+                term = -(term * square // (one * n * (n - 1)))
+                total += term
+                if term in (1, -1):
+                    break
+            sums.append(total)
+        off = (radius * 0.0174533 + float(f"1e-{self.digits + 2}")) * UP + TINY
+        c, s = (self._placed(total, -places, off) for total in sums)
+        return c, s
+
+    def _placed(self, digits: int, exponent: int, radius: float) -> Ball:
+        value = Decimal(digits).scaleb(exponent, _WIDE)
+        return Ball(self, value, radius, abs(float(value)) * UP + TINY, INEXACT)
+
+    def sqrt(self, value: Scalar) -> Scalar:
+        """Square root.
+
+        Raises MoreDigits where the sign is open, except at the highest precision, where a value that may be
+        zero is taken as not below it; raises BelowZero below zero.
+        """
+        if type(value) is not Ball:
+            value = self.ball(value)
+        if value.holds_zero:
+            if value.radius == 0.0:
+                return 0.0
+            if not self.highest:
+                raise MoreDigits
+            most = math.sqrt(abs(float(value.value)) + value.radius) * UP + TINY
+            return Ball(self, Decimal(0), most, 0.0, INEXACT)
+        if value.value.is_signed():
+            raise BelowZero
+        root = self.root(value.value)
+        size = abs(float(root)) * UP + TINY
+        if value.radius == 0.0:
+            last = (value.last - 1) // 2
+            if root.adjusted() - last < self.digits and _WIDE.multiply(root, root) == value.value:
+                return Ball(self, root, 0.0, size, last)
+        radius = value.radius / size * UP * UP  # |sqrt x - sqrt v| <= |x - v| / sqrt v
+        return Ball(self, root, (radius + self.unit * size) * UP + TINY, size, INEXACT)
+
+    def vanishes(self, value: Scalar, size: float) -> bool:
+        """Whether a value is zero; ``size`` is that of the products it is summed from.
+
+        Raises MoreDigits where that is open.
+        """
+        if type(value) is not Ball:
+            return bool(value == 0.0)
+        if not value.holds_zero:
+            return False
+        if value.radius == 0.0:
+            return True
+        if self.highest and value.radius <= ZERO_FRACTION * size:
+            return True
+        raise MoreDigits
+
+    def rounded(self, value: Scalar, size: float = 0.0) -> tuple[float, float]:
+        """The nearest double, and a bound on its error (at most 2 units in its last place).
+
+        A value that is zero to within 1e-40 of ``size`` is 0.0, and how far it may lie from it its error.
+        Raises MoreDigits where the digits do not suffice.
+        """
+        if type(value) is not Ball:
+            return float(value) + 0.0, 0.0
+        near = float(value.value)
+        if math.isinf(near):
+            return near, math.inf
+        if value.holds_zero and self.vanishes(value, size):
+            return 0.0, (abs(near) + value.radius) * UP
+        if not value.radius <= 0.25 * math.ulp(near):
+            raise MoreDigits
+        off = abs(float(_WIDE.subtract(value.value, Decimal(near))))
+        return near + 0.0, (off * UP + value.radius) * UP if off or value.radius else 0.0
+
+
+GUARD = 10
+"""Digits that series are taken further than their result needs."""
+_TURN = Decimal(360)
+
+
+@cache
+def _pi(places: int) -> int:
+    """pi * 10**places but for one unit, by Machin's formula."""
+    one: int = 10 ** (places + GUARD)
+
+    def arc_tangent(n: int) -> int:
+        k, term = 1, one // n
+        total = term
+        while term:
+            term = -(term // (n * n)) if term > 0 else (-term) // (n * n)
+            k += 2
+            total += term // k
+        return total
+
+    found: int = (16 * arc_tangent(5) - 4 * arc_tangent(239)) // 10**GUARD
+    return found
+
+
+def widest(values: Sequence[Scalar]) -> float:
+    """The largest radius among some numbers."""
+    return max((value.radius for value in values if type(value) is Ball), default=0.0)

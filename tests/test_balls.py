@@ -1,0 +1,197 @@
+"""Balls hold the exact result of every operation: against exact fractions and 400 digits of mpmath."""
+
+from __future__ import annotations
+
+import decimal
+import math
+from fractions import Fraction
+from random import Random
+from typing import Any
+
+import pytest
+from mpmath import mp
+
+from icsolve.case import Number
+from icsolve.numbers.balls import Ball, Balls, BelowZero, MoreDigits
+
+many = mp.clone()
+many.dps = 400
+DIGITS = [7, 16, 30, 60, 120]
+
+
+def exact(value: decimal.Decimal) -> Any:
+    """A decimal, in 400 digits (none of those here has as many)."""
+    return many.mpf(str(value))
+
+
+def holds(ball: Any, true: Any) -> bool:
+    """Whether a ball holds a number, and its size bounds its value."""
+    if not isinstance(ball, Ball):
+        return bool(many.mpf(ball) == true)
+    assert ball.size >= abs(float(ball.value)) or not ball.value
+    return bool(abs(exact(ball.value) - true) <= many.mpf(ball.radius) + many.mpf(10) ** -250)
+
+
+def numeral(draw: Random) -> str:
+    """A decimal of one to twenty digits, between 1e-12 and 1e12; now and then a zero."""
+    if draw.random() < 0.05:
+        return "0"
+    digits = "".join(draw.choice("0123456789") for _ in range(draw.randint(1, 20)))
+    return f"{draw.choice(['', '-'])}{int(digits) or 3}e{draw.randint(-20, -1)}"
+
+
+def numbers(draw: Random, balls: Balls, count: int) -> list[tuple[Any, Any]]:
+    """Numbers of a case, each as a ball and in 400 digits; some in another unit, some doubles."""
+    found: list[tuple[Any, Any]] = []
+    for k in range(count):
+        text = numeral(draw)
+        kind = draw.random()
+        if kind < 0.6:
+            found.append((balls.given(Number(float(text), 0.0, f"{k}", text)), many.mpf(text)))
+        elif kind < 0.8:
+            num, den, power = draw.randint(1, 10**9), draw.randint(1, 10**5), draw.choice([-1, 0, 0, 1])
+            true = many.mpf(num) / den * many.pi**power
+            found.append((balls.given(Number(float(true), 0.0, f"{k}", "0", 2.0, (num, den, power))), true))
+        else:
+            value = draw.choice([0.0, 1.0, 0.5, draw.uniform(-3.0, 3.0)])
+            found.append((value, many.mpf(value)))
+    return found
+
+
+@pytest.mark.parametrize("digits", DIGITS)
+@pytest.mark.parametrize("seed", range(40))
+def test_every_operation_holds_its_exact_result(digits: int, seed: int) -> None:
+    """Expressions of a hundred operations, differences of nearly equal numbers among them."""
+    draw, balls = Random(f"{digits} {seed}"), Balls(digits)
+    pool = numbers(draw, balls, 6)
+    for _ in range(100):
+        (a, x), (b, y) = draw.choice(pool), draw.choice(pool)
+        a = balls.ball(a) if isinstance(a, float) else a
+        operation = draw.choice(["+", "-", "*", "/", "sqrt", "neg", "near"])
+        try:
+            if operation == "+":
+                made = a + b, x + y
+            elif operation == "-":
+                made = a - b, x - y
+            elif operation == "*":
+                made = a * b, x * y
+            elif operation == "/":
+                made = a / b, x / y
+            elif operation == "neg":
+                made = -a, -x
+            elif operation == "near":
+                made = (a + b) - a, y
+            else:
+                made = balls.sqrt(a), many.sqrt(x)
+        except (MoreDigits, ZeroDivisionError):
+            continue
+        except BelowZero:
+            assert x < 0
+            continue
+        assert holds(*made), operation
+        if many.mpf(10) ** -60 < abs(made[1]) < many.mpf(10) ** 60:
+            pool[draw.randrange(len(pool))] = made
+
+
+@pytest.mark.parametrize("digits", DIGITS)
+def test_cosine_and_sine_hold_theirs(digits: int) -> None:
+    draw, balls = Random(digits), Balls(digits)
+    for k in range(60):
+        drawn = repr(draw.uniform(-1e4, 1e4))
+        text = draw.choice(["30", "45", "-90", "120", "359.9999999999999999", "1e-30", drawn])
+        for found, function in zip(
+            balls.turn(Number(float(text), 0.0, f"{k}", text)), (many.cos, many.sin), strict=True
+        ):
+            assert holds(found, function(many.mpf(text) * many.pi / 180)) or abs(found - 0.0) < 1e-300
+
+
+def test_an_angle_in_radians_is_converted_exactly() -> None:
+    """180 / pi degrees a radian, to as many digits as are asked for."""
+    for digits in DIGITS:
+        c, s = Balls(digits).turn(Number(57.29577951308232, 0.0, "a", "1", 57.29577951308232, (180, 1, -1)))
+        assert holds(c, many.cos(1))
+        assert holds(s, many.sin(1))
+        assert c.radius < 10.0 ** (2 - digits)
+
+
+def test_the_bound_is_not_far_above_the_error() -> None:
+    """Sixty digits lose no more than a few in a hundred well-conditioned operations."""
+    balls, draw = Balls(60), Random(1)
+    total: Any = balls.ball(1.0)
+    for k in range(100):
+        factor = balls.given(Number(0.0, 0.0, f"{k}", repr(draw.uniform(0.5, 2.0))))
+        total = total * factor + 1.0 / (total + 3.0)
+    assert total.radius <= 1e-56 * total.size
+
+
+def test_right_angles_and_thirds_of_them_are_exact() -> None:
+    balls = Balls(30)
+    for degrees, (c, s) in {"0": (1, 0), "90": (0, 1), "-450": (0, -1), "540": (-1, 0)}.items():
+        assert balls.turn(Number(0.0, 0.0, degrees, degrees)) == (c, s)
+    for degrees, half in {"30": 1, "150": 1, "-30": -1, "210": -1}.items():
+        assert balls.turn(Number(0.0, 0.0, degrees, degrees))[1] == half / 2
+    for degrees, half in {"60": 1, "120": -1, "240": -1}.items():
+        assert balls.turn(Number(0.0, 0.0, degrees, degrees))[0] == half / 2
+
+
+def test_short_numbers_stay_exact_through_products_roots_and_quotients() -> None:
+    """A determinant of decimals that vanishes is zero, and not a ball about it."""
+    balls = Balls(30)
+    x, y, z = (balls.given(Number(0.0, 0.0, t, t)) for t in ("1.25", "-0.37", "4.3e2"))
+    found = (x * y - y * x) + (x * (y + z) - x * y - x * z)
+    assert found == 0.0
+    assert balls.vanishes(found, 1.0)
+    assert balls.rounded(found) == (0.0, 0.0)
+    assert balls.sqrt(balls.ball(9.0) + balls.ball(16.0)) == 5.0
+    assert balls.ball(1.0) / balls.ball(8.0) == 0.125
+    assert not (balls.ball(1.0) / balls.ball(3.0)).exact
+
+
+def test_a_sign_that_is_open_asks_for_more_digits_and_a_root_below_zero_is_none() -> None:
+    third = Balls(30).ball(1.0) / 3.0
+    nothing = third * 3.0 - 1.0
+    with pytest.raises(MoreDigits):
+        assert nothing > 0.0
+    with pytest.raises(MoreDigits):
+        Balls(30).vanishes(nothing, 1.0)
+    with pytest.raises(MoreDigits):
+        Balls(30).sqrt(nothing)
+    with pytest.raises(MoreDigits):
+        _ = 1.0 / nothing
+    with pytest.raises(BelowZero):
+        Balls(30).sqrt(-third)
+
+
+def test_at_the_highest_precision_what_lies_within_1e_40_of_its_terms_is_zero_and_says_how_far() -> None:
+    balls = Balls(120, highest=True)
+    nothing = (balls.ball(1.0) / 3.0) * 3.0 - 1.0
+    assert balls.vanishes(nothing, 1.0)
+    value, error = balls.rounded(nothing, 1.0)
+    assert value == 0.0
+    assert 0.0 < error < 1e-115
+    with pytest.raises(MoreDigits):
+        balls.vanishes(nothing, 1e-90)
+
+
+def test_the_context_of_the_program_that_calls_does_not_matter() -> None:
+    """Not even for a sign: a minus in `decimal` rounds to the default context."""
+    with decimal.localcontext() as context:
+        context.prec = 3
+        balls = Balls(50)
+        value = balls.given(Number(0.0, 0.0, "a", "0.12345678901234567890123456789012345678901234567"))
+        negative = -value
+        assert -negative == value
+        assert (0.0 - value) + value == 0.0
+        assert abs(-value) == float(value)
+        assert balls.rounded(value * 1.0)[0] == 0.12345678901234568
+        assert holds(balls.sqrt(value), many.sqrt(exact(value.value)))
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_number_is_rounded_once_and_its_error_is_at_most_two_ulps(seed: int) -> None:
+    draw, balls = Random(seed), Balls(30)
+    a, b = draw.randint(1, 10**8), draw.randint(1, 10**8)
+    value, error = balls.rounded(balls.ratio((a, b, 0)))
+    true = Fraction(a, b)
+    assert value == a / b
+    assert abs(Fraction(value) - true) <= Fraction(error) <= 2 * Fraction(math.ulp(value))
