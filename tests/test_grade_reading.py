@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from icsolve.grade.written import Reader
-from icsolve.grade.written.answer import read_place
+from icsolve.grade.written.two_numbers import read_place, read_range
 
 CORPUS = Path(__file__).parent / "data" / "answers.tsv"
 
@@ -119,3 +119,16 @@ def test_places_at_infinity() -> None:
     assert read_place("at infinity toward 90 deg").toward == 90.0
     assert read_place("∞, 30°").toward == 30.0
     assert math.isnan(read_place("infinity").toward or 0.0)
+
+
+NAMES = re.compile(r"(?<!\w)[A-Za-z]{1,2}_?\d{1,3}'?(?![\w.,]*\d)")
+
+
+@given(st.one_of(st.text(max_size=60), JOINED.map("".join), JOINED.map(" ".join)))
+@settings(max_examples=600)
+def test_a_text_with_a_digit_is_never_invalid(text: str) -> None:
+    """But for the digits of names, as in T12."""
+    if any(c in "0123456789" for c in NAMES.sub("", text)):
+        assert Reader().read(text).flag != "no-number"
+        assert read_place(text).flag != "no-number"
+        assert read_range(text).flag != "no-number"

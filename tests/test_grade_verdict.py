@@ -19,6 +19,19 @@ loads:
 """
 
 
+GEARS = """\
+icsolve: 1
+points: {A: [0, 0], B: [3, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [1, 3], at: B}
+  - {gears: [2, 3], teeth: [20, -40]}
+loads:
+  M: {torque: 10, link: 3}
+  T12: {torque: unknown, link: 2}
+"""
+
+
 @pytest.fixture
 def a_class(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Class:
     return Class(tmp_path, capsys)
@@ -240,15 +253,58 @@ def test_an_error_carried_forward_to_a_slider(
     assert f"({what})" in ran.row("a", case)["feedback"]
 
 
-def test_a_load_that_holds_over_a_range_is_no_question(a_class: Class) -> None:
-    a_class.case(
-        "block",
-        "icsolve: 1\npoints: {A: [0, 0]}\njoints:\n  - {slide: [2, 1], at: A, along: 0, mu: 0.2}\n"
-        "loads:\n  N: {force: 100, link: 2, at: A, angle: -90}\n"
-        "  P: {force: unknown, link: 2, at: A, angle: 0}\n",
-    )
-    ran = a_class.grade("student_id,case,answer\na,block,10\n")
-    assert ran.code == 1
-    assert "holds with any value from -20 to 20 N" in ran.err
-    assert ran.row("a", "block")["verdict"] == "review"
-    assert ran.row("a", "block")["feedback"] == "Not graded: block holds over a range of values, not with one"
+BLOCK = (
+    "icsolve: 1\npoints: {A: [0, 0]}\njoints:\n  - {slide: [2, 1], at: A, along: 0, mu: 0.2}\n"
+    "loads:\n  N: {force: 100, link: 2, at: A, angle: -90}\n"
+    "  P: {force: unknown, link: 2, at: A, angle: 0}\n"
+)
+
+
+def test_a_load_that_holds_over_a_range_asks_for_both_ends(a_class: Class) -> None:
+    a_class.case("block", BLOCK)
+    answers = ("-20 N to 20 N", "20 to -20", "-20 lbf to 20 lbf", "20 N", "-20 N to 25 N")
+    rows = a_class.judge(*answers, case="block")
+    assert [(row["verdict"], row["code"]) for row in rows] == [
+        ("right", ""), ("right", ""), ("wrong", ""), ("wrong", "one-end"), ("wrong", "one-end"),
+    ]  # fmt: skip
+    assert "from -20 to 20 N" in rows[0]["feedback"]
+
+
+def test_a_range_with_an_open_end_is_answered_by_the_other(a_class: Class) -> None:
+    """Any push 60 degrees into the guide locks; a pull of 70 / (cos 60 + 0.7 sin 60) = 63.28 N moves it."""
+    a_class.case("block", BLOCK.replace("angle: 0}", "angle: -60}").replace("mu: 0.2", "mu: 0.7"))
+    answers = {
+        "P >= -63.3 N": "right", "-63.3 N or more": "right", "at least -63.3": "right",
+        "P <= -63.3 N": "wrong",
+        "-63.3 N": "wrong", "-63.3 N to 500 N": "wrong", "P >= 63.3 N": "wrong",
+    }  # fmt: skip
+    assert dict(zip(answers, a_class.verdicts(*answers, case="block"), strict=True)) == answers
+
+
+def test_credit_is_given_for_the_parts_that_a_question_has(a_class: Class) -> None:
+    """A ratio has neither unit nor direction, a centre no direction: what is not asked earns nothing."""
+    a_class.course("points: 10\ncredit: {number: 60%, unit: 20%, direction: 20%}\n")
+    a_class.case("gears", GEARS)
+    for case, answers in (("gears:w3/w2", ("0.5", "0.7")), ("gears:I23", ("(-3, 0)", "(-3, 0) lbf"))):
+        right, partly = a_class.judge(*answers, case=case)
+        assert (right["score"], partly["score"]) == ("10", "0" if case == "gears:w3/w2" else "7.5")
+
+
+def test_the_direction_of_a_reaction_is_judged_by_its_angle(a_class: Class) -> None:
+    """F12, the force of the frame on the lever, is 100 N upward."""
+    answers = {
+        "100 N": "right", "100 N at 90 deg": "right", "100 N at -90 deg": "wrong", "100 N up": "review",
+        "100 N down": "review", "80 N up": "wrong",
+    }  # fmt: skip
+    assert dict(zip(answers, a_class.verdicts(*answers, case="lever:F12"), strict=True)) == answers
+
+
+def test_a_point_before_three_digits_may_divide_thousands(a_class: Class) -> None:
+    a_class.case("lever", Path(a_class.path("cases/lever.yaml")).read_text().replace("100", "617"))
+    assert a_class.verdicts("1.234", "1.234 kN*m", "1.235", "1.334") == ["review", "right", "review", "wrong"]
+    a_class.course("decimal: point\n")
+    assert a_class.verdicts("1.234") == ["wrong"]
+
+
+def test_a_joule_is_no_unit_of_torque(a_class: Class) -> None:
+    assert [(r["verdict"], r["code"]) for r in a_class.judge("200 J", "0.2 kJ")] == [("wrong", "unit")] * 2

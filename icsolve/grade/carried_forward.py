@@ -14,7 +14,7 @@ from icsolve.answer import Answer
 from icsolve.case import CentreIs, DistanceIs, Load, RateIs, RatioIs, SpeedIs, Target
 from icsolve.grade.case_store import CaseStore, Solved
 from icsolve.grade.judge import WRONG, feedback, share_of
-from icsolve.grade.keys import Key, PlaceKey
+from icsolve.grade.keys import Key, PlaceKey, RangeKey
 from icsolve.grade.mistakes import Wrong
 from icsolve.grade.mistakes.changed import Place
 from icsolve.grade.mistakes.engine import centres_of, shares
@@ -186,6 +186,8 @@ def _steps(solved: Solved, wrong: list[Found]) -> Iterator[Intermediate]:
         try:
             key = solved.key(entry.item)
         except NoKeyError:
+            continue
+        if isinstance(key, RangeKey):
             continue
         right = key.place if isinstance(key, PlaceKey) else (key.value,)
         if len(marked.given) == len(right):

@@ -12,7 +12,7 @@ from icsolve.case import Case, CentreIs, LoadIs, ReactionIs, Target
 from icsolve.errors import CaseError, SceneError
 from icsolve.files import files_of, reading, reading_text
 from icsolve.grade.course import Course
-from icsolve.grade.keys import AnyKey, Key, place_key, scalar_key, scaled_key
+from icsolve.grade.keys import AnyKey, Key, place_key, range_key, scalar_key, scaled_key
 from icsolve.grade.mistakes import wrong_answers
 from icsolve.grade.mistakes.codes import Wrong
 from icsolve.grade.mistakes.engine import place_wrongs, solved_for, target_wrongs
@@ -117,7 +117,8 @@ class Solved:
         if isinstance(target, CentreIs):
             return place_key(question, target, answer, policy, place_wrongs(answer, target))
         if isinstance(target, LoadIs):
-            return scalar_key(question, target, answer, policy, lambda: self._of_load(target.load))
+            ranged = range_key(question, target, answer, policy)
+            return ranged or scalar_key(question, target, answer, policy, lambda: self._of_load(target.load))
         own = solved_for(self.case, target)
         return scalar_key(question, target, own, policy, lambda: target_wrongs(own, target))
 

@@ -1,19 +1,25 @@
-"""The verdict on a place: the distance from the right one."""
+"""The verdict: number, unit and direction apart, and which mistake."""
 
 from __future__ import annotations
 
 import math
+import re
 from typing import NamedTuple
 
-from icsolve.grade.keys import AGAINST, NEITHER, AnyKey, Key, PlaceKey, unit_factor
+from icsolve.grade.course import Policy
+from icsolve.grade.keys import AGAINST, NEITHER, AnyKey, Key, PlaceKey, RangeKey, unit_factor
 from icsolve.grade.mistakes import Wrong, message
 from icsolve.grade.tolerance import SLACK
-from icsolve.grade.written import MISSING, REVIEW, UNREAD, Direction, Written, figures
-from icsolve.grade.written.answer import WrittenPlace
+from icsolve.grade.written import MISSING, NO_NUMBER, UNREAD, Direction, Written, figures
+from icsolve.grade.written.answer import Combined, flagged
+from icsolve.grade.written.numerals import AMBIGUOUS
+from icsolve.grade.written.two_numbers import WrittenPlace, WrittenRange, read_place, read_range
+from icsolve.grade.written.units import CASE, ENERGY
 
 RIGHT, WRONG, INVALID, IN_REVIEW = "right", "wrong", "invalid", "review"
 VERDICTS = (RIGHT, WRONG, INVALID, IN_REVIEW, MISSING)
 SQUARE = "square-direction"
+BY_ANGLE = "direction-in-words"
 _NEAR = 3.0
 """A near miss lies within this many half-widths."""
 
@@ -38,6 +44,33 @@ class Judgement(NamedTuple):
 
 _NO_PARTS = (False, False, False)
 _ALL_PARTS = (True, True, True)
+
+
+Read = Written | WrittenPlace | WrittenRange
+_GROUPED = re.compile(r"[-+]?[1-9]\d{0,2}\.\d{3}(?![\d.])")
+
+
+def judge_answer(
+    key: AnyKey, combined: Combined, answer: str, unit: str = "", direction: str = ""
+) -> tuple[Judgement, Read]:
+    """The verdict on an answer as it was written, unit and direction perhaps in columns of their own, and how
+    it was read."""
+    if isinstance(key, PlaceKey):
+        place = read_place(f"{answer} {unit}".strip())
+        judged = judge_place(key, place)
+        doubted = place.doubtful and judged.verdict == WRONG
+        return (_unjudged(AMBIGUOUS) if doubted else judged), place
+    if isinstance(key, RangeKey):
+        text = " ".join(part for part in (answer, unit, direction) if part)
+        found = read_range(text, combined.reader.decimal)
+        return judge_range(key, found), found
+    written = combined.read(answer, unit, direction)
+    judged = judge(key, written)
+    if judged.verdict == WRONG and combined.reader.decimal == "either" and _GROUPED.match(written.digits):
+        other = judge(key, written._replace(number=written.number * 1000.0))
+        if other.verdict == RIGHT:
+            return _unjudged(AMBIGUOUS), flagged(AMBIGUOUS)
+    return judged, written
 
 
 def judge(key: Key, written: Written) -> Judgement:
@@ -93,7 +126,8 @@ def _in_full(key: Key, written: Written) -> Judgement:
         number, unit = True, key.policy.unit == "ignored"
         value = written.number * (sign or 1)
     if number and sign is None and key.value:
-        return Judgement(IN_REVIEW, 0.0, (number, unit, False), value, None, SQUARE)
+        why = BY_ANGLE if key.expected.by_angle else SQUARE
+        return Judgement(IN_REVIEW, 0.0, (number, unit, False), value, None, why)
     direction = _direction_is_right(key, written, value, sign)
     off = relative(abs(abs(value) - size), size)
     if number and unit and direction:
@@ -106,9 +140,9 @@ def _in_full(key: Key, written: Written) -> Judgement:
 
 
 def _unjudged(flag: str) -> Judgement:
-    if flag == MISSING:
-        return Judgement(MISSING, 0.0, _NO_PARTS, code=MISSING)
-    return Judgement(IN_REVIEW if flag in REVIEW else INVALID, 0.0, _NO_PARTS, code=flag or UNREAD)
+    """What holds a number is for a person to read; what holds none is no answer."""
+    verdict = {MISSING: MISSING, NO_NUMBER: INVALID}.get(flag, IN_REVIEW)
+    return Judgement(verdict, 0.0, _NO_PARTS, code=flag)
 
 
 def _words(key: Key, written: Written) -> Direction | None:
@@ -121,6 +155,8 @@ def _unit_is_right(key: Key, written: Written, factor: float | None) -> bool:
         return True
     if written.unit is None:
         return key.policy.unit == "assumed" or not key.unit_name
+    if written.note == ENERGY:
+        return False
     return factor is not None and not (written.note and key.policy.strict_case)
 
 
@@ -158,8 +194,8 @@ def _seen(
 def _unit_code(key: Key, written: Written) -> str:
     if written.unit is None:
         return "no-unit"
-    factor = key.factor(written.unit)
-    return "unit-case" if written.note and factor and _has_size(key, written.number * factor) else "unit"
+    factor = key.factor(written.unit) if written.note == CASE else None
+    return "unit-case" if factor and _has_size(key, written.number * factor) else "unit"
 
 
 def _direction_code(key: Key, written: Written, sign: int | None) -> str:
@@ -170,16 +206,32 @@ def _direction_code(key: Key, written: Written, sign: int | None) -> str:
     return "sign"
 
 
-def share_of(key: Key, parts: tuple[bool, bool, bool], mistakes: tuple[Wrong, ...]) -> float:
-    """The share of the mark: for the right parts, or for the known mistake, whichever is more."""
-    credit = key.policy.credit
-    if credit is None and not key.policy.mistakes:
+def share_of(key: AnyKey, parts: tuple[bool, bool, bool], mistakes: tuple[Wrong, ...]) -> float:
+    """The share of the mark: for the right ones of the parts that the question has, or for the known mistake,
+    whichever is more."""
+    policy = key.policy
+    if policy.credit is None and not policy.mistakes:
         return 0.0
-    earned = (
-        sum(part for part, right in zip(credit, parts, strict=True) if right) if credit is not None else 0.0
-    )
-    known = dict(key.policy.mistakes)
+    earned = _earned(policy, parts, _asked_parts(key)) if policy.credit is not None else 0.0
+    known = dict(policy.mistakes)
     return min(1.0, max([earned, *(known.get(mistake.code, 0.0) for mistake in mistakes[:1])]))
+
+
+def _asked_parts(key: AnyKey) -> tuple[bool, bool, bool]:
+    """Whether a question has a number, a unit and a direction: a ratio has but the first."""
+    if isinstance(key, PlaceKey):
+        return True, True, False
+    end = key.end if isinstance(key, RangeKey) else key
+    directed = end.expected.any and key.policy.direction != "ignored"
+    return True, bool(key.unit_name) and key.policy.unit != "ignored", directed and bool(end.value)
+
+
+def _earned(policy: Policy, parts: tuple[bool, bool, bool], asked: tuple[bool, bool, bool]) -> float:
+    """The credit of the right parts over that of all that are asked."""
+    shares = [share for share, has in zip(policy.credit or (), asked, strict=True) if has]
+    right = [part for part, has in zip(parts, asked, strict=True) if has]
+    whole = sum(shares)
+    return sum(share for share, good in zip(shares, right, strict=True) if good) / whole if whole else 0.0
 
 
 def _codes(mistakes: tuple[Wrong, ...]) -> str:
@@ -202,14 +254,17 @@ def feedback(key: AnyKey, judged: Judgement, reveal: bool = False) -> str:
 
 UNJUDGED = {
     MISSING: "No answer was given.",
-    UNREAD: "This can't be read: write a number, a unit and a direction, such as '41.2 N*m ccw'.",
+    UNREAD: "This can't be read surely; a person will look at it. Write a number, a unit and a direction, "
+    "such as '41.2 N*m ccw'.",
     "no-number": "There is no number in this.",
-    "too-long": "This is too long to be an answer.",
+    "too-long": "This is too long to be read as an answer; a person will look at it.",
     "ambiguous-number": "This number can be read in two ways; a person will look at it. Write no commas.",
     "ambiguous-direction": "Sign and words, or words alone, say two directions; a person will look at it.",
     "ambiguous-unit": "This unit has several meanings; a person will look at it.",
     "two-values": "There are two values in this; a person will look at it.",
     SQUARE: "These words are square to the answer's direction; a person will look at it.",
+    BY_ANGLE: "A direction in words is for a person to judge here; an angle, as 'at 30 deg', is not.",
+    "no-direction": "In which direction it lies at infinity is not said; a person will look at it.",
 }
 """What is told where nothing was judged, by the flag."""
 
@@ -221,8 +276,7 @@ _WITHIN = 1.0
 def judge_place(key: PlaceKey, written: WrittenPlace) -> Judgement:
     """The verdict on an answer to the question where a centre is."""
     if written.flag:
-        verdict = MISSING if written.flag == MISSING else IN_REVIEW if written.flag in REVIEW else INVALID
-        return Judgement(verdict, 0.0, (False, False, False), code=written.flag)
+        return _unjudged(written.flag)
     if key.toward is not None or written.toward is not None:
         return _far(key, written)
     factor = unit_factor(key, written.unit.unit) if written.unit is not None else 1.0
@@ -247,7 +301,7 @@ def _judged(key: PlaceKey, at: tuple[float, float], off: float, unit: bool) -> J
     if number and unit:
         return Judgement(RIGHT, 1.0, parts, None, part)
     mistakes = (Wrong("unit", 0.0),) if number else _mistakes(key, at, off)
-    share = share_of(key, parts, mistakes)  # type: ignore[arg-type]
+    share = share_of(key, parts, mistakes)
     return Judgement(WRONG, share, parts, None, part, " ".join(m.code for m in mistakes), mistakes)
 
 
@@ -266,3 +320,49 @@ def _far(key: PlaceKey, written: WrittenPlace) -> Judgement:
         return Judgement(IN_REVIEW, 0.0, (True, True, False), code="no-direction")
     right = abs(math.remainder(written.toward - key.toward, 180.0)) <= _WITHIN
     return Judgement(RIGHT if right else WRONG, float(right), (right, True, right))
+
+
+# --- ranges -----------------------------------------------------------------------------------------
+
+
+def judge_range(key: RangeKey, written: WrittenRange) -> Judgement:
+    """The verdict on an answer to the question over which range a load holds: both ends have to be right."""
+    if written.flag:
+        return _unjudged(written.flag)
+    end = key.end
+    factor, sign = end.factor(written.unit), end.sign(written.direction)
+    unit = _unit_is_right(end, Written(0.0, written.unit, written.direction), factor)
+    if sign is None:
+        return Judgement(IN_REVIEW, 0.0, _NO_PARTS, code=BY_ANGLE if end.expected.by_angle else SQUARE)
+    values = [v if v is None else v * (factor or 1.0) * (sign or 1) for v in (written.low, written.high)]
+    low, high = values if sign >= 0 else reversed(values)
+    fits = (_is_end(key.low, low), _is_end(key.high, high))
+    parts = (all(fits), unit, sign != NEITHER)
+    if all(parts):
+        return Judgement(RIGHT, 1.0, _ALL_PARTS)
+    mistakes = _of_range(key, parts, fits, (low, high))
+    return Judgement(WRONG, share_of(key, parts, mistakes), parts, None, None, _codes(mistakes), mistakes)
+
+
+def _is_end(key: Key | None, value: float | None) -> bool:
+    if key is None or value is None:
+        return key is None and value is None
+    return abs(value - key.value) <= key.half
+
+
+def _of_range(
+    key: RangeKey,
+    parts: tuple[bool, bool, bool],
+    fits: tuple[bool, bool],
+    values: tuple[float | None, float | None],
+) -> tuple[Wrong, ...]:
+    """What is wrong about a range: its unit, one of its ends, its sense."""
+    number, unit, direction = parts
+    if number:
+        codes = [] if unit else ["unit"]
+        return tuple(Wrong(code, 0.0) for code in (*codes, *([] if direction else ["direction"])))
+    low, high = values
+    if any(fits) or (low == high and low is not None and (_is_end(key.low, low) or _is_end(key.high, low))):
+        return (Wrong("one-end", 0.0),)
+    back = [None if value is None else -value for value in (high, low)]
+    return (Wrong("sign", 0.0),) if _is_end(key.low, back[0]) and _is_end(key.high, back[1]) else ()

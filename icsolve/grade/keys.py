@@ -15,6 +15,7 @@ from icsolve.case import (
     LoadIs,
     RateIs,
     ReactionIs,
+    SpeedIs,
     Spring,
     Target,
     Torque,
@@ -65,6 +66,8 @@ class ExpectedDirection(NamedTuple):
     heading: float | None = None
     axial: float = 0.0
     places: Callable[[], Places] = lambda: (None, {})
+    by_angle: bool = False
+    """Whether only an angle tells it: words on a reaction may mean either link's force."""
 
     @property
     def any(self) -> bool:
@@ -73,6 +76,8 @@ class ExpectedDirection(NamedTuple):
 
     def sign(self, words: Direction, within: float) -> int | None:
         """``WITH`` or ``AGAINST`` the positive sense, ``NEITHER``; None where a person must look."""
+        if self.by_angle and not words.measured:
+            return None if words.kind != "turn" else NEITHER
         if words.kind == "turn":
             return int(words.value * self.turn)
         if words.kind == "axial" and self.axial:
@@ -157,9 +162,10 @@ class Key(NamedTuple):
         """+1 or -1 for words with or against the positive sense, 0 for neither; None: a person must look."""
         if words is None:
             return 1
-        if words.words not in self.signs:
-            self.signs[words.words] = self.expected.sign(words, self.policy.within)
-        return self.signs[words.words]
+        name = f"{words.words} deg" if words.measured else words.words
+        if name not in self.signs:
+            self.signs[name] = self.expected.sign(words, self.policy.within)
+        return self.signs[name]
 
 
 class PlaceKey(NamedTuple):
@@ -177,7 +183,27 @@ class PlaceKey(NamedTuple):
     rule: str
 
 
-AnyKey = Key | PlaceKey
+class RangeKey(NamedTuple):
+    """A right answer that is a range: a key for each end, None for an open one."""
+
+    question: str
+    low: Key | None
+    high: Key | None
+    unit_name: str
+    unit: Unit
+    policy: Policy
+    accepted: str
+    rule: str
+
+    @property
+    def end(self) -> Key:
+        """An end that there is: it tells units and directions."""
+        found = self.low or self.high
+        assert found is not None
+        return found
+
+
+AnyKey = Key | PlaceKey | RangeKey
 
 
 def scalar_key(
@@ -187,7 +213,6 @@ def scalar_key(
 
     Raises NoKeyError where the answer has no such value, or the policy's tolerance does not fit it.
     """
-    _refuse_range(target, answer)
     try:
         (value,) = value_of(answer, target)
     except LookupError as error:
@@ -245,16 +270,33 @@ def _key(
     )
 
 
-def _refuse_range(target: Target, answer: Answer) -> None:
-    """A load that holds over a range has not one right value."""
-    found = answer.answers.get(target.load) if isinstance(target, LoadIs) else None
-    if found is not None and found.holds is not None:
-        low, high = found.holds
-        raise NoKeyError(
-            f"{answer.case.name} holds with any value from {low:.6g} to {high:.6g} {found.unit}; "
-            "say which way it moves with 'motion:', and one value is right",
-            f"{answer.case.name} holds over a range of values, not with one",
-        )
+def range_key(question: str, target: LoadIs, answer: Answer, policy: Policy) -> RangeKey | None:
+    """The key of a load that holds over a range; None of one that has one value.
+
+    Raises NoKeyError where every value holds.
+    """
+    found = answer.answers.get(target.load)
+    if found is None or found.holds is None:
+        return None
+    expected, zero = _expected(target, answer), zero_width(target, answer)
+    unit = parsed_unit(found.unit)
+    width = width_of(policy.tolerance, unit, found.unit)
+
+    def end(value: float) -> Key | None:
+        if not math.isfinite(value):
+            return None
+        value = 0.0 if abs(value) <= TRUE_ZERO / OF_LOADS * zero else value
+        widths = (half_width(policy.tolerance, value, width, zero), width)
+        return _key(question, value, (found.unit, unit), widths, expected, policy, tuple)
+
+    low, high = map(end, found.holds)
+    if low is None and high is None:
+        raise NoKeyError(f"{answer.case.name} holds with any value of {target.load}, so nothing can be asked")
+    said = [f"from {low.value:.6g} to {high.value:.6g}"] if low and high else []
+    said += [f"{low.value:.6g} or more"] if low and not high else []
+    said += [f"{high.value:.6g} or less"] if high and not low else []
+    rule = f"{in_words(policy.tolerance)} at each end, as in '113 N to 287 N'"
+    return RangeKey(question, low, high, found.unit, unit, policy, f"{said[0]} {found.unit}".strip(), rule)
 
 
 def scaled_key(key: Key, factor: float) -> Key:
@@ -288,7 +330,28 @@ def _expected(target: Target, answer: Answer) -> ExpectedDirection:
     turning = isinstance(target, RateIs) or (isinstance(target, ReactionIs) and target.part == "moment")
     if isinstance(target, ReactionIs) and target.part in ("x", "y"):
         return ExpectedDirection(heading=0.0 if target.part == "x" else 90.0)
+    if isinstance(target, ReactionIs) and not target.part:
+        return ExpectedDirection(heading=_reaction_heading(target, answer), by_angle=True)
+    if isinstance(target, SpeedIs):
+        return ExpectedDirection(heading=_speed_heading(target, answer), by_angle=not answer.case.motion)
     return ExpectedDirection(turn=1.0) if turning else ExpectedDirection()
+
+
+def _reaction_heading(target: ReactionIs, answer: Answer) -> float | None:
+    """The direction of a force in a joint, in degrees."""
+    try:
+        x, y = (value_of(answer, target._replace(part=part))[0] for part in ("x", "y"))
+    except LookupError:
+        return None
+    return math.degrees(math.atan2(y, x)) if x or y else None
+
+
+def _speed_heading(target: SpeedIs, answer: Answer) -> float | None:
+    """The direction of a point's velocity, in degrees."""
+    found = (answer.velocities or {}).get((target.point, target.link))
+    if found is None or isinstance(found, str) or not any(found):
+        return None
+    return math.degrees(math.atan2(found[1], found[0]))
 
 
 def place_key(

@@ -10,15 +10,16 @@ from icsolve.grade.carried_forward import CarriedForward
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.issues import Issues
-from icsolve.grade.judge import IN_REVIEW, Judgement, feedback, judge, judge_place
+from icsolve.grade.judge import IN_REVIEW, Judgement, feedback, judge_answer
 from icsolve.grade.keys import AnyKey, Key, PlaceKey, unit_factor
 from icsolve.grade.results import Marked, Result
 from icsolve.grade.store import Entry
 from icsolve.grade.tally import Counts, Tally
 from icsolve.grade.timestamps import NEVER, attempt_number, timestamp
 from icsolve.grade.tolerance import NoKeyError
-from icsolve.grade.written import MISSING, Reader
-from icsolve.grade.written.answer import Combined, read_place
+from icsolve.grade.written import MISSING, Reader, Written
+from icsolve.grade.written.answer import Combined
+from icsolve.grade.written.two_numbers import WrittenPlace
 
 _MEMORY = 40_000
 """Different answers that are remembered with their verdicts; a class repeats itself."""
@@ -197,13 +198,17 @@ class Marker:
             return self._troubled(entry, error.told)
         if self.case_store.varied and self._is_others(entry):
             return self._of_another(entry)
-        if isinstance(key, PlaceKey):
-            return self._place(entry, key)
-        written = self.combined.read(entry.answer, entry.unit, entry.direction)
-        judged = judge(key, written)
+        judged, read = judge_answer(key, self.combined, entry.answer, entry.unit, entry.direction)
         told = feedback(key, judged, self.course.reveal)
-        read = None if written.flag else written
-        return Marked(entry.item, entry.answer, judged, key.policy.points, told, read)
+        marked = Marked(entry.item, entry.answer, judged, key.policy.points, told)
+        if isinstance(read, Written) and not read.flag:
+            marked.written = read
+        elif isinstance(read, WrittenPlace) and not read.flag and read.toward is None:
+            assert isinstance(key, PlaceKey)
+            factor = unit_factor(key, read.unit.unit) if read.unit is not None else 1.0
+            marked.place = (read.x * (factor or 1.0), read.y * (factor or 1.0))
+            marked.place_unit = read.unit
+        return marked
 
     def _key(self, entry: Entry) -> AnyKey:
         """The key of a question: the student's own, where the case has variables."""
@@ -213,17 +218,6 @@ class Marker:
             if not self.case_store.variant_of(entry.item, entry.student):
                 self._keys[entry.item] = found
         return found
-
-    def _place(self, entry: Entry, key: PlaceKey) -> Marked:
-        written = read_place(f"{entry.answer} {entry.unit}".strip())
-        judged = judge_place(key, written)
-        told = feedback(key, judged, self.course.reveal)
-        marked = Marked(entry.item, entry.answer, judged, key.policy.points, told)
-        if not written.flag and written.toward is None:
-            factor = unit_factor(key, written.unit.unit) if written.unit is not None else 1.0
-            marked.place = (written.x * (factor or 1.0), written.y * (factor or 1.0))
-            marked.place_unit = written.unit
-        return marked
 
     def _troubled(self, entry: Entry, why: str) -> Marked:
         """A row that can't be graded: for a person to look at."""

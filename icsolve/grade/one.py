@@ -7,13 +7,13 @@ from typing import Any
 
 from icsolve.grade.case_store import CaseStore, case_name
 from icsolve.grade.course import Course
-from icsolve.grade.judge import feedback, judge, judge_place
-from icsolve.grade.keys import AnyKey, Key
+from icsolve.grade.judge import feedback, judge_answer
+from icsolve.grade.keys import AnyKey, Key, RangeKey
 from icsolve.grade.platforms.given import given
 from icsolve.grade.platforms.questions import asked, figure
 from icsolve.grade.results import number
 from icsolve.grade.written import Reader
-from icsolve.grade.written.answer import read_place
+from icsolve.grade.written.answer import Combined
 
 
 class Task:
@@ -42,6 +42,8 @@ class Task:
     def right(self, what: str = "") -> str:
         """The right answer as text."""
         key = self._key(what)
+        if isinstance(key, RangeKey):
+            return key.accepted
         if not isinstance(key, Key):
             return f"({number(key.place[0])}, {number(key.place[1])}) {key.unit_name}"
         return f"{number(key.value)} {key.unit_name}".strip()
@@ -49,10 +51,7 @@ class Task:
     def grade(self, what: str, answer: str) -> dict[str, Any]:
         """``verdict``, ``score`` from 0 to 1, ``code`` and ``feedback`` of an answer."""
         key = self._key(what)
-        if isinstance(key, Key):
-            judged = judge(key, Reader(self._course.decimal).read(answer))
-        else:
-            judged = judge_place(key, read_place(answer))
+        judged, _ = judge_answer(key, Combined(Reader(self._course.decimal)), answer)
         told = feedback(key, judged, self._course.reveal)
         return {"verdict": judged.verdict, "score": judged.share, "code": judged.code, "feedback": told}
 

@@ -13,6 +13,7 @@ CODES: dict[str, str] = {
     "sign": "Right size, wrong sense. Check the sign of the power of each load.",
     "direction": "Right size, but this is not how the direction of this quantity is given.",
     "no-direction": "Right size; say its direction in words as well.",
+    "one-end": "One end of the range is right; the other is missing or wrong.",
     "power-of-ten": "The digits are right, the power of ten is not. Check mm and m, N and kN.",
     "unit-factor": "Off by a unit factor: in and mm, ft and in, lb and N, kg and N, degrees and radians.",
     "deg-rad": "Was the calculator set to radians?",

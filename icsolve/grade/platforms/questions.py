@@ -10,7 +10,7 @@ from html import escape
 from typing import NamedTuple
 
 from icsolve.case import Case, LoadIs, Target
-from icsolve.grade.keys import Key, PlaceKey
+from icsolve.grade.keys import AnyKey, Key, PlaceKey, RangeKey
 from icsolve.grade.mistakes import Wrong, message
 from icsolve.grade.mistakes.codes import ORDER
 from icsolve.grade.written import factors_between
@@ -25,7 +25,7 @@ def figure(case: Case) -> str:
     return draw(case, Drawing(centres="none"), known_of(case)._replace(answer=None))
 
 
-def asked(key: Key | PlaceKey, target: Target) -> str:
+def asked(key: AnyKey, target: Target) -> str:
     """The question's sentence: what to find, in which unit, with which sign."""
     what = key.question.partition(":")[2]
     name = target.load if isinstance(target, LoadIs) else what
@@ -33,6 +33,8 @@ def asked(key: Key | PlaceKey, target: Target) -> str:
     if isinstance(key, PlaceKey):
         return f"Where is the centre {name}? Give x and y{unit}."
     sign = ""
+    if isinstance(key, RangeKey):
+        return f"Over which range of {name}{unit} does the mechanism hold still? Give both ends."
     if key.expected.turn:
         sign = f" ({'counterclockwise' if key.expected.turn > 0 else 'clockwise'} positive)"
     elif key.expected.heading is not None:

@@ -1,26 +1,30 @@
-"""An answer as a student wrote it, to a number, a unit and a direction, or to a place.
+"""An answer as a student wrote it, to a number, a unit and a direction.
 
-What has two readings is flagged."""
+What has two readings, or words that are not understood, is flagged: a person looks at what holds a number.
+"""
 
 from __future__ import annotations
 
 import re
 from typing import NamedTuple
 
+from icsolve.grade.written.characters import plain
 from icsolve.grade.written.directions import AMBIGUOUS as AMBIGUOUS_DIRECTION
 from icsolve.grade.written.directions import Direction, direction
-from icsolve.grade.written.numerals import AMBIGUOUS, UNREAD, Numeral, numeral, plain
+from icsolve.grade.written.numerals import AMBIGUOUS as AMBIGUOUS_NUMBER
+from icsolve.grade.written.numerals import UNREAD, Numeral, numeral
 from icsolve.grade.written.units import AMBIGUOUS as AMBIGUOUS_UNIT
 from icsolve.grade.written.units import UnitWord, unit_word
+from icsolve.units import DIMENSIONS
 
 MISSING = "missing"
 NO_NUMBER = "no-number"
 TOO_LONG = "too-long"
 TWO_VALUES = "two-values"
-REVIEW = frozenset({"ambiguous-number", AMBIGUOUS_DIRECTION, AMBIGUOUS_UNIT, TWO_VALUES})
-"""Flags that ask for a person; the others say that the text can't be read as an answer."""
 LONGEST = 200
 """Characters of an answer; more is no number with a unit and a direction."""
+_MOST = 4096
+"""Texts that are remembered with their reading."""
 
 
 class Written(NamedTuple):
@@ -49,34 +53,57 @@ _NOTHING = {"", "-", "--", "---", ".", "n/a", "na", "none", "null", "nil"} | {
     "not answered",
     "no response",
     "keine antwort",
+    "sans réponse",
+    "sin respuesta",
 }
+_ABOUT = (
+    r"approximately|approximated?|approx\.?|about|around|roughly|nearly|circa|ca\.?|c\.|environ|env\.|ungefähr|etwa"
+    r"|rund|unos|aproximadamente|aprox\.?|gerundet|rounded(?: off)?|rounded value"
+)
+_LIMIT = (
+    r"at least|at most|minimum(?: of)?|maximum(?: of)?|min\.?|max\.?|no less than|or more|or less|mindestens"
+    r"|höchstens"
+)
 _LEAD = re.compile(
-    r"(?:approximately|approx\.?|about|around|roughly|ca\.?|circa|answer|ans\.?|result|value|magnitude|is|equals|~|=|:"
-    r"|answer is|the answer is)+\s*",
+    rf"(?:{_ABOUT}|{_LIMIT}|(?:my |the )?(?:final )?(?:answer|ans\.?|result|value|magnitude|solution|ratio)"
+    r"|antwort|ergebnis|réponse|respuesta|risposta|it is|it's|i get|i got|we get|we got|is|equals|so|thus"
+    r"|hence|therefore|[~=:])(?![\w])\s*|[~=:]+\s*",
     re.IGNORECASE,
 )
-_INTRODUCE = set(
-    "the a an force torque moment load answer value required unknown result is of about i get got and".split()
+_INTRODUCE = re.compile(
+    rf"(?:{_ABOUT}|{_LIMIT}|the|an?|force|torque|moment|couple|load|answer|value|required|unknown|result|magnitude"
+    r"|size|is|of|i|get|got|and|with|equal|equals|to|ratio)(?!\w)[ ,]*",
+    re.IGNORECASE,
 )
-_NAME = re.compile(r"\s*\|?[^\W\d_][\w'\-/ω{}^.]*(?: ?\([\w' ]*\))?\|?\s*(?:=|:|~)\s*(?=[^=])")
+_ASIDE = re.compile(
+    rf"[(\[]?(?<![\w.])(?:{_ABOUT}|{_LIMIT}|dimensionless|unitless|no units?|without units?|sans unités?"
+    r"|sin unidades?|senza unità|ohne einheit|einheitenlos|ratio|d\.h\.|that is|i\.e\.)(?!\w)[)\]]?,?"
+    r"|[(\[] ?[-1] ?[)\]]|\([A-Z]_?\d+\)",
+    re.IGNORECASE,
+)
+"""Words that say nothing about the value, and a unit in brackets that is none."""
+_BODY = (
+    r"link|crank|bar|member|body|input|output|frame|rod|coupler|rocker|slider|block|piston|gear|wheel|arm|lever|pin"
+)
+_WHERE = re.compile(
+    rf",? ?\b(?:(?:acting|applied|exerted) )?(?:on|at|about|around) (?:the |link |point |pin )*"
+    rf"(?:(?:{_BODY})(?: [A-Z]?\d{{0,2}}[A-Z]?)?|(?<=link )\d{{1,2}}|[A-Z]\d?'?)(?![\w'.,°]|[.,]\w)",
+)
+"""Where it acts, which the question says itself: ``on link 2``, ``about A``."""
+_DASH = re.compile(r"(?:(?<=[\w\])]) ?|^)[-:;,]+ (?=[A-Za-z(])(?! *[xy]\b)| -$|^-$")
+"""A dash or a colon between a unit and a direction; before x and y it may be a sign."""
+_NAME = re.compile(
+    r"\s*\|?[^\W\d_][\w'\-/ω{}^.]*(?: ?\([\w' ]*\))?\|?\s*(?:[<>]=|=>|=<|=|:|~)[=~]?\s*(?=[^=])"
+)
+_SIGNS = re.compile(
+    r"(?:(?P<less>minus|negative|moins|menos|meno|neg\.)|(?P<more>plus|positive|pos\.))$", re.IGNORECASE
+)
 _LETTERS = ("T", "C")
 """Tension and compression; only tonnes and coulombs would end so."""
-_AXES = {
-    "+x",
-    "-x",
-    "+y",
-    "-y",
-    "x",
-    "y",
-    "positive",
-    "negative",
-    "the",
-    "a",
-    "tension",
-    "compression",
-    "direction",
-}
 _SEXAGESIMAL = re.compile(r"(\d+(?:\.\d+)?) ?° ?(\d+(?:\.\d+)?) ?'(?: ?(\d+(?:\.\d+)?) ?\")?$")
+_NUMBER = re.compile(r"(?<!\w)(?:\d|[.,]\d|√|sqrt ?\(|pi(?![a-z]))", re.IGNORECASE)
+_LABEL = re.compile(r"(?<!\w)[A-Za-z]{1,2}_?\d{1,3}'?(?![\w.,]*\d)")
+"""The name of a load, a centre or a point: the digits in it are no number."""
 
 
 class Reader:
@@ -85,8 +112,6 @@ class Reader:
     ``decimal`` says what a comma before three digits is: ``point`` (a group of thousands), ``comma``
     (a decimal mark) or ``either`` (flagged).
     """
-
-    _MOST = 4096
 
     def __init__(self, decimal: str = "either") -> None:
         self.decimal = decimal
@@ -111,21 +136,15 @@ class Reader:
         return self.slowly(text)
 
     def _remember(self, rest: str) -> Written:
-        if len(self._rests) >= self._MOST:
+        if len(self._rests) >= _MOST:
             self._rests.clear()
-        found = self._rests[rest] = _rest(plain(rest), Written(0.0, None, None))
+        found = self._rests[rest] = tail(plain(rest), Written(0.0, None, None))
         return found
 
     def slowly(self, text: str) -> Written:
         """As ``read``, of any text."""
-        if len(text) > LONGEST * 20:
-            return flagged(TOO_LONG)
-        words = plain(text)
-        if words.lower() in _NOTHING:
-            return flagged(MISSING)
-        if len(words) > LONGEST:
-            return flagged(TOO_LONG)
-        return _answer(words, self.decimal)
+        words, flag = words_of(text)
+        return flagged(flag) if flag else _answer(words, self.decimal)
 
 
 _QUICK = re.compile(
@@ -136,26 +155,41 @@ _QUICK = re.compile(
 """Plain answers, which are most: digits, then words without digits."""
 
 
+def words_of(text: str) -> tuple[str, str]:
+    """The text in plain characters, and a flag where that is nothing, or too much to be read."""
+    words = plain(text[: LONGEST * 20])
+    if words.strip("\"'").strip().lower() in _NOTHING:
+        return words, MISSING
+    if len(words) > LONGEST or len(text) > LONGEST * 20:
+        return words, TOO_LONG if holds_digits(words) else NO_NUMBER
+    return words, ""
+
+
 def _answer(text: str, decimal: str) -> Written:
-    text = _unwrapped(text)
+    text = unwrapped(text)
     before, start = _before(text)
     if start is None:
-        return flagged(NO_NUMBER)
+        return flagged(UNREAD if holds_digits(text) else NO_NUMBER)
     if _is_accounting(text):
-        return flagged("ambiguous-number")
+        return flagged(AMBIGUOUS_NUMBER)
     if before.rstrip().endswith("±"):
         return flagged(TWO_VALUES)
     sign, before = _sign(before)
     angle = _SEXAGESIMAL.fullmatch(text[start:])
     found = _sexagesimal(angle) if angle else numeral(text, start, decimal)
     if found is None:
-        return flagged(NO_NUMBER)
+        return flagged(UNREAD)
     if found.flag:
         return flagged(found.flag)
-    read = _rest(text[found.end :].strip(), Written(0.0, None, None))
+    read = tail(_closed(before, text[found.end :]).strip(), Written(0.0, None, None))
     if angle:
-        read = _rest("deg", read)
+        read = tail("deg", read)
     return _joined(read, _leading(before), found, sign)
+
+
+def holds_digits(text: str) -> bool:
+    """Whether digits stand in a text that are not those of a name, as in T12."""
+    return any(c.isdigit() for c in _LABEL.sub("", text))
 
 
 def _sexagesimal(parts: re.Match[str]) -> Numeral:
@@ -164,66 +198,97 @@ def _sexagesimal(parts: re.Match[str]) -> Numeral:
     return Numeral(degrees + minutes / 60.0 + seconds / 3600.0, parts.end(), "")
 
 
-def _unwrapped(text: str) -> str:
+def unwrapped(text: str) -> str:
     """Without what only introduces: ``T12 = ...``, ``approx.``, brackets around all of it, quotes, a stop."""
-    if text[:1] in "\"'" and text[-1:] == text[:1]:
-        text = text[1:-1].strip()
+    before = ""
+    while text != before:
+        before = text
+        text = _unquoted(text)
+        inside = text[1:-1]
+        bracketed = text[:1] in tuple("([{") and text[-1:] in tuple(")]}") and not set(inside) & set("()[]{}")
+        if bracketed and not _is_accounting(text):
+            text = inside.strip()
+        name = _NAME.match(text)
+        if name is not None and _is_name(name.group()):
+            text = text[name.end() :]
+        lead = _LEAD.match(text)
+        if lead is not None and 0 < lead.end() < len(text):
+            text = text[lead.end() :]
+        text = re.sub(r"^(?:[<>]=|=[<>]) ?(?=[\d.+-])", "", text)
+    return text
+
+
+def _unquoted(text: str) -> str:
+    if len(text) > 1 and text[:1] in "\"'" and text[-1:] == text[:1]:
+        return text[1:-1].strip()
     if text[:1] == "'" and text.count("'") == 1:
-        text = text[1:].lstrip()  # by which a spreadsheet keeps a text
-    inside = text[1:-1]
-    bracketed = text[:1] in tuple("([{") and text[-1:] in tuple(")]}") and not set(inside) & set("()[]{}")
-    if bracketed and not _is_accounting(text):
-        text = inside.strip()
-    name = _NAME.match(text)
-    if name is not None and _is_name(name.group()):
-        text = text[name.end() :]
-    lead = _LEAD.match(text)
-    return text[lead.end() :] if lead is not None and lead.end() < len(text) else text
+        return text[1:].lstrip()  # by which a spreadsheet keeps a text
+    return text
 
 
 def _is_name(text: str) -> bool:
     """Whether what stands before a ``=`` or a colon names the answer: ``down: 5 N`` gives its direction, and
     so does ``T: 5 N``, but ``T = 5`` does not."""
-    said = text.strip(" :~=")
+    said = text.strip(" :~=<>")
     return (text.rstrip().endswith("=") and len(said) == 1) or direction(said) is None
 
 
 def _is_accounting(text: str) -> bool:
     """``(412.7)``: bare brackets mean a negative number to a spreadsheet."""
-    return bool(re.fullmatch(r"\(\s*[\d.,' ]+\)", text))
+    return bool(re.match(r"\( ?[\d.,' ]+\)", text))
 
 
 def _before(text: str) -> tuple[str, int | None]:
     """What stands before the number, and where the number starts."""
-    found = re.search(r"(?<![A-Za-z_])(?:\d|[.,]\d|√|sqrt ?\(|pi(?![a-z]))", text, re.IGNORECASE)
+    found = _NUMBER.search(text)
     return (text[: found.start()], found.start()) if found is not None else (text, None)
 
 
 def _sign(before: str) -> tuple[str, str]:
-    """The sign right before the number, and what stands before that."""
-    stripped = before.rstrip()
+    """The sign right before the number, as a mark or a word, and what stands before that."""
+    stripped = before.rstrip(" [")
     if stripped.endswith(("-", "+")):
         return stripped[-1], stripped[:-1].rstrip()
-    return "", stripped
+    word = _SIGNS.search(stripped)
+    if word is not None:
+        return ("-" if word.group("less") else "+"), stripped[: word.start()].rstrip()
+    return "", before.rstrip()
 
 
 def _leading(before: str) -> Direction | str | None:
     """The direction that stands before the number; a flag where the words are not understood."""
     words = before.strip(" ,;:=~([{")
-    if not words or all(word in _INTRODUCE for word in words.lower().split()):
+    if not words or not _INTRODUCE.sub("", words).strip(" ,"):
         return None
     found = direction(words)
+    if found is None:
+        found = direction(re.sub(rf"[ ,:]*\b(?:{_ABOUT}|{_LIMIT}|torque|moment|force|of|is)$", "", words))
     return found if found is not None else UNREAD
 
 
-def _rest(text: str, read: Written) -> Written:
+def _closed(before: str, rest: str) -> str:
+    """What follows the number, without the bracket that closes around it: ``[-64.5] N``."""
+    return re.sub(r"^ ?[\])}]", "", rest) if before.rstrip().endswith(("[", "{")) else rest
+
+
+# --- what follows the number ------------------------------------------------------------------------
+
+
+def tail(text: str, read: Written) -> Written:
     """What follows the number: a unit, a direction, both in this order, or nothing."""
-    text = re.sub(r"[.!]+$", "", text).strip(" ,;)") if text not in ('"', "'") else text
+    text = re.sub(r"[.!]+$", "", text).strip(" ,;") if text not in ('"', "'") else text
+    text = text if "(" in text else text.strip(") ")
     if not text:
         return read
-    whole = unit_word(text) or unit_word(text.strip("[](){} "))
-    if whole is not None and not text.endswith(_LETTERS):
+    inside = text.strip("[](){} ")
+    whole = _unit(inside) or _unit(text)
+    if whole is not None and not inside.endswith(_LETTERS):
         return _doubted(whole.note) or read._replace(unit=whole, note=whole.note)
+    bare = _WHERE.sub(" ", _ASIDE.sub(" ", text))
+    bare = _DASH.sub(" ", bare)
+    bare = " ".join(bare.split()).strip(" ,;")
+    if bare != text:
+        return tail(bare, read)
     return _parted(text, read)
 
 
@@ -235,15 +300,35 @@ def _doubted(note: str) -> Written | None:
 def _parted(text: str, read: Written) -> Written:
     """A unit and a direction: the longest unit after which a direction stands."""
     words = _pieces(text)
+    fitting: list[Written] = []
     for cut in range(len(words), -1, -1):
         unit_text, rest = " ".join(words[:cut]).strip("[](){},; "), words[cut:]
-        unit = unit_word(unit_text) if unit_text else None
-        if (unit is None and unit_text) or _belongs_to_direction(words, cut):
+        unit = _unit(unit_text)
+        if unit is None and unit_text:
             continue
         way = direction(" ".join(rest)) if rest else None
-        if way is not None:
-            return _checked(read._replace(unit=unit, direction=way, note=unit.note if unit else ""))
-    return flagged(_why_unread(text))
+        if way is not None or not rest:
+            fitting.append(read._replace(unit=unit, direction=way, note=unit.note if unit else ""))
+    if not fitting:
+        return flagged(_why_unread(text))
+    return _checked(next(filter(_agrees, fitting), fitting[-1]) if len(fitting) > 1 else fitting[0])
+
+
+_PREPOSITION = re.compile(r"in (?!lb|pound|kip|oz|#)", re.IGNORECASE)
+"""Not an inch, which stands in torques with pounds."""
+
+
+def _unit(text: str) -> UnitWord | None:
+    """A unit, which ``in`` may stand before: ``in N``."""
+    return (unit_word(text[3:].strip("[]() ")) if _PREPOSITION.match(text) else None) or unit_word(text)
+
+
+def _agrees(read: Written) -> bool:
+    """Whether a unit goes with its direction: ``lbf in cw`` is a torque, ``N in tension`` a force."""
+    if read.unit is None or read.direction is None:
+        return False
+    wanted = "torque" if read.direction.kind == "turn" else "force"
+    return read.unit.unit.dims[:3] == DIMENSIONS[wanted][:3]
 
 
 def _pieces(text: str) -> list[str]:
@@ -252,17 +337,11 @@ def _pieces(text: str) -> list[str]:
     return spaced.split()
 
 
-def _belongs_to_direction(words: list[str], cut: int) -> bool:
-    """Whether the ``in`` before the cut is the preposition: ``N in tension``, ``in the -x direction``."""
-    if not 0 < cut < len(words) or words[cut - 1].lower() != "in":
-        return False
-    return words[cut].lower().strip("([,") in _AXES
-
-
 def _checked(read: Written) -> Written:
     """Flags of its parts."""
-    assert read.direction is not None
-    return flagged(read.direction.flag) if read.direction.flag else _doubted(read.note) or read
+    if read.direction is not None and read.direction.flag:
+        return flagged(read.direction.flag)
+    return _doubted(read.note) or read
 
 
 def _why_unread(text: str) -> str:
@@ -283,8 +362,9 @@ def _joined(read: Written, leading: Direction | str | None, found: Numeral, sign
     return read._replace(number=number, direction=way, digits=found.digits)
 
 
-_NONE = {"", "-", "1", "none", "n/a", "na", "dimensionless", "[-]"}
-_MOST = 4096
+# --- columns of their own ---------------------------------------------------------------------------
+
+_NO_UNIT = {"", "-", "1", "none", "n/a", "na", "dimensionless", "[-]"}
 
 
 class Combined:
@@ -317,7 +397,7 @@ class Combined:
             if len(self._units) >= _MOST:
                 self._units.clear()
             words = plain(text)
-            self._units[text] = None if words.lower() in _NONE else unit_word(words) or UNREAD
+            self._units[text] = None if words.lower() in _NO_UNIT else unit_word(words) or UNREAD
         return self._units[text]
 
     def _direction(self, text: str) -> Direction | str | None:
@@ -327,9 +407,8 @@ class Combined:
             if len(self._directions) >= _MOST:
                 self._directions.clear()
             words = plain(text)
-            self._directions[text] = (
-                None if words.lower() in _NONE else direction(words) or AMBIGUOUS_DIRECTION
-            )
+            known = None if words.lower() in _NO_UNIT else direction(words) or AMBIGUOUS_DIRECTION
+            self._directions[text] = known
         return self._directions[text]
 
 
@@ -350,90 +429,3 @@ def _direction_flag(number: float, own: Direction | None, way: Direction | str |
     if isinstance(way, str):
         return way
     return AMBIGUOUS_DIRECTION if way.flag or number < 0.0 or (own is not None and own != way) else ""
-
-
-_NUMBER = r"([-+]? ?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?)"
-_COMMA_NUMBER = r"([-+]? ?(?:\d+(?:[.,]\d*)?|[.,]\d+)(?:[eE][-+]?\d+)?)"
-_UNIT = r" ?([A-Za-z]{1,12})?"
-_X, _Y = r"(?:x ?[:=] ?)?", r"(?:y ?[:=] ?)?"
-_COMMA = re.compile(rf"{_X}{_NUMBER}{_UNIT} ?,+ ?(?:and )?{_Y}{_NUMBER}{_UNIT}$", re.IGNORECASE)
-_OTHER = re.compile(
-    rf"{_X}{_COMMA_NUMBER}{_UNIT}(?: ?; ?| ?\| ?| and | )(?:and )?{_Y}{_COMMA_NUMBER}{_UNIT}$", re.IGNORECASE
-)
-_FAR = re.compile(
-    r"(?:is )?(?:at |to )?(?:inf|infinity|infinite|∞|oo|unendlich)(?:ly far)?(?![a-z])\.?[ ,]*(.*)$",
-    re.IGNORECASE,
-)
-_TOWARD = re.compile(
-    rf"(?:in direction|in the direction|direction|towards?|at|along|:|=)? ?{_NUMBER} ?(?:deg|degrees|°)?$",
-    re.IGNORECASE,
-)
-_PLACE_NAME = re.compile(r"\s*[^\W\d_][\w'-]*\s*(?:=|:|\bis\b)\s*(?=[\[({]|at|inf|∞|[-+.\d])")
-
-
-class WrittenPlace(NamedTuple):
-    """``x`` and ``y`` in ``unit`` (None: none given), or ``toward`` in degrees for a place at infinity.
-
-    ``toward`` is NaN where it is at infinity in no direction that is said. ``flag`` as for other answers.
-    """
-
-    x: float = 0.0
-    y: float = 0.0
-    unit: UnitWord | None = None
-    toward: float | None = None
-    flag: str = ""
-
-
-def read_place(text: str) -> WrittenPlace:
-    """The reading of an answer that should be a place."""
-    words = plain(text[: LONGEST * 20])
-    if words.lower() in ("", "-", "n/a", "na", "none"):
-        return WrittenPlace(flag=MISSING)
-    if len(words) > LONGEST:
-        return WrittenPlace(flag=TOO_LONG)
-    name = _PLACE_NAME.match(words)
-    if name is not None and name.group().strip().lower()[:1] != "x":
-        words = words[name.end() :].strip()
-    far = _FAR.match(words)
-    return _far(far.group(1)) if far is not None else _near(words)
-
-
-def _far(rest: str) -> WrittenPlace:
-    if not rest:
-        return WrittenPlace(toward=float("nan"))
-    found = _TOWARD.match(rest)
-    return WrittenPlace(toward=float(found.group(1).replace(" ", ""))) if found else WrittenPlace(flag=UNREAD)
-
-
-def _near(words: str) -> WrittenPlace:
-    """Two numbers between which a comma, a semicolon or a space stands."""
-    bare, after = _unbracketed(words)
-    found = _COMMA.match(bare) or _OTHER.match(bare)
-    if found is None:
-        count = len(re.findall(r"\d+(?:[.,]\d+)*", bare))
-        return WrittenPlace(
-            flag=NO_NUMBER if not count else AMBIGUOUS if "," in bare else TWO_VALUES if count > 2 else UNREAD
-        )
-    first, unit, second, second_unit = found.groups()
-    x, y = (numeral(part.lstrip("-+ ")) for part in (first, second))
-    if x is None or y is None or x.flag or y.flag:
-        return WrittenPlace(flag=AMBIGUOUS)
-    return _with_unit(_signed(first, x.value), _signed(second, y.value), unit, second_unit or after)
-
-
-def _unbracketed(words: str) -> tuple[str, str]:
-    """What stands in brackets, and the unit after them."""
-    inside = re.match(r"[\[({] ?([^\[\](){}]*?) ?[\])}] ?([A-Za-z]*)\.?$", words)
-    return (inside.group(1), inside.group(2)) if inside else (words.rstrip("."), "")
-
-
-def _signed(text: str, value: float) -> float:
-    return -value if text.startswith("-") else value
-
-
-def _with_unit(x: float, y: float, first: str | None, second: str | None) -> WrittenPlace:
-    if first and second and first != second:
-        return WrittenPlace(flag=UNREAD)
-    name = first or second
-    unit = unit_word(name) if name else None
-    return WrittenPlace(flag=UNREAD) if name and unit is None else WrittenPlace(x, y, unit)

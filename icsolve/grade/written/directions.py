@@ -22,6 +22,8 @@ class Direction(NamedTuple):
     words: str
     name: str = ""
     flag: str = ""
+    measured: bool = False
+    """Whether it is an angle in degrees, and not words."""
 
 
 def _line(degrees: float) -> Direction:
@@ -36,81 +38,47 @@ PULL = Direction("axial", 1.0, "pull")
 PUSH = Direction("axial", -1.0, "push")
 DOUBTFUL = Direction("line", 0.0, "", "", AMBIGUOUS)
 
-_SPELLINGS = (
-    (
-        CCW,
-        "ccw",
-        "acw",
-        "c.c.w",
-        "counterclockwise",
-        "counter clockwise",
-        "counterclock wise",
-        "counter clock wise",
-    ),
-    (CCW, "anticlockwise", "anti clockwise", "contraclockwise", "linksdrehend", "gegen den uhrzeigersinn"),
-    (CCW, "entgegen dem uhrzeigersinn"),
-    (
-        CW,
-        "cw",
-        "c.w",
-        "clockwise",
-        "clock wise",
-        "rechtsdrehend",
-        "im uhrzeigersinn",
-        "mit dem uhrzeigersinn",
-    ),
-    (PULL, "pull", "pulls", "pulling", "tension", "tensile", "zug"),
-    (PUSH, "push", "pushes", "pushing", "compression", "compressive", "druck"),
-    (
-        _line(0.0),
-        "right",
-        "rightward",
-        "rightwards",
-        "horizontally right",
-        "horizontal right",
-        "nach rechts",
-        "rechts",
-    ),
-    (_line(0.0), "+x", "positive x", "plus x"),
-    (
-        _line(90.0),
-        "up",
-        "upward",
-        "upwards",
-        "vertically up",
-        "vertically upward",
-        "vertically upwards",
-        "vertical up",
-    ),
-    (_line(90.0), "+y", "positive y", "plus y", "nach oben", "oben"),
-    (
-        _line(180.0),
-        "left",
-        "leftward",
-        "leftwards",
-        "horizontally left",
-        "horizontal left",
-        "nach links",
-        "links",
-    ),
-    (_line(180.0), "-x", "negative x", "minus x"),
-    (
-        _line(270.0),
-        "down",
-        "downward",
-        "downwards",
-        "vertically down",
-        "vertically downward",
-        "vertical down",
-    ),
-    (_line(270.0), "vertically downwards", "-y", "negative y", "minus y", "nach unten", "unten"),
-)
-_WORDS: dict[str, Direction] = {text: first for first, *texts in _SPELLINGS for text in texts}
+_PHRASES = """\
+ccw | ccw, acw, c.c.w, counterclockwise, counter clockwise, counterclock wise, counter clock wise
+ccw | anticlockwise, anti clockwise, anticlock wise, contraclockwise
+ccw | linksdrehend, gegen uhrzeigersinn, entgegen uhrzeigersinn, gegenuhrzeigersinn, guzs, gegen uzs
+ccw | antihoraire, anti horaire, trigonométrique, trigonometrique, trigo
+ccw | inverse aiguilles montre, contraire aiguilles montre, inverse horaire, inverse aiguilles d'une montre
+ccw | contraire aiguilles d'une montre
+ccw | antihorario, anti horario, contrario agujas reloj, contrario manecillas reloj, contra agujas reloj
+ccw | contra manecillas reloj, levógiro, antiorario, anti orario
+cw | cw, c.w, clockwise, clock wise, rechtsdrehend, uhrzeigersinn, uzs
+cw | horaire, aiguilles montre, aiguilles d'une montre, horario, agujas reloj, manecillas reloj, dextrógiro
+cw | orario
+pull | pull, pulls, pulling, tension, tensile, zug, zugkraft, traction, tracción, traccion, trazione, tirant
+push | push, pushes, pushing, compression, compressive, druck, druckkraft, compresión, compresion
+push | compressione
+right | right, rightward, rightwards, horizontally right, horizontal right, rechts, droite, derecha, destra
+right | +x, positive x, plus x
+up | up, upward, upwards, vertically up, vertically upward, vertically upwards, vertical up, vertical upward
+up | oben, aufwärts, haut, arriba, alto, l'alto, +y, positive y, plus y
+left | left, leftward, leftwards, horizontally left, horizontal left, links, gauche, izquierda, sinistra
+left | -x, negative x, minus x
+down | down, downward, downwards, vertically down, vertically downward, vertically downwards, vertical down
+down | vertical downward, unten, abwärts, bas, abajo, basso, -y, negative y, minus y
+"""
+_NAMED = {"ccw": CCW, "cw": CW, "pull": PULL, "push": PUSH} | {
+    name: _line(degrees) for name, degrees in (("right", 0.0), ("up", 90.0), ("left", 180.0), ("down", 270.0))
+}
+_WORDS: dict[str, Direction] = {
+    phrase: _NAMED[name.strip()]
+    for name, _, phrases in (line.partition("|") for line in _PHRASES.splitlines())
+    for phrase in phrases.strip().split(", ")
+}
+"""What is left of a phrase without its filling words, in English, German, French, Spanish and Italian."""
 
 _SIDES = {"right": (1, 0), "left": (-1, 0), "up": (0, 1), "down": (0, -1)}
 _FILLER = re.compile(
-    r"\b(?:in|the|to|a|an|is|are|it|its|acts?|acting|directed|pointing|points|direction|directions|sense|going|towards?"
-    r"|rotation|rotating|turning|moment|torque|force|axis|member|link|being|of|on|dir|und|and|with|along|which)\b"
+    r"(?<![\w'])(?:in|the|to|a|an|is|are|it|its|acts?|acting|applied|directed|pointing|points|directions?|dir|sense"
+    r"|going|towards?|rotation|rotates?|rotating|turns?|turning|moment|torque|force|axis|member|being|of|on|and|with"
+    r"|along|which|i\.?e|that|gerichtet"
+    r"|der|die|das|dem|den|im|mit|nach|und|drehsinn|richtung|dans|le|la|les|des?|du|vers|à|au|sens|en|el|los|las"
+    r"|al|del|sentido|hacia|dirección|direccion|il|lo|verso|senso|direzione|si)(?![\w'])\.?"
 )
 _LETTERS = {"T": PULL, "C": PUSH, "cw": CW, "ccw": CCW}
 _NUMBER = r"([-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+))"
@@ -129,9 +97,14 @@ _DOUBTFUL_AXIS = re.compile(
     r"(?:above|below|to|from|with|off|left of|right of|against|over|under)"
     r" (?:horizontal|vertical|x|y|horizontally|vertically)"
 )
+_TO = (
+    r"towards?|to|(?:in )?(?:the )?direction (?:of|to|towards?)|in direction|(?:in )?richtung(?: von| nach)?"
+    r"|nach|zu|vers|en direction d[eu']|hacia|en dirección (?:a|de)|verso|in direzione"
+)
+_FROM = r"away from|away|weg von|à l'opposé d[eu']|alejándose de|via da"
 _TOWARD = re.compile(
-    r"(?:directed |acting |pointing )?(towards?|away from|away|from \S+ to|from \S+ towards?)"
-    r" (?:point )?([^\W_][\w']*)$",
+    rf"(?:(?:and |is |it is )?(?:directed|acting|acts|pointing|points|going|pulling|along [A-Z]{{2}}) )?"
+    rf"({_FROM}|{_TO}|from \S+ (?:to|towards?)) (?:the )?(?:point )?([^\W_][\w']{{0,7}})$",
     re.IGNORECASE,
 )
 
@@ -158,15 +131,22 @@ def _toward(text: str) -> Direction | None:
     if found is None:
         return None
     word, name = found.groups()
-    if name.lower() in _WORDS or name.lower() in ("the", "positive", "negative"):
+    if name.lower() in _WORDS and not (len(name) == 1 and name.isupper()):
         return None
-    kind = "away" if word.lower().startswith("away") else "toward"
+    if name.lower() in ("the", "positive", "negative", "uhrzeigersinn") or _FILLER.fullmatch(name):
+        return None
+    kind = "away" if re.fullmatch(_FROM, word, re.IGNORECASE) else "toward"
     return Direction(kind, 0.0, f"{kind} {name}" if kind == "toward" else f"away from {name}", name)
+
+
+_AXIS = re.compile(r"(?<!tive )(?<!plus )(?<!minus )(?<![-+])(?<![-+] )\b([xy]) (?:axis )?direction")
+"""``in x direction``, not after a sign of its own."""
 
 
 def _spelled(lower: str) -> Direction | None:
     """With words around that say nothing, ``in the clockwise sense``; two sides, ``up and left``."""
     hyphenless = re.sub(r"(?<=[a-z])-(?=[a-z])", " ", lower)
+    hyphenless = _AXIS.sub(r"+\1", hyphenless)
     words = " ".join(_FILLER.sub(" ", hyphenless).split())
     if words in _WORDS:
         return _WORDS[words]
@@ -200,18 +180,17 @@ def _corner(words: str) -> Direction | None:
 
 def _angle(lower: str) -> Direction | None:
     """``at 30 deg``, ``30° above -x``, ``at 30 deg cw from +y``."""
-    found = _ANGLE.match(lower)
-    if found is None:
+    match = _ANGLE.match(lower)
+    if match is None:
         return None
-    lead, number, unit, rest = found.groups()
+    lead, number, unit, rest = match.groups()
     if not (lead or unit):
         return None
     degrees = float(number.replace(",", "."))
     if unit and unit.startswith("rad"):
         degrees = math.degrees(degrees)
-    if not rest:
-        return _line(degrees)
-    return _from_axis(degrees, rest)
+    found = _from_axis(degrees, rest) if rest else _line(degrees)
+    return found._replace(measured=True) if found is not None else None
 
 
 def _from_axis(degrees: float, rest: str) -> Direction | None:

@@ -25,6 +25,7 @@ from icsolve.units import (
 
 CASE = "unit-case"
 AMBIGUOUS = "ambiguous-unit"
+ENERGY = "energy"
 
 _STRESS: Dimension = (-1, 1, -2, 0)
 _EXTRA = {
@@ -42,12 +43,20 @@ _EXTRA = {
     "MPa": Unit(10**6, 1, 0, _STRESS),
     "psi": times(times(parse_unit("lbf"), parse_unit("in"), -1), parse_unit("in"), -1),
 }
+_ENERGIES = frozenset({"J", "kJ"})
+"""Units of energy, which is no torque though it is force times length."""
 _AMBIGUOUS = {"mn", "mN", "Mn", "mNm", "mN*m", "mnm", "mN-m", "mN·m", "oz.", "ton", "tons", "k"}
 """Names that mean one unit to some and another to others: millinewtons or meganewtons."""
 
 _SPOKEN = (
     (re.compile(r"#"), "lb"),
-    (re.compile(r"\bpounds?[- ]?force\b", re.IGNORECASE), "lbf"),
+    (re.compile(r"\b(?:pounds?|lbs?)[- ](?:of )?force\b", re.IGNORECASE), "lbf"),
+    (re.compile(r"\bkilo[ -]newtons?\b", re.IGNORECASE), "kN"),
+    (re.compile(r"\bnewtons?\b", re.IGNORECASE), "N"),
+    (re.compile(r"\b(?:m[eè]tres?|meters?|metri|metros?)\b", re.IGNORECASE), "m"),
+    (re.compile(r"\bjoules?\b", re.IGNORECASE), "J"),
+    (re.compile(r"\bkilojoules?\b", re.IGNORECASE), "kJ"),
+    (re.compile(r"\bnewtonmeters?\b", re.IGNORECASE), "N*m"),
     (re.compile(r"\bfeet\b", re.IGNORECASE), "ft"),
     (re.compile(r"\bpound-?mass\b", re.IGNORECASE), "lbm"),
     (re.compile(r"\b(kg|lb|lbs)[- ]?f\b", re.IGNORECASE), r"\1f"),
@@ -76,7 +85,8 @@ _ANY_CAPITALS = frozenset("in ft yd lb lbs lbf kip rpm rad deg rev hp".split())
 
 
 class UnitWord(NamedTuple):
-    """A unit as read: ``name`` is its plain spelling; ``note`` is ``unit-case``, ``ambiguous-unit`` or ''."""
+    """A unit as read: ``name`` is its plain spelling; ``note`` is ``unit-case``, ``ambiguous-unit``,
+    ``energy`` (for a torque a wrong unit) or ''."""
 
     unit: Unit
     name: str
@@ -95,7 +105,7 @@ def unit_word(text: str) -> UnitWord | None:
 
 def _exact(text: str) -> UnitWord | None:
     if text in _EXTRA:
-        return UnitWord(_EXTRA[text], text)
+        return UnitWord(_EXTRA[text], text, ENERGY if text in _ENERGIES else "")
     if text in ('"', "'"):
         return UnitWord(UNITS["in" if text == '"' else "ft"], "in" if text == '"' else "ft")
     unit = _parsed(text)

@@ -1,0 +1,230 @@
+"""Answers of two numbers: a place (or a direction in which it lies at infinity), and a range of values."""
+
+from __future__ import annotations
+
+import re
+from typing import NamedTuple
+
+from icsolve.grade.written.answer import (
+    NO_NUMBER,
+    TWO_VALUES,
+    flagged,
+    holds_digits,
+    tail,
+    words_of,
+)
+from icsolve.grade.written.directions import Direction
+from icsolve.grade.written.numerals import AMBIGUOUS, UNREAD, Numeral, numeral
+from icsolve.grade.written.units import UnitWord, unit_word
+
+_SIGNED = r"(?<![\w{before}])[-+]? ?(?:\d+(?:{mark}\d*)?|{mark}\d+)(?:[eE][-+]?\d+)?(?: ?/ ?\d+)?(?![\d/])"
+_POINT, _EITHER = (
+    re.compile(_SIGNED.format(mark=mark, before=before)) for mark, before in ((r"\.", "."), ("[.,]", ".,"))
+)
+_PLACE_WORDS = re.compile(
+    r"\b(?:the|instant|instantaneous|cent(?:re|er)|pole|point|ic|is|are|at|in|located|lies|coordinates|of|about"
+    r"|approximately|(?:approx|ca)\b\.?|x)(?!\w)|\b[A-Z]_?\d+(?:-\d+)?\b|\( ?x ?, ?y ?\)|[=:~\[({]",
+    re.IGNORECASE,
+)
+_BETWEEN = (
+    r" ?(?P<unit>[A-Za-z]{{0,12}}?) ?[\])}}]? ?"
+    r"(?:(?:{separators}) ?(?:and )?(?:y ?[:=] ?)?|y ?[:=] ?| )[\[({{]?"
+)
+_AFTER_POINT, _AFTER_EITHER = (
+    re.compile(_BETWEEN.format(separators=separators), re.IGNORECASE)
+    for separators in (r",+|;|\||and|&|und|et|y|e", r";|\||and|&|und|et|y|e")
+)
+_END = re.compile(r" ?(?P<own>[A-Za-z]{0,12}) ?[\])}]? ?(?P<after>[A-Za-z]{0,12})\.?")
+_FAR = re.compile(
+    r"(?:is )?(?:at |to )?(?:inf|infinity|infinite|∞|oo|unendlich)(?:ly far)?(?![a-z])\.?[ ,]*(.*)$",
+    re.IGNORECASE,
+)
+_TOWARD = re.compile(
+    r"(?:in direction|in the direction|direction|towards?|at|along|:|=)? ?([-+]? ?\d+(?:\.\d*)?|[-+]? ?\.\d+)"
+    r" ?(?:deg|degrees|°)?$",
+    re.IGNORECASE,
+)
+
+
+class WrittenPlace(NamedTuple):
+    """``x`` and ``y`` in ``unit`` (None: none given), or ``toward`` in degrees for a place at infinity.
+
+    ``toward`` is NaN where it is at infinity in no direction that is said. ``flag`` as for other answers.
+    """
+
+    x: float = 0.0
+    y: float = 0.0
+    unit: UnitWord | None = None
+    toward: float | None = None
+    flag: str = ""
+    doubtful: bool = False
+    """Whether commas before three digits are taken for decimal marks, which may divide thousands."""
+
+
+def read_place(text: str) -> WrittenPlace:
+    """The reading of an answer that should be a place."""
+    words, flag = words_of(text)
+    if flag:
+        return WrittenPlace(flag=flag)
+    far = _FAR.search(words)
+    if far is not None and not _PLACE_WORDS.sub("", words[: far.start()]).strip():
+        return _far(far.group(1))
+    return _near(words) or WrittenPlace(flag=_why_not(words))
+
+
+def _far(rest: str) -> WrittenPlace:
+    if not rest:
+        return WrittenPlace(toward=float("nan"))
+    found = _TOWARD.match(rest)
+    return WrittenPlace(toward=float(found.group(1).replace(" ", ""))) if found else WrittenPlace(flag=UNREAD)
+
+
+def _near(words: str) -> WrittenPlace | None:
+    """Two numbers between which a comma, a semicolon, a word or a space stands; None where it is not so."""
+    for number, between, decimal in ((_POINT, _AFTER_POINT, "point"), (_EITHER, _AFTER_EITHER, "comma")):
+        found = list(number.finditer(words))
+        if len(found) != 2 or _PLACE_WORDS.sub("", words[: found[0].start()]).strip():
+            continue
+        glue = between.fullmatch(words, found[0].end(), found[1].start())
+        end = _END.fullmatch(words, found[1].end())
+        x, y = (_value(match.group(), decimal) for match in found)
+        if glue is None or end is None or x is None or y is None:
+            continue
+        if x.flag or y.flag:
+            return WrittenPlace(flag=AMBIGUOUS)
+        place = _with_unit(x.value, y.value, glue.group("unit"), end.group("own") or end.group("after"))
+        return place._replace(doubtful=any("," in match.group() for match in found))
+    return None
+
+
+def _value(text: str, decimal: str) -> Numeral | None:
+    """A number with its sign."""
+    found = numeral(text.lstrip("-+ "), 0, decimal)
+    return found._replace(value=-found.value) if found is not None and text.startswith("-") else found
+
+
+def _why_not(words: str) -> str:
+    """Why a text is no place."""
+    if not holds_digits(words):
+        return NO_NUMBER
+    count = len(re.findall(r"(?<![A-Za-z_\d])\d+(?:[.,]\d+)*", words))
+    return TWO_VALUES if count > 2 and "," not in words else AMBIGUOUS if "," in words else UNREAD
+
+
+def _with_unit(x: float, y: float, first: str | None, second: str | None) -> WrittenPlace:
+    if first and second and first != second:
+        return WrittenPlace(flag=UNREAD)
+    name = first or second
+    unit = unit_word(name) if name else None
+    return WrittenPlace(flag=UNREAD) if name and unit is None else WrittenPlace(x, y, unit)
+
+
+# --- ranges -----------------------------------------------------------------------------------------
+
+_NAME = r"(?:\|?[A-Za-z][\w']{0,7}\|?)"
+_START = re.compile(
+    rf"(?:(?:any )?(?:value|values|force|torque) )?(?:{_NAME} ?(?:=|:|in|is|∈|can be|must be)? ?)??"
+    r"(?:(?:anything |any value )?(?:from|between|von|zwischen|entre|de|da|dal|tra|fra|desde))? ?"
+    r"(?:about|approx\.?|approximately|ca\.?|~)? ?[\[({]? ?",
+    re.IGNORECASE,
+)
+_LIMITED = re.compile(
+    rf"(?:{_NAME} )?(?:is |must be )?(?P<low>>=?|=>|at least|min\.?|minimum|no less than|mindestens)? ?"
+    r"(?P<high><=?|=<|at most|max\.?|maximum|no more than|höchstens)? ?",
+    re.IGNORECASE,
+)
+_MORE = re.compile(
+    r",? ?(?:or|and) (?:(?P<low>more|above|greater|larger|higher)|less|below|smaller|lower)", re.IGNORECASE
+)
+_SEPARATOR = re.compile(
+    rf"(?P<unit>.*?) ?(?P<by>up to|to|bis|till|until|through|and|und|à|a|al|et|y|e|-+|\.\.+|,|;"
+    rf"|<=? ?{_NAME} ?<=?|>=? ?{_NAME} ?>=?)"
+    r" ?(?:about|approx\.?|approximately|ca\.?|~)? ?(?P<sign>[-+]?) ?",
+    re.IGNORECASE,
+)
+_NUMBER = re.compile(r"(?<!\w)(?:\d|[.,]\d)")
+
+
+class WrittenRange(NamedTuple):
+    """From ``low`` to ``high`` (None: an open end) in ``unit``; one value has both the same."""
+
+    low: float | None = None
+    high: float | None = None
+    unit: UnitWord | None = None
+    direction: Direction | None = None
+    flag: str = ""
+
+
+def read_range(text: str, decimal: str = "either") -> WrittenRange:
+    """The reading of an answer that should be a range: ``113 N to 287 N``, ``P >= 387 N``."""
+    words, flag = words_of(text)
+    if flag:
+        return WrittenRange(flag=flag)
+    words = re.sub(r" ?\.{2,} ?", " to ", words).strip()
+    found = _numbers(words, decimal)
+    if not found:
+        return WrittenRange(flag=UNREAD if holds_digits(words) else NO_NUMBER)
+    if any(number.flag for _, number in found):
+        return WrittenRange(flag=AMBIGUOUS)
+    if len(found) == 1:
+        return _one(words, *found[0])
+    return _two(words, found) if len(found) == 2 else WrittenRange(flag=TWO_VALUES)
+
+
+def _numbers(words: str, decimal: str) -> list[tuple[int, Numeral]]:
+    """The numbers of a text without their signs, each with where it starts."""
+    found: list[tuple[int, Numeral]] = []
+    at = _NUMBER.search(words)
+    while at is not None:
+        number = numeral(words, at.start(), decimal)
+        if number is None or number.end <= at.start():
+            break
+        found.append((at.start(), number))
+        at = _NUMBER.search(words, number.end)
+    return found
+
+
+def _end_of(text: str) -> WrittenRange:
+    """The unit and direction that follow the last number."""
+    read = tail(re.sub(r"^ ?[\])}]+", "", text).strip(), flagged("")._replace(flag=""))
+    return WrittenRange(None, None, read.unit, read.direction, read.flag)
+
+
+def _two(words: str, found: list[tuple[int, Numeral]]) -> WrittenRange:
+    (start, first), (second_start, second) = found
+    sign, before = _sign(words[:start])
+    between = _SEPARATOR.fullmatch(words[first.end : second_start].strip())
+    end = _end_of(words[second.end :])
+    if between is None or end.flag or not _START.fullmatch(before):
+        return WrittenRange(flag=end.flag or UNREAD)
+    unit_text = between.group("unit").strip("[]() ")
+    unit = unit_word(unit_text) if unit_text else end.unit
+    if unit_text and (unit is None or (end.unit is not None and end.unit.unit.dims != unit.unit.dims)):
+        return WrittenRange(flag=UNREAD)
+    if unit_text and end.unit is not None and unit is not None and end.unit.unit != unit.unit:
+        return WrittenRange(flag=UNREAD)
+    values = [sign * first.value, (-1.0 if between.group("sign") == "-" else 1.0) * second.value]
+    return end._replace(low=min(values), high=max(values), unit=unit)
+
+
+def _one(words: str, start: int, number: Numeral) -> WrittenRange:
+    """One value, or a range with one open end."""
+    after = words[number.end :]
+    more = _MORE.search(after)
+    end = _end_of(after[: more.start()] if more else after)
+    sign, before = _sign(words[:start])
+    limit = _LIMITED.fullmatch(before)
+    if end.flag or (limit is None and not _START.fullmatch(before)):
+        return WrittenRange(flag=end.flag or UNREAD)
+    value = sign * number.value
+    low = bool((limit and limit.group("low")) or (more and more.group("low")))
+    high = bool((limit and limit.group("high")) or (more and not more.group("low")))
+    return end._replace(low=value if low or not high else None, high=value if high or not low else None)
+
+
+def _sign(before: str) -> tuple[float, str]:
+    """+1 or -1, and what stands before it."""
+    stripped = before.rstrip()
+    if stripped.endswith(("-", "+")):
+        return (-1.0 if stripped[-1] == "-" else 1.0), stripped[:-1].strip()
+    return 1.0, before.strip()
