@@ -1,17 +1,19 @@
 """Newton's method for a group of points: many starts, every solution found once, the nearest first.
 
-Starts come from the construction that holds one point where `near` puts it (and about there), with all of
-its branches, and from points spread evenly about the group. Each solution is polished to full precision.
+The first start is `near` itself. Others come from the construction that holds points where `near` puts
+them (and about there), with all of its branches, and from points spread evenly about the group. Each solution
+is polished to full precision.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from itertools import islice, product
+from typing import NamedTuple
 
 from icsolve.assembly.board import Board
-from icsolve.assembly.data import LENGTH, facts_of
+from icsolve.assembly.data import CORNER, LENGTH, LINE, facts_of
 from icsolve.assembly.equations import Unknown, pivots, solved
 from icsolve.assembly.given import Given
 from icsolve.assembly.group import Group
@@ -22,11 +24,14 @@ from icsolve.assembly.step import Step
 from icsolve.assembly.steps import Meet
 from icsolve.assembly.words import datum_words, listed, plain
 from icsolve.errors import Status
+from icsolve.numbers.linear import inverse, solve_square
 
 Spot = tuple[float, float]
 Start = dict[str, Spot]
 
 MOST_STEPS = 18
+MOST_NEAR_STEPS = 60
+"""Steps from `near` itself, which is worth more patience than other starts."""
 LONGEST_STEP = 0.4
 """Longest move of a coordinate in one step, over the group's size."""
 CLOSED = 1e-9
@@ -36,39 +41,187 @@ FLAT = 1e-11
 MOST_BRANCHES = 64
 SPREAD = 16
 MOST_WORK = 250_000
-"""Steps times the square of the number of equations, over all starts."""
+"""Steps times the square of the number of equations, over all starts but `near` itself."""
+CLOSE_WORK = 60_000
+"""The same once a solution was found from `near` itself."""
 
 
-def solutions(
-    group: Group, board: Board, near: Mapping[str, Spot], missed: Callable[[Miss], None]
-) -> list[Group]:
-    """Every solution found of a group, the nearest to `near` first; ``missed`` is told why there is none."""
-    found, closest = _search(group, board, near)
+class Found(NamedTuple):
+    """What a search for the solutions of a group found: the nearest to `near` first.
+
+    ``miss`` says why there is none; ``closest`` is then the place about `near` where the data are
+    violated least.
+    ``complete`` where it is shown that no other solution is nearer to `near`.
+    """
+
+    groups: list[Group]
+    miss: Miss | None
+    closest: Start
+    complete: bool
+
+
+class Descent(NamedTuple):
+    """Where Newton steps led: the residual, the points, and how many steps there were."""
+
+    off: float
+    end: Start
+    steps: int
+
+
+def solutions(group: Group, board: Board, near: Mapping[str, Spot]) -> Found:
+    """The solutions found of a group: from `near` itself first, then from other starts."""
+    search = _Search(group, board, near)
+    search.run()
     held = [t for t in group.targets if t in near]
-    found.sort(key=lambda end: math.hypot(*(math.dist(end[t], near[t]) for t in held)))
-    polished = [_polished(group, board, end) for end in found]
+    search.found.sort(key=lambda end: math.hypot(*(math.dist(end[t], near[t]) for t in held)))
+    polished = [_polished(group, board, end) for end in search.found]
     settled = [option for option in polished if option is not None]
-    if not settled:
-        missed(_flat(group) if polished else _unreached(group, board, closest))
-    return settled
+    if settled:
+        return Found(settled, None, {}, search.complete)
+    if polished:
+        return Found([], _flat(group), {}, False)
+    closest = search.closest.end
+    miss = _unfinished(group) if search.spent else _unreached(group, board, closest)
+    return Found([], miss, search.beside, False)
 
 
-def _search(group: Group, board: Board, near: Mapping[str, Spot]) -> tuple[list[Start], Start]:
-    """The distinct ends of the starts that arrive, and the closest of those that do not."""
-    found: list[Start] = []
-    closest: tuple[float, Start] = (math.inf, {})
-    reach = _reach(group, board)
-    work, per_step = 0, len(group.equations) ** 2
-    for start in _starts(group, board, near, reach):
-        off, end, taken = _descend(group, board, start, reach)
-        work += taken * per_step
-        if off > CLOSED * reach * reach:
-            closest = min(closest, (off, end), key=lambda pair: pair[0])
-        elif not any(_same(end, other, reach) for other in found):
-            found.append(end)
-        if work > MOST_WORK:
-            break
-    return found, closest[1]
+class _Search:
+    """Starts one after another, until it is shown that nothing nearer is left, or the work is spent."""
+
+    def __init__(self, group: Group, board: Board, near: Mapping[str, Spot]) -> None:
+        self.group, self.board, self.near = group, board, near
+        self.reach = _reach(group, board)
+        self.found: list[Start] = []
+        self.closest = Descent(math.inf, {}, 0)
+        self.beside: Start = {}
+        self.complete = self.spent = False
+
+    def run(self) -> None:
+        """Try `near` itself, then the others."""
+        held = {t: self.near[t] for t in self.group.targets if t in self.near}
+        if len(held) == len(self.group.targets):
+            self._try(held, MOST_NEAR_STEPS)
+            if self.found and _alone(self.group, self.board, held, self.found[0]):
+                self.complete = True
+                return
+            if not self.found:
+                self.beside = _least_residual(self.group, self.board, held, self.reach)
+        work, most = 0, CLOSE_WORK if self.found else MOST_WORK
+        for start in self._starts(list(held)):
+            work += self._try(start, MOST_STEPS) * len(self.group.equations) ** 2
+            if work > most:
+                self.spent = True
+                return
+
+    def _try(self, start: Start, most: int) -> int:
+        """Descend from a start; how many steps it took."""
+        descent = _descend(self.group, self.board, start, self.reach, most)
+        if descent.off > CLOSED * self.reach * self.reach:
+            self.closest = min(self.closest, descent, key=lambda each: each.off)
+        elif not any(_same(descent.end, other, self.reach) for other in self.found):
+            self.found.append(descent.end)
+        return descent.steps
+
+    def _starts(self, held: list[str]) -> Iterator[Start]:
+        group, near = self.group, self.near
+        if self.found:
+            yield from _about(near, self.found[0])
+        if held:
+            yield from _constructed(group, self.board, near, held, self.reach)
+        for point in held[:2] if len(held) > 1 else ():
+            yield from _constructed(group, self.board, near, [point], self.reach)
+        yield from _spread(group, near[held[0]], self.reach)
+
+
+def _about(near: Mapping[str, Spot], end: Start) -> Iterator[Start]:
+    """Starts within the ball about `near` that has a solution on its rim: a nearer one lies inside."""
+    held = [t for t in end if t in near]
+    yield {
+        t: (2.0 * near[t][0] - x, 2.0 * near[t][1] - y) if t in near else (x, y) for t, (x, y) in end.items()
+    }
+    radius = max(math.dist(near[t], end[t]) for t in held)
+    for k in range(1, SPREAD // 2 + 1):
+        start = {}
+        for j, t in enumerate(end):
+            x, y = near.get(t, end[t])
+            u, v = _even(k, j)
+            start[t] = (x + (2.0 * u - 1.0) * radius, y + (2.0 * v - 1.0) * radius)
+        yield start
+
+
+def _even(k: int, j: int) -> Spot:
+    """The k-th of numbers spread evenly over a square: multiples of irrational numbers, modulo one."""
+    return math.fmod(k * math.sqrt(3 + 8 * j), 1.0), math.fmod(k * math.sqrt(5 + 8 * j), 1.0)
+
+
+STEEPEST = {LENGTH: 2.0, CORNER: 4.0, LINE: 4.0}
+"""How fast the derivatives of a datum's equation change at most, per move of one of its points."""
+MOST_SHOWN = 60
+"""Equations of the largest group for which an inverse is taken."""
+
+
+def _alone(group: Group, board: Board, near: Start, end: Start) -> bool:
+    """Whether it is shown that no other solution is as near to `near` as one that was found.
+
+    All points have a `near`. With Y the inverse of the derivatives J at `near`, there is at most one solution
+    in a ball where |Y (J(x) - J)| < 1: the mean of J between two solutions would be singular else.
+    """
+    if len(group.equations) > MOST_SHOWN:
+        return False
+    board.points.update(near)
+    rows, _ = _rows(group, board)
+    inverted = inverse([[row.get(u, 0.0) for u in group.unknowns()] for row in rows])
+    if inverted is None:
+        return False
+    radius = math.hypot(*(math.dist(near[t], end[t]) for t in near)) * (1.0 + 1e-9)
+    squares = dict.fromkeys(group.targets, 0.0)
+    for equation in group.equations:
+        share = STEEPEST.get(equation.datum.kind, 0.0)
+        for p in {*equation.datum.points} & squares.keys():
+            squares[p] += share * share
+    change = math.sqrt(max(squares.values())) * radius
+    return math.sqrt(sum(v * v for row in inverted for v in row)) * change < 1.0
+
+
+def _least_residual(group: Group, board: Board, start: Start, reach: float) -> Start:
+    """Where the data of a group are violated least, downhill from a start (Levenberg and Marquardt)."""
+    unknowns = group.unknowns()
+    if len(unknowns) > MOST_SHOWN:
+        return {}
+    at, damping = start, 1e-3 * reach * reach
+    board.points.update(at)
+    rows, values = _rows(group, board)
+    for _ in range(MOST_NEAR_STEPS):
+        move = _damped(rows, values, unknowns, damping)
+        after = _moved(at, move, 1.0)
+        board.points.update(after)
+        rows_after, values_after = _rows(group, board)
+        gain = math.hypot(*values) - math.hypot(*values_after)
+        if gain > 0.0:
+            done = gain < 1e-9 * math.hypot(*values)
+            at, rows, values, damping = after, rows_after, values_after, damping / 5.0
+            if done:
+                break
+        else:
+            damping *= 5.0
+            if damping > 1e6 * reach * reach:
+                break
+    return at
+
+
+def _damped(
+    rows: list[dict[Unknown, float]], values: list[float], unknowns: list[Unknown], damping: float
+) -> dict[Unknown, float]:
+    """The step of least squares, held back by a damping."""
+    place = {u: k for k, u in enumerate(unknowns)}
+    normal = [[damping * (i == j) for j in range(len(unknowns))] for i in range(len(unknowns))]
+    slope = [0.0] * len(unknowns)
+    for row, value in zip(rows, values, strict=True):
+        for u, a in row.items():
+            slope[place[u]] += a * value
+            for v, b in row.items():
+                normal[place[u]][place[v]] += a * b
+    return dict(zip(unknowns, solve_square(normal, slope) or slope, strict=True))
 
 
 def _reach(group: Group, board: Board) -> float:
@@ -86,7 +239,7 @@ def _rows(group: Group, board: Board) -> tuple[list[dict[Unknown, float]], list[
     return [{u: v for u, v in row.by.items() if u in unknown} for row in rows], [row.value for row in rows]
 
 
-def _descend(group: Group, board: Board, start: Start, reach: float) -> tuple[float, Start, int]:
+def _descend(group: Group, board: Board, start: Start, reach: float, most: int) -> Descent:
     """Newton steps of limited length from a start: the residual reached, where, and after how many.
 
     Without a line search: measured on random groups, a search triples the time and ends in
@@ -94,7 +247,7 @@ def _descend(group: Group, board: Board, start: Start, reach: float) -> tuple[fl
     """
     board.points.update(start)
     off, taken = math.inf, 0
-    while taken < MOST_STEPS:
+    while taken < most:
         taken += 1
         rows, values = _rows(group, board)
         off = math.hypot(*values)
@@ -105,7 +258,7 @@ def _descend(group: Group, board: Board, start: Start, reach: float) -> tuple[fl
         longest = max(map(abs, move.values()), default=0.0)
         fraction = min(1.0, LONGEST_STEP * reach / longest) if longest > 0.0 else 0.0
         board.points.update(_moved({t: board.points[t] for t in group.targets}, move, fraction))
-    return off, {t: board.points[t] for t in group.targets}, taken
+    return Descent(off, {t: board.points[t] for t in group.targets}, taken)
 
 
 def _moved(at: Start, move: dict[Unknown, float], fraction: float) -> Start:
@@ -135,29 +288,23 @@ def _polished(group: Group, board: Board, end: Start) -> Group | None:
     return option
 
 
-def _starts(group: Group, board: Board, near: Mapping[str, Spot], reach: float) -> Iterator[Start]:
-    held = [t for t in group.targets if t in near]
-    for point in held[:2]:
-        yield from _constructed(group, board, near, point, reach)
-    yield from _spread(group, near[held[0]], reach)
-
-
 def _constructed(
-    group: Group, board: Board, near: Mapping[str, Spot], point: str, reach: float
+    group: Group, board: Board, near: Mapping[str, Spot], held: list[str], reach: float
 ) -> Iterator[Start]:
-    """Starts by closed forms, with one point held at and about where `near` puts it."""
+    """Starts by closed forms, with points held where `near` puts them, one of them also about there."""
     drawing = Drawing(facts_of(board.case, group.data()), frozenset())
     ground, goal = drawing.ground, set(group.targets)
-    ground.begin([p for p in group.needs() if isinstance(p, str)] + [point])
+    ground.begin([p for p in group.needs() if isinstance(p, str)] + held)
     ground.run(goal)
     while not goal <= ground.placed.keys() and grow(drawing):
         ground.run(goal)
     forks = [i for i, step in enumerate(drawing.steps) if isinstance(step, Meet) and step.sign]
+    point, places = held[0], {p: near[p] for p in held}
     (x, y), r = near[point], 0.1 * reach
-    ring = [(x, y), (x + r, y), (x, y + r), (x - r, y), (x, y - r)]
+    ring = [(x, y), (x + r, y), (x, y + r), (x - r, y), (x, y - r)] if len(held) == 1 else [(x, y)]
     for spot in ring:
         for signs in islice(product((1, -1), repeat=len(forks)), MOST_BRANCHES):
-            start = _run(drawing.steps, dict(zip(forks, signs, strict=True)), board, {point: spot})
+            start = _run(drawing.steps, dict(zip(forks, signs, strict=True)), board, places | {point: spot})
             if start is not None:
                 yield {t: start.get(t, near.get(t, spot)) for t in group.targets}
 
@@ -180,11 +327,11 @@ def _run(steps: list[Step], signs: dict[int, int], board: Board, held: Start) ->
 
 
 def _spread(group: Group, about: Spot, reach: float) -> Iterator[Start]:
-    """Points spread evenly over a square about one: multiples of irrational numbers, modulo one."""
+    """Points spread evenly over a square about one."""
     for k in range(1, SPREAD + 1):
         start = {}
         for j, target in enumerate(group.targets):
-            u, v = (math.fmod(k * math.sqrt(prime), 1.0) for prime in (2 + 8 * j + 1, 3 + 8 * j + 2))
+            u, v = _even(k, j)
             start[target] = (about[0] + (2.0 * u - 1.0) * reach, about[1] + (2.0 * v - 1.0) * reach)
         yield start
 
@@ -203,6 +350,17 @@ def _unreached(group: Group, board: Board, closest: Start) -> Miss:
         f"the figure cannot be assembled: no position found in which points {names} fit their data "
         f"together; the closest misses {datum_words(datum)} by {measure(board, off)}",
         off,
+    )
+
+
+def _unfinished(group: Group) -> Miss:
+    names = listed([plain(t) for t in group.targets])
+    return Miss(
+        Status.AMBIGUOUS,
+        f"no position was found in which points {names} fit their data together, and the search ended before "
+        "all starts were tried: say roughly where more of them are, near: {...} for each",
+        0.0,
+        vague=True,
     )
 
 

@@ -1,16 +1,20 @@
 """What a figure can be refused for, in words: the facts of a step that failed, and of data that clash."""
 
 import math
+from collections.abc import Mapping
 from typing import NamedTuple
 
 from icsolve.assembly.board import Board
 from icsolve.assembly.data import CORNER, LENGTH, LINE, MEAN, RAY, Datum, X, Y, number_of
+from icsolve.assembly.frame import case_point
 from icsolve.assembly.loci import Circle, Crossing, is_round
+from icsolve.assembly.shapes import Turned
 from icsolve.assembly.step import Step
-from icsolve.assembly.steps import Meet
+from icsolve.assembly.steps import Meet, Polar
 from icsolve.assembly.words import datum_words, joined, locus_words, plain, span_words
-from icsolve.case import Coordinates
+from icsolve.case import Coordinates, Number
 from icsolve.errors import Status
+from icsolve.numbers.arithmetic import Floats, turn_of
 
 
 class Miss(NamedTuple):
@@ -118,6 +122,64 @@ def degenerate(step: Step, board: Board) -> Miss:
         return concentric(step, board) if is_round(step.second) else parallel(step, board)
     message = f"{plain(step.targets[0])} has no place ({step.name})"
     return Miss(Status.CANNOT_ASSEMBLE, message, vague=True)
+
+
+class Mirrored(Floats):
+    """Floats on which every angle counts the other way round."""
+
+    def turn(self, number: Number) -> tuple[float, float]:
+        """Cosine, and the sine of the opposite angle."""
+        c, s = turn_of(number.value)
+        return c, -s
+
+
+ROUGH = 0.02
+"""What `near` may be off, over the figure's size, whatever it says."""
+
+
+def mirrored(
+    board: Board, steps: tuple[Step, ...], near: Mapping[str, tuple[float, float]], size: float
+) -> Miss | None:
+    """The first point whose `near` lies where the opposite angles would put it, and not where it is."""
+    for step in steps:
+        if not isinstance(step, Polar | Meet | Turned) or step.target not in near:
+            continue
+        angles = [d for d in step.data() if d.kind in (RAY, CORNER)]
+        if not angles:
+            continue
+        p = str(step.target)
+        at, other = board.points[p], _opposite(step, board, near[p])
+        apart = math.dist(other, at)
+        if apart > 2.0 * ROUGH * size and math.dist(other, near[p]) < apart / 2.0:
+            return Miss(Status.INCONSISTENT, _mirrored(board, p, at, angles))
+    return None
+
+
+def _opposite(step: Polar | Meet | Turned, board: Board, near: tuple[float, float]) -> tuple[float, float]:
+    """Where the opposite angles would put a step's point: of two places the one nearer to its `near`."""
+    scratch = Board(board.case, board.frame, Mirrored())
+    scratch.points = dict(board.points)
+    places = []
+    signs = (1, -1) if isinstance(step, Meet) and step.sign else (0,)
+    for sign in signs:
+        (step._replace(sign=sign) if isinstance(step, Meet) else step).place(scratch)
+        x, y = scratch.points[step.target]
+        places.append((float(x), float(y)))
+    return min(places, key=lambda at: math.dist(at, near))
+
+
+def _mirrored(board: Board, p: str, at: tuple[float, float], angles: list[Datum]) -> str:
+    said = " and ".join(f"{joined(*d.points)} = {number_of(board.case, d).value:.6g}" for d in angles)
+    x, y = case_point(board.frame, at)
+    corner = angles[-1]
+    how = "from the x axis"
+    if corner.kind == CORNER:
+        a, v, b = map(plain, corner.points)
+        how = f"from {joined(v, a)} to {joined(v, b)}"
+    return (
+        f"near: has {plain(p)} on the other side: {said}, counterclockwise {how}, puts it at "
+        f"({x:.6g}, {y:.6g}), mirrored; write the opposite angle, or correct near: {{{plain(p)}: ...}}"
+    )
 
 
 def clash(board: Board, datum: Datum, off: float, ahead: bool) -> Miss:

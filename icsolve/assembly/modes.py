@@ -1,0 +1,504 @@
+"""The assembly modes of a construction: every way in which it assembles, and the one that `near` means.
+
+A depth-first walk over the steps, nearest places first. Of the modes that assemble the one with the least
+sum of squared distances from `near` is taken (branch and bound: a partial sum only grows). A partial way that
+lies clearly nearer to `near` than that mode, and does not go on, is a refusal: `near` is a promise.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from typing import NamedTuple
+
+from icsolve.assembly.board import Board, Key, Point
+from icsolve.assembly.data import Datum
+from icsolve.assembly.frame import case_point, normalised
+from icsolve.assembly.loci import Crossing, is_round
+from icsolve.assembly.misfit import TOO_CLOSE, misfit, size_of
+from icsolve.assembly.order import Order
+from icsolve.assembly.refusals import (
+    Miss,
+    behind,
+    clash,
+    concentric,
+    degenerate,
+    measure,
+    merged,
+    parallel,
+    too_far,
+)
+from icsolve.assembly.step import CLOSED_FORMS, Step, aims
+from icsolve.assembly.steps import Meet
+from icsolve.assembly.words import listed, plain
+from icsolve.errors import SceneError, Status
+
+U = 2.0**-53
+TOUCHING = 8.0 * U
+"""Gaps below this many roundings of the lengths that made them are zero: the circles touch."""
+PARALLEL = 1e-14
+"""Sine of the smallest angle at which two lines still meet."""
+COARSE = 0.02
+"""Misfit at which a way is given up before its end; the finer test comes with the whole figure."""
+EVEN = 0.99
+SIDEWAYS = 0.05
+"""Two ways are equally near where their distances from `near` have at least the ratio EVEN, and `near`
+is seen from between them within this sine of square to the line that joins them. (Near a dead centre the two
+are close together, and the ratio alone would call any two digits of `near` in between.)"""
+MOST_MODES = 256
+SAME = 1e-11
+"""Points nearer than this (normalised, over 1 + their distance from the origin) are one point."""
+MOST_LISTED = 4
+
+Spots = Mapping[str, Point]
+
+
+class Path(NamedTuple):
+    """The last step of a way so far, as it was settled; ``before`` leads to the others.
+
+    ``off`` is the sum of the squared distances from `near` up to here; ``held`` has the places of its points
+    that have a `near`.
+    """
+
+    before: Path | None
+    step: Step | None
+    off: float
+    held: Spots
+
+    def steps(self) -> tuple[Step, ...]:
+        """All steps, the first one first."""
+        out: list[Step] = []
+        at: Path | None = self
+        while at is not None and at.step is not None:
+            out.append(at.step)
+            at = at.before
+        return tuple(reversed(out))
+
+
+START = Path(None, None, 0.0, {})
+
+
+class Mode(NamedTuple):
+    """One way of assembling: the steps as they were settled, the points, and the end of its path."""
+
+    steps: tuple[Step, ...]
+    points: dict[Key, Point]
+    path: Path
+
+
+class DeadEnd(NamedTuple):
+    """A way that does not go on: after how many steps, why, and the path so far.
+
+    The path may end with a place where its point comes closest to its data.
+    """
+
+    depth: int
+    miss: Miss
+    path: Path
+
+
+class Fork(NamedTuple):
+    """Where the walk can go on otherwise."""
+
+    depth: int
+    options: list[Path]
+
+
+class Walk:
+    """The walk over the steps of an order on one board.
+
+    ``modes`` has what it found, ``dead_ends`` what failed; ``gave_up`` tells that there were too many
+    branches to try. ``contradicted`` says what data that made no points have against a mode. With ``every``
+    the walk leaves out none, however far from `near`.
+    """
+
+    def __init__(
+        self,
+        order: Order,
+        board: Board,
+        contradicted: Callable[[Mode], Miss | None],
+        every: bool = False,
+    ) -> None:
+        self.order, self.board, self.contradicted = order, board, contradicted
+        self.near = {p: normalised(board.frame, xy) for p, xy in board.case.near.items()}
+        self.checks = _due(order)
+        self.budget = 20_000 + 20 * len(order.steps)
+        self.modes: list[Mode] = []
+        self.dead_ends: list[DeadEnd] = []
+        self.gave_up = False
+        self.best = math.inf
+        self.every = every
+        self.complete = True
+        """Whether groups that only all their data together place were searched to the end."""
+
+    def run(self) -> Walk:
+        """Try every way that is not clearly farther from `near` than another."""
+        forks: list[Fork] = []
+        path: Path | None = START
+        depth = 0
+        while path is not None:
+            while path is not None and depth < len(self.order.steps):
+                path = self._advance(depth, path, forks)
+                depth += 1
+            if path is not None:
+                self._arrived(path)
+            if self.budget <= 0 or len(self.modes) > MOST_MODES:
+                self.gave_up = bool(forks)
+                break
+            path, depth = self._back(forks)
+        self.modes = [mode for mode in self.modes if not self._beyond(mode.path)]
+        return self
+
+    def _arrived(self, path: Path) -> None:
+        """Keep a mode that no datum contradicts."""
+        mode = Mode(path.steps(), dict(self.board.points), path)
+        miss = self.contradicted(mode)
+        if miss is None:
+            self.modes.append(mode)
+            self.best = min(self.best, path.off)
+        else:
+            self.dead_ends.append(DeadEnd(len(self.order.steps), miss, path))
+
+    def _beyond(self, path: Path) -> bool:
+        """Whether a way is clearly farther from `near` already than the best mode so far."""
+        return not self.every and self.best < EVEN * EVEN * path.off
+
+    def _advance(self, depth: int, path: Path, forks: list[Fork]) -> Path | None:
+        """Run one step; None where nothing fits."""
+        self.budget -= 1
+        settled = self._options(depth, path, self.order.steps[depth])
+        options = [option for option in settled if not self._beyond(option)]
+        if not options:
+            return None
+        options.sort(key=lambda option: option.off)
+        if len(options) > 1:
+            forks.append(Fork(depth, options[1:]))
+        self._put(options[0].step)
+        return options[0]
+
+    def _back(self, forks: list[Fork]) -> tuple[Path | None, int]:
+        """Take the last fork that is still of use; None where there is none."""
+        while forks:
+            fork = forks.pop()
+            option = fork.options[0]
+            if self._beyond(option):
+                continue
+            if len(fork.options) > 1:
+                forks.append(Fork(fork.depth, fork.options[1:]))
+            self._put(option.step)
+            return option, fork.depth + 1
+        return None, 0
+
+    def _put(self, step: Step | None) -> None:
+        if isinstance(step, Meet):
+            step.put(self.board, step.cross(self.board))
+        elif step is not None:
+            step.place(self.board)
+
+    def _options(self, depth: int, path: Path, step: Step) -> Iterator[Path]:
+        """The step as it can be settled here."""
+        try:
+            for option in self._settled(depth, path, step):
+                self._put(option)
+                longer = self._longer(path, option)
+                miss = self._ahead(option) or self._clash(depth)
+                if miss is None:
+                    yield longer
+                else:
+                    self.dead_ends.append(DeadEnd(depth, miss, longer))
+        except ZeroDivisionError:
+            self.dead_ends.append(DeadEnd(depth, degenerate(step, self.board), path))
+
+    def _longer(self, path: Path, step: Step) -> Path:
+        """The path with one more step, whose points are on the board."""
+        places = self.board.points
+        held = {t: places[t] for t in step.targets if isinstance(t, str) and t in self.near}
+        return Path(path, step, path.off + sum(_square(at, self.near[t]) for t, at in held.items()), held)
+
+    def _settled(self, depth: int, path: Path, step: Step) -> list[Step]:
+        """The step with each of the branches that it has here."""
+        points = self.board.points
+        for a, b in aims(step):
+            if math.dist(points[a], points[b]) <= TOO_CLOSE:
+                miss = merged(plain(step.targets[0]), plain(a), plain(b))
+                self.dead_ends.append(DeadEnd(depth, miss, path))
+                return []
+        if isinstance(step, Meet):
+            return self._crossings(depth, path, step)
+        if isinstance(step, CLOSED_FORMS):
+            return [step]
+        from icsolve.assembly.group import Group
+        from icsolve.assembly.newton import solutions
+
+        assert isinstance(step, Group)
+        found = solutions(step, self.board, self.near)
+        if found.miss is not None:
+            self.board.points.update(found.closest)
+            longer = self._longer(path, step) if found.closest else path
+            self.dead_ends.append(DeadEnd(depth, found.miss, longer))
+        self.complete &= found.complete
+        return [*found.groups]
+
+    def _crossings(self, depth: int, path: Path, step: Meet) -> list[Step]:
+        found = step.cross(self.board)
+        miss = self._apart(step, found)
+        if miss is not None:
+            if math.isfinite(found.middle[0]) and math.isfinite(found.middle[1]):
+                self.board.points[step.target] = _between(step, self.board, found)
+                path = self._longer(path, step)
+            self.dead_ends.append(DeadEnd(depth, miss, path))
+            return []
+        if found.half is None:
+            return [step]
+        if any(abs(m) <= TOUCHING * found.scale for m in found.margins):
+            return [step._replace(sign=0)]
+        return [step._replace(sign=1), step._replace(sign=-1)]
+
+    def _apart(self, step: Meet, found: Crossing) -> Miss | None:
+        if not is_round(step.second):
+            return parallel(step, self.board) if abs(found.scale) <= PARALLEL else None
+        touching = TOUCHING * found.scale
+        if min(found.margins) < -touching:
+            return too_far(step, self.board, found)
+        if is_round(step.first) and max(abs(m) for m in found.margins[1:]) <= touching:
+            return concentric(step, self.board)
+        return None
+
+    def _ahead(self, step: Step) -> Miss | None:
+        if not isinstance(step, Meet):
+            return None
+        worst = min(step.ahead(self.board), default=1.0)
+        return None if worst > TOO_CLOSE else behind(step, self.board, worst)
+
+    def _clash(self, depth: int) -> Miss | None:
+        for datum in self.checks.get(depth, ()):
+            off, ahead = misfit(self.board, datum)
+            reach = 1.0 + max(abs(c) for p in datum.points for c in self.board.points[p])
+            if not ahead or abs(off) > COARSE * reach:
+                return clash(self.board, datum, off, ahead)
+        return None
+
+
+def _between(step: Meet, board: Board, found: Crossing) -> Point:
+    """Where two loci that do not meet come closest: the middle between them."""
+    if not is_round(step.first):
+        cx, cy, r = step.second.values(board)
+        x, y = found.middle
+        d = math.hypot(x - cx, y - cy) or 1.0
+        share = (1.0 + r / d) / 2.0
+        return cx + (x - cx) * share, cy + (y - cy) * share
+    (px, py, a), (qx, qy, b) = step.first.values(board), step.second.values(board)
+    d = math.hypot(qx - px, qy - py) or 1.0
+    ux, uy = (qx - px) / d, (qy - py) / d
+    far, over, _ = found.margins
+    # on the line of centres: between the circles, or where the one inside comes closest to the other
+    along = (a + d - b) / 2.0 if far < 0.0 else (a + d + b) / 2.0 if over < 0.0 else -(a + b - d) / 2.0
+    return px + along * ux, py + along * uy
+
+
+def _square(one: Point, two: Point) -> float:
+    dx, dy = one[0] - two[0], one[1] - two[1]
+    return float(dx * dx + dy * dy)
+
+
+def _due(order: Order) -> dict[int, list[Datum]]:
+    """The data to compare after each step: those whose last point it places."""
+    depth = {key: i for i, step in enumerate(order.steps) for key in step.targets}
+    due: dict[int, list[Datum]] = {}
+    for datum in order.facts.data:
+        if all(p in depth for p in datum.points):
+            due.setdefault(max(depth[p] for p in datum.points), []).append(datum)
+    return due
+
+
+def refusal(walk: Walk) -> Miss:
+    """The miss to report of a figure that does not assemble.
+
+    Of the way that lies nearest to `near`: the deepest dead end, of these the smallest.
+    """
+    if walk.gave_up:
+        steps = walk.order.steps
+        forks = [step.target for step in steps if isinstance(step, Meet) and step.sign]
+        names = ", ".join(plain(key) for key in forks if key not in walk.near)
+        message = f"the figure has too many open branches to try them all; give near: for some of {names}"
+        return Miss(Status.AMBIGUOUS, message)
+    first = walk.dead_ends[0]
+    nearest = [end for end in walk.dead_ends if not _clearly(walk, first, end.path)]
+    return min(nearest or walk.dead_ends, key=lambda at: (-at.depth, at.miss.amount)).miss
+
+
+def _clearly(walk: Walk, one: DeadEnd, other: Path) -> bool:
+    """Whether a dead end lies clearly nearer to `near` than another way."""
+    ours, theirs = parted(one.path, other)
+    held = [p for p in ours if p in theirs]
+    return nearer([ours[p] for p in held], [theirs[p] for p in held], [walk.near[p] for p in held])
+
+
+def parted(one: Path, two: Path) -> tuple[dict[str, Point], dict[str, Point]]:
+    """The places with a `near` of two ways, from where they part."""
+    ours, theirs = _line(one), _line(two)
+    at = 0
+    while at < min(len(ours), len(theirs)) and ours[at] is theirs[at]:
+        at += 1
+    return _places(ours[at:]), _places(theirs[at:])
+
+
+def _line(path: Path) -> list[Path]:
+    out: list[Path] = []
+    at: Path | None = path
+    while at is not None:
+        out.append(at)
+        at = at.before
+    return out[::-1]
+
+
+def _places(paths: list[Path]) -> dict[str, Point]:
+    return {p: at for path in paths for p, at in path.held.items()}
+
+
+def nearer(one: list[Point], two: list[Point], near: list[Point]) -> bool:
+    """Whether the first of two placements of some points is clearly the nearer to `near`.
+
+    Both are points of a space of twice as many dimensions; ``side`` is how far `near` is from the
+    plane midway between them.
+    """
+    first, second, half = _distance(one, near), _distance(two, near), _distance(one, two) / 2.0
+    if half == 0.0 or first < EVEN * second:
+        return half > 0.0
+    side = (second - first) * (second + first) / (4.0 * half)
+    return side > SIDEWAYS * math.sqrt((first * first + second * second) / 2.0)
+
+
+def _distance(one: list[Point], two: list[Point]) -> float:
+    return math.hypot(*(math.dist(p, q) for p, q in zip(one, two, strict=True)))
+
+
+# --- the mode that is meant ---
+
+
+def choose(walk: Walk, points: tuple[str, ...]) -> Mode:
+    """The mode that is meant: the nearest to `near`.
+
+    Raises
+    ------
+    SceneError
+        ``ambiguous``: several are about as near, listed point by point.
+    """
+    board = walk.board
+    modes = _distinct(sorted(walk.modes, key=lambda mode: mode.path.off), points)
+    best = modes[0]
+    rivals = [mode for mode in modes if mode is best or not _nearer(walk, best, mode, points)]
+    if len(rivals) > 1:
+        raise SceneError(Status.AMBIGUOUS, _listing(board, rivals, points))
+    return best
+
+
+def nearest(walk: Walk) -> Mode:
+    """The mode nearest to `near`, the first of those that are as near."""
+    return min(walk.modes, key=lambda mode: mode.path.off)
+
+
+def overridden(walk: Walk, chosen: Mode) -> Miss | None:
+    """Why the mode that was chosen is not the one at `near`: one that lies nearer does not assemble."""
+    worst: tuple[float, DeadEnd] | None = None
+    for end in walk.dead_ends:
+        if not _clearly(walk, end, chosen.path):
+            continue
+        ours, theirs = parted(end.path, chosen.path)
+        gain = sum(_square(theirs[p], walk.near[p]) - _square(at, walk.near[p]) for p, at in ours.items())
+        if worst is None or gain > worst[0]:
+            worst = (gain, end)
+    return None if worst is None else _promise(walk, chosen, worst[1])
+
+
+def _promise(walk: Walk, chosen: Mode, end: DeadEnd) -> Miss:
+    """What lies at `near`, why it does not assemble, and where another way lies."""
+    board = walk.board
+    ours, theirs = parted(end.path, chosen.path)
+    held = [p for p in ours if _square(ours[p], walk.near[p]) < _square(theirs[p], walk.near[p])]
+    there = {p: _pair(case_point(board.frame, theirs[p])) for p in held[:MOST_LISTED]}
+    places = listed([f"{plain(p)} at ({at})" for p, at in there.items()])
+    away = measure(board, max(math.dist(theirs[p], walk.near[p]) for p in held))
+    message = (
+        f"what lies at near: does not assemble: {end.miss.message}; the figure assembles only with {places}, "
+        f"{away} from near: correct the data, or move near: there if that is meant"
+    )
+    return Miss(end.miss.status, message, end.miss.amount)
+
+
+def far_from_near(walk: Walk, chosen: Mode, points: tuple[str, ...]) -> tuple[str, ...]:
+    """Notes on the points that lie farther from their `near` than half the figure."""
+    board = walk.board
+    half = size_of(board, points) / 2.0
+    out = []
+    for p, near in walk.near.items():
+        at = chosen.points.get(p)
+        if at is not None and math.dist(at, near) > half:
+            out.append(
+                f"near: for {plain(p)} is {measure(board, math.dist(at, near))} from where the data put it, "
+                f"({_pair(case_point(board.frame, at))}): farther than half the figure"
+            )
+    return tuple(out)
+
+
+def _distinct(modes: list[Mode], points: tuple[str, ...]) -> list[Mode]:
+    out: list[Mode] = []
+    for mode in modes:
+        if not any(not _differing(mode, other, points) for other in out):
+            out.append(mode)
+    return out
+
+
+def _differing(one: Mode, two: Mode, points: tuple[str, ...]) -> list[str]:
+    """The points that are not in the same place in both."""
+    out = []
+    for p in points:
+        (ax, ay), (bx, by) = one.points[p], two.points[p]
+        if math.hypot(ax - bx, ay - by) > SAME * (1.0 + math.hypot(ax, ay)):
+            out.append(p)
+    return out
+
+
+def _nearer(walk: Walk, one: Mode, two: Mode, points: tuple[str, ...]) -> bool:
+    """Whether the one mode is clearly nearer to `near` where the two differ."""
+    held = [p for p in _differing(one, two, points) if p in walk.near]
+    near: list[Point] = [walk.near[p] for p in held]
+    return nearer([one.points[p] for p in held], [two.points[p] for p in held], near)
+
+
+def _listing(board: Board, rivals: list[Mode], points: tuple[str, ...]) -> str:
+    """The modes point by point: first the points that have a choice of their own."""
+    differing = [p for p in points if any(_differing(rivals[0], mode, (p,)) for mode in rivals[1:])]
+    forks = [
+        step.target
+        for step in rivals[0].steps
+        if isinstance(step, Meet) and step.sign and step.target in differing
+    ] or differing
+    lines = [f"{plain(p)}: {_listed(board, rivals, str(p))}" for p in forks]
+    hint = _hint(board, rivals, str(next((p for p in forks if p not in board.case.near), forks[0])))
+    return f"the figure assembles in several ways, {'; '.join(lines)}; {hint}"
+
+
+def _listed(board: Board, rivals: list[Mode], point: str) -> str:
+    seen: list[tuple[float, float]] = []
+    for mode in rivals:
+        at = mode.points[point]
+        if all(math.dist(at, other) > SAME * (1.0 + math.hypot(*at)) for other in seen):
+            seen.append(at)
+    places = [_pair(case_point(board.frame, at)) for at in seen[:MOST_LISTED]]
+    more = f" or {len(seen) - MOST_LISTED} more" if len(seen) > MOST_LISTED else ""
+    return " or ".join(f"({place})" for place in places) + more
+
+
+def _hint(board: Board, rivals: list[Mode], point: str) -> str:
+    example = _pair(case_point(board.frame, rivals[0].points[point]))
+    if point in board.case.near:
+        return (
+            f"near: for {plain(point)} is about as far from the one as from the other; "
+            "move it nearer to the one that is meant"
+        )
+    return f"add near: {{{plain(point)}: [{example}]}} for the one that is meant"
+
+
+def _pair(at: tuple[float, float]) -> str:
+    return f"{at[0]:.6g}, {at[1]:.6g}"

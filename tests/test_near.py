@@ -1,0 +1,169 @@
+"""`near` is a promise: the way nearest to it is taken, or the scene is refused with what lies near."""
+
+from __future__ import annotations
+
+import math
+import os
+from random import Random
+
+import pytest
+
+from figure_drafts import Draft, Place, framework
+from icsolve.assembly import case_point, solve_figure
+from icsolve.case import Case
+from icsolve.errors import SceneError, Status
+from icsolve.read import load
+
+MORE = int(os.environ.get("ICSOLVE_MORE", "1"))
+"""How many times as many random figures as in CI."""
+
+
+def places_of(case: Case) -> dict[str, Place]:
+    figure = solve_figure(case)
+    return {p: case_point(figure.frame, at) for p, at in figure.points.items()}
+
+
+def off(near: dict[str, Place], places: dict[str, Place]) -> float:
+    return math.hypot(*(math.dist(near[p], places[p]) for p in near))
+
+
+def apart(one: dict[str, Place], two: dict[str, Place]) -> float:
+    return max(math.dist(one[p], two[p]) for p in one)
+
+
+def linkage(seed: int, links: int) -> Draft:
+    """Rods and plates that hold one another: no point has an order of construction but by chance."""
+    return framework(seed, 2 + max(3, links), 0.9, 0.0)
+
+
+def unless_even(case: Case) -> dict[str, Place] | None:
+    """The points; None where two ways are about as near."""
+    try:
+        return places_of(case)
+    except SceneError as refused:
+        if refused.status == Status.AMBIGUOUS and "about as far" in refused.message:
+            return None
+        raise
+
+
+@pytest.mark.parametrize("spread", [1e-3, 0.02, 0.15])
+@pytest.mark.parametrize("links", range(3, 13))
+def test_a_group_takes_the_way_nearest_to_near(links: int, spread: float) -> None:
+    """The figure that was measured, or one that is nearer to `near` than it."""
+    for seed in range(4 * MORE):
+        draft = linkage(7000 + 100 * links + seed, links)
+        for p in draft.names:
+            if p not in draft.points:
+                draft.approximately(p, spread)
+        places = unless_even(draft.case())
+        if places is None:
+            continue
+        nearest = off(draft.near, places) <= off(draft.near, draft.at) * (1.0 + 1e-9)
+        assert nearest or apart(places, draft.at) < 1e-6, (links, seed)
+
+
+def ring(count: int, seed: int) -> tuple[str, dict[str, Place]]:
+    """Points joined in a ring by rods, each on a leg of its own."""
+    rng = Random(seed)
+    at: dict[str, Place] = {}
+    for k in range(count):
+        turn = math.tau * k / count
+        at[f"G{k}"] = (math.cos(turn), math.sin(turn))
+        out, off = 0.5 + rng.uniform(-0.1, 0.1), turn + rng.uniform(0.4, 1.2)
+        at[f"P{k}"] = (at[f"G{k}"][0] + out * math.cos(off), at[f"G{k}"][1] + out * math.sin(off))
+    ground = ", ".join(f"G{k}: [{at[f'G{k}'][0]!r}, {at[f'G{k}'][1]!r}]" for k in range(count))
+    bars = [(f"G{k}", f"P{k}") for k in range(count)]
+    bars += [(f"P{k}", f"P{(k + 1) % count}") for k in range(count)]
+    lengths = ", ".join(f"{a}-{b}: {math.dist(at[a], at[b])!r}" for a, b in bars)
+    near = ", ".join(
+        f"P{k}: [{at[f'P{k}'][0] + rng.uniform(-1, 1) * 2e-3:.6f}, "
+        f"{at[f'P{k}'][1] + rng.uniform(-1, 1) * 2e-3:.6f}]" for k in range(count)
+    )  # fmt: skip
+    text = f"points: {{{ground}}}\nlengths: {{{lengths}}}\nnear: {{{near}}}\n"
+    joints = "".join(f"  - {{pin: [1, {k + 2}], at: G{k}}}\n" for k in range(count))
+    return f"icsolve: 1\n{text}joints:\n{joints}", at
+
+
+@pytest.mark.parametrize("count", [3, 6, 12, 28, 40])
+def test_rings_of_points_each_on_a_leg(count: int) -> None:
+    text, at = ring(count, count)
+    places = places_of(load(text))
+    assert max(math.dist(places[p], at[p]) for p in at) < 1e-6
+
+
+SIX = """
+points: {{A: [0, 0], D: [6, 0]}}
+lengths: {{AB: 2, BC: 5, CD: 3.5, AE: 3, DF: 4.5, EG: {eg}, FG: {fg}}}
+angles: {{AB: 80, BAE: 35, CDF: -25}}
+near: {{{near}}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{pin: [4, 1], at: D}}
+  - {{pin: [2, 5], at: E}}
+  - {{pin: [5, 6], at: G}}
+  - {{pin: [6, 4], at: F}}
+"""
+
+
+def six(near: str, eg: float = 3.5, fg: float = 3.0) -> Case:
+    return load("icsolve: 1\n" + SIX.format(eg=eg, fg=fg, near=near))
+
+
+@pytest.mark.parametrize("near", ["C: [5.5, 3.4], G: [4.5, 6]", "C: [5.5, 3.4]", "C: [5, 3.5], F: [7, 4.5]"])
+def test_a_way_that_does_not_assemble_is_not_exchanged_for_another(near: str) -> None:
+    """With rods EG and FG that do not reach, C would have to land on the other side."""
+    drawn = places_of(six("C: [5.5, 3.4], G: [4.5, 6]", 5.0, 5.0))
+    assert drawn["C"] == pytest.approx((5.14047, 3.39282), abs=1e-5)
+    with pytest.raises(SceneError) as refused:
+        places_of(six(near))
+    assert refused.value.status == Status.CANNOT_ASSEMBLE
+    for part in ("near", "G", "C", "(3.21819, -2.12404)"):
+        assert part in refused.value.message
+    assert places_of(six("C: [3.2, -2.1], G: [6, 0]"))["C"] == pytest.approx((3.21819, -2.12404), abs=1e-3)
+
+
+def test_the_sum_of_squares_decides_where_two_points_disagree() -> None:
+    """C lies a little nearer to the one side, G clearly on the other."""
+    places = places_of(six("C: [4.2, 0.75], G: [2.2, 6.3]", 5.0, 5.0))
+    assert places["C"][1] > 0.0
+    below = places_of(six("C: [3.2, -2.1], G: [6, 0]", 5.0, 5.0))
+    other = places_of(six(f"C: [4.2, 0.55], G: [{below['G'][0]}, {below['G'][1]}]", 5.0, 5.0))
+    assert other["C"][1] < 0.0
+
+
+TURNED = "points: {A: [0, 0], D: [4, 0]}\nlengths: {AB: 2, BC: 3, CD: 3}\nangles: {%s}\nnear: {C: [3, 3]%s}\n"
+PINS = "joints:\n" + "".join(
+    f"  - {{pin: [{k}, {k % 4 + 1}], at: {p}}}\n" for k, p in ((1, "A"), (2, "B"), (3, "C"), (4, "D"))
+)
+
+
+def turned(angle: str, near: str) -> Case:
+    return load("icsolve: 1\n" + TURNED % (angle, near) + PINS)
+
+
+@pytest.mark.parametrize("angle", ["BAD: 60", "AB: -60"])
+def test_a_near_on_the_mirrored_side_of_an_angle_is_said(angle: str) -> None:
+    """BAD: 60 counts from AB to AD, so that B lies below."""
+    assert places_of(turned(angle, ""))["B"][1] < 0.0
+    assert places_of(turned(angle, ", B: [1.1, -1.6]"))["B"][1] < 0.0
+    with pytest.raises(SceneError) as refused:
+        places_of(turned(angle, ", B: [1.1, 1.6]"))
+    assert refused.value.status == Status.INCONSISTENT
+    for part in ("near", "B", "mirrored", angle.split(":", maxsplit=1)[0]):
+        assert part in refused.value.message
+
+
+def test_a_near_farther_off_than_half_the_figure_is_said() -> None:
+    figure = solve_figure(turned("DAB: 60", ", B: [-4, -3]"))
+    assert [note for note in figure.notes if "near" in note and "B" in note]
+    assert not solve_figure(turned("DAB: 60", ", B: [1.2, 1.5]")).notes
+
+
+def test_near_of_a_point_that_nothing_asks_for_counts_as_the_others() -> None:
+    """The coupler's point E picks the side of C."""
+    text = TURNED.replace("CD: 3", "CD: 3, BE: 2, CE: 2") % ("DAB: 60", "")
+    text = text.replace("C: [3, 3]", "E: [3.4, 3.4]")
+    figure = solve_figure(load("icsolve: 1\n" + text + PINS), ["B", "C"])
+    assert figure.points["C"][1] > 0.0
