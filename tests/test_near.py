@@ -167,3 +167,26 @@ def test_near_of_a_point_that_nothing_asks_for_counts_as_the_others() -> None:
     text = text.replace("C: [3, 3]", "E: [3.4, 3.4]")
     figure = solve_figure(load("icsolve: 1\n" + text + PINS), ["B", "C"])
     assert figure.points["C"][1] > 0.0
+
+
+def test_a_group_that_does_not_close_about_near_is_not_found_elsewhere_in_silence() -> None:
+    """One rod made longer or shorter: what is found lies about `near`, or that is said."""
+    refusals = 0
+    for seed in range(30 * MORE):
+        draft = linkage(9000 + seed, 3 + seed % 5)
+        for p in draft.names:
+            if p not in draft.points:
+                draft.approximately(p, 0.02)
+        rod = draft.rng.randrange(len(draft.lengths))
+        said = draft.lengths[rod].value
+        draft.lengths[rod] = draft.lengths[rod]._replace(value=said._replace(value=said.value * 1.4))
+        try:
+            figure = solve_figure(draft.case())
+        except SceneError as refused:
+            refusals += refused.status == Status.CANNOT_ASSEMBLE and "near" in refused.message
+            continue
+        places = {p: case_point(figure.frame, at) for p, at in figure.points.items()}
+        spans = [max(at[k] for at in places.values()) - min(at[k] for at in places.values()) for k in (0, 1)]
+        far = [p for p in draft.near if math.dist(places[p], draft.near[p]) > max(spans) / 2.0]
+        assert not far or any("near" in note for note in figure.notes)
+    assert refusals > 3

@@ -49,8 +49,8 @@ CLOSE_WORK = 60_000
 class Found(NamedTuple):
     """What a search for the solutions of a group found: the nearest to `near` first.
 
-    ``miss`` says why there is none; ``closest`` is then the place about `near` where the data are
-    violated least.
+    ``miss`` says why there is none, or none about `near`; ``closest`` is then the place about `near` where
+    the data are violated least.
     ``complete`` where it is shown that no other solution is nearer to `near`.
     """
 
@@ -77,7 +77,10 @@ def solutions(group: Group, board: Board, near: Mapping[str, Spot]) -> Found:
     polished = [_polished(group, board, end) for end in search.found]
     settled = [option for option in polished if option is not None]
     if settled:
-        return Found(settled, None, {}, search.complete)
+        first = dict(zip(group.targets, settled[0].start, strict=True))
+        if not search.leaves(first):
+            return Found(settled, None, {}, search.complete)
+        return Found(settled, _unreached(group, board, search.beside), search.beside, False)
     if polished:
         return Found([], _flat(group), {}, False)
     closest = search.closest.end
@@ -104,8 +107,12 @@ class _Search:
             if self.found and _alone(self.group, self.board, held, self.found[0]):
                 self.complete = True
                 return
-            if not self.found:
-                self.beside = _least_residual(self.group, self.board, held, self.reach)
+            known = len(self.found)
+            self.beside = _least_residual(self.group, self.board, held, self.reach)
+            if self.beside:
+                self._try(self.beside, MOST_STEPS)
+            if len(self.found) > known:
+                self.beside = {}
         work, most = 0, CLOSE_WORK if self.found else MOST_WORK
         for start in self._starts(list(held)):
             work += self._try(start, MOST_STEPS) * len(self.group.equations) ** 2
@@ -121,6 +128,13 @@ class _Search:
         elif not any(_same(descent.end, other, self.reach) for other in self.found):
             self.found.append(descent.end)
         return descent.steps
+
+    def leaves(self, first: Start) -> bool:
+        """Whether the nearest solution lies elsewhere, and the data come close to being met at `near`."""
+        if not self.beside:
+            return False
+        found, beside = (max(math.dist(at[t], self.near[t]) for t in at) for at in (first, self.beside))
+        return found > self.reach / 2.0 and beside < self.reach / 4.0
 
     def _starts(self, held: list[str]) -> Iterator[Start]:
         group, near = self.group, self.near
