@@ -44,6 +44,9 @@ COURSE = "course.yaml"
 @click.option("--decimal", type=click.Choice(["either", "point", "comma"]), help="What 1,234 means [either].")
 @click.option("--seed", metavar="TEXT", help="Seed of the variants.")
 @click.option(
+    "--variants", metavar="FILE", multiple=True, help="values.csv: the numbers handed out count. Repeatable."
+)
+@click.option(
     "--map", "mapping", metavar="A=B", multiple=True, help='A column: student_id="Email Address", "Q3=press".'
 )
 @click.option("--student", metavar="ID", help="All answers are this student's; a table needs no ids then.")
@@ -91,6 +94,9 @@ def _job(options: dict[str, Any]) -> Job:
     for path in (options["output"], options["jsonl"], options["html"], *_pairs(options["writes"]).values()):
         _check(path, options)
     course = _course(options)
+    seeds = (course.seed, "0")
+    if options["seed"] is not None:
+        course = course._replace(seed=options["seed"])
     jobs = options["jobs"] or processes()
     student = options["student"] or ""
     if options["metadata"]:
@@ -98,7 +104,8 @@ def _job(options: dict[str, Any]) -> Job:
 
         student = student or student_of(options["metadata"])
     submissions = tuple(options["submissions"])
-    return Job(submissions, options["cases"], course, options["roster"] or "", jobs, student)
+    roster, variants = options["roster"] or "", tuple(options["variants"])
+    return Job(submissions, options["cases"], course, roster, jobs, student, variants, seeds)
 
 
 def _note_inputs(options: dict[str, Any]) -> None:
@@ -133,7 +140,7 @@ def _check(path: str | None, options: dict[str, Any]) -> None:
 
 def _course(options: dict[str, Any]) -> Course:
     """The course file, with what the command line says over it."""
-    said = {key: options[key] for key in ("attempt", "decimal", "seed")}
+    said = {key: options[key] for key in ("attempt", "decimal")}
     course = course_of(options["course"], options["cases"], options["quiet"], said)
     return course._replace(columns=(*course.columns, *_pairs(options["mapping"]).items()))
 

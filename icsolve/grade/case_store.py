@@ -23,6 +23,7 @@ from icsolve.read.targets import target_of
 from icsolve.statics.power import is_unknown
 
 if TYPE_CHECKING:
+    from icsolve.grade.variants.record import Record
     from icsolve.grade.variants.varied import Varied
 
 def unknowns(case: Case) -> tuple[str, ...]:
@@ -162,6 +163,8 @@ class CaseStore:
         self._lower = {name.lower(): name for name in self.paths}
         self._solved: dict[str, Solved | Varied | NoKeyError] = {}
         self._cases: dict[str, Case] = {}
+        self.records: dict[str, Record] = {}
+        """the numbers that were handed out, by case"""
 
     def _add(self, path: str) -> None:
         name = case_name(path)
@@ -210,6 +213,14 @@ class CaseStore:
         if found is None:
             found = self._solved[name] = self._made(name)
         return found if not isinstance(found, Solved | NoKeyError) else None
+
+    def keep_to(self, records: dict[str, Record]) -> None:
+        """Take the numbers that were handed out for those of the students."""
+        self.records = records
+        for name, record in records.items():
+            varied = self.variation(name)
+            if varied is not None:
+                varied.record = record
 
     def foresee(self, questions: Iterable[str], students: Collection[str]) -> None:
         """Draw for all students at once what the questions' cases leave to be drawn."""

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from itertools import chain, groupby, islice, pairwise
 from operator import itemgetter
+from typing import TYPE_CHECKING, NamedTuple
 
 from icsolve.grade.carried_forward import CarriedForward
-from icsolve.grade.case_store import CaseStore
-from icsolve.grade.course import Course
 from icsolve.grade.issues import Issues
-from icsolve.grade.judge import IN_REVIEW, Judgement, feedback, judge_answer
+from icsolve.grade.judge import IN_REVIEW, RIGHT, WRONG, Judgement, feedback, judge_answer
 from icsolve.grade.keys import AnyKey, Key, PlaceKey, unit_factor
+from icsolve.grade.mistakes import Wrong
 from icsolve.grade.results import Marked, Result
 from icsolve.grade.store import Entry
 from icsolve.grade.tally import Counts, Tally
@@ -21,24 +21,39 @@ from icsolve.grade.written import MISSING, Reader, Written
 from icsolve.grade.written.answer import Combined
 from icsolve.grade.written.two_numbers import WrittenPlace
 
+if TYPE_CHECKING:
+    from icsolve.grade.run import Work
+
 _MEMORY = 40_000
 """Different answers that are remembered with their verdicts; a class repeats itself."""
 NAMED = 40
 """Students without an answer who are named; the others are in the results."""
+_SAMPLE = 300
+"""Answers by which it is told whether another seed was meant."""
 _AT_ONCE = 5000
 """Answers of one student that are looked at together."""
+
+
+class Given(NamedTuple):
+    """A value that a student gave to a question with variables, and whether it was right."""
+
+    student: str
+    question: str
+    value: float
+    right: bool
 
 
 class Marker:
     """Judges entries; ``case_store`` has the keys."""
 
-    def __init__(
-        self, case_store: CaseStore, course: Course, issues: Issues, path: str, questions: Iterable[str]
-    ) -> None:
-        self.case_store = case_store
+    def __init__(self, work: Work, issues: Issues, questions: Iterable[str]) -> None:
+        course, self.case_store = work.course, work.case_store
         self.course = course
         self.issues = issues
-        self.path = path
+        self.path = work.path
+        self.given: list[Given] = []
+        """values given to questions with variables, of the first students"""
+        self._neighbours = work.neighbours
         self.questions = frozenset(questions)
         self.combined = Combined(Reader(course.decimal))
         self._memory: dict[tuple[str, str, str, str, str], Marked] = {}
@@ -48,7 +63,7 @@ class Marker:
         self.owing: dict[str, list[str]] = {}
         """of each question the first students who gave no answer"""
         self.tally = Tally(self._band)
-        self._carried_forward = CarriedForward(case_store, course.reveal, self._once)
+        self._carried_forward = CarriedForward(self.case_store, course.reveal, self._once)
 
     def results(self, entries: Iterable[Entry], students: Iterable[str] = ()) -> Iterator[Result]:
         """The results of sorted entries, and of sorted ``students`` who may have given none."""
@@ -199,6 +214,8 @@ class Marker:
         if self.case_store.varied and self._is_others(entry):
             return self._of_another(entry)
         judged, read = judge_answer(key, self.combined, entry.answer, entry.unit, entry.direction)
+        if self._neighbours is not None and isinstance(key, Key) and isinstance(read, Written):
+            judged = self._beside_others(entry, judged, read)
         told = feedback(key, judged, self.course.reveal)
         marked = Marked(entry.item, entry.answer, judged, key.policy.points, told)
         if isinstance(read, Written) and not read.flag:
@@ -209,6 +226,20 @@ class Marker:
             marked.place = (read.x * (factor or 1.0), read.y * (factor or 1.0))
             marked.place_unit = read.unit
         return marked
+
+    def _beside_others(self, entry: Entry, judged: Judgement, written: Written) -> Judgement:
+        """The verdict on an answer to a question with variables: it may be right for another's numbers."""
+        if judged.value is None or not self.case_store.variant_of(entry.item, entry.student):
+            return judged
+        if len(self.given) < _SAMPLE:
+            right = judged.verdict == RIGHT
+            self.given.append(Given(entry.student, entry.item, judged.value, right))
+        if judged.verdict != WRONG or any(m.code != "near-miss" for m in judged.mistakes):
+            return judged
+        assert self._neighbours is not None
+        label = self._neighbours.variant(entry.item, judged.value, written.digits)
+        found = (Wrong("neighbour", judged.value, label),) if label else ()
+        return judged._replace(code="neighbour", mistakes=found) if found else judged
 
     def _key(self, entry: Entry) -> AnyKey:
         """The key of a question: the student's own, where the case has variables."""
@@ -229,6 +260,8 @@ class Marker:
     def _of_another(self, entry: Entry) -> Marked:
         """An answer to numbers that are not the student's: a person must say whose it is."""
         judged = Judgement(IN_REVIEW, 0.0, (False, False, False), code="other-variant")
+        told = "this answer names another variant than the student's; --variants values.csv takes the numbers"
+        self.issues.note(self.path, entry.line, f"{told} that were handed out")
         why = f"This is an answer to variant {entry.variant}; yours is {self._variant(entry)}."
         return Marked(entry.item, entry.answer, judged, self._points(entry.item), why)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import AbstractContextManager, ExitStack, nullcontext
-from typing import IO, NamedTuple
+from typing import IO, TYPE_CHECKING, NamedTuple
 
 from icsolve.files import scratch
 from icsolve.grade.case_store import CaseStore, unknowns
@@ -14,13 +14,16 @@ from icsolve.grade.importing import Import, expand
 from icsolve.grade.issues import Entry as Noted
 from icsolve.grade.issues import Issues
 from icsolve.grade.keys import Key
-from icsolve.grade.marking import NAMED, Marker
+from icsolve.grade.marking import NAMED, Given, Marker
 from icsolve.grade.results import HEADER, json_line, line
 from icsolve.grade.roster import Roster, read_roster
 from icsolve.grade.store import Disk, Entry, Store
 from icsolve.grade.tally import Counts, added
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.sweep.forked import can_fork, started
+
+if TYPE_CHECKING:
+    from icsolve.grade.variants.others import Neighbours
 
 _WORTH_TWO = 20_000
 """Answers from which another process pays."""
@@ -51,6 +54,8 @@ class Work(NamedTuple):
     case_store: CaseStore
     store: Store
     path: str
+    neighbours: Neighbours | None = None
+    """the right answers of the whole class, where they differ"""
 
 
 class Outcome(NamedTuple):
@@ -59,6 +64,8 @@ class Outcome(NamedTuple):
     counts: dict[str, Counts]
     notes: list[Noted]
     owing: dict[str, list[str]]
+    given: list[Given]
+    """values that were given to questions with variables"""
 
 
 Report = Callable[[int], None]
@@ -139,7 +146,7 @@ def _opened(name: str) -> AbstractContextManager[IO[str] | None]:
 def _judge(part: Part, work: Work, entries: Iterator[Entry], sinks: Sinks, report: Report) -> Outcome:
     """Judge sorted entries."""
     issues = Issues()
-    marker = Marker(work.case_store, work.course, issues, work.path, part.questions)
+    marker = Marker(work, issues, part.questions)
     csv, jsonl = sinks
     for n, result in enumerate(marker.results(entries, part.students), 1):
         if not n % _STEP:
@@ -148,7 +155,7 @@ def _judge(part: Part, work: Work, entries: Iterator[Entry], sinks: Sinks, repor
             csv.write(line(result))
         if jsonl is not None:
             jsonl.write(json_line(result))
-    return Outcome(marker.counted(), list(issues.entries()), marker.owing)
+    return Outcome(marker.counted(), list(issues.entries()), marker.owing, marker.given)
 
 
 class Job(NamedTuple):
@@ -161,6 +168,10 @@ class Job(NamedTuple):
     jobs: int = 1
     student: str = ""
     """whose all answers are, where the files have no ids"""
+    variants: tuple[str, ...] = ()
+    """files and folders that record which numbers were handed out"""
+    seeds: tuple[str, ...] = ()
+    """seeds that may have been meant, should most answers be to other numbers"""
 
 
 class Graded(NamedTuple):
@@ -210,6 +221,8 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
     if not case_store.paths:
         raise ValueError(f"there is no case in {job.cases}")
     roster = read_roster(job.roster, lambda at, why: issues.note(job.roster, at, why)) if job.roster else None
+    if job.variants:
+        _keep_to_record(job, case_store, roster, issues)
     store = Store()
     try:
         imported = Import(store, case_store, issues, roster, progress)
@@ -225,11 +238,56 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
         parts = divided(questions, students, imported.count, job.jobs)
         if sinks.csv is not None:
             sinks.csv.write(HEADER + "\n")
-        work = Work(job.course, case_store, store, _shown(paths))
+        neighbours = _neighbours(case_store, students)
+        work = Work(job.course, case_store, store, _shown(paths), neighbours)
         found = judged(parts, work, sinks, lambda n: progress("judging", n / imported.count))
     finally:
         store.close()
+    for outcome in found:
+        issues.extend(outcome.notes)
+    if neighbours is not None:
+        _note_other_seeds(job, case_store, [one for outcome in found for one in outcome.given], issues)
     return _graded(found, issues, case_store, imported.count, len(students))
+
+
+def _neighbours(case_store: CaseStore, students: Iterable[str]) -> Neighbours | None:
+    """The right answers of all students, where a case gives each other numbers."""
+    if not case_store.varied:
+        return None
+    from icsolve.grade.variants.others import Neighbours
+
+    return Neighbours(case_store, students)
+
+
+def _note_other_seeds(job: Job, case_store: CaseStore, given: list[Given], issues: Issues) -> None:
+    """Say of a case most of whose answers are to the numbers of another seed which one that is."""
+    from icsolve.grade.variants.others import other_seed
+
+    for name in dict.fromkeys(one.question.partition(":")[0] for one in given):
+        varied = case_store.variation(name)
+        if varied is None or varied.record is not None:
+            continue
+        own = [one for one in given if one.question.partition(":")[0] == name]
+        seed = other_seed(varied, own, job.seeds)
+        if seed is not None:
+            issues.note(
+                _shown([(path, "") for path in job.submissions]), 0,
+                f"most answers to {name} are right by the seed {seed!r}, and wrong by {job.course.seed!r}: "
+                "was another seed used? --variants values.csv takes the numbers that were handed out",
+            )  # fmt: skip
+
+
+def _keep_to_record(job: Job, case_store: CaseStore, roster: Roster | None, issues: Issues) -> None:
+    """The numbers that were handed out count; what has changed since is noted."""
+    from icsolve.grade.variants.record import changes, read_records
+
+    case_store.keep_to(read_records(job.variants, case_store, roster))
+    for name, record in case_store.records.items():
+        varied = case_store.variation(name)
+        if varied is not None:
+            varied.foresee(record.handed)
+            for told in changes(varied, record):
+                issues.note(record.path, 0, told)
 
 
 def _expected(job: Job, roster: Roster | None) -> Iterable[str]:
@@ -245,8 +303,6 @@ def _shown(paths: list[tuple[str, str]]) -> str:
 
 def _graded(found: list[Outcome], issues: Issues, case_store: CaseStore, rows: int, students: int) -> Graded:
     """The outcomes of all parts together."""
-    for outcome in found:
-        issues.extend(outcome.notes)
     counts = added(outcome.counts for outcome in found)
     marks = {item: tuple(_marks(case_store, item, c)) for item, c in counts.items()}
     owing = _together(outcome.owing for outcome in found)

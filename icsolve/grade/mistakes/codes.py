@@ -30,6 +30,7 @@ CODES: dict[str, str] = {
     "other-mode": "This belongs to the other way in which the mechanism assembles. Compare with the figure.",
     "no-friction": "Friction is left out.",
     "friction-sense": "Friction acts against the motion; here it acts with it.",
+    "neighbour": "This is the right answer to other numbers than yours{at}.",
     "swapped": "The two coordinates are exchanged.",
     "carried": "The method is right; the error comes from an earlier answer{at}.",
     "near-miss": "Close, but not within the tolerance. Rounding on the way? Keep four figures.",

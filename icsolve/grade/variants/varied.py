@@ -36,6 +36,7 @@ from icsolve.units import converted, parse_unit, split_quantity
 from icsolve.wording.senses import unit_of
 
 if TYPE_CHECKING:
+    from icsolve.grade.variants.record import Handed, Record
     from icsolve.grade.variants.together import Together
 
 TRIALS = 60
@@ -235,7 +236,7 @@ class Draw(NamedTuple):
 
 
 class Varied:
-    """One case with variables; ``text`` is its file."""
+    """One case with variables; ``text`` is its file. With a ``record`` the numbers handed out count."""
 
     def __init__(self, name: str, text: str, path: str, course: Course) -> None:
         self.name = name
@@ -244,9 +245,10 @@ class Varied:
         self.course = course
         self.case = self.read({})
         self.magnitudes = Magnitudes(text, self.case)
+        self.record: Record | None = None
         self._first = first_values(self.case.variables)
         self._solved: OrderedDict[tuple[str, ...], Solved | None] = OrderedDict()
-        self._tasks: OrderedDict[str, Solved] = OrderedDict()
+        self._tasks: OrderedDict[tuple[str, ...], Solved] = OrderedDict()
         self._draws: OrderedDict[str, Draw] = OrderedDict()
         self._seen: OrderedDict[tuple[str, ...], Seen | None] = OrderedDict()
         self._inherent: frozenset[tuple[str, str, str]] | None = None
@@ -258,12 +260,45 @@ class Varied:
         """
         found = self._draws.get(student)
         if found is None:
-            found = self._drawn(student)
+            found = self._drawn(student) if self.record is None else self._handed(student, self.record)
             _keep(self._draws, student, found, _KNOWN)
+        return found
+
+    def _handed(self, student: str, record: Record) -> Draw:
+        """What was handed out to a student."""
+        handed = record.handed.get(student)
+        if handed is None:
+            raise NoKeyError(
+                f"no numbers of {self.name} were handed out to {student} ({record.path})",
+                "no numbers were handed out to this student",
+            )
+        return Draw(handed.label or label(self.name, handed.values), handed.values)
+
+    def is_drawn(self, student: str, values: Texts) -> bool:
+        """Whether values are a draw of this student by the present seed, whatever the filter says of it."""
+        return any(self._values(student, trial) == values for trial in range(TRIALS))
+
+    def drawn_otherwise(self, handed: Mapping[str, Handed]) -> list[str]:
+        """Students who would now be given other numbers than those that were handed out."""
+        fresh = Varied(self.name, self.text, self.path, self.course)
+        fresh.foresee(handed)
+        found = []
+        for student, given in handed.items():
+            try:
+                same = fresh.draw(student).values == given.values
+            except NoKeyError:
+                same = False
+            if not same:
+                found.append(student)
         return found
 
     def foresee(self, students: Iterable[str]) -> None:
         """Draw for many students, whose variants are looked at in one sweep where that can be."""
+        if self.record is not None:
+            known = [given.values for s in students if (given := self.record.handed.get(s)) is not None]
+            for start in range(0, len(known), _TOGETHER):
+                self._see_all(known[start : start + _TOGETHER])
+            return
         waiting = [student for student in students if student not in self._draws]
         for start in range(0, len(waiting), _TOGETHER):
             self._foresee(waiting[start : start + _TOGETHER])
@@ -280,8 +315,6 @@ class Varied:
 
         Raises NoKeyError.
         """
-        from icsolve.grade.variants.varied import swept_key
-
         draw = self.draw(student)
         return swept_key(self, draw, question) or self.task(draw).key(question)
 
@@ -290,10 +323,11 @@ class Varied:
 
         Raises NoKeyError.
         """
-        found = self._tasks.get(draw.label)
+        values = tuple(draw.values.values())
+        found = self._tasks.get(values)
         if found is None:
             found = self._task(draw.values)
-            _keep(self._tasks, draw.label, found, _KEPT)
+            _keep(self._tasks, values, found, _KEPT)
         return found
 
     def value(self, draw: Draw) -> float | None:
@@ -406,13 +440,19 @@ class Varied:
             if len(waiting) < _FEW or self._together is None:
                 return
             draws = {student: self._values(student, trial) for student in waiting}
-            figures = {student: self._figure(values) for student, values in draws.items()}
-            self._see(list(figures.values()))
-            self._see([v for s, v in draws.items() if not self._scales(figures[s], v)])
+            self._see_all(list(draws.values()))
             for student, values in draws.items():
                 if self._suits(values):
                     _keep(self._draws, student, Draw(label(self.name, values), values), _KNOWN)
             waiting = [student for student in waiting if student not in self._draws]
+
+    def _see_all(self, draws: Sequence[Texts]) -> None:
+        """Look at variants by their figures; where their loads do not grow alike, at all of them."""
+        if len(draws) < _FEW or self._together is None:
+            return
+        figures = [self._figure(values) for values in draws]
+        self._see(figures)
+        self._see([v for f, v in zip(figures, draws, strict=True) if not self._scales(f, v)])
 
     def _see(self, draws: Sequence[Texts]) -> None:
         """Look at the variants that were not looked at yet, in one sweep."""

@@ -1,0 +1,201 @@
+"""The record of the numbers that were handed out: ``values.csv`` of `icsolve variants`, and its keys.
+
+What was handed out counts, whatever became of the case since; what has changed is told.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, NamedTuple
+
+from icsolve.files import is_plain, reading
+from icsolve.grade.roster import Roster
+from icsolve.grade.tables import Columns, Table
+from icsolve.grade.tables.columns import identifier
+from icsolve.grade.tolerance import NoKeyError
+
+if TYPE_CHECKING:
+    from icsolve.grade.case_store import CaseStore
+    from icsolve.grade.variants.varied import Varied
+
+VALUES, KEYS = "values.csv", "key.csv"
+_SAME = 1e-9
+"""Relative difference of two keys that is none: the file has twelve digits."""
+_ASKED = 40
+"""Students by whom it is told whether their numbers were drawn with a seed."""
+Texts = dict[str, str]
+
+
+class Handed(NamedTuple):
+    """What one student was given: the label of the variant, and its values as text."""
+
+    label: str
+    values: Texts
+
+
+class Record(NamedTuple):
+    """The numbers of one case by student, and the keys of that time by question and student."""
+
+    path: str
+    handed: dict[str, Handed]
+    keys: dict[tuple[str, str], tuple[float, str]]
+
+
+def read_records(paths: Iterable[str], store: CaseStore, roster: Roster | None) -> dict[str, Record]:
+    """The records of files, and of the ``values.csv`` in folders, by case.
+
+    Raises ValueError, with the file's name and a sentence, where one can't be used; OSError.
+    """
+    found: dict[str, Record] = {}
+    for path in _files(paths):
+        try:
+            name, record = _read(path, store, roster)
+        except ValueError as error:
+            raise ValueError(f"{path}: {error}") from None
+        if name in found:
+            raise ValueError(f"{found[name].path} and {path} are both the numbers of {name}")
+        found[name] = record
+    return found
+
+
+def _files(paths: Iterable[str]) -> Iterator[str]:
+    for path in paths:
+        if not os.path.isdir(path):
+            yield path
+            continue
+        own = [os.path.join(here, VALUES) for here, _, names in sorted(os.walk(path)) if VALUES in names]
+        if not own:
+            raise ValueError(f"there is no {VALUES} in {path}")
+        yield from filter(is_plain, own)
+
+
+def _read(path: str, store: CaseStore, roster: Roster | None) -> tuple[str, Record]:
+    columns, rows = _table(path)
+    at = columns.field("student_id")
+    if at is None:
+        raise ValueError(f"it has no column student_id; its columns are {columns.listed()}")
+    label = columns.names.index("variant") if "variant" in columns.names else None
+    name = _case_of(path, columns, store)
+    varied = store.variation(name)
+    if varied is None:
+        raise ValueError(f"the case {name} has no variables, so these numbers can't be put into it")
+    places: dict[str, int] = {}
+    for variable in varied.case.variables:
+        if variable.name not in columns.header:
+            raise ValueError(f"it has no column for the variable {variable.name} of {name}")
+        places[variable.name] = columns.header.index(variable.name)
+    handed: dict[str, Handed] = {}
+    for cells in rows:
+        student = _student(cells[at], roster)
+        values = {variable: _plain(cells[i]) for variable, i in places.items()}
+        if student in handed and handed[student].values != values:
+            raise ValueError(f"the student {student} stands in it twice, with other numbers")
+        handed[student] = Handed(_plain(cells[label]) if label is not None else "", values)
+    return name, Record(path, handed, dict(_keys(os.path.join(os.path.dirname(path), KEYS), roster)))
+
+
+def _case_of(path: str, columns: Columns, store: CaseStore) -> str:
+    """The case of a record: that of its folder's name, else the only one with these variables."""
+    folder = os.path.basename(os.path.dirname(os.path.abspath(path)))
+    if folder in store.paths:
+        return folder
+    fitting = []
+    for name in sorted(store.paths):
+        varied = store.variation(name)
+        if varied is not None and all(v.name in columns.header for v in varied.case.variables):
+            fitting.append(name)
+    if len(fitting) == 1:
+        return fitting[0]
+    said = " and ".join(fitting) if fitting else "no case"
+    raise ValueError(f"{said} could have these numbers; put the file into a folder with the name of its case")
+
+
+def _keys(path: str, roster: Roster | None) -> Iterator[tuple[tuple[str, str], tuple[float, str]]]:
+    """The keys of that time, where they stand beside the values."""
+    if not os.path.isfile(path):
+        return
+    columns, rows = _table(path)
+    if not columns.has("student_id", "case", "value", "unit"):
+        raise ValueError(f"{KEYS} beside it is no key of `icsolve variants`")
+    student, case, value, unit = (columns.names.index(n) for n in ("student_id", "case", "value", "unit"))
+    for cells in rows:
+        try:
+            yield (cells[case], _student(cells[student], roster)), (float(_plain(cells[value])), cells[unit])
+        except ValueError:
+            raise ValueError(f"{KEYS} beside it has a value that is no number: {cells[value]!r}") from None
+
+
+def _table(path: str) -> tuple[Columns, list[list[str]]]:
+    troubles: list[str] = []
+    with reading(path) as file:
+        table = Table(file, lambda line, why: troubles.append(f"line {line}: {why}"))
+        columns = Columns(table.header, (), lambda text: None)
+        rows = []
+        for row in table.rows():
+            if row.trouble or len(row.cells) != len(table.header):
+                troubles.append(f"line {row.line}: {row.trouble or 'this row is not whole'}")
+            rows.append(row.cells)
+    if troubles:
+        raise ValueError(troubles[0])
+    return columns, rows
+
+
+def _student(text: str, roster: Roster | None) -> str:
+    name = identifier(text)
+    return (roster.match((name,)) if roster is not None else None) or name
+
+
+def _plain(cell: str) -> str:
+    """A cell without the apostrophe that keeps it from being a formula."""
+    text = cell.strip()
+    return text[1:] if text[:1] == "'" else text
+
+
+# --- what has changed since -------------------------------------------------------------------------
+
+
+def changes(varied: Varied, record: Record) -> Iterator[str]:
+    """What is otherwise than when the numbers were handed out: the seed, the filter, the keys."""
+    seed = varied.course.seed
+    asked = sorted(record.handed)[:_ASKED]
+    drawn = [student for student in asked if varied.is_drawn(student, record.handed[student].values)]
+    if 2 * len(drawn) <= len(asked):
+        yield (
+            f"these numbers were not drawn with the seed {seed!r} from the variables that {varied.name} has "
+            "now; they count as they were handed out"
+        )
+    else:
+        other = varied.drawn_otherwise(record.handed)
+        if other:
+            yield (
+                f"{varied.name} has changed: {len(other)} of {len(record.handed)} students would now be "
+                f"given other numbers ({_some(other)}); those that were handed out count"
+            )
+    yield from _changed_keys(varied, record)
+
+
+def _changed_keys(varied: Varied, record: Record) -> Iterator[str]:
+    """The keys that are others now, by question."""
+    moved: dict[str, list[str]] = {}
+    counts: dict[str, int] = {}
+    for (question, student), (before, unit) in record.keys.items():
+        if student not in record.handed:
+            continue
+        counts[question] = counts.get(question, 0) + 1
+        try:
+            now = getattr(varied.key(question, student), "value", None)
+        except NoKeyError:
+            moved.setdefault(question, []).append(f"{student}: {before:.6g} {unit}, now none")
+            continue
+        if now is not None and abs(now - before) > _SAME * max(abs(now), abs(before)):
+            moved.setdefault(question, []).append(f"{student}: {before:.6g}, now {now:.6g} {unit}")
+    for question, told in moved.items():
+        yield (
+            f"the key of {question} has changed for {len(told)} of {counts[question]} students since the "
+            f"numbers were handed out ({_some(told)}); the one of now counts"
+        )
+
+
+def _some(texts: list[str]) -> str:
+    return "; ".join(texts[:3]) + ("; ..." if len(texts) > 3 else "")
