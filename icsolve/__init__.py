@@ -19,9 +19,21 @@ if TYPE_CHECKING:
     from icsolve.solve import solve as solve
     from icsolve.sweep import Sweep as Sweep
     from icsolve.sweep import sweep as sweep
+    from icsolve.sweep.evaluator import evaluator as evaluator
 
 __version__ = "0.1.0"
-__all__ = ["Answer", "Case", "CaseError", "SceneError", "Sweep", "__version__", "load", "solve", "sweep"]
+__all__ = [
+    "Answer",
+    "Case",
+    "CaseError",
+    "SceneError",
+    "Sweep",
+    "__version__",
+    "evaluator",
+    "load",
+    "solve",
+    "sweep",
+]
 
 _ROOMS = {
     "Answer": "answer",
@@ -29,6 +41,7 @@ _ROOMS = {
     "CaseError": "errors",
     "SceneError": "errors",
     "Sweep": "sweep",
+    "evaluator": "sweep.evaluator",
     "load": "read",
     "solve": "solve",
     "sweep": "sweep",

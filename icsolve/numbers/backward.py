@@ -14,8 +14,8 @@ import numpy as np
 
 from icsolve.numbers.noise import still_noise
 from icsolve.numbers.passing import Pass, Passed
-from icsolve.numbers.record import Op, Record, Traced
-from icsolve.numbers.replay import Array, Code, operands
+from icsolve.numbers.record import Op, Record, Traced, operands
+from icsolve.numbers.replay import Array, Code
 from icsolve.sweep.together import Together
 
 SLICE = 1024

@@ -8,8 +8,8 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from icsolve.numbers.noise import ANGLE_NOISE
-from icsolve.numbers.record import Op, Record, Traced
-from icsolve.numbers.replay import Array, Code, Step, operands
+from icsolve.numbers.record import Op, Record, Traced, operands
+from icsolve.numbers.replay import Array, Code, Step
 from icsolve.numbers.tape import TURN_NOISE, UNIT
 from icsolve.sweep.constraints import RADIAN
 from icsolve.sweep.together import Together

@@ -14,6 +14,9 @@ from icsolve.numbers.given import Number
 from icsolve.numbers.tape import decimal_noise
 from icsolve.numbers.traced import Node, Op, Root, Traced, is_plainly, varies
 
+TWO = frozenset((Op.ADD, Op.SUB, Op.MUL, Op.DIV, Op.ANGLE))
+"""The operations on two nodes."""
+
 
 class Record:
     """The nodes in order; an `icsolve.numbers.arithmetic.Arithmetic` whose numbers are `Traced` or floats."""
@@ -232,4 +235,12 @@ class Record:
         return node.op == Op.CONST and not node.noise
 
 
-__all__ = ["Node", "Op", "Record", "Root", "Traced", "varies"]
+def operands(record: Record, k: int) -> tuple[int, ...]:
+    """The nodes that a node is made of."""
+    node = record.nodes[k]
+    if node.op in (Op.INPUT, Op.CONST):
+        return ()
+    return (node.a, node.b) if node.op in TWO else (node.a,)
+
+
+__all__ = ["Node", "Op", "Record", "Root", "Traced", "operands", "varies"]

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.numbers.arithmetic import turn_of
-from icsolve.numbers.record import Op, Record
+from icsolve.numbers.record import Op, Record, operands
 
 Array = npt.NDArray[np.float64]
 BLOCK = 4096
@@ -38,14 +38,6 @@ def live(record: Record, wanted: Iterable[int], given: Collection[int]) -> list[
         if k not in given:
             stack += [n for n in operands(record, k) if nodes[n].row]
     return sorted(seen)
-
-
-def operands(record: Record, k: int) -> tuple[int, ...]:
-    """The nodes that a node is made of."""
-    node = record.nodes[k]
-    if node.op in BINARY or node.op == Op.ANGLE:
-        return (node.a, node.b)
-    return () if node.op in (Op.INPUT, Op.CONST) else (node.a,)
 
 
 def not_negative(values: Array, out: Array) -> None:

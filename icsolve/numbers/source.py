@@ -1,0 +1,141 @@
+"""A record as straight-line source text: one generator, a table of forms for each language.
+
+A value that is used once stands where it is used; the others have a name. Cosine and sine of an angle come
+from one function, which reduces it exactly (`arithmetic.turn_of`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import NamedTuple
+
+from icsolve.numbers.record import Op, Record, operands
+
+DEEPEST = 12
+"""Brackets in brackets."""
+
+
+class Language(NamedTuple):
+    """How a language writes the operations; ``{a}`` and ``{b}`` are operands."""
+
+    forms: Mapping[Op, str]
+    turned: str
+    """cosine and sine of ``{a}`` degrees to the names ``{c}`` and ``{s}``"""
+    assigned: str
+    number: Callable[[float], str]
+
+
+def _number(value: float) -> str:
+    return repr(value) if value >= 0.0 and not math.copysign(1.0, value) < 0.0 else f"({value!r})"
+
+
+_ARITHMETIC = {
+    Op.ADD: "({a}+{b})",
+    Op.SUB: "({a}-{b})",
+    Op.MUL: "{a}*{b}",
+    Op.DIV: "({a}/{b})",
+    Op.NEG: "(-{a})",
+}
+PYTHON = Language(
+    {
+        **_ARITHMETIC,
+        Op.MUL: "({a}*{b})",
+        Op.SQRT: "root({a})",
+        Op.ANGLE: "degrees(atan2({b},{a}))",
+        Op.NEAREST: "float(round({a}))",
+    },
+    "{c},{s}=turn({a})",
+    "{name}={value}",
+    _number,
+)
+JAVASCRIPT = Language(
+    {
+        **_ARITHMETIC,
+        Op.MUL: "({a}*{b})",
+        Op.SQRT: "root({a})",
+        Op.ANGLE: "angle({a},{b})",
+        Op.NEAREST: "nearest({a})",
+    },
+    "[{c},{s}]=turn({a});",
+    "{name}={value};",
+    _number,
+)
+JAVASCRIPT_FUNCTIONS = """\
+const root = x => x > 0 ? Math.sqrt(x) : 0;
+const angle = (x, y) => Math.atan2(y, x) * (180 / Math.PI);
+const nearest = x => { const n = Math.round(x); return Math.abs(x % 1) === 0.5 && n % 2 ? n - 1 : n; };
+const turn = d => {
+  const r = d % 360, q = nearest(r / 90), a = (r - 90 * q) * (Math.PI / 180);
+  const c = Math.cos(a), s = Math.sin(a);
+  return [[c, s], [-s, c], [-c, -s], [s, -c]][((q % 4) + 4) % 4];
+};
+"""
+"""What the generated JavaScript calls: as `arithmetic.turn_of` and the operations of a record."""
+
+
+class Text(NamedTuple):
+    """Lines in order, the names that they assign, and the expression of every wanted node."""
+
+    lines: tuple[str, ...]
+    names: tuple[str, ...]
+    wanted: tuple[str, ...]
+
+
+def straight_line(
+    record: Record, wanted: Sequence[int], inputs: Mapping[int, str], language: Language
+) -> Text:
+    """The source from the inputs (names by node) to the wanted nodes; every other input keeps the value
+    that it was recorded with."""
+    order = _needed(record, wanted, inputs)
+    uses: dict[int, int] = dict.fromkeys(order, 0)
+    for k in order:
+        for n in operands(record, k) if k not in inputs else ():
+            uses[n] = uses.get(n, 0) + 1
+    for k in wanted:
+        uses[k] = uses.get(k, 0) + 1
+    text: dict[int, tuple[str, int]] = {k: (name, 0) for k, name in inputs.items()}
+    lines: list[str] = []
+    names: list[str] = []
+
+    def form(k: int) -> tuple[str, int]:
+        if k not in text:  # the same in every row
+            text[k] = (language.number(record.nodes[k].value), 0)
+        return text[k]
+
+    for k in order:
+        node = record.nodes[k]
+        if k in text:
+            continue
+        if node.op in (Op.COS, Op.SIN):
+            cosine = k if node.op == Op.COS else node.b
+            text[cosine], text[cosine + 1] = (f"v{cosine}", 0), (f"v{cosine + 1}", 0)
+            names += [f"v{cosine}", f"v{cosine + 1}"]
+            lines.append(language.turned.format(c=names[-2], s=names[-1], a=form(node.a)[0]))
+            continue
+        if node.op == Op.INPUT:
+            form(k)
+            continue
+        parts = [form(n) for n in operands(record, k)]
+        value = language.forms[node.op].format(a=parts[0][0], b=parts[-1][0])
+        depth = 1 + max(d for _, d in parts)
+        if uses[k] > 1 or depth > DEEPEST:
+            names.append(f"v{k}")
+            lines.append(language.assigned.format(name=names[-1], value=value))
+            value, depth = names[-1], 0
+        text[k] = (value, depth)
+    return Text(tuple(lines), tuple(names), tuple(form(k)[0] for k in wanted))
+
+
+def _needed(record: Record, wanted: Sequence[int], inputs: Mapping[int, str]) -> list[int]:
+    """The nodes that vary and lead from the inputs to the wanted ones, in order."""
+    seen: set[int] = set()
+    stack = [k for k in wanted if record.nodes[k].row]
+    while stack:
+        k = stack.pop()
+        if k in seen:
+            continue
+        seen.add(k)
+        if k not in inputs:
+            stack += [n for n in operands(record, k) if record.nodes[n].row]
+    return sorted(seen)

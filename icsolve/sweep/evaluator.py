@@ -1,0 +1,378 @@
+"""A case as a compiled function of some of its numbers: arrays in, arrays out, with gradients on request.
+
+For synthesis, optimisation and many students' numbers: the kernels of one scene are recorded once, with the
+numbers as inputs. Few rows run as straight-line Python, many as numpy; a row that comes near to a limit or a
+dead centre is solved as a scene of its own, so each row says what `icsolve.solve` says of it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from math import atan2, degrees, sqrt
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from icsolve.assembly.group import Group
+from icsolve.case import Case
+from icsolve.errors import SceneError, Status
+from icsolve.numbers.adjoint import behind, gradient
+from icsolve.numbers.arithmetic import turn_of
+from icsolve.numbers.record import Op, varies
+from icsolve.numbers.replay import BLOCK, Array, Code
+from icsolve.numbers.source import PYTHON, straight_line
+from icsolve.solve import solve
+from icsolve.solve.refusals import rubs
+from icsolve.statics.power import is_unknown
+from icsolve.sweep.ask import AskError, Wanted, wanted_of
+from icsolve.sweep.drivers import Drive
+from icsolve.sweep.numbers import find_number, with_numbers
+from icsolve.sweep.program import Asked, Setting, Sheet, setting_of, sheet_of
+
+FEW = 24
+"""So many rows at most run as Python: numpy's own cost a step is that of some twenty floats."""
+NEAR = 1e-7
+"""A divisor, radicand, margin or answer below this fraction of what it is as written makes its row one that
+is solved as a scene: that decides nothing, it only looks closer."""
+
+FINE = np.array((str(Status.OK),), dtype="<U24")
+
+Key = tuple[str, str]
+
+
+@dataclass(frozen=True)
+class Evaluated:
+    """The rows of one call; n is their number.
+
+    Attributes
+    ----------
+    status : words as those of `solve`, (n,)
+    answers : unknown loads by name, (n,) [case units]; not a number where the status is not ``ok``
+    points : places by name, (n, 2) [case length]
+    centres : relative centres by pair, homogeneous (x, y, w), (n, 3)
+    rates : angular velocities by link, (n,) [rad/s, or scaled as in one scene]
+    gradients : by answer, then by input as it was asked for: derivative [case units; per degree by an angle],
+        (n,); not a number in rows that were solved as scenes of their own
+    """
+
+    status: npt.NDArray[np.str_]
+    answers: dict[str, Array] = field(default_factory=dict)
+    points: dict[str, Array] = field(default_factory=dict)
+    centres: dict[str, Array] = field(default_factory=dict)
+    rates: dict[str, Array] = field(default_factory=dict)
+    gradients: dict[str, dict[str, Array]] = field(default_factory=dict)
+
+    def __len__(self) -> int:
+        return len(self.status)
+
+
+def evaluator(
+    case: Case,
+    inputs: Sequence[str],
+    want: Sequence[str] = ("answers", "status"),
+    *,
+    gradient: bool = False,
+) -> Evaluator:
+    """Compile a case as a function of some of its numbers.
+
+    Parameters
+    ----------
+    case : as `icsolve.load` returns it
+    inputs : paths of numbers as in sweeps (``lengths.BC``, ``angles.AB``, ``loads.P``, ``points.D.x``)
+    want : ``answers``, ``status``, ``points``, ``centres``, ``rates``; or single ones, ``points.C``
+    gradient : whether each call also gives the derivative of every answer by every input
+
+    Returns
+    -------
+    Evaluator
+        Called with one array a number, in the order of ``inputs``: each of n values, or one for all rows.
+        Every row is a figure as if written so, on the branch on which the case as written is.
+
+    Raises
+    ------
+    CaseError
+        For a path that the case does not have.
+    SceneError
+        Where the case as written has no figure, or lies in space.
+    ValueError
+        For words that can't be wanted, no inputs, or one twice; gradients where rows are solved one by one
+        (friction, profiles, groups that Newton's method places).
+    """
+    paths = tuple(inputs) if not isinstance(inputs, str) else (inputs,)
+    own = tuple(find_number(case, path).path for path in paths)
+    if not own:
+        raise AskError("nothing is varied: give inputs=('lengths.BC',)")
+    if len(set(own)) < len(own):
+        raise AskError("an input is named twice")
+    wanted = wanted_of(case, (want,) if isinstance(want, str) else tuple(want))
+    if case.space is not None:
+        raise SceneError(Status.UNSUPPORTED, "an evaluator is for the plane, and this case is in space.")
+    return Evaluator(case, dict(zip(paths, own, strict=True)), wanted, gradient)
+
+
+class Evaluator:
+    """A case as a function of some of its numbers; `evaluator` makes it.
+
+    ``inputs`` are the paths, in the order of the arguments.
+    """
+
+    def __init__(self, case: Case, names: dict[str, str], wanted: Wanted, gradients: bool) -> None:
+        self.case, self.inputs, self.wanted = case, tuple(names), wanted
+        self.own = tuple(names.values())
+        self.compiled = None if _one_by_one(case) else _compiled(case, names, wanted.asked, gradients)
+        if self.compiled is None and gradients:
+            raise AskError(
+                "there are no gradients where each row is solved as a scene of its own: with friction, "
+                "profiles, or points that only together can be placed"
+            )
+
+    def __call__(self, *columns: npt.ArrayLike) -> Evaluated:
+        """Every row. Raises ValueError for columns that do not fit."""
+        if len(columns) != len(self.inputs):
+            names = ", ".join(self.inputs)
+            raise AskError(f"{len(self.inputs)} numbers are varied ({names}), not {len(columns)}")
+        if self.compiled is not None:
+            found = self.compiled.single(columns)
+            if found is not None:
+                return found
+        given, rows = _columns(self.inputs, columns)
+        if self.compiled is None:
+            out, again = _Rows(self._keys(), rows), np.arange(rows)
+        else:
+            out = _Rows(self.compiled.parts, rows)
+            again = self.compiled.run(given, rows, out)
+        for row in again.tolist():
+            self._as_scene(given, row, out)
+        return out.result()
+
+    def case_of(self, *numbers: float) -> Case:
+        """The case with these numbers, as if written so."""
+        return with_numbers(self.case, dict(zip(self.own, map(float, numbers), strict=True)))
+
+    def _keys(self) -> dict[Key, int]:
+        asked = self.wanted.asked
+        loads = [load.name for load in self.case.loads if is_unknown(load)] if asked.answers else []
+        keys: dict[Key, int] = {("answers", name): 1 for name in loads}
+        keys |= {("points", name): 2 for name in asked.points}
+        keys |= {("centres", f"{a}-{b}"): 3 for a, b in asked.centres}
+        return keys | ({("rates", link): 1 for link in self.case.links} if asked.rates else {})
+
+    def _as_scene(self, given: list[Array], row: int, out: _Rows) -> None:
+        """One row as `icsolve.solve` has it, on the branch that was followed."""
+        out.blank(row)
+        case = self.case_of(*(float(c[row] if c.ndim else c) for c in given))
+        if self.compiled is not None:
+            case = self.compiled.on_its_branch(case, given, row)
+        rates = any(kind in ("rates", "centres") for kind, _ in out.arrays)
+        try:
+            answer = solve(case, rates=rates, all_centres=any(kind == "centres" for kind, _ in out.arrays))
+        except SceneError as refusal:
+            out.status[row] = refusal.status
+            return
+        out.status[row] = answer.status
+        for (kind, name), array in out.arrays.items():
+            if kind == "answers" and name in answer.answers:
+                value = answer.answers[name].value
+                array[row] = np.nan if value is None else value
+            elif kind == "points" and name in answer.points:
+                array[row] = answer.points[name]
+            elif kind == "rates" and answer.rates is not None and isinstance(answer.rates[name], float):
+                array[row] = answer.rates[name]
+            elif kind == "centres":
+                pair = next(p for p in answer.centres if f"{p[0]}-{p[1]}" == name)
+                array[row] = _homogeneous(answer.centres[pair])
+
+
+def _homogeneous(centre: Any) -> tuple[float, float, float]:
+    if centre.kind == "at":
+        return (*centre.place, 1.0)
+    if centre.kind == "toward":
+        c, s = turn_of(centre.place[0])
+        return (c, s, 0.0)
+    return (0.0, 0.0, 0.0)
+
+
+def _one_by_one(case: Case) -> bool:
+    return rubs(case) or (case.profiles is not None and bool(case.profiles.touches))
+
+
+def _columns(names: Sequence[str], columns: Sequence[npt.ArrayLike]) -> tuple[list[Array], int]:
+    """The columns as arrays, and how many rows they make."""
+    given = [np.asarray(column, dtype=np.float64) for column in columns]
+    rows = max(len(c) if c.ndim else 1 for c in given)
+    for name, column in zip(names, given, strict=True):
+        if column.ndim > 1 or (column.ndim and len(column) not in (1, rows)):
+            raise AskError(f"{name} has the shape {column.shape} where {rows} rows are asked for")
+    return [c if c.ndim == 0 or len(c) == rows else c[0] for c in given], rows
+
+
+class _Rows:
+    """Arrays of a call, filled row by row or at once."""
+
+    def __init__(self, parts: Mapping[Key, int], rows: int) -> None:
+        shapes = {key: rows if n == 1 else (rows, n) for key, n in parts.items()}
+        self.arrays: dict[Key, Array] = {key: np.empty(shape) for key, shape in shapes.items()}
+        self.gradients: dict[str, dict[str, Array]] = {}
+        self.status = np.full(rows, Status.OK, dtype="<U24")
+
+    def blank(self, row: int) -> None:
+        """A row without values."""
+        for array in (*self.arrays.values(), *(a for by in self.gradients.values() for a in by.values())):
+            array[row] = np.nan
+
+    def result(self) -> Evaluated:
+        """As frozen arrays by kind."""
+        kinds: dict[str, dict[str, Array]] = {"answers": {}, "points": {}, "centres": {}, "rates": {}}
+        for (kind, name), array in self.arrays.items():
+            kinds[kind][name] = array
+        return Evaluated(self.status, gradients=self.gradients, **kinds)
+
+
+class _Compiled:
+    """The record of a case with its inputs, as Python for few rows and as numpy for many."""
+
+    def __init__(self, sheet: Sheet, names: Mapping[str, str], gradients: bool) -> None:
+        record = sheet.record
+        self.sheet, self.names = sheet, tuple(names)
+        self.nodes = [sheet.inputs[own] for own in names.values()]
+        self.parts = {key: len(values) for key, values in sheet.outputs.items()}
+        values = [(key, part, v) for key, some in sheet.outputs.items() for part, v in enumerate(some)]
+        self.keys = [(key, part) for key, part, _ in values]
+        answers = {key[1]: v for key, _, v in values if key[0] == "answers"}
+        slopes = {}
+        if gradients:
+            slopes = {name: gradient(record, v, self.nodes) for name, v in answers.items()}
+        self.slopes = [(name, path) for name in slopes for path in self.names]
+        shown = [*(v for *_, v in values), *(v for by in slopes.values() for v in by.values())]
+        self.shown = [record.lifted(v).index for v in shown]
+        alive = sorted({k for v in shown if varies(v) for k in behind(record, v.index)})
+        self.positive = [*(r.radicand for k, r in record.roots.items() if k in set(alive)), *sheet.margins]
+        divided = {record.nodes[k].b for k in alive if record.nodes[k].op == Op.DIV}
+        self.apart = sorted(k for k in divided if record.nodes[k].row)
+        self.apart += [v.index for v in answers.values() if varies(v)]
+        watched = [*self.positive, *self.apart]
+        self.limits = np.array([NEAR * (abs(record.nodes[k].value) or 1.0) for k in watched])
+        self.code = Code(record, [*self.shown, *watched])
+        self.one = self._python()
+
+    def _python(self) -> Callable[..., tuple[float, ...] | None]:
+        """The same for one row of floats; None where the row has to be looked at."""
+        record, names = self.sheet.record, {k: f"x{n}" for n, k in enumerate(self.nodes)}
+        wanted = [*self.shown, *self.positive, *self.apart]
+        text = straight_line(record, wanted, names, PYTHON)
+        count, limits = len(self.shown), self.limits.tolist()
+        watched = text.wanted[count:]
+        tests = [f"{w}>{limit!r}" for w, limit in zip(watched, limits, strict=False)][: len(self.positive)]
+        later = zip(watched[len(self.positive) :], limits[len(self.positive) :], strict=True)
+        tests += [f"not -{limit!r}<={w}<={limit!r}" for w, limit in later]
+        body = [*text.lines, *(f"if not ({test}): return None" for test in tests)]
+        body.append(f"return ({''.join(f'{w},' for w in text.wanted[:count])})")
+        source = f"def one({', '.join(names.values())}):\n" + "".join(f"    {line}\n" for line in body)
+        scope: dict[str, Any] = {"turn": turn_of, "root": _root, "atan2": atan2, "degrees": degrees}
+        exec(compile(source, "<evaluator>", "exec"), scope)
+        found: Callable[..., tuple[float, ...] | None] = scope["one"]
+        return found
+
+    def single(self, columns: Sequence[npt.ArrayLike]) -> Evaluated | None:
+        """One row of plain numbers; None where there are several, or the row has to be looked at."""
+        if any(getattr(column, "shape", ()) or isinstance(column, list | tuple) for column in columns):
+            return None
+        try:
+            found = self.one(*map(float, columns))  # type: ignore[arg-type]
+        except ArithmeticError:
+            return None
+        if found is None:
+            return None
+        kinds: dict[str, dict[str, Array]] = {"answers": {}, "points": {}, "centres": {}, "rates": {}}
+        start = 0
+        for (kind, name), count in self.parts.items():
+            part = found[start : start + count]
+            kinds[kind][name] = np.array(part if count == 1 else (part,))
+            start += count
+        gradients: dict[str, dict[str, Array]] = {}
+        for (name, path), value in zip(self.slopes, found[start:], strict=True):
+            gradients.setdefault(name, {})[path] = np.array((value,))
+        return Evaluated(FINE.copy(), gradients=gradients, **kinds)
+
+    def run(self, given: list[Array], rows: int, out: _Rows) -> npt.NDArray[np.int64]:
+        """Fill all rows; those that have to be solved as scenes."""
+        out.gradients = {name: {} for name, _ in self.slopes}
+        targets = [a if a.ndim == 1 else a[:, part] for a, part in ((out.arrays[k], p) for k, p in self.keys)]
+        for name, path in self.slopes:
+            targets.append(out.gradients[name].setdefault(path, np.empty(rows)))
+        return self._few(given, rows, targets) if rows <= FEW else self._many(given, rows, targets)
+
+    def _few(self, given: list[Array], rows: int, targets: list[Array]) -> npt.NDArray[np.int64]:
+        again = []
+        columns = [c.tolist() for c in given]
+        for row in range(rows):
+            numbers = [c[row] if isinstance(c, list) else c for c in columns]
+            try:
+                found = self.one(*numbers)
+            except (ZeroDivisionError, OverflowError, ValueError):
+                found = None
+            if found is None:
+                again.append(row)
+                continue
+            for target, value in zip(targets, found, strict=True):
+                target[row] = value
+        return np.array(again, dtype=np.int64)
+
+    def _many(self, given: list[Array], rows: int, targets: list[Array]) -> npt.NDArray[np.int64]:
+        again = []
+        shown, positive = len(self.shown), len(self.positive)
+        for start in range(0, rows, BLOCK):
+            stop = min(start + BLOCK, rows)
+            here = {k: c[start:stop] if c.ndim else c for k, c in zip(self.nodes, given, strict=True)}
+            found = self.code.run(here, stop - start)
+            for target, array in zip(targets, found, strict=False):
+                target[start:stop] = array
+            fine = np.ones(stop - start, dtype=bool)
+            with np.errstate(invalid="ignore"):
+                for n, array in enumerate(found[shown:]):
+                    fine &= (array if n < positive else np.abs(array)) > self.limits[n]
+            if not fine.all():
+                again.append(np.flatnonzero(~fine) + start)
+        return np.concatenate(again) if again else np.empty(0, dtype=np.int64)
+
+    def on_its_branch(self, case: Case, given: list[Array], row: int) -> Case:
+        """The case of a row with `near` where its branch has the points that assemble in two places."""
+        if not case.near:
+            return case
+        scene = self.sheet.scene
+        found = [v for name in case.near for v in scene.points.get(name, (0.0, 0.0))]
+        flat = [scene.record.lifted(v).index for v in found]
+        here = {k: np.array(float(c[row] if c.ndim else c)) for k, c in zip(self.nodes, given, strict=True)}
+        places = [float(np.ravel(v)[0]) for v in Code(scene.record, flat).run(here, 1)]
+        ox, oy, scale = scene.frame
+        pairs = zip(case.near, zip(places[::2], places[1::2], strict=True), strict=True)
+        near = {n: (x / scale + ox, y / scale + oy) for n, (x, y) in pairs if n in scene.points}
+        whole = len(near) == len(case.near) and all(np.isfinite(p).all() for p in near.values())
+        return replace(case, near=near) if whole else case
+
+
+def _root(value: float) -> float:
+    return sqrt(value) if value > 0.0 else 0.0
+
+
+def _compiled(case: Case, names: Mapping[str, str], asked: Asked, gradients: bool) -> _Compiled | None:
+    """The record of the case with all inputs; None where its figure or its loads need a scene a row."""
+    setting: Setting = setting_of(case, (), ())
+    if any(isinstance(step, Group) for step in setting.figure.steps):
+        return None
+    setting = setting._replace(paths=tuple(names.values()), drive=Drive((), (), ()))
+    try:
+        sheet = sheet_of(setting, _told(case, asked))
+    except SceneError:  # beside the case as written nothing moves: it does so by exact data alone
+        return None
+    return None if sheet.refusal is not None or sheet.delicate else _Compiled(sheet, names, gradients)
+
+
+def _told(case: Case, asked: Asked) -> Asked:
+    """Where no load is unknown, rates are run: without them the status would mean nothing."""
+    return asked if any(map(is_unknown, case.loads)) or asked.centres else asked._replace(rates=True)
+
+
+__all__ = ["Evaluated", "Evaluator", "evaluator"]

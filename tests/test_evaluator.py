@@ -1,0 +1,189 @@
+"""A case as a compiled function: each row is the scene's own answer, its gradient the scene's derivatives.
+
+Rows run as Python where they are few and as numpy where they are many: both against `icsolve.solve` of the
+case with the row's numbers, which is another program from the figure on.
+"""
+
+from __future__ import annotations
+
+import random
+import shutil
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import icsolve
+from icsolve.case import Case
+from icsolve.errors import SceneError
+from icsolve.numbers.adjoint import gradient
+from icsolve.numbers.record import Record
+from icsolve.numbers.source import JAVASCRIPT, JAVASCRIPT_FUNCTIONS, straight_line
+from icsolve.sweep.numbers import numbers_of, with_numbers
+
+FOUR_BAR = """icsolve: 1
+points: {A: [0, 0], D: [4, 0]}
+lengths: {AB: 1, BC: 3.5, CD: 2.5, DE: 1.5}
+angles: {AB: 60, CDE: 0}
+near: {C: [3.5, 2.4]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {pin: [4, 1], at: D}
+loads:
+  P: {force: 100, link: 4, at: E, angle: 180}
+  T12: {torque: unknown, link: 2}
+"""
+CASES = sorted((Path(__file__).parent.parent / "cases").rglob("*.yaml"))
+
+
+def solved(case: Case) -> tuple[str, dict[str, float]]:
+    """Status and unknown loads of a scene."""
+    try:
+        answer = icsolve.solve(case)
+    except SceneError as refusal:
+        return refusal.status, {}
+    return answer.status, {name: one.value for name, one in answer.answers.items() if one.value is not None}
+
+
+def some_inputs(case: Case, draw: random.Random) -> tuple[str, ...]:
+    """A few numbers of the figure and of the loads."""
+    known = [p for p in numbers_of(case) if p.split(".")[0] in ("points", "lengths", "angles", "loads")]
+    return tuple(draw.sample(known, min(4, len(known))))
+
+
+@pytest.mark.parametrize("path", CASES, ids=lambda path: path.stem)
+def test_rows_of_the_library_are_the_scenes_own(path: Path) -> None:
+    case, draw = icsolve.load(path), random.Random(path.stem)
+    inputs = some_inputs(case, draw)
+    if case.space is not None or not inputs or solved(case)[0] != "ok":
+        pytest.skip("nothing to vary, or no answer as written")
+    written = [numbers_of(case)[p].value for p in inputs]
+    rows = [[v + draw.uniform(-0.002, 0.002) * (abs(v) or 1.0) for v in written] for _ in range(3)]
+    found = icsolve.evaluator(case, inputs)(*np.array([written, *rows]).T)
+    for n, numbers in enumerate([written, *rows]):
+        status, values = solved(with_numbers(case, dict(zip(inputs, numbers, strict=True))))
+        assert found.status[n] == status
+        for name, value in values.items():  # near a dead centre the digits of the row itself are fewer
+            assert found.answers[name][n] == pytest.approx(value, rel=1e-7, abs=1e-9)
+
+
+def test_many_rows_are_those_that_few_are() -> None:
+    call = icsolve.evaluator(
+        icsolve.load(FOUR_BAR), ("angles.AB", "lengths.BC", "loads.P"), ("answers", "points")
+    )
+    angles, couplers = np.linspace(5.0, 355.0, 200), np.linspace(3.2, 3.8, 200)
+    many = call(angles, couplers, 100.0)
+    for n in range(0, 200, 7):
+        one = call(float(angles[n]), float(couplers[n]), 100.0)
+        assert one.answers["T12"][0] == pytest.approx(many.answers["T12"][n], rel=1e-12)
+        assert one.points["C"][0] == pytest.approx(many.points["C"][n], rel=1e-13)
+
+
+def test_the_gradient_is_the_scenes_sensitivity() -> None:
+    case = icsolve.load(FOUR_BAR)
+    inputs = ("angles.AB", "lengths.AB", "lengths.BC", "lengths.CD", "lengths.DE", "points.D.x", "loads.P")
+    call = icsolve.evaluator(case, inputs, gradient=True)
+    for angle in (20.0, 60.0, 133.0, 290.0):
+        numbers = [angle, 1.0, 3.5, 2.5, 1.5, 4.0, 100.0]
+        row = call.case_of(*numbers)
+        slopes = icsolve.solve(row).sensitivities["T12"]
+        for found in (call(*numbers), call(*np.tile(numbers, (40, 1)).T)):
+            for path in inputs:
+                assert found.gradients["T12"][path][-1] == pytest.approx(slopes[path], rel=1e-9)
+
+
+def test_a_row_that_does_not_assemble_says_so_and_the_others_stand() -> None:
+    found = icsolve.evaluator(icsolve.load(FOUR_BAR), ("lengths.BC",))(np.array([3.5, 9.0, 3.4]))
+    assert found.status.tolist() == ["ok", "cannot-assemble", "ok"]
+    assert np.isnan(found.answers["T12"]).tolist() == [False, True, False]
+
+
+def test_a_row_at_a_dead_centre_has_its_status() -> None:
+    text = FOUR_BAR.replace("link: 2}", "link: 4}").replace("BC: 3.5", "BC: 3").replace("CD: 2.5", "CD: 2")
+    text = text.replace("P: {force: 100, link: 4, at: E, angle: 180}", "M: {torque: 5, link: 2}")
+    beside = icsolve.evaluator(icsolve.load(text), ("angles.AB",))  # at 180 coupler and rocker are in line
+    for angle in (179.999, 90.0, 180.0):
+        status, values = solved(beside.case_of(angle))
+        found = beside(angle)
+        assert found.status[0] == status
+        assert values == {} or found.answers["T12"][0] == pytest.approx(values["T12"], rel=1e-9)
+
+
+def test_with_friction_rows_are_solved_one_by_one_and_have_no_gradient() -> None:
+    text = FOUR_BAR.replace("at: D}", "at: D, mu: 0.2, radius: 0.1}") + "motion: {link: 2, turns: cw}\n"
+    case = icsolve.load(text)
+    found = icsolve.evaluator(case, ("loads.P",))([100.0, 200.0])
+    expected = [solved(with_numbers(case, {"loads.P": p}))[1]["T12"] for p in (100.0, 200.0)]
+    assert found.answers["T12"].tolist() == expected
+    with pytest.raises(ValueError, match="friction"):
+        icsolve.evaluator(case, ("loads.P",), gradient=True)
+
+
+@pytest.mark.parametrize(
+    ("inputs", "columns", "words"),
+    [
+        ((), (), "nothing is varied"),
+        (("lengths.BC", "lengths.CB"), (), "named twice"),
+        (("lengths.BC",), (1.0, 2.0), "1 numbers are varied"),
+        (("lengths.BC", "loads.P"), ([1.0, 2.0], [1.0, 2.0, 3.0]), "shape"),
+    ],
+)
+def test_what_makes_no_sense_is_refused(
+    inputs: tuple[str, ...], columns: tuple[float, ...], words: str
+) -> None:
+    with pytest.raises(ValueError, match=words):
+        icsolve.evaluator(icsolve.load(FOUR_BAR), inputs)(*columns)
+
+
+def recorded() -> tuple[Record, list[int], dict[int, str], list[float]]:
+    """Every operation of a record on two inputs, and the gradient of their sum."""
+    record = Record()
+    x, y = record.input("x", 0.7), record.input("y", 2.3)
+    c, s = record.turned(x * 100.0)
+    parts = [
+        x + y,
+        x - y,
+        x * y,
+        x / y,
+        -x,
+        record.sqrt(x + y),
+        c,
+        s,
+        record.angle(x, y),
+        record.nearest(y * 3.0),
+    ]
+    total = parts[0]
+    for part in parts[1:9]:
+        total = total + part * part
+    slopes = gradient(record, total, (x.index, y.index))
+    shown = [*parts, total, *slopes.values()]
+    return record, [v.index for v in shown], {x.index: "x", y.index: "y"}, [float(v) for v in shown]
+
+
+@pytest.mark.skipif(shutil.which("node") is None, reason="no JavaScript engine")
+def test_the_generated_javascript_does_what_the_record_does() -> None:
+    record, wanted, names, expected = recorded()
+    text = straight_line(record, wanted, names, JAVASCRIPT)
+    script = f"{JAVASCRIPT_FUNCTIONS}let {', '.join(text.names)};const x=0.7,y=2.3;\n" + "\n".join(text.lines)
+    script += f"\nconsole.log(JSON.stringify([{','.join(text.wanted)}]));"
+    ran = subprocess.run(["node", "-e", script], capture_output=True, text=True, check=True)
+    assert [float(v) for v in ran.stdout.strip()[1:-1].split(",")] == pytest.approx(expected, rel=1e-13)
+
+
+def test_a_gradient_on_the_record_is_that_of_differences() -> None:
+    _, _, _, at = recorded()
+    total, by_x, by_y = at[10], at[11], at[12]
+
+    def f(x: float, y: float) -> float:
+        c, s = np.cos(np.radians(100.0 * x)), np.sin(np.radians(100.0 * x))
+        angle = np.degrees(np.arctan2(y, x))
+        squares = (x - y) ** 2 + (x * y) ** 2 + (x / y) ** 2 + x * x + (x + y) + c * c + s * s + angle**2
+        return float(x + y + squares)
+
+    assert f(0.7, 2.3) == pytest.approx(total, rel=1e-13)
+    h = 1e-5
+    assert (f(0.7 + h, 2.3) - f(0.7 - h, 2.3)) / (2 * h) == pytest.approx(by_x, rel=1e-6)
+    assert (f(0.7, 2.3 + h) - f(0.7, 2.3 - h)) / (2 * h) == pytest.approx(by_y, rel=1e-6)
