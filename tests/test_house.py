@@ -13,8 +13,8 @@ import pytest
 
 PACKAGE = Path(__file__).parent.parent / "icsolve"
 ROOMS = (
-    "errors units numbers case wording answer structure screws assembly kinematics statics cams read solve "
-    "sweep check report derivation draw explain page notebook grade bench templates cli"
+    "errors units files numbers case wording answer structure screws assembly kinematics statics cams read "
+    "solve sweep check report derivation draw explain page notebook grade bench manual cli"
 ).split()
 """In the order in which they may lean on one another: each only on those before it."""
 STILL_BACK = {
