@@ -9,6 +9,7 @@ hidden name that starts with ``@``.
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from icsolve.case.bodies import Inertia, Rope
 from icsolve.case.expected import (
     ArmIs,
     CentreIs,
@@ -80,6 +81,7 @@ __all__ = [
     "Guide",
     "Heading",
     "Helix",
+    "Inertia",
     "Joint",
     "KnownCentre",
     "Length",
@@ -96,6 +98,7 @@ __all__ = [
     "RatioIs",
     "ReactionIs",
     "Roll",
+    "Rope",
     "Slide",
     "Slope",
     "Slot",
@@ -140,6 +143,11 @@ class Case:
     carries: dict[str, tuple[str, ...]] = field(default_factory=dict)
     gravity: Number = Number(9.81, 0.005, "gravity", "9.81")
     """m/s^2, along -y"""
+    inertia: dict[str, Inertia] = field(default_factory=dict)
+    """by link"""
+    dynamic: bool = False
+    """whether the inertia forces of the given motion are among the loads"""
+    ropes: tuple[Rope, ...] = ()
     tolerance: Tolerance | None = None
     variables: tuple[Variable, ...] = ()
     profiles: "Profiles | None" = None

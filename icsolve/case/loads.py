@@ -102,3 +102,5 @@ class Motion(NamedTuple):
     turns: str | None = None
     point: str | None = None
     angle: Number | None = None
+    acceleration: Number | None = None
+    """rad/s^2 of a link, of a point along its path: positive where it gets faster"""
