@@ -1,0 +1,308 @@
+"""The given motion, and how it changes: twists of the links in real time, and the derivatives of these.
+
+Each joint transmits wrenches w that do no work on the relative twist t of its two links: w . t = 0. The
+derivative of that by time, w . t' = -w' . t, is linear in the rates t' of the twists, with the same
+coefficients as the equilibrium of the links; w' follows from how the joint's own point or guide moves. The
+rate of a twist is that of the velocity of the fixed point at the origin and of the angular velocity, so a
+point p of the link has the acceleration velocity(t', p) + omega x v. (J. M. Rico Martinez, J. Duffy, Mech.
+Mach. Theory 31, 1996.)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from icsolve.assembly.frame import Frame
+from icsolve.case import Belt, Case, Contact, Gears, KnownCentre, Motion, Pin, Roll, Slide, Slot
+from icsolve.errors import SceneError, Status
+from icsolve.numbers.arithmetic import Arithmetic, Scalar
+from icsolve.numbers.sparse import General, Row, eliminate
+from icsolve.screws.joints import Points, freedoms, guide_direction, mesh_weights, transmitted
+from icsolve.screws.plane import Point, Triple, add, blend, cross, pairing, subtract, velocity
+from icsolve.structure.topology import Bond, Topology
+from icsolve.wording.sentences import listed
+
+STILL: Triple = (0.0, 0.0, 0.0)
+NOTHING = 1e-20
+"""Of fifty digits, half of which a figure found by Newton's method has: what is below this is zero."""
+NEAR = 2e-3
+"""A wheel's centre may miss its radius by this fraction of it."""
+
+
+class Moving(NamedTuple):
+    """Twists of the links and their rates, in the given motion (normalised lengths, seconds).
+
+    ``open`` has the links that a freedom moves which no given motion fixes.
+    """
+
+    twists: Mapping[str, Triple]
+    rates: Mapping[str, Triple]
+    open: frozenset[str]
+
+    def acceleration(self, link: str, p: Point) -> Point:
+        """Acceleration of a point of a link."""
+        (x, y), (vx, vy) = velocity(self.rates[link], p), velocity(self.twists[link], p)
+        omega = self.twists[link][2]
+        return x - omega * vy, y + omega * vx
+
+
+def moving(
+    case: Case,
+    top: Topology,
+    frame: Frame,
+    points: Points,
+    motions: Mapping[str, Sequence[Triple]],
+    arithmetic: Arithmetic,
+) -> Moving:
+    """The motion that the case gives, with its accelerations; ``motions`` has the twists of each link.
+
+    Raises SceneError where no speed is given, where a joint does not tell how it moves on, and where the
+    links move only for an instant.
+    """
+    conditions = [_condition(given, motions, frame, points, arithmetic) for given in case.motion]
+    if not conditions:
+        raise SceneError(Status.MOBILITY, NO_SPEED)
+    count = len(next(iter(motions.values())))
+    shares = eliminate([_row(values, target) for values, target, *_ in conditions], count, NOTHING)
+    if any(abs(left[count]) > NOTHING * abs(c[1]) for left, c in zip(shares.left, conditions, strict=False)):
+        message = "the motions given contradict each other: no motion has all of them."
+        raise SceneError(Status.INCONSISTENT, message)
+    factors = [shares.of(m).get(count, 0.0) for m in range(count)]
+    twists = {link: _combined(factors, ts) for link, ts in motions.items()}
+    idle = {link for link, ts in motions.items() if _is_open(shares, ts)}
+    rates = _rates(case, top, points, twists, conditions, arithmetic, frame)
+    return Moving(twists, {link: rates[0][top.body_of[link]] for link in motions}, frozenset(idle | rates[1]))
+
+
+NO_SPEED = (
+    "inertia forces need to know how fast the mechanism moves: give `motion` a `speed`, as in "
+    "`motion: {link: 2, speed: 12 rad/s}`."
+)
+
+Condition = tuple[Sequence[Scalar], Scalar, Motion, Point | None, Scalar]
+"""What a given motion takes from each motion, their sum, a point's direction, the acceleration."""
+
+
+def _row(values: Sequence[Scalar], target: Scalar) -> Row:
+    return {**dict(enumerate(values)), len(values): -target}
+
+
+def _combined(factors: Sequence[Scalar], twists: Sequence[Triple]) -> Triple:
+    total = STILL
+    for factor, twist in zip(factors, twists, strict=True):
+        total = blend(1.0, total, factor, twist)
+    return total
+
+
+def _is_open(shares: General, twists: Sequence[Triple]) -> bool:
+    """Whether a freedom that no given motion fixes moves a link."""
+    size = max((abs(x) for t in twists for x in t), default=0.0)
+    for free in shares.free:
+        weights = [shares.of(m).get(free, 0.0) for m in range(len(twists))]
+        if any(abs(x) > NOTHING * size for x in _combined(weights, twists)):
+            return True
+    return False
+
+
+def _condition(
+    given: Motion,
+    motions: Mapping[str, Sequence[Triple]],
+    frame: Frame,
+    points: Points,
+    arithmetic: Arithmetic,
+) -> Condition:
+    """The condition of a given motion."""
+    if given.speed is None:
+        raise SceneError(Status.MOBILITY, NO_SPEED)
+    link, speed = motions[given.link], arithmetic.given(given.speed)
+    more: Scalar = arithmetic.given(given.acceleration) if given.acceleration is not None else 0.0
+    forth = -1.0 if given.speed.value < 0.0 else 1.0
+    if given.point is None:
+        sign = -1.0 if given.turns == "cw" else 1.0
+        return [t[2] for t in link], sign * speed, given, None, sign * forth * more
+    velocities = [velocity(t, points[given.point]) for t in link]
+    assert given.angle is not None
+    along: Point = arithmetic.turn(given.angle)
+    if len(link) == 1:
+        x, y = velocities[0]
+        size = arithmetic.sqrt(x * x + y * y)
+        size = size if float(x * along[0] + y * along[1]) > 0.0 else -size
+        along = (x / size, y / size)
+    values = [v[0] * along[0] + v[1] * along[1] for v in velocities]
+    return values, speed * frame.scale, given, along, forth * more * frame.scale
+
+
+def _rates(
+    case: Case,
+    top: Topology,
+    points: Points,
+    twists: Mapping[str, Triple],
+    conditions: Sequence[Condition],
+    arithmetic: Arithmetic,
+    frame: Frame,
+) -> tuple[list[Triple], set[str]]:
+    """The rate of each body's twist, and the links whose rate a freedom leaves open."""
+    known = 3 * len(top.members)
+    rows: list[Row] = []
+    sizes: list[float] = []
+    for bond in top.bonds:
+        relative = subtract(twists[bond.links[1]], twists[bond.links[0]])
+        basis = freedoms(bond, points, arithmetic)
+        change = _changes(_Place(case, points, twists, arithmetic, frame), bond, basis)
+        for w, dw in zip(transmitted(basis), _transmitted_changes(basis, change), strict=True):
+            rows.append(_between(top, bond, w, pairing(dw, relative), known))
+            sizes.append(sum(abs(a * b) for a, b in zip(dw, relative, strict=True)))
+    for _, _, given, along, more in conditions:
+        rows.append(_driven(top, given, along, more, twists, points, known))
+        sizes.append(abs(more))
+    general = eliminate(rows, known, NOTHING)
+    if any(abs(left.get(known, 0.0)) > NOTHING * max(sizes) for left in general.left):
+        raise SceneError(
+            Status.CHANGE_POINT,
+            "the links move only for an instant in this position (its joints do not fit together a moment "
+            "later), so it has no accelerations. Take another position, or correct the figure.",
+        )
+    ground = 3 * top.ground
+    found, idle = [], set()
+    for body, links in enumerate(top.members):
+        columns = [general.of(3 * body + n) for n in range(3)] if body != top.ground else [{}] * 3
+        found.append(tuple(row.get(known, 0.0) for row in columns))
+        loose = any(abs(a) > NOTHING for row in columns for c, a in row.items() if c < known)
+        idle |= {*links} if loose and 3 * body != ground else set()
+    return found, idle  # type: ignore[return-value]
+
+
+def _between(top: Topology, bond: Bond, w: Triple, change: Scalar, known: int) -> Row:
+    """``w . (rate of b - rate of a) + change = 0``."""
+    row: Row = {known: change}
+    for body, sign in ((bond.b, 1.0), (bond.a, -1.0)):
+        if body != top.ground:
+            for n, part in enumerate(w):
+                row[3 * body + n] = sign * part
+    return row
+
+
+def _driven(
+    top: Topology,
+    given: Motion,
+    along: Point | None,
+    more: Scalar,
+    twists: Mapping[str, Triple],
+    points: Points,
+    known: int,
+) -> Row:
+    """The acceleration that a motion gives to its link, or to a point of it along its path."""
+    first = 3 * top.body_of[given.link]
+    if along is None or given.point is None:
+        return {first + 2: 1.0, known: -more}
+    p, (ux, uy) = points[given.point], along
+    vx, vy = velocity(twists[given.link], p)
+    turned = twists[given.link][2] * (uy * vx - ux * vy)
+    return {first: -uy, first + 1: ux, first + 2: uy * p[0] - ux * p[1], known: turned - more}
+
+
+def _transmitted_changes(basis: tuple[Triple, ...], change: tuple[Triple, ...]) -> tuple[Triple, ...]:
+    """Rates of the wrenches that `transmitted` gives, from those of the basis twists."""
+    if len(basis) == 2:
+        return (add(cross(change[0], basis[1]), cross(basis[0], change[1])),)
+    x, y, w = change[0]
+    if type(basis[0][2]) is float and basis[0][2] == 0.0:
+        return ((0.0, 0.0, 0.0), (y, -x, 0.0))
+    return ((w, 0.0, -x), (0.0, w, -y))
+
+
+class _Place(NamedTuple):
+    """A scene in motion."""
+
+    case: Case
+    points: Points
+    twists: Mapping[str, Triple]
+    arithmetic: Arithmetic
+    frame: Frame
+
+    def at(self, link: str, point: str) -> Point:
+        """Velocity of a named point of a link."""
+        return velocity(self.twists[link], self.points[point])
+
+
+def _changes(place: _Place, bond: Bond, basis: tuple[Triple, ...]) -> tuple[Triple, ...]:
+    """Rates of a bond's basis twists."""
+    joint, (by, on) = bond.joint, bond.links
+    match joint:
+        case Pin():
+            return (_moved(place.at(by, joint.at)),)
+        case Slide():
+            return (_turned(place, on, guide_direction(joint.guide, place.points, place.arithmetic)),)
+        case Slot():
+            guide = guide_direction(joint.guide, place.points, place.arithmetic)
+            return _moved(place.at(by, joint.at)), _turned(place, on, guide)
+        case Gears() | Belt():
+            p, q = mesh_weights(joint, place.arithmetic)
+            (ax, ay), (bx, by_) = place.at(by, bond.pivots[0]), place.at(on, bond.pivots[1])
+            return (p * ax + q * bx, p * ay + q * by_, 0.0), (ay - by_, bx - ax, 0.0)
+        case Roll():
+            return (_moved(_contact_velocity(place, joint)),)
+        case Contact():
+            raise _unknown(joint, "nothing says how its profiles curve")
+        case KnownCentre():
+            raise _unknown(joint, "it stands for joints that the case does not show. Give those")
+    raise TypeError(f"{type(joint).__name__} has no motion of its own")
+
+
+def _unknown(joint: Contact | KnownCentre | Roll, why: str) -> SceneError:
+    kind = {"Contact": "contact", "KnownCentre": "centre", "Roll": "rolling"}[type(joint).__name__]
+    message = f"the {kind} of links {listed(joint.links)} has no acceleration: {why}."
+    return SceneError(Status.UNSUPPORTED, message)
+
+
+def _moved(v: Point) -> Triple:
+    return (v[0], v[1], 0.0)
+
+
+def _turned(place: _Place, link: str, along: Point) -> Triple:
+    """Rate of the basis twist of a guide that turns with its link."""
+    omega = place.twists[link][2]
+    return (-(omega * along[0]), -(omega * along[1]), 0.0)
+
+
+def _contact_velocity(place: _Place, joint: Roll) -> Point:
+    """How the point moves at which two links roll on each other (it is of neither).
+
+    The centres of curvature are points of the links at the radii r, s along the normal n out of the first:
+    C = P - r n and D = P + s n. So P' = (s C' + r D') / (r + s); on a straight link n turns with it.
+    """
+    if joint.radii is None:
+        raise _unknown(joint, "without `radii` nothing says how the contact moves on. Add them")
+    (a, b), p = joint.links, place.points[joint.at]
+    r, s = (place.arithmetic.given(radius) * place.frame.scale for radius in joint.radii)
+    n = _normal(place, joint)
+    c, d = (p[0] - r * n[0], p[1] - r * n[1]), (p[0] + s * n[0], p[1] + s * n[1])
+    vc, vd = velocity(place.twists[a], c), velocity(place.twists[b], d)
+    if joint.radii[1].value == 0.0:
+        omega = place.twists[b][2]
+        return vc[0] - r * omega * n[1], vc[1] + r * omega * n[0]
+    if joint.radii[0].value == 0.0:
+        omega = place.twists[a][2]
+        return vd[0] + s * omega * n[1], vd[1] - s * omega * n[0]
+    whole = r + s
+    return (s * vc[0] + r * vd[0]) / whole, (s * vc[1] + r * vd[1]) / whole
+
+
+def _normal(place: _Place, joint: Roll) -> Point:
+    """Unit normal at a rolling contact, out of the first link: along the line to a round link's centre."""
+    assert joint.radii is not None
+    px, py = place.points[joint.at]
+    pins = {j.at for j in place.case.joints if isinstance(j, Pin)}
+    for link, radius, sense in zip(joint.links, joint.radii, (-1.0, 1.0), strict=True):
+        carried = [p for p in place.case.carries.get(link, ()) if p != joint.at and p in place.points]
+        for name in sorted(carried, key=lambda p: p not in pins):
+            x, y = place.points[name][0] - px, place.points[name][1] - py
+            size = place.arithmetic.sqrt(x * x + y * y)
+            reach = abs(radius.value) * place.frame.scale
+            if radius.value and abs(float(size) - reach) <= NEAR * reach:
+                sign = sense if radius.value > 0.0 else -sense
+                return sign * x / size, sign * y / size
+    raise _unknown(joint, "no point of its round link lies at its radius. Name its centre, under `links`")
+
+
