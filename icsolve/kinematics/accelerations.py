@@ -24,8 +24,8 @@ from icsolve.structure.topology import Bond, Topology
 from icsolve.wording.sentences import listed
 
 STILL: Triple = (0.0, 0.0, 0.0)
-NOTHING = 1e-20
-"""Of fifty digits, half of which a figure found by Newton's method has: what is below this is zero."""
+SPENT = 1e-25
+"""Of sixty digits: a row of which no more is left than this fraction says nothing more."""
 NEAR = 2e-3
 """A wheel's centre may miss its radius by this fraction of it."""
 
@@ -64,13 +64,14 @@ def moving(
     if not conditions:
         raise SceneError(Status.MOBILITY, NO_SPEED)
     count = len(next(iter(motions.values())))
-    shares = eliminate([_row(values, target) for values, target, *_ in conditions], count, NOTHING)
-    if any(abs(left[count]) > NOTHING * abs(c[1]) for left, c in zip(shares.left, conditions, strict=False)):
+    shares = eliminate([_row(values, target) for values, target, *_ in conditions], count, SPENT)
+    speeds = sum(abs(target) for _, target, *_ in conditions)
+    if any(not arithmetic.vanishes(left.get(count, 0.0), speeds) for left in shares.left):
         message = "the motions given contradict each other: no motion has all of them."
         raise SceneError(Status.INCONSISTENT, message)
     factors = [shares.of(m).get(count, 0.0) for m in range(count)]
     twists = {link: _combined(factors, ts) for link, ts in motions.items()}
-    idle = {link for link, ts in motions.items() if _is_open(shares, ts)}
+    idle = {link for link, ts in motions.items() if _is_open(shares, ts, arithmetic)}
     rates = _rates(case, top, points, twists, conditions, arithmetic, frame)
     return Moving(twists, {link: rates[0][top.body_of[link]] for link in motions}, frozenset(idle | rates[1]))
 
@@ -95,12 +96,12 @@ def _combined(factors: Sequence[Scalar], twists: Sequence[Triple]) -> Triple:
     return total
 
 
-def _is_open(shares: General, twists: Sequence[Triple]) -> bool:
+def _is_open(shares: General, twists: Sequence[Triple], arithmetic: Arithmetic) -> bool:
     """Whether a freedom that no given motion fixes moves a link."""
     size = max((abs(x) for t in twists for x in t), default=0.0)
     for free in shares.free:
         weights = [shares.of(m).get(free, 0.0) for m in range(len(twists))]
-        if any(abs(x) > NOTHING * size for x in _combined(weights, twists)):
+        if not all(arithmetic.vanishes(x, size) for x in _combined(weights, twists)):
             return True
     return False
 
@@ -156,8 +157,8 @@ def _rates(
     for _, _, given, along, more in conditions:
         rows.append(_driven(top, given, along, more, twists, points, known))
         sizes.append(abs(more))
-    general = eliminate(rows, known, NOTHING)
-    if any(abs(left.get(known, 0.0)) > NOTHING * max(sizes) for left in general.left):
+    general = eliminate(rows, known, SPENT)
+    if not all(arithmetic.vanishes(left.get(known, 0.0), max(sizes)) for left in general.left):
         raise SceneError(
             Status.CHANGE_POINT,
             "the links move only for an instant in this position (its joints do not fit together a moment "
@@ -168,7 +169,7 @@ def _rates(
     for body, links in enumerate(top.members):
         columns = [general.of(3 * body + n) for n in range(3)] if body != top.ground else [{}] * 3
         found.append(tuple(row.get(known, 0.0) for row in columns))
-        loose = any(abs(a) > NOTHING for row in columns for c, a in row.items() if c < known)
+        loose = any(not arithmetic.vanishes(a, 1.0) for row in columns for c, a in row.items() if c < known)
         idle |= {*links} if loose and 3 * body != ground else set()
     return found, idle  # type: ignore[return-value]
 

@@ -9,22 +9,34 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from icsolve.answer import Answer, Deferred
-from icsolve.case import Case, ForceVector, Inertia, Load, Torque
+from icsolve.case import Case, ForceVector, Inertia, Load, Torque, Units
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.accelerations import NO_SPEED, Moving, moving
 from icsolve.kinematics.speeds import OPEN, moving_points
-from icsolve.numbers.arithmetic import Arithmetic, Scalar
+from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.given import Number
 from icsolve.screws.plane import Point
 from icsolve.solve.program import Program, Want, evaluate, prepare
+from icsolve.units import exact_ratio, parse_unit
 from icsolve.wording.sentences import listed
+
+if TYPE_CHECKING:
+    from icsolve.numbers.balls import Ball, Balls
 
 FORCE = "inertia force {}"
 COUPLE = "inertia couple {}"
 """Names of the loads, by link; a load of the file has no blank in its name."""
+
+
+DIGITS = (60, 120)
+"""More where the first leave something open; what a load keeps of them is exact enough for any answer."""
+TOO_CLOSE = (
+    "the accelerations are open: this position is too near to a singular one for all the digits that are "
+    "worked with. Take another position."
+)
 
 
 class Accelerations(NamedTuple):
@@ -39,23 +51,32 @@ def with_inertia(case: Case) -> tuple[Case, Accelerations, tuple[str, ...]]:
 
     Raises SceneError where the motion is not given with its speed, or leaves a link with a mass open.
     """
-    from icsolve.numbers.decimals import Digits
-
     if any(given.speed is None for given in case.motion) or not case.motion:
         raise SceneError(Status.MOBILITY, NO_SPEED)
-    arithmetic = Digits()
+    from icsolve.numbers.balls import Balls, MoreDigits
+
     program = prepare(case, Want(rates=True, bodies=True))
+    for digits in DIGITS:
+        try:
+            return _found(case, program, Balls(digits, highest=digits == DIGITS[-1]))
+        except MoreDigits:
+            continue
+    raise SceneError(Status.NEAR_SINGULAR, TOO_CLOSE)
+
+
+def _found(case: Case, program: Program, arithmetic: Balls) -> tuple[Case, Accelerations, tuple[str, ...]]:
+    """The same with so many digits; raises MoreDigits where they leave something open."""
     program, outcome = evaluate(program, arithmetic)
-    twists = outcome.motions.twists
-    moves = moving(case, program.top, program.figure.frame, outcome.points, twists, arithmetic)
+    twists, points = outcome.motions.twists, outcome.points
+    moves = moving(case, program.top, program.figure.frame, points, twists, arithmetic)
     _refuse_open(case, moves)
     loads = [
         load
         for link, inertia in case.inertia.items()
-        for load in _loads(case, program, moves, outcome.points[inertia.centre], link, inertia, arithmetic)
+        for load in _loads(case, program, moves, points[inertia.centre], link, inertia, arithmetic)
     ]
-    shown = _shown(case, program, moves, outcome.points)
-    return replace(case, loads=(*case.loads, *loads), dynamic=False), shown, _notes(case, moves)
+    shown = _shown(case, program, moves, points, arithmetic)
+    return replace(case, loads=(*case.loads, *loads), dynamic=False), shown, _notes(case, moves, arithmetic)
 
 
 def dynamic(answer: Answer, found: Accelerations, notes: tuple[str, ...]) -> Answer:
@@ -79,7 +100,7 @@ def _refuse_open(case: Case, moves: Moving) -> None:
     if heavy:
         raise SceneError(
             Status.MOBILITY,
-            f"the motion of link {listed(heavy)}, which has a mass, is left open: {OPEN} Give its `motion` too.",
+            f"the motion of link {listed(heavy)}, which has a mass, is left open: {OPEN} Give its motion too.",
         )
 
 
@@ -90,31 +111,41 @@ def _loads(
     centre: Point,
     link: str,
     inertia: Inertia,
-    arithmetic: Arithmetic,
+    arithmetic: Balls,
 ) -> tuple[Load, ...]:
     """The inertia force and couple of a link, in case units."""
     units, scale = case.units, program.figure.frame.scale
     mass = arithmetic.given(inertia.mass)
-    per = units.force_per_newton / (scale * units.length_per_metre)
-    x, y = (_number(0.0 - mass * a * per, f"inertia.{link}.{axis}") for a, axis in zip(
-        moves.acceleration(link, centre), "xy", strict=True
-    ))
+    newton, metre = arithmetic.ratio(units.exact_newton), _metre(units, arithmetic)
+    a = moves.acceleration(link, centre)
+    x, y = (
+        _number(0.0 - mass * part * newton / (metre * scale), arithmetic, path)
+        for part, path in zip(a, (f"inertia.{link}.x", f"inertia.{link}.y"), strict=True)
+    )
     force = ForceVector(FORCE.format(link), link, inertia.centre, x, y)
     if inertia.moment is None:
         return (force,)
     moment = arithmetic.given(inertia.moment)
-    gain = units.force_per_newton * units.length_per_metre * units.torque_per_force_length
-    couple = _number(0.0 - moment * moves.rates[link][2] * gain, f"inertia.{link}.couple")
+    gain = newton * metre * arithmetic.ratio(units.exact_torque)
+    couple = _number(0.0 - moment * moves.rates[link][2] * gain, arithmetic, f"inertia.{link}.couple")
     return force, Torque(COUPLE.format(link), link, couple)
 
 
-def _number(value: Scalar, path: str) -> Number:
+def _metre(units: Units, arithmetic: Balls) -> Ball:
+    """Case lengths in a metre."""
+    return arithmetic.ratio(exact_ratio(parse_unit("m"), parse_unit(units.length)))
+
+
+def _number(value: Scalar, arithmetic: Balls, path: str) -> Number:
     """A number with all the digits that it was found with."""
-    digits = str(value.value) if hasattr(value, "value") else repr(float(value))
-    return Number(float(value) + 0.0, 0.0, path, digits)
+    value = arithmetic.ball(0.0) + value
+    near, _ = arithmetic.rounded(value, value.size)
+    return Number(near, 0.0, path, str(value.value) if near else "0")
 
 
-def _shown(case: Case, program: Program, moves: Moving, points: Mapping[str, Point]) -> Accelerations:
+def _shown(
+    case: Case, program: Program, moves: Moving, points: Mapping[str, Point], arithmetic: Balls
+) -> Accelerations:
     """Accelerations of every link and of every point on the links that carry it."""
     scale = program.figure.frame.scale
     links: dict[str, float | str] = {}
@@ -123,7 +154,7 @@ def _shown(case: Case, program: Program, moves: Moving, points: Mapping[str, Poi
         if link in moves.open:
             links[link] = f"the acceleration of link {link} is left open: {OPEN}"
         else:
-            links[link] = float(moves.rates[link][2]) + 0.0
+            links[link] = _rounded(moves.rates[link][2], arithmetic)
         for name in moving_points(case, link):
             if name.startswith("@") or name not in points:
                 continue
@@ -131,15 +162,21 @@ def _shown(case: Case, program: Program, moves: Moving, points: Mapping[str, Poi
                 places[name, link] = f"the acceleration of {name} on link {link} is left open: {OPEN}"
             else:
                 x, y = moves.acceleration(link, points[name])
-                places[name, link] = (float(x / scale) + 0.0, float(y / scale) + 0.0)
+                places[name, link] = (_rounded(x / scale, arithmetic), _rounded(y / scale, arithmetic))
     return Accelerations(links, places)
 
 
-def _notes(case: Case, moves: Moving) -> tuple[str, ...]:
+def _rounded(value: Scalar, arithmetic: Balls) -> float:
+    """The nearest double."""
+    return arithmetic.rounded(value, abs(value) + 1.0)[0]
+
+
+def _notes(case: Case, moves: Moving, arithmetic: Balls) -> tuple[str, ...]:
     """What a reader should know of the masses."""
     if not case.inertia:
         return ("no link has a mass, so there are no inertia forces: give masses under `links`.",)
-    turning = [q for q, one in case.inertia.items() if one.moment is None and float(moves.rates[q][2]) != 0.0]
+    points = [link for link, inertia in case.inertia.items() if inertia.moment is None]
+    turning = [link for link in points if _rounded(moves.rates[link][2], arithmetic) != 0.0]
     if not turning:
         return ()
     return (f"link {listed(turning)} turns and has no `inertia`: its mass counts as one point.",)
