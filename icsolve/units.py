@@ -30,6 +30,8 @@ DIMENSIONS: dict[str, Dimension] = {
     "acceleration": (1, 0, -2, 0),
     "power": (2, 1, -3, 0),
     "pitch": (-1, 0, 0, 0),
+    "moment of inertia": (2, 1, 0, 0),
+    "angular acceleration": (0, 0, -2, 1),
 }
 
 _PI = (314159265358979323846264338327950288419716939937510582097494, 10**59)

@@ -108,6 +108,12 @@ def _motion(answer: Answer) -> dict[str, Any]:
             for (point, link), velocity in answer.velocities.items()
             if not point.startswith("@")
         }
+    if answer.angular_accelerations is not None:
+        rates = answer.angular_accelerations.items()
+        shown["angular_accelerations"] = {link: _rate(rate) for link, rate in rates}
+    if answer.accelerations is not None:
+        points = answer.accelerations.items()
+        shown["accelerations"] = {f"{point} on {link}": _velocity(one) for (point, link), one in points}
     return shown
 
 

@@ -8,11 +8,12 @@ from icsolve.numbers.given import Number
 class Inertia(NamedTuple):
     """The mass of a link [kg], its centre of mass, and its moment of inertia about it [kg*m^2].
 
-    Without a ``moment`` the mass counts as one point.
+    Without a ``moment`` the mass counts as one point; without a ``mass`` the link is balanced about an axis
+    that stands still.
     """
 
-    mass: Number
-    centre: str
+    mass: Number | None
+    centre: str | None
     moment: Number | None = None
 
 

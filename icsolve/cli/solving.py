@@ -25,6 +25,7 @@ class Options(NamedTuple):
     all_centres: bool
     rates: bool
     reactions: bool
+    dynamic: bool
     report: bool
     sensitivity: bool
     tolerance: float | None
@@ -37,6 +38,7 @@ class Options(NamedTuple):
 @click.option("--all-centres", is_flag=True, help="All n(n-1)/2 instant centres, not only those needed.")
 @click.option("--rates", is_flag=True, help="Angular velocities of the links and velocities of the points.")
 @click.option("--reactions", is_flag=True, help="The force of each link on each other at every joint.")
+@click.option("--dynamic", is_flag=True, help="With the inertia forces of the motion; accelerations too.")
 @click.option("--report", is_flag=True, help="Mobility, Grashof kind, transmission angles, limit positions.")
 @click.option("--sensitivity", is_flag=True, help="How the answer depends on every number of the case.")
 @click.option(
@@ -75,7 +77,8 @@ def print_json(entry: Mapping[str, Any]) -> None:
 def _solve(case: Case, options: Options) -> Answer:
     from icsolve.solve import solve
 
-    return solve(case, all_centres=options.all_centres, rates=options.rates, reactions=options.reactions)
+    asked = {"all_centres": options.all_centres, "rates": options.rates, "reactions": options.reactions}
+    return solve(case, **asked, dynamic=options.dynamic)
 
 
 def _report(case: Case) -> Report:

@@ -40,6 +40,12 @@ class Moving(NamedTuple):
     rates: Mapping[str, Triple]
     open: frozenset[str]
 
+    @property
+    def size(self) -> float:
+        """What accelerations are summed from: beside it one may be zero."""
+        turned = max(abs(x) for t in self.twists.values() for x in t) ** 2
+        return max(turned, *(abs(x) for t in self.rates.values() for x in t)) or 1.0
+
     def acceleration(self, link: str, p: Point) -> Point:
         """Acceleration of a point of a link."""
         (x, y), (vx, vy) = velocity(self.rates[link], p), velocity(self.twists[link], p)

@@ -11,6 +11,7 @@ from icsolve.case import (
     Corner,
     Direction,
     Expected,
+    Inertia,
     Joint,
     Length,
     Load,
@@ -26,11 +27,11 @@ from icsolve.read.geometry import (
     carried,
     check_given,
     read_angles,
-    read_carried,
     read_lengths,
     read_near,
     read_points,
 )
+from icsolve.read.inertia import read_dynamic, read_links
 from icsolve.read.jointed import mention_links
 from icsolve.read.joints import read_joints
 from icsolve.read.loads import read_loads
@@ -60,6 +61,7 @@ SECTIONS = (
     "loads",
     "profile",
     "motion",
+    "dynamic",
     "expect",
     "tolerance",
     "variables",
@@ -71,7 +73,7 @@ _FORMS = {
     "angles": "as in {AB: 60}",
     "near": "as in {C: [3.5, 2.4]}",
     "profile": "as in {2: {circle: C, radius: 40}, 3: {flat: G, along: 0}}",
-    "links": "as in {3: [G, H]}",
+    "links": "as in {3: [G, H]} or {3: {mass: 2 kg, centre: G}}",
     "loads": "as in {P: {force: 100, link: 4, at: E, angle: 180}}",
     "expect": "as in {T12: 29.67 ccw}",
 }
@@ -90,6 +92,7 @@ class _Parts(NamedTuple):
     angles: tuple[Direction | Corner, ...]
     expect: tuple[Expected, ...]
     profiles: Profiles | None
+    inertia: dict[str, Inertia]
 
 
 def build(root: Mapping, problems: Problems, name: str) -> Case:
@@ -141,7 +144,7 @@ def _parts(reading: Reading, root: Mapping) -> _Parts:
     profiles = _profiles(reading, root) if section is not None else None
     loads = read_loads(reading, section_of(reading, root, "loads"))
     points = read_points(reading, section_of(reading, root, "points"))
-    links = read_carried(reading, section_of(reading, root, "links"))
+    links, inertia = read_links(reading, section_of(reading, root, "links"))
     near = read_near(reading, section_of(reading, root, "near"))
     motion = read_motion(reading, root.items["motion"]) if stands(root, "motion") else ()
     known = reading.given | set(reading.used) | _hyphened(root)
@@ -151,7 +154,7 @@ def _parts(reading: Reading, root: Mapping) -> _Parts:
     published = section_of(reading, root, "expect")
     expect = read_expect(reading, published, named) if readable(root, "loads") else ()
     points = {**points, **reading.hidden}
-    return _Parts(joints, loads, points, links, near, motion, lengths, angles, expect, profiles)
+    return _Parts(joints, loads, points, links, near, motion, lengths, angles, expect, profiles, inertia)
 
 
 def check_version(root: Mapping, problems: Problems) -> None:
@@ -267,6 +270,8 @@ def _case(
         gravity=_gravity(reading, root) or Case.gravity,
         tolerance=tolerance_of_case(reading, root),
         profiles=parts.profiles,
+        inertia=parts.inertia,
+        dynamic=read_dynamic(reading, root.items.get("dynamic")),
         noticed=tuple(reading.noticed),
         marks=reading.marks,
     )

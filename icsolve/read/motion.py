@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from icsolve.case import Motion
+from icsolve.case import Motion, Number
 from icsolve.read.document import Mapping, Node, Sequence
 from icsolve.read.entry import Entry
 from icsolve.read.reading import Reading
 
-KEYS = ("link", "speed", "turns", "point", "angle")
+KEYS = ("link", "speed", "turns", "point", "angle", "acceleration")
 _FORM = "as in {link: 2, speed: 12 rad/s} or {link: 2, turns: cw}"
 
 
@@ -40,8 +40,17 @@ def _of_link(entry: Entry, link: str | None, mapping: Mapping) -> Motion | None:
         return None
     speed = entry.number("speed", "angular speed")
     turns = entry.word("turns", ("ccw", "cw"))
+    more = _acceleration(entry, "angular acceleration")
     good = (speed is not None) == entry.has("speed") and (turns is not None) == entry.has("turns")
-    return Motion(link, speed, turns) if link and good else None
+    return Motion(link, speed, turns, acceleration=more) if link and good else None
+
+
+def _acceleration(entry: Entry, dimension: str) -> Number | None:
+    """How fast the speed grows; there has to be one."""
+    if entry.has("acceleration") and not entry.has("speed"):
+        mark = entry.mark("acceleration")
+        entry.refuse(mark, "motion with an 'acceleration' needs a 'speed', 0 where it starts")
+    return entry.number("acceleration", dimension)
 
 
 def _of_point(entry: Entry, link: str | None) -> Motion | None:
@@ -52,5 +61,6 @@ def _of_point(entry: Entry, link: str | None) -> Motion | None:
     entry.need("speed", "the point's speed")
     entry.need("angle", "the direction of its velocity in degrees")
     speed, angle = entry.number("speed", "speed"), entry.number("angle", "angle")
+    more = _acceleration(entry, "path acceleration")
     good = link and point and speed is not None and angle is not None
-    return Motion(link, speed, None, point, angle) if good and link else None
+    return Motion(link, speed, None, point, angle, more) if good and link else None

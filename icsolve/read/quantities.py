@@ -39,6 +39,8 @@ _A = {
     "acceleration": "an acceleration",
     "stiffness": "a stiffness (force per length)",
     "pitch": "a number per length",
+    "angular acceleration": "an angular acceleration",
+    "path acceleration": "an acceleration",
 }
 
 
@@ -78,6 +80,8 @@ def _valued(
     if not rest:
         if dimension == "mass":
             raise UnitError("a mass carries its unit: kg, g, t, lbm or slug")
+        if dimension == "moment of inertia":
+            raise UnitError("a moment of inertia carries its unit, such as kg*m^2 or lbm*in^2")
         value = float(numeral.digits)
         if dimension == "angle" and _is_of_radians(value, numeral):
             reading.noticed.append(
@@ -110,7 +114,7 @@ def _fitting(reading: Reading, text: str, dimension: str) -> Unit:
     if text[0] in "_'’" and text[1:2].isdigit():
         raise UnitError("write the digits of a number without separators")
     unit = parse_unit(text)
-    if unit.dims != DIMENSIONS[dimension]:
+    if unit.dims != reading.targets[dimension].dims:
         from icsolve.read.power import is_through_speed
 
         if not is_through_speed(unit, text, dimension):
@@ -239,6 +243,9 @@ def _targets(length: Unit, force: Unit, torque: Unit) -> dict[str, Unit]:
         "acceleration": parse_unit("m/s^2"),
         "power": times(torque, second, -1),
         "pitch": times(ONE, length, -1),
+        "moment of inertia": parse_unit("kg*m^2"),
+        "angular acceleration": parse_unit("rad/s^2"),
+        "path acceleration": times(times(length, second, -1), second, -1),
     }
 
 
@@ -256,4 +263,7 @@ def _shown(units: Units) -> dict[str, str]:
         "acceleration": "m/s^2",
         "power": "hp",
         "pitch": f"1/{units.length}",
+        "moment of inertia": "kg*m^2",
+        "angular acceleration": "rad/s^2",
+        "path acceleration": f"{units.length}/s^2",
     }

@@ -73,7 +73,7 @@ def _sections() -> Schema:
         "lengths": _named({"anyOf": [{"type": "number", "minimum": 0}, pattern(_QUANTITY)]}, _keys("{2}")),
         "angles": _named(ref("quantity"), _keys("{2,3}")),
         "near": _named(ref("pair")),
-        "links": _named(list_of(ref("name"), 0)),
+        "links": _named({"anyOf": [list_of(ref("name"), 0), _masses()]}),
         "joints": list_of({"anyOf": [ref("joint"), ref("joint in space")]}, 1),
         "loads": _named({"anyOf": [ref("load"), ref("load in space")]}),
         "profile": {
@@ -81,10 +81,21 @@ def _sections() -> Schema:
             "description": "shapes of cams and of their followers",
         },
         "motion": {"anyOf": [ref("motion"), list_of(ref("motion"), 0), {"type": "null"}]},
+        "dynamic": {
+            "enum": [True, False, "yes", "no", "true", "false"],
+            "description": "whether the inertia forces of the motion are among the loads",
+        },
         "expect": _named({"anyOf": [_value(), ref("published")]}, "^.+$"),
         "tolerance": {"anyOf": [ref("quantity"), _tolerance(), {"type": "null"}]},
         "variables": {**_named(_variable()), "description": "numbers that are others for each student"},
     }
+
+
+def _masses() -> Schema:
+    """What a link has besides its joints: further points, a mass."""
+    unit = ref("with unit")
+    keys = {"points": list_of(ref("name"), 0), "mass": unit, "centre": ref("name"), "inertia": unit}
+    return {**mapping(keys), "dependencies": {"mass": ["centre"]}}
 
 
 def _tolerance() -> Schema:
@@ -187,14 +198,18 @@ def _load(kind: str) -> Schema:
 
 def _link_motion() -> Schema:
     form = mapping(
-        {"link": ref("name"), "speed": ref("quantity"), "turns": {"enum": ["ccw", "cw"]}}, ["link"]
+        {
+            "link": ref("name"), "speed": ref("quantity"), "turns": {"enum": ["ccw", "cw"]},
+            "acceleration": ref("quantity"),
+        },
+        ["link"],
     )
     return {**form, "anyOf": [{"required": ["speed"]}, {"required": ["turns"]}]}
 
 
 def _point_motion() -> Schema:
     keys = {"point": ref("name"), "link": ref("name"), "speed": ref("quantity"), "angle": ref("quantity")}
-    return mapping(keys, list(keys))
+    return mapping({**keys, "acceleration": ref("quantity")}, list(keys))
 
 
 def _value() -> Schema:

@@ -28,6 +28,7 @@ def answer_text(answer: Answer, digits: int = 6) -> str:
         _power(answer, digits),
         _rates(answer, digits),
         _velocities(answer, digits),
+        _accelerations(answer, show),
         _reactions(answer, show),
         _sentences("Notes", answer.notes),
         _sentences("Not examined", answer.skipped),
@@ -243,6 +244,27 @@ def _velocities(answer: Answer, digits: int) -> list[str]:
     values = [v if isinstance(v, str) else f"({', '.join(v)})" for v in shown]
     unit = f"{answer.case.units.length}/s" if _has_speed(answer.case) else "scaled"
     return [f"Velocities, {unit}", *_table(names, values)]
+
+
+def _accelerations(answer: Answer, show: Format) -> list[str]:
+    """Accelerations of links and points, where the inertia forces of the motion are among the loads."""
+    if answer.angular_accelerations is None or answer.accelerations is None:
+        return []
+    turning = answer.angular_accelerations
+    links = [f"a{link}" for link in turning]
+    lines = ["Angular accelerations, rad/s^2", *_table(links, [_signed(a, show) for a in turning.values()])]
+    points = {f"{point} on {link}": a for (point, link), a in answer.accelerations.items()}
+    if not points:
+        return lines
+    values = [a if isinstance(a, str) else f"({show(a[0])}, {show(a[1])})" for a in points.values()]
+    return [*lines, "", f"Accelerations, {answer.case.units.length}/s^2", *_table(list(points), values)]
+
+
+def _signed(rate: float | str, show: Format) -> str:
+    """A rate with its sense in words."""
+    if isinstance(rate, str):
+        return f"undetermined: {rate}"
+    return f"{show(abs(rate))} {'ccw' if rate > 0.0 else 'cw'}" if rate else "0"
 
 
 def _velocity_error(answer: Answer) -> float:

@@ -35,6 +35,7 @@ def solve(
     examine: bool = False,
     bound: bool = True,
     reactions: bool = False,
+    dynamic: bool = False,
 ) -> Answer:
     """Solve a case.
 
@@ -53,9 +54,17 @@ def solve(
     reactions : bool
         The force of each link on each other at every joint too. A structure whose loads are all known is
         solved for them in any case.
+    dynamic : bool
+        With the inertia forces of the given motion among the loads, and the accelerations; as `dynamic: yes`
+        in the case.
 
     Raises SceneError where the scene has no answer; its ``status`` is a member of `icsolve.errors.Status`.
     """
+    if dynamic or case.dynamic:
+        from icsolve.solve.dynamics import solve_dynamic
+
+        asked = {"all_centres": all_centres, "rates": True, "examine": examine}
+        return solve_dynamic(case, solve, **asked, bound=bound, reactions=reactions)
     if case.space is not None:
         from icsolve.statics.space.solve import solve_space
 

@@ -7,7 +7,7 @@ friction and pictures treat them as they treat all loads.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -46,6 +46,22 @@ class Accelerations(NamedTuple):
     points: dict[tuple[str, str], tuple[float, float] | str]
 
 
+def solve_dynamic(case: Case, solve: Callable[..., Answer], **options: bool) -> Answer:
+    """The answer of a case with the inertia forces of its motion, by `icsolve.solve` with these options.
+
+    Raises SceneError as that does, and where the motion or an acceleration is open.
+    """
+    loaded, found, notes = with_inertia(case)
+    answer = solve(loaded, **options)
+    return replace(
+        answer,
+        accelerations=found.points,
+        angular_accelerations=found.links,
+        notes=(*answer.notes, *notes),
+        sensitivities=Deferred(_no_sensitivities),
+    )
+
+
 def with_inertia(case: Case) -> tuple[Case, Accelerations, tuple[str, ...]]:
     """The case with its inertia forces as loads, the accelerations, and notes.
 
@@ -73,21 +89,10 @@ def _found(case: Case, program: Program, arithmetic: Balls) -> tuple[Case, Accel
     loads = [
         load
         for link, inertia in case.inertia.items()
-        for load in _loads(case, program, moves, points[inertia.centre], link, inertia, arithmetic)
+        for load in _loads(case, program, moves, points, link, inertia, arithmetic)
     ]
     shown = _shown(case, program, moves, points, arithmetic)
     return replace(case, loads=(*case.loads, *loads), dynamic=False), shown, _notes(case, moves, arithmetic)
-
-
-def dynamic(answer: Answer, found: Accelerations, notes: tuple[str, ...]) -> Answer:
-    """The answer of a case whose loads include the inertia forces, with its accelerations."""
-    return replace(
-        answer,
-        accelerations=found.points,
-        angular_accelerations=found.links,
-        notes=(*answer.notes, *notes),
-        sensitivities=Deferred(_no_sensitivities),
-    )
 
 
 def _no_sensitivities() -> Mapping[str, Mapping[str, float]]:
@@ -100,7 +105,7 @@ def _refuse_open(case: Case, moves: Moving) -> None:
     if heavy:
         raise SceneError(
             Status.MOBILITY,
-            f"the motion of link {listed(heavy)}, which has a mass, is left open: {OPEN} Give its motion too.",
+            f"the motion of link {listed(heavy)}, which has a mass, is open: {OPEN} Give its motion too.",
         )
 
 
@@ -108,27 +113,26 @@ def _loads(
     case: Case,
     program: Program,
     moves: Moving,
-    centre: Point,
+    points: Mapping[str, Point],
     link: str,
     inertia: Inertia,
     arithmetic: Balls,
 ) -> tuple[Load, ...]:
     """The inertia force and couple of a link, in case units."""
     units, scale = case.units, program.figure.frame.scale
-    mass = arithmetic.given(inertia.mass)
     newton, metre = arithmetic.ratio(units.exact_newton), _metre(units, arithmetic)
-    a = moves.acceleration(link, centre)
-    x, y = (
-        _number(0.0 - mass * part * newton / (metre * scale), arithmetic, path)
-        for part, path in zip(a, (f"inertia.{link}.x", f"inertia.{link}.y"), strict=True)
-    )
-    force = ForceVector(FORCE.format(link), link, inertia.centre, x, y)
-    if inertia.moment is None:
-        return (force,)
-    moment = arithmetic.given(inertia.moment)
-    gain = newton * metre * arithmetic.ratio(units.exact_torque)
-    couple = _number(0.0 - moment * moves.rates[link][2] * gain, arithmetic, f"inertia.{link}.couple")
-    return force, Torque(COUPLE.format(link), link, couple)
+    loads: list[Load] = []
+    size = moves.size
+    if inertia.mass is not None and inertia.centre is not None:
+        per = arithmetic.given(inertia.mass) * newton / (metre * scale)
+        both = zip(moves.acceleration(link, points[inertia.centre]), "xy", strict=True)
+        x, y = (_number(0.0 - per * part, arithmetic, size, f"inertia.{link}.{axis}") for part, axis in both)
+        loads.append(ForceVector(FORCE.format(link), link, inertia.centre, x, y))
+    if inertia.moment is not None:
+        gain = arithmetic.given(inertia.moment) * newton * metre * arithmetic.ratio(units.exact_torque)
+        couple = _number(0.0 - gain * moves.rates[link][2], arithmetic, size, f"inertia.{link}.couple")
+        loads.append(Torque(COUPLE.format(link), link, couple))
+    return tuple(loads)
 
 
 def _metre(units: Units, arithmetic: Balls) -> Ball:
@@ -136,10 +140,10 @@ def _metre(units: Units, arithmetic: Balls) -> Ball:
     return arithmetic.ratio(exact_ratio(parse_unit("m"), parse_unit(units.length)))
 
 
-def _number(value: Scalar, arithmetic: Balls, path: str) -> Number:
+def _number(value: Scalar, arithmetic: Balls, size: float, path: str) -> Number:
     """A number with all the digits that it was found with."""
     value = arithmetic.ball(0.0) + value
-    near, _ = arithmetic.rounded(value, value.size)
+    near, _ = arithmetic.rounded(value, value.size + size)
     return Number(near, 0.0, path, str(value.value) if near else "0")
 
 
@@ -147,28 +151,28 @@ def _shown(
     case: Case, program: Program, moves: Moving, points: Mapping[str, Point], arithmetic: Balls
 ) -> Accelerations:
     """Accelerations of every link and of every point on the links that carry it."""
-    scale = program.figure.frame.scale
+    scale, size = program.figure.frame.scale, moves.size
     links: dict[str, float | str] = {}
     places: dict[tuple[str, str], tuple[float, float] | str] = {}
     for link in case.links:
         if link in moves.open:
             links[link] = f"the acceleration of link {link} is left open: {OPEN}"
         else:
-            links[link] = _rounded(moves.rates[link][2], arithmetic)
+            links[link] = _rounded(moves.rates[link][2], arithmetic, moves.size)
         for name in moving_points(case, link):
             if name.startswith("@") or name not in points:
                 continue
             if link in moves.open:
                 places[name, link] = f"the acceleration of {name} on link {link} is left open: {OPEN}"
             else:
-                x, y = moves.acceleration(link, points[name])
-                places[name, link] = (_rounded(x / scale, arithmetic), _rounded(y / scale, arithmetic))
+                x, y = (_rounded(a / scale, arithmetic, size) for a in moves.acceleration(link, points[name]))
+                places[name, link] = (x, y)
     return Accelerations(links, places)
 
 
-def _rounded(value: Scalar, arithmetic: Balls) -> float:
-    """The nearest double."""
-    return arithmetic.rounded(value, abs(value) + 1.0)[0]
+def _rounded(value: Scalar, arithmetic: Balls, size: float) -> float:
+    """The nearest double; ``size`` is that of what it is summed from."""
+    return arithmetic.rounded(value, size)[0]
 
 
 def _notes(case: Case, moves: Moving, arithmetic: Balls) -> tuple[str, ...]:
@@ -176,7 +180,7 @@ def _notes(case: Case, moves: Moving, arithmetic: Balls) -> tuple[str, ...]:
     if not case.inertia:
         return ("no link has a mass, so there are no inertia forces: give masses under `links`.",)
     points = [link for link, inertia in case.inertia.items() if inertia.moment is None]
-    turning = [link for link in points if _rounded(moves.rates[link][2], arithmetic) != 0.0]
+    turning = [link for link in points if _rounded(moves.rates[link][2], arithmetic, moves.size) != 0.0]
     if not turning:
         return ()
     return (f"link {listed(turning)} turns and has no `inertia`: its mass counts as one point.",)

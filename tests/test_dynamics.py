@@ -1,0 +1,285 @@
+"""Inertia: accelerations against differences, inertia forces against closed forms and both routes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import replace
+from random import Random
+from typing import Any
+
+import numpy as np
+import pytest
+
+import icsolve
+import transcribe
+from growth import random_mechanism
+from icsolve.answer import Answer
+from icsolve.case import Case, Inertia, Motion, Number, Pin
+from icsolve.errors import CaseError, SceneError
+from solving import MORE
+
+
+def solved(text: str, **options: Any) -> Answer:
+    return icsolve.solve(icsolve.load("icsolve: 1\n" + text), dynamic=True, **options)
+
+
+def moved(case: Case, link: str) -> Case:
+    """The case with a link turning at 1 rad/s, without loads."""
+    one = Number(1.0, 0.0, "motion.speed", "1")
+    return replace(case, motion=(Motion(link, one),), loads=(), expect=())
+
+
+# --- accelerations ---------------------------------------------------------------------------------
+
+STEP = 0.05
+"""Degrees between the rows whose rates and points are differenced."""
+
+
+def differenced(case: Case, link: str) -> tuple[dict[str, float], dict[str, np.ndarray[Any, Any]]] | None:
+    """Rates of the links' rates and of the points' velocities, by differences; None where it can't turn."""
+    degrees = np.array([-2.0, -1.0, 0.0, 1.0, 2.0]) * STEP
+    try:
+        rows = icsolve.sweep(case, want=("status", "rates", "points"), drive={link: degrees})
+    except SceneError:
+        return None
+    if any(status != "ok" for status in rows.status):
+        return None
+    h = math.radians(STEP)
+    first, second = np.array([1, -8, 0, 8, -1]) / (12 * h), np.array([-1, 16, -30, 16, -1]) / (12 * h * h)
+    return (
+        {q: float(first @ np.asarray(r)) for q, r in rows.rates.items()},
+        {p: second @ np.asarray(xy) for p, xy in rows.points.items()},
+    )
+
+
+def random_cases(first: int, number: int) -> Iterable[Case]:
+    for seed in range(first, first + number * MORE):
+        yield icsolve.load(transcribe.text(random_mechanism(Random(seed))))
+
+
+def test_accelerations_are_the_differences_of_rates_and_of_velocities_for_all_joints() -> None:
+    compared, kinds = 0, set()
+    for case in random_cases(0, 120):
+        for link in case.links[1:]:
+            turning = moved(case, link)
+            expected = differenced(turning, link)
+            if expected is None:
+                continue
+            found = icsolve.solve(turning, dynamic=True)
+            assert found.angular_accelerations is not None
+            assert found.accelerations is not None
+            rates, places = expected
+            largest = max(1.0, *(abs(a) for a in rates.values()))
+            if largest > 100.0:  # so near to a dead centre that differences say little
+                continue
+            for other, rate in rates.items():
+                assert found.angular_accelerations[other] == pytest.approx(rate, abs=3e-5 * largest), case
+            for (point, on), a in found.accelerations.items():
+                if point in places and _is_material(case, point, on):
+                    size = max(largest, float(np.abs(places[point]).max()))
+                    assert a == pytest.approx(tuple(places[point]), abs=1e-4 * size), (point, on)
+            compared += 1
+            kinds |= {type(joint).__name__ for joint in case.joints}
+            break
+    assert compared >= 40
+    assert {"Pin", "Slide", "Slot", "Gears"} <= kinds
+
+
+def _is_material(case: Case, point: str, link: str) -> bool:
+    """Whether a point stays one of its link's own: a pin that no guide or contact stands at."""
+    at = [joint for joint in case.joints if getattr(joint, "at", None) == point]
+    return bool(at) and all(isinstance(joint, Pin) and link in joint.links for joint in at)
+
+
+def test_slider_crank_by_its_closed_form() -> None:
+    """x = r cos t + sqrt(l^2 - r^2 sin^2 t) differentiated twice, with an angular acceleration."""
+    r, rod, w, more, t = 0.1, 0.25, 20.0, 50.0, math.radians(35)
+    answer = solved("""
+points: {A: [0, 0], C: [unknown, 0]}
+lengths: {AB: 0.1, BC: 0.25}
+angles: {AB: 35}
+near: {C: [0.3, 0]}
+links: {4: {mass: 3 kg, centre: C}}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {slide: [4, 1], at: C, along: 0}
+loads: {T: {torque: unknown, link: 2}}
+motion: {link: 2, speed: 20, acceleration: 50}
+""")
+    s, c = math.sin(t), math.cos(t)
+    root = math.sqrt(rod**2 - (r * s) ** 2)
+    first = -r * s - r * r * s * c / root
+    second = -r * c - r * r * (c * c - s * s) / root - (r * r * s * c) ** 2 / root**3
+    assert answer.accelerations is not None
+    expected = second * w**2 + first * more
+    assert answer.accelerations["C", "4"] == pytest.approx((expected, 0.0), rel=1e-14)
+    assert answer.answers["T"].value == pytest.approx(3 * expected * first, rel=1e-13)
+
+
+def test_units_of_pounds_and_inches() -> None:
+    """A rotor of 3 lbm at 4 in, started with 12 rad/s^2: the couple of its mass and its inertia."""
+    answer = solved("""
+units: {length: in, force: lbf}
+points: {A: [0, 0], G: [4, 0]}
+links: {2: {mass: 3 lbm, centre: G, inertia: 5 lbm*in^2}}
+joints: [{pin: [1, 2], at: A}]
+loads: {T: {torque: unknown, link: 2}}
+motion: {link: 2, speed: 0, acceleration: 12}
+""", reactions=True)
+    lbf = 0.45359237 * 0.0254 / 4.4482216152605
+    assert answer.answers["T"].value == pytest.approx((3 * 16 + 5) * 12 * lbf, rel=1e-15)
+    assert answer.reactions is not None
+    assert answer.reactions["F12"].y == pytest.approx(3 * 4 * 12 * lbf, rel=1e-14)
+
+
+def test_a_point_s_speed_and_acceleration_are_along_its_path() -> None:
+    answer = solved("""
+points: {A: [0, 0], B: [3, 4]}
+joints: [{pin: [1, 2], at: A}]
+motion: {point: B, link: 2, speed: 10, angle: 143.130102354, acceleration: 2}
+""")
+    assert answer.rates == pytest.approx({"1": 0.0, "2": 2.0})
+    assert answer.angular_accelerations == pytest.approx({"1": 0.0, "2": 0.4})
+    assert answer.accelerations is not None
+    assert answer.accelerations["B", "2"] == pytest.approx((-4 * 3 - 0.4 * 4, -4 * 4 + 0.4 * 3))
+
+
+@pytest.mark.parametrize("way", ["speed: 5, turns: cw, acceleration: 3", "speed: -5, acceleration: 3"])
+def test_a_positive_acceleration_makes_the_link_faster_in_its_own_sense(way: str) -> None:
+    answer = solved("points: {A: [0, 0]}\njoints: [{pin: [1, 2], at: A}]\nmotion: {link: 2, " + way + "}\n")
+    assert answer.rates == {"1": 0.0, "2": -5.0}
+    assert answer.angular_accelerations == {"1": 0.0, "2": -3.0}
+
+
+# --- inertia forces --------------------------------------------------------------------------------
+
+
+def heavy(case: Case, rng: Random) -> Case:
+    """Masses on all links, at points that they carry."""
+    def number(path: str) -> Number:
+        digits = f"{rng.uniform(0.1, 9.0):.3f}"
+        return Number(float(digits), 0.0, path, digits)
+
+    masses = {}
+    for link in case.links[1:]:
+        names = [p for p in case.carries.get(link, ()) if not p.startswith("@")]
+        if names:
+            mass, moment = number(f"links.{link}.mass"), number(f"links.{link}.inertia")
+            masses[link] = Inertia(mass, rng.choice(names), moment)
+    return replace(case, inertia=masses)
+
+
+def test_power_and_free_bodies_agree_with_inertia_forces_in_random_mechanisms() -> None:
+    """The unknown load by both routes; and its power is the rate of the kinetic energy less the others'."""
+    compared, refused = 0, set()
+    for seed, case in enumerate(random_cases(500, 120)):
+        rates = icsolve.solve(replace(case, loads=(), expect=())).rates or {}
+        link = next((q for q, rate in rates.items() if rate), case.ground)
+        one = Number(1.0, 0.0, "motion.speed", "1")
+        loaded = heavy(replace(case, motion=(Motion(link, one),), expect=()), Random(seed))
+        try:
+            answer = icsolve.solve(loaded, dynamic=True, reactions=True)
+        except SceneError as error:
+            refused.add(error.status)
+            continue
+        compared += 1
+        assert answer.witnesses
+        for witness in answer.witnesses:
+            assert abs(witness.difference) <= max(witness.bound, 1e-9 * abs(witness.power))
+        assert sum(t.power for t in answer.terms) == pytest.approx(
+            0.0, abs=1e-9 * max(abs(t.power) for t in answer.terms)
+        )
+    assert compared >= 20
+    assert refused <= REFUSED
+
+
+REFUSED = {"dead-centre", "no-value", "any-value", "unsupported", "mobility", "near-singular", "change-point"}
+
+
+def test_inertia_s_power_is_what_the_kinetic_energy_loses() -> None:
+    """Of a four-bar: by differences of the energy of its links over a sweep."""
+    text = """
+points: {A: [0, 0], D: [4, 0], G: {centroid: [B, C]}}
+lengths: {AB: 1, BC: 3.5, CD: 2.5}
+angles: {AB: 60}
+near: {C: [3.5, 2.4]}
+links: {3: {mass: 2 kg, centre: G, inertia: 0.4 kg*m^2}, 4: {inertia: 0.3 kg*m^2}}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {pin: [4, 1], at: D}
+motion: {link: 2, speed: 10}
+loads: {T: {torque: unknown, link: 2}}
+"""
+    energies = []
+    for degrees in (59.99, 60.01):
+        case = icsolve.load("icsolve: 1\n" + text.replace("AB: 60", f"AB: {degrees}"))
+        one = icsolve.solve(case, rates=True)
+        assert one.velocities is not None
+        assert one.rates is not None
+        (vx, vy), w3, w4 = one.velocities["G", "3"], one.rates["3"], one.rates["4"]
+        assert isinstance(w3, float) and isinstance(w4, float) and isinstance(vx, float)
+        energies.append(vx * vx + vy * vy + 0.2 * w3**2 + 0.15 * w4**2)
+    power = (energies[1] - energies[0]) / math.radians(0.02) * 10.0
+    answer = solved(text, reactions=True)
+    assert answer.answers["T"].value * 10.0 == pytest.approx(power, rel=1e-7)
+    assert answer.terms[0].power == pytest.approx(power, rel=1e-7)
+
+
+# --- slips -----------------------------------------------------------------------------------------
+
+PENDULUM = "points: {A: [0, 0], G: [2, 0]}\njoints: [{pin: [1, 2], at: A}]\n"
+
+
+@pytest.mark.parametrize(
+    ("more", "said"),
+    [
+        ("links: {2: {mass: 2 kg}}", "needs 'centre': its centre of mass"),
+        ("links: {2: {centre: G}}", "no 'mass'"),
+        ("links: {2: {mass: 2, centre: G}}", "a mass carries its unit"),
+        ("links: {2: {mass: 2 kg, centre: G, inertia: 3}}", "a moment of inertia carries its unit"),
+        ("links: {2: {mass: 2 kg, center: G}}", "did you mean 'centre'"),
+        ("links: {2: {mass: -2 kg, centre: G}}", "should not be negative"),
+        ("links: {2: {mass: 2 kg, centre: H}}", "nothing gives it"),
+        ("links: {2: {mass: 2 N, centre: G}}", "weight"),
+        ("links: {5: {mass: 2 kg, centre: G}}", "no joint has a link '5'"),
+        ("motion: {link: 2, turns: cw, acceleration: 3}", "needs a 'speed'"),
+        ("motion: {link: 2, speed: 1, acceleration: 3 rad/s}", "rad/s^2"),
+        ("dynamic: perhaps", "yes or no"),
+    ],
+)
+def test_slips_are_told_with_what_mends_them(more: str, said: str) -> None:
+    with pytest.raises(CaseError) as caught:
+        icsolve.load("icsolve: 1\n" + PENDULUM + more)
+    assert said in str(caught.value)
+
+
+@pytest.mark.parametrize("motion", ["", "motion: {link: 2, turns: cw}"])
+def test_without_a_speed_there_are_no_inertia_forces(motion: str) -> None:
+    with pytest.raises(SceneError, match="give `motion` a `speed`"):
+        solved(PENDULUM + "links: {2: {mass: 2 kg, centre: G}}\n" + motion)
+
+
+def test_dynamic_may_stand_in_the_case_and_a_mass_alone_is_no_load() -> None:
+    text = PENDULUM + "links: {2: {mass: 2 kg, centre: G}}\nmotion: {link: 2, speed: 3}\n"
+    still = icsolve.solve(icsolve.load("icsolve: 1\n" + text + "loads: {W: {weight: 9, link: 2, at: G}}"))
+    assert still.accelerations is None
+    answer = icsolve.solve(icsolve.load("icsolve: 1\n" + text + "dynamic: yes\n"), reactions=True)
+    assert answer.accelerations is not None
+    assert answer.accelerations["G", "2"] == (-18.0, 0.0)
+    assert any("counts as one point" in note for note in answer.notes) is False
+
+
+def test_a_link_with_a_mass_that_nothing_drives_is_refused() -> None:
+    with pytest.raises(SceneError, match="Give its motion too") as caught:
+        solved("""
+points: {A: [0, 0], B: [2, 0], G: [3, 1]}
+links: {3: {mass: 2 kg, centre: G, inertia: 1 kg*m^2}}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}]
+motion: {link: 2, speed: 3}
+""")
+    assert caught.value.status == "mobility"
