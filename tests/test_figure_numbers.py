@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from decimal import Decimal, localcontext
 
 import mpmath
 import numpy as np
@@ -13,8 +14,11 @@ from hypothesis import strategies as st
 
 from icsolve.assembly import Figure, case_point, place, solve_figure
 from icsolve.case import Case, Coordinates, Number
+from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar, turn_of
+from icsolve.numbers.balls import Balls
 from icsolve.numbers.tape import Tape
+from icsolve.read import load
 from test_figure import FOUR_BAR, LOOP, PINS, butterfly, case
 
 U = 2.0**-53
@@ -269,3 +273,82 @@ def test_one_recorded_step_carries_the_derivatives(name: str) -> None:
             ends.append(place(figure, replace(one, lengths=lengths), rounds=6).points[last][0])
         slope = (ends[0] - ends[1]) / 2e-6
         assert by_path.get(length.value.path, 0.0) == pytest.approx(slope, abs=2e-8)
+
+# --- beside a limit, by the decimals as written ---
+
+
+def limit_angle(digits: int) -> Decimal:
+    """The crank angle at which rods of 1.5 and 1.75 reach from B to D stretched, in degrees."""
+    with mpmath.workdps(digits):
+        return Decimal(mpmath.nstr(mpmath.degrees(mpmath.acos(mpmath.mpf("9.4375") / 16)), digits))
+
+
+STRETCHED = """icsolve: 1
+points: {{A: [0, 0], D: [4, 0]}}
+lengths: {{AB: 2, BC: 1.5, CD: 1.75}}
+angles: {{AB: {angle}}}
+near: {{C: [3, 1.5]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{pin: [4, 1], at: D}}
+"""
+
+
+@pytest.mark.parametrize("exponent", [*range(3, 20), 25, 40])
+def test_beside_a_limit_the_decimals_decide_whether_it_assembles(exponent: int) -> None:
+    with localcontext() as context:
+        context.prec = 70
+        limit, off = limit_angle(65), Decimal(10) ** -exponent
+        inside, beyond = load(STRETCHED.format(angle=limit - off)), load(STRETCHED.format(angle=limit + off))
+    figure = solve_figure(inside)
+    (bx, by), (cx, cy), (dx, dy) = (case_point(figure.frame, figure.points[p]) for p in "BCD")
+    # the triangle's height over BD, from its three sides: 2 A / |BD|
+    height = abs((cx - bx) * (dy - by) - (cy - by) * (dx - bx)) / math.hypot(dx - bx, dy - by)
+    gap = 2 * 4 * math.sin(math.radians(float(limit))) * math.radians(float(off)) / 3.25
+    expected = math.sqrt(2 * gap * 1.5 * 1.75 / 3.25)
+    assert height == pytest.approx(expected, rel=1e-2, abs=1e-14)
+    with pytest.raises(SceneError) as refused:
+        solve_figure(beyond)
+    assert refused.value.status == Status.CANNOT_ASSEMBLE
+
+
+FLAT = [("0.1", "0.2", "0.3"), ("1.1", "2.2", "3.3"), ("0.7", "0.1", "0.6")]
+
+
+@pytest.mark.parametrize(("a", "b", "c"), FLAT)
+def test_the_decimals_tell_a_gap_of_nothing_from_one_of_the_twentieth_digit(a: str, b: str, c: str) -> None:
+    def span(c: str) -> Figure:
+        text = f"icsolve: 1\npoints: {{A: [0, 0], C: [{c}, 0]}}\nlengths: {{AB: {a}, BC: {b}}}\n"
+        return solve_figure(load(text + "near: {B: [0.1, 1]}\njoints:\n  - {pin: [1, 2], at: A}\n"), ["B"])
+
+    more, less = c + "0" * 18 + "1", str(Decimal(c) - Decimal(10) ** -20)
+    stretched = Decimal(a) + Decimal(b) == Decimal(c)
+    assert "(touching)" in span(c).steps[-1].name
+    assert "(touching)" not in span(less if stretched else more).steps[-1].name
+    with pytest.raises(SceneError) as refused:
+        span(more if stretched else less)
+    assert refused.value.status == Status.CANNOT_ASSEMBLE
+
+
+def test_lines_that_are_parallel_but_for_the_twentieth_digit_meet() -> None:
+    text = (
+        "icsolve: 1\npoints: {{A: [0, 0], B: [0, 1]}}\nangles: {{AC: 30, BC: {}}}\n"
+        "joints:\n  - {{pin: [1, 2], at: A}}\n"
+    )
+    figure = solve_figure(load(text.format("29.99999999999999999999")), ["C"])
+    x, _ = case_point(figure.frame, figure.points["C"])
+    assert x == pytest.approx(math.cos(math.radians(30)) ** 2 / math.radians(1e-20), rel=1e-9)
+    for angle in ("30", "30.00000000000000000001"):
+        with pytest.raises(SceneError):
+            solve_figure(load(text.format(angle)), ["C"])
+
+
+def test_two_spellings_of_one_double_are_one_place() -> None:
+    text = "icsolve: 1\npoints: {A: [0, 0], B: [0.1, 0.4], G: [0.10000000000000001, 0.4]}\n"
+    joints = "joints:\n  - {pin: [1, 2], at: A}\n"
+    figure = solve_figure(load(text + joints))
+    exact = place(figure, load(text + joints), Balls(30)).points
+    assert figure.points["B"] == figure.points["G"]
+    assert [float(a - b) for a, b in zip(exact["B"], exact["G"], strict=True)] == [0.0, 0.0]

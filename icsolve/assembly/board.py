@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from icsolve.assembly.data import Datum, X, number_of
-from icsolve.assembly.frame import Frame
+from icsolve.assembly.frame import Frame, respelled
 from icsolve.case import Case, Coordinates
 from icsolve.numbers.arithmetic import Arithmetic, Scalar
 
@@ -66,7 +66,7 @@ class Board:
 
     def coordinates(self, name: str) -> Point:
         """A point that the case gives."""
-        place = self.case.points[name]
+        place = self.case.points[respelled(self.case).get(name, name)]
         assert type(place) is Coordinates
         assert place.x is not None
         assert place.y is not None

@@ -1,6 +1,7 @@
 """The normalised frame: an origin among the given points, and a power of two."""
 
 import math
+from functools import lru_cache
 from typing import NamedTuple
 
 from icsolve.case import Case, Coordinates, Number
@@ -11,6 +12,10 @@ SMALLEST_RESOLUTION = 1e-3
 
 SMALLEST_PART = 1e-80
 """Smallest distance or length, over the figure's size, whose products with others are numbers still."""
+
+
+SMALLEST_DIFFERENCE = 2.0**-52
+"""Smallest difference of two coordinates, over the figure's size, that a figure of doubles shows."""
 
 
 class Frame(NamedTuple):
@@ -86,7 +91,7 @@ def _resolved(case: Case, xs: list[Number], ys: list[Number], size: float) -> No
             f"{math.ulp(farthest):.3g} apart, and the figure's size is {size:.6g}; "
             "give coordinates from an origin in or near the figure",
         )
-    _apart(case)
+    _apart(case, size)
 
 
 def _beside_its_size(case: Case, origin: tuple[float, float], size: float) -> None:
@@ -104,14 +109,11 @@ def _beside_its_size(case: Case, origin: tuple[float, float], size: float) -> No
             )
 
 
-def _apart(case: Case) -> None:
-    """Refuse two points that are written differently and became one by rounding."""
-    seen: dict[tuple[float, float], tuple[str, Number, Number]] = {}
-    for name, place in case.points.items():
-        if type(place) is not Coordinates or place.x is None or place.y is None:
-            continue
-        other, x, y = seen.setdefault((place.x.value, place.y.value), (name, place.x, place.y))
-        if other != name and not (_same(x, place.x) and _same(y, place.y)):
+def _apart(case: Case, size: float) -> None:
+    """Refuse two points that are written differently and became one by more than doubles lose."""
+    for name, other in respelled(case).items():
+        (x, y), (u, v) = _numbers(case, name), _numbers(case, other)
+        if max(_difference(x, u), _difference(y, v)) > SMALLEST_DIFFERENCE * size:
             raise SceneError(
                 Status.NEAR_SINGULAR,
                 f"the coordinates of {other} and {name} are different numbers, but too far from the origin "
@@ -119,13 +121,34 @@ def _apart(case: Case) -> None:
             )
 
 
-def _same(a: Number, b: Number) -> bool:
-    """Whether two numerals with one double are one number (``1`` and ``1.0`` are)."""
+@lru_cache(maxsize=32)
+def respelled(case: Case) -> dict[str, str]:
+    """The points whose coordinates spell the doubles of a point before them otherwise: one place."""
+    seen: dict[tuple[float, float], str] = {}
+    same: dict[str, str] = {}
+    for name, place in case.points.items():
+        if type(place) is Coordinates and place.x is not None and place.y is not None:
+            other = seen.setdefault((place.x.value, place.y.value), name)
+            (x, y), (u, v) = _numbers(case, name), _numbers(case, other)
+            if other != name and (_difference(x, u) or _difference(y, v)):
+                same[name] = other
+    return same
+
+
+def _numbers(case: Case, name: str) -> tuple[Number, Number]:
+    """The coordinates that the case gives of a point."""
+    place = case.points[name]
+    assert type(place) is Coordinates and place.x is not None and place.y is not None
+    return place.x, place.y
+
+
+def _difference(a: Number, b: Number) -> float:
+    """By how much two numerals with one double differ (``1`` and ``1.0`` do not)."""
     if a.digits == b.digits or a.factor != b.factor:
-        return True
+        return 0.0
     from decimal import Decimal, InvalidOperation
 
     try:
-        return Decimal(a.digits) == Decimal(b.digits)
+        return abs(float(Decimal(a.digits) - Decimal(b.digits))) * a.factor
     except InvalidOperation:
-        return True
+        return 0.0

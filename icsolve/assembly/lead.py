@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from icsolve.assembly.step import Step
 
 
-def leading_to(goal: Collection[str], steps: Sequence[Step]) -> tuple[Step, ...]:
+def leading_to(goal: Collection[Key], steps: Sequence[Step]) -> tuple[Step, ...]:
     """Only the steps that lead to some points."""
     needed: set[Key] = set(goal)
     kept: list[Step] = []

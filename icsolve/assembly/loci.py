@@ -31,6 +31,27 @@ Values = tuple[Scalar, ...]
 """Circle: centre x, y and radius. Line: a point x, y and a unit direction."""
 
 
+def gaps_of_circles(p: Values, q: Values, arithmetic: Arithmetic) -> tuple[Scalar, tuple[Scalar, ...]]:
+    """The distance of two centres, and the three gaps of a triangle of it and the radii."""
+    (px, py, a), (qx, qy, b) = p, q
+    dx, dy = qx - px, qy - py
+    d = arithmetic.sqrt(dx * dx + dy * dy)
+    return d, ((a + b) - d, d - (a - b), d + (a - b))
+
+
+def gaps_of_line_and_circle(line: Values, circle: Values) -> tuple[Scalar, Scalar]:
+    """By how much a line passes within a circle, on either side of its centre."""
+    (px, py, vx, vy), (cx, cy, r) = line, circle
+    off = vx * (cy - py) - vy * (cx - px)
+    return r - off, r + off
+
+
+def sine_between(p: Values, q: Values) -> Scalar:
+    """The sine of the angle between two lines."""
+    (_, _, ux, uy), (_, _, vx, vy) = p, q
+    return ux * vy - uy * vx
+
+
 def meet_circles(p: Values, q: Values, arithmetic: Arithmetic, tangent: bool) -> Crossing:
     """Two circles, by Heron's formula in factors.
 
@@ -39,13 +60,11 @@ def meet_circles(p: Values, q: Values, arithmetic: Arithmetic, tangent: bool) ->
     triangle is nearly flat (Kahan, "Miscalculating area and angles of a needle-like triangle").
     """
     (px, py, a), (qx, qy, b) = p, q
-    dx, dy = qx - px, qy - py
-    d = arithmetic.sqrt(dx * dx + dy * dy)
-    ux, uy = dx / d, dy / d
+    d, margins = gaps_of_circles(p, q, arithmetic)
+    ux, uy = (qx - px) / d, (qy - py) / d
     along = ((d - b) * (d + b) + a * a) / (2.0 * d)
     middle = (px + along * ux, py + along * uy)
-    far, over, under = (a + b) - d, d - (a - b), d + (a - b)
-    margins = (far, over, under)
+    far, over, under = margins
     if tangent:
         return Crossing(middle, None, margins, d + a + b)
     h = arithmetic.sqrt((d + (a + b)) * far * over * under) / (2.0 * d)
@@ -56,14 +75,13 @@ def meet_line_circle(line: Values, circle: Values, arithmetic: Arithmetic, tange
     """A line and a circle; the first place (+) is the farther along the line."""
     (px, py, vx, vy), (cx, cy, r) = line, circle
     wx, wy = cx - px, cy - py
-    off = vx * wy - vy * wx
     along = vx * wx + vy * wy
     middle = (px + along * vx, py + along * vy)
-    margins = (r - off, r + off)
+    margins = gaps_of_line_and_circle(line, circle)
     scale = r + arithmetic.sqrt(wx * wx + wy * wy)
     if tangent:
         return Crossing(middle, None, margins, scale)
-    h = arithmetic.sqrt((r - off) * (r + off))
+    h = arithmetic.sqrt(margins[0] * margins[1])
     return Crossing(middle, (vx * h, vy * h), margins, scale)
 
 
@@ -71,7 +89,7 @@ def meet_lines(p: Values, q: Values) -> Crossing:
     """Two lines (whether they are parallel is the caller's to test)."""
     (px, py, ux, uy), (qx, qy, vx, vy) = p, q
     wx, wy = qx - px, qy - py
-    sine = ux * vy - uy * vx
+    sine = sine_between(p, q)
     t = (wx * vy - wy * vx) / sine
     return Crossing((px + t * ux, py + t * uy), None, (), sine)
 

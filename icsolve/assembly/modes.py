@@ -8,13 +8,23 @@ lies clearly nearer to `near` than that mode, and does not go on, is a refusal: 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import partial
 from typing import NamedTuple
 
 from icsolve.assembly.board import Board, Key, Point
 from icsolve.assembly.data import Datum
+from icsolve.assembly.decided import (
+    Gap,
+    decided,
+    gaps_ahead,
+    gaps_ahead_of,
+    gaps_of,
+    merged_pairs,
+    places_of,
+)
 from icsolve.assembly.frame import case_point, normalised
-from icsolve.assembly.loci import Crossing, is_round
+from icsolve.assembly.loci import gaps_of_circles, is_ray, is_round
 from icsolve.assembly.misfit import TOO_CLOSE, misfit, size_of
 from icsolve.assembly.order import Order
 from icsolve.assembly.refusals import (
@@ -35,9 +45,11 @@ from icsolve.errors import SceneError, Status
 
 U = 2.0**-53
 TOUCHING = 8.0 * U
-"""Gaps below this many roundings of the lengths that made them are zero: the circles touch."""
+"""Where the decimals leave it open: gaps of this many roundings are zero, the circles touch."""
 PARALLEL = 1e-14
-"""Sine of the smallest angle at which two lines still meet."""
+"""Where the decimals leave it open: sine of the smallest angle at which two lines still meet."""
+DOUBT = 1e-6
+"""Gaps below this, over the lengths that made them, are put to the decimals as written."""
 COARSE = 0.02
 """Misfit at which a way is given up before its end; the finer test comes with the whole figure."""
 EVEN = 0.99
@@ -50,20 +62,18 @@ SAME = 1e-11
 """Points nearer than this (normalised, over 1 + their distance from the origin) are one point."""
 MOST_LISTED = 4
 
-Spots = Mapping[str, Point]
 
 
 class Path(NamedTuple):
     """The last step of a way so far, as it was settled; ``before`` leads to the others.
 
-    ``off`` is the sum of the squared distances from `near` up to here; ``held`` has the places of its points
-    that have a `near`.
+    ``off`` is the sum of the squared distances from `near` up to here; ``places`` has the step's points.
     """
 
     before: Path | None
     step: Step | None
     off: float
-    held: Spots
+    places: Mapping[Key, Point]
 
     def steps(self) -> tuple[Step, ...]:
         """All steps, the first one first."""
@@ -173,7 +183,7 @@ class Walk:
         options.sort(key=lambda option: option.off)
         if len(options) > 1:
             forks.append(Fork(depth, options[1:]))
-        self._put(options[0].step)
+        self.board.points.update(options[0].places)
         return options[0]
 
     def _back(self, forks: list[Fork]) -> tuple[Path | None, int]:
@@ -185,23 +195,16 @@ class Walk:
                 continue
             if len(fork.options) > 1:
                 forks.append(Fork(fork.depth, fork.options[1:]))
-            self._put(option.step)
+            self.board.points.update(option.places)
             return option, fork.depth + 1
         return None, 0
-
-    def _put(self, step: Step | None) -> None:
-        if isinstance(step, Meet):
-            step.put(self.board, step.cross(self.board))
-        elif step is not None:
-            step.place(self.board)
 
     def _options(self, depth: int, path: Path, step: Step) -> Iterator[Path]:
         """The step as it can be settled here."""
         try:
             for option in self._settled(depth, path, step):
-                self._put(option)
+                miss = self._ahead(path, option) or self._clash(depth)
                 longer = self._longer(path, option)
-                miss = self._ahead(option) or self._clash(depth)
                 if miss is None:
                     yield longer
                 else:
@@ -211,18 +214,43 @@ class Walk:
 
     def _longer(self, path: Path, step: Step) -> Path:
         """The path with one more step, whose points are on the board."""
-        places = self.board.points
-        held = {t: places[t] for t in step.targets if isinstance(t, str) and t in self.near}
-        return Path(path, step, path.off + sum(_square(at, self.near[t]) for t, at in held.items()), held)
+        places = {t: self.board.points[t] for t in step.targets}
+        off = sum(_square(at, self.near[t]) for t, at in places.items() if t in self.near)
+        return Path(path, step, path.off + off, places)
 
-    def _settled(self, depth: int, path: Path, step: Step) -> list[Step]:
-        """The step with each of the branches that it has here."""
+    def _settled(self, depth: int, path: Path, step: Step) -> Iterator[Step]:
+        """The step with each of the branches that it has here, one after another put on the board."""
+        close = self._close(path, step)
+        if close is None:
+            yield from self._put(path, step, self._branches(depth, path, step), in_doubt=False)
+        elif not close:
+            yield from self._put(path, step, self._branches(depth, path, step), in_doubt=True)
+        else:
+            miss = merged(plain(step.targets[0]), *map(plain, close[0]))
+            self.dead_ends.append(DeadEnd(depth, miss, path))
+
+    def _put(self, path: Path, step: Step, branches: Iterable[Step], in_doubt: bool) -> Iterator[Step]:
+        """Put each branch on the board: by the decimals as written where floats lose too much."""
+        for branch in branches:
+            doubtful = in_doubt or (isinstance(branch, Meet) and self._doubtful(branch))
+            question = partial(places_of, branch)
+            places = decided(self.board, path.steps(), branch, question) if doubtful else None
+            if places is None:
+                branch.place(self.board)
+            else:
+                self.board.points.update(places)
+            yield branch
+
+    def _close(self, path: Path, step: Step) -> list[tuple[Key, Key]] | None:
+        """The pairs of points that a step aims by and that are one place; None where none is in doubt."""
         points = self.board.points
-        for a, b in aims(step):
-            if math.dist(points[a], points[b]) <= TOO_CLOSE:
-                miss = merged(plain(step.targets[0]), plain(a), plain(b))
-                self.dead_ends.append(DeadEnd(depth, miss, path))
-                return []
+        apart = {(a, b): math.dist(points[a], points[b]) for a, b in aims(step)}
+        if min(apart.values(), default=1.0) > DOUBT:
+            return None
+        found = decided(self.board, path.steps(), step, partial(merged_pairs, step))
+        return [pair for pair, d in apart.items() if d <= TOO_CLOSE] if found is None else found
+
+    def _branches(self, depth: int, path: Path, step: Step) -> Iterable[Step]:
         if isinstance(step, Meet):
             return self._crossings(depth, path, step)
         if isinstance(step, CLOSED_FORMS):
@@ -237,38 +265,54 @@ class Walk:
             longer = self._longer(path, step) if found.closest else path
             self.dead_ends.append(DeadEnd(depth, found.miss, longer))
         self.complete &= found.complete
-        return [*found.groups]
+        return found.groups
+
+    def _doubtful(self, step: Meet) -> bool:
+        """Whether floats may be wrong on whether and where two loci meet."""
+        gaps = gaps_of(step, self.board)
+        return min(abs(gap.value) for gap in gaps) <= DOUBT * max(1.0, *(abs(gap.value) for gap in gaps))
 
     def _crossings(self, depth: int, path: Path, step: Meet) -> list[Step]:
-        found = step.cross(self.board)
-        miss = self._apart(step, found)
-        if miss is not None:
-            if math.isfinite(found.middle[0]) and math.isfinite(found.middle[1]):
-                self.board.points[step.target] = _between(step, self.board, found)
-                path = self._longer(path, step)
-            self.dead_ends.append(DeadEnd(depth, miss, path))
-            return []
-        if found.half is None:
-            return [step]
-        if any(abs(m) <= TOUCHING * found.scale for m in found.margins):
-            return [step._replace(sign=0)]
-        return [step._replace(sign=1), step._replace(sign=-1)]
-
-    def _apart(self, step: Meet, found: Crossing) -> Miss | None:
+        """The places where two loci meet, the one nearer to `near` first."""
+        gaps = gaps_of(step, self.board)
+        if self._doubtful(step):
+            gaps = decided(self.board, path.steps(), step, partial(gaps_of, step)) or _rounded(step, gaps)
+        signs = [gap.sign for gap in gaps]
         if not is_round(step.second):
-            return parallel(step, self.board) if abs(found.scale) <= PARALLEL else None
-        touching = TOUCHING * found.scale
-        if min(found.margins) < -touching:
-            return too_far(step, self.board, found)
-        if is_round(step.first) and max(abs(m) for m in found.margins[1:]) <= touching:
-            return concentric(step, self.board)
-        return None
+            if signs[0] != 0:
+                return [step]
+            miss = parallel(step, self.board)
+        elif is_round(step.first) and signs[3] == 0:
+            miss = concentric(step, self.board)
+        elif min(signs) < 0:
+            miss = too_far(step, self.board, [gap.value for gap in gaps])
+            self.board.points[step.target] = _between(step, self.board)
+            path = self._longer(path, step)
+        elif min(signs) == 0:
+            return [step._replace(sign=0)]
+        else:
+            return self._by_near(step)
+        self.dead_ends.append(DeadEnd(depth, miss, path))
+        return []
 
-    def _ahead(self, step: Step) -> Miss | None:
-        if not isinstance(step, Meet):
+    def _by_near(self, step: Meet) -> list[Step]:
+        found = step.cross(self.board)
+        near = self.near.get(step.target) if isinstance(step.target, str) else None
+        sign = 1
+        if near is not None and found.half is not None:
+            (x, y), (hx, hy) = found.middle, found.half
+            sign = 1 if (near[0] - x) * hx + (near[1] - y) * hy >= 0.0 else -1
+        return [step._replace(sign=sign), step._replace(sign=-sign)]
+
+    def _ahead(self, path: Path, step: Step) -> Miss | None:
+        if not isinstance(step, Meet) or not (is_ray(step.first) or is_ray(step.second)):
             return None
-        worst = min(step.ahead(self.board), default=1.0)
-        return None if worst > TOO_CLOSE else behind(step, self.board, worst)
+        gaps = gaps_ahead(step, self.board)
+        if min(abs(gap.value) for gap in gaps) <= DOUBT:
+            exact = decided(self.board, path.steps(), step, partial(gaps_ahead_of, step))
+            gaps = exact or [gap._replace(sign=int(gap.value > TOO_CLOSE)) for gap in gaps]
+        worst = min(gaps, key=lambda gap: (gap.sign, gap.value))
+        return None if worst.sign > 0 else behind(step, self.board, worst.value)
 
     def _clash(self, depth: int) -> Miss | None:
         for datum in self.checks.get(depth, ()):
@@ -279,21 +323,26 @@ class Walk:
         return None
 
 
-def _between(step: Meet, board: Board, found: Crossing) -> Point:
+def _rounded(step: Meet, gaps: list[Gap]) -> list[Gap]:
+    """Gaps that stay in doubt: zero where rounding explains them."""
+    most = PARALLEL if not is_round(step.second) else TOUCHING * max(1.0, *(abs(gap.value) for gap in gaps))
+    return [gap._replace(sign=0) if abs(gap.value) <= most else gap for gap in gaps]
+
+
+def _between(step: Meet, board: Board) -> Point:
     """Where two loci that do not meet come closest: the middle between them."""
+    p, q = step.first.values(board), step.second.values(board)
     if not is_round(step.first):
-        cx, cy, r = step.second.values(board)
-        x, y = found.middle
-        d = math.hypot(x - cx, y - cy) or 1.0
-        share = (1.0 + r / d) / 2.0
+        (px, py, vx, vy), (cx, cy, r) = p, q
+        along = (cx - px) * vx + (cy - py) * vy
+        x, y = px + along * vx, py + along * vy
+        share = (1.0 + r / (math.hypot(x - cx, y - cy) or 1.0)) / 2.0
         return cx + (x - cx) * share, cy + (y - cy) * share
-    (px, py, a), (qx, qy, b) = step.first.values(board), step.second.values(board)
-    d = math.hypot(qx - px, qy - py) or 1.0
-    ux, uy = (qx - px) / d, (qy - py) / d
-    far, over, _ = found.margins
+    d, (far, over, _) = gaps_of_circles(p, q, board.arithmetic)
+    (px, py, a), (qx, qy, b) = p, q
     # on the line of centres: between the circles, or where the one inside comes closest to the other
     along = (a + d - b) / 2.0 if far < 0.0 else (a + d + b) / 2.0 if over < 0.0 else -(a + b - d) / 2.0
-    return px + along * ux, py + along * uy
+    return px + along * (qx - px) / (d or 1.0), py + along * (qy - py) / (d or 1.0)
 
 
 def _square(one: Point, two: Point) -> float:
@@ -329,18 +378,18 @@ def refusal(walk: Walk) -> Miss:
 
 def _clearly(walk: Walk, one: DeadEnd, other: Path) -> bool:
     """Whether a dead end lies clearly nearer to `near` than another way."""
-    ours, theirs = parted(one.path, other)
+    ours, theirs = parted(walk, one.path, other)
     held = [p for p in ours if p in theirs]
     return nearer([ours[p] for p in held], [theirs[p] for p in held], [walk.near[p] for p in held])
 
 
-def parted(one: Path, two: Path) -> tuple[dict[str, Point], dict[str, Point]]:
+def parted(walk: Walk, one: Path, two: Path) -> tuple[dict[str, Point], dict[str, Point]]:
     """The places with a `near` of two ways, from where they part."""
     ours, theirs = _line(one), _line(two)
     at = 0
     while at < min(len(ours), len(theirs)) and ours[at] is theirs[at]:
         at += 1
-    return _places(ours[at:]), _places(theirs[at:])
+    return _places(ours[at:], walk.near), _places(theirs[at:], walk.near)
 
 
 def _line(path: Path) -> list[Path]:
@@ -352,8 +401,8 @@ def _line(path: Path) -> list[Path]:
     return out[::-1]
 
 
-def _places(paths: list[Path]) -> dict[str, Point]:
-    return {p: at for path in paths for p, at in path.held.items()}
+def _places(paths: list[Path], near: Mapping[str, Point]) -> dict[str, Point]:
+    return {str(p): at for path in paths for p, at in path.places.items() if p in near}
 
 
 def nearer(one: list[Point], two: list[Point], near: list[Point]) -> bool:
@@ -385,7 +434,7 @@ def choose(walk: Walk, points: tuple[str, ...]) -> Mode:
         ``ambiguous``: several are about as near, listed point by point.
     """
     board = walk.board
-    modes = _distinct(sorted(walk.modes, key=lambda mode: mode.path.off), points)
+    modes = sorted(_distinct(walk.modes, points), key=lambda mode: mode.path.off)
     best = modes[0]
     rivals = [mode for mode in modes if mode is best or not _nearer(walk, best, mode, points)]
     if len(rivals) > 1:
@@ -404,7 +453,7 @@ def overridden(walk: Walk, chosen: Mode) -> Miss | None:
     for end in walk.dead_ends:
         if not _clearly(walk, end, chosen.path):
             continue
-        ours, theirs = parted(end.path, chosen.path)
+        ours, theirs = parted(walk, end.path, chosen.path)
         gain = sum(_square(theirs[p], walk.near[p]) - _square(at, walk.near[p]) for p, at in ours.items())
         if worst is None or gain > worst[0]:
             worst = (gain, end)
@@ -414,7 +463,7 @@ def overridden(walk: Walk, chosen: Mode) -> Miss | None:
 def _promise(walk: Walk, chosen: Mode, end: DeadEnd) -> Miss:
     """What lies at `near`, why it does not assemble, and where another way lies."""
     board = walk.board
-    ours, theirs = parted(end.path, chosen.path)
+    ours, theirs = parted(walk, end.path, chosen.path)
     held = [p for p in ours if _square(ours[p], walk.near[p]) < _square(theirs[p], walk.near[p])]
     there = {p: _pair(case_point(board.frame, theirs[p])) for p in held[:MOST_LISTED]}
     places = listed([f"{plain(p)} at ({at})" for p, at in there.items()])

@@ -7,7 +7,7 @@ from typing import NamedTuple
 from icsolve.assembly.board import Board
 from icsolve.assembly.data import CORNER, LENGTH, LINE, MEAN, RAY, Datum, X, Y, number_of
 from icsolve.assembly.frame import case_point
-from icsolve.assembly.loci import Circle, Crossing, is_round
+from icsolve.assembly.loci import Circle, is_round
 from icsolve.assembly.shapes import Turned
 from icsolve.assembly.step import Step
 from icsolve.assembly.steps import Meet, Polar
@@ -41,11 +41,11 @@ def bare(board: Board, length: float) -> str:
     return f"{length / board.frame.scale:.6g}"
 
 
-def too_far(step: Meet, board: Board, found: Crossing) -> Miss:
+def too_far(step: Meet, board: Board, gaps: list[float]) -> Miss:
     """Two loci that do not meet."""
-    gap = -min(found.margins)
+    gap = -min(gaps)
     if isinstance(step.first, Circle) and isinstance(step.second, Circle):
-        return Miss(Status.CANNOT_ASSEMBLE, _circles(step, step.first, step.second, board, found), gap)
+        return Miss(Status.CANNOT_ASSEMBLE, _circles(step, step.first, step.second, board, gaps), gap)
     message = (
         f"the figure cannot be assembled at {plain(step.target)}: {locus_words(step.first)} and "
         f"{locus_words(step.second)} do not meet (closest gap {measure(board, gap)})"
@@ -53,11 +53,11 @@ def too_far(step: Meet, board: Board, found: Crossing) -> Miss:
     return Miss(Status.CANNOT_ASSEMBLE, message, gap)
 
 
-def _circles(step: Meet, one: Circle, two: Circle, board: Board, found: Crossing) -> str:
+def _circles(step: Meet, one: Circle, two: Circle, board: Board, gaps: list[float]) -> str:
     a, b, at = plain(one.centre), plain(two.centre), plain(step.target)
-    gap = -min(found.margins)
+    gap = -min(gaps)
     apart = math.dist(board.points[one.centre], board.points[two.centre])
-    kind = "too far" if found.margins[0] < 0.0 else "too close"
+    kind = "too far" if gaps[0] < 0.0 else "too close"
     first, second = (f"{span_words(c.radius)} = {bare(board, board.length(c.radius))}" for c in (one, two))
     return (
         f"{first} and {second} cannot meet at {at}: {a} and {b} are {bare(board, apart)} apart, "
