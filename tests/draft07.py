@@ -15,7 +15,7 @@ _TYPES: dict[str, Any] = {
     "boolean": bool,
     "null": type(None),
 }
-_SAID = {"$schema", "title", "description", "definitions"}
+_SAID = {"$schema", "$id", "title", "description", "definitions"}
 
 
 def valid(value: Any, schema: dict[str, Any], root: dict[str, Any] | None = None) -> bool:

@@ -24,7 +24,7 @@ from icsolve.cli import main
 from icsolve.cli.commands import icsolve as commands
 from icsolve.errors import Status
 from icsolve.manual import TOPICS, kinds
-from icsolve.read.build import SECTIONS
+from icsolve.read.keys import SECTIONS
 from texts import PAGES, README, ROOT, blocks, section
 
 

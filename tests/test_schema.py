@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import random
 from collections.abc import Iterator
 from pathlib import Path
@@ -10,10 +11,11 @@ import pytest
 
 from corpus import ALL
 from draft07 import valid
+from icsolve.cli import main
 from icsolve.errors import CaseError
-from icsolve.read import load
+from icsolve.read import keys, load
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
-from icsolve.read.schema import schema
+from icsolve.read.schema import FORMS, schema
 from trees import document, tree, typed
 
 SCHEMA = schema()
@@ -48,6 +50,51 @@ def test_it_is_a_schema_of_the_draft_that_editors_know() -> None:
     assert SCHEMA["$schema"] == "http://json-schema.org/draft-07/schema#"
     assert not valid(5, SCHEMA)
     assert not valid({}, SCHEMA)
+
+
+def properties(schema: object) -> Iterator[tuple[str, dict[str, object]]]:
+    """Every key that the schema knows, at any depth."""
+    if isinstance(schema, dict):
+        for name, form in schema.get("properties", {}).items():
+            if "description" in form or form.keys() - {"type", "not"}:  # not a condition on another key
+                yield name, form
+        for part in schema.values():
+            yield from properties(part)
+    elif isinstance(schema, list):
+        for part in schema:
+            yield from properties(part)
+
+
+def test_every_key_has_its_description() -> None:
+    found = list(properties(SCHEMA))
+    assert [name for name, form in found if len(str(form.get("description", ""))) < 8] == []
+    assert len(found) >= 180
+    kinds = [*SCHEMA["definitions"]["joint"]["oneOf"], *SCHEMA["definitions"]["load"]["oneOf"]]
+    assert all(kind["description"] for kind in kinds)
+
+
+def table() -> Iterator[keys.Key]:
+    """Every key of the table that the reader reads by."""
+    for value in vars(keys).values():
+        for entry in value.values() if isinstance(value, dict) else ():
+            if isinstance(entry, keys.Kind):
+                yield entry.own
+                yield from entry.keys.values()
+            elif isinstance(entry, keys.Key):
+                yield entry
+
+
+def test_every_form_of_the_table_has_its_shape_and_none_is_idle() -> None:
+    assert {key.form for key in table()} == set(FORMS)
+
+
+def test_a_new_case_leads_editors_to_the_schema(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(SystemExit):
+        main(["new", "four-bar", "-o", str(tmp_path / "mine.yaml")])
+    line = (tmp_path / "mine.yaml").read_text().splitlines()[1]
+    assert line == f"# yaml-language-server: $schema={SCHEMA['$id']}"
+    assert json.loads((tmp_path / SCHEMA["$id"]).read_text()) == SCHEMA
+    assert SCHEMA["$id"] in capsys.readouterr().err
 
 
 def places(node: Node, path: tuple[str | int, ...] = ()) -> Iterator[tuple[Node, tuple[str | int, ...]]]:

@@ -7,7 +7,7 @@ import re
 from typing import Any
 
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, parse
-from icsolve.read.problems import Problems
+from icsolve.read.names import Problems
 
 _PLAIN = re.compile(r"[A-Za-z0-9_.'@/+%^ -]*[A-Za-z0-9'%]|[-+]?\.[0-9]+")
 _NUMBER = re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?")

@@ -59,7 +59,7 @@ def query_of(case: Case, word: str) -> Query:
 
 def _value(case: Case, name: str, text: str) -> float:
     """The value in case units."""
-    from icsolve.read.problems import shown, suggestion
+    from icsolve.read.names import shown, suggestion
     from icsolve.sweep.ask import AskError
     from icsolve.units import UnitError, converted, kind_of, parse_unit, split_quantity
 

@@ -71,10 +71,19 @@ def write_template(kind: str, output: str | None) -> int:
         hint = nearest(kind, kinds())
         complain(f"icsolve new: there is no kind {kind!r}; {hint}`icsolve new` lists the kinds")
         return UNREADABLE
+    text = _for_editors(template(kind))
     if output is None or output == "-":
-        click.echo(template(kind), nl=False)
+        click.echo(text, nl=False)
         return DONE
-    return _write(template(kind), output)
+    return _write(text, output)
+
+
+def _for_editors(text: str) -> str:
+    """The case with the line, after its first, by which editors find the schema beside it."""
+    from icsolve.read.schema import ID
+
+    first, end, rest = text.partition("\n")
+    return f"{first}{end}# yaml-language-server: $schema={ID}\n{rest}"
 
 
 def _write(text: str, path: str) -> int:
@@ -89,5 +98,22 @@ def _write(text: str, path: str) -> int:
     except OSError as error:
         complain(f"icsolve new: {path} can't be written: {error.strerror or error}")
         return UNREADABLE
-    click.echo(f"wrote {path}; `icsolve {path}` solves it", err=True)
+    beside = _schema_beside(path)
+    click.echo(f"wrote {path}{beside}; `icsolve {path}` solves it", err=True)
     return DONE
+
+
+def _schema_beside(path: str) -> str:
+    """Put the schema in the folder of a case where there is none yet; what to say of it."""
+    import json
+    import os
+
+    from icsolve.read.schema import ID, schema
+
+    target = os.path.join(os.path.dirname(path), ID)
+    try:
+        with open(target, "x", encoding="utf-8", newline="\n") as file:
+            file.write(json.dumps(schema(), indent=1) + "\n")
+    except OSError:  # it is there, or can't be: the case serves without
+        return ""
+    return f", and {target}, by which editors complete it"

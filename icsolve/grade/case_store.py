@@ -17,9 +17,9 @@ from icsolve.grade.mistakes import wrong_answers
 from icsolve.grade.mistakes.codes import Wrong
 from icsolve.grade.mistakes.engine import place_wrongs, solved_for, target_wrongs
 from icsolve.grade.tolerance import NoKeyError
-from icsolve.read.problems import Problems
+from icsolve.read.expect import target_of
+from icsolve.read.names import Problems
 from icsolve.read.reading import Reading
-from icsolve.read.targets import target_of
 from icsolve.statics.power import is_unknown
 
 if TYPE_CHECKING:

@@ -10,10 +10,9 @@ from icsolve.case import Tolerance
 from icsolve.errors import CaseError
 from icsolve.grade.mistakes.codes import CODES
 from icsolve.grade.tolerance import DEFAULT
-from icsolve.read.document import Mapping, Node, Scalar, is_null, parse
-from icsolve.read.problems import Problems, Stop, shown, suggestion
-from icsolve.read.source import checked, text_of
-from icsolve.read.tolerances import tolerance_of
+from icsolve.read.document import Mapping, Node, Scalar, checked, is_null, parse, text_of
+from icsolve.read.expect import tolerance_of
+from icsolve.read.names import Problems, Stop, shown, suggestion
 
 ATTEMPTS = ("last", "first", "best")
 DECIMALS = ("either", "point", "comma")

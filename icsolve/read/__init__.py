@@ -7,11 +7,10 @@ from collections.abc import Mapping as Named
 
 from icsolve.case import Case
 from icsolve.errors import CaseError, NotACase
-from icsolve.read.build import SECTIONS, build, check_version
-from icsolve.read.document import Mapping, Node, parse
-from icsolve.read.problems import Problems, Stop
+from icsolve.read.build import build, check_version
+from icsolve.read.document import Mapping, Node, checked, parse, text_of
+from icsolve.read.names import Problems, Stop
 from icsolve.read.settings import apply
-from icsolve.read.source import checked, text_of
 
 Settings = Named[str, str | float]
 """Values by path: ``{"angles.AB": "30", "loads.P": "500 lbf"}``."""
@@ -115,4 +114,4 @@ def _name(path: str) -> str:
     return stem.removesuffix(".icsolve") or "case"
 
 
-__all__ = ["SECTIONS", "Settings", "claims", "load", "read_file", "read_text"]
+__all__ = ["Settings", "claims", "load", "read_file", "read_text"]

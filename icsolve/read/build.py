@@ -23,60 +23,30 @@ from icsolve.case import (
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
 from icsolve.read.expect import read_expect
-from icsolve.read.geometry import (
+from icsolve.read.figure import (
+    FRAMES,
+    Figure,
     carried,
+    check_frame,
     check_given,
+    check_loads,
     read_angles,
+    read_dynamic,
     read_lengths,
+    read_links,
     read_near,
     read_points,
 )
-from icsolve.read.inertia import read_dynamic, read_links
-from icsolve.read.jointed import mention_links
-from icsolve.read.joints import read_joints
-from icsolve.read.loads import read_loads
-from icsolve.read.motion import read_motion
-from icsolve.read.problems import Problems, shown
-from icsolve.read.quantities import measures, number
-from icsolve.read.reading import Reading
-from icsolve.read.slips import FRAMES, Figure, check_frame, check_loads
+from icsolve.read.joints import mention_links, read_joints
+from icsolve.read.keys import JOINTS, SECTIONS, SPACE_JOINTS
+from icsolve.read.loads import read_loads, read_motion
+from icsolve.read.names import Problems, shown
+from icsolve.read.reading import Reading, measures, number
 
 if TYPE_CHECKING:
     from icsolve.case.profiles import Profiles
 
-SECTIONS = (
-    "icsolve",
-    "title",
-    "source",
-    "reconstructed",
-    "units",
-    "ground",
-    "gravity",
-    "points",
-    "lengths",
-    "angles",
-    "near",
-    "links",
-    "joints",
-    "loads",
-    "profile",
-    "motion",
-    "dynamic",
-    "expect",
-    "tolerance",
-    "variables",
-)
 TEXTS = ("title", "source", "reconstructed")
-_FORMS = {
-    "points": "as in {A: [0, 0]}",
-    "lengths": "as in {AB: 1}",
-    "angles": "as in {AB: 60}",
-    "near": "as in {C: [3.5, 2.4]}",
-    "profile": "as in {2: {circle: C, radius: 40}, 3: {flat: G, along: 0}}",
-    "links": "as in {3: [G, H]} or {3: {mass: 2 kg, centre: G}}",
-    "loads": "as in {P: {force: 100, link: 4, at: E, angle: 180}}",
-    "expect": "as in {T12: 29.67 ccw}",
-}
 
 
 class _Parts(NamedTuple):
@@ -128,12 +98,14 @@ def _is_in_space(root: Mapping) -> bool:
     counts = {len(node.items) for node in points.items.values() if type(node) is Sequence}
     if 3 not in counts:
         return False
-    from icsolve.read.jointed import PLANAR, SPATIAL
-
     joints = root.items.get("joints")
     entries = joints.items if type(joints) is Sequence else []
     kinds = {key for entry in entries if type(entry) is Mapping for key in entry.items}
-    return 2 not in counts or bool(kinds & {*SPATIAL}) or not kinds & {*PLANAR}
+    return (
+        2 not in counts
+        or bool(kinds & (SPACE_JOINTS.keys() - JOINTS.keys()))
+        or not kinds & (JOINTS.keys() - SPACE_JOINTS.keys())
+    )
 
 
 def _parts(reading: Reading, root: Mapping) -> _Parts:
@@ -177,9 +149,10 @@ def readable(root: Mapping, *keys: str) -> bool:
     return all(not stands(root, key) or type(root.items[key]) is Mapping for key in keys)
 
 
-def section_of(reading: Reading, root: Mapping, key: str, forms: dict[str, str] = _FORMS) -> Mapping:
+def section_of(reading: Reading, root: Mapping, key: str, form: str = "") -> Mapping:
     """A section; empty where it is left out, holds nothing, or can't be read."""
-    found = reading.mapping(root.items[key], f"'{key}'", forms[key]) if stands(root, key) else None
+    form = form or f"as in {SECTIONS[key].says.partition(' as in ')[2]}"
+    found = reading.mapping(root.items[key], f"'{key}'", form) if stands(root, key) else None
     return found if found is not None else Mapping({}, {}, (1, 1))
 
 
@@ -226,7 +199,7 @@ def tolerance_of_case(reading: Reading, root: Mapping) -> Tolerance | None:
     """How far a student's answer may lie from the right one, where the case says so."""
     if not stands(root, "tolerance"):
         return None
-    from icsolve.read.tolerances import read_tolerance
+    from icsolve.read.expect import read_tolerance
 
     return read_tolerance(reading, root.items["tolerance"])
 

@@ -1,12 +1,15 @@
-"""YAML text to a light tree of text, lists and mappings, each with its line and column.
+"""A file's bytes to text, and text to a tree of texts, lists and mappings, each with its line and column.
 
 Only PyYAML's event parser is used: it builds no typed values (which turn ``3:4`` into 184 and raise
 what is not a YAMLError) and does not recurse. Anchors, aliases and tags are refused, as is what is
-too deep, too large, or given twice.
+too deep, too large, or given twice. What YAML's own errors mean is said in the words of someone who
+wrote the file by hand.
 """
 
 from __future__ import annotations
 
+import os
+import re
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import yaml
@@ -22,8 +25,201 @@ from yaml.events import (
 )
 
 from icsolve.case import Mark
-from icsolve.read.problems import Problems, Stop
-from icsolve.read.syntax import explained, missing_space
+from icsolve.files import reading
+from icsolve.read.names import Problems, Stop, suggestion
+
+if TYPE_CHECKING:
+    from fractions import Fraction
+
+LARGEST = 4_000_000
+"""Bytes or characters of a case; the largest mechanism in print needs a thousandth of it."""
+
+_FOREIGN = "[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufefe\uff00-\ufffd\U00010000-\U0010ffff]"
+"""Characters that YAML does not allow; compiled only where a text is not plainly printable."""
+_SPACING = dict.fromkeys(map(ord, "\n\r\t"))
+
+
+def text_of(path: str | os.PathLike[str], problems: Problems) -> str:
+    """The text of a file.
+
+    Raises
+    ------
+    Stop
+        No such file, a folder, a binary, too large, or not UTF-8 (UTF-16 with its mark is read too).
+    """
+    try:
+        with reading(path) as file:
+            data = file.read(LARGEST + 1)
+    except (OSError, ValueError) as error:
+        raise problems.stop((1, 1), _unreadable(error) + _likely_file(path, error)) from None
+    if len(data) > LARGEST:
+        raise problems.stop((1, 1), f"the file is larger than {LARGEST // 10**6} MB, too large for a case")
+    return _decoded(data, problems)
+
+
+def _unreadable(error: OSError | ValueError) -> str:
+    if isinstance(error, FileNotFoundError):
+        return "there is no such file"
+    if isinstance(error, IsADirectoryError):
+        return "this is a folder, not a file"
+    if isinstance(error, PermissionError):
+        return "this file may not be read (permission denied)"
+    return f"this file cannot be read: {getattr(error, 'strerror', None) or error}"
+
+
+def _likely_file(path: str | os.PathLike[str], error: OSError | ValueError) -> str:
+    """``; did you mean press.yaml?``: the file with its ending, or one of nearly that name beside it."""
+    if not isinstance(error, FileNotFoundError):
+        return ""
+    folder, name = os.path.split(os.fspath(path))
+    try:
+        there = sorted(one for one in os.listdir(folder or ".") if one.endswith((".yaml", ".yml")))
+    except OSError:
+        return ""
+    ended = [one for one in there if os.path.splitext(one)[0] == name]
+    return suggestion(ended[0] if ended else name, there)
+
+
+def _decoded(data: bytes, problems: Problems) -> str:
+    encoding = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"
+    if encoding != "utf-16" and b"\0" in data:
+        raise problems.stop((1, 1), "this is a binary file, not the text of a case")
+    try:
+        return data.decode(encoding)
+    except UnicodeDecodeError as error:
+        before = data[: error.start].decode(encoding, "replace")
+        raise problems.stop(_place(before, len(before)), _not_utf8(data[error.start])) from None
+
+
+def _not_utf8(byte: int) -> str:
+    return f"the byte 0x{byte:02X} is not UTF-8 text; save the file in the encoding UTF-8"
+
+
+def _foreign(code: int) -> str:
+    """What a character is that YAML does not allow; a stream's undecoded bytes are U+DC80 to U+DCFF."""
+    if 0xDC80 <= code <= 0xDCFF:
+        return _not_utf8(code - 0xDC00)
+    return f"the character U+{code:04X} has no place in a text; delete it"
+
+
+def checked(text: str, problems: Problems) -> str:
+    """The text without its byte order mark.
+
+    Raises
+    ------
+    Stop
+        It is too long, or holds a control character or half a surrogate pair.
+    """
+    text = text.removeprefix("\ufeff")
+    if len(text) > LARGEST:
+        raise problems.stop((1, 1), f"the text is longer than {LARGEST} characters, too long for a case")
+    if text.translate(_SPACING).isprintable():
+        return text
+    found = re.search(_FOREIGN, text)
+    if found:
+        mark = _place(text, found.start())
+        raise problems.stop(mark, _foreign(ord(found.group())))
+    return text
+
+
+def _place(text: str, index: int) -> Mark:
+    start = text.rfind("\n", 0, index) + 1
+    return text.count("\n", 0, index) + 1, index - start + 1
+
+
+_OF_A_COLON = ("mapping values are not allowed", "could not find expected ':'", "expected <document start>")
+_OF_A_START = ("expected key", "expected <block end>", "expected '-' indicator")
+_LOOKBACK = 5
+"""Lines before YAML's complaint among which its cause is sought."""
+
+
+def explained(error: yaml.MarkedYAMLError, text: str) -> tuple[Mark, str]:
+    """Place and wording of a syntax error."""
+    mark = error.problem_mark or error.context_mark
+    place = (mark.line + 1, mark.column + 1) if mark else (1, 1)
+    lines = text.splitlines()
+    line = lines[place[0] - 1] if place[0] <= len(lines) else ""
+    return _known(error, place, lines, line) or (place, f"this is not YAML: {_plain(error)}")
+
+
+def _known(error: yaml.MarkedYAMLError, place: Mark, lines: list[str], line: str) -> tuple[Mark, str] | None:
+    """Causes that are met often."""
+    return _of_characters(error, place, line) or _of_lines(error, place, lines, line)
+
+
+def _of_characters(error: yaml.MarkedYAMLError, place: Mark, line: str) -> tuple[Mark, str] | None:
+    """A character that YAML takes otherwise than it was meant."""
+    here, before = line[place[1] - 1 : place[1]], line[max(place[1] - 2, 0) : place[1] - 1]
+    if "\t" in line[: len(line) - len(line.lstrip())] or here == "\t":
+        column = line.index("\t") + 1
+        return (place[0], column), "a tab stands here; YAML is indented with spaces only"
+    curly = [line.index(sign) + 1 for sign in "\u201c\u201d" if sign in line]
+    if curly:
+        said = 'these quotation marks are letters to YAML; write straight ones (")'
+        return (place[0], min(curly)), said
+    if here == "?" or (here and before == "?"):
+        return place, "a '?' cannot stand here; write 'unknown' for what is to find"
+    if "found unexpected ':'" in (error.problem or "") and re.search(r":\s*,", line):
+        return place, "there is no value between the colon and the comma"
+    if here and here in "@`%&*!|>":
+        return place, f"a value cannot start with '{here}'; put the text in quotes"
+    return None
+
+
+def _of_lines(
+    error: yaml.MarkedYAMLError, place: Mark, lines: list[str], line: str
+) -> tuple[Mark, str] | None:
+    """Colons, brackets, quotation marks and the beginnings of lines."""
+    problem = error.problem or ""
+    if any(sign in problem for sign in _OF_A_COLON):
+        cause = _unspaced_line(place[0], lines)
+        if cause:
+            return cause, "write a space after the colon"
+        text = re.match(r"\s*(\w+): +(?=[^\s\[{\"'])(.*: .*)", line)
+        if text:
+            quoted = f'{text[1]}: "{text[2].strip()[:60]}"'
+            return (place[0], text.start(2) + 1), f"a text with a colon in it stands in quotes, {quoted}"
+    if "'[' or" in problem or "or ']'" in problem or "or '}'" in problem:
+        return place, f"a bracket{_opened(error)} is not closed, or a comma is missing before this"
+    if "quoted scalar" in (error.context or "") and "end of stream" in problem:
+        return place, f"a quotation mark{_opened(error)} is not closed"
+    if any(sign in problem for sign in (*_OF_A_START, *_OF_A_COLON)):
+        before = lines[place[0] - 2] if place[0] > 1 else ""
+        if before.lstrip().startswith("{") and line.lstrip().startswith("-"):
+            return (
+                place[0] - 1,
+                before.index("{") + 1,
+            ), "an item of a list starts with a dash, as in - {...}"
+    if any(sign in problem for sign in _OF_A_START):
+        return place, "this line is indented otherwise than the lines that it should stand beside"
+    return None
+
+
+def _opened(error: yaml.MarkedYAMLError) -> str:
+    mark = error.context_mark
+    return f" (opened in line {mark.line + 1}, column {mark.column + 1})" if mark else ""
+
+
+def _unspaced_line(number: int, lines: list[str]) -> Mark | None:
+    """The nearest line, from line ``number`` up, whose colon has no space after it."""
+    for at in range(min(number, len(lines)), max(number - _LOOKBACK, 0), -1):
+        line = lines[at - 1]
+        key = line.strip().removeprefix("- ").split(" ")[0]
+        if missing_space(key):
+            return at, line.index(":") + 1
+    return None
+
+
+def missing_space(key: str) -> bool:
+    """Whether a key looks like ``x:1``: a colon with something right after it."""
+    before, colon, after = key.partition(":")
+    return bool(colon and after and before) and not after.startswith("//")
+
+
+def _plain(error: yaml.MarkedYAMLError) -> str:
+    parts = [part for part in (error.context, error.problem) if part]
+    return ", ".join(parts) or "it cannot be parsed"
+
 
 if TYPE_CHECKING:
     from fractions import Fraction

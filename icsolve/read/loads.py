@@ -1,23 +1,260 @@
-"""Loads of the plane: forces, torques, weights, springs and power, known, unknown, or like another."""
+"""Loads of the plane, each known, unknown or like another; power at a speed; the given motion."""
 
 from __future__ import annotations
 
-from icsolve.case import Force, ForceVector, Heading, Load, Slope, Spring, Torque, Toward, Weight
-from icsolve.read.document import Mapping, Sequence
-from icsolve.read.entry import Entry
-from icsolve.read.listed import Forms, Likes, bearer, magnitude, read_section, word_at
-from icsolve.read.reading import Reading
+from collections.abc import Callable
+from collections.abc import Mapping as Table
+from typing import Generic, NamedTuple, TypeVar
 
-HEADINGS = ("angle", "toward", "away", "slope")
-KEYS = {
-    "force": ("link", "at", *HEADINGS, "against", "turns_with"),
-    "torque": ("link", "turns", "against"),
-    "weight": ("link", "at"),
-    "mass": ("link", "at"),
-    "spring": ("free", "link", "at", "against", "to"),
-    "power": ("speed", "link", "turns", "against"),
-}
-"""What each kind of load takes besides its number."""
+from icsolve.case import (
+    Force,
+    ForceVector,
+    Heading,
+    Like,
+    Load,
+    Magnitude,
+    Mark,
+    Motion,
+    Number,
+    Slope,
+    Spring,
+    Torque,
+    Toward,
+    Weight,
+)
+from icsolve.read.document import Mapping, Node, Scalar, Sequence
+from icsolve.read.keys import DIRECTION, LIKE, LOADS, MOTION, Kind
+from icsolve.read.names import is_name, shown, suggestion, why_no_name
+from icsolve.read.reading import Entry, Reading
+from icsolve.units import exactly, nearest, quotient, split_quantity
+
+VECTORS = {"force": "vector", "torque": "couple"}
+"""Kinds that can be given by components, and what they are called then."""
+
+Likes = dict[str, tuple[str, Mark]]
+"""Loads that are like another: its name, and where that stands."""
+T = TypeVar("T")
+
+
+class Forms(NamedTuple, Generic[T]):
+    """The kinds of load and what reads each, an example; and why a key has no place here."""
+
+    kinds: Table[str, Kind]
+    build: Table[str, Callable[[Entry, str, str, Likes], T | None]]
+    example: str
+    elsewhere: Table[str, str]
+
+
+def dimension_of(kind: str) -> str:
+    """The dimension of the number of a kind of load; of a vector, that of its components; '' for none."""
+    whole = {name: key for key, name in VECTORS.items()}.get(kind, kind)
+    return LOADS[whole].own.dimension if whole in LOADS else ""
+
+
+def read_section(reading: Reading, section: Mapping, forms: Forms[T]) -> tuple[T, ...]:
+    """The loads that could be read."""
+    for key, node in section.items.items():
+        reading.kinds[key] = _kind_of(node, forms)
+    found, likes = [], Likes()
+    for key, node in section.items.items():
+        load = _load(reading, key, node, section.keys[key], likes, forms)
+        if load is not None:
+            found.append(load)
+    _check_likes(reading, likes)
+    return tuple(found)
+
+
+def _kind_of(node: Node, forms: Forms[T]) -> str:
+    """The kind of a load, '' where that is not clear; vectors have their own."""
+    kinds = [key for key in node.items if key in forms.kinds] if type(node) is Mapping else []
+    if len(kinds) != 1 or type(node) is not Mapping:
+        return ""
+    kind = kinds[0]
+    return VECTORS.get(kind, kind) if type(node.items[kind]) is Sequence else kind
+
+
+def _load(reading: Reading, name: str, node: Node, mark: Mark, likes: Likes, forms: Forms[T]) -> T | None:
+    if not is_name(name):
+        reading.refuse(mark, f"{shown(name)} is not a name of a load: {why_no_name(name)}")
+        return None
+    mapping = reading.mapping(node, f"load {name}", forms.example)
+    if mapping is None:
+        return None
+    reading.marks[f"loads.{name}"] = mark
+    entry = Entry(reading, mapping, f"loads.{name}", f"load {name}")
+    kind = _kind(entry, forms)
+    if kind is None:
+        return None
+    entry.keys = {kind: forms.kinds[kind].own, **forms.kinds[kind].keys}
+    _explain_keys(entry, kind, forms)
+    return forms.build[kind](entry, name, kind, likes)
+
+
+def _kind(entry: Entry, forms: Forms[T]) -> str | None:
+    kind = entry.one_of(forms.kinds)
+    if kind is None:
+        parts = {key for one in forms.kinds.values() for key in one.keys}
+        strange = [key for key in entry.node.items if key not in parts]
+        likely = suggestion(strange[0], forms.kinds) if strange else ""
+        mark = entry.mark(strange[0]) if strange else entry.node.mark
+        entry.refuse(mark, f"{entry.what} has none of {', '.join(forms.kinds)}{likely}")
+    return kind if kind and entry.reading.kinds[entry.path.removeprefix("loads.")] else None
+
+
+def _explain_keys(entry: Entry, kind: str, forms: Forms[T]) -> None:
+    """Refuse what this kind has no use for; other kinds' keys are explained."""
+    takes = forms.kinds[kind].keys
+    others = {*forms.kinds, *(key for one in forms.kinds.values() for key in one.keys)}
+    told = []
+    for key, mark in entry.node.keys.items():
+        if key in takes or key == kind:
+            continue
+        if key in others:
+            said = f"is a {kind}, which has no '{key}'; it takes {', '.join(takes)}"
+            entry.refuse(mark, f"{entry.what} {said}")
+            told.append(key)
+        elif key in forms.elsewhere:
+            entry.refuse(mark, f"{entry.what} has no '{key}': {forms.elsewhere[key]}")
+            told.append(key)
+    entry.check(*told)
+
+
+def magnitude(entry: Entry, name: str, kind: str, likes: Likes) -> tuple[bool, Magnitude]:
+    """Whether the number could be read, and the number: None for the unknown."""
+    node = entry.node.items[kind]
+    entry.reading.marks[entry.path] = node.mark
+    if type(node) is Scalar and node.text == "unknown":
+        return True, None
+    if type(node) is Scalar and node.text.strip().lower() in _WANTED:
+        entry.refuse(node.mark, f"write 'unknown' for what is to find, {kind}: unknown")
+        return False, None
+    if type(node) is Mapping and "like" not in node.items:
+        entry.refuse(node.mark, _no_mapping(kind, node))
+        return False, None
+    if type(node) is Sequence and [type(one) is Scalar and one.text for one in node.items] == ["unknown"]:
+        entry.refuse(node.mark, f"write it without brackets, {kind}: unknown")
+        return False, None
+    if type(node) is Mapping:
+        like = _like(entry, name, node, likes)
+        return like is not None, like
+    own = entry.keys[kind]
+    number = entry.value(node, own.dimension, entry.path, kind, own.bound)
+    return number is not None, number
+
+
+_WANTED = (
+    "?",
+    "??",
+    "???",
+    "x",
+    "find",
+    "to find",
+    "wanted",
+    "solve",
+    "tbd",
+    "unk",
+    "required",
+    "to be found",
+)
+"""What people write for the unknown."""
+
+
+def _no_mapping(kind: str, node: Mapping) -> str:
+    """A mapping in place of a number: what it may have been."""
+    parts = [node.items[key] for key in ("value", "magnitude", "size", "unit", "units") if key in node.items]
+    text = (
+        " ".join(part.text for part in parts if type(part) is Scalar) or next(iter(node.items), "") or "100"
+    )
+    return f"a number stands here without braces, '{kind}: {text}', or the name of another load, {{like: M2}}"
+
+
+def _like(entry: Entry, name: str, node: Mapping, likes: Likes) -> Like | None:
+    inner = Entry(entry.reading, node, entry.path, entry.what, LIKE)
+    inner.check()
+    target = node.items["like"]
+    other = entry.reading.name(target, f"'like' of {entry.what}")
+    times = inner.number("times")
+    if other is None or (inner.has("times") and times is None):
+        return None
+    likes[name] = (other, target.mark)
+    return Like(other, times)
+
+
+def _check_likes(reading: Reading, likes: Likes) -> None:
+    """Each other load exists, is a number of the same kind, and does not lead back."""
+    circular = _circular(likes)
+    for name, (other, mark) in likes.items():
+        kind, others = reading.kinds[name], reading.kinds.get(other)
+        if others is None:
+            reading.refuse(mark, f"there is no load '{other}'{suggestion(other, reading.kinds)}")
+        elif others in VECTORS.values():
+            reading.refuse(mark, f"load {name} cannot be like {other}, which is given by components")
+        elif kind and others and dimension_of(kind) != dimension_of(others):
+            reading.refuse(mark, f"load {name} is a {kind} and cannot be like {other}, a {others}")
+        elif name in circular:
+            reading.refuse(mark, f"load {name} is like {other}, which leads back to {name}")
+
+
+def _circular(likes: Likes) -> set[str]:
+    """The loads that are like each other in a ring; each is walked over once."""
+    circular: set[str] = set()
+    seen: dict[str, str] = {}
+    for start in likes:
+        at = start
+        while at in likes and at not in seen:
+            seen[at] = start
+            at = likes[at][0]
+        if seen.get(at) == start:
+            while at not in circular:
+                circular.add(at)
+                at = likes[at][0]
+    return circular
+
+
+def bearer(entry: Entry) -> tuple[str | None, str | None, bool]:
+    """The link that a load acts on, the one that it is against, and whether both could be read."""
+    link, against = entry.link("link"), entry.link("against")
+    if link is not None and link == against:
+        entry.refuse(entry.mark("against"), f"{entry.what} acts on link {link} against itself")
+        return link, None, False
+    return link, against, link is not None and (against is not None) == entry.has("against")
+
+
+def word_at(entry: Entry, key: str) -> str:
+    """The text of a key, '' where there is none."""
+    node = entry.node.items.get(key)
+    return node.text if type(node) is Scalar else ""
+
+
+def torque_number(entry: Entry) -> Number | None:
+    """Power over speed in the case's unit of torque, rounded once; None, with the reason noted.
+
+    Positive power at a positive speed is a positive torque, which drives its link; a negative power is taken
+    out of the link.
+    """
+    node = entry.node.items["power"]
+    speed = entry.number("speed")
+    if type(node) is Mapping or (type(node) is Scalar and node.text == "unknown"):
+        said = "is a number with its unit; what is to find is a torque, `torque: unknown`"
+        entry.refuse(node.mark, f"the power of {entry.what} {said}")
+        return None
+    power = entry.value(node, "power", entry.path, "power")
+    if power is None or speed is None or type(node) is not Scalar:
+        return None
+    if speed.value == 0.0:
+        entry.refuse(entry.mark("speed"), f"at the speed 0 {entry.what} would need an endless torque")
+        return None
+    if power.exact is None:
+        entry.refuse(node.mark, f"the power of {entry.what} carries its unit: W, kW or hp")
+        return None
+    numeral = split_quantity(speed.digits)
+    assert numeral is not None
+    exact = quotient(power.exact, speed.exact or exactly(numeral[0]))
+    value = nearest(exact)
+    per_power = value / power.value if power.value else 1.0
+    half = abs(per_power) * power.half
+    return Number(value, half, entry.path, power.digits, per_power * power.factor, exact)
+
 
 _ELSEWHERE = {
     "along": "that is for a case in space, whose points have three coordinates; here it is `angle`, "
@@ -32,10 +269,14 @@ def read_loads(reading: Reading, section: Mapping) -> tuple[Load, ...]:
 
 def _force(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
     link, against, good = bearer(entry)
-    at = entry.place("at", f"@{name}", "its point, or [x, y]")
-    turns_with = entry.link("turns_with")
+    at, turns_with = entry.place("at", f"@{name}"), entry.link("turns_with")
     if type(entry.node.items["force"]) is Sequence:
-        return _vector(entry, name, link, at, against, turns_with, good)
+        parts = _components(entry)
+        return (
+            ForceVector(name, link, at, *parts, against, turns_with)
+            if parts and good and link and at
+            else None
+        )
     heading = _heading(entry)
     read, value = magnitude(entry, name, kind, likes)
     if not (good and read and link and at and heading):
@@ -43,33 +284,27 @@ def _force(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
     return Force(name, link, at, value, heading, against, turns_with)
 
 
-def _vector(
-    entry: Entry,
-    name: str,
-    link: str | None,
-    at: str | None,
-    against: str | None,
-    turns_with: str | None,
-    good: bool,
-) -> ForceVector | None:
-    heading = entry.one_of(HEADINGS)
+def _components(entry: Entry) -> tuple[Number, Number] | None:
+    """A force by its components, at paths ``loads.P.x``; it takes no direction."""
+    heading = entry.one_of(DIRECTION)
     if heading is not None:
         entry.refuse(entry.mark(heading), f"{entry.what} is given by components, so it takes no '{heading}'")
-    parts = entry.pair("force", "force", "xy", "a number, 'unknown', or two components [Fx, Fy]")
+    parts = entry.pair("force", "xy")
     if parts is None:
         return None
-    x, y = (part._replace(path=f"{entry.path}.{axis}") for part, axis in zip(parts, "xy", strict=True))
     for axis in "xy":
         entry.reading.marks[f"{entry.path}.{axis}"] = entry.reading.marks.pop(f"{entry.path}.force.{axis}")
-    return ForceVector(name, link, at, x, y, against, turns_with) if good and link and at else None
+    x, y = (part._replace(path=f"{entry.path}.{axis}") for part, axis in zip(parts, "xy", strict=True))
+    return x, y
 
 
 def _heading(entry: Entry) -> Heading | None:
-    key = entry.one_of(HEADINGS)
+    key = entry.one_of(DIRECTION)
     if key is None:
-        entry.refuse(entry.node.mark, f"{entry.what} needs its direction: {', '.join(HEADINGS[:3])} or slope")
+        *first, last = DIRECTION
+        entry.refuse(entry.node.mark, f"{entry.what} needs its direction: {', '.join(first)} or {last}")
     if key == "angle":
-        return entry.number(key, "angle")
+        return entry.number(key)
     if key == "slope":
         return _slope(entry)
     point = entry.point(key) if key else None
@@ -80,7 +315,7 @@ def _heading(entry: Entry) -> Heading | None:
 
 
 def _slope(entry: Entry) -> Slope | None:
-    pair = entry.pair("slope", "number", "xy", "a run and a rise, as in [-3, 4]")
+    pair = entry.pair("slope", "xy")
     if pair and pair[0].value == 0.0 and pair[1].value == 0.0:
         entry.refuse(entry.mark("slope"), f"the slope [0, 0] of {entry.what} has no direction")
         return None
@@ -89,27 +324,22 @@ def _slope(entry: Entry) -> Slope | None:
 
 def _torque(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
     link, against, good = bearer(entry)
-    turns = entry.word("turns", ("ccw", "cw"))
+    turns = entry.sense()
     read, value = magnitude(entry, name, kind, likes)
-    if not (good and read and link) or (turns is None and entry.has("turns")):
-        return None
-    return Torque(name, link, value, turns or "ccw", against)
+    return Torque(name, link, value, turns, against) if good and read and link and turns else None
 
 
 def _weight(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
-    link = entry.link("link", "the link that it acts on")
-    at = entry.place("at", f"@{name}", "its point, or [x, y]")
-    read, value = magnitude(entry, name, kind, likes, "not negative" if kind == "mass" else "")
+    link, at = entry.link("link"), entry.place("at", f"@{name}")
+    read, value = magnitude(entry, name, kind, likes)
     return Weight(name, link, at, value, kind == "mass") if read and link and at else None
 
 
 def _spring(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
     link, against, good = bearer(entry)
-    at = entry.place("at", f"@{name}", "the point of its link that it is fixed to, or [x, y]")
-    to = entry.place("to", f"@{name}'", "the point of its other end, or [x, y]")
-    entry.need("free", "its length without load")
-    free = entry.number("free", "length", "not negative")
-    read, value = magnitude(entry, name, kind, likes, "not negative")
+    at, to = entry.place("at", f"@{name}"), entry.place("to", f"@{name}'")
+    free = entry.number("free")
+    read, value = magnitude(entry, name, kind, likes)
     if at is not None and at == to:
         entry.refuse(entry.mark("to"), f"both ends of {entry.what} are at {at}")
         return None
@@ -119,18 +349,13 @@ def _spring(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
 
 
 def _power(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
-    from icsolve.read.power import torque_number
-
     link, against, good = bearer(entry)
-    turns = entry.word("turns", ("ccw", "cw"))
-    value = torque_number(entry)
-    if value is None or not (good and link) or (turns is None and entry.has("turns")):
-        return None
-    return Torque(name, link, value, turns or "ccw", against)
+    turns, value = entry.sense(), torque_number(entry)
+    return Torque(name, link, value, turns, against) if value and good and link and turns else None
 
 
 PLANE: Forms[Load] = Forms(
-    KEYS,
+    LOADS,
     {
         "force": _force,
         "torque": _torque,
@@ -143,3 +368,61 @@ PLANE: Forms[Load] = Forms(
     _ELSEWHERE,
 )
 """Loads of the plane."""
+
+
+_FORM = "as in {link: 2, speed: 12 rad/s} or {link: 2, turns: cw}"
+
+
+def read_motion(reading: Reading, section: Node) -> tuple[Motion, ...]:
+    """One motion or a list of them."""
+    if type(section) is not Sequence:
+        single = _motion(reading, section, "motion")
+        return (single,) if single is not None else ()
+    found = [_motion(reading, node, f"motion.{index}") for index, node in enumerate(section.items)]
+    return tuple(motion for motion in found if motion is not None)
+
+
+def _motion(reading: Reading, node: Node, path: str) -> Motion | None:
+    mapping = reading.mapping(node, "motion", _FORM)
+    if mapping is None:
+        return None
+    reading.marks[path] = mapping.mark
+    entry = Entry(reading, mapping, path, "motion", MOTION)
+    entry.check()
+    link = entry.link("link")
+    return _of_point(entry, link) if entry.has("point") else _of_link(entry, link, mapping)
+
+
+def _of_link(entry: Entry, link: str | None, mapping: Mapping) -> Motion | None:
+    if entry.has("angle"):
+        entry.refuse(entry.mark("angle"), "a link's motion has no 'angle'; a point's motion has")
+        return None
+    if not entry.has("speed") and not entry.has("turns"):
+        entry.refuse(mapping.mark, "motion of a link needs 'speed', 'turns: ccw' or 'turns: cw'")
+        return None
+    speed = entry.number("speed")
+    turns = entry.word("turns", ("ccw", "cw"))
+    more = _acceleration(entry)
+    good = (speed is not None) == entry.has("speed") and (turns is not None) == entry.has("turns")
+    return Motion(link, speed, turns, acceleration=more) if link and good else None
+
+
+def _acceleration(entry: Entry, dimension: str = "") -> Number | None:
+    """How fast the speed grows; there has to be one."""
+    if entry.has("acceleration") and not entry.has("speed"):
+        mark = entry.mark("acceleration")
+        entry.refuse(mark, "motion with an 'acceleration' needs a 'speed', 0 where it starts")
+    return entry.number("acceleration", dimension)
+
+
+def _of_point(entry: Entry, link: str | None) -> Motion | None:
+    if entry.has("turns"):
+        entry.refuse(entry.mark("turns"), "a point's motion has 'speed' and 'angle', not 'turns'")
+        return None
+    point = entry.point("point")
+    entry.need("speed")
+    entry.need("angle")
+    speed, angle = entry.number("speed", "speed"), entry.number("angle")
+    more = _acceleration(entry, "path acceleration")
+    good = link and point and speed is not None and angle is not None
+    return Motion(link, speed, None, point, angle, more) if good and link else None

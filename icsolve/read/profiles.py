@@ -19,25 +19,12 @@ from icsolve.case.profiles import (
     Radii,
     Roller,
     Shape,
-    Touch,
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
-from icsolve.read.entry import Entry
-from icsolve.read.problems import shown, suggestion
-from icsolve.read.quantities import number
-from icsolve.read.reading import Reading
+from icsolve.read.keys import ARC, PROFILES
+from icsolve.read.names import shown, suggestion
+from icsolve.read.reading import Entry, Reading, number
 from icsolve.units import UnitError, split_quantity
-
-KEYS = {
-    "polygon": (),
-    "arcs": (),
-    "circle": ("radius",),
-    "radii": ("about", "zero", "turns"),
-    "flat": ("along",),
-    "roller": ("radius",),
-    "knife": (),
-}
-"""What each kind of profile takes besides its own key."""
 
 _FORM = "as in {circle: C, radius: 40} or {roller: R, radius: 5}"
 _ARC = "as in {centre: C, from: P, to: Q}"
@@ -84,13 +71,14 @@ def _check_pairs(reading: Reading, shapes: dict[str, Shape | Follower]) -> None:
 
 
 def _profile(entry: Entry, link: str) -> Shape | Follower | None:
-    kind = entry.one_of(KEYS)
+    kind = entry.one_of(PROFILES)
     if kind is None:
         strange = next((key for key in entry.node.items), "")
-        likely = suggestion(strange, KEYS) if strange else ""
-        entry.refuse(entry.node.mark, f"{entry.what} has none of {', '.join(KEYS)}{likely}")
+        likely = suggestion(strange, PROFILES) if strange else ""
+        entry.refuse(entry.node.mark, f"{entry.what} has none of {', '.join(PROFILES)}{likely}")
         return None
-    entry.only(kind, *KEYS[kind])
+    entry.keys = {kind: PROFILES[kind].own, **PROFILES[kind].keys}
+    entry.check()
     build = {
         "polygon": _polygon,
         "arcs": _arcs,
@@ -144,15 +132,13 @@ def _polygon(entry: Entry) -> Polygon | None:
 
 def _circle(entry: Entry) -> Circle | None:
     centre = _own_place(entry, "circle")
-    entry.need("radius", "that of the circle")
-    radius = entry.number("radius", "length", "positive")
+    radius = entry.number("radius")
     return Circle(centre, radius) if centre and radius else None
 
 
 def _roller(entry: Entry) -> Roller | None:
     centre = _own_place(entry, "roller")
-    entry.need("radius", "that of the roller")
-    radius = entry.number("radius", "length", "positive")
+    radius = entry.number("radius")
     return Roller(centre, radius) if centre and radius else None
 
 
@@ -163,24 +149,16 @@ def _knife(entry: Entry) -> Knife | None:
 
 def _flat(entry: Entry) -> Flat | None:
     at = _own_place(entry, "flat")
-    along = _line(entry, "along", "the direction of the face in degrees, or two of its points as in [D, E]")
+    along = _line(entry, "along")
     return Flat(at, along) if at and along else None
 
 
-def _line(entry: Entry, key: str, meaning: str) -> Line | None:
+def _line(entry: Entry, key: str) -> Line | None:
     """A direction in degrees, or two points."""
-    node = entry.need(key, meaning)
-    if node is None or type(node) is not Sequence:
-        return entry.number(key, "angle") if node is not None else None
-    items = entry.reading.names(node, f"'{key}' of {entry.what}", "[D, E]")
-    if items is None:
-        return None
-    for item in items:
-        entry.reading.used.setdefault(item.text, item.mark)
-    if len(items) == 2 and items[0].text != items[1].text:
-        return items[0].text, items[1].text
-    entry.refuse(node.mark, f"'{key}' of {entry.what} should be {meaning}")
-    return None
+    node = entry.node.items.get(key)
+    if type(node) is Sequence:
+        return entry.two_points(key, "[D, E]")
+    return entry.number(key)
 
 
 def _arcs(entry: Entry) -> Arcs | None:
@@ -199,26 +177,26 @@ def _arc(entry: Entry, node: Node, n: int) -> Arc | None:
     mapping = entry.reading.mapping(node, "an arc", _ARC)
     if mapping is None:
         return None
-    one = Entry(entry.reading, mapping, f"{entry.path}.arcs.{n}", f"arc {n + 1} of {entry.what}")
-    one.only("centre", "radius", "from", "to", "turns")
-    centre = one.need("centre", "its centre, a point or [x, y]")
+    one = Entry(entry.reading, mapping, f"{entry.path}.arcs.{n}", f"arc {n + 1} of {entry.what}", ARC)
+    one.check()
+    centre = mapping.items.get("centre")
     at = _place(one, centre, f"'centre' of {one.what}", "centre") if centre is not None else None
-    radius = one.number("radius", "length", "positive")
+    radius = one.number("radius")
     start, stop = _end(one, "from"), _end(one, "to")
-    turns = one.word("turns", ("ccw", "cw"))
+    turns = one.sense()
     if start is not None and radius is None and not one.has("radius") and isinstance(start, Number):
-        one.need("radius", "or 'from' as a point of the arc")
+        one.need("radius")
         return None
-    good = at and start is not None and stop is not None and (turns is not None) == one.has("turns")
-    return Arc(at, radius, start, stop, turns or "ccw") if good and at and start and stop else None
+    good = at and start is not None and stop is not None and turns
+    return Arc(at, radius, start, stop, turns) if good and at and start and stop and turns else None
 
 
 def _end(entry: Entry, key: str) -> Direction | None:
     """A direction from the centre: degrees, or a point."""
-    node = entry.need(key, "where it ends: a point, or a direction from its centre in degrees")
+    node = entry.node.items.get(key)
     if node is None or type(node) is not Scalar:
         return _place(entry, node, f"'{key}' of {entry.what}", key) if node is not None else None
-    return entry.number(key, "angle") if _is_number(node.text) else entry.point(key)
+    return entry.number(key) if _is_number(node.text) else entry.point(key)
 
 
 def _is_number(text: str) -> bool:
@@ -229,15 +207,10 @@ def _is_number(text: str) -> bool:
 
 
 def _radii(entry: Entry) -> Radii | None:
-    about = entry.need("about", "the point of the cam from which the radii are measured")
+    about = entry.node.items.get("about")
     at = _place(entry, about, f"'about' of {entry.what}", "about") if about is not None else None
-    meaning = "the direction of the angle 0 in degrees, or two points of the cam as in [A, B]"
-    zero = _line(entry, "zero", meaning)
-    turns = entry.word("turns", ("ccw", "cw"))
-    table = _table(entry)
-    if at is None or zero is None or table is None or (turns is None and entry.has("turns")):
-        return None
-    return Radii(at, zero, table, turns or "ccw")
+    zero, turns, table = _line(entry, "zero"), entry.sense(), _table(entry)
+    return Radii(at, zero, table, turns) if at and zero is not None and table and turns else None
 
 
 def _table(entry: Entry) -> tuple[tuple[Number, Number], ...] | None:
@@ -272,6 +245,3 @@ def _distinct(entry: Entry, table: list[tuple[Number, Number]], node: Mapping) -
             entry.refuse(node.mark, f"{entry.what} {said}")
             return False
     return True
-
-
-__all__ = ["KEYS", "Touch", "read_profiles"]

@@ -1,22 +1,40 @@
-"""What is known while a file is read: problems, places, units, and the names met so far."""
+"""What is known while a file is read; its numbers; and one entry, taken key by key."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
+import re
+from collections.abc import Callable, Iterable
+from collections.abc import Mapping as Table
 from typing import TYPE_CHECKING
 
-from icsolve.case import Coordinates, Mark
-from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
-from icsolve.read.names import is_name, why_no_name
-from icsolve.read.problems import Problems, nearest, shown, suggestion
-from icsolve.read.syntax import missing_space
-from icsolve.units import Unit
+from icsolve.case import Coordinates, Mark, Number, Units
+from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null, missing_space
+from icsolve.read.keys import UNITS as UNIT_KEYS
+from icsolve.read.keys import Key
+from icsolve.read.names import Problems, is_name, meant_by, shown, suggestion, why_no_name
+from icsolve.units import (
+    DIMENSIONS,
+    ONE,
+    UNITS,
+    Numeral,
+    Unit,
+    UnitError,
+    canonical,
+    exact_ratio,
+    exactly,
+    factor,
+    kind_of,
+    nearest,
+    parse_unit,
+    split_quantity,
+    times,
+)
 
 if TYPE_CHECKING:
-    from icsolve.case.profiles import Touch
+    from fractions import Fraction
 
-RESERVED: tuple[str, ...] = ()
-"""Keys of later versions."""
+    from icsolve.case.profiles import Touch
 
 
 class Reading:
@@ -118,16 +136,13 @@ class Reading:
 
     def take_for(self, node: Mapping, key: str, allowed: Iterable[str]) -> None:
         """Put the value of a strange key under the one that is likely meant."""
-        meant = nearest(key, allowed)
+        meant = meant_by(key, allowed)
         if meant and meant not in node.items:
             node.items[meant], node.keys[meant] = node.items[key], node.keys[key]
 
     def unknown_key(self, key: str, mark: Mark, allowed: Iterable[str], what: str) -> None:
-        """Refuse a key: not yet supported, or unknown, with a suggestion."""
-        if key in RESERVED:
-            self.refuse(mark, f"'{key}' is not yet supported")
-        else:
-            self.refuse(mark, f"{what} has no key {shown(key)}{suggestion(key, allowed)}")
+        """Refuse a key that is not known, with a suggestion."""
+        self.refuse(mark, f"{what} has no key {shown(key)}{suggestion(key, allowed)}")
 
     def text(self, node: Node, what: str) -> str:
         """Free text: a title, a source."""
@@ -137,3 +152,409 @@ class Reading:
         if not node.text.replace("\n", " ").isprintable():
             self.refuse(node.mark, f"{what} has a control character; delete it")
         return node.text.strip()
+
+
+SMALLEST, LARGEST = 1e-305, 1e305
+"""Magnitudes between which a number stays; the solver scales figures and forces by powers of two."""
+
+_A = {
+    "number": "a bare number",
+    "angle": "an angle",
+    "angular speed": "an angular speed",
+    "acceleration": "an acceleration",
+    "stiffness": "a stiffness (force per length)",
+    "pitch": "a number per length",
+    "angular acceleration": "an angular acceleration",
+    "path acceleration": "an acceleration",
+}
+
+
+def number(reading: Reading, node: Node, dimension: str, path: str) -> Number | None:
+    """The number at ``path`` in case units of its dimension; None, with the reason noted."""
+    if type(node) is not Scalar:
+        reading.refuse(node.mark, f"{_a(dimension)} should stand here, not a list or mapping")
+        return None
+    reading.marks[path] = node.mark
+    return quantity(reading, node, node.text.strip(), dimension, path)
+
+
+def quantity(reading: Reading, node: Scalar, text: str, dimension: str, path: str) -> Number | None:
+    """As ``number``, of a text that may be a part of the node's."""
+    try:
+        parts = split_quantity(text)
+        if parts is None:
+            reading.refuse(node.mark, _no_number(node, text, dimension))
+            return None
+        return _checked(reading, node, _valued(reading, parts, node.exact, dimension, path))
+    except UnitError as error:
+        reading.refuse(node.mark, f"{shown(text)}: {error}")
+    except OverflowError:
+        reading.refuse(node.mark, f"{shown(text)} is too large")
+    return None
+
+
+def _valued(
+    reading: Reading, parts: tuple[Numeral, str], worked: Fraction | None, dimension: str, path: str
+) -> Number:
+    """The numeral in the case's unit; one division, or none where the unit is the case's own.
+
+    ``worked`` is what arithmetic gave, of which the numeral has only the first digits.
+    """
+    numeral, rest = parts
+    places = float(f"5e{numeral.exponent - 1}")
+    if not rest:
+        if dimension == "mass":
+            raise UnitError("a mass carries its unit: kg, g, t, lbm or slug")
+        if dimension == "moment of inertia":
+            raise UnitError("a moment of inertia carries its unit, such as kg*m^2 or lbm*in^2")
+        value = float(numeral.digits)
+        if dimension == "angle" and _is_of_radians(value, numeral):
+            reading.noticed.append(
+                f"{path} is {numeral.digits} degrees; if radians are meant, write {numeral.digits} rad."
+            )
+        exact = None if worked is None else (worked.numerator, worked.denominator, 0)
+        return Number(value, places, path, numeral.digits, 1.0, exact)
+    target = reading.targets[dimension]
+    unit = _fitting(reading, rest, dimension)
+    scale = factor(unit, target)
+    exact = exact_ratio(unit, target)
+    if worked is None:
+        exact = exactly(numeral, exact)
+    else:
+        exact = (worked.numerator * exact[0], worked.denominator * exact[1], exact[2])
+    return Number(nearest(exact), places * scale, path, numeral.digits, scale, exact)
+
+
+def _is_of_radians(value: float, numeral: Numeral) -> bool:
+    """Whether a number is a twelfth of pi or several, as far as three decimals or more tell."""
+    twelfth = math.pi / 12.0
+    near = abs(value - round(value / twelfth) * twelfth) <= 0.51 * 10.0**numeral.exponent
+    return 0.1 < abs(value) < 13.0 and near and (numeral.exponent <= -3 or abs(value) in (1.57, 3.14, 6.28))
+
+
+def _fitting(reading: Reading, text: str, dimension: str) -> Unit:
+    """The unit, of the wanted dimension."""
+    if text[0] == "," and text[1:2].isdigit():
+        raise UnitError("write a decimal point, not a comma")
+    if text[0] in "_'’" and text[1:2].isdigit():
+        raise UnitError("write the digits of a number without separators")
+    unit = parse_unit(text)
+    if unit.dims != reading.targets[dimension].dims and not is_through_speed(unit, text, dimension):
+        raise UnitError(_wrong(reading, text, unit, dimension))
+    return unit
+
+
+def is_through_speed(unit: Unit, text: str, dimension: str) -> bool:
+    """Whether a unit is of power by way of a torque at an angular speed, or of torque by way of a power.
+
+    ``hp/rpm`` is a torque, ``lbf*ft*rpm`` a power. ``N*m/rad`` has the dimension of ``hp/rpm`` and is none:
+    it is the stiffness of a torsion spring.
+    """
+    if dimension == "power":
+        return unit.dims == (2, 1, -3, 1)
+    words = re.findall(r"[^\W\d_]+", text)
+    by_power = any((UNITS.get(w) or UNITS.get(w.lower(), ONE)).dims == DIMENSIONS["power"] for w in words)
+    return dimension == "torque" and unit.dims == (2, 1, -2, -1) and by_power
+
+
+def _wrong(reading: Reading, text: str, unit: Unit, dimension: str) -> str:
+    given = kind_of(unit.dims)
+    if dimension == "number":
+        return f"a bare number is wanted here, without the unit '{text}'"
+    said = f"'{text}' is {_a(given)}" if given else f"'{text}' is no unit of {_a(dimension)}"
+    wanted = f"{said}, but {_a(dimension)} is wanted here, such as '{example(reading, dimension)}'"
+    if dimension == "mass" and given == "force":
+        return f"{wanted}; write 'lbm' for a mass in pounds, or 'weight' in place of 'mass' for a force"
+    if dimension == "force" and given == "mass":
+        return f"{wanted}; for a weight given by its mass write 'mass' in place of the force"
+    if dimension == "torque" and given == "power":
+        return f"{wanted}; for a power at a speed write 'power' and 'speed' in place of 'torque'"
+    return wanted
+
+
+def example(reading: Reading, dimension: str) -> str:
+    """The unit in which a bare number of the dimension stands."""
+    return reading.shown_units[dimension]
+
+
+def _a(dimension: str | None) -> str:
+    return _A.get(dimension or "", f"a {dimension}")
+
+
+def _checked(reading: Reading, node: Scalar, value: Number) -> Number | None:
+    size = abs(value.value)
+    zero = value.value == 0.0 and not value.digits.lower().partition("e")[0].strip("+-0.")
+    zero = zero and (value.exact is None or value.exact[0] == 0)
+    if zero or SMALLEST <= size <= LARGEST:
+        return value
+    extreme = "large" if size > LARGEST else "small"
+    reading.refuse(node.mark, f"{shown(node.text.strip())} is too {extreme} for a mechanism")
+    return None
+
+
+COMPASS = {
+    **dict.fromkeys(("right", "rightward", "rightwards", "east", "horizontal", "+x", "x"), 0),
+    **dict.fromkeys(("up", "upward", "upwards", "north", "vertical", "+y", "y"), 90),
+    **dict.fromkeys(("left", "leftward", "leftwards", "west", "-x"), 180),
+    **dict.fromkeys(("down", "downward", "downwards", "south", "-y"), -90),
+}
+"""Directions in words, and the angle of each."""
+
+
+def _no_number(node: Scalar, text: str, dimension: str) -> str:
+    wanted = _a(dimension)
+    if is_null(node):
+        return f"{wanted} should stand here, but there is no value"
+    if text.lower().lstrip("+-") in (".inf", ".nan", "inf", "nan", "infinity"):
+        return f"'{text}' is not a number that a mechanism can have"
+    if dimension == "angle" and text.lower() in COMPASS:
+        return f"an angle is in degrees counterclockwise from +x: write {COMPASS[text.lower()]} for '{text}'"
+    if text == "unknown":
+        return f"'unknown' cannot stand here; {wanted} is wanted"
+    likely = suggestion(text, ("unknown",))
+    return f"{wanted} should stand here, but {shown(text)} does not start with a number{likely}"
+
+
+def measures(node: Node | None, problems: Problems) -> tuple[Units, dict[str, Unit], dict[str, str]]:
+    """The ``units`` section: unit names, the unit of each dimension, and the name of each for messages."""
+    names = {"length": "m", "force": "N"}
+    if type(node) is Mapping:
+        for key, value in node.items.items():
+            _unit_of_case(names, key, value, node, problems)
+    elif node is not None and not is_null(node):
+        problems.refuse(node.mark, "units should be a mapping, as in {length: in, force: lbf}")
+    length, force = parse_unit(names["length"]), parse_unit(names["force"])
+    product = times(force, length)
+    torque_name = names.get("torque", f"{names['force']}*{names['length']}")
+    torque = parse_unit(torque_name)
+    units = Units(
+        names["length"],
+        names["force"],
+        torque_name,
+        factor(product, torque),
+        factor(parse_unit("N"), force),
+        factor(parse_unit("m"), length),
+        exact_ratio(product, torque),
+        exact_ratio(parse_unit("N"), force),
+    )
+    return units, _targets(length, force, torque), _shown(units)
+
+
+def _unit_of_case(names: dict[str, str], key: str, node: Node, section: Mapping, problems: Problems) -> None:
+    if key not in UNIT_KEYS:
+        problems.refuse(section.keys[key], f"units has no key {shown(key)}{suggestion(key, UNIT_KEYS)}")
+        return
+    text = node.text.strip() if type(node) is Scalar else ""
+    try:
+        unit = parse_unit(text)
+        if unit.dims != DIMENSIONS[key]:
+            given = kind_of(unit.dims)
+            raise UnitError(f"'{text}' is {_a(given) if given else 'another kind of unit'}, not {_a(key)}")
+        names[key] = _product_name(text) if key == "torque" else canonical(text)
+    except UnitError as error:
+        problems.refuse(node.mark, str(error) if text else f"a unit of {key} should stand here")
+
+
+def _product_name(text: str) -> str:
+    """A product as it is shown: ``N·m`` and ``N m`` as ``N*m``."""
+    return "*".join(text.replace("·", " ").replace("*", " ").split())
+
+
+def _targets(length: Unit, force: Unit, torque: Unit) -> dict[str, Unit]:
+    """The unit of each dimension in which a case's numbers are kept."""
+    second = parse_unit("s")
+    return {
+        "number": ONE,
+        "length": length,
+        "mass": parse_unit("kg"),
+        "time": second,
+        "angle": parse_unit("deg"),
+        "force": force,
+        "torque": torque,
+        "stiffness": times(force, length, -1),
+        "speed": times(length, second, -1),
+        "angular speed": parse_unit("rad/s"),
+        "acceleration": parse_unit("m/s^2"),
+        "power": times(torque, second, -1),
+        "pitch": times(ONE, length, -1),
+        "moment of inertia": parse_unit("kg*m^2"),
+        "angular acceleration": parse_unit("rad/s^2"),
+        "path acceleration": times(times(length, second, -1), second, -1),
+    }
+
+
+def _shown(units: Units) -> dict[str, str]:
+    return {
+        "length": units.length,
+        "mass": "kg",
+        "time": "s",
+        "angle": "deg",
+        "force": units.force,
+        "torque": units.torque,
+        "stiffness": f"{units.force}/{units.length}",
+        "speed": f"{units.length}/s",
+        "angular speed": "rad/s",
+        "acceleration": "m/s^2",
+        "power": "hp",
+        "pitch": f"1/{units.length}",
+        "moment of inertia": "kg*m^2",
+        "angular acceleration": "rad/s^2",
+        "path acceleration": f"{units.length}/s^2",
+    }
+
+
+_BOUNDS: dict[str, tuple[Callable[[float], bool], str]] = {
+    "positive": (lambda v: v > 0.0, "should be greater than zero"),
+    "not negative": (lambda v: v >= 0.0, "should not be negative"),
+}
+
+
+class Entry:
+    """A mapping at ``path``, called ``what`` in messages, with the keys of a table.
+
+    Every value asked for is checked and read as the table says of its key.
+    """
+
+    def __init__(
+        self, reading: Reading, node: Mapping, path: str, what: str, keys: Table[str, Key] | None = None
+    ) -> None:
+        self.reading = reading
+        self.node = node
+        self.path = path
+        self.what = what
+        self.keys = keys or {}
+
+    def has(self, key: str) -> bool:
+        """Whether the key stands there."""
+        return key in self.node.items
+
+    def mark(self, key: str) -> Mark:
+        """Where the key stands."""
+        return self.node.keys[key]
+
+    def refuse(self, mark: Mark, message: str) -> None:
+        """Note a problem."""
+        self.reading.refuse(mark, message)
+
+    def check(self, *besides: str) -> None:
+        """Refuse keys that the table has not, nor are named ``besides``; and miss those that it needs."""
+        self.reading.check_keys(self.node, (*self.keys, *besides), self.what)
+        for name, key in self.keys.items():
+            if key.needed:
+                self.need(name)
+
+    def need(self, key: str, meaning: str = "") -> Node | None:
+        """The value of a key that must stand there; a missing one is refused with its meaning."""
+        node = self.node.items.get(key)
+        if node is None:
+            self.refuse(self.node.mark, f"{self.what} needs '{key}': {meaning or self.keys[key].says}")
+        return node
+
+    def one_of(self, keys: Iterable[str]) -> str | None:
+        """The one key of several that stands there; None for none; two are refused."""
+        there = [key for key in keys if key in self.node.items]
+        if len(there) > 1:
+            said = " and ".join(f"'{key}'" for key in there)
+            self.refuse(self.mark(there[1]), f"{self.what} has {said}; give one of them")
+        return there[0] if there else None
+
+    def number(self, key: str, dimension: str = "", bound: str = "") -> Number | None:
+        """A number if the key stands there, within its bound; by the table unless a dimension is given."""
+        node = self.node.items.get(key)
+        if node is None:
+            return None
+        if not dimension:
+            dimension, bound = self.keys[key].dimension, self.keys[key].bound
+        return self.value(node, dimension, f"{self.path}.{key}", key, bound)
+
+    def value(self, node: Node, dimension: str, path: str, key: str, bound: str = "") -> Number | None:
+        """The number of a node, within its bound."""
+        found = number(self.reading, node, dimension, path)
+        if found is None or not bound or _BOUNDS[bound][0](found.value):
+            return found
+        self.refuse(node.mark, f"the {key} {found.digits} of {self.what} {_BOUNDS[bound][1]}")
+        return None
+
+    def pair(self, key: str, names: str, meaning: str = "") -> tuple[Number, Number] | None:
+        """A list of two numbers, at paths ``key.x`` and ``key.y`` for names ``xy``."""
+        node = self.node.items.get(key)
+        if type(node) is not Sequence or len(node.items) != 2:
+            mark = node.mark if node is not None else self.node.mark
+            self.refuse(mark, f"'{key}' of {self.what} should be {meaning or self.keys[key].says}")
+            return None
+        first, second = (
+            number(self.reading, item, self.keys[key].dimension, f"{self.path}.{key}.{name}")
+            for item, name in zip(node.items, names, strict=True)
+        )
+        return (first, second) if first is not None and second is not None else None
+
+    def point(self, key: str) -> str | None:
+        """The name of a point if the key stands there."""
+        node = self.node.items.get(key)
+        if type(node) is Sequence:
+            self.refuse(
+                node.mark, f"'{key}' of {self.what} should be a point's name; coordinates stand in 'points'"
+            )
+            return None
+        return self.reading.point(node, f"'{key}' of {self.what}") if node is not None else None
+
+    def place(self, key: str, hidden: str) -> str | None:
+        """A point's name, or that of the hidden point whose coordinates stand in its stead."""
+        node = self.node.items.get(key)
+        if type(node) is not Sequence:
+            return self.point(key)
+        pair = self.coordinates(key, node)
+        if pair is None:
+            return None
+        while hidden in self.reading.hidden:
+            hidden += "'"
+        self.reading.hidden[hidden] = Coordinates(*pair)
+        self.reading.marks[f"points.{hidden}"] = node.mark
+        return hidden
+
+    def coordinates(self, key: str, node: Sequence) -> tuple[Number, Number] | None:
+        """Two lengths in place of a point."""
+        if len(node.items) != 2:
+            self.refuse(node.mark, f"'{key}' of {self.what} should be a point, or two coordinates [x, y]")
+            return None
+        x, y = (
+            number(self.reading, item, "length", f"{self.path}.{key}.{axis}")
+            for item, axis in zip(node.items, "xy", strict=True)
+        )
+        return (x, y) if x is not None and y is not None else None
+
+    def link(self, key: str) -> str | None:
+        """The name of a link if the key stands there."""
+        node = self.node.items.get(key)
+        return self.reading.link(node, f"'{key}' of {self.what}") if node is not None else None
+
+    def two_points(self, key: str, form: str) -> tuple[str, str] | None:
+        """A line by two of its points, in a list that stands there."""
+        node = self.node.items[key]
+        items = self.reading.names(node, f"'{key}' of {self.what}", form)
+        if items is None:
+            return None
+        for item in items:
+            self.reading.used.setdefault(item.text, item.mark)
+        if len(items) == 2 and items[0].text != items[1].text:
+            return items[0].text, items[1].text
+        self.refuse(node.mark, f"'{key}' of {self.what} should be a direction or two different points")
+        return None
+
+    def sense(self) -> str | None:
+        """How it `turns`: ccw unless it says so; None where that can't be read."""
+        turns = self.word("turns", ("ccw", "cw"))
+        return "ccw" if not self.has("turns") else turns
+
+    def word(self, key: str, words: tuple[str, ...]) -> str | None:
+        """One word of several if the key stands there."""
+        node = self.node.items.get(key)
+        if node is None:
+            return None
+        text = node.text if type(node) is Scalar else ""
+        if text in words:
+            return text
+        likely = suggestion(text, words) if text else ""
+        said = f", not {shown(text)}" if text else ""
+        self.refuse(node.mark, f"'{key}' of {self.what} should be {' or '.join(words)}{said}{likely}")
+        return None

@@ -1,18 +1,19 @@
 """JSON Schema (draft-07) of a case, for editors that complete and check YAML while it is written.
 
-It says what the reader says of a file's shape: sections, keys, kinds, which numbers and names may
-stand where. What ties one section to another (a link that no joint has) only the reader can tell.
+It is written from the table of keys by which the reader reads. What ties one section to another (a link that
+no joint has) only the reader can tell.
 """
 
 from __future__ import annotations
 
-from icsolve.read.expect import KEYS as EXPECTED
-from icsolve.read.joints import HELICAL
-from icsolve.read.loads import HEADINGS, KEYS
-from icsolve.read.schema_profile import profiles
-from icsolve.read.schema_shapes import Schema, links, list_of, mapping, pattern, ref
-from icsolve.read.schema_space import definitions as definitions_of_space
-from icsolve.read.schema_space import directed
+from typing import Any
+
+from icsolve.read import keys
+from icsolve.read.keys import Key, Kind
+
+Schema = dict[str, Any]
+ID = "icsolve.schema.json"
+"""The name by which files refer to it: `icsolve new -o` puts it beside the case."""
 
 _LETTER = "0-9A-Za-z\u00aa-\uffff"
 _NAME = f"[{_LETTER}][{_LETTER}_']*"
@@ -28,197 +29,193 @@ def schema() -> Schema:
     """The schema of version 1 of the format."""
     return {
         "$schema": "http://json-schema.org/draft-07/schema#",
+        "$id": ID,
         "title": "icsolve case, version 1",
         "description": "A planar mechanism as a textbook figure and its caption give it",
         "definitions": _definitions(),
-        **mapping(_sections(), ["icsolve", "joints"]),
+        **_keyed(keys.SECTIONS),
     }
 
 
-def _definitions() -> Schema:
-    return {
-        "text": {"type": ["string", "number", "boolean", "null"]},
-        "name": {"anyOf": [pattern(f"^{_NAME}$"), {"type": "integer", "minimum": 0}, {"type": "boolean"}]},
-        "number": {"anyOf": [{"type": "number"}, pattern(_BARE)]},
-        "quantity": {"anyOf": [{"type": "number"}, pattern(_QUANTITY)]},
-        "pair": list_of(ref("quantity"), 2, 2),
-        "links": links(2),
-        "place": {"anyOf": [ref("name"), ref("pair")]},
-        "with unit": pattern(_WITH_UNIT),
-        "unknown": {"const": "unknown"},
-        "like": mapping({"like": ref("name"), "times": ref("number")}, ["like"]),
-        "joint": {"oneOf": [_joint(kind, *parts) for kind, parts in _joints().items()]},
-        "load": {"oneOf": [_load(kind) for kind in KEYS]},
-        "motion": {"oneOf": [_link_motion(), _point_motion()]},
-        "published": _published(),
-        **definitions_of_space(),
-    }
+def _ref(name: str) -> Schema:
+    return {"$ref": f"#/definitions/{name}"}
 
 
-def _named(values: Schema, names: str = f"^{_NAME}$") -> Schema:
-    """A section: names to values; it may be empty."""
+def _pattern(text: str) -> Schema:
+    return {"type": "string", "pattern": text}
+
+
+def _any(*forms: Schema) -> Schema:
+    return {"anyOf": list(forms)}
+
+
+def _list(items: Schema, least: int, most: int | None = None, **more: Any) -> Schema:
+    limits = {"minItems": least} if most is None else {"minItems": least, "maxItems": most}
+    return {"type": "array", "items": items, **limits, **more}
+
+
+def _names(least: int, most: int | None = None) -> Schema:
+    """Different names."""
+    return _list(_ref("name"), least, most, uniqueItems=True)
+
+
+def _section(values: Schema, names: str = f"^{_NAME}$") -> Schema:
+    """Names to values; it may be empty."""
     return {"type": ["object", "null"], "propertyNames": {"pattern": names}, "additionalProperties": values}
 
 
-def _sections() -> Schema:
-    return {
-        "icsolve": {"enum": [1, "1"], "description": "version of the format"},
-        "title": ref("text"),
-        "source": {**ref("text"), "description": "where the problem stands"},
-        "reconstructed": {**ref("text"), "description": "what was not given and had to be reconstructed"},
-        "units": _units(),
-        "ground": {**ref("name"), "description": "the frame link; 1 by default"},
-        "gravity": {**_gravity(), "description": "9.81 m/s^2 by default"},
-        "points": _named({"anyOf": [_coordinates(), _centroid()]}),
-        "lengths": _named({"anyOf": [{"type": "number", "minimum": 0}, pattern(_QUANTITY)]}, _keys("{2}")),
-        "angles": _named(ref("quantity"), _keys("{2,3}")),
-        "near": _named(ref("pair")),
-        "links": _named({"anyOf": [list_of(ref("name"), 0), _masses()]}),
-        "joints": list_of({"anyOf": [ref("joint"), ref("joint in space")]}, 1),
-        "loads": _named({"anyOf": [ref("load"), ref("load in space")]}),
-        "profile": {
-            **_named({"anyOf": profiles(_QUANTITY)}),
-            "description": "shapes of cams and of their followers",
-        },
-        "motion": {"anyOf": [ref("motion"), list_of(ref("motion"), 0), {"type": "null"}]},
-        "dynamic": {
-            "enum": [True, False, "yes", "no", "true", "false"],
-            "description": "whether the inertia forces of the motion are among the loads",
-        },
-        "expect": _named({"anyOf": [_value(), ref("published")]}, "^.+$"),
-        "tolerance": {"anyOf": [ref("quantity"), _tolerance(), {"type": "null"}]},
-        "variables": {**_named(_variable()), "description": "numbers that are others for each student"},
-    }
-
-
-def _masses() -> Schema:
-    """What a link has besides its joints: further points, a mass."""
-    unit = ref("with unit")
-    keys = {"points": list_of(ref("name"), 0), "mass": unit, "centre": ref("name"), "inertia": unit}
-    return {**mapping(keys), "dependencies": {"mass": ["centre"]}}
-
-
-def _tolerance() -> Schema:
-    share = pattern(r"^\s*[0-9.]+ ?%\s*$")
-    width, figures = ref("quantity"), ref("number")
-    keys = {"relative": share, "absolute": width, "figures": figures, "drawing": width}
-    return {**mapping(keys), "minProperties": 1}
-
-
-def _variable() -> Schema:
-    """Choices, or a range with its step."""
-    text: Schema = {"type": ["string", "number", "boolean"]}
-    choices = mapping({"choices": list_of(text, 1)}, ["choices"])
-    span = mapping({"range": list_of(ref("number"), 2, 2), "step": ref("number")}, ["range", "step"])
-    return {"oneOf": [choices, span]}
-
-
-def _keys(count: str) -> str:
-    """Keys such as AB, A'B, O2-A."""
-    more = "{1}" if count == "{2}" else "{1,2}"
+def _points_key(more: str) -> str:
+    """Keys such as AB, A'B, O2-A: ``more`` points after the first."""
+    count = {"{1}": "{2}", "{1,2}": "{2,3}"}[more]
     return f"^(({_ATOM}){count}|\\s*{_NAME}\\s*(-\\s*{_NAME}\\s*){more})$"
 
 
-def _units() -> Schema:
-    unit = {"type": "string"}
-    return {**mapping({"length": unit, "force": unit, "torque": unit}), "type": ["object", "null"]}
+def _keyed(table: dict[str, Key], *needed: str) -> Schema:
+    """A mapping with the keys of a table and no others; each has its description."""
+    properties = {name: {**FORMS[key.form], "description": key.says} for name, key in table.items()}
+    required = [*needed, *(name for name, key in table.items() if key.needed and name not in needed)]
+    form = {"type": "object", "properties": properties, "additionalProperties": False}
+    return {**form, "required": required} if required else form
 
 
-def _coordinates() -> Schema:
-    """Two coordinates, of which one may be unknown; three in space."""
-    return {"anyOf": [list_of({"anyOf": [ref("quantity"), ref("unknown")]}, 2, 2), ref("triple")]}
+def _of_kind(name: str, kind: Kind) -> Schema:
+    """A mapping of one kind of joint, load or profile."""
+    return {**_keyed({name: kind.own, **kind.keys}), "description": kind.says}
 
 
-def _gravity() -> Schema:
-    """Its size; in space also its components, or where it pulls to."""
-    return {"anyOf": [ref("quantity"), ref("triple"), ref("gravity in space")]}
+def _one(table: dict[str, Kind], **more: Schema) -> list[Schema]:
+    """The kinds of a table, each with what only code can tell of it."""
+    return [{**_of_kind(name, kind), **more.get(name, {})} for name, kind in table.items()]
 
 
-def _centroid() -> Schema:
-    return mapping({"centroid": {**list_of(ref("name"), 2), "uniqueItems": True}}, ["centroid"])
+def _directed(kind: str, headings: dict[str, Key]) -> Schema:
+    """One direction; none where the load is given by components."""
+    alone = {"required": [kind], "properties": {kind: {"type": "array"}}}
+    without = {"not": {"anyOf": [{"required": [key]} for key in headings]}}
+    others = [{"required": [key], "properties": {kind: {"not": {"type": "array"}}}} for key in headings]
+    return {"oneOf": [{**alone, **without}, *others]}
 
 
-def _joints() -> dict[str, tuple[Schema, list[str]]]:
-    """Each kind's keys besides its links, and those that it needs."""
-    at = {"at": ref("name")}
-    mu = {"mu": ref("number")}
-    guide = {"along": {"anyOf": [ref("quantity"), links(2)]}, "through": ref("name")}
-    carrier = {"carrier": ref("name")}
-    tooth = {key: ref("quantity") for key in ("pressure angle", "diametral pitch", "module", *HELICAL)}
-    tooth["hand"] = {"enum": ["right", "left"]}
-    crossed = {"crossed": {"enum": [True, False, "true", "false"]}}
+def _either(*names: str) -> Schema:
+    return {"oneOf": [{"required": [name]} for name in names]}
+
+
+_LOAD = (_ref("quantity"), _ref("unknown"), _ref("like"))
+_SENSE: Schema = {"enum": ["ccw", "cw"]}
+_TEXT: Schema = {"type": ["string", "number", "boolean"]}
+_PUBLISHED = _any({"type": "number"}, _pattern(_QUANTITY), _ref("pair"))
+_COORDINATES = _list(_any(_ref("quantity"), _ref("unknown")), 2, 2)
+FORMS: dict[str, Schema] = {
+    "version": {"enum": [1, "1"]},
+    "text": _ref("text"),
+    "unit": {"type": "string"},
+    "name": _ref("name"),
+    "link": _ref("name"),
+    "links": _names(2),
+    "two links": _names(2, 2),
+    "several": _names(2),
+    "quantity": _ref("quantity"),
+    "number": _ref("number"),
+    "with unit": _ref("with unit"),
+    "percent": _pattern(r"^\s*[0-9.]+ ?%\s*$"),
+    "width": _any({"type": "number", "minimum": 0}, _pattern(_QUANTITY)),
+    "pair": _ref("pair"),
+    "slope": _list(_ref("number"), 2, 2),
+    "counts": _list(_ref("number"), 2, 2),
+    "count or counts": _any(_ref("number"), _list(_ref("number"), 2, 2)),
+    "range": _list(_ref("number"), 2, 2),
+    "choices": _list(_TEXT, 1),
+    "truth": {"enum": [True, False, "true", "false"]},
+    "yes or no": {"enum": [True, False, "yes", "no", "true", "false"]},
+    "sense": _SENSE,
+    "hand": {"enum": ["right", "left"]},
+    "place": _any(_ref("name"), _ref("pair")),
+    "spot": _any(_ref("name"), _ref("triple")),
+    "line": _any(_ref("quantity"), _names(2, 2)),
+    "end": _any(_ref("name"), _ref("quantity"), _ref("pair")),
+    "axis": _ref("axis"),
+    "axis or point": _any(_ref("name"), _ref("axis")),
+    "centres": _any(_ref("name"), _list(_ref("name"), 1, 2)),
+    "load": _any(*_LOAD),
+    "load with unit": _any(_ref("with unit"), *_LOAD[1:]),
+    "load or pair": _any(*_LOAD, _ref("pair")),
+    "load or triple": _any(*_LOAD, _ref("triple")),
+    "corners": _list(_any(_ref("name"), _ref("pair")), 3),
+    "arcs": _list(_ref("arc"), 1),
+    "table": {
+        "type": "object",
+        "additionalProperties": _ref("quantity"),
+        "propertyNames": {"pattern": _QUANTITY},
+    },
+    "published": _PUBLISHED,
+    "units": _ref("units"),
+    "gravity": _any(_ref("quantity"), _ref("triple"), _ref("gravity in space")),
+    "points": _section(_any(_COORDINATES, _ref("triple"), _ref("centroid"))),
+    "lengths": _section(_any({"type": "number", "minimum": 0}, _pattern(_QUANTITY)), _points_key("{1}")),
+    "angles": _section(_ref("quantity"), _points_key("{1,2}")),
+    "near": _section(_ref("pair")),
+    "points of a link": _list(_ref("name"), 0),
+    "links section": _section(_any(_list(_ref("name"), 0), _ref("masses"))),
+    "joints": _list(_any(_ref("joint"), _ref("joint in space")), 1),
+    "loads": _section(_any(_ref("load"), _ref("load in space"))),
+    "profile": _section(_ref("profile")),
+    "motion": _any(_ref("motion"), _list(_ref("motion"), 0), {"type": "null"}),
+    "expect": _section(_any(_PUBLISHED, _ref("published")), "^.+$"),
+    "tolerance": _any(_ref("quantity"), _ref("tolerance"), {"type": "null"}),
+    "variables": _section(_ref("variable")),
+}
+"""What each form of the table of keys is in JSON."""
+
+
+def _definitions() -> Schema:
+    motion = _keyed(keys.MOTION)
+    of_link = {key: form for key, form in motion["properties"].items() if key not in ("point", "angle")}
+    of_point = {key: form for key, form in motion["properties"].items() if key != "turns"}
     return {
-        "pin": ({**at, **mu, "radius": ref("quantity")}, ["at"]),
-        "slide": ({**at, **guide, **mu, "length": ref("quantity")}, ["at", "along"]),
-        "slot": ({**at, **guide, **mu}, ["at", "along"]),
-        "roll": ({**at, "radii": ref("pair"), "pressure angle": ref("quantity")}, ["at"]),
-        "gears": ({"teeth": list_of(ref("number"), 2, 2), **carrier, **tooth}, ["teeth"]),
-        "belt": ({"radii": ref("pair"), **carrier, **crossed}, ["radii"]),
-        "contact": ({**at, "normal": ref("quantity"), **mu}, []),
-        "centre": ({"at": ref("place"), "toward": ref("quantity")}, []),
-        "weld": (at, []),
-    }
-
-
-def _joint(kind: str, keys: Schema, needs: list[str]) -> Schema:
-    form = mapping({kind: links(None if kind == "pin" else 2), **keys}, [kind, *needs])
-    if kind == "pin":
-        form["dependencies"] = {"mu": ["radius"]}
-    if kind == "centre":
-        form["oneOf"] = [{"required": ["at"]}, {"required": ["toward"]}]
-    if kind == "gears":
-        form["not"] = {"required": ["diametral pitch", "module"]}
-    return form
-
-
-def _load(kind: str) -> Schema:
-    number: list[Schema] = [ref("quantity"), ref("unknown"), ref("like")]
-    if kind == "mass":
-        number[0] = ref("with unit")
-    if kind == "power":
-        number = [ref("with unit")]
-    if kind == "force":
-        number.append(ref("pair"))
-    values = {
-        "at": ref("place"),
-        "to": ref("place"),
-        "angle": ref("quantity"),
-        "slope": list_of(ref("number"), 2, 2),
-        "free": ref("quantity"),
-        "turns": {"enum": ["ccw", "cw"]},
-        "speed": ref("quantity"),
-    }
-    needs = [key for key in KEYS[kind] if key in ("link", "at", "to", "free", "speed")]
-    keys = {key: values.get(key, ref("name")) for key in KEYS[kind]}
-    form = mapping({kind: {"anyOf": number}, **keys}, [kind, *needs])
-    if kind == "force":
-        form.update(directed("force", HEADINGS))
-    return form
-
-
-def _link_motion() -> Schema:
-    form = mapping(
-        {
-            "link": ref("name"), "speed": ref("quantity"), "turns": {"enum": ["ccw", "cw"]},
-            "acceleration": ref("quantity"),
+        "text": {"type": ["string", "number", "boolean", "null"]},
+        "name": _any(_pattern(f"^{_NAME}$"), {"type": "integer", "minimum": 0}, {"type": "boolean"}),
+        "number": _any({"type": "number"}, _pattern(_BARE)),
+        "quantity": _any({"type": "number"}, _pattern(_QUANTITY)),
+        "with unit": _pattern(_WITH_UNIT),
+        "pair": _list(_ref("quantity"), 2, 2),
+        "triple": _list(_ref("quantity"), 3, 3),
+        "axis": _any(_pattern(r"^\s*[-+]?[xyzXYZ]\s*$"), _ref("triple"), _names(2, 2)),
+        "unknown": {"const": "unknown"},
+        "like": _keyed(keys.LIKE),
+        "units": {**_keyed(keys.UNITS), "type": ["object", "null"]},
+        "masses": {**_keyed(keys.MASSES), "dependencies": {"mass": ["centre"]}},
+        "centroid": _keyed(keys.CENTROID),
+        "gravity in space": _keyed(keys.GRAVITY),
+        "joint": {"oneOf": _one(keys.JOINTS, **_TIES)},
+        "joint in space": _any(*_one(keys.SPACE_JOINTS)),
+        "load": {"oneOf": _one(keys.LOADS, force=_directed("force", keys.DIRECTION))},
+        "load in space": _any(*_one(keys.SPACE_LOADS, force=_directed("force", keys.SPACE_DIRECTION))),
+        "profile": _any(*_one(keys.PROFILES)),
+        "arc": _keyed(keys.ARC),
+        "motion": {
+            "oneOf": [
+                {
+                    **motion,
+                    "properties": of_link,
+                    "anyOf": [{"required": ["speed"]}, {"required": ["turns"]}],
+                },
+                {**motion, "properties": of_point, "required": ["point", "link", "speed", "angle"]},
+            ]
         },
-        ["link"],
-    )
-    return {**form, "anyOf": [{"required": ["speed"]}, {"required": ["turns"]}]}
+        "published": {**_keyed(keys.EXPECTED), **_either("value", "toward")},
+        "tolerance": {**_keyed(keys.TOLERANCE), "minProperties": 1},
+        "variable": {
+            "oneOf": [
+                {**_keyed({key: keys.VARIABLE[key] for key in some}), "required": list(some)}
+                for some in (("choices",), ("range", "step"))
+            ]
+        },
+    }
 
 
-def _point_motion() -> Schema:
-    keys = {"point": ref("name"), "link": ref("name"), "speed": ref("quantity"), "angle": ref("quantity")}
-    return mapping({**keys, "acceleration": ref("quantity")}, list(keys))
-
-
-def _value() -> Schema:
-    """A number with its unit and sense, or the two coordinates of a centre."""
-    return {"anyOf": [{"type": "number"}, pattern(_QUANTITY), ref("pair")]}
-
-
-def _published() -> Schema:
-    within = {"anyOf": [{"type": "number", "minimum": 0}, pattern(_QUANTITY)]}
-    keys = {"value": _value(), "toward": ref("quantity"), "within": within, "erratum": ref("text")}
-    form = mapping({key: keys[key] for key in EXPECTED})
-    return {**form, "oneOf": [{"required": ["value"]}, {"required": ["toward"]}]}
+_TIES: dict[str, Schema] = {
+    "pin": {"dependencies": {"mu": ["radius"]}},
+    "centre": _either("at", "toward"),
+    "gears": {"not": {"required": ["diametral pitch", "module"]}},
+}
+"""What only code can tell of a joint's keys."""

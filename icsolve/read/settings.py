@@ -6,11 +6,9 @@ from collections.abc import Mapping as Named
 
 from icsolve.case import Mark
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
-from icsolve.read.jointed import NAMES
-from icsolve.read.joints import KINDS
-from icsolve.read.loads import KEYS
-from icsolve.read.names import atoms
-from icsolve.read.problems import Problems, shown, suggestion
+from icsolve.read.joints import NAMES
+from icsolve.read.keys import JOINTS, LOADS
+from icsolve.read.names import Problems, atoms, shown, suggestion
 
 _FORM = "a path is like angles.AB, lengths.AB, points.D.x, loads.P, loads.P.angle or joints.B.mu"
 
@@ -109,7 +107,7 @@ def _axis(node: Node, steps: list[str], text: str, path: str) -> str:
 def _of_load(node: Node, steps: list[str], text: str, path: str) -> str:
     if type(node) is not Mapping:
         return "the load is not a mapping"
-    kind = next((key for key in KEYS if key in node.items), None)
+    kind = next((key for key in LOADS if key in node.items), None)
     if kind is None:
         return "the load has no number"
     value = node.items[kind]
@@ -119,7 +117,7 @@ def _of_load(node: Node, steps: list[str], text: str, path: str) -> str:
         return _axis(value, steps, text, path)
     if steps[0] in ("at", "slope", "to", "along") and steps[0] in node.items and len(steps) == 2:
         return _axis(node.items[steps[0]], steps[1:], text, f"{path}.{steps[0]}")
-    return _put(node, steps[0], text) if len(steps) == 1 and steps[0] not in KEYS else _FORM
+    return _put(node, steps[0], text) if len(steps) == 1 and steps[0] not in LOADS else _FORM
 
 
 def _of_profile(section: Mapping, steps: list[str], text: str) -> str:
@@ -170,7 +168,7 @@ def _of_that_key(joints: list[Mapping], key: str) -> list[Mapping]:
     """Of several joints at a point, those that have the key, or at least are of a kind that takes it."""
     having = [joint for joint in joints if key in joint.items]
     taking = [
-        joint for joint in joints if any(key in KINDS[kind][0] for kind in joint.items if kind in KINDS)
+        joint for joint in joints if any(key in JOINTS[kind].keys for kind in joint.items if kind in JOINTS)
     ]
     return having or taking or joints
 

@@ -4,20 +4,310 @@ from __future__ import annotations
 
 import math
 
-from icsolve.case import Case, Centroid, Expected, Number, Units
-from icsolve.case.space import Along, Axis, Coordinates, Joint, Space, Vector
-from icsolve.read.build import SECTIONS, TEXTS, ground_of, readable, section_of, tolerance_of_case
+from icsolve.case import Case, Centroid, Expected, Number, Spring, Toward, Units, Weight
+from icsolve.case.space import (
+    Along,
+    Axis,
+    Ball,
+    Coordinates,
+    Force,
+    ForceVector,
+    Gears,
+    Heading,
+    Hinge,
+    Joint,
+    Line,
+    Load,
+    Radial,
+    Space,
+    Thrust,
+    Torque,
+    TorqueVector,
+    Vector,
+    Weld,
+)
+from icsolve.read.build import TEXTS, ground_of, readable, section_of, tolerance_of_case
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
-from icsolve.read.entry import Entry
 from icsolve.read.expect import read_expect
-from icsolve.read.geometry import centroid_of
-from icsolve.read.jointed import mention_links
-from icsolve.read.problems import Problems, shown, suggestion
-from icsolve.read.quantities import number
-from icsolve.read.space_joints import read_space_joints
-from icsolve.read.space_loads import read_space_loads
-from icsolve.read.vectors import SpaceReading, axis, components
+from icsolve.read.figure import centroid_of
+from icsolve.read.joints import Builder, Builders, mention_links, read_list, whole_teeth
+from icsolve.read.keys import GRAVITY, SECTIONS, SPACE_DIRECTION, SPACE_JOINTS, SPACE_LOADS
+from icsolve.read.loads import Forms, Likes, bearer, magnitude, read_section, torque_number, word_at
+from icsolve.read.names import Problems, shown, suggestion
+from icsolve.read.reading import Entry, Reading, number
+from icsolve.read.teeth import read_teeth
 from icsolve.units import Unit
+
+WORDS = ("x", "y", "z", "-x", "-y", "-z")
+_FORM = "x, y, z, -z, components such as [0, 3, 4], or two points [A, B]"
+
+
+class SpaceReading(Reading):
+    """The state of reading a case in space; ``places`` are the points that a load gives by coordinates."""
+
+    axes = "xyz"
+    couples = "xyz"
+    places: dict[str, Coordinates]
+
+
+def components(entry: Entry, key: str, dimension: str, meaning: str) -> tuple[Number, Number, Number] | None:
+    """A list of three numbers, at paths ``key.x``, ``key.y``, ``key.z``."""
+    node = entry.node.items.get(key)
+    if type(node) is not Sequence or len(node.items) != 3:
+        mark = node.mark if node is not None else entry.node.mark
+        entry.refuse(mark, f"'{key}' of {entry.what} should be {meaning}")
+        return None
+    x, y, z = (
+        number(entry.reading, item, dimension, f"{entry.path}.{key}.{axis}")
+        for item, axis in zip(node.items, "xyz", strict=True)
+    )
+    return (x, y, z) if x is not None and y is not None and z is not None else None
+
+
+def axis(entry: Entry, key: str) -> Axis | None:
+    """A direction: a coordinate axis, components, or two points."""
+    node = entry.node.items.get(key)
+    if node is None:
+        return None
+    if type(node) is Sequence and len(node.items) == 2:
+        return _line(entry, key, node)
+    if type(node) is Sequence:
+        parts = components(entry, key, "number", _FORM)
+        if parts is not None and not any(part.value for part in parts):
+            entry.refuse(node.mark, f"'{key}' of {entry.what} has no direction: its components are all 0")
+            return None
+        return Vector(*parts) if parts is not None else None
+    text = node.text.lower().removeprefix("+") if type(node) is Scalar else ""
+    if text in WORDS:
+        return Along(text)
+    entry.refuse(node.mark, f"'{key}' of {entry.what} should be {_FORM}")
+    return None
+
+
+def _line(entry: Entry, key: str, node: Sequence) -> Line | None:
+    items = entry.reading.names(node, f"'{key}' of {entry.what}", "[A, B]")
+    if items is None:
+        return None
+    for item in items:
+        entry.reading.used.setdefault(item.text, item.mark)
+    if items[0].text == items[1].text:
+        entry.refuse(node.mark, f"'{key}' of {entry.what} should be two different points")
+        return None
+    return Line(items[0].text, items[1].text)
+
+
+def place(entry: Entry, key: str, hidden: str) -> str | None:
+    """A point's name, or that of the hidden point whose coordinates stand in its stead."""
+    node = entry.node.items.get(key)
+    if type(node) is not Sequence:
+        return entry.point(key)
+    parts = components(entry, key, "length", "a point, or three coordinates [x, y, z]")
+    if parts is None:
+        return None
+    assert isinstance(entry.reading, SpaceReading)
+    entry.reading.places[hidden] = Coordinates(*parts)
+    entry.reading.marks[f"points.{hidden}"] = node.mark
+    return hidden
+
+
+def _at_point(kind: type[Ball] | type[Weld]) -> Builder[Joint]:
+    def build(entry: Entry, links: tuple[str, ...], complete: bool) -> Joint | None:
+        at = entry.point("at")
+        return kind((links[0], links[1]), at) if at and complete else None
+
+    return build
+
+
+def _on_axis(kind: type[Radial] | type[Thrust] | type[Hinge]) -> Builder[Joint]:
+    def build(entry: Entry, links: tuple[str, ...], complete: bool) -> Joint | None:
+        at, along = entry.point("at"), axis(entry, "axis")
+        return kind((links[0], links[1]), at, along) if at and along and complete else None
+
+    return build
+
+
+def _gears(entry: Entry, links: tuple[str, ...], complete: bool) -> Joint | None:
+    along, counts = axis(entry, "axis"), _counts(entry)
+    alone = counts is not None and len(counts) == 1
+    centres = _centres(entry, 1 if alone else 2)
+    teeth = read_teeth(entry, alone)
+    toward = _toward(entry, alone, counts is not None)
+    if not (along and counts and centres and teeth and complete) or (alone and toward is None):
+        return None
+    if not whole_teeth(entry, counts):
+        return None
+    if len(counts) == 1 and counts[0].value < 0.0:
+        entry.refuse(entry.mark("teeth"), "a gear whose mate is not shown has external teeth")
+        return None
+    return Gears((links[0], links[1]), centres, counts, along, teeth, toward)
+
+
+def _counts(entry: Entry) -> tuple[Number, ...] | None:
+    """One number of teeth, or those of both gears."""
+    if type(entry.node.items.get("teeth")) is Sequence:
+        return entry.pair("teeth", "01")
+    count = entry.number("teeth")
+    return (count,) if count is not None else None
+
+
+def _centres(entry: Entry, count: int) -> tuple[str, ...] | None:
+    """The centres of the wheels: one point, or two."""
+    node = entry.node.items.get("at")
+    if node is None:
+        return None
+    if type(node) is not Sequence:
+        centre = entry.point("at")
+        if count == 2:
+            said = f"'at' of {entry.what} should be the centres of both wheels, as in [G, H]"
+            entry.refuse(node.mark, said)
+        return (centre,) if centre and count == 1 else None
+    items = entry.reading.names(node, f"'at' of {entry.what}", "[G, H]")
+    if items is None:
+        return None
+    for item in items:
+        entry.reading.used.setdefault(item.text, item.mark)
+    names = tuple(item.text for item in items)
+    if len(names) != count or len(set(names)) < count:
+        wanted = "one point" if count == 1 else "two different points"
+        entry.refuse(node.mark, f"'at' of {entry.what} should be {wanted}: the teeth are those of {count}")
+        return None
+    return names
+
+
+def _toward(entry: Entry, alone: bool, counted: bool) -> Axis | Toward | None:
+    """Where the mate of a single gear lies."""
+    if not alone:
+        if entry.has("toward") and counted:
+            said = "is for one gear whose mate is not shown; here both centres stand under 'at'"
+            entry.refuse(entry.mark("toward"), f"'toward' of {entry.what} {said}")
+        return None
+    node = entry.need("toward")
+    if type(node) is Scalar and node.text not in WORDS:
+        point = entry.point("toward")
+        return Toward(point) if point else None
+    return axis(entry, "toward")
+
+
+BUILDERS: Builders[Joint] = {
+    "ball": _at_point(Ball),
+    "radial": _on_axis(Radial),
+    "thrust": _on_axis(Thrust),
+    "hinge": _on_axis(Hinge),
+    "weld": _at_point(Weld),
+    "gears": _gears,
+}
+
+
+_PLANAR = "that is for the plane; in space it is `along: z`, `along: [0, 3, 4]` or `along: [A, B]`"
+_ELSEWHERE = {
+    "angle": _PLANAR,
+    "slope": _PLANAR,
+    "turns": "in space a torque is positive about its axis `along:` by the right-hand rule",
+    "turns_with": "a case in space is not moved",
+}
+
+
+def read_space_loads(reading: Reading, section: Mapping) -> tuple[Load, ...]:
+    """The loads of a case in space that could be read."""
+    return read_section(reading, section, SPACE)
+
+
+def _force(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
+    link, against, good = bearer(entry)
+    at = place(entry, "at", f"@{name}")
+    if type(entry.node.items["force"]) is Sequence:
+        parts = _components(entry, "force")
+        return ForceVector(name, link, at, parts, against) if good and link and at and parts else None
+    heading = _heading(entry)
+    read, value = magnitude(entry, name, kind, likes)
+    return (
+        Force(name, link, at, value, heading, against) if good and read and link and at and heading else None
+    )
+
+
+def _components(entry: Entry, kind: str) -> tuple[Number, Number, Number] | None:
+    """A load by its components, at paths ``loads.P.x``; it takes no direction."""
+    for heading in SPACE_DIRECTION:
+        if entry.has(heading):
+            said = f"{entry.what} is given by components, so it takes no '{heading}'"
+            entry.refuse(entry.mark(heading), said)
+    parts = components(entry, kind, entry.keys[kind].dimension, entry.keys[kind].says)
+    if parts is None:
+        return None
+    marks = entry.reading.marks
+    for letter in "xyz":
+        marks[f"{entry.path}.{letter}"] = marks.pop(f"{entry.path}.{kind}.{letter}")
+    x, y, z = (part._replace(path=f"{entry.path}.{n}") for part, n in zip(parts, "xyz", strict=True))
+    return x, y, z
+
+
+def _heading(entry: Entry) -> Heading | None:
+    key = entry.one_of(SPACE_DIRECTION)
+    if key is None:
+        if not _ELSEWHERE.keys() & entry.node.keys.keys():  # a direction of the plane has its own message
+            entry.refuse(entry.node.mark, f"{entry.what} needs its direction: {', '.join(SPACE_DIRECTION)}")
+        return None
+    if key == "along":
+        return axis(entry, "along")
+    point = entry.point(key)
+    if point is not None and point == word_at(entry, "at"):
+        entry.refuse(entry.mark(key), f"{entry.what} acts at {point} and cannot point {key} it")
+        return None
+    return Toward(point, key == "away") if point else None
+
+
+def _torque(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
+    link, against, good = bearer(entry)
+    if type(entry.node.items["torque"]) is Sequence:
+        parts = _components(entry, "torque")
+        return TorqueVector(name, link, parts, against) if good and link and parts else None
+    entry.need("along")
+    heading = axis(entry, "along")
+    read, value = magnitude(entry, name, kind, likes)
+    return Torque(name, link, value, heading, against) if good and read and link and heading else None
+
+
+def _power(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
+    link, against, good = bearer(entry)
+    heading = axis(entry, "along")
+    value = torque_number(entry)
+    return Torque(name, link, value, heading, against) if good and value and link and heading else None
+
+
+def _weight(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
+    link, at = entry.link("link"), place(entry, "at", f"@{name}")
+    read, value = magnitude(entry, name, kind, likes)
+    return Weight(name, link, at, value, kind == "mass") if read and link and at else None
+
+
+def _spring(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
+    link, against, good = bearer(entry)
+    at, to = place(entry, "at", f"@{name}"), place(entry, "to", f"@{name}'")
+    free = entry.number("free")
+    read, value = magnitude(entry, name, kind, likes)
+    if at is not None and at == to:
+        entry.refuse(entry.mark("to"), f"both ends of {entry.what} are at {at}")
+        return None
+    if not (good and read and link and at and to and free):
+        return None
+    return Spring(name, link, at, to, value, free, against)
+
+
+SPACE: Forms[Load] = Forms(
+    SPACE_LOADS,
+    {
+        "force": _force,
+        "torque": _torque,
+        "weight": _weight,
+        "mass": _weight,
+        "spring": _spring,
+        "power": _power,
+    },
+    "as in {force: 100, link: 2, at: E, along: -z}",
+    _ELSEWHERE,
+)
+"""Loads of space."""
+
 
 PLANAR = {
     "lengths": "points are given by their three coordinates",
@@ -48,8 +338,8 @@ def build_space(
     ground = ground_of(reading, root)
     gravity, down = _gravity(reading, root)
     joints = _joints(reading, root)
-    loads = read_space_loads(reading, section_of(reading, root, "loads", _FORMS))
-    points = _points(reading, section_of(reading, root, "points", _FORMS))
+    loads = read_space_loads(reading, section_of(reading, root, "loads", _FORMS["loads"]))
+    points = _points(reading, section_of(reading, root, "points", _FORMS["points"]))
     if readable(root, "points"):
         _check_given(reading)
     space = Space({**points, **reading.places}, joints, loads, down)
@@ -83,7 +373,7 @@ def _check_sections(reading: SpaceReading, root: Mapping) -> None:
 def _joints(reading: SpaceReading, root: Mapping) -> tuple[Joint, ...]:
     node = root.items.get("joints")
     if type(node) is Sequence and node.items:
-        return read_space_joints(reading, node)
+        return read_list(reading, node, SPACE_JOINTS, BUILDERS, "{hinge: [1, 2], at: A, axis: z}")
     mark = root.keys.get("joints", root.mark)
     reading.refuse(mark, "the case has no joints; list them, as in joints: [{ball: [1, 2], at: A}]")
     return ()
@@ -135,10 +425,10 @@ def _gravity(reading: SpaceReading, root: Mapping) -> tuple[Number | None, Axis]
         return _gravity_vector(reading, root, node)
     if type(node) is not Mapping:
         return _size(reading, node), down
-    entry = Entry(reading, node, "gravity", "gravity")
-    entry.only("size", "along")
+    entry = Entry(reading, node, "gravity", "gravity", GRAVITY)
+    entry.check()
     size = _size(reading, node.items["size"]) if entry.has("size") else None
-    return size, axis(entry, "along", "where weights pull to") or down
+    return size, axis(entry, "along") or down
 
 
 def _size(reading: SpaceReading, node: Node) -> Number | None:
@@ -165,6 +455,6 @@ def _gravity_vector(reading: SpaceReading, root: Mapping, node: Sequence) -> tup
 
 
 def _expect(reading: SpaceReading, root: Mapping) -> tuple[Expected, ...]:
-    published = section_of(reading, root, "expect", _FORMS)
+    published = section_of(reading, root, "expect", _FORMS["expect"])
     named = reading.given | set(reading.used)
     return read_expect(reading, published, named) if readable(root, "loads") else ()

@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 from icsolve.case import Helix, Number
 from icsolve.case.space import Teeth
-from icsolve.read.entry import Entry
+from icsolve.read.reading import Entry
 from icsolve.statics.space.reaction_basis import transverse_angle
 
 SECTIONS = ("", "normal ", "transverse ")
 ANGLES = tuple(f"{section}pressure angle" for section in SECTIONS)
 PITCHES = tuple(f"{section}diametral pitch" for section in SECTIONS)
 MODULES = tuple(f"{section}module" for section in SECTIONS)
-KEYS = (*ANGLES, *PITCHES, *MODULES, "helix angle", "hand")
-"""What a mesh takes for the form of its teeth."""
-
 
 Transverse = tuple[Number, Number | None, Number | None, Helix | None]
 """Pressure angle, diametral pitch and module in the plane of the wheel, and the helix."""
@@ -24,9 +20,9 @@ Transverse = tuple[Number, Number | None, Number | None, Helix | None]
 
 def read_helical(entry: Entry) -> Transverse | None:
     """The teeth of a mesh of the plane; what is given in the normal section is turned into the plane."""
-    entry.need("helix angle", "the angle of the teeth with the axis, in degrees")
+    entry.need("helix angle")
     teeth = read_teeth(entry, False, False)
-    span = entry.number("bearing span", "length", "positive")
+    span = entry.number("bearing span")
     if teeth is None or teeth.helix_angle is None or (span is None and entry.has("bearing span")):
         return None
     angle, helix = math.degrees(transverse_angle(teeth)), Helix(teeth.helix_angle, span)
@@ -65,17 +61,17 @@ def read_teeth(entry: Entry, pitch_needed: bool, hand_needed: bool = True) -> Te
 
 
 def _helix(entry: Entry, hand_needed: bool) -> tuple[Number | None, str | None]:
-    helix = _acute(entry, "helix angle", "not negative")
+    helix = _acute(entry, "helix angle")
     hand = entry.word("hand", ("right", "left"))
     if hand_needed and entry.has("helix angle") and not entry.has("hand"):
-        entry.need("hand", "of the helix of the gear named first, right or left")
+        entry.need("hand")
     if hand_needed and entry.has("hand") and not entry.has("helix angle"):
-        entry.need("helix angle", "the angle of the teeth with the axis, in degrees")
+        entry.need("helix angle")
     return helix, hand
 
 
-def _acute(entry: Entry, key: str, bound: str = "positive") -> Number | None:
-    angle = entry.number(key, "angle", bound)
+def _acute(entry: Entry, key: str) -> Number | None:
+    angle = entry.number(key)
     if angle is not None and angle.value >= 90.0:
         entry.refuse(entry.mark(key), f"a {key} is less than 90 degrees")
         return None
@@ -105,19 +101,5 @@ def _size(entry: Entry, key: str | None) -> tuple[Number | None, Number | None]:
     if key is None:
         return None, None
     if key.endswith("pitch"):
-        return entry.number(key, "pitch", "positive"), None
-    return None, entry.number(key, "length", "positive")
-
-
-def whole(entry: Entry, counts: Sequence[Number]) -> bool:
-    """Whether numbers of teeth are whole, and internal teeth surround external ones."""
-    values = [count.value for count in counts]
-    if any(value == 0.0 or value != int(value) for value in values):
-        entry.refuse(entry.mark("teeth"), f"the teeth of {entry.what} should be whole numbers other than 0")
-    elif max(values) < 0.0:
-        entry.refuse(entry.mark("teeth"), f"only one gear of {entry.what} can be internal (negative)")
-    elif min(values) < 0.0 and abs(min(values)) <= max(values):
-        entry.refuse(entry.mark("teeth"), "an internal gear has more teeth than the one inside it")
-    else:
-        return True
-    return False
+        return entry.number(key), None
+    return None, entry.number(key)

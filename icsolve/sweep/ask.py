@@ -12,8 +12,7 @@ import numpy.typing as npt
 from icsolve.assembly.data import names_of
 from icsolve.case import Case, Pair
 from icsolve.numbers.replay import Array
-from icsolve.read.names import pairs
-from icsolve.read.problems import shown, suggestion
+from icsolve.read.names import pairs, shown, suggestion
 from icsolve.sweep.numbers import find_number
 from icsolve.sweep.program import Asked
 from icsolve.sweep.scene import pairs as all_pairs

@@ -9,8 +9,7 @@ from typing import Any
 
 from icsolve.case import Case, ForceVector, Number
 from icsolve.errors import CaseError, Problem
-from icsolve.read.names import atoms
-from icsolve.read.problems import shown, suggestion
+from icsolve.read.names import atoms, shown, suggestion
 
 _FORM = "a path is like angles.AB, lengths.AB, points.D.x, loads.P, loads.P.angle or joints.B.mu"
 _SECTIONS = ("points", "lengths", "angles", "joints", "profile", "loads", "motion", "gravity")

@@ -12,7 +12,7 @@ from icsolve.grade.tables.columns import Columns, Submission, identifier
 from icsolve.grade.tables.platforms import fields_of, padded
 from icsolve.grade.tables.text import Table
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, parse
-from icsolve.read.problems import Problems, Stop
+from icsolve.read.names import Problems, Stop
 
 _LINE = re.compile(r"\s*(?:[-*] )?([^=\s][^=]*?)(?:\s*=\s*|:\s+)(\S.*?)?\s*$")
 

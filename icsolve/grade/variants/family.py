@@ -24,8 +24,8 @@ from icsolve.case.names import pair_name
 from icsolve.read.document import Mapping as Tree
 from icsolve.read.document import Node, Scalar, parse
 from icsolve.read.document import Sequence as Items
-from icsolve.read.formula import names_in, replaced
-from icsolve.read.problems import Problems
+from icsolve.read.names import Problems
+from icsolve.read.variables import names_in, replaced
 from icsolve.solve.refusals import rubs
 from icsolve.statics.power import is_unknown
 from icsolve.structure.topology import topology

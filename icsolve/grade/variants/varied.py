@@ -28,9 +28,8 @@ from icsolve.grade.tolerance import NoKeyError, size_of
 from icsolve.read.document import Mapping as Tree
 from icsolve.read.document import Node, Scalar, parse
 from icsolve.read.document import Sequence as Items
-from icsolve.read.formula import names_in, replaced
-from icsolve.read.problems import Problems
-from icsolve.read.variables import count, first_values, value_at
+from icsolve.read.names import Problems
+from icsolve.read.variables import count, first_values, names_in, replaced, value_at
 from icsolve.solve.sensitivity import band
 from icsolve.units import converted, parse_unit, split_quantity
 from icsolve.wording.senses import unit_of

@@ -1,0 +1,479 @@
+"""The figure: points, lengths, angles, near, what links carry; and slips in good YAML that it gives away.
+
+What a case says may be read as the format has it and still not be what its figure shows. Where the case
+itself holds the evidence (joints or dimensions fix a point to another link, a link is called `ground`), the
+slip is refused with both ways to say what is meant; without evidence nothing is suspected.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+from icsolve.case import (
+    Centroid,
+    Contact,
+    Coordinates,
+    Corner,
+    Direction,
+    Inertia,
+    Joint,
+    KnownCentre,
+    Length,
+    Load,
+    Mark,
+    Motion,
+    Pin,
+    Roll,
+    Slide,
+    Slot,
+    Spring,
+    Torque,
+    Weld,
+)
+from icsolve.read.document import Mapping, Node, Scalar, Sequence
+from icsolve.read.keys import CENTROID, MASSES
+from icsolve.read.names import Names, point_key, shown, suggestion
+from icsolve.read.reading import COMPASS, Entry, Reading, number
+
+
+def read_points(reading: Reading, section: Mapping) -> dict[str, Coordinates | Centroid]:
+    """Coordinates and centroids by point."""
+    points: dict[str, Coordinates | Centroid] = {}
+    for key, node in section.items.items():
+        name = reading.name(Scalar(key, False, section.keys[key]), "a point")
+        if name is None:
+            continue
+        reading.given.add(name)
+        reading.marks[f"points.{name}"] = section.keys[key]
+        value: Coordinates | Centroid | None
+        if type(node) is Mapping:
+            value = centroid_of(reading, name, node)
+        else:
+            value = _coordinates(reading, name, node)
+        if value is not None:
+            points[name] = value
+    return points
+
+
+def _coordinates(reading: Reading, name: str, node: Node) -> Coordinates | None:
+    if type(node) is not Sequence or len(node.items) != 2:
+        if type(node) is Scalar and node.text[:1] == "(" and node.text[-1] != ")":
+            return None  # refused where the comma cut it
+        form = decimals(node) or "as in [3, 0.5] or [unknown, 0.5]"
+        reading.refuse(node.mark, f"point {name} should have two coordinates, {form}")
+        return None
+    open_ones = [type(item) is Scalar and item.text == "unknown" for item in node.items]
+    if all(open_ones):
+        reading.refuse(node.mark, f"both coordinates of {name} are unknown; leave the point out of 'points'")
+        return None
+    values = [
+        None if is_open else number(reading, item, "length", f"points.{name}.{axis}")
+        for item, is_open, axis in zip(node.items, open_ones, "xy", strict=True)
+    ]
+    missing = sum(value is None for value in values) - sum(open_ones)
+    return None if missing else Coordinates(*values)
+
+
+def decimals(node: Node) -> str:
+    """How four numbers in place of two, or numbers in round brackets, are to be written."""
+    if type(node) is Scalar and node.text[:1] == "(":
+        return "in square brackets, as in [3, 0.5]"
+    if type(node) is not Sequence or len(node.items) != 4:
+        return ""
+    a, b, c, d = (item.text if type(item) is Scalar else "" for item in node.items)
+    return f"with decimal points, [{a}.{b}, {c}.{d}]" if b.isdigit() and d.isdigit() else ""
+
+
+def centroid_of(reading: Reading, name: str, node: Mapping) -> Centroid | None:
+    """A point as the mean of others."""
+    reading.check_keys(node, CENTROID, f"point {name}")
+    value = node.items.get("centroid")
+    if value is None:
+        reading.refuse(node.mark, f"point {name} should be [x, y] or {{centroid: [C, F, G]}}")
+        return None
+    items = reading.names(value, f"the centroid of {name}", "{centroid: [C, F, G]}")
+    if items is None:
+        return None
+    of = tuple(item.text for item in items)
+    for item in items:
+        reading.used.setdefault(item.text, item.mark)
+    if len(of) < 2 or len(set(of)) < len(of) or name in of:
+        reading.refuse(value.mark, f"the centroid of {name} is that of two or more other points")
+        return None
+    reading.centroids[name] = of
+    return Centroid(of)
+
+
+def read_lengths(reading: Reading, section: Mapping, known: set[str]) -> tuple[Length, ...]:
+    """Distances between two points."""
+    found = []
+    for key, names in _keyed(reading, section, "lengths", (2,), known):
+        node = section.items[key]
+        value = number(reading, node, "length", f"lengths.{key}")
+        if value is not None and value.value < 0.0:
+            reading.refuse(node.mark, f"the length {key} should not be negative")
+        elif value is not None:
+            found.append(Length(names[0], names[1], value))
+    return tuple(found)
+
+
+def read_angles(reading: Reading, section: Mapping, known: set[str]) -> tuple[Direction | Corner, ...]:
+    """Directions of pairs and angles at the middle of triples."""
+    found: list[Direction | Corner] = []
+    for key, names in _keyed(reading, section, "angles", (2, 3), known):
+        value = number(reading, section.items[key], "angle", f"angles.{key}")
+        if value is not None and len(names) == 2:
+            found.append(Direction(names[0], names[1], value))
+        elif value is not None:
+            found.append(Corner(names[0], names[1], names[2], value))
+    return tuple(found)
+
+
+def _keyed(
+    reading: Reading, section: Mapping, what: str, sizes: tuple[int, ...], known: set[str]
+) -> list[tuple[str, Names]]:
+    """The keys that name points, each once: ``AB``, ``A-B`` and, of a length, ``BA`` are the same."""
+    found: list[tuple[str, Names]] = []
+    first: dict[Names, str] = {}
+    for key, mark in section.keys.items():
+        names = point_key(key, sizes, known)
+        if isinstance(names, str):
+            reading.refuse(mark, names)
+            reading.given.update(name for name in known if name in key)  # no second message about them
+            continue
+        reading.given.update(names)
+        reading.measured.update(names)
+        same = tuple(sorted(names)) if what == "lengths" else names
+        if same in first:
+            line, column = section.keys[first[same]]
+            place = f"line {line}, column {column}"
+            reading.refuse(mark, f"'{key}' is given twice, the first time as '{first[same]}' in {place}")
+            continue
+        first[same] = key
+        found.append((key, names))
+    return found
+
+
+def read_near(reading: Reading, section: Mapping) -> dict[str, tuple[float, float]]:
+    """Roughly where points lie."""
+    found: dict[str, tuple[float, float]] = {}
+    for key, node in section.items.items():
+        name = reading.point(Scalar(key, False, section.keys[key]), "a point")
+        if name is None:
+            continue
+        if type(node) is not Sequence or len(node.items) != 2:
+            form = decimals(node) or "as in [3.5, 2.4]"
+            reading.refuse(node.mark, f"near {name} should be two coordinates, {form}")
+            continue
+        x = number(reading, node.items[0], "length", f"near.{name}.x")
+        y = number(reading, node.items[1], "length", f"near.{name}.y")
+        if x is not None and y is not None:
+            found[name] = (x.value, y.value)
+    return found
+
+
+def read_links(reading: Reading, section: Mapping) -> tuple[dict[str, tuple[str, ...]], dict[str, Inertia]]:
+    """Further points of links, as ``links:`` names them, and the masses of those that have one."""
+    found: dict[str, tuple[str, ...]] = {}
+    masses: dict[str, Inertia] = {}
+    for key, node in section.items.items():
+        link = reading.link(Scalar(key, False, section.keys[key]), "a link")
+        inertia, listed = None, node
+        if type(node) is Mapping:
+            entry = Entry(reading, node, f"links.{key}", f"link {shown(key)}", MASSES)
+            inertia, listed = _inertia(entry), node.items.get("points", Sequence([], node.mark))
+        items = reading.names(listed, f"the points of link {shown(key)}", "{3: [G, H]}")
+        for item in items or ():
+            reading.used.setdefault(item.text, item.mark)
+        if link is None or items is None:
+            continue
+        reading.marks[f"links.{link}"] = section.keys[key]
+        centre = [inertia.centre] if inertia is not None and inertia.centre else []
+        found[link] = tuple(dict.fromkeys((*(item.text for item in items), *centre)))
+        if inertia is not None:
+            masses[link] = inertia
+    return found, masses
+
+
+def _inertia(entry: Entry) -> Inertia | None:
+    """The mass of a link; None where it has none, or it can't be read."""
+    entry.check()
+    if not entry.has("mass") and not entry.has("inertia"):
+        if entry.has("centre"):
+            entry.refuse(entry.mark("centre"), f"{entry.what} has a centre of mass and no 'mass'; give it")
+        return None
+    if entry.has("mass"):
+        entry.need("centre")
+    centre, mass, moment = entry.point("centre"), entry.number("mass"), entry.number("inertia")
+    read = all(value is not None for key, value in (("mass", mass), ("inertia", moment)) if entry.has(key))
+    return Inertia(mass, centre, moment) if read and (centre or mass is None) else None
+
+
+def read_dynamic(reading: Reading, node: Node | None) -> bool:
+    """Whether the case asks for inertia forces."""
+    if node is None:
+        return False
+    word = node.text.lower() if type(node) is Scalar else ""
+    if word not in ("yes", "no", "true", "false"):
+        reading.refuse(node.mark, "'dynamic' should be yes or no: whether inertia forces are among the loads")
+    return word in ("yes", "true")
+
+
+def check_given(reading: Reading) -> None:
+    """Every point that is needed must be given by something."""
+    given = reading.given | {name for name, times in Counter(reading.on_guides).items() if times > 1}
+    given |= _given_backwards(reading)
+    for name, mark in reading.used.items():
+        if name not in given and not name.startswith("@"):
+            reading.refuse(mark, _never_given(reading, name, given))
+
+
+def _given_backwards(reading: Reading) -> set[str]:
+    """Points of which a centroid is placed by something else: it then says where they are."""
+    placed = reading.measured | set(reading.on_guides)
+    return {one for name, of in reading.centroids.items() if name in placed for one in of}
+
+
+def _never_given(reading: Reading, name: str, given: set[str]) -> str:
+    if name in COMPASS:
+        meant = f"for a direction write 'angle: {COMPASS[name]}'"
+        return f"a point stands here, and nothing gives a point '{name}'; {meant}"
+    likely = _likely(reading, name, given)
+    said = f"point {name} is named here, but nothing gives it: no coordinates, length, angle or guide{likely}"
+    of = next((point for point, others in reading.centroids.items() if name in others), None)
+    if of is None:
+        return said
+    from icsolve.wording.sentences import listed
+
+    return f"{said}; {of} is the centroid of {listed(reading.centroids[of])}: give {name}, or {of} by lengths"
+
+
+def _likely(reading: Reading, name: str, given: set[str]) -> str:
+    """What a point that nothing gives may be: another one, a link, the middle of two points."""
+    cased = next((point for point in sorted(given) if point.lower() == name.lower()), "")
+    near = f"; did you mean '{cased}'?" if cased else suggestion(name, sorted(given)) if len(name) > 1 else ""
+    if near:
+        return near
+    if reading.links and name in reading.links:
+        return f"; {name} is a link, and a point of it is wanted here"
+    return (
+        f"; the middle of two points is '{name}: {{centroid: [A, B]}}' under 'points'"
+        if name[0] in "MG"
+        else ""
+    )
+
+
+def carried(
+    links: tuple[str, ...],
+    ground: str,
+    joints: tuple[Joint, ...],
+    loads: tuple[Load, ...],
+    further: dict[str, tuple[str, ...]],
+    motion: tuple[Motion, ...],
+) -> dict[str, tuple[str, ...]]:
+    """The points that each link carries, in order of mention: of joints, loads, ``links:``, motion."""
+    found: dict[str, dict[str, None]] = {link: {} for link in links}
+    placed = [pair for joint in joints for pair in _on_joint(joint)]
+    placed += [pair for load in loads for pair in _on_load(load, ground)]
+    placed += [(link, point) for link, points in further.items() for point in points]
+    placed += [(given.link, given.point) for given in motion if given.point]
+    for link, point in placed:
+        found.setdefault(link, {})[point] = None
+    return {link: tuple(points) for link, points in found.items()}
+
+
+def _on_joint(joint: Joint) -> list[tuple[str, str]]:
+    if isinstance(joint, Pin) or (isinstance(joint, Weld) and joint.at):
+        return [(link, joint.at or "") for link in joint.links]
+    if isinstance(joint, Slide | Slot):
+        guide = joint.guide
+        named = [*(guide.ends or ()), *([guide.through] if guide.through else [])]
+        return [(joint.links[0], joint.at), *[(joint.links[1], point) for point in named]]
+    return []
+
+
+def _on_load(load: Load, ground: str) -> list[tuple[str, str]]:
+    if isinstance(load, Torque):
+        return []
+    ends = [(load.link, load.at)]
+    return [*ends, (load.against or ground, load.to)] if isinstance(load, Spring) else ends
+
+
+FRAMES = ("0", "frame", "ground", "base", "fixed", "gnd", "earth")
+"""What books call the frame."""
+_PLACED = Pin | Slide | Slot | Weld | Roll | Contact
+"""Joints whose point is a point of their links; a known centre is none."""
+
+
+class Figure(NamedTuple):
+    """What tells to which link a point belongs."""
+
+    joints: tuple[Joint, ...]
+    lengths: tuple[Length, ...]
+    angles: tuple[Direction | Corner, ...]
+    points: dict[str, Coordinates | Centroid]
+    further: dict[str, tuple[str, ...]]
+    """points of links by `links:` and by profiles"""
+
+
+def check_frame(reading: Reading, given: bool, ground: str, welds: Iterable[tuple[str, str]]) -> None:
+    """Refuse a link that is called as frames are where the case leaves it open which link is the frame."""
+    if given or not reading.links or ground not in reading.links:
+        return
+    still = _welded(ground, welds)
+    for link, mark in reading.links.items():
+        if link.lower() in FRAMES and link not in still:
+            said = f"link {link} has the name of a frame, but without 'ground:' link {ground} is the frame"
+            reading.refuse(mark, f"{said}; write 'ground: {link}', or 'ground: {ground}' if that is meant")
+            return
+
+
+def _welded(link: str, welds: Iterable[tuple[str, str]]) -> set[str]:
+    """The links that move as one with a link."""
+    pairs = list(welds)
+    found = {link}
+    while more := {b for pair in pairs for a, b in (pair, pair[::-1]) if a in found} - found:
+        found |= more
+    return found
+
+
+def check_loads(
+    reading: Reading,
+    root: Mapping,
+    figure: Figure,
+    loads: tuple[Load, ...],
+    motion: tuple[Motion, ...],
+    ground: str,
+) -> tuple[str, ...]:
+    """Refuse loads and motions at a point that is fixed to another link; sentences on what may be meant.
+
+    A joint's point is at one place with the links that it does not join, and a load may act on these there:
+    that is said, not refused. A point that dimensions fix to one link belongs to it and to no other.
+    """
+    owners, said = _Owners(figure, ground), []
+    for what, link, point, key, way in _places(loads, motion, ground):
+        others, fixed = owners.instead(link, point)
+        if not others:
+            continue
+        whose = " and ".join(f"link {other}" for other in others[:2])
+        remedy = " or ".join(f"'{key}: {other}'" for other in others[:2])
+        if fixed:
+            mark = _mark(root, *way)
+            message = f"{what} link {link} at {point}, which is a point of {whose}: write {remedy}"
+            reading.refuse(mark, f"{message}, or 'links: {{{link}: [{point}]}}' if link {link} has it too")
+        else:
+            there = f"{what} link {link} at {point}, a joint of {whose}"
+            said.append(f"{there}; if one of these is meant, write {remedy}.")
+    for load in loads:
+        known = getattr(load, "value", 0) is not None
+        if (
+            load.link == ground
+            and getattr(load, "against", None) is None
+            and known
+            and not isinstance(load, Spring)
+        ):
+            said.append(
+                f"load {load.name} acts on link {ground}, the frame, which never moves: it does no work."
+            )
+    return tuple(said)
+
+
+def _places(
+    loads: tuple[Load, ...], motion: tuple[Motion, ...], ground: str
+) -> Iterator[tuple[str, str, str, str, tuple[str | int, ...]]]:
+    """What is put on which link at which point, the key that says the link, and where that stands."""
+    for load in loads:
+        if isinstance(load, Torque):
+            continue
+        way = ("loads", load.name)
+        yield f"load {load.name} acts on", load.link, load.at, "link", (*way, "link")
+        if isinstance(load, Spring):
+            key = "against" if load.against else "to"
+            what = f"the other end of load {load.name} is fixed to"
+            yield what, load.against or ground, load.to, "against", (*way, key)
+    for index, given in enumerate(motion):
+        if given.point:
+            yield "the motion is given on", given.link, given.point, "link", ("motion", index, "link")
+
+
+def _mark(root: Mapping, *way: str | int) -> Mark:
+    """Where a key's value stands; of what is missing, the nearest that is there."""
+    node: Node = root
+    for step in way:
+        if type(node) is Mapping and step in node.items:
+            node = node.items[str(step)]
+        elif type(node) is Sequence and isinstance(step, int):
+            node = node.items[step]
+    return node.mark
+
+
+class _Owners:
+    """To which links points belong, as joints, `links:` and dimensions tell."""
+
+    def __init__(self, figure: Figure, ground: str) -> None:
+        self.figure, self.ground = figure, ground
+        welds = [joint.links for joint in figure.joints if isinstance(joint, Weld)]
+        self.own: dict[str, set[str]] = {}
+        for link, point in _on_joints(figure.joints):
+            self.own.setdefault(link, set()).add(point)
+        for link, points in figure.further.items():
+            self.own.setdefault(link, set()).update(points)
+        for links in welds:
+            together = _welded(links[0], welds)
+            points_of_all = set().union(*(self.own.get(link, ()) for link in together))
+            self.own.update(dict.fromkeys(together, points_of_all))
+        self.dimensioned = {end for length in figure.lengths for end in (length.a, length.b)}
+        self.centres = {joint.at for joint in figure.joints if isinstance(joint, KnownCentre)}
+        self.fixed: dict[str, set[str]] = {}
+
+    def instead(self, link: str, point: str) -> tuple[list[str], bool]:
+        """The links that have a point, where a link has it not, and whether dimensions say so."""
+        own = self.own.get(link, set())
+        if point in own or point in self.centres or point.startswith("@"):
+            return [], False
+        by_joints = [other for other, points in self.own.items() if point in points]
+        if by_joints or point not in self.dimensioned:
+            return by_joints, False
+        arms = (length for length in self.figure.lengths if {length.a, length.b} - own == {point})
+        if link != self.ground and any(arms):
+            return (
+                [],
+                True,
+            )  # an arm's free end: its length says whose it is, its angle may be to another link
+        return [other for other in self.own if point in self._fixed_to(other)], True
+
+    def _fixed_to(self, link: str) -> set[str]:
+        """The points of a link, and those that two dimensions each fix to these."""
+        if link not in self.fixed:
+            found = set(self.own[link])
+            while more := set(_tied(self.figure, found)) - found:
+                found |= more
+            self.fixed[link] = found
+        return self.fixed[link]
+
+
+def _on_joints(joints: Iterable[Joint]) -> Iterator[tuple[str, str]]:
+    for joint in joints:
+        if not isinstance(joint, _PLACED) or joint.at is None:
+            continue
+        guide = joint.guide if isinstance(joint, Slide | Slot) else None
+        named = [*(guide.ends or ()), guide.through] if guide else []
+        for link in joint.links:
+            yield from ((link, point) for point in (joint.at, *named) if point)
+
+
+def _tied(figure: Figure, known: set[str]) -> Iterator[str]:
+    """Points that two lengths or corners, or the mean of known points, fix to points that are known."""
+    ties: dict[str, int] = {}
+    sets = [{length.a, length.b} for length in figure.lengths]
+    sets += [{angle.a, angle.at, angle.b} for angle in figure.angles if isinstance(angle, Corner)]
+    for points in sets:
+        if len(free := points - known) == 1:
+            (point,) = free
+            ties[point] = ties.get(point, 0) + 1
+    yield from (point for point, count in ties.items() if count > 1)
+    for point, value in figure.points.items():
+        if isinstance(value, Centroid) and {*value.of} <= known:
+            yield point

@@ -1,0 +1,462 @@
+"""The table of keys: what may stand in a case, of what form, and what it means.
+
+The reader asks it what a joint or load takes, in which dimension and within which bound, and words its
+refusals by it; the JSON Schema is written from it, and the paths of ``--set`` follow it. What ties one key to
+another (one direction of several, a helix and its hand) is code beside the reader of that kind.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+
+class Key(NamedTuple):
+    """One key: what it means (the end of "needs 'at': ..."), of which form, and whether it must stand there.
+
+    ``form`` is a name of `icsolve.read.schema.FORMS`; ``dimension`` and ``bound`` are those of its number.
+    """
+
+    says: str
+    form: str = "name"
+    needed: bool = False
+    dimension: str = ""
+    bound: str = ""
+
+
+class Kind(NamedTuple):
+    """One kind of joint, load or profile: its own key, and those that it takes besides."""
+
+    says: str
+    own: Key
+    keys: dict[str, Key]
+    instead: str = ""
+    """of a joint that only the plane has: what stands for it in space"""
+
+
+def _needed(key: Key, says: str = "", form: str = "") -> Key:
+    """The same key where it must stand there."""
+    return key._replace(needed=True, says=says or key.says, form=form or key.form)
+
+
+def _quantity(says: str, dimension: str, bound: str = "") -> Key:
+    return Key(says, "number" if dimension == "number" else "quantity", False, dimension, bound)
+
+
+SECTIONS = {
+    "icsolve": Key("the version of the format, 1", "version", True),
+    "title": Key("what the mechanism is", "text"),
+    "source": Key("where the problem stands: book, chapter, figure", "text"),
+    "reconstructed": Key("what was not given and had to be reconstructed; shown to every reader", "text"),
+    "units": Key("what bare numbers are in, m and N by default, as in {length: in, force: lbf}", "units"),
+    "ground": Key("the link that is the frame, where that is not link 1"),
+    "gravity": Key("9.81 m/s^2 by default, along -y", "gravity", False, "acceleration", "not negative"),
+    "points": Key("coordinates by point, as in {A: [0, 0]}", "points"),
+    "lengths": Key("the distance between two points, as in {AB: 1}", "lengths"),
+    "angles": Key("directions of pairs and angles at the middle of triples, as in {AB: 60}", "angles"),
+    "near": Key("roughly where points lie: picks the way to assemble, as in {C: [3.5, 2.4]}", "near"),
+    "links": Key(
+        "further points that links carry, and masses, as in {3: [G, H]} or {3: {mass: 2 kg, centre: G}}",
+        "links section",
+    ),
+    "joints": Key("what joins the links, a list as in [{pin: [1, 2], at: A}]", "joints", True),
+    "loads": Key("forces and torques, as in {P: {force: 100, link: 4, at: E, angle: 180}}", "loads"),
+    "profile": Key(
+        "shapes of cams and followers, as in {2: {circle: C, radius: 40}, 3: {flat: G, along: 0}}", "profile"
+    ),
+    "motion": Key("a given motion, as in {link: 2, speed: 12 rad/s}, where rates are asked", "motion"),
+    "dynamic": Key("whether the inertia forces of the motion are among the loads: yes or no", "yes or no"),
+    "expect": Key("published values, as in {T12: 29.67 ccw}", "expect"),
+    "tolerance": Key("how far a student's answer may lie: 1%, 3 sf, 0.5 N, {drawing: 0.02 in}", "tolerance"),
+    "variables": Key("numbers that are others for each student", "variables"),
+}
+
+UNITS = {
+    "length": Key("the unit of bare lengths, m by default", "unit"),
+    "force": Key("the unit of bare forces, N by default", "unit"),
+    "torque": Key("the unit of bare torques, force times length by default", "unit"),
+}
+
+# Joints
+_AT = Key("its point", "name", True)
+_MU = _quantity("the coefficient of friction", "number", "not negative")
+_LINKS = Key("the two links that it joins", "two links", True)
+_ALONG = Key("a direction in degrees, or two points of the guide as in [A, G]", "line", True, "angle")
+_THROUGH = Key("a point of the guide line; left out, the line of the two points, or `at` itself")
+_RADII = Key("the two radii, as in [3, 5]", "pair", False, "length")
+_CARRIER = Key("the link to which both are pinned, where several could be", "link")
+_PRESSURE_ANGLE = _quantity("that of the teeth, such as 20", "angle", "positive")
+_PITCH = _quantity("teeth per length of the pitch circle's diameter", "pitch", "positive")
+_MODULE = _quantity("the pitch circle's diameter per tooth", "length", "positive")
+_TEETH = {"pressure angle": _PRESSURE_ANGLE, "diametral pitch": _PITCH, "module": _MODULE}
+_HELIX = {
+    "helix angle": _quantity("the angle of the teeth with the axis, in degrees", "angle", "not negative"),
+    "hand": Key("of the helix of the gear named first, right or left", "hand"),
+    **{
+        f"{section} {key}": form._replace(says=f"{form.says}, {where}")
+        for section, where in (("normal", "square to the teeth"), ("transverse", "in the plane of the wheel"))
+        for key, form in (
+            ("pressure angle", _PRESSURE_ANGLE),
+            ("diametral pitch", _PITCH),
+            ("module", _MODULE),
+        )
+    },
+}
+_TEETH = {"pressure angle": _PRESSURE_ANGLE, "diametral pitch": _PITCH, "module": _MODULE}
+HELICAL = (*_HELIX, "bearing span")
+"""What gears take besides where their teeth are helical."""
+
+JOINTS = {
+    "pin": Kind(
+        "a revolute: its links turn about one point",
+        Key("the links that it joins, two or more", "links", True),
+        {
+            "at": _needed(_AT, "the point about which its links turn"),
+            "mu": _MU,
+            "radius": _quantity("the pin's own radius, for its friction", "length", "positive"),
+        },
+        "a `hinge` with its `axis`",
+    ),
+    "slide": Kind(
+        "a prismatic: the block, named first, on a guide of the second link",
+        _LINKS,
+        {
+            "at": _needed(_AT, "the point of the block"),
+            "along": _ALONG,
+            "through": _THROUGH,
+            "mu": _MU,
+            "length": _quantity("the block's own length: its two ends rub", "length", "positive"),
+        },
+        "bearings with their `axis`",
+    ),
+    "slot": Kind(
+        "a pin of the first link in a slot of the second",
+        _LINKS,
+        {"at": _needed(_AT, "the pin's point"), "along": _ALONG, "through": _THROUGH, "mu": _MU},
+        "an unknown force along the normal",
+    ),
+    "roll": Kind(
+        "rolling without slip; a rack and its pinion",
+        _LINKS,
+        {
+            "at": _needed(_AT, "the point of contact"),
+            "radii": Key(
+                "the radius of each, where it is to move; 0 straight, negative inside",
+                "pair",
+                False,
+                "length",
+            ),
+            "pressure angle": _PRESSURE_ANGLE,
+        },
+        "an unknown force along each direction",
+    ),
+    "gears": Kind(
+        "a mesh; their pivots are the pins of both to one carrier",
+        _LINKS,
+        {
+            "teeth": Key(
+                "the two numbers of teeth, as in [31, 57], or [31, -92] where 92 are internal",
+                "counts",
+                True,
+                "number",
+            ),
+            "carrier": _CARRIER,
+            **_TEETH,
+            **_HELIX,
+            "bearing span": _quantity("the distance of each shaft's bearings", "length", "positive"),
+        },
+    ),
+    "belt": Kind(
+        "a belt or chain over two pulleys that are pinned to one carrier",
+        _LINKS,
+        {
+            "radii": _needed(_RADII),
+            "carrier": _CARRIER,
+            "crossed": Key("whether the belt is crossed: true or false", "truth"),
+        },
+        "a load for the pull of each strand",
+    ),
+    "contact": Kind(
+        "a contact that rolls and slips, as of a cam; without `at` and `normal` by the links' profiles",
+        _LINKS,
+        {
+            "at": Key("the point of contact"),
+            "normal": _quantity("the direction of the common normal in degrees", "angle"),
+            "mu": _MU,
+        },
+        "an unknown force along the normal",
+    ),
+    "centre": Kind(
+        "a relative centre that is known, without the joints between",
+        _LINKS,
+        {
+            "at": Key("its place, or 'toward', its direction where it is at infinity", "place"),
+            "toward": _quantity("its direction in degrees, where it is at infinity", "angle"),
+        },
+        "the joints themselves",
+    ),
+    "weld": Kind(
+        "two links that move as one", _LINKS, {"at": Key("the point that its reaction is given for")}
+    ),
+}
+"""Joints of the plane."""
+
+_AXIS = "x, y, z, -z, components such as [0, 3, 4], or two points [A, B]"
+
+
+def _axis(says: str) -> Key:
+    """A direction in space, which must stand there."""
+    return Key(f"{says}: {_AXIS}", "axis", True)
+
+
+_CENTRE = Key("the point through which its force acts", "name", True)
+
+
+def _bearing(says: str, axis: str) -> Kind:
+    return Kind(says, _LINKS, {"at": _CENTRE, "axis": _axis(axis)})
+
+
+SPACE_JOINTS = {
+    "ball": Kind("a spherical joint: it carries a force and no couple", _LINKS, {"at": _CENTRE}),
+    "radial": _bearing("a bearing that carries force square to its axis only", "the direction of the shaft"),
+    "thrust": _bearing("a bearing that carries force along its axis too", "the direction of the shaft"),
+    "hinge": _bearing(
+        "a hinge: it carries a force, and couples square to its axis",
+        "the direction about which its links turn",
+    ),
+    "weld": Kind("a rigid joint: it carries a force and a couple", _LINKS, {"at": _CENTRE}),
+    "gears": Kind(
+        "a mesh of gears with parallel axes",
+        _LINKS,
+        {
+            "teeth": Key(
+                "the number of teeth of each gear, as in [31, 57]; one number where the mate is not shown",
+                "count or counts",
+                True,
+                "number",
+            ),
+            "at": Key(
+                "the centre of each wheel, as in [G, H]; one point where the mate is not shown",
+                "centres",
+                True,
+            ),
+            "axis": _axis("the direction of the shafts"),
+            "toward": Key("where the mate lies, seen from the centre of the gear", "axis or point"),
+            **_TEETH,
+            **_HELIX,
+        },
+    ),
+}
+"""Joints in space."""
+
+# Loads
+_LINK = Key("the link that it acts on", "link", True)
+_PLACE = Key("its point, or [x, y]", "place", True)
+_AGAINST = Key("the link that takes the opposite, in place of the frame", "link")
+_SENSE = Key("the sense in which it is positive, ccw or cw", "sense")
+_FREE = Key("its length without load", "quantity", True, "length", "not negative")
+_SPEED = Key(
+    "the angular speed at which the power is transmitted, such as 1500 rpm", "quantity", True, "angular speed"
+)
+DIRECTION = {
+    "angle": _quantity("its direction in degrees, counterclockwise from +x", "angle"),
+    "toward": Key("a point toward which it acts"),
+    "away": Key("a point away from which it acts"),
+    "slope": Key("its direction by run and rise, as in [-3, 4]", "slope", False, "number"),
+}
+"""One of these gives a force of the plane its direction."""
+_TURNS_WITH = Key("the link with which its direction turns in a sweep; else it stays", "link")
+
+
+def _size(what: str, dimension: str, form: str = "load", bound: str = "") -> Key:
+    return Key(what, form, True, dimension, bound)
+
+
+_TORQUE = "its number, 'unknown', or {like: M2}"
+_STIFFNESS = "its force per length, a number, 'unknown' or {like: S}"
+LOADS = {
+    "force": Kind(
+        "a force",
+        _size("a number, 'unknown', or two components [Fx, Fy]", "force", "load or pair"),
+        {"link": _LINK, "at": _PLACE, **DIRECTION, "against": _AGAINST, "turns_with": _TURNS_WITH},
+    ),
+    "torque": Kind(
+        "a torque, positive counterclockwise or as it `turns`",
+        _size(_TORQUE, "torque"),
+        {"link": _LINK, "turns": _SENSE, "against": _AGAINST},
+    ),
+    "weight": Kind("a weight, along -y", _size(_TORQUE, "force"), {"link": _LINK, "at": _PLACE}),
+    "mass": Kind(
+        "a weight by its mass, with its unit",
+        _size(_TORQUE, "mass", "load with unit", "not negative"),
+        {"link": _LINK, "at": _PLACE},
+    ),
+    "spring": Kind(
+        "a spring: it pulls when longer than `free`",
+        _size(_STIFFNESS, "stiffness", "load", "not negative"),
+        {
+            "free": _FREE,
+            "link": _LINK,
+            "at": _needed(_PLACE, "the point of its link that it is fixed to, or [x, y]"),
+            "against": _AGAINST,
+            "to": _needed(_PLACE, "the point of its other end, or [x, y]"),
+        },
+    ),
+    "power": Kind(
+        "the torque that transmits a power at a speed",
+        _size("the power, with its unit", "torque", "with unit"),
+        {"speed": _SPEED, "link": _LINK, "turns": _SENSE, "against": _AGAINST},
+    ),
+}
+"""Loads of the plane; the dimension of each is that of its number (of a power the torque that it makes)."""
+
+_SPOT = Key("its point, or [x, y, z]", "spot", True)
+SPACE_DIRECTION = {
+    "along": Key(f"its direction: {_AXIS}", "axis"),
+    "toward": Key("a point toward which it acts"),
+    "away": Key("a point away from which it acts"),
+}
+"""One of these gives a force in space its direction."""
+SPACE_LOADS = {
+    "force": Kind(
+        "a force",
+        _size("a number, 'unknown', or three components [x, y, z]", "force", "load or triple"),
+        {"link": _LINK, "at": _SPOT, **SPACE_DIRECTION, "against": _AGAINST},
+    ),
+    "torque": Kind(
+        "a torque about an axis",
+        _size("a number, 'unknown', or three components [x, y, z]", "torque", "load or triple"),
+        {
+            "link": _LINK,
+            "along": _axis("the axis of the torque, positive by the right-hand rule")._replace(needed=False),
+            "against": _AGAINST,
+        },
+    ),
+    "weight": Kind("a weight, along -z", _size(_TORQUE, "force"), {"link": _LINK, "at": _SPOT}),
+    "mass": Kind(
+        "a weight by its mass, with its unit",
+        _size(_TORQUE, "mass", "load with unit", "not negative"),
+        {"link": _LINK, "at": _SPOT},
+    ),
+    "spring": Kind(
+        "a spring: it pulls when longer than `free`",
+        _size(_STIFFNESS, "stiffness", "load", "not negative"),
+        {
+            "free": _FREE,
+            "link": _LINK,
+            "at": _needed(_SPOT, "the point of its link that it is fixed to, or [x, y, z]"),
+            "against": _AGAINST,
+            "to": _needed(_SPOT, "the point of its other end, or [x, y, z]"),
+        },
+    ),
+    "power": Kind(
+        "the torque that transmits a power at a speed",
+        _size("the power, with its unit", "torque", "with unit"),
+        {
+            "speed": _SPEED,
+            "link": _LINK,
+            "along": _axis("the axis of the rotation, positive by the right-hand rule"),
+            "against": _AGAINST,
+        },
+    ),
+}
+"""Loads in space."""
+
+# Profiles
+_RADIUS = Key("its radius", "quantity", True, "length", "positive")
+_OWN = Key("a point, or [x, y] in this position", "place", True)
+_CENTRE_OF = _OWN._replace(says="its centre, a point or [x, y]")
+_FACE = Key("the direction of the face in degrees, or two of its points as in [D, E]", "line", True, "angle")
+PROFILES = {
+    "polygon": Kind(
+        "corners joined by straight edges, back to the first",
+        Key("three or more corners, as in [A, B, C]", "corners", True),
+        {},
+    ),
+    "arcs": Kind(
+        "arcs one after the other, joined by straight lines where their ends are apart",
+        Key("a list of arcs, as in [{centre: C, from: P, to: Q}]", "arcs", True),
+        {},
+    ),
+    "circle": Kind(
+        "a circle", _OWN._replace(says="its centre"), {"radius": _needed(_RADIUS, "that of the circle")}
+    ),
+    "radii": Kind(
+        "radius against angle: a periodic cubic spline",
+        Key("radii by angle, as in {0: 20, 30: 21.5}; four or more", "table", True, "length", "positive"),
+        {
+            "about": Key("the point of the cam from which the radii are measured", "place", True),
+            "zero": Key(
+                "the direction of the angle 0 in degrees, or two points of the cam as in [A, B]",
+                "line",
+                True,
+                "angle",
+            ),
+            "turns": Key("the sense in which the angles run, ccw or cw", "sense"),
+        },
+    ),
+    "flat": Kind("a flat face", _OWN._replace(says="a point of the face"), {"along": _FACE}),
+    "roller": Kind(
+        "a roller", _OWN._replace(says="its centre"), {"radius": _needed(_RADIUS, "that of the roller")}
+    ),
+    "knife": Kind("a knife edge", _OWN._replace(says="where the edge is"), {}),
+}
+"""Profiles of cams, and of their followers."""
+_END = Key("where it ends: a point, or a direction from its centre in degrees", "end", True, "angle")
+ARC = {
+    "centre": Key("its centre, a point or [x, y]", "place", True),
+    "radius": _quantity("or 'from' as a point of the arc", "length", "positive"),
+    "from": _needed(_END, "where it begins: a point, or a direction from its centre in degrees"),
+    "to": _END,
+    "turns": Key("the sense from its beginning to its end, ccw or cw", "sense"),
+}
+
+# The rest
+MOTION = {
+    "link": Key("the link that moves", "link", True),
+    "speed": _quantity("its angular speed, or the point's speed", "angular speed"),
+    "turns": Key("the sense in which the link turns, ccw or cw", "sense"),
+    "point": Key("the point of the link whose speed is given"),
+    "angle": _quantity("the direction of the point's velocity in degrees", "angle"),
+    "acceleration": _quantity(
+        "how fast the speed grows, positive in its own sense; 0 by default", "angular acceleration"
+    ),
+}
+MASSES = {
+    "points": Key("further points that it carries, as in [G, H]", "points of a link"),
+    "mass": Key("its mass, with the unit", "with unit", False, "mass", "not negative"),
+    "centre": Key("its centre of mass, a point of the link, as in {mass: 2 kg, centre: G}"),
+    "inertia": Key(
+        "its moment of inertia about the centre of mass, with the unit",
+        "with unit",
+        False,
+        "moment of inertia",
+        "not negative",
+    ),
+}
+"""What `links:` can say of a link besides a list of points."""
+EXPECTED = {
+    "value": Key("the published one", "published"),
+    "toward": _quantity("the direction in which a centre at infinity lies", "angle"),
+    "within": Key("how near is near enough, as in 1% or 0.02", "width"),
+    "erratum": Key("what is wrong with the published value: it is then expected not to agree", "text"),
+}
+TOLERANCE = {
+    "relative": Key("a share of the value, as in 1%", "percent"),
+    "absolute": Key("a width, as in 0.5 N", "quantity"),
+    "figures": Key("significant figures", "number"),
+    "drawing": Key("the accuracy of a drawing, a length", "quantity"),
+}
+VARIABLE = {
+    "choices": Key("the values of which each student gets one", "choices"),
+    "range": Key("the lowest and the highest value, as in [100, 500]", "range"),
+    "step": Key("the step from one value to the next", "number"),
+}
+LIKE = {
+    "like": Key("the name of another load, as in {like: M2, times: -1}", "name", True),
+    "times": _quantity("how many times as large as the other load", "number"),
+}
+CENTROID = {"centroid": Key("the points of which it is the mean; of two, the middle", "several", True)}
+GRAVITY = {
+    "size": _quantity("its size, 9.81 m/s^2 by default", "acceleration", "not negative"),
+    "along": _axis("where weights pull to"),
+}
