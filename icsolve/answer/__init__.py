@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from icsolve.answer.bodies import Friction, Reactions, Witness
     from icsolve.answer.contacts import Touching
     from icsolve.answer.space import Spatial
+    from icsolve.solve.parts import Parts
 
 
 class Found(NamedTuple):
@@ -185,11 +186,17 @@ class Answer:
     """the contacts that profiles gave"""
     spatial: Spatial | None = None
     """reactions and points of a case in space, which has no others"""
+    scene: Parts | None = None
+    """the solved scene, from which pictures and explanations are laid out; it stays in its own process"""
 
     def __repr__(self) -> str:
         """The unknown loads; the fields of a whole answer would fill a page."""
         found = [f"{name} = {one.holds or one.value} {one.unit}" for name, one in self.answers.items()]
         return f"<Answer {self.case.name}: {', '.join(found) or self.status}>"
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What is sent to another process."""
+        return {**self.__dict__, "scene": None}
 
     def to_dict(self) -> dict[str, Any]:
         """The JSON object of the format (``icsolve/solve/1``)."""

@@ -29,6 +29,11 @@ class Frame(NamedTuple):
     oy: float
     scale: float
 
+    def twist_shown(self, t: tuple[float, float, float], divisor: float = 1.0) -> tuple[float, float, float]:
+        """A twist about the case's origin in case units, divided; a zero is positive."""
+        x, y, w = (value / divisor + 0.0 for value in t)
+        return (x / self.scale + w * self.ox, y / self.scale + w * self.oy, w)
+
 
 def case_point(frame: Frame, xy: tuple[float, float]) -> tuple[float, float]:
     """A normalised point in case units; a zero is positive."""

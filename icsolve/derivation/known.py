@@ -11,12 +11,11 @@ from icsolve.answer import Answer, Centre
 from icsolve.assembly import Frame, case_point, solve_figure
 from icsolve.case import Case, Coordinates, ForceVector, Like, Load, Pair, Torque
 from icsolve.case.names import ordered_pair
-from icsolve.errors import SceneError, Status
-from icsolve.kinematics import speeds
+from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.plane import Point, Triple
-from icsolve.solve import solve
-from icsolve.solve.program import Want, evaluate, prepare
+from icsolve.solve import attempt
+from icsolve.solve.parts import Parts
 from icsolve.statics.power import Wrench, known_value, points_of, wrenches
 from icsolve.wording.senses import unit_of
 
@@ -37,6 +36,11 @@ class Known(NamedTuple):
     points: Mapping[str, Point]
     twists: Mapping[str, Triple]
     size: float
+
+    @property
+    def scene(self) -> Parts | None:
+        """The solved scene; None where nothing is known to move."""
+        return None if self.whole is None else self.whole.scene
 
     @property
     def title(self) -> str:
@@ -62,46 +66,25 @@ class Known(NamedTuple):
         return link in self.twists and self.twists[link][2] != 0.0
 
 
-STILL = 1e-12
-"""A velocity below this fraction of the fastest is none (rounding)."""
-
-
 def known_of(case: Case, *, reactions: bool = False) -> Known:
     """Solve a case as far as it goes; never raises `SceneError`."""
-    answer, refusal = _solved(case, reactions)
+    found = attempt(case, reactions=reactions)
     if case.space is not None:
-        return Known(case, answer, refusal, None, {}, {}, 0.0)
-    if case.profiles is not None:
-        from icsolve.cams.solving import placed
-
-        case = placed(case)
-    whole = _whole(case) or _whole(replace(case, loads=(), expect=(), motion=())) or answer
-    points = _points(case, whole)
-    twists = _twists(whole.case) if whole is not None else {}
-    return Known(case, answer, refusal, whole, points, twists, _size(points))
+        return Known(case, found.answer, found.refusal, None, {}, {}, 0.0)
+    scene = found.scene
+    own = case if scene is None else scene.case  # with the contacts where profiles put them
+    whole = found.answer if scene is None else scene.moving()
+    points = _points(own, found.answer, scene)
+    twists = {} if whole is None or whole.scene is None else whole.scene.twists
+    return Known(own, found.answer, found.refusal, whole, points, twists, _size(points))
 
 
-def _solved(case: Case, reactions: bool) -> tuple[Answer | None, SceneError | None]:
-    try:
-        return solve(case, reactions=reactions), None
-    except SceneError as error:
-        if reactions and error.status == Status.UNBALANCED:  # its centres and speeds can still be told
-            answer, _ = _solved(case, False)
-            return answer, None if answer else error
-        return None, error
-
-
-def _whole(case: Case) -> Answer | None:
-    try:
-        return solve(case, all_centres=True, rates=True, bound=False)
-    except SceneError:
-        return None
-
-
-def _points(case: Case, whole: Answer | None) -> dict[str, Point]:
+def _points(case: Case, answer: Answer | None, scene: Parts | None) -> dict[str, Point]:
     """Every point that can be placed, in case units: those of the answer, and what the figure has beside."""
     names = list(dict.fromkeys((*case.points, *(p for ps in case.carries.values() for p in ps))))
-    found = {} if whole is None else dict(whole.points)
+    found = {} if answer is None else dict(answer.points)
+    if scene is not None:
+        found = {p: case_point(scene.figure.frame, at) for p, at in scene.figure.points.items()}
     for name in names:
         place = case.points.get(name)
         if isinstance(place, Coordinates) and place.x is not None and place.y is not None:
@@ -129,41 +112,6 @@ def _alone(case: Case, name: str) -> Point | None:
 def _size(points: Mapping[str, Point]) -> float:
     xs, ys = [x for x, _ in points.values()], [y for _, y in points.values()]
     return max(max(xs) - min(xs), max(ys) - min(ys), 0.0) if points else 0.0
-
-
-def _twists(case: Case) -> dict[str, Triple]:
-    """Twists of the links in the motion that is meant, in case units."""
-    try:
-        program = prepare(case, Want(True, True))
-        outcome = evaluate(program)[1]
-        motions, frame = outcome.motions.twists, program.figure.frame
-        speed = speeds.speed_of(case, motions, frame, outcome.points)
-    except SceneError:
-        return {}
-    meant = {link: speeds.meant(motions, speed, link) for link in motions}
-    found = {
-        link: first
-        for link, (first, *rest) in meant.items()
-        if all(_extent(t) <= STILL * _extent(first) for t in rest)
-    }
-    least = STILL * max(map(_extent, found.values()), default=0.0)
-    return {link: _in_case_units(_cleaned(t, least), frame, speed.divisor) for link, t in found.items()}
-
-
-def _extent(t: Triple) -> float:
-    return float(max(map(abs, t)))
-
-
-def _cleaned(t: Triple, least: float) -> Triple:
-    """A twist without what rounding left of a rest or of a turning."""
-    if _extent(t) <= least:
-        return (0.0, 0.0, 0.0)
-    return (t[0], t[1], 0.0 if abs(t[2]) <= least else t[2])
-
-
-def _in_case_units(t: Triple, frame: Frame, divisor: float) -> Triple:
-    x, y, w = (value / divisor + 0.0 for value in t)
-    return (x / frame.scale + w * frame.ox, y / frame.scale + w * frame.oy, w)
 
 
 # --- what every load exerts ------------------------------------------------------------------------------

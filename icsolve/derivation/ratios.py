@@ -15,13 +15,12 @@ from itertools import combinations
 from typing import NamedTuple
 
 from icsolve.answer import Centre
-from icsolve.assembly import Frame
 from icsolve.case import Case, Pair
 from icsolve.case.names import link_order
 from icsolve.derivation.known import Known
-from icsolve.errors import SceneError
 from icsolve.screws.plane import Triple
-from icsolve.solve.program import Want, evaluate, prepare
+from icsolve.solve.parts import wanted_pairs
+from icsolve.solve.program import Want
 from icsolve.statics.power import is_unknown, reacting
 
 
@@ -267,8 +266,9 @@ def needed_pairs(known: Known) -> list[Pair]:
     case = known.case
     ratios = answer_ratios(known)
     if ratios is None:
-        shown = known.answer or known.whole
-        return [] if shown is None else list(shown.centres)
+        return (
+            [] if known.whole is None else [p for p in wanted_pairs(case, Want()) if p in known.whole.centres]
+        )
     own = [known.pair(link, case.ground) for link in loaded_links(case) if not known.rests(link)]
     return list(dict.fromkeys((*own, *ratios.pairs)))
 
@@ -305,11 +305,10 @@ class OneMotion(NamedTuple):
 
 def independent_motions(known: Known) -> tuple[OneMotion, ...]:
     """As many motions as there are freedoms; each is told by a link that none of the others moves."""
-    try:
-        program = prepare(known.case, Want(True, True))
-        motions = evaluate(program)[1].motions.twists
-    except SceneError:
+    scene = known.scene
+    if scene is None:
         return ()
+    motions = scene.outcome.motions.twists
     links = list(dict.fromkeys((*loaded_links(known.case), *known.case.links)))
     count = len(next(iter(motions.values()), ()))
     rows = [{link: motions[link][m] for link in links} for m in range(count)]
@@ -320,9 +319,13 @@ def independent_motions(known: Known) -> tuple[OneMotion, ...]:
             return ()
         drivers.append(driver)
         rows = _cleared(rows, n, driver)
-    frame = program.figure.frame
+    frame = scene.figure.frame
     return tuple(
-        OneMotion(link, place == 2, {name: _in_case_units(t, frame, place) for name, t in row.items()})
+        OneMotion(
+            link,
+            place == 2,
+            {name: frame.twist_shown(t, 1.0 if place == 2 else 1.0 / frame.scale) for name, t in row.items()},
+        )
         for (link, place), row in zip(drivers, rows, strict=True)
     )
 
@@ -364,13 +367,6 @@ def _less(t: Triple, other: Triple, s: float) -> Triple:
         value = a - s * b
         values.append(0.0 if abs(value) <= 1e-13 * (abs(a) + abs(s * b)) else value)
     return (values[0], values[1], values[2])
-
-
-def _in_case_units(t: Triple, frame: Frame, place: int) -> Triple:
-    """From the normalised frame; a motion told by a speed has it at 1 case length a second."""
-    s = 1.0 if place == 2 else frame.scale
-    x, y, w = (float(value) * s + 0.0 for value in t)
-    return (x / frame.scale + w * frame.ox, y / frame.scale + w * frame.oy, w)
 
 
 def speed_words(motion: OneMotion) -> str:

@@ -102,6 +102,8 @@ def _once(wheels: Iterable[Wheel]) -> Iterable[Wheel]:
 
 
 def _meshes(case: Case) -> Iterable[Bond]:
+    if not any(isinstance(joint, Gears | Belt) for joint in case.joints):
+        return ()
     try:
         bonds = topology(case).bonds
     except SceneError:

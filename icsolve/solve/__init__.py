@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from icsolve.answer import Answer
 from icsolve.case import Case
@@ -90,6 +90,58 @@ def _asks(case: Case) -> bool:
     return any(power.is_unknown(load) for load in case.loads)
 
 
+class Attempt(NamedTuple):
+    """A case as far as it goes: its answer, or why it has none; and the motion of its links, where that is
+    known (which a case has, too, that its loads leave without an answer)."""
+
+    answer: Answer | None
+    refusal: SceneError | None
+    scene: Parts | None
+
+
+def attempt(case: Case, *, reactions: bool = False) -> Attempt:
+    """Solve all of a case once, and keep what was found: never raises `SceneError`."""
+    if case.space is not None:
+        return _tried(case, reactions)
+    if case.profiles is not None and case.profiles.touches:
+        return _touching(case, reactions)
+    want = _wanted(case, Want(True, True, False, reactions))
+    try:
+        parts = _evaluated(prepare(case, want), True)
+    except SceneError:  # of a link or point that the answer does not need, it may be
+        return _tried(case, reactions)
+    try:
+        return Attempt(_judged(parts, reactions), None, parts)
+    except SceneError as refusal:
+        if not (reactions and refusal.status == Status.UNBALANCED):
+            return Attempt(None, refusal, parts)
+    try:  # its centres and speeds can still be told
+        return Attempt(_judged(parts, False), None, parts)
+    except SceneError as refusal:
+        return Attempt(None, refusal, parts)
+
+
+def _tried(case: Case, reactions: bool) -> Attempt:
+    """What the answer needs, and no more."""
+    try:
+        answer = solve(case, reactions=reactions)
+    except SceneError as refusal:
+        return Attempt(None, refusal, None)
+    return Attempt(answer, None, answer.scene)
+
+
+def _touching(case: Case, reactions: bool) -> Attempt:
+    """A case with profiles: its contacts are found, and then it is one like any other."""
+    from icsolve.cams.solving import placed
+
+    try:
+        answer = solve(case, all_centres=True, rates=True, reactions=reactions)
+    except SceneError as refusal:
+        own = placed(case)
+        return Attempt(None, refusal, None if own is case else attempt(own).scene)
+    return Attempt(answer, None, answer.scene)
+
+
 def _solved(case: Case, want: Want, bound: bool, reactions: bool) -> Answer:
     """Position, centres, power: the answer of a planar case whose contacts are given."""
     program = prepare(case, want)  # the steps that are needed, and the figure in its position
@@ -99,7 +151,12 @@ def _solved(case: Case, want: Want, bound: bool, reactions: bool) -> Answer:
         if refusal.status == Status.STRUCTURE and (reactions or not _asks(case)):
             return _structure(prepare(case, want._replace(bodies=True)), refusal)
         raise
-    if want.bodies and refusals.rubs(case):
+    return _judged(parts, reactions)
+
+
+def _judged(parts: Parts, reactions: bool) -> Answer:
+    """The answer of an evaluated scene; refused where power does not determine it."""
+    if parts.program.want.bodies and refusals.rubs(parts.case):
         return _with_friction(parts, reactions)
     _refuse_unbalanced(parts)
     parts.unknowns = bounded_values(parts.scene) if parts.scene else unbounded_values(parts.traced)

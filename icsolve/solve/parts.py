@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cached_property
 
 from icsolve.answer import Answer, Centre, Deferred, Found, Later, Term
 from icsolve.assembly import Figure, case_point
 from icsolve.case import Case, Pair
 from icsolve.case.names import link_order
+from icsolve.errors import SceneError
 from icsolve.kinematics import speeds
 from icsolve.kinematics.centres import CentreFinder
 from icsolve.kinematics.motion import Motions
 from icsolve.numbers.arithmetic import FLOATS
+from icsolve.screws.plane import Triple
 from icsolve.solve.bounds import (
     Bounded,
     Value,
@@ -69,7 +72,44 @@ class Parts:
             steps=Later(lambda: _steps(self.program)),
             sensitivities=Deferred(lambda: slopes(self.scene) if self.scene else {}),
             errors=Deferred(self._errors),
+            scene=self,
         )
+
+    def moving(self) -> Answer:
+        """The motion alone, without bounds: all centres, rates, velocities and points.
+
+        Where the given motion can't be, those of the motion that a case without one has.
+        """
+        try:
+            rates, velocities = self._moving()
+        except SceneError:
+            if not self.case.motion:
+                raise
+            bare = replace(self.case, motion=())
+            return Parts(self.program._replace(case=bare), self.traced, self.scene).moving()
+        return Answer(
+            case=self.case,
+            centres=Deferred(self.plain_centres),
+            rates=rates,
+            velocities=velocities,
+            points=Deferred(lambda: _shown(self.figure)),
+            mobility=self.traced.motions.mobility,
+            scene=self,
+        )
+
+    @cached_property
+    def twists(self) -> dict[str, Triple]:
+        """The motion of every link as ``omega * (x, y, 1)`` in case units, where it is determined."""
+        motions, frame, speed = self.outcome.motions.twists, self.figure.frame, self.speed
+        meant = {link: speeds.meant(motions, speed, link) for link in motions}
+        known = {
+            link: first
+            for link, (first, *rest) in meant.items()
+            if all(_extent(t) <= STILL * _extent(first) for t in rest)
+        }
+        least = STILL * max(map(_extent, known.values()), default=0.0)
+        cleaned = {link: _without_rounding(t, least) for link, t in known.items()}
+        return {link: frame.twist_shown(t, speed.divisor) for link, t in cleaned.items()}
 
     def _moving(self) -> tuple[dict[str, float | str], dict[tuple[str, str], tuple[float, float] | str]]:
         """Link rates and point velocities."""
@@ -86,7 +126,7 @@ class Parts:
             return {}
         return {"rates": rate_errors(self.scene, self.speed)}
 
-    def _centres(self) -> dict[Pair, Centre]:
+    def plain_centres(self) -> dict[Pair, Centre]:
         """The centres that are asked for: all, or those of the loaded links. With one freedom they are the
         same at every speed, 0 among them."""
         case, figure, twists = self.case, self.figure, self.outcome.motions.twists
@@ -94,12 +134,31 @@ class Parts:
             twists = {link: speeds.meant(twists, self.speed, link) for link in twists}
         finder = CentreFinder(case, self.program.top, twists, figure.frame, figure.points, FLOATS)
         pairs = [pair for pair in wanted_pairs(case, self.program.want) if {*pair} <= twists.keys()]
-        found = finder.find(pairs, self.outcome.motions.slack)
+        return finder.find(pairs, self.outcome.motions.slack)
+
+    def _centres(self) -> dict[Pair, Centre]:
+        """The centres with the bounds of their errors."""
+        case, found = self.case, self.plain_centres()
         if self.scene is None:
             return found
         several = case.motion and self.outcome.motions.mobility == 2
         weights = coefficients(self.scene, self.speed) if several else None
         return {pair: bounded_centre(self.scene, centre, weights) for pair, centre in found.items()}
+
+
+STILL = 1e-12
+"""A velocity below this fraction of the fastest is shown as none (rounding)."""
+
+
+def _extent(t: Triple) -> float:
+    return float(max(map(abs, t)))
+
+
+def _without_rounding(t: Triple, least: float) -> Triple:
+    """A twist without what rounding left of a rest or of a turning."""
+    if _extent(t) <= least:
+        return (0.0, 0.0, 0.0)
+    return (t[0], t[1], 0.0 if abs(t[2]) <= least else t[2])
 
 
 def _shown(figure: Figure) -> dict[str, tuple[float, float]]:

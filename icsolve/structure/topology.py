@@ -4,6 +4,7 @@ A bond is one joint between two bodies, with the relative freedoms (1 or 2) that
 """
 
 from collections.abc import Iterable
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 from icsolve.case import Belt, Case, Contact, Gears, Joint, KnownCentre, Pin, Roll, Slide, Slot, Weld
@@ -53,6 +54,7 @@ class Topology(NamedTuple):
         return 3 * (len(self.members) - 1) - sum(bond.constraints for bond in self.bonds)
 
 
+@lru_cache(maxsize=32)
 def topology(case: Case) -> Topology:
     """Bodies and bonds of a case.
 

@@ -1,0 +1,78 @@
+"""An answer keeps its solution: what explains, draws or moves a case lays out what is there.
+
+Calls are counted as they happen, whatever they are called through.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections import Counter
+from collections.abc import Callable
+from pathlib import Path
+from types import CodeType, FrameType
+from typing import Any
+
+import pytest
+
+import icsolve
+from icsolve.assembly.solution import solve_figure
+from icsolve.draw import Drawing, draw
+from icsolve.explain import explain
+from icsolve.page import page_html
+from icsolve.solve.program import evaluate
+from icsolve.structure.topology import topology
+
+CASES = Path(__file__).parent.parent / "cases"
+SHOWN = {
+    "text": lambda case: explain(case, "text"),
+    "html": lambda case: explain(case, "html", bodies=True),
+    "figure": draw,
+    "panels": lambda case: draw(case, Drawing("all", circle=True, velocities=True, bodies=True)),
+}
+MECHANISMS = (
+    "ch13/13_01_drag_link.yaml",
+    "ch13/13_06_six_bar_slider.yaml",
+    "ch13/13_16_slider_crank_with_friction.yaml",
+    "ch13/13_23_spur_gears.yaml",
+    "springs/knee_with_spring.yaml",
+)
+
+
+def code_of(function: Any) -> CodeType:
+    """The code that runs when a function is not answered from a memory of earlier calls."""
+    code: CodeType = getattr(function, "__wrapped__", function).__code__
+    return code
+
+
+WORK = {code_of(f): f.__name__ for f in (topology, solve_figure, evaluate)}
+
+
+def counted(work: Callable[[], object]) -> Counter[str]:
+    """How often topology, figure and motions are worked out."""
+    found: Counter[str] = Counter()
+
+    def watch(frame: FrameType, event: str, _: object) -> None:
+        if event == "call" and frame.f_code in WORK:
+            found[WORK[frame.f_code]] += 1
+
+    sys.setprofile(watch)
+    try:
+        work()
+    finally:
+        sys.setprofile(None)
+    return found
+
+
+@pytest.mark.parametrize("shown", SHOWN)
+@pytest.mark.parametrize("name", MECHANISMS)
+def test_one_topology_one_figure_one_solve(name: str, shown: str) -> None:
+    case = icsolve.load(CASES / name)
+    assert counted(lambda: SHOWN[shown](case)) == {"topology": 1, "solve_figure": 1, "evaluate": 1}
+
+
+@pytest.mark.parametrize("name", MECHANISMS[:2])
+def test_a_page_adds_the_setting_of_its_sweep(name: str) -> None:
+    """The sweep writes a record of the mechanism in a general position: one topology and one figure more."""
+    case = icsolve.load(CASES / name)
+    found = counted(lambda: page_html(case))
+    assert found == {"topology": 2, "solve_figure": 2, "evaluate": 1}
