@@ -216,7 +216,7 @@ class Placer:
         ours, theirs = self.tree.query(shapely.box(*boxes.T))
         for n in dict.fromkeys(ours.tolist()):
             under = theirs[ours == n]
-            cuts = shapely.clip_by_rect(self.geometries[under], *boxes[n])
+            cuts = _cut(self.geometries[under], boxes[n])
             areas, lengths = shapely.area(cuts), shapely.length(cuts)
             costs[n] = np.sum(self.weights[under] * np.where(areas > 0.0, areas / 8.0, lengths))
         return costs
@@ -226,6 +226,14 @@ class Placer:
         left, top, right, bottom = self.window
         over = np.maximum(0.0, left - boxes[:, 0]) + np.maximum(0.0, boxes[:, 2] - right)
         return 0.12 * (over + np.maximum(0.0, top - boxes[:, 1]) + np.maximum(0.0, boxes[:, 3] - bottom))
+
+
+def _cut(geometries: np.ndarray, box: np.ndarray) -> np.ndarray:
+    """What of geometries lies in a rectangle."""
+    try:
+        return np.asarray(shapely.clip_by_rect(geometries, *box))
+    except shapely.errors.GEOSException:  # it makes rings of three points where a box cuts off a corner's tip
+        return np.asarray(shapely.intersection(geometries, shapely.box(*box)))
 
 
 def _rings() -> list[tuple[float, ...]]:
