@@ -171,7 +171,7 @@ def test_the_teachers_own_canvas_export_is_filled(a_class: Class) -> None:
     )
     rows = table(written(a_class, "canvas", "canvas.csv", "--template", template))
     assert rows[0] == ["Student", "ID", "SIS User ID", "SIS Login ID", "Section", "lever (991)", "pusher"]
-    assert [row[5:] for row in rows[1:]] == [["1.0", "1"], ["1", "0"], ["0", "0"], ["0.25", ""]]
+    assert [row[5:] for row in rows[1:]] == [["1.0", "1"], ["1", "0"], ["", ""], ["0.25", ""]]
 
 
 def test_moodles_worksheet_has_grade_and_comment_always(a_class: Class) -> None:
@@ -183,10 +183,10 @@ def test_moodles_worksheet_has_grade_and_comment_always(a_class: Class) -> None:
     ).split(",")
     assert [row[:2] + row[4:6] for row in rows] == [
         ["007", "Ann Bee", "1", "2"],
-        ["008", "Bob Cee", "0", "2"],
+        ["008", "Bob Cee", "", "2"],
         ["009", "'=Cy Dee", "0", "2"],
     ]
-    assert all(row[4] and row[-1] for row in rows)
+    assert all(bool(row[4]) == bool(row[-1]) for row in rows)
 
 
 def test_the_teachers_own_worksheet_in_german_is_filled(a_class: Class) -> None:
@@ -212,7 +212,7 @@ def test_prairielearn_results_and_scores(a_class: Class) -> None:
             assert set(test) == {"name", "description", "points", "max_points", "message", "output"}
     assert (ann["gradable"], ann["score"]) == (True, 0.5)
     assert bob["gradable"] is False
-    assert bob["format_errors"][0].startswith("pusher: ")
+    assert [error.partition(":")[0] for error in bob["format_errors"]] == ["lever", "pusher"]
     rows = table(written(a_class, "prairielearn-csv", "pl.csv"))
     assert rows[0] == ["uid", "instance", "qid", "score_perc", "feedback"]
     assert rows[1][:4] == ["007", "1", "lever", "100"]
@@ -359,7 +359,7 @@ def test_gift(a_class: Class) -> None:
 
 
 def test_an_unknown_kind_is_refused(a_class: Class) -> None:
-    ran = a_class.grade(ANSWERS, "--write", f"brightspace={a_class.path('x')}")
+    ran = a_class.grade(ANSWERS, "--write", f"schoology={a_class.path('x')}")
     assert ran.code == 2
     assert "there is no such kind" in ran.err
     assert a_class.run("export", "qti", str(a_class.path("cases")), "-o", "x").code == 2

@@ -53,7 +53,7 @@ def test_marks_mistakes_and_who_is_missing(html: str) -> None:
 
 def test_labels_of_the_marks_do_not_overlap() -> None:
     marks = (*((f"a-long-code-{n}", 0.5 + 0.01 * n) for n in range(8)), ("sign", -1.0), ("double", 2.05))
-    counts = Counts(Counter(wrong=1), Counter(), Counter({5: 3}), Counter(), 0.0, 1.0)
+    counts = Counts(Counter(wrong=1), Counter(), Counter({5: 3}), Counter(), 0.0, 1.0, Counter(), Counter())
     root = ElementTree.fromstring(histogram(counts, marks).replace("<svg", '<svg xmlns="http://www.w3.org/2000/svg"'))
     width = float(root.attrib["viewBox"].split()[2])
     rows: dict[str, list[tuple[float, float]]] = {}

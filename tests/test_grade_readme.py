@@ -40,6 +40,8 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "roster.csv").write_text("student_id\n0017\n0018\n")
     (answers,) = (text for kind, text in BLOCKS if kind == "csv")
     (tmp_path / "answers.csv").write_text(answers, encoding="utf-8")
+    marks = 'student_id,case,score,comment\n0019,press,0.5,"two readings, one right"\n'
+    (tmp_path / "marks.csv").write_text(marks, encoding="utf-8")
     return tmp_path
 
 

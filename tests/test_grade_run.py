@@ -231,7 +231,7 @@ def test_the_summary_counts_marks_and_mistakes(a_class: Class) -> None:
     ran = a_class.run("grade", table, "--cases", str(a_class.path("cases")), "--html", str(page))
     assert ran.code == 0
     assert "10 answers from 10 students" in ran.out
-    assert "lever: 5 right, 4 wrong, 1 invalid; mean 50%" in ran.out
+    assert "lever: 5 right, 4 wrong, 1 invalid; mean 56%" in ran.out
     assert "3 of 4 wrong answers: sign" in ran.out
     html = page.read_text(encoding="utf-8")
     assert '<td><code>sign</code></td><td class="n">3</td>' in html

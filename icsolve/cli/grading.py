@@ -33,8 +33,14 @@ COURSE = "course.yaml"
     "writes",
     metavar="KIND=FILE",
     multiple=True,
-    help="For a platform: canvas, moodle, gradescope, prairielearn, prairielearn-csv, junit. Repeatable.",
+    help="For a platform: canvas, brightspace, blackboard, moodle, gradescope, prairielearn,"
+    " prairielearn-csv, junit. Repeatable.",
 )
+@click.option("--total", metavar="COLUMN", help="All questions together, in one column of the gradebook.")
+@click.option("--overrides", metavar="FILE", multiple=True, help="Marks given by hand.")
+@click.option("--against", metavar="OLD.csv", help="Earlier results: says whose marks change, and why.")
+@click.option("--changes", metavar="FILE", help="With --against: every mark that changes, as CSV.")
+@click.option("--review", metavar="FILE", help="What waits for a person; filled, it is a file of overrides.")
 @click.option(
     "--template", metavar="FILE", help="The platform's own grade file, to be filled (canvas, moodle)."
 )
@@ -91,8 +97,13 @@ def _job(options: dict[str, Any]) -> Job:
         raise FileNotFoundError(2, "there is no such folder", options["cases"])
     _check_kinds(options)
     _note_inputs(options)
-    for path in (options["output"], options["jsonl"], options["html"], *_pairs(options["writes"]).values()):
+    outputs = [options[name] for name in ("output", "jsonl", "html", "changes", "review")]
+    for path in (*outputs, *_pairs(options["writes"]).values()):
         _check(path, options)
+    if options["changes"] and not options["against"]:
+        raise ValueError("--changes needs --against OLD.csv, the results to compare with")
+    if options["against"] and not os.path.isfile(options["against"]):
+        raise FileNotFoundError(2, "there is no such file", options["against"])
     course = _course(options)
     seeds = (course.seed, "0")
     if options["seed"] is not None:
@@ -105,7 +116,8 @@ def _job(options: dict[str, Any]) -> Job:
         student = student or student_of(options["metadata"])
     submissions = tuple(options["submissions"])
     roster, variants = options["roster"] or "", tuple(options["variants"])
-    return Job(submissions, options["cases"], course, roster, jobs, student, variants, seeds)
+    overrides = tuple(options["overrides"])
+    return Job(submissions, options["cases"], course, roster, jobs, student, variants, seeds, overrides)
 
 
 def _note_inputs(options: dict[str, Any]) -> None:
@@ -113,9 +125,11 @@ def _note_inputs(options: dict[str, Any]) -> None:
     from icsolve.files import files_of, note
     from icsolve.grade.importing import expand
 
-    named = (options[name] for name in ("roster", "course", "metadata", "cases"))
+    named = (options[name] for name in ("roster", "course", "metadata", "cases", "against"))
+    several = (path for name in ("overrides", "variants") for path in options[name])
     submissions = (path for path, _ in expand(options["submissions"]))
-    for path in (*filter(None, named), *submissions, *files_of(options["cases"], (".yaml", ".yml"))):
+    cases = files_of(options["cases"], (".yaml", ".yml"))
+    for path in (*filter(None, named), *several, *submissions, *cases):
         note(path)
 
 
@@ -183,6 +197,7 @@ def _graded(job: Job, options: dict[str, Any]) -> int:
     from icsolve.files import folder_of, whole_file
     from icsolve.grade.run import Sinks, grade
 
+    changed = ""
     with ExitStack() as stack:
         quiet, force = options["quiet"], options["force"]
         csv, results = stack.enter_context(_results(options, force))
@@ -196,11 +211,12 @@ def _graded(job: Job, options: dict[str, Any]) -> int:
             complain(str(note))
         if csv is not None:
             csv.flush()
+            changed = _regraded(results, options)
             _further(graded, job, results, options)
     if options["html"]:
         _page(graded, job, options)
     if not quiet:
-        _summary(graded, options["output"] == "-")
+        _summary(graded, changed, options["output"] == "-")
     return NO_ANSWER if graded.serious else DONE
 
 
@@ -209,13 +225,14 @@ def _results(options: dict[str, Any], force: bool) -> Iterator[tuple[IO[str] | N
     """Where the results go, and the file in which other outputs find them."""
     from icsolve.files import folder_of, scratch, whole_file
 
-    output, writes = options["output"], options["writes"]
+    output = options["output"]
+    again = any(options[name] for name in ("writes", "against", "review"))
     with ExitStack() as stack:
         target: IO[str] | None = sys.stdout if output == "-" else None
         if output not in (None, "-"):
             stack.enter_context(folder_of(output))
             target = stack.enter_context(whole_file(output, force))
-        if not writes:
+        if not again:
             yield target, ""
             return
         path = os.path.join(stack.enter_context(scratch()), "results.csv")
@@ -253,10 +270,26 @@ def _further(graded: Graded, job: Job, results: str, options: dict[str, Any]) ->
 
     wanted = _pairs(options["writes"])
     people = read_roster(job.roster, lambda line, why: None).people if job.roster and wanted else {}
+    template = options["template"] or ""
     for kind, path in wanted.items():
-        told = write(kind, Order(results, path, people, options["template"] or "", options["force"]))
+        told = write(kind, Order(results, path, people, template, options["force"], options["total"] or ""))
         if told and not options["quiet"]:
             complain(told)
+
+
+def _regraded(results: str, options: dict[str, Any]) -> str:
+    """The queue for a person, and the changes against earlier results: in a file, and as text."""
+    from icsolve.files import write_whole
+    from icsolve.grade.regrade import changes_csv, changes_text, compared, review_queue
+
+    if options["review"]:
+        write_whole(options["review"], review_queue(results), options["force"])
+    if not options["against"]:
+        return ""
+    changes = list(compared(options["against"], results))
+    if options["changes"]:
+        write_whole(options["changes"], changes_csv(changes), options["force"])
+    return changes_text(changes, options["against"])
 
 
 def _page(graded: Graded, job: Job, options: dict[str, Any]) -> None:
@@ -266,7 +299,7 @@ def _page(graded: Graded, job: Job, options: dict[str, Any]) -> None:
     write_whole(options["html"], page(graded, job.course.title), options["force"])
 
 
-def _summary(graded: Graded, on_stderr: bool) -> None:
+def _summary(graded: Graded, changed: str, on_stderr: bool) -> None:
     from icsolve.grade.summary import summary
 
-    click.echo(summary(graded), err=on_stderr)
+    click.echo("\n\n".join(filter(None, (summary(graded), changed))), err=on_stderr)

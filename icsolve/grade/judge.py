@@ -17,6 +17,8 @@ from icsolve.grade.written.two_numbers import WrittenPlace, WrittenRange, read_p
 from icsolve.grade.written.units import CASE, ENERGY
 
 RIGHT, WRONG, INVALID, IN_REVIEW = "right", "wrong", "invalid", "review"
+OPEN = (IN_REVIEW, INVALID)
+"""Verdicts that leave an answer ungraded."""
 VERDICTS = (RIGHT, WRONG, INVALID, IN_REVIEW, MISSING)
 SQUARE = "square-direction"
 BY_ANGLE = "direction-in-words"

@@ -12,7 +12,7 @@ from icsolve.grade.issues import Issues
 from icsolve.grade.judge import IN_REVIEW, RIGHT, WRONG, Judgement, feedback, judge_answer
 from icsolve.grade.keys import AnyKey, Key, PlaceKey, unit_factor
 from icsolve.grade.mistakes import Wrong
-from icsolve.grade.results import Marked, Result
+from icsolve.grade.results import OVERRIDE, Marked, Result
 from icsolve.grade.store import Entry
 from icsolve.grade.tally import Counts, Tally
 from icsolve.grade.timestamps import NEVER, attempt_number, timestamp
@@ -54,6 +54,9 @@ class Marker:
         self.given: list[Given] = []
         """values given to questions with variables, of the first students"""
         self._neighbours = work.neighbours
+        self._overrides = work.overrides
+        self.overruled: set[tuple[str, str]] = set()
+        """students and questions whose marks were given by hand"""
         self.questions = frozenset(questions)
         self.combined = Combined(Reader(course.decimal))
         self._memory: dict[tuple[str, str, str, str, str], Marked] = {}
@@ -112,7 +115,8 @@ class Marker:
             found = self._carried_forward.looked_at(found)
         if student:
             self._add_missing(student, found)
-        for entry, marked in found:
+        for entry, judged in found:
+            marked = self._final(entry, judged)
             marked.count += 1
             variant = (self._variant(entry) if self.case_store.varied else "") or entry.variant
             yield Result(student, entry.item, variant, entry.attempt, entry.line, marked)
@@ -131,7 +135,25 @@ class Marker:
         if len(names) < NAMED:
             names.append(student)
 
+    def _final(self, entry: Entry, marked: Marked) -> Marked:
+        """An answer as it was judged, or with the mark that was given by hand."""
+        override = self._overrides.get((entry.student, entry.item)) if self._overrides else None
+        if override is None:
+            return marked
+        self.overruled.add((entry.student, entry.item))
+        points, judged = marked.points, marked.judged
+        share = override.score / points if points else 0.0
+        verdict = RIGHT if override.score >= points else WRONG
+        cause = Wrong(OVERRIDE, judged.value or 0.0)
+        again = judged._replace(verdict=verdict, share=share, code=OVERRIDE, mistakes=(cause,))
+        told = f"Marked by hand: {override.comment}" if override.comment else "Marked by hand."
+        found = Marked(marked.item, marked.raw, again, points, told, marked.written)
+        found.place, found.place_unit = marked.place, marked.place_unit
+        self._once(found)
+        return found
+
     def _result(self, entry: Entry, marked: Marked) -> Result:
+        marked = self._final(entry, marked)
         marked.count += 1
         return Result(entry.student, entry.item, entry.variant, entry.attempt, entry.line, marked)
 

@@ -9,7 +9,7 @@ from functools import lru_cache
 from itertools import groupby
 from typing import Any, NamedTuple
 
-from icsolve.grade.judge import Judgement
+from icsolve.grade.judge import OPEN, Judgement
 from icsolve.grade.written import UnitWord, Written
 
 
@@ -46,6 +46,11 @@ class Marked:
     def value(self) -> float | None:
         """The number as written."""
         return self.written.number if self.written is not None else None
+
+    @property
+    def is_open(self) -> bool:
+        """Whether a person has still to judge it: it has no mark, and is in no mean."""
+        return self.judged.verdict in OPEN
 
     @property
     def unit(self) -> str:
@@ -126,7 +131,7 @@ def tail(marked: Marked) -> str:
     if not marked.tail:
         judged = marked.judged
         off = "" if judged.off is None else f"{judged.off:.3g}"
-        score = "0" if not judged.share else _score(judged.share * marked.points)
+        score = "" if marked.is_open else "0" if not judged.share else _score(judged.share * marked.points)
         read = _read(marked)
         marks = f"{judged.verdict},{score},{_score(marked.points)},{off},{judged.code}"
         marked.tail = f"{cell(marked.raw)},{read},{marks},{_cached(marked.text)}\n"
@@ -171,7 +176,7 @@ def record(result: Result) -> dict[str, Any]:
         "parts": {"number": number_right, "unit": unit_right, "direction": direction_right}
         if judged_at_all
         else None,
-        "score": judged.share * marked.points,
+        "score": None if marked.is_open else judged.share * marked.points,
         "max_score": marked.points,
         "rel_error": judged.off,
         "code": judged.code,
@@ -188,6 +193,10 @@ def json_line(result: Result) -> str:
 
 
 NOT_GRADED = "not-graded"
+OVERRIDE = "override"
+"""The code of a mark given by hand."""
+NO_CASE = ("there is no case", "this row names no case")
+"""How the reason of a row begins that names no question."""
 
 
 class Row(NamedTuple):
@@ -202,7 +211,8 @@ class Row(NamedTuple):
     unit: str
     direction: str
     verdict: str
-    score: float
+    score: float | None
+    """None while a person has to judge it"""
     max_score: float
     rel_error: str
     code: str
@@ -217,7 +227,8 @@ def read_results(path: str) -> Iterator[Row]:
         next(lines)
         for cells in lines:
             plain = [_unsafe(cell) for cell in cells]
-            yield Row._make((*plain[:9], float(plain[9]), float(plain[10]), *plain[11:]))
+            score = float(plain[9]) if plain[9] else None
+            yield Row._make((*plain[:9], score, float(plain[10]), *plain[11:]))
 
 
 def _unsafe(cell: str) -> str:
@@ -225,9 +236,13 @@ def _unsafe(cell: str) -> str:
 
 
 def by_student(path: str, graded: bool = True) -> Iterator[tuple[str, list[Row]]]:
-    """Each student's lines together; with ``graded`` without those that could not be graded."""
+    """Each student's lines together; with ``graded`` without those that are of no question."""
     for student, rows in groupby(read_results(path), key=lambda row: row.student_id):
-        yield student, [row for row in rows if not graded or row.code != NOT_GRADED]
+        yield student, [row for row in rows if not graded or not _is_strange(row)]
+
+
+def _is_strange(row: Row) -> bool:
+    return row.code == NOT_GRADED and row.feedback.removeprefix("Not graded: ").startswith(NO_CASE)
 
 
 def shown(number: float) -> str:

@@ -23,6 +23,7 @@ from icsolve.grade.tolerance import NoKeyError
 from icsolve.sweep.forked import can_fork, started
 
 if TYPE_CHECKING:
+    from icsolve.grade.regrade import Override, Overrides
     from icsolve.grade.variants.others import Neighbours
 
 _WORTH_TWO = 20_000
@@ -56,6 +57,8 @@ class Work(NamedTuple):
     path: str
     neighbours: Neighbours | None = None
     """the right answers of the whole class, where they differ"""
+    overrides: Overrides | None = None
+    """marks given by hand"""
 
 
 class Outcome(NamedTuple):
@@ -66,6 +69,8 @@ class Outcome(NamedTuple):
     owing: dict[str, list[str]]
     given: list[Given]
     """values that were given to questions with variables"""
+    overruled: set[tuple[str, str]]
+    """students and questions whose marks were given by hand"""
 
 
 Report = Callable[[int], None]
@@ -155,7 +160,7 @@ def _judge(part: Part, work: Work, entries: Iterator[Entry], sinks: Sinks, repor
             csv.write(line(result))
         if jsonl is not None:
             jsonl.write(json_line(result))
-    return Outcome(marker.counted(), list(issues.entries()), marker.owing, marker.given)
+    return Outcome(marker.counted(), list(issues.entries()), marker.owing, marker.given, marker.overruled)
 
 
 class Job(NamedTuple):
@@ -172,6 +177,8 @@ class Job(NamedTuple):
     """files and folders that record which numbers were handed out"""
     seeds: tuple[str, ...] = ()
     """seeds that may have been meant, should most answers be to other numbers"""
+    overrides: tuple[str, ...] = ()
+    """files of marks given by hand"""
 
 
 class Graded(NamedTuple):
@@ -223,6 +230,7 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
     roster = read_roster(job.roster, lambda at, why: issues.note(job.roster, at, why)) if job.roster else None
     if job.variants:
         _keep_to_record(job, case_store, roster, issues)
+    overrides = _overrides(job, case_store, roster)
     store = Store()
     try:
         imported = Import(store, case_store, issues, roster, progress)
@@ -239,15 +247,35 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
         if sinks.csv is not None:
             sinks.csv.write(HEADER + "\n")
         neighbours = _neighbours(case_store, students)
-        work = Work(job.course, case_store, store, _shown(paths), neighbours)
+        work = Work(job.course, case_store, store, _shown(paths), neighbours, overrides)
         found = judged(parts, work, sinks, lambda n: progress("judging", n / imported.count))
     finally:
         store.close()
     for outcome in found:
         issues.extend(outcome.notes)
+    _note_unmet(overrides, found, job, issues)
     if neighbours is not None:
         _note_other_seeds(job, case_store, [one for outcome in found for one in outcome.given], issues)
     return _graded(found, issues, case_store, imported.count, len(students))
+
+
+def _overrides(job: Job, case_store: CaseStore, roster: Roster | None) -> dict[tuple[str, str], Override]:
+    """The marks given by hand; a later file goes over an earlier one."""
+    from icsolve.grade.regrade import read_overrides
+
+    found: dict[tuple[str, str], Override] = {}
+    for path in job.overrides:
+        found |= read_overrides(path, case_store, roster)
+    return found
+
+
+def _note_unmet(overrides: Overrides, found: list[Outcome], job: Job, issues: Issues) -> None:
+    """Say which marks given by hand meet no line of the results."""
+    met = set().union(*(outcome.overruled for outcome in found))
+    for (student, item), override in overrides.items():
+        if (student, item) not in met:
+            why = f"{student} owes and gave no answer to {item}, so this mark is for nobody"
+            issues.note(job.overrides[-1], override.line, why, serious=True)
 
 
 def _neighbours(case_store: CaseStore, students: Iterable[str]) -> Neighbours | None:

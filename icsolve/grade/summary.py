@@ -9,6 +9,8 @@ from icsolve.grade.run import Graded
 from icsolve.grade.tally import BINS, Counts
 
 _WIDTH = 40
+_MANY = 3
+"""Answers from which it is told that most could not be read."""
 _SHOWN = 6
 """Mistakes of one question that are shown."""
 
@@ -16,9 +18,20 @@ _SHOWN = 6
 def summary(graded: Graded) -> str:
     """The summary of a class, for a terminal."""
     lines = [f"{_count(graded.rows, 'answer')} from {_count(graded.students, 'student')}"]
+    lines += [told for item, counts in graded.counts.items() if (told := mostly_unread(item, counts))]
     for item, counts in graded.counts.items():
         lines += ["", *_question(item, counts)]
     return "\n".join([*lines, *_missing(graded)])
+
+
+def mostly_unread(item: str, counts: Counts) -> str:
+    """That most answers to a question could not be judged, with the commonest; '' where it is not so."""
+    given = sum(counts.verdicts.values()) - counts.verdicts["missing"]
+    waiting = counts.verdicts["invalid"] + counts.verdicts["review"]
+    if waiting < _MANY or 2 * waiting <= given:
+        return ""
+    said = ", ".join(f"'{text}' ({n} times)" for text, n in counts.texts.most_common(3))
+    return f"{item}: {waiting} of {given} answers could not be read or judged: {said}. Is the column right?"
 
 
 def _count(number: int, what: str) -> str:

@@ -16,6 +16,8 @@ _SPAN = 2.0
 
 OTHERS = "(other names that are no case)"
 _MOST_STRANGE = 200
+_MOST_TEXTS = 4000
+_LONGEST = 80
 """Names that are no case which are counted one by one."""
 
 
@@ -31,11 +33,16 @@ class Counts(NamedTuple):
     """invalid answers and those for review, by their flag"""
     score: float
     max_score: float
+    """marks, and the most that there were, of what was judged"""
+    texts: Counter[str]
+    """the texts that wait for a person"""
+    unexplained: Counter[str]
+    """the wrong values of no known cause, to four figures"""
 
 
 def empty() -> Counts:
     """Nothing yet."""
-    return Counts(Counter(), Counter(), Counter(), Counter(), 0.0, 0.0)
+    return Counts(Counter(), Counter(), Counter(), Counter(), 0.0, 0.0, Counter(), Counter())
 
 
 def bin_of(value: float, right: float, half: float) -> int:
@@ -75,21 +82,30 @@ class Tally:
 
 def _with(counts: Counts, marked: list[Marked], band: tuple[float, float] | None) -> Counts:
     """The counts of a question with more answers to it."""
-    verdicts, mistakes, bins, unread, score, most = counts
+    verdicts, mistakes, bins, unread, score, most, texts, unexplained = counts
     for m in marked:
         judged, n = m.judged, m.count
         verdict, share, _, value, _, code, causes = judged
         verdicts[verdict] += n
         if verdict == "wrong":
             mistakes[causes[0].code if causes else ""] += n
+            if not causes and value is not None:
+                unexplained[f"{value:.4g}"] += n
         elif verdict in ("invalid", "review"):
             unread[code] += n
+            texts[" ".join(m.raw.split())[:_LONGEST]] += n
         if value is not None and band is not None:
             bins[bin_of(value, *band)] += n
-        score += n * share * m.points
-        most += n * m.points
+        if not m.is_open:
+            score += n * share * m.points
+            most += n * m.points
         m.count = 0
-    return Counts(verdicts, mistakes, bins, unread, score, most)
+    return Counts(verdicts, mistakes, bins, unread, score, most, _common(texts), _common(unexplained))
+
+
+def _common(texts: Counter[str]) -> Counter[str]:
+    """The commonest of too many texts."""
+    return texts if len(texts) <= _MOST_TEXTS else Counter(dict(texts.most_common(_MOST_TEXTS // 2)))
 
 
 def added(parts: Iterable[dict[str, Counts]]) -> dict[str, Counts]:
@@ -97,13 +113,15 @@ def added(parts: Iterable[dict[str, Counts]]) -> dict[str, Counts]:
     total: dict[str, Counts] = {}
     for part in parts:
         for item, counts in part.items():
-            before = total.get(item) or empty()
+            a, b = total.get(item) or empty(), counts
             total[item] = Counts(
-                before.verdicts + counts.verdicts,
-                before.mistakes + counts.mistakes,
-                before.bins + counts.bins,
-                before.unread + counts.unread,
-                before.score + counts.score,
-                before.max_score + counts.max_score,
+                a.verdicts + b.verdicts,
+                a.mistakes + b.mistakes,
+                a.bins + b.bins,
+                a.unread + b.unread,
+                a.score + b.score,
+                a.max_score + b.max_score,
+                _common(a.texts + b.texts),
+                _common(a.unexplained + b.unexplained),
             )
     return dict(sorted(total.items()))

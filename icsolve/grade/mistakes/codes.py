@@ -33,6 +33,7 @@ CODES: dict[str, str] = {
     "neighbour": "This is the right answer to other numbers than yours{at}.",
     "swapped": "The two coordinates are exchanged.",
     "carried": "The method is right; the error comes from an earlier answer{at}.",
+    "override": "Marked by hand.",
     "near-miss": "Close, but not within the tolerance. Rounding on the way? Keep four figures.",
 }
 """Stable codes in order of simplicity: of several that fit, the first is told."""

@@ -1,17 +1,21 @@
-"""Gradebooks of platforms, new or the teacher's own filled: Canvas, and Moodle's offline worksheet.
+"""Gradebooks of platforms, new or the teacher's own filled: Canvas, Brightspace, Blackboard, Moodle.
 
-To Moodle both the grade and the comment are always written: it wipes the grades of an import without them.
+What was not judged stays ungraded: its cell is blank, and in Moodle, whose one grade is for all questions,
+the student's row is left as it is. Marks are scaled to the points that a column has.
 """
 
 from __future__ import annotations
 
 import csv
 import io
+import re
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from icsolve.grade.results import Row, safe, shown
 from icsolve.grade.roster import Person
+
+Students = Iterable[tuple[str, list[Row]]]
 
 
 class Filled(NamedTuple):
@@ -21,23 +25,56 @@ class Filled(NamedTuple):
     placed: frozenset[str]
 
 
-def rows_of(template: str, delimiter: str = ",") -> list[list[str]]:
-    """The rows, each as long as the first.
+class Template:
+    """A teacher's own grade file: its header and rows, its delimiter and its decimal mark."""
 
-    Raises ValueError where there is no header.
-    """
-    table = [list(row) for row in csv.reader(io.StringIO(template), delimiter=delimiter)]
-    if not table or not any(cell.strip() for cell in table[0]):
-        raise ValueError("the template is empty: it should be the platform's own export")
-    width = len(table[0])
-    return [row + [""] * (width - len(row)) for row in table]
+    def __init__(self, text: str) -> None:
+        """Raises ValueError where it is no table."""
+        text = text.lstrip("\ufeff")
+        named = re.match(r"sep=([,;\t])\r?\n", text, re.IGNORECASE)
+        self.start = named.group() if named else ""
+        text = text[len(self.start) :]
+        head = text.partition("\n")[0]
+        self.delimiter = named.group(1) if named else max(",;\t", key=head.count)
+        try:
+            reader = csv.reader(io.StringIO(text, newline=""), delimiter=self.delimiter, strict=True)
+            table = [list(row) for row in reader]
+        except csv.Error as error:
+            raise ValueError(f"the template can't be read as a table ({error}): is it cut off?") from None
+        if not table or not any(cell.strip() for cell in table[0]):
+            raise ValueError("the template is empty: it should be the platform's own export")
+        width = len(table[0])
+        self.header, *self.rows = [row + [""] * (width - len(row)) for row in table]
+        self.names = [name.strip().lower() for name in self.header]
+        cells = [cell.strip() for row in self.rows for cell in row]
+        commas, points = (sum(bool(re.fullmatch(rf"\d+{m}\d+", c)) for c in cells) for m in (",", r"\."))
+        self.comma = commas > points
 
+    def number(self, value: float | None, form: str = "") -> str:
+        """A mark in the file's own decimals; blank for none."""
+        text = "" if value is None else format(value, form) if form else shown(value)
+        return text.replace(".", ",") if self.comma else text
 
-def text_of(table: list[list[str]], delimiter: str = ",") -> str:
-    """The rows as a file."""
-    out = io.StringIO()
-    csv.writer(out, delimiter=delimiter, lineterminator="\n").writerows(table)
-    return out.getvalue()
+    def points(self, text: str) -> float | None:
+        """A number of the file; None where there is none above zero."""
+        try:
+            value = float(text.strip().replace(",", "."))
+        except ValueError:
+            return None
+        return value if value > 0.0 else None
+
+    def new_column(self, name: str) -> int:
+        """Another column at the end."""
+        self.header.append(name)
+        for row in self.rows:
+            row.append("")
+        return len(self.header) - 1
+
+    def text(self) -> str:
+        """The file again."""
+        out = io.StringIO()
+        csv.writer(out, delimiter=self.delimiter, lineterminator="\n").writerows([self.header, *self.rows])
+        return self.start + out.getvalue()
 
 
 def aliases(marks: dict[str, list[Row]], people: dict[str, Person]) -> dict[str, str]:
@@ -45,8 +82,9 @@ def aliases(marks: dict[str, list[Row]], people: dict[str, Person]) -> dict[str,
     known: dict[str, set[str]] = {}
     for student in marks:
         person = people.get(student, Person(student))
-        full = f"{person.first_name} {person.last_name}".strip()
-        for name in (full, *person.others, person.email, student):
+        first, last = person.first_name, person.last_name
+        names = (f"{first} {last}".strip(), f"{last}, {first}".strip(", "))
+        for name in (*names, *person.others, person.email, person.email.partition("@")[0], student):
             if name:
                 known.setdefault(name.lower(), set()).add(student)
     for student in marks:
@@ -54,28 +92,50 @@ def aliases(marks: dict[str, list[Row]], people: dict[str, Person]) -> dict[str,
     return {name: min(students) for name, students in known.items() if len(students) == 1}
 
 
+def total_of(rows: Sequence[Row]) -> tuple[float | None, float]:
+    """The marks of all questions together, None while one of them waits for a person; and the most."""
+    most = sum(row.max_score for row in rows)
+    scores = [row.score for row in rows if row.score is not None]
+    return (sum(scores) if len(scores) == len(rows) else None), most
+
+
+def _questions(all_rows: Iterable[Sequence[Row]]) -> dict[str, float]:
+    """The questions with their points, by name."""
+    return dict(sorted({row.case: row.max_score for rows in all_rows for row in rows}.items()))
+
+
+def _marks(rows: Sequence[Row], total: str) -> dict[str, tuple[float | None, float]]:
+    """A student's marks by column: a question each, or all together in the column ``total``."""
+    return {total: total_of(rows)} if total else {row.case: (row.score, row.max_score) for row in rows}
+
+
+# --- Canvas, Brightspace, Blackboard ----------------------------------------------------------------
+
 _CANVAS = ("Student", "ID", "SIS User ID", "SIS Login ID", "Section")
 _POINTS = "    Points Possible"
+_IDS = (
+    "sis user id", "sis login id", "orgdefinedid", "student id", "username", "user name", "benutzername",
+    "nom d'utilisateur", "nombre de usuario", "nome utente", "integration id", "id", "email", "email address",
+)  # fmt: skip
+_NAMES = (("lastname", "firstname"), ("last name", "first name"), ("nachname", "vorname"))
 
 
-def canvas_gradebook(students: Iterable[tuple[str, list[Row]]], people: dict[str, Person]) -> str:
+def canvas_gradebook(students: Students, people: dict[str, Person], total: str = "") -> str:
     """A gradebook of the five id columns and one for each question; names come from the roster."""
     found = list(students)
     points = _questions(rows for _, rows in found)
+    if total:
+        points = {total: max((total_of(rows)[1] for _, rows in found), default=0.0)}
     out = io.StringIO()
     table = csv.writer(out, lineterminator="\n")
     table.writerow([*_CANVAS, *points])
     table.writerow([_POINTS, "", "", "", "", *map(shown, points.values())])
     for student, rows in found:
         if student:
-            scores = {row.case: shown(row.score) for row in rows}
-            table.writerow([safe(c) for c in _ids(student, people)] + [scores.get(q, "") for q in points])
+            marks = {name: score for name, (score, _) in _marks(rows, total).items()}
+            scores = [shown(mark) if (mark := marks.get(q)) is not None else "" for q in points]
+            table.writerow([*map(safe, _ids(student, people)), *scores])
     return out.getvalue()
-
-
-def _questions(all_rows: Iterable[Sequence[Row]]) -> dict[str, float]:
-    """The questions with their points, by name."""
-    return dict(sorted({row.case: row.max_score for rows in all_rows for row in rows}.items()))
 
 
 def _ids(student: str, people: dict[str, Person]) -> tuple[str, ...]:
@@ -84,70 +144,95 @@ def _ids(student: str, people: dict[str, Person]) -> tuple[str, ...]:
     return (name, "", student, person.email, person.section)
 
 
-def canvas_filled(
-    template: str, students: Iterable[tuple[str, list[Row]]], people: dict[str, Person]
-) -> Filled:
-    """The teacher's export with a column for each question filled.
+def gradebook_filled(template: str, students: Students, people: dict[str, Person], total: str = "") -> Filled:
+    """The teacher's export with a column for each question filled, or the one column of the ``total``.
 
-    A column ``press (1234)`` takes the marks of ``press``; a question without one gets a new column.
+    A column ``press (1234)`` takes the marks of ``press``, scaled to its points; a question without one gets
+    a new column.
 
-    Raises ValueError where it is no gradebook.
+    Raises ValueError where it is no gradebook, or has no column of that total.
     """
-    table = rows_of(template)
-    header = table[0]
-    ids = [header.index(name) for name in ("SIS User ID", "SIS Login ID", "ID") if name in header]
-    if header[0].lstrip("\ufeff") != "Student" or not ids:
-        raise ValueError("the template is no Canvas gradebook, which starts with Student,ID,SIS User ID")
-    marks = dict(students)
+    book = Template(template)
+    ids = [book.names.index(name) for name in _IDS if name in book.names]
+    pairs = [pair for pair in _NAMES if all(name in book.names for name in pair)]
+    if not ids and not pairs:
+        raise ValueError(
+            "the template is no gradebook: none of its columns holds ids of students "
+            f"(it has {', '.join(book.header[:8])})"
+        )
+    marks = {student: rows for student, rows in students if student}
     known, points = aliases(marks, people), _questions(marks.values())
-    places = {question: _place(header, question) for question in points}
+    if total:
+        points = {total: max((total_of(rows)[1] for rows in marks.values()), default=0.0)}
+    places = {name: _place(book, name, new=not total) for name in points}
+    possible = _possible(book, places, points)
     placed = set()
-    for row in table[1:]:
-        row.extend([""] * (len(header) - len(row)))
-        if row[0].startswith(_POINTS):
-            for question, most in points.items():
-                row[places[question]] = row[places[question]] or shown(most)
-            continue
-        student = next((known[row[i].strip().lower()] for i in ids if row[i].strip().lower() in known), None)
+    for row in book.rows:
+        student = _student(book, row, ids, pairs, known)
         if student is not None:
             placed.add(student)
-            for mark in marks[student]:
-                row[places[mark.case]] = shown(mark.score)
-    return Filled(text_of(table), frozenset(placed))
+            for name, (score, most) in _marks(marks[student], total).items():
+                scaled = score * possible[name] / most if score is not None and most else score
+                row[places[name]] = book.number(scaled)
+    return Filled(book.text(), frozenset(placed))
 
 
-def _place(header: list[str], question: str) -> int:
-    """The column of a question; a new one at the end where there is none."""
-    for index, name in enumerate(header):
-        if name == question or name.rpartition(" (")[0] == question:
+def _student(
+    book: Template, row: list[str], ids: list[int], pairs: list[tuple[str, str]], known: dict[str, str]
+) -> str | None:
+    """Whose row it is: by an id, where it has none by its name."""
+    texts = [row[i].strip().lower().lstrip("#") for i in ids]
+    for text in texts:
+        if text in known:
+            return known[text]
+    for last, first in pairs:
+        name = f"{row[book.names.index(first)].strip()} {row[book.names.index(last)].strip()}".lower()
+        if name in known:
+            return known[name]
+    return known.get(row[book.names.index("student")].strip().lower()) if "student" in book.names else None
+
+
+def _possible(book: Template, places: dict[str, int], points: dict[str, float]) -> dict[str, float]:
+    """The points of each column: as the file has them, else those of the course, which are written in."""
+    for row in book.rows:
+        if row[0].strip() == _POINTS.strip():
+            for name, most in points.items():
+                row[places[name]] = row[places[name]] or book.number(most)
+            return {name: book.points(row[places[name]]) or most for name, most in points.items()}
+    found = {}
+    for name, most in points.items():
+        header = book.header[places[name]].lower()
+        told = re.search(r"(?:maxpoints:|total pts: ?(?:up to )?)([\d.,]+)", header)
+        found[name] = (book.points(told.group(1)) if told else None) or most
+    return found
+
+
+def _place(book: Template, name: str, new: bool) -> int:
+    """The column of a question or of the total: by its full name, or without what the platform adds."""
+    for index, header in enumerate(book.header):
+        plain = re.sub(r" *(?:\(\d+\)|<[^>]*>|\[[^\]]*\].*| Points Grade.*)$", "", header).strip()
+        bare = re.sub(r" *(?:Points Grade|\[Total Pts.*)?$", "", plain)
+        if name in (header.strip(), header.rpartition(" (")[0], plain, bare):
             return index
-    header.append(question)
-    return len(header) - 1
+    if not new:
+        raise ValueError(f"there is no column {name!r} for the total; it has {', '.join(book.header)[:300]}")
+    return book.new_column(name)
 
+
+# --- Moodle -----------------------------------------------------------------------------------------
 
 _WORKSHEET = (
-    "Identifier",
-    "Full name",
-    "Email address",
-    "Status",
-    "Grade",
-    "Maximum Grade",
-    "Grade can be changed",
-    "Last modified (submission)",
-    "Last modified (grade)",
-    "Feedback comments",
-)
-_GRADE = ("grade", "bewertung", "note", "calificación")
-_MOST = ("maximum grade", "bestwertung", "maximale bewertung", "note maximale")
-_COMMENTS = ("feedback comments", "feedback als kommentar", "commentaires")
-_IDS = (
-    "id number",
-    "id-nummer",
-    "email address",
-    "e-mail-adresse",
-    "e-mail address",
-    "username",
-    "full name",
+    "Identifier", "Full name", "Email address", "Status", "Grade", "Maximum Grade", "Grade can be changed",
+    "Last modified (submission)", "Last modified (grade)", "Feedback comments",
+)  # fmt: skip
+_GRADE = ("grade", "bewertung", "note", "calificación", "valutazione", "nota", "puntuación")
+_MOST = re.compile(r"maxim|máxim|massim|bestwertung|höchst")
+_COMMENTS = re.compile(r"feedback|comment|kommentar|comentario|retroalimentación|commenti")
+_MOODLE_IDS = re.compile(
+    r"(?:id number|id-nummer|numéro d.identification|número de id|numero id|codice id|e-?mail.*"
+    r"|adresse de courriel|adresse e-?mail|courriel|dirección de correo.*|correo.*|indirizzo e?-?mail"
+    r"|username|benutzername|nom d.utilisateur|nombre de usuario|full name|vollständiger name|nom complet"
+    r"|nombre completo|nome completo)$"
 )
 
 
@@ -156,8 +241,8 @@ def comment(rows: Iterable[Row]) -> str:
     return " | ".join(f"{row.case}: {row.verdict}. {row.feedback}" for row in rows)
 
 
-def moodle_worksheet(students: Iterable[tuple[str, list[Row]]], people: dict[str, Person]) -> str:
-    """A worksheet with one grade for all questions together."""
+def moodle_worksheet(students: Students, people: dict[str, Person]) -> str:
+    """A worksheet with one grade for all questions together; blank where one of them was not judged."""
     out = io.StringIO()
     table = csv.writer(out, lineterminator="\n")
     table.writerow(_WORKSHEET)
@@ -165,54 +250,43 @@ def moodle_worksheet(students: Iterable[tuple[str, list[Row]]], people: dict[str
         if student:
             person = people.get(student, Person(student))
             name = " ".join(part for part in (person.first_name, person.last_name) if part)
-            score, most = sum(row.score for row in rows), sum(row.max_score for row in rows)
-            grades = (shown(score), shown(most), "Yes", "-", "-", safe(comment(rows)))
+            score, most = total_of(rows)
+            graded = (shown(score), safe(comment(rows))) if score is not None else ("", "")
+            grades = (graded[0], shown(most), "Yes", "-", "-", graded[1])
             table.writerow((safe(student), safe(name), safe(person.email), "Submitted for grading", *grades))
     return out.getvalue()
 
 
-def moodle_filled(
-    template: str, students: Iterable[tuple[str, list[Row]]], people: dict[str, Person]
-) -> Filled:
-    """The teacher's own worksheet with grades and comments.
+def moodle_filled(template: str, students: Students, people: dict[str, Person]) -> Filled:
+    """The teacher's own worksheet with grades and comments, always both: Moodle wipes grades otherwise.
 
-    Grades are scaled to the worksheet's maximum; its delimiter and decimal comma are kept.
+    Grades are scaled to the worksheet's maximum; its delimiter and decimal mark are kept, and so is the row
+    of a student of whom not all was judged.
 
     Raises ValueError where it has no column for grades, for comments or for a student's id.
     """
-    head = template.partition("\n")[0]
-    delimiter = ";" if head.count(";") > head.count(",") else ","
-    table = rows_of(template, delimiter)
-    names = [name.lower().lstrip("\ufeff").strip() for name in table[0]]
-    grade, most, comments = (_column(names, words) for words in (_GRADE, _MOST, _COMMENTS))
-    ids = [names.index(word) for word in _IDS if word in names]
+    book = Template(template)
+    grade = next((book.names.index(name) for name in _GRADE if name in book.names), None)
+    most = next((i for i, name in enumerate(book.names) if _MOST.search(name)), None)
+    comments = next((i for i, name in enumerate(book.names) if _COMMENTS.search(name)), None)
+    ids = [i for i, name in enumerate(book.names) if _MOODLE_IDS.match(name)]
     if grade is None or comments is None or not ids:
         raise ValueError(
             "the worksheet needs the columns Grade, Feedback comments and Email address or ID number"
         )
-    marks = dict(students)
+    marks = {student: rows for student, rows in students if student}
     known = aliases(marks, people)
     placed = set()
-    for row in table[1:]:
-        student = next((known[row[i].strip().lower()] for i in ids if row[i].strip().lower() in known), None)
-        if student is not None:
-            placed.add(student)
-            row[grade] = _grade(marks[student], row[most] if most is not None else "")
+    for row in book.rows:
+        student = next((known[t] for i in ids if (t := row[i].strip().lower()) in known), None)
+        if student is None:
+            continue
+        placed.add(student)
+        score, total = total_of(marks[student])
+        if score is not None:
+            possible = book.points(row[most]) if most is not None else None
+            comma = book.comma or (most is not None and "," in row[most])
+            text = f"{score / total * possible if possible and total else score:.2f}"
+            row[grade] = text.replace(".", ",") if comma else text
             row[comments] = safe(comment(marks[student]))
-    return Filled(text_of(table, delimiter), frozenset(placed))
-
-
-def _column(names: Sequence[str], words: Iterable[str]) -> int | None:
-    return next((names.index(word) for word in words if word in names), None)
-
-
-def _grade(rows: Sequence[Row], most: str) -> str:
-    """The student's share of the worksheet's maximum, with its decimal mark."""
-    score, total = sum(row.score for row in rows), sum(row.max_score for row in rows)
-    comma = "," in most
-    try:
-        scaled = score / total * float(most.replace(",", ".")) if total else 0.0
-    except ValueError:
-        scaled = score
-    text = f"{scaled:.2f}"
-    return text.replace(".", ",") if comma else text
+    return Filled(book.text(), frozenset(placed))

@@ -1,4 +1,8 @@
-"""What automatic graders read: Gradescope's and PrairieLearn's ``results.json``, scores by CSV, JUnit XML."""
+"""What automatic graders read: Gradescope's and PrairieLearn's ``results.json``, scores by CSV, JUnit XML.
+
+An answer that was not judged costs nothing: PrairieLearn takes it back as a format error, Gradescope shows it
+as a test of zero points out of zero.
+"""
 
 from __future__ import annotations
 
@@ -10,26 +14,64 @@ from typing import Any
 
 from icsolve.grade.results import Row
 
-_LARGEST = 1_000_000
+_STATUS = {"right": "passed"}
+
+
+def _told(rows: list[Row]) -> str:
+    judged = [row for row in rows if row.score is not None]
+    waiting = len(rows) - len(judged)
+    said = f"{sum(row.verdict == 'right' for row in judged)} of {len(judged)} answers are right."
+    return said if not waiting else f"{said} {waiting} not judged yet."
+
+
+def gradescope_results(rows: Iterable[Row]) -> dict[str, Any]:
+    """The object of ``results.json`` for one student's rows."""
+    rows = list(rows)
+    return {
+        "score": sum(row.score or 0.0 for row in rows),
+        "output": _told(rows),
+        "output_format": "text",
+        "visibility": "visible",
+        "stdout_visibility": "hidden",
+        "tests": [_test(row, number) for number, row in enumerate(rows, 1)],
+        "extra_data": {"schema": "icsolve/grade/1"},
+    }
+
+
+def _test(row: Row, number: int) -> dict[str, Any]:
+    answer = f"Your answer: {row.raw_answer}\n" if row.raw_answer else ""
+    return {
+        "score": row.score or 0.0,
+        "max_score": row.max_score if row.score is not None else 0.0,
+        "status": _STATUS.get(row.verdict, "failed"),
+        "name": row.case,
+        "name_format": "text",
+        "number": str(number),
+        "output": f"{answer}{row.feedback}",
+        "output_format": "text",
+        "tags": [tag for tag in (row.verdict, *row.code.split()) if tag],
+        "visibility": "visible",
+        "extra_data": {"verdict": row.verdict, "code": row.code, "variant": row.variant},
+    }
 
 
 def prairielearn_results(rows: Iterable[Row]) -> dict[str, Any]:
-    """The object of ``/grade/results/results.json`` for one student; unreadable answers cost no attempt."""
+    """The object of ``/grade/results/results.json`` for one student; what was not judged costs no attempt."""
     rows = list(rows)
-    most = sum(row.max_score for row in rows)
-    unread = [row for row in rows if row.verdict == "invalid"]
+    judged = [row for row in rows if row.score is not None]
+    most = sum(row.max_score for row in judged)
     entry: dict[str, Any] = {
-        "gradable": not unread,
-        "score": sum(row.score for row in rows) / most if most else 0.0,
-        "message": f"{sum(row.verdict == 'right' for row in rows)} of {len(rows)} answers are right.",
-        "tests": [_test(row) for row in rows],
+        "gradable": len(judged) == len(rows),
+        "score": sum(row.score or 0.0 for row in judged) / most if most else 0.0,
+        "message": _told(rows),
+        "tests": [_points(row) for row in judged],
     }
-    if unread:
-        entry["format_errors"] = [f"{row.case}: {row.feedback}" for row in unread]
+    if len(judged) < len(rows):
+        entry["format_errors"] = [f"{row.case}: {row.feedback}" for row in rows if row.score is None]
     return entry
 
 
-def _test(row: Row) -> dict[str, Any]:
+def _points(row: Row) -> dict[str, Any]:
     return {
         "name": row.case,
         "description": f"Your answer: {row.raw_answer[:200]}" if row.raw_answer else "No answer",
@@ -41,23 +83,25 @@ def _test(row: Row) -> dict[str, Any]:
 
 
 def prairielearn_scores(students: Iterable[tuple[str, list[Row]]]) -> str:
-    """``uid,instance,qid,score_perc,feedback``, to be uploaded as manual grades."""
+    """``uid,instance,qid,score_perc,feedback``, to be uploaded as manual grades; only what was judged."""
     out = io.StringIO()
     table = csv.writer(out, lineterminator="\n")
     table.writerow(("uid", "instance", "qid", "score_perc", "feedback"))
     for student, rows in students:
         for row in rows:
-            if student:
+            if student and row.score is not None:
                 percent = 100.0 * row.score / row.max_score if row.max_score else 0.0
                 table.writerow((student, "1", row.case, f"{percent:.6g}", row.feedback))
     return out.getvalue()
 
 
+# --- JUnit ------------------------------------------------------------------------------------------
+
 _WRONG, _UNREAD, _OPEN = ("wrong",), ("invalid",), ("review", "missing")
 
 
 def junit_report(rows: Iterable[Row]) -> str:
-    """The report of all results."""
+    """The report of all results: a suite a question, a test a student."""
     suites: dict[str, list[Row]] = {}
     for row in rows:
         suites.setdefault(row.case, []).append(row)

@@ -1,16 +1,13 @@
-"""Gradescope: ``results.json`` of an autograder, and the zip that makes one."""
+"""The zip that makes an autograder of Gradescope."""
 
 from __future__ import annotations
 
 import io
-import json
 import os
 import shlex
 import zipfile
-from collections.abc import Iterable, Iterator, Mapping
-from typing import Any, NamedTuple
-
-from icsolve.grade.results import Row
+from collections.abc import Iterator, Mapping
+from typing import NamedTuple
 
 _SETUP = """\
 #!/usr/bin/env bash
@@ -39,45 +36,6 @@ python="$base/venv/bin/python"
   '{{"score": 0, "output": "Nothing could be graded: hand in answers.txt or answers.csv."}}' \\
   > "$base/results/results.json"
 """
-_STATUS = {"right": "passed"}
-
-
-def gradescope_results(rows: Iterable[Row], title: str = "") -> dict[str, Any]:
-    """The object of ``results.json`` for one student's rows."""
-    rows = list(rows)
-    return {
-        "score": sum(row.score for row in rows),
-        "output": title or f"{sum(row.verdict == 'right' for row in rows)} of {len(rows)} answers are right.",
-        "output_format": "text",
-        "visibility": "visible",
-        "stdout_visibility": "hidden",
-        "tests": [_test(row, number) for number, row in enumerate(rows, 1)],
-        "extra_data": {"schema": "icsolve/grade/1"},
-    }
-
-
-def _test(row: Row, number: int) -> dict[str, Any]:
-    answer = f"Your answer: {row.raw_answer}\n" if row.raw_answer else ""
-    return {
-        "score": row.score,
-        "max_score": row.max_score,
-        "status": _STATUS.get(row.verdict, "failed"),
-        "name": row.case,
-        "name_format": "text",
-        "number": str(number),
-        "output": f"{answer}{row.feedback}",
-        "output_format": "text",
-        "tags": [tag for tag in (row.verdict, *row.code.split()) if tag],
-        "visibility": "visible",
-        "extra_data": {"verdict": row.verdict, "code": row.code, "variant": row.variant},
-    }
-
-
-def dumped(entry: Mapping[str, Any]) -> str:
-    """JSON text for a file."""
-    return json.dumps(entry, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
-
-
 class Source(NamedTuple):
     """What goes into an autograder: the texts of cases by file name, of the course and of the roster ('' for
     none), and the seed of the variants."""

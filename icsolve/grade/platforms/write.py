@@ -10,15 +10,20 @@ from typing import NamedTuple
 from icsolve.files import check_free, write_whole
 from icsolve.grade.platforms.gradebooks import (
     Filled,
-    canvas_filled,
     canvas_gradebook,
+    gradebook_filled,
     moodle_filled,
     moodle_worksheet,
 )
-from icsolve.grade.platforms.graders import junit_report, prairielearn_results, prairielearn_scores
-from icsolve.grade.platforms.gradescope import gradescope_results
+from icsolve.grade.platforms.graders import (
+    gradescope_results,
+    junit_report,
+    prairielearn_results,
+    prairielearn_scores,
+)
 from icsolve.grade.results import Row, by_student, read_results
 from icsolve.grade.roster import Person
+from icsolve.grade.tables.text import encoding_of
 from icsolve.grade.variants.sheets import file_name
 
 
@@ -30,6 +35,8 @@ class Order(NamedTuple):
     people: dict[str, Person]
     template: str
     force: bool
+    total: str = ""
+    """the one column for all questions together"""
 
 
 _NAMED = 20
@@ -53,12 +60,19 @@ def check_kind(kind: str) -> None:
         raise ValueError(f"--write {kind}: there is no such kind; it is one of {', '.join(KINDS)}")
 
 
-def _canvas(order: Order) -> str:
+def _gradebook(order: Order) -> str:
+    """Canvas, new or the teacher's own; of other platforms the teacher's own."""
     students = by_student(order.results)
+    if order.template:
+        return _filled(order, gradebook_filled(_text(order.template), students, order.people, order.total))
+    write_whole(order.path, canvas_gradebook(students, order.people, order.total), order.force)
+    return ""
+
+
+def _own_gradebook(order: Order) -> str:
     if not order.template:
-        write_whole(order.path, canvas_gradebook(students, order.people), order.force)
-        return ""
-    return _filled(order, canvas_filled(_text(order.template), students, order.people))
+        raise ValueError("fill the platform's own export: name it with --template")
+    return _gradebook(order)
 
 
 def _moodle(order: Order) -> str:
@@ -80,8 +94,10 @@ def _filled(order: Order, made: Filled) -> str:
 
 def _text(path: str) -> str:
     """The text of a template, which may be filled where it lies if it is named as the target too."""
-    with open(path, encoding="utf-8-sig", errors="icsolve-windows", newline="") as file:
-        return file.read()
+    with open(path, "rb") as file:
+        data = file.read()
+    encoding = encoding_of(data[:4000])
+    return data.decode(encoding, "icsolve-windows" if encoding.startswith("utf-8") else "replace")
 
 
 def _single(order: Order, make: Callable[[list[Row]], dict[str, object]]) -> str:
@@ -113,7 +129,9 @@ def _junit(order: Order) -> str:
 
 
 KINDS: dict[str, Callable[[Order], str]] = {
-    "canvas": _canvas,
+    "canvas": _gradebook,
+    "brightspace": _own_gradebook,
+    "blackboard": _own_gradebook,
     "moodle": _moodle,
     "gradescope": lambda order: _single(order, gradescope_results),
     "prairielearn": lambda order: _single(order, prairielearn_results),

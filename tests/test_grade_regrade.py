@@ -1,0 +1,193 @@
+"""Regrading: marks by hand, the queue for a person, what changes; nothing unread is 0."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from pathlib import Path
+
+import pytest
+
+from grade_shell import LEVER, Class, Ran
+
+ANSWERS = (
+    'student_id,case,answer\na,lever,200\nb,lever,"1,234"\nc,lever,1234 apples\nd,lever,1234  apples\n'
+    "e,lever,no idea\nf,lever,-200\na,pusher,100\nb,pusher,100\n"
+)
+
+
+@pytest.fixture
+def a_class(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Class:
+    return Class(tmp_path, capsys)
+
+
+def graded(a_class: Class, *options: str, name: str = "results.csv", answers: str = ANSWERS) -> Ran:
+    """A grading into a file."""
+    table = a_class.file("answers.csv", answers)
+    cases = str(a_class.path("cases"))
+    return a_class.run("grade", table, "--cases", cases, "-o", a_class.path(name), "--force", *options)
+
+
+def rows(a_class: Class, name: str) -> list[dict[str, str]]:
+    with open(a_class.path(name), encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def test_what_is_not_judged_has_no_mark_and_is_in_no_mean(a_class: Class) -> None:
+    ran = graded(a_class, "--jsonl", str(a_class.path("r.jsonl")))
+    own = [r for r in rows(a_class, "results.csv") if r["case"] == "lever"]
+    scores = {(r["student_id"], r["verdict"]): r["score"] for r in own}
+    assert scores == {("a", "right"): "1", ("b", "review"): "", ("c", "review"): "", ("d", "review"): "",
+                      ("e", "invalid"): "", ("f", "wrong"): "0"}  # fmt: skip
+    assert "lever: 1 right, 1 wrong, 1 invalid, 3 review; mean 50%" in ran.out
+    objects = [json.loads(line) for line in a_class.path("r.jsonl").read_text().splitlines()]
+    assert {o["score"] for o in objects if o["verdict"] in ("review", "invalid")} == {None}
+
+
+def test_a_column_most_of_which_is_unread_is_told_first(a_class: Class) -> None:
+    ran = graded(a_class)
+    first = ran.out.splitlines()[1]
+    assert first.startswith("lever: 4 of 6 answers could not be read or judged")
+    assert "'1234 apples' (2 times)" in first
+
+
+def test_each_text_of_the_queue_stands_once_and_is_fed_back(a_class: Class) -> None:
+    graded(a_class, "--review", str(a_class.path("queue.csv")))
+    queue = rows(a_class, "queue.csv")
+    assert [(q["answer"], q["count"], q["student_id"]) for q in queue] == [
+        ("1234 apples", "2", "c;d"), ("1,234", "1", "b"), ("no idea", "1", "e"),
+    ]  # fmt: skip
+    queue[0] |= {"score": "0,5", "comment": "units?"}
+    queue[2] |= {"score": "0"}
+    with open(a_class.path("queue.csv"), "w", newline="") as file:
+        table = csv.DictWriter(file, list(queue[0]))
+        table.writeheader()
+        table.writerows(queue)
+    graded(a_class, "--overrides", str(a_class.path("queue.csv")), name="again.csv")
+    found = {r["student_id"]: r for r in rows(a_class, "again.csv") if r["case"] == "lever"}
+    assert {s: (found[s]["score"], found[s]["code"], found[s]["feedback"]) for s in "cde"} == {
+        "c": ("0.5", "override", "Marked by hand: units?"),
+        "d": ("0.5", "override", "Marked by hand: units?"),
+        "e": ("0", "override", "Marked by hand."),
+    }  # fmt: skip
+    assert found["b"]["score"] == ""
+
+
+def test_an_override_goes_over_a_verdict_and_leaves_all_others_alone(a_class: Class) -> None:
+    graded(a_class)
+    marks = a_class.file("marks.csv", "student_id,case,score,comment\nf,lever:T,50%,sense as told\n")
+    ran = graded(a_class, "--overrides", marks, "--against", str(a_class.path("results.csv")), "--changes",
+                 str(a_class.path("changes.csv")), name="new.csv")  # fmt: skip
+    old, new = (a_class.path(name).read_text().splitlines() for name in ("results.csv", "new.csv"))
+    assert [line for line in new if line not in old] == [
+        "f,lever,,,-200,-200,,,wrong,0.5,1,0,override,Marked by hand: sense as told"
+    ]
+    (change,) = rows(a_class, "changes.csv")
+    assert (change["student_id"], change["old_score"], change["new_score"]) == ("f", "0", "0.5")
+    assert "against" in ran.out
+    assert "f lever: 0 wrong (sign) -> 0.5 wrong (override): marked by hand: sense as told" in ran.out
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("student_id,case,score\na,lever,2\n", "marks.csv:2: the score '2' should be a number from 0 to 1"),
+        ("student_id,case,score\na,lever,-1\n", "marks.csv:2: the score '-1' should be"),
+        ("student_id,case,score\na,lever,nan\n", "marks.csv:2: the score 'nan' should be"),
+        ("student_id,case,score\na,leber,1\n", "marks.csv:2: there is no case 'leber'"),
+        ("student_id,case,score\na,lever,1\na,lever,0\n", "marks.csv:3: a has another score for lever"),
+        ("student,problem,mark\na,lever,1\n", "it needs the columns student_id,case,score"),
+    ],
+)
+def test_a_mark_by_hand_that_cannot_be_meant_is_refused(a_class: Class, text: str, message: str) -> None:
+    ran = graded(a_class, "--overrides", a_class.file("marks.csv", text))
+    assert ran.code == 2
+    assert message in ran.err
+
+
+def test_a_mark_for_nobody_is_told(a_class: Class) -> None:
+    ran = graded(a_class, "--overrides", a_class.file("marks.csv", "student_id,case,score\nzz,lever,1\n"))
+    assert ran.code == 1
+    assert "marks.csv:2: zz owes and gave no answer to lever" in ran.err
+
+
+def test_what_changes_is_told_with_its_reason(a_class: Class) -> None:
+    """A corrected load, another tolerance, another answer, a new student, one who has left."""
+    graded(a_class)
+    a_class.case("lever", LEVER.replace("force: 100", "force: 101.5"))
+    later = ANSWERS.replace("f,lever,-200", "f,lever,203").replace("b,pusher,100", "g,pusher,100")
+    ran = graded(a_class, "--against", str(a_class.path("results.csv")), "--changes",
+                 str(a_class.path("changes.csv")), name="new.csv", answers=later)  # fmt: skip
+    found = {(c["student_id"], c["case"]): c["why"] for c in rows(a_class, "changes.csv")}
+    assert found["a", "lever"] == "the key has changed"
+    assert found["f", "lever"] == "another answer counts"
+    assert found["g", "pusher"] == "a new row"
+    assert found["b", "pusher"] == "another answer counts"
+    assert "3 times" in ran.out or "2 times" in ran.out
+
+
+def test_results_to_compare_with_have_to_be_results(a_class: Class) -> None:
+    ran = graded(a_class, "--against", a_class.file("old.csv", "a,b\n1,2\n"))
+    assert (ran.code, "old.csv is no file of results" in ran.err) == (2, True)
+    assert graded(a_class, "--changes", "x.csv").code == 2
+
+
+CANVAS = (
+    "Student,ID,SIS User ID,SIS Login ID,Section,Homework 7 (90210),Other (1)\n"
+    '    Points Possible,,,,,20,5\n"A, Ann",1,a,a@x,S,,\n"B, Bob",2,b,b@x,S,3,\n"F, Fay",3,f,f@x,S,,4\n'
+)
+
+
+def written(a_class: Class, template: str, *options: str, kind: str = "canvas") -> list[list[str]]:
+    path = a_class.file("template.csv", template)
+    ran = graded(a_class, "--write", f"{kind}={a_class.path('out.csv')}", "--template", path, *options)
+    assert ran.code == 0, ran.err
+    delimiter = ";" if ";" in template else ","
+    return list(csv.reader(io.StringIO(a_class.path("out.csv").read_text()), delimiter=delimiter))
+
+
+def test_a_total_fills_one_column_scaled_to_its_points(a_class: Class) -> None:
+    """Two questions of one point into twenty; who waits for a person stays blank."""
+    found = written(a_class, CANVAS, "--total", "Homework 7 (90210)")
+    assert found[0] == CANVAS.partition("\n")[0].split(",")
+    assert [row[5:] for row in found[1:]] == [["20", "5"], ["20", ""], ["", ""], ["0", "4"]]
+    template = a_class.file("t.csv", CANVAS)
+    out = f"canvas={a_class.path('o.csv')}"
+    ran = graded(a_class, "--write", out, "--template", template, "--total", "Homework 8")
+    assert ran.code == 2
+    assert "there is no column 'Homework 8' for the total" in ran.err
+
+
+def test_a_column_is_filled_by_its_own_points(a_class: Class) -> None:
+    found = written(a_class, CANVAS.replace("Homework 7", "lever").replace(",Other (1)", ",pusher (2)"))
+    assert [row[5:] for row in found[1:]] == [["20", "5"], ["20", "5"], ["", "5"], ["0", "0"]]
+
+
+def test_gradebooks_with_semicolons_commas_and_names_alone(a_class: Class) -> None:
+    a_class.file("roster.csv", "student_id,first_name,last_name\na,Ann,Ah\nf,Fay,Eff\n")
+    template = "LastName;FirstName;ID;Section;lever (7)\n    Points Possible;;;;2,50\n"
+    template += "Ah;Ann;1;S;\nEff;Fay;2;S;1,25\n"
+    found = written(a_class, template, "--roster", str(a_class.path("roster.csv")))
+    assert [row[4] for row in found[1:]] == ["2,50", "2,5", "0"]
+
+
+def test_brightspace_and_blackboard_are_filled_too(a_class: Class) -> None:
+    found = written(
+        a_class,
+        "OrgDefinedId,lever Points Grade <Numeric MaxPoints:4>,End-of-Line Indicator\n#a,,#\n#f,,#\n",
+        kind="brightspace",
+    )  # fmt: skip
+    assert [row[1] for row in found[1:]] == ["4", "0"]
+    found = written(
+        a_class, '"Last Name","First Name",Username,"HW [Total Pts: 10 Score] |77"\nAh,Ann,a,\nEff,Fay,f,\n',
+        "--total", "HW", kind="blackboard",
+    )  # fmt: skip
+    assert [row[3] for row in found[1:]] == ["10", "0"]
+
+
+def test_a_template_that_is_cut_off_is_refused(a_class: Class) -> None:
+    path = a_class.file("template.csv", CANVAS + '"Gee, G')
+    ran = graded(a_class, "--write", f"canvas={a_class.path('o.csv')}", "--template", path)
+    assert ran.code == 2
+    assert "is it cut off?" in ran.err
