@@ -158,7 +158,7 @@ def grid_of(ends: Iterable[float], way: Way) -> Array:
     step, ends = way.widest / CELLS, [way.start, *ends]
     step *= max(1, math.ceil((max(ends) - min(ends)) / step / MOST_CELLS))
     low, high = (math.floor((end - way.start) / step) for end in (min(ends), max(ends)))
-    return way.start + step * np.arange(low - 2, high + 4)
+    return np.asarray(way.start + step * np.arange(low - 2, high + 4), dtype=np.float64)
 
 
 def follow(remake: Remake, sheet: Sheet, way: Way, start: State, rows: Array) -> Followed:
