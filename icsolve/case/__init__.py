@@ -26,7 +26,7 @@ from icsolve.case.expected import (
     Tolerance,
     Variable,
 )
-from icsolve.case.figure import Centroid, Coordinates, Corner, Direction, Guide, Length, Mark, Units
+from icsolve.case.figure import Centroid, Coordinates, Corner, Direction, Guide, Length, Mark, Units, Unknown
 from icsolve.case.joints import (
     Belt,
     Contact,
@@ -109,6 +109,7 @@ __all__ = [
     "Torque",
     "Toward",
     "Units",
+    "Unknown",
     "Variable",
     "Weight",
     "Weld",
@@ -135,6 +136,8 @@ class Case:
     points: dict[str, Coordinates | Centroid] = field(default_factory=dict)
     lengths: tuple[Length, ...] = ()
     angles: tuple[Direction | Corner, ...] = ()
+    unknowns: tuple[Unknown, ...] = ()
+    """data of the figure that are to find; a coordinate only where it gives a range or a start"""
     near: dict[str, tuple[float, float]] = field(default_factory=dict)
     joints: tuple[Joint, ...] = ()
     loads: tuple[Load, ...] = ()

@@ -64,6 +64,22 @@ class Corner(NamedTuple):
     value: Number
 
 
+class Unknown(NamedTuple):
+    """A datum of the figure that is to find: in which of its positions the mechanism rests.
+
+    ``path`` is its place, ``angles.AB``, ``lengths.CD`` or ``points.B.x``; ``low`` and ``high`` are the ends
+    of the range to search, both None for all that it can be; ``start`` is where the figure is written. An
+    angle or length stands in the case with a number of ``digits`` "unknown" and the value of ``start``, else
+    of the middle of the range, else nan; a coordinate stands there as None.
+    """
+
+    path: str
+    low: Number | None = None
+    high: Number | None = None
+    start: Number | None = None
+    mark: Mark = (1, 1)
+
+
 class Guide(NamedTuple):
     """A guide line: by ``angle`` (degrees, modulo 180) or by two of its points ``ends``.
 

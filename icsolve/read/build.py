@@ -30,6 +30,7 @@ from icsolve.read.figure import (
     check_frame,
     check_given,
     check_loads,
+    check_unknowns,
     read_angles,
     read_dynamic,
     read_lengths,
@@ -81,6 +82,7 @@ def build(root: Mapping, problems: Problems, name: str) -> Case:
     parts = _parts(reading, root)
     welds = [joint.links for joint in parts.joints if isinstance(joint, Weld)]
     check_frame(reading, "ground" in root.items, ground, welds)
+    check_unknowns(reading, parts.loads)
     if readable(root, "points", "lengths", "angles"):
         check_given(reading)
         figure = Figure(parts.joints, parts.lengths, parts.angles, parts.points, _shaped(parts))
@@ -243,6 +245,7 @@ def _case(
         gravity=_gravity(reading, root) or Case.gravity,
         tolerance=tolerance_of_case(reading, root),
         profiles=parts.profiles,
+        unknowns=tuple(reading.unknowns),
         inertia=parts.inertia,
         dynamic=read_dynamic(reading, root.items.get("dynamic")),
         noticed=tuple(reading.noticed),

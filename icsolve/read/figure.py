@@ -7,6 +7,7 @@ slip is refused with both ways to say what is meant; without evidence nothing is
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
@@ -24,16 +25,18 @@ from icsolve.case import (
     Load,
     Mark,
     Motion,
+    Number,
     Pin,
     Roll,
     Slide,
     Slot,
     Spring,
     Torque,
+    Unknown,
     Weld,
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
-from icsolve.read.keys import CENTROID, MASSES
+from icsolve.read.keys import CENTROID, MASSES, UNKNOWN
 from icsolve.read.names import Names, point_key, shown, suggestion
 from icsolve.read.reading import COMPASS, Entry, Reading, number
 
@@ -64,10 +67,13 @@ def _coordinates(reading: Reading, name: str, node: Node) -> Coordinates | None:
         form = decimals(node) or "as in [3, 0.5] or [unknown, 0.5]"
         reading.refuse(node.mark, f"point {name} should have two coordinates, {form}")
         return None
-    open_ones = [type(item) is Scalar and item.text == "unknown" for item in node.items]
+    open_ones = [_is_unknown(item) for item in node.items]
     if all(open_ones):
         reading.refuse(node.mark, f"both coordinates of {name} are unknown; leave the point out of 'points'")
         return None
+    for item, axis in zip(node.items, "xy", strict=True):
+        if type(item) is Mapping and "unknown" in item.items:
+            _unknown(reading, item, "length", f"points.{name}.{axis}")
     values = [
         None if is_open else number(reading, item, "length", f"points.{name}.{axis}")
         for item, is_open, axis in zip(node.items, open_ones, "xy", strict=True)
@@ -111,7 +117,7 @@ def read_lengths(reading: Reading, section: Mapping, known: set[str]) -> tuple[L
     found = []
     for key, names in _keyed(reading, section, "lengths", (2,), known):
         node = section.items[key]
-        value = number(reading, node, "length", f"lengths.{key}")
+        value = _datum(reading, node, "length", f"lengths.{key}")
         if value is not None and value.value < 0.0:
             reading.refuse(node.mark, f"the length {key} should not be negative")
         elif value is not None:
@@ -123,12 +129,78 @@ def read_angles(reading: Reading, section: Mapping, known: set[str]) -> tuple[Di
     """Directions of pairs and angles at the middle of triples."""
     found: list[Direction | Corner] = []
     for key, names in _keyed(reading, section, "angles", (2, 3), known):
-        value = number(reading, section.items[key], "angle", f"angles.{key}")
+        value = _datum(reading, section.items[key], "angle", f"angles.{key}")
         if value is not None and len(names) == 2:
             found.append(Direction(names[0], names[1], value))
         elif value is not None:
             found.append(Corner(names[0], names[1], names[2], value))
     return tuple(found)
+
+
+def _is_unknown(node: Node) -> bool:
+    """Whether a datum is to find: ``unknown``, or ``{unknown: [0, 90]}``."""
+    if type(node) is Mapping:
+        return bool({"unknown", "from"} & node.items.keys())
+    return type(node) is Scalar and node.text == "unknown"
+
+
+def _datum(reading: Reading, node: Node, dimension: str, path: str) -> Number | None:
+    """The number of an angle or length; of one that is to find, a number to stand in its place."""
+    if not _is_unknown(node):
+        return number(reading, node, dimension, path)
+    reading.marks[path] = node.mark
+    found = _unknown(reading, node, dimension, path)
+    if found is None:
+        return None
+    if found.start is not None:
+        value = found.start.value
+    elif found.low is not None and found.high is not None:
+        value = 0.5 * (found.low.value + found.high.value)
+    else:
+        value = math.nan
+    return Number(value, 0.0, path, "unknown")
+
+
+def _unknown(reading: Reading, node: Node, dimension: str, path: str) -> Unknown | None:
+    """A datum that is to find, with its range and where the figure is written; None if it can't be read."""
+    low = high = start = None
+    if type(node) is Mapping:
+        entry = Entry(reading, node, path, f"the unknown {path}", UNKNOWN)
+        entry.check()
+        start = entry.number("from", dimension)
+        span = node.items.get("unknown")
+        if type(span) is not Sequence or len(span.items) != 2:
+            if span is not None and not _is_unknown(span):
+                form = "[0, 90]" if dimension == "angle" else "[0.2, 0.35]"
+                entry.refuse(span.mark, f"an unknown has a range of two numbers, {{unknown: {form}}}")
+                return None
+        else:
+            low, high = (
+                number(reading, item, dimension, f"{path}.{end}")
+                for item, end in zip(span.items, ("low", "high"), strict=True)
+            )
+            if low is None or high is None:
+                return None
+            if low.value >= high.value:
+                entry.refuse(span.mark, "a range goes from the lower to the higher number")
+                return None
+            if low.value < 0.0 and path.startswith("lengths."):
+                entry.refuse(span.mark, "a length should not be negative")
+                return None
+        if span is None or (start is None and entry.has("from")):
+            return None
+    found = Unknown(path, low, high, start, node.mark)
+    reading.unknowns.append(found)
+    return found
+
+
+def check_unknowns(reading: Reading, loads: tuple[Load, ...]) -> None:
+    """A position is asked only where every load is known."""
+    for unknown in reading.unknowns:
+        idle = next((load.name for load in loads if getattr(load, "value", 0) is None), None)
+        if idle is not None and not unknown.path.startswith("points."):
+            said = f"load {idle} is to find too, and a position is asked only where every load is known"
+            reading.refuse(unknown.mark, f"'unknown' cannot stand here: {said}")
 
 
 def _keyed(

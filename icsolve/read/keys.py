@@ -456,6 +456,11 @@ LIKE = {
     "times": _quantity("how many times as large as the other load", "number"),
 }
 CENTROID = {"centroid": Key("the points of which it is the mean; of two, the middle", "several", True)}
+UNKNOWN = {
+    "unknown": Key("the range in which it is to find, as in [0, 90]", "pair", True),
+    "from": Key("where in it the figure is written, as in {unknown: [0, 360], from: 30}", "quantity"),
+}
+"""What a datum of the figure says that is to find."""
 GRAVITY = {
     "size": _quantity("its size, 9.81 m/s^2 by default", "acceleration", "not negative"),
     "along": _axis("where weights pull to"),

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 from collections.abc import Mapping as Table
 from typing import TYPE_CHECKING
 
-from icsolve.case import Coordinates, Mark, Number, Units
+from icsolve.case import Coordinates, Mark, Number, Units, Unknown
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null, missing_space
 from icsolve.read.keys import UNITS as UNIT_KEYS
 from icsolve.read.keys import Key
@@ -47,7 +47,7 @@ class Reading:
     that a load or centre gives by coordinates; ``kinds`` the kind of each load by its name. ``axes`` are
     those along which a force has components, ``couples`` those about which a couple has. ``profiled`` are the
     links under ``profile``, ``touches`` the contacts whose places the profiles give, ``noticed`` sentences on
-    what may be a slip.
+    what may be a slip, ``unknowns`` the data of the figure that are to find.
     """
 
     axes = "xy"
@@ -69,6 +69,7 @@ class Reading:
         self.joint_number = 0
         self.profiled: set[str] = set()
         self.noticed: list[str] = []
+        self.unknowns: list[Unknown] = []
         self.touches: list[tuple[Touch, Mark]] = []
 
     def refuse(self, mark: Mark, message: str) -> None:

@@ -104,7 +104,8 @@ _LOAD = (_ref("quantity"), _ref("unknown"), _ref("like"))
 _SENSE: Schema = {"enum": ["ccw", "cw"]}
 _TEXT: Schema = {"type": ["string", "number", "boolean"]}
 _PUBLISHED = _any({"type": "number"}, _pattern(_QUANTITY), _ref("pair"))
-_COORDINATES = _list(_any(_ref("quantity"), _ref("unknown")), 2, 2)
+_UNKNOWN = (_ref("unknown"), _ref("unknown datum"))
+_COORDINATES = _list(_any(_ref("quantity"), *_UNKNOWN), 2, 2)
 FORMS: dict[str, Schema] = {
     "version": {"enum": [1, "1"]},
     "text": _ref("text"),
@@ -151,8 +152,10 @@ FORMS: dict[str, Schema] = {
     "units": _ref("units"),
     "gravity": _any(_ref("quantity"), _ref("triple"), _ref("gravity in space")),
     "points": _section(_any(_COORDINATES, _ref("triple"), _ref("centroid"))),
-    "lengths": _section(_any({"type": "number", "minimum": 0}, _pattern(_QUANTITY)), _points_key("{1}")),
-    "angles": _section(_ref("quantity"), _points_key("{1,2}")),
+    "lengths": _section(
+        _any({"type": "number", "minimum": 0}, _pattern(_QUANTITY), *_UNKNOWN), _points_key("{1}")
+    ),
+    "angles": _section(_any(_ref("quantity"), *_UNKNOWN), _points_key("{1,2}")),
     "near": _section(_ref("pair")),
     "points of a link": _list(_ref("name"), 0),
     "links section": _section(_any(_list(_ref("name"), 0), _ref("masses"))),
@@ -181,6 +184,7 @@ def _definitions() -> Schema:
         "triple": _list(_ref("quantity"), 3, 3),
         "axis": _any(_pattern(r"^\s*[-+]?[xyzXYZ]\s*$"), _ref("triple"), _names(2, 2)),
         "unknown": {"const": "unknown"},
+        "unknown datum": _keyed(keys.UNKNOWN),
         "like": _keyed(keys.LIKE),
         "units": {**_keyed(keys.UNITS), "type": ["object", "null"]},
         "masses": {**_keyed(keys.MASSES), "dependencies": {"mass": ["centre"]}},

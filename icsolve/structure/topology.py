@@ -65,6 +65,9 @@ def topology(case: Case) -> Topology:
     if case.profiles is not None and case.profiles.touches:
         said = "this needs contacts whose `at` and `normal` are given, and here profiles give them."
         raise SceneError(Status.UNSUPPORTED, said)
+    if case.unknowns:
+        said = f"this needs a figure whose data are given, and {case.unknowns[0].path} is to find."
+        raise SceneError(Status.UNSUPPORTED, said)
     body_of, members = _bodies(case)
     pins = _pinned_at(case, body_of)
     bonds = tuple(_bonds(case, body_of, pins))
