@@ -344,4 +344,3 @@ def test_ctrl_c_while_a_package_loads_is_no_fault() -> None:
     env = {**os.environ, "PYTHONPATH": ROOT}
     ran = subprocess.run(call, env=env, capture_output=True, check=False)
     assert (ran.returncode, ran.stdout, ran.stderr) == (130, b"", b"icsolve: interrupted\n")
-

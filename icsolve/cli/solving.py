@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -16,6 +17,20 @@ if TYPE_CHECKING:
     from icsolve.case import Case
     from icsolve.errors import SceneError
     from icsolve.report.mechanism import Report
+
+
+class Length(click.FloatRange):
+    """A finite number above zero: neither nan nor inf is the width of a pencil line."""
+
+    def __init__(self) -> None:
+        super().__init__(min=0.0, min_open=True)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """The number."""
+        number = super().convert(value, param, ctx)
+        if not math.isfinite(number):
+            self.fail(f"{value!r} is not a finite number.", param, ctx)
+        return number
 
 
 class Options(NamedTuple):
@@ -43,7 +58,7 @@ class Options(NamedTuple):
 @click.option("--sensitivity", is_flag=True, help="How the answer depends on every number of the case.")
 @click.option(
     "--tolerance",
-    type=click.FloatRange(min=0.0, min_open=True),
+    type=Length(),
     help="The band of the answer where each point of the drawing may be off by this, in case units.",
 )
 @SET

@@ -111,8 +111,10 @@ def _schema_beside(path: str) -> str:
     from icsolve.read.schema import ID, schema
 
     target = os.path.join(os.path.dirname(path), ID)
+    if not os.path.isfile(path):  # a device or a pipe
+        return ""
     try:
-        with open(target, "x", encoding="utf-8", newline="\n") as file:
+        with whole_file(target, force=False) as file:
             file.write(json.dumps(schema(), indent=1) + "\n")
     except OSError:  # it is there, or can't be: the case serves without
         return ""

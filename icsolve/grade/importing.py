@@ -79,6 +79,12 @@ class Import:
         if not count:
             raise HeaderError("there is no answer in it, only a header")
 
+    def unusable(self, path: str, why: str, student: str) -> None:
+        """Note a file without a readable answer; it has a line in the results, for a person."""
+        self.issues.note(path, 0, why, serious=True)
+        whose = self._matched((student,)) if student else ""
+        self.store.add([Entry(whose, "", 0, trouble=f"{os.path.basename(path)}: {why}")])
+
     def _told(self, entries: Iterator[Entry], file: IO[bytes], path: str) -> Iterator[Entry]:
         """The entries, with a report of how much of the file is read."""
         try:

@@ -18,6 +18,7 @@ from icsolve.grade.marking import NAMED, Given, Marker
 from icsolve.grade.results import HEADER, json_line, line
 from icsolve.grade.roster import Roster, read_roster
 from icsolve.grade.store import Disk, Entry, Store
+from icsolve.grade.tables import HeaderError
 from icsolve.grade.tally import Counts, added
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.sweep.forked import can_fork, started
@@ -235,8 +236,7 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
     try:
         imported = Import(store, case_store, issues, roster, progress)
         paths = expand(job.submissions)
-        for path, student in paths:
-            imported.read(path, job.course.columns, student or job.student)
+        _take_in(imported, paths, job)
         questions = tuple(sorted(set(job.course.questions) or _asked(imported)))
         students = sorted(set(imported.students) | set(_expected(job, roster)))
         progress("drawing variants", 0.0)
@@ -276,6 +276,25 @@ def _note_unmet(overrides: Overrides, found: list[Outcome], job: Job, issues: Is
         if (student, item) not in met:
             why = f"{student} owes and gave no answer to {item}, so this mark is for nobody"
             issues.note(job.overrides[-1], override.line, why, serious=True)
+
+
+def _take_in(imported: Import, paths: Iterable[tuple[str, str]], job: Job) -> None:
+    """Read every file; one that can't be used is told, and leaves the others alone.
+
+    Raises the first trouble where no file has an answer, and FileNotFoundError.
+    """
+    first: Exception | None = None
+    for path, student in paths:
+        try:
+            imported.read(path, job.course.columns, student or job.student)
+        except FileNotFoundError:
+            raise
+        except (HeaderError, OSError) as error:
+            first = first or error
+            why = str(error).removeprefix(f"{path}: ") if isinstance(error, HeaderError) else error.strerror
+            imported.unusable(path, why or str(error), student or job.student)
+    if first is not None and not imported.count:
+        raise first
 
 
 def _neighbours(case_store: CaseStore, students: Iterable[str]) -> Neighbours | None:

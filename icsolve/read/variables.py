@@ -19,13 +19,39 @@ _TOKEN = re.compile(
     r"|(\d+(?:\.\d*)?(?:[eE][-+]?\d{1,3})?|\.\d+)"
     r"|([-+*/()]))"
 )
+_NUMBER = re.compile(r"[-+]?(?:\d{1,400}(?:\.\d{0,400})?|\.\d{1,400})(?:[eE][-+]?(\d+))?", re.ASCII)
 _NAME = re.compile(r"\$([^\W\d_][\w']*)|\$\{([^\W\d_][\w']*)\}")
+_LARGEST = 305
+"""Decimal exponent that no number of a case exceeds, up or down."""
 _DEEPEST = 30
 _LONGEST = 400
 
 
 class FormulaError(ValueError):
     """Arithmetic that can't be read; the message says what to write."""
+
+
+def exact(text: str) -> Fraction:
+    """The number, or the fraction of two, that a text says; exact, and of a size that a case may have.
+
+    Raises FormulaError. What is longer, or has an exponent of more than three digits, is never worked out.
+    """
+    parts = text.strip().replace("−", "-").split("/")
+    found = [_NUMBER.fullmatch(part.strip()) for part in parts]
+    if len(parts) > 2 or not all(found):
+        raise FormulaError(f"'{text[:40]}' is not a bare number; in arithmetic the choices must be")
+    if any(len(number.group(1) or "") > 3 for number in found if number):
+        raise FormulaError(f"'{text[:40]}' is too large or too small for a mechanism")
+    above, below = Fraction(parts[0].strip()), Fraction(parts[1].strip() if len(parts) == 2 else 1)
+    if below == 0:
+        raise FormulaError("division by zero")
+    return _sized(above / below, f"'{text[:40]}'")
+
+
+def _sized(value: Fraction, what: str) -> Fraction:
+    if value and not 1 <= abs(value) * 10**_LARGEST <= 10 ** (2 * _LARGEST):
+        raise FormulaError(f"{what} is too {'large' if abs(value) > 1 else 'small'} for a mechanism")
+    return value
 
 
 def names_in(text: str) -> list[str]:
@@ -54,7 +80,7 @@ def replaced(text: str, values: Named[str, str]) -> tuple[str, Fraction | None]:
     unit = text[parser.at :].strip()
     if unit and (unit[0] in "*/)+-$(" or unit[0].isdigit()):
         raise FormulaError(f"'{unit[:20]}' is out of place after the arithmetic")
-    digits = decimal(value)
+    digits = decimal(_sized(value, "its value"))
     return f"{digits} {unit}".strip(), None if Fraction(digits) == value else value
 
 
@@ -149,11 +175,7 @@ class _Parser:
         return value
 
     def _value(self, name: str) -> Fraction:
-        text = self.values[name.strip("${}")]
-        try:
-            return Fraction(text)
-        except (ValueError, ZeroDivisionError):
-            raise FormulaError(f"'{text}' is not a bare number; in arithmetic the choices must be") from None
+        return exact(self.values[name.strip("${}")])
 
 
 _FORM = "as in {P: {range: [100, 500], step: 10}, a: {choices: [1.5, 2, 2.5]}}"
@@ -217,10 +239,10 @@ def _texts(node: Node) -> tuple[str, ...]:
 
 def _fraction(text: str) -> Fraction:
     try:
-        value = Fraction(text.replace("−", "-"))
-    except (ValueError, ZeroDivisionError):
+        value = exact(text) if "/" not in text else None
+    except FormulaError:
         value = None
-    if value is None or "/" in text or "_" in text or abs(value) > 10**30:
+    if value is None or abs(value) > 10**30:
         raise ValueError(f"{shown(text)} is not a number; its unit stands where it is used, as in '$P lbf'")
     return value
 
@@ -229,7 +251,7 @@ def count(variable: Variable) -> int:
     """How many values it can take."""
     if variable.choices:
         return len(variable.choices)
-    start, stop, step = (Fraction(text) for text in (variable.start, variable.stop, variable.step))
+    start, stop, step = (exact(text) for text in (variable.start, variable.stop, variable.step))
     return int((stop - start) // step) + 1
 
 
@@ -237,7 +259,7 @@ def value_at(variable: Variable, index: int) -> str:
     """Its value of an index, as text; exact."""
     if variable.choices:
         return variable.choices[index]
-    return decimal(Fraction(variable.start) + index * Fraction(variable.step))
+    return decimal(exact(variable.start) + index * exact(variable.step))
 
 
 def first_values(variables: tuple[Variable, ...]) -> dict[str, str]:
@@ -307,4 +329,4 @@ def _put_in(node: Node, values: dict[str, str], used: set[str], problems: Proble
         return Scalar(text, node.plain, node.mark, exact)
     except FormulaError as error:
         problems.refuse(node.mark, f"{shown(node.text)}: {error}")
-        return node
+        return Scalar("1", node.plain, node.mark)

@@ -11,6 +11,7 @@ from typing import NamedTuple
 
 from icsolve.assembly.frame import Frame
 from icsolve.case import Case, Force, ForceVector, Like, Load, Number, Slope, Spring, Torque, Toward, Weight
+from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, magnitude
 from icsolve.numbers.null_space import null_space
 from icsolve.screws.plane import Point, Triple, force_wrench, pairing
@@ -283,6 +284,10 @@ def _solved_many(
     if not whole.basis or not roots:
         return Solution("balanced", dict.fromkeys(roots, 0.0), idle)
     vector = whole.basis[0]
+    if vector[-1] == 0.0:
+        raise SceneError(
+            Status.NEAR_SINGULAR, "the equations of power of the motions can't be told from dependent ones"
+        )
     values = {root: vector[k] / vector[-1] / scales[k][0] / scales[k][1] for k, root in enumerate(roots)}
     return Solution("balanced", values, idle)
 

@@ -132,7 +132,7 @@ def wrong_rows(key: Key) -> Iterator[tuple[Wrong, float, float]]:
     Moodle takes the first row that matches, so the right answer stands before them.
     """
     known = dict(key.policy.mistakes)
-    ordered = sorted(key.wrongs.all, key=lambda w: (ORDER[w.code], _decades(w.value / key.value), w.value))
+    ordered = sorted(key.wrongs.all, key=lambda w: (ORDER[w.code], _decades(w.value, key.value), w.value))
     seen: list[float] = []
     counts: Counter[str] = Counter()
     for wrong in ordered:
@@ -144,9 +144,9 @@ def wrong_rows(key: Key) -> Iterator[tuple[Wrong, float, float]]:
             yield wrong, min(_FRACTIONS, key=lambda f: abs(f - share)), reach
 
 
-def _decades(ratio: float) -> float:
-    """How far a ratio is from 1, in powers of ten; whole powers of a thousand are the likeliest."""
-    powers = abs(math.log10(abs(ratio))) if ratio else 99.0
+def _decades(wrong: float, right: float) -> float:
+    """How far two values are apart, in powers of ten; whole powers of a thousand are the likeliest."""
+    powers = abs(math.log10(abs(wrong)) - math.log10(abs(right))) if wrong and right else 99.0
     return 0.5 if abs(powers - 3.0) < 1e-9 else powers
 
 

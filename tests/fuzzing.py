@@ -1,0 +1,375 @@
+"""Mutated cases and answers through every command: each ends in a result or a refusal, and soon.
+
+`test_fuzz.py` takes a small sample; `python tests/fuzzing.py COUNT SEED [--apart]` any number, ``--apart``
+with a process for each command.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import os
+import random
+import re
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import traceback
+from collections import Counter
+from collections.abc import Iterator
+from copy import deepcopy
+from pathlib import Path
+from typing import NamedTuple
+
+from corpus import ALL
+from icsolve.cli import main
+from icsolve.read.document import Mapping, Node, Scalar, Sequence
+from icsolve.read.names import Stop
+from trees import document, tree
+
+ROOT = Path(__file__).parent.parent
+FOUND = Path(__file__).parent / "data" / "found"
+"""Inputs that once broke something."""
+SECONDS = 10
+BYTES = 1 << 30
+Dice = random.Random
+TOKENS = [
+    *r"[ ] { } , : ? - # & * ! | > ' % @ ` --- ... é ² ½ ٣ '' \ << = ~ null true NO on .inf -.nan".split(),
+    *"1e999 1e-999 0x1F 0o7 1_000 12:30 2024-13-45 !!int !!bool &a *a unknown like centroid icsolve".split(),
+    *"joints points O2-A A' -- @x 1/0 N*m ft-lb N^9 kg lbm ° 30% [[[]]] {x:1} [unknown] cw ccw".split(),
+    *["", '"', '""', "\t", "\n", "\r", "\0", "\x1b", "\x85", "\u2028", "\ufeff", "\ud800"],
+    *["{like: {like: P}}", "{: }", "$P", "$", "${P}/0", "1e99999999", "  ", "\n  ", "\n- ", ": ", "- - "],
+    *["9" * 400, "x" * 2000, "A" * 130, "(" * 60, "-" * 90, "'" * 70],
+]
+NUMBERS = (
+    "0 -0 1 -1 2 3 0.1 90 -90 180 360 45 1e-6 1e-9 1e-13 1e-160 1e-300 1e6 1e9 1e13 1e100 1e160 1e300".split()
+)
+ANSWERS = [
+    *"33.76 -33.76 +3,376 1/3 1/0 1e9999 .5e-400 nan inf 90° 30% 5ft-lb 1e99999999 (3;4) - =".split(),
+    *[
+        "",
+        " ",
+        " " * 3000,
+        "33.76 lbf*in cw",
+        "3 x 10^2 N",
+        "1,234.5",
+        "(1, 2)",
+        "412,7 N to the left",
+        "9" * 500,
+    ],
+    *[
+        "a" * 800,
+        "- - -",
+        "1 2 3",
+        "\0",
+        '"',
+        "10 N at 30 deg above -x",
+        "12^12^12",
+        "((((((((1",
+        "½ kN",
+        "٣",
+    ],
+]
+_NUMBER = re.compile(r"(?<![\w.$'])-?\d+(?:\.\d*)?(?:e-?\d+)?(?![\w.'])")
+
+
+def bases() -> list[str]:
+    """Texts of cases to begin with: of every kind, as written, and those that once broke something."""
+    cases = sorted((ROOT / "cases").rglob("*.yaml"))
+    found = sorted(FOUND.glob("*.yaml"))
+    return [*ALL.values(), *(path.read_text() for path in (*cases, *found, *found))]
+
+
+def by_characters(dice: Dice, text: str) -> str:
+    """Characters lost, doubled, swapped; strange ones put in."""
+    for _ in range(dice.randint(1, 4)):
+        at, to = dice.randrange(len(text) + 1), dice.randrange(len(text) + 1)
+        at, to = min(at, to), min(max(at, to), at + dice.choice((0, 1, 1, 5, 40)))
+        middle = dice.choice(
+            ("", text[at:to] * 2, dice.choice(TOKENS), text[at:to][::-1], chr(dice.randrange(0x250)))
+        )
+        text = text[:at] + middle + text[to:]
+    return text
+
+
+def by_lines(dice: Dice, text: str) -> str:
+    """Lines lost, doubled, moved, indented."""
+    lines = text.split("\n")
+    for _ in range(dice.randint(1, 3)):
+        at, to = dice.randrange(len(lines)), dice.randrange(len(lines))
+        done = dice.randrange(5)
+        if done == 0:
+            del lines[at]
+        elif done == 1:
+            lines.insert(to, lines[at])
+        elif done == 2:
+            lines[at], lines[to] = lines[to], lines[at]
+        elif done == 3:
+            lines[at] = " " * dice.randint(1, 4) + lines[at]
+        else:
+            lines[at] = lines[at].strip()
+        lines = lines or [""]
+    return "\n".join(lines)
+
+
+def by_nodes(dice: Dice, text: str) -> str:
+    """Values of the tree exchanged, among them and with those of another case."""
+    root = tree(text)
+    other = nodes(tree(dice.choice([*ALL.values(), text, text])))
+    for _ in range(dice.randint(1, 3)):
+        node = dice.choice([one for one in nodes(root) if not isinstance(one, Scalar)])
+        value = deepcopy(dice.choice([*other, Scalar(dice.choice(TOKENS), False, (1, 1))]))
+        if isinstance(node, Mapping):
+            key = dice.choice([*node.items, dice.choice(KEYS)])
+            node.items[key] = value
+            if dice.random() < 0.2:
+                del node.items[key]
+        elif isinstance(node, Sequence) and node.items:
+            at = dice.randrange(len(node.items))
+            if dice.random() < 0.3:
+                del node.items[at]
+            else:
+                node.items[at] = value
+    return document(root)
+
+
+def by_numbers(dice: Dice, text: str) -> str:
+    """Numbers exchanged for others, extreme, equal or nearly so."""
+    for _ in range(dice.randint(1, 4)):
+        found = list(_NUMBER.finditer(text, text.find("\n")))
+        if not found:
+            return text
+        at, other = dice.choice(found), dice.choice(found).group()
+        value = dice.choice(
+            [dice.choice(NUMBERS), other, f"{other}0000000{dice.randint(1, 9)}" if "." in other else other]
+        )
+        text = text[: at.start()] + value + text[at.end() :]
+    return text
+
+
+def by_names(dice: Dice, text: str) -> str:
+    """One word for another of the same case, everywhere or in one place."""
+    words = sorted(set(re.findall(r"\b[A-Za-z][\w']{0,12}\b", text)))
+    old, new = dice.choice(words), dice.choice(words)
+    return re.sub(rf"\b{re.escape(old)}(?![\w'])", new, text, count=dice.choice((0, 1, 1)))
+
+
+MUTATIONS = [by_characters, by_lines, by_nodes, by_nodes, by_numbers, by_numbers, by_numbers, by_names]
+
+
+def nodes(node: Node) -> list[Node]:
+    """A node and all in it."""
+    if isinstance(node, Scalar):
+        return [node]
+    inner = node.items.values() if isinstance(node, Mapping) else node.items
+    return [node, *[found for value in inner for found in nodes(value)]]
+
+
+KEYS = sorted(
+    {
+        key
+        for text in ALL.values()
+        for node in nodes(tree(text))
+        if isinstance(node, Mapping)
+        for key in node.items
+    }
+)
+
+
+def mutated(dice: Dice, texts: list[str]) -> str:
+    """A case that nobody wrote."""
+    text = dice.choice(texts)
+    for _ in range(dice.choice((1, 1, 1, 2, 3))):
+        try:
+            text = dice.choice(MUTATIONS)(dice, text)
+        except (ValueError, IndexError, AssertionError, Stop):
+            continue  # no longer a tree
+    return text + "\n"
+
+
+def answers(dice: Dice, names: list[str]) -> str:
+    """A table of answers, with what students and spreadsheets do to it."""
+    sep = dice.choice(",,,;\t")
+    rows = [sep.join(dice.choice([("student_id", "case", "answer"), ("student_id", *names[:3])]))]
+    for _ in range(dice.randint(1, 6)):
+        cells = [
+            dice.choice(["1", "007", "é", ""]),
+            dice.choice([*names, "case", "case:T12", "case:w4/w2", "case:I24"]),
+        ]
+        rows.append(
+            sep.join([*cells, f'"{dice.choice(ANSWERS)}"' if dice.random() < 0.6 else dice.choice(ANSWERS)])
+        )
+    text = "\n".join(rows) + "\n"
+    return by_characters(dice, text) if dice.random() < 0.3 else text
+
+
+def commands(dice: Dice, text: str) -> list[list[str]]:
+    """All verbs, with options drawn."""
+    names = re.findall(r"\b([A-Z][\w']?[A-Z]?)\s*:", text) or ["AB"]
+    spans = ["0:360:30", "10:12:0.5", "0:1e-9:1e-9", "-180:180:90", "0,0,1e300", "1:100000:50000", "0:0:1"]
+    path = dice.choice(
+        [
+            f"angles.{dice.choice(names)}",
+            f"lengths.{dice.choice(names)}",
+            f"loads.{dice.choice(names)}",
+            "joints.0.mu",
+        ]
+    )
+    vary = dice.choice([["--vary", f"{path}={dice.choice(spans)}"], ["--drive", f"2={dice.choice(spans)}"]])
+    some = [
+        "--all-centres",
+        "--rates",
+        "--reactions",
+        "--report",
+        "--sensitivity",
+        "--json",
+        "--tolerance=0.01",
+    ]
+    more = ["--error", "--points", "--centres", "--rates"]
+    shown = ["--bodies", "--circle", "--velocities", "--centres=all", "--step=1"]
+    find = dice.choice([["--find", "dead"], ["--find", "max"], ["--find", f"{dice.choice(names)}=1"], []])
+    return [
+        ["solve", "case.yaml", *dice.sample(some, dice.randint(0, 3))],
+        ["check", "case.yaml"],
+        ["validate", "case.yaml"],
+        ["draw", "case.yaml", *dice.sample(shown, dice.randint(0, 2))],
+        ["explain", "case.yaml", *dice.choice([[], ["--bodies"], ["--format", "html"]])],
+        ["page", "case.yaml"],
+        ["sweep", "case.yaml", *vary, *dice.sample(more, dice.randint(0, 2)), *find],
+        ["grade", "answers.csv", "--cases", "case.yaml", "--jsonl", "graded.jsonl", "--force"],
+        [
+            "export",
+            dice.choice(["moodle-xml", "gift"]),
+            "case.yaml",
+            "-o",
+            "quiz.xml",
+            "--force",
+            "--count",
+            "2",
+        ],
+    ]
+
+
+class Fault(NamedTuple):
+    """A command that ended otherwise than it may."""
+
+    command: str
+    why: str
+    trace: str
+    case: str
+    table: str
+
+
+class TooLong(BaseException):
+    """More than `SECONDS`; no code that guards against exceptions holds it up."""
+
+
+@contextlib.contextmanager
+def limited() -> Iterator[None]:
+    """An alarm after `SECONDS` of work, however busy the machine is."""
+
+    def ring(number: int, frame: object) -> None:
+        raise TooLong
+
+    before = signal.signal(signal.SIGPROF, ring)
+    signal.setitimer(signal.ITIMER_PROF, SECONDS)
+    try:
+        yield
+    finally:
+        signal.setitimer(signal.ITIMER_PROF, 0)
+        signal.signal(signal.SIGPROF, before)
+
+
+def run(command: list[str], apart: bool) -> tuple[int, str, str]:
+    """Status, what stood on standard error, and the trace of a fault."""
+    if apart:
+        env = {**os.environ, "PYTHONPATH": str(ROOT), "ICSOLVE_DEBUG": "1"}
+        call = [sys.executable, "-m", "icsolve", *command]
+        try:
+            ran = subprocess.run(
+                call, env=env, capture_output=True, timeout=SECONDS, check=False, preexec_fn=_little
+            )
+        except subprocess.TimeoutExpired:
+            return 124, "", "too long"
+        said = ran.stderr.decode(errors="replace")
+        return ran.returncode, said.partition("\nTraceback")[0], said
+    out, err = (io.TextIOWrapper(io.BytesIO(), "utf-8", "backslashreplace") for _ in range(2))
+    try:
+        with limited(), contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+            main(command)
+    except SystemExit as left:
+        err.flush()
+        said = err.buffer.getvalue().decode()
+        return int(left.code or 0), said.partition("\nTraceback")[0], said
+    except TooLong:
+        return 124, "", traceback.format_exc()
+    return 0, "", ""
+
+
+def _little() -> None:
+    resource.setrlimit(resource.RLIMIT_AS, (BYTES * 3, BYTES * 3))
+
+
+def faults_of(dice: Dice, text: str, apart: bool = False) -> list[Fault]:
+    """What is wrong with the commands on one case in the working folder."""
+    Path("case.yaml").write_text(text, encoding="utf-8", errors="surrogatepass")
+    names = re.findall(r"^  ([A-Z]\w*):", text, re.MULTILINE)
+    table = answers(dice, names or ["case"])
+    Path("answers.csv").write_text(table, encoding="utf-8", errors="surrogatepass")
+    found = []
+    for command in commands(dice, text):
+        code, said, trace = run(command, apart)
+        why = ""
+        if code not in (0, 1, 2):
+            why = f"status {code}: {said[-300:]}"
+        elif code == 2 and command[0] in ("solve", "check", "draw") and not re.search(r":\d+:\d+: ", said):
+            why = f"no line and column: {said[-300:]}"
+        if why:
+            found.append(Fault(" ".join(command), why, trace, text, table))
+            if code == 2:
+                break
+    return found
+
+
+def campaign(count: int, seed: int, apart: bool = False) -> Iterator[Fault]:
+    """Faults of ``count`` mutated cases."""
+    texts = bases()
+    os.environ["ICSOLVE_DEBUG"] = "1"
+    with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+        for n in range(count):
+            dice = random.Random(f"{seed} {n}")
+            yield from faults_of(dice, mutated(dice, texts), apart)
+
+
+def _place(trace: str) -> str:
+    """Where a fault happened, to tell faults apart."""
+    lines = [
+        line.strip() for line in trace.splitlines() if line.strip().startswith("File ") and "icsolve/" in line
+    ]
+    last = [line for line in trace.strip().splitlines() if line and not line.startswith(" ")][-1:]
+    return " ".join([*(re.sub(r".*icsolve/", "", line) for line in lines[-2:]), *last])[:300]
+
+
+def main_campaign(many: int, first: int, apart: bool) -> None:
+    """Tell each fault of another kind as it comes, and keep its files in ``$FUZZ_OUT``."""
+    seen: Counter[str] = Counter()
+    keep = Path(os.environ.get("FUZZ_OUT", "/tmp/fuzz"))
+    keep.mkdir(exist_ok=True)
+    for fault in campaign(many, first, apart):
+        where = _place(fault.trace) or fault.why[:200]
+        seen[where] += 1
+        if seen[where] == 1:
+            name = f"{first}-{len(seen)}"
+            (keep / f"{name}.yaml").write_text(fault.case, errors="surrogatepass")
+            (keep / f"{name}.csv").write_text(fault.table, errors="surrogatepass")
+            (keep / f"{name}.txt").write_text(f"{fault.command}\n{fault.why}\n{fault.trace}")
+            why = fault.why[:100].replace("\n", " ")
+            sys.stdout.write(f"{name} {fault.command} | {why} | {where}\n")
+            sys.stdout.flush()
+    sys.stdout.write(f"{many} cases, {sum(seen.values())} faults of {len(seen)} kinds\n")
+
+
+if __name__ == "__main__":
+    main_campaign(int(sys.argv[1]), int(sys.argv[2]), "--apart" in sys.argv)
