@@ -78,7 +78,7 @@ def _assembled(case: Case, frame: Frame, order: Order) -> Figure | Miss:
     offs: dict[int, dict[Datum, float]] = {}
 
     def contradicted(mode: Mode) -> Miss | None:
-        miss, offs[id(mode.path)] = _compared(board, order, mode, used)
+        miss, offs[id(mode.path)] = compared(board, order, mode, used)
         return miss
 
     walk = Walk(order, board, contradicted).run()
@@ -91,7 +91,7 @@ def _assembled(case: Case, frame: Frame, order: Order) -> Figure | Miss:
     return _figure(walk, mode, offs[id(mode.path)], used)
 
 
-def _compared(
+def compared(
     board: Board, order: Order, mode: Mode, used: frozenset[Datum]
 ) -> tuple[Miss | None, dict[Datum, float]]:
     """Compare the points with the data that did not make them."""

@@ -12,9 +12,7 @@ from icsolve.assembly.free import underdetermined
 from icsolve.assembly.given import told
 from icsolve.assembly.matching import groups_of, leading, system_of
 from icsolve.assembly.sheet import Drawing
-from icsolve.assembly.words import listed, plain
 from icsolve.case import Case
-from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
 
 
@@ -89,7 +87,7 @@ def next_group(drawing: Drawing, case: Case, wanted: Iterable[str]) -> tuple[Gro
     Raises
     ------
     SceneError
-        ``underdetermined`` with what is free; ``ambiguous`` for a group without ``near``.
+        ``underdetermined`` with what is free.
     """
     placed = drawing.ground.placed.keys()
     goal = [p for p in wanted if p not in placed]
@@ -100,10 +98,4 @@ def next_group(drawing: Drawing, case: Case, wanted: Iterable[str]) -> tuple[Gro
     points = min(groups_of(system, goal), key=len)
     own = {(p, part) for p in points for part in (0, 1)}
     equations = tuple(system.equations[i] for i in sorted(system.matched[u] for u in own))
-    if not any(p in case.near for p in points):
-        raise SceneError(
-            Status.AMBIGUOUS,
-            f"{listed([plain(p) for p in points])} can only be found together, there is no order of "
-            f"construction; say roughly where one of them is: near: {{{plain(points[0])}: [x, y]}}",
-        )
     return Group(points, equations), points

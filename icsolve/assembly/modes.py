@@ -58,6 +58,8 @@ SIDEWAYS = 0.05
 is seen from between them within this sine of square to the line that joins them. (Near a dead centre the two
 are close together, and the ratio alone would call any two digits of `near` in between.)"""
 MOST_MODES = 256
+MOST_WAYS = 4096
+"""Ways at most where all are asked for."""
 SAME = 1e-11
 """Points nearer than this (normalised, over 1 + their distance from the origin) are one point."""
 MOST_LISTED = 4
@@ -132,7 +134,8 @@ class Walk:
         self.order, self.board, self.contradicted = order, board, contradicted
         self.near = {p: normalised(board.frame, xy) for p, xy in board.case.near.items()}
         self.checks = _due(order)
-        self.budget = 20_000 + 20 * len(order.steps)
+        self.budget = (10 if every else 1) * (20_000 + 20 * len(order.steps))
+        self.most = MOST_WAYS if every else MOST_MODES
         self.modes: list[Mode] = []
         self.dead_ends: list[DeadEnd] = []
         self.gave_up = False
@@ -152,7 +155,7 @@ class Walk:
                 depth += 1
             if path is not None:
                 self._arrived(path)
-            if self.budget <= 0 or len(self.modes) > MOST_MODES:
+            if self.budget <= 0 or len(self.modes) > self.most:
                 self.gave_up = bool(forks)
                 break
             path, depth = self._back(forks)
@@ -255,11 +258,12 @@ class Walk:
             return self._crossings(depth, path, step)
         if isinstance(step, CLOSED_FORMS):
             return [step]
+        from icsolve.assembly import newton
         from icsolve.assembly.group import Group
-        from icsolve.assembly.newton import solutions
 
         assert isinstance(step, Group)
-        found = solutions(step, self.board, self.near)
+        search = newton.every if self.every else partial(newton.solutions, near=self.near)
+        found = search(step, self.board)
         if found.miss is not None:
             self.board.points.update(found.closest)
             longer = self._longer(path, step) if found.closest else path
@@ -434,7 +438,7 @@ def choose(walk: Walk, points: tuple[str, ...]) -> Mode:
         ``ambiguous``: several are about as near, listed point by point.
     """
     board = walk.board
-    modes = sorted(_distinct(walk.modes, points), key=lambda mode: mode.path.off)
+    modes = sorted(distinct(walk.modes, points), key=lambda mode: mode.path.off)
     best = modes[0]
     rivals = [mode for mode in modes if mode is best or not _nearer(walk, best, mode, points)]
     if len(rivals) > 1:
@@ -490,15 +494,16 @@ def far_from_near(walk: Walk, chosen: Mode, points: tuple[str, ...]) -> tuple[st
     return tuple(out)
 
 
-def _distinct(modes: list[Mode], points: tuple[str, ...]) -> list[Mode]:
+def distinct(modes: list[Mode], points: tuple[str, ...]) -> list[Mode]:
+    """Each mode once."""
     out: list[Mode] = []
     for mode in modes:
-        if not any(not _differing(mode, other, points) for other in out):
+        if not any(not differing(mode, other, points) for other in out):
             out.append(mode)
     return out
 
 
-def _differing(one: Mode, two: Mode, points: tuple[str, ...]) -> list[str]:
+def differing(one: Mode, two: Mode, points: tuple[str, ...]) -> list[str]:
     """The points that are not in the same place in both."""
     out = []
     for p in points:
@@ -510,19 +515,19 @@ def _differing(one: Mode, two: Mode, points: tuple[str, ...]) -> list[str]:
 
 def _nearer(walk: Walk, one: Mode, two: Mode, points: tuple[str, ...]) -> bool:
     """Whether the one mode is clearly nearer to `near` where the two differ."""
-    held = [p for p in _differing(one, two, points) if p in walk.near]
+    held = [p for p in differing(one, two, points) if p in walk.near]
     near: list[Point] = [walk.near[p] for p in held]
     return nearer([one.points[p] for p in held], [two.points[p] for p in held], near)
 
 
 def _listing(board: Board, rivals: list[Mode], points: tuple[str, ...]) -> str:
     """The modes point by point: first the points that have a choice of their own."""
-    differing = [p for p in points if any(_differing(rivals[0], mode, (p,)) for mode in rivals[1:])]
+    forked = [p for p in points if any(differing(rivals[0], mode, (p,)) for mode in rivals[1:])]
     forks = [
         step.target
         for step in rivals[0].steps
-        if isinstance(step, Meet) and step.sign and step.target in differing
-    ] or differing
+        if isinstance(step, Meet) and step.sign and step.target in forked
+    ] or forked
     lines = [f"{plain(p)}: {_listed(board, rivals, str(p))}" for p in forks]
     hint = _hint(board, rivals, str(next((p for p in forks if p not in board.case.near), forks[0])))
     return f"the figure assembles in several ways, {'; '.join(lines)}; {hint}"

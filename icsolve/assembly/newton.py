@@ -46,6 +46,19 @@ CLOSE_WORK = 60_000
 """The same once a solution was found from `near` itself."""
 
 
+def every(group: Group, board: Board) -> Found:
+    """Every solution of a group, by exclusion; ``complete`` where they are shown to be all."""
+    from icsolve.assembly.exclusion import every_solution
+
+    found = every_solution(group, board)
+    groups = []
+    for place in found.places:
+        start = tuple(place[t] for t in group.targets)
+        groups.append(_polished(group, board, place) or group._replace(start=start))
+    miss = None if groups else _unreached(group, board, {})
+    return Found(groups, miss, {}, found.complete)
+
+
 class Found(NamedTuple):
     """What a search for the solutions of a group found: the nearest to `near` first.
 
@@ -70,6 +83,8 @@ class Descent(NamedTuple):
 
 def solutions(group: Group, board: Board, near: Mapping[str, Spot]) -> Found:
     """The solutions found of a group: from `near` itself first, then from other starts."""
+    if not any(p in near for p in group.targets):
+        return Found([], _needs_near(group), {}, False)
     search = _Search(group, board, near)
     search.run()
     held = [t for t in group.targets if t in near]
@@ -364,6 +379,17 @@ def _unreached(group: Group, board: Board, closest: Start) -> Miss:
         f"the figure cannot be assembled: no position found in which points {names} fit their data "
         f"together; the closest misses {datum_words(datum)} by {measure(board, off)}",
         off,
+    )
+
+
+def _needs_near(group: Group) -> Miss:
+    names = [plain(t) for t in group.targets]
+    return Miss(
+        Status.AMBIGUOUS,
+        f"{listed(names)} can only be found together, there is no order of construction; "
+        f"say roughly where one of them is: near: {{{names[0]}: [x, y]}}",
+        0.0,
+        vague=True,
     )
 
 

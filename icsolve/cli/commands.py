@@ -13,6 +13,7 @@ VERBS = {
     "solve": "solving",
     "check": "checking",
     "validate": "checking",
+    "ways": "assembling",
     "new": "starting",
     "schema": "starting",
     "manual": "starting",

@@ -1,0 +1,159 @@
+"""Every way in which the figure of a case assembles, whatever its `near` says."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import NamedTuple
+
+from icsolve.assembly.board import Board
+from icsolve.assembly.construct import compared
+from icsolve.assembly.data import names_of
+from icsolve.assembly.frame import Frame, case_point, frame_of
+from icsolve.assembly.group import Group
+from icsolve.assembly.modes import Mode, Walk, differing, distinct, refusal
+from icsolve.assembly.order import Order, order_of
+from icsolve.assembly.refusals import Miss
+from icsolve.assembly.steps import Meet
+from icsolve.assembly.words import listed, plain
+from icsolve.case import Case
+from icsolve.errors import SceneError, Status
+from icsolve.numbers.arithmetic import FLOATS
+
+Place = tuple[float, float]
+
+MOST_RETRIES = 20
+DIGITS = 6
+"""Significant digits of `near`, where these tell the ways apart."""
+
+
+class Way(NamedTuple):
+    """One way: the points in case units, and the `near` that picks it."""
+
+    points: dict[str, Place]
+    near: dict[str, Place]
+
+
+class Ways(NamedTuple):
+    """All ways that were found, whether these are shown to be all, and what else is to be said."""
+
+    ways: tuple[Way, ...]
+    complete: bool
+    notes: tuple[str, ...]
+
+
+def ways_of(case: Case) -> Ways:
+    """Every way in which all points of a case find their places, each once.
+
+    Raises
+    ------
+    SceneError
+        ``cannot-assemble``, ``inconsistent``: there is none; ``underdetermined``: a joint can be anywhere.
+    """
+    if case.space is not None:
+        raise SceneError(Status.UNSUPPORTED, "the ways of assembling are found for planar figures")
+    case = replace(case, near={})
+    frame = frame_of(case)
+    goal, loose = _placed(case)
+    banned: frozenset[frozenset[object]] = frozenset()
+    for _ in range(MOST_RETRIES):
+        order = order_of(case, goal, banned)
+        walk = _walk(case, frame, order)
+        if walk.modes:
+            return _ways(case, walk, order, loose)
+        miss = refusal(walk)
+        if miss.loci is None:
+            raise SceneError(miss.status, miss.message)
+        banned |= {miss.loci}
+    raise SceneError(Status.NEAR_SINGULAR, "too many lines and circles of the figure coincide")
+
+
+def _placed(case: Case) -> tuple[list[str], list[str]]:
+    """The points that the data place, and those that nothing needs and that may be anywhere."""
+    names = names_of(case)
+    try:
+        order_of(case, names)
+    except SceneError as error:
+        if error.status != Status.UNDERDETERMINED:
+            raise
+        needed = {getattr(joint, "at", None) for joint in case.joints}
+        loose = [name for name in names if not _can_be_placed(case, name)]
+        if needed & set(loose):
+            raise
+        return [name for name in names if name not in loose], loose
+    return names, []
+
+
+def _can_be_placed(case: Case, name: str) -> bool:
+    try:
+        order_of(case, [name])
+    except SceneError:
+        return False
+    return True
+
+
+def _walk(case: Case, frame: Frame, order: Order) -> Walk:
+    board = Board(case, frame, FLOATS)
+    used = order.used()
+
+    def contradicted(mode: Mode) -> Miss | None:
+        return compared(board, order, mode, used)[0]
+
+    return Walk(order, board, contradicted, every=True).run()
+
+
+def _ways(case: Case, walk: Walk, order: Order, loose: list[str]) -> Ways:
+    modes = distinct(walk.modes, order.points)
+    notes = []
+    if walk.gave_up:
+        notes.append(f"there are more ways: the search ended after {len(modes)}")
+    elif not walk.complete:
+        groups = [step for step in order.steps if isinstance(step, Group)]
+        names = "; ".join(listed([plain(t) for t in group.targets]) for group in groups)
+        notes.append(
+            f"not shown to be all: points {names} can only be found together, and the search of their places "
+            "by exclusion came to an end before every part was empty or held one way"
+        )
+    if loose:
+        notes.append(f"nothing says where {listed([plain(p) for p in loose])} may be")
+    frame = walk.board.frame
+    picked = _choices(modes, order)
+    digits = _digits(modes, picked, frame)
+    ways = []
+    for mode in modes:
+        places = {p: case_point(frame, mode.points[p]) for p in order.points}
+        near = {p: (round(places[p][0], digits), round(places[p][1], digits)) for p in picked}
+        ways.append(Way({p: at for p, at in places.items() if not p.startswith("@")}, near))
+    return Ways(tuple(ways), walk.complete and not walk.gave_up, tuple(notes))
+
+
+def _choices(modes: list[Mode], order: Order) -> list[str]:
+    """The points whose places tell the ways apart, and those that can only be found from `near`."""
+    apart = {p for mode in modes[1:] for p in differing(modes[0], mode, order.points)}
+    grouped = [t for step in order.steps if isinstance(step, Group) for t in step.targets]
+    forks = [
+        step.target
+        for mode in modes
+        for step in mode.steps
+        if isinstance(step, Meet) and step.sign and step.target in apart
+    ]
+    chosen = dict.fromkeys([str(p) for p in (*forks, *grouped) if isinstance(p, str)])
+    alike = [
+        mode for mode in modes[1:] if not any(p in chosen for p in differing(modes[0], mode, order.points))
+    ]
+    return [p for p in order.points if p in chosen or (alike and p in apart)]
+
+
+def _digits(modes: list[Mode], picked: list[str], frame: Frame) -> int:
+    """Decimals of `near` that tell each way from every other."""
+    least = min(
+        (
+            math.hypot(*(math.dist(one.points[p], two.points[p]) for p in picked))
+            for k, one in enumerate(modes)
+            for two in modes[:k]
+        ),
+        default=1.0,
+    )
+    size = max((abs(c) for mode in modes for p in picked for c in mode.points[p]), default=1.0) or 1.0
+    figures = DIGITS - 1 - math.floor(math.log10(size / frame.scale))
+    return max(figures, 3 - math.floor(math.log10(max(least, 1e-12) / frame.scale)))

@@ -1,0 +1,197 @@
+"""Every way in which a figure assembles: none missing, none twice, each picked by its `near`."""
+
+from __future__ import annotations
+
+import json
+import math
+from dataclasses import replace
+from random import Random
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from figure_drafts import Draft, Place, framework, sequence
+from icsolve.assembly import case_point, solve_figure
+from icsolve.assembly.ways import Ways, ways_of
+from icsolve.case import Case
+from icsolve.cli.commands import icsolve
+from icsolve.errors import SceneError, Status
+from icsolve.read import load
+from test_figure import BUTTERFLY, FOUR_BAR, LOOP, PINS, butterfly
+from test_figure import case as figure_case
+from test_near import MORE
+
+
+def apart(one: dict[str, Place], two: dict[str, Place]) -> float:
+    return max(math.dist(one[p], two[p]) for p in one)
+
+
+def assert_picked(case: Case, found: Ways) -> None:
+    """The `near` of each way gives that way, and no two ways are one."""
+    for k, way in enumerate(found.ways):
+        figure = solve_figure(replace(case, near=way.near))
+        places = {p: case_point(figure.frame, at) for p, at in figure.points.items()}
+        assert apart(places, way.points) < 1e-7
+        assert not figure.notes or "near" not in " ".join(figure.notes)
+        assert all(apart(way.points, other.points) > 1e-7 for other in found.ways[:k])
+
+
+def test_a_four_bar_assembles_open_and_crossed() -> None:
+    case = figure_case(FOUR_BAR + LOOP)
+    found = ways_of(case)
+    assert found.complete
+    assert [way.near["C"] for way in found.ways] == [(3.61106, 2.46956), (2.50433, -2.00324)]
+    assert_picked(case, found)
+    assert ways_of(figure_case(FOUR_BAR + "near: {C: [3.5, 2.4]}\n" + LOOP)).ways == found.ways
+
+
+def test_a_passive_dyad_counts_though_no_load_needs_it() -> None:
+    text = FOUR_BAR.replace("CD: 2.5", "CD: 2.5, BE: 2, CE: 2.5") + LOOP + "links: {3: [E]}\n"
+    found = ways_of(figure_case(text))
+    assert len(found.ways) == 4 and found.complete
+    assert all("E" in way.points and "E" in way.near for way in found.ways)
+
+
+def test_a_way_where_two_coincide_is_one() -> None:
+    text = "points: {A: [0, 0], C: [0.3, 0]}\nlengths: {AB: 0.1, BC: 0.2}\n" + PINS
+    (way,) = ways_of(figure_case(text)).ways
+    assert way.points["B"] == pytest.approx((0.1, 0.0), abs=1e-15)
+    assert way.near == {}
+
+
+def test_a_point_that_nothing_needs_may_be_anywhere() -> None:
+    text = FOUR_BAR.replace("CD: 2.5", "CD: 2.5, BE: 2") + LOOP + "links: {3: [E]}\n"
+    found = ways_of(figure_case(text))
+    assert len(found.ways) == 2
+    assert "E" in " ".join(found.notes)
+
+
+def test_every_dyad_of_a_chain_has_two_ways() -> None:
+    """Rods long enough for both: 2, 4, 8, 16 ways."""
+    for count in range(1, 5):
+        points = {f"G{k}": (2.0 * k, 0.0) for k in range(count + 1)}
+        ground = ", ".join(f"{p}: [{x}, {y}]" for p, (x, y) in points.items())
+        bars = ", ".join(f"P{k}-P{k + 1}: 3, G{k + 1}-P{k + 1}: 2.5" for k in range(count))
+        text = f"points: {{{ground}}}\nlengths: {{G0-P0: 1, {bars}}}\nangles: {{G0-P0: 80}}\n"
+        joints = "".join(f"  - {{pin: [1, {k + 2}], at: G{k}}}\n" for k in range(count + 1))
+        case = load(f"icsolve: 1\n{text}joints:\n{joints}")
+        found = ways_of(case)
+        assert len(found.ways) == 2**count and found.complete
+        assert_picked(case, found)
+
+
+def roots(draft: Draft, starts: int) -> list[dict[str, Place]]:
+    """Figures of the same rods found by Newton's method from random starts, apart from icsolve."""
+    rng = np.random.default_rng(len(draft.lengths))
+    free = [p for p in draft.names if p not in draft.points]
+    column = {p: k for k, p in enumerate(free)}
+    fixed = {p: complex(*draft.at[p]) for p in draft.points}
+    rods = [(r.a, r.b, r.value.value) for r in draft.lengths if {r.a, r.b} & set(free)]
+    found: list[dict[str, Place]] = []
+    for _ in range(starts):
+        z = rng.uniform(-4, 4, len(free)) + 1j * rng.uniform(-4, 4, len(free))
+        for _ in range(60):
+            f, jacobian = np.zeros(len(rods)), np.zeros((len(rods), 2 * len(free)))
+            for i, (a, b, length) in enumerate(rods):
+                d = (z[column[b]] if b in column else fixed[b]) - (z[column[a]] if a in column else fixed[a])
+                f[i] = (abs(d) ** 2 - length**2) / 2
+                for p, sign in ((a, -1), (b, 1)):
+                    if p in column:
+                        jacobian[i, 2 * column[p] : 2 * column[p] + 2] = sign * d.real, sign * d.imag
+            step = np.linalg.lstsq(jacobian, f, rcond=None)[0]
+            step *= min(1.0, 1.0 / max(1e-30, np.abs(step).max()))
+            z = z - (step[::2] + 1j * step[1::2])
+        place = {p: (float(z[k].real), float(z[k].imag)) for p, k in column.items()}
+        if np.abs(f).max() < 1e-11 and all(apart(place, other) > 1e-5 for other in found):
+            found.append(place)
+    return found
+
+
+@pytest.mark.parametrize("points", [5, 6, 7])
+def test_no_way_of_a_framework_is_missing(points: int) -> None:
+    """Rods that need no order of construction: every figure that random starts reach is among the ways."""
+    for seed in range(4 * MORE):
+        draft = framework(500 * points + seed, points, 0.8, 0.0)
+        case = draft.case()
+        found = ways_of(case)
+        assert found.complete
+        assert min(apart({p: draft.at[p] for p in draft.names}, way.points) for way in found.ways) < 1e-6
+        for place in roots(draft, 60):
+            assert min(apart(place, way.points) for way in found.ways) < 1e-6
+        for rod in draft.lengths:
+            for way in found.ways:
+                length = math.dist(way.points[rod.a], way.points[rod.b])
+                assert length == pytest.approx(rod.value.value, abs=1e-9)
+        assert_picked(case, found._replace(ways=found.ways[:6]))
+
+
+def test_the_double_butterfly_has_eighteen_ways() -> None:
+    case = figure_case(butterfly(""))
+    found = ways_of(case)
+    assert found.complete
+    assert len(found.ways) == 18
+    assert min(max(math.dist(way.points[p], BUTTERFLY[p]) for p in BUTTERFLY) for way in found.ways) < 1e-12
+    assert_picked(case, found)
+
+
+@pytest.mark.parametrize("count", [5, 8])
+def test_figures_of_every_kind_of_datum_are_among_their_ways(count: int) -> None:
+    for seed in range(30 * MORE):
+        draft = sequence(3000 + seed, count)
+        try:
+            found = ways_of(draft.case())
+        except SceneError as refused:
+            if "these coincide" in refused.message:
+                continue
+            raise
+        assert min(apart(dict(draft.at), way.points) for way in found.ways) < 1e-5, seed
+        assert not found.notes
+
+
+def run(text: str, *options: str) -> tuple[int, str]:
+    words = ["ways", "-", *options]
+    ran = CliRunner().invoke(icsolve, words, input="icsolve: 1\n" + text, standalone_mode=False)
+    return int(ran.return_value), ran.output
+
+
+def test_the_command_prints_the_format() -> None:
+    code, out = run(FOUR_BAR + LOOP, "--json")
+    entry = json.loads(out)
+    assert code == 0
+    assert entry["complete"] is True
+    assert [way["near"] for way in entry["ways"]] == [{"C": [3.61106, 2.46956]}, {"C": [2.50433, -2.00324]}]
+    assert set(entry["ways"][0]["points"]) == {"A", "B", "C", "D"}
+    code, out = run(FOUR_BAR + LOOP)
+    assert code == 0 and "2 ways" in out and "near: {C: [3.61106, 2.46956]}" in out
+
+
+def test_a_figure_without_a_way_says_so() -> None:
+    code, out = run(FOUR_BAR.replace("BC: 3.5", "BC: 0.5") + LOOP, "--json")
+    entry = json.loads(out)
+    assert code == 1
+    assert entry["status"] == Status.CANNOT_ASSEMBLE
+    assert entry["ways"] == []
+    assert "C" in entry["message"]
+
+
+def test_a_platform_on_three_legs_has_as_many_ways_as_its_plates_turned_over() -> None:
+    """Three rods on a plate given by its sides: at most six for either face."""
+    rng = Random(3)
+    for _ in range(4 * MORE):
+        feet = [(rng.uniform(-3, 3), rng.uniform(-3, 3)) for _ in range(3)]
+        plate = [(rng.uniform(-1, 1), rng.uniform(-1, 1)) for _ in range(3)]
+        ground = ", ".join(f"{p}: [{x!r}, {y!r}]" for p, (x, y) in zip("ABC", feet, strict=True))
+        at = dict(zip("ABCDEF", [*feet, *plate], strict=True))
+        pairs = ("DE", "EF", "DF", "AD", "BE", "CF")
+        rods = ", ".join(f"{p}{q}: {math.dist(at[p], at[q])!r}" for p, q in pairs)
+        joints = "".join(f"  - {{pin: [1, {k}], at: {p}}}\n" for k, p in ((2, "A"), (3, "B"), (4, "C")))
+        case = load(f"icsolve: 1\npoints: {{{ground}}}\nlengths: {{{rods}}}\njoints:\n{joints}")
+        found = ways_of(case)
+        faces = [0, 0]
+        for way in found.ways:
+            (dx, dy), (ex, ey), (fx, fy) = (way.points[p] for p in "DEF")
+            faces[(ex - dx) * (fy - dy) > (ey - dy) * (fx - dx)] += 1
+        assert found.complete
+        assert all(face % 2 == 0 and face <= 6 for face in faces)
+        assert_picked(case, found)
