@@ -80,6 +80,7 @@ class Status:
     CHANGE_POINT = "change-point"
     NO_VALUE = "no-value"  # the unknown does no work, the known loads do
     ANY_VALUE = "any-value"  # the unknown does no work, nor do the known loads
+    SLACK = "slack"  # a rope would have to push
     JAM = "jam"  # friction: no value of the unknown keeps up the given motion
     UNBALANCED = "unbalanced"  # reactions of known loads that hold no equilibrium
     CONTRADICTORY = "contradictory-centres"

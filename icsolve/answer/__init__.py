@@ -11,7 +11,7 @@ from icsolve.case import Case, Pair
 from icsolve.errors import SceneError
 
 if TYPE_CHECKING:
-    from icsolve.answer.bodies import Friction, Reactions, Witness
+    from icsolve.answer.bodies import Friction, Reactions, Tension, Witness
     from icsolve.answer.contacts import Touching
     from icsolve.answer.space import Spatial
     from icsolve.solve.parts import Parts
@@ -179,6 +179,8 @@ class Answer:
     status: str = "ok"
     reactions: Reactions | None = None
     """the force of each link on each other, by the names of the format; None unless asked"""
+    tensions: tuple[Tension, ...] = ()
+    """the pulls of ropes, where reactions were asked"""
     witnesses: tuple[Witness, ...] = ()
     """the unknown loads by power and by free bodies, where reactions were asked"""
     friction: Friction | None = None

@@ -53,6 +53,24 @@ class Reactions(dict[str, Reaction]):
         raise KeyError(name)
 
 
+class Tension(NamedTuple):
+    """The pull of a rope (case units), by the points that it runs through: ``T A-P-B``.
+
+    ``tension`` is that of the first part; where the rope slips on a link, ``parts`` has that of every part,
+    in order. It is None where equilibrium leaves it open, and ``why`` says so.
+    """
+
+    rope: str
+    tension: float | None
+    parts: tuple[float, ...] = ()
+    why: str = ""
+
+    @property
+    def name(self) -> str:
+        """As reactions name it."""
+        return f"T {self.rope}"
+
+
 def names_of(by: str, on: str, where: str) -> tuple[str, ...]:
     """The names of a force between two links, the usual one first."""
     long = (f"F{by}-{on}", f"F{by}-{on}@{where}")

@@ -42,6 +42,7 @@ from icsolve.case.joints import (
     Weld,
 )
 from icsolve.case.loads import (
+    AlongRope,
     Force,
     ForceVector,
     Heading,
@@ -62,6 +63,7 @@ if TYPE_CHECKING:
     from icsolve.case.space import Space
 
 __all__ = [
+    "AlongRope",
     "ArmIs",
     "Belt",
     "Case",

@@ -39,6 +39,11 @@ class Rope(NamedTuple):
         return "-".join(self.points)
 
     @property
+    def end(self) -> str:
+        """What stands for a link where loads pull the last end: no link of the case has such a name."""
+        return f"@{self.name}"
+
+    @property
     def is_free(self) -> bool:
         """Whether its last end is one that loads pull."""
         return len(self.links) < len(self.points)

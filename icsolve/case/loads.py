@@ -2,6 +2,7 @@
 
 from typing import NamedTuple
 
+from icsolve.case.bodies import Rope
 from icsolve.numbers.given import Number
 
 
@@ -30,8 +31,14 @@ class Slope(NamedTuple):
     rise: Number
 
 
-Heading = Number | Toward | Slope
-"""Direction of a force: degrees ccw from +x, toward or away from a point, or run and rise."""
+class AlongRope(NamedTuple):
+    """Along the last part of a rope, away from its last pulley."""
+
+    rope: Rope
+
+
+Heading = Number | Toward | Slope | AlongRope
+"""Direction of a force: degrees ccw from +x, toward or away from a point, run and rise, or along a rope."""
 
 
 class Force(NamedTuple):

@@ -7,6 +7,7 @@ from typing import NamedTuple
 
 from icsolve.answer import Centre
 from icsolve.case import (
+    AlongRope,
     Belt,
     Case,
     Contact,
@@ -38,7 +39,7 @@ from icsolve.derivation.words import SENSES
 from icsolve.explain.document import Block, Inline, Items, Section, Table, words
 from icsolve.explain.formula import Name, Num, Quantity
 from icsolve.statics.power import is_unknown, reacting
-from icsolve.wording.sentences import listed
+from icsolve.wording.sentences import link_words, listed
 
 
 class Figures(NamedTuple):
@@ -231,7 +232,7 @@ def _load(known: Known, figures: Figures, load: Load) -> tuple[Inline, ...]:
         where = f" at {point_words(figures, known.points[at])}" if at in known.points else ""
     return (
         load_name(load.name),
-        f": {_kind(case, load)} on link {load.link}{where}{_heading(load)}{between}",
+        f": {_kind(case, load)} on {link_words(load.link)}{where}{_heading(load)}{between}",
     )
 
 
@@ -266,6 +267,8 @@ def _heading(load: Load) -> str:
             return f", {'away from' if away else 'toward'} {point}"
         case Slope(run, rise):
             return f", with slope {run.digits} : {rise.digits}"
+        case AlongRope(rope):
+            return f", along the rope {rope.name}"
         case Number(digits=digits):
             return f", at {digits} deg"
 

@@ -38,7 +38,7 @@ class CentreFinder:
         self, case: Case, top: Topology, twists: LinkTwists, frame: Frame, points: Points, a: Arithmetic
     ) -> None:
         self.case, self.top, self.frame = case, top, frame
-        self.twists = {top.body_of[link]: motions for link, motions in twists.items()}
+        self.twists = {top.body_of[link]: twists[link] for link in top.body_of if link in twists}
         self.points, self.arithmetic = points, a
         self.fastest = max((_length(t) for ts in twists.values() for t in ts), default=0.0)
 

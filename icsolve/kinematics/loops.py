@@ -12,10 +12,13 @@ from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.null_space import ZERO, NullSpace, null_space
 from icsolve.screws.joints import transmitted
 from icsolve.screws.plane import Triple, add, blend, pairing, subtract
+from icsolve.screws.ropes import RopePart
 from icsolve.structure.topology import Topology
 
 Bases = Mapping[int, tuple[Triple, ...]]
 ORIGIN: Triple = (0.0, 0.0, 0.0)
+FREE: tuple[Triple, ...] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+"""Twists of a body that no joint holds."""
 
 
 class Branch(NamedTuple):
@@ -33,11 +36,20 @@ class Tree(NamedTuple):
     columns: int
 
 
-def span(top: Topology, bonds: Sequence[int], roots: Iterable[int], bases: Bases) -> Tree:
-    """Spanning tree over ``bonds`` from the known ``roots``; joints with one freedom come first."""
+def span(
+    top: Topology, bonds: Sequence[int], roots: Iterable[int], bases: Bases, afloat: Iterable[int] = ()
+) -> Tree:
+    """Spanning tree over ``bonds`` from the known ``roots``; joints with one freedom come first.
+
+    The bodies ``afloat``, to which no joints lead, move freely beside the first root.
+    """
     branches = {root: Branch(root, ()) for root in roots}
     left = sorted(bonds, key=lambda k: top.bonds[k].freedom)
     columns = 0
+    for body in afloat:
+        first = next(iter(branches))
+        branches[body] = Branch(first, tuple((columns + n, basis) for n, basis in enumerate(FREE)))
+        columns += len(FREE)
     grown = True
     while grown:
         grown = False
@@ -101,10 +113,23 @@ class LoopMotions(NamedTuple):
     found: NullSpace
 
 
-def all_motions(top: Topology, bases: Bases, zero: float = ZERO) -> LoopMotions:
-    """Null space of the loop equations of the bonds in ``bases``, from the frame."""
-    tree = span(top, sorted(bases), (top.ground,), bases)
+def rope_row(top: Topology, tree: Tree, parts: Sequence[RopePart]) -> list[Scalar]:
+    """The condition that a rope keeps its length, in the rates of the tree."""
+    row: list[Scalar] = [0.0] * tree.columns
+    for part in parts:
+        for link, sign in zip(part.links, (-1.0, 1.0), strict=True):
+            for column, basis in tree.branches[top.body_of[link]].path:
+                row[column] = row[column] + sign * pairing(part.wrench, basis)
+    return row
+
+
+def all_motions(
+    top: Topology, bases: Bases, zero: float = ZERO, ropes: Sequence[Sequence[RopePart]] = ()
+) -> LoopMotions:
+    """Null space of the loop equations of the bonds in ``bases`` and of ropes, from the frame."""
+    tree = span(top, sorted(bases), (top.ground,), bases, [group[0] for group in top.afloat])
     rows = [row[:-1] for row in loop_rows(top, tree, bases, {top.ground: ORIGIN})]
+    rows += [rope_row(top, tree, parts) for parts in ropes]
     found = null_space(rows, tree.columns, zero, 1.0)
     motions = [twists_on(tree, (*rates, 0.0), {top.ground: ORIGIN}) for rates in found.basis]
     return LoopMotions({body: tuple(m[body] for m in motions) for body in tree.branches}, found)

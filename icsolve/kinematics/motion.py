@@ -12,6 +12,7 @@ from icsolve.kinematics.twists import Closure, is_singular, run
 from icsolve.numbers.arithmetic import Arithmetic
 from icsolve.screws.joints import Points, freedoms, points_of
 from icsolve.screws.plane import Triple, cross, subtract
+from icsolve.screws.ropes import end_twist, rope_parts
 from icsolve.structure.plan import Plan
 from icsolve.structure.topology import Topology
 from icsolve.wording.sentences import near_structure, structure
@@ -68,9 +69,12 @@ def by_loops(case: Case, top: Topology, points: Points, arithmetic: Arithmetic, 
     rank is in doubt.
     """
     bases = {k: freedoms(bond, points, arithmetic) for k, bond in enumerate(top.bonds)}
-    motions = all_motions(top, bases)
+    ropes = [rope_parts(rope, points, frame.scale, arithmetic) for rope in top.ropes]
+    motions = all_motions(top, bases, ropes=ropes)
     notes: tuple[str, ...] = ()
     exact = bool(motions.found.basis)
+    if not exact and ropes:
+        raise _rigid(top, motions)
     if not exact:
         motions, notes = _almost(case, top, bases, motions, frame)
     mobility = len(motions.found.basis)
@@ -78,6 +82,19 @@ def by_loops(case: Case, top: Topology, points: Points, arithmetic: Arithmetic, 
     twists = {link: motions.twists[body] for body, links in enumerate(top.members) for link in links}
     slack = 0.0 if exact else motions.found.dropped
     return Motions(twists, bases, mobility, redundant, (), notes, slack)
+
+
+def with_free_ends(
+    motions: Motions, case: Case, points: Points, scale: float, arithmetic: Arithmetic
+) -> Motions:
+    """The motions with those of the ends of ropes that loads pull, under the names of these ends."""
+    twists = dict(motions.twists)
+    for rope in case.ropes:
+        if rope.is_free:
+            parts = rope_parts(rope, points, scale, arithmetic)
+            each = [{link: ts[m] for link, ts in motions.twists.items()} for m in range(motions.mobility)]
+            twists[rope.end] = tuple(end_twist(parts, one) for one in each)
+    return motions._replace(twists=twists)
 
 
 AGREE = 2e-3
@@ -100,10 +117,16 @@ def _almost(
             return motions, (f"the given centres and rolling contacts agree with each other to {miss}.",)
     if any(isinstance(joint, KnownCentre) for joint in inexact):
         raise SceneError(Status.CONTRADICTORY, contradiction(top, bases, frame, case.units.length))
+    raise _rigid(top, rigid)
+
+
+def _rigid(top: Topology, motions: LoopMotions) -> SceneError:
+    """The refusal of links that cannot move, or of which that is in doubt."""
+    pivots = motions.found.pivots
+    last = pivots[-1] if pivots else 1.0
     if last < DOUBT:
-        raise SceneError(Status.NEAR_SINGULAR, near_structure(last))
-    constraints = sum(bond.constraints for bond in top.bonds)
-    raise SceneError(Status.STRUCTURE, structure(len(top.members) - 1, constraints))
+        return SceneError(Status.NEAR_SINGULAR, near_structure(last))
+    return SceneError(Status.STRUCTURE, structure(len(top.members) - 1, top.constraints))
 
 
 def contradiction(top: Topology, bases: Bases, frame: Frame, unit: str) -> str:

@@ -17,6 +17,7 @@ from icsolve.case import (
     Load,
     Motion,
     Number,
+    Rope,
     Tolerance,
     Units,
     Weld,
@@ -64,6 +65,7 @@ class _Parts(NamedTuple):
     expect: tuple[Expected, ...]
     profiles: Profiles | None
     inertia: dict[str, Inertia]
+    ropes: tuple[Rope, ...]
 
 
 def build(root: Mapping, problems: Problems, name: str) -> Case:
@@ -114,9 +116,13 @@ def _parts(reading: Reading, root: Mapping) -> _Parts:
     """Joints, loads and points first: their names tell how a key such as AB is read."""
     section = root.items.get("profile")
     reading.profiled = set(section.items) if type(section) is Mapping else set()
-    joints = _joints(reading, root)
+    joints, ropes = _joints(reading, root)
     profiles = _profiles(reading, root) if section is not None else None
     loads = read_loads(reading, section_of(reading, root, "loads"))
+    if ropes:
+        from icsolve.read.ropes import check_ends
+
+        check_ends(reading, ropes, loads)
     points = read_points(reading, section_of(reading, root, "points"))
     links, inertia = read_links(reading, section_of(reading, root, "links"))
     near = read_near(reading, section_of(reading, root, "near"))
@@ -128,7 +134,8 @@ def _parts(reading: Reading, root: Mapping) -> _Parts:
     published = section_of(reading, root, "expect")
     expect = read_expect(reading, published, named) if readable(root, "loads") else ()
     points = {**points, **reading.hidden}
-    return _Parts(joints, loads, points, links, near, motion, lengths, angles, expect, profiles, inertia)
+    figure = (joints, loads, points, links, near, motion, lengths, angles)
+    return _Parts(*figure, expect, profiles, inertia, ropes)
 
 
 def check_version(root: Mapping, problems: Problems) -> None:
@@ -158,16 +165,21 @@ def section_of(reading: Reading, root: Mapping, key: str, form: str = "") -> Map
     return found if found is not None else Mapping({}, {}, (1, 1))
 
 
-def _joints(reading: Reading, root: Mapping) -> tuple[Joint, ...]:
+def _joints(reading: Reading, root: Mapping) -> tuple[tuple[Joint, ...], tuple[Rope, ...]]:
     node = root.items.get("joints")
     if type(node) is Sequence and node.items:
-        return read_joints(reading, node)
+        ropes: tuple[Rope, ...] = ()
+        if any(type(item) is Mapping and "rope" in item.items for item in node.items):
+            from icsolve.read.ropes import read_ropes
+
+            ropes, node = read_ropes(reading, node)
+        return read_joints(reading, node), ropes
     if node is None or is_null(node) or type(node) is Sequence:
         mark = root.keys.get("joints", root.mark)
         reading.refuse(mark, "the case has no joints; list them, as in joints: [{pin: [1, 2], at: A}]")
     else:
         reading.refuse(node.mark, "'joints' should be a list, each item as in - {pin: [1, 2], at: B}")
-    return ()
+    return (), ()
 
 
 def _profiles(reading: Reading, root: Mapping) -> Profiles | None:
@@ -247,6 +259,7 @@ def _case(
         profiles=parts.profiles,
         unknowns=tuple(reading.unknowns),
         inertia=parts.inertia,
+        ropes=parts.ropes,
         dynamic=read_dynamic(reading, root.items.get("dynamic")),
         noticed=tuple(reading.noticed),
         marks=reading.marks,
@@ -254,10 +267,14 @@ def _case(
 
 
 def _shaped(parts: _Parts) -> dict[str, tuple[str, ...]]:
-    """Further points of links: those of ``links:``, and those of profiles."""
+    """Further points of links: those of ``links:``, of ropes, and of profiles."""
+    links = dict(parts.links)
+    for rope in parts.ropes:
+        for point, link in zip(rope.points, rope.links, strict=False):
+            links[link] = (*links.get(link, ()), point)
     if parts.profiles is None:
-        return parts.links
+        return links
     from icsolve.case.profiles import points_of
 
     shapes = parts.profiles.shapes
-    return parts.links | {link: (*parts.links.get(link, ()), *points_of(s)) for link, s in shapes.items()}
+    return links | {link: (*links.get(link, ()), *points_of(s)) for link, s in shapes.items()}

@@ -457,7 +457,7 @@ def _places(
 ) -> Iterator[tuple[str, str, str, str, tuple[str | int, ...]]]:
     """What is put on which link at which point, the key that says the link, and where that stands."""
     for load in loads:
-        if isinstance(load, Torque):
+        if isinstance(load, Torque) or load.link.startswith("@"):
             continue
         way = ("loads", load.name)
         yield f"load {load.name} acts on", load.link, load.at, "link", (*way, "link")

@@ -53,10 +53,11 @@ def _named(item: Node) -> list[Scalar]:
     if type(item) is not Mapping:
         return []
     kinds = [key for key in item.items if key in NAMES] or list(item.items)[:1]
+    kinds = ["on" if key == "rope" else key for key in kinds]
     return [
         name
         for key in kinds
-        if type(value := item.items[key]) is Sequence
+        if type(value := item.items.get(key)) is Sequence
         for name in value.items
         if type(name) is Scalar
     ]

@@ -197,6 +197,24 @@ JOINTS = {
     "weld": Kind(
         "two links that move as one", _LINKS, {"at": Key("the point that its reaction is given for")}
     ),
+    "rope": Kind(
+        "a rope: fixed at its ends, over pulleys in between",
+        Key("the points that it runs through, as in [A, P, B]", "points of a rope", True),
+        {
+            "on": Key(
+                "the link at each of its points, in order; the last left out where loads pull its end",
+                "links of a rope",
+                True,
+            ),
+            "radii": Key("radii of pulleys and drums, as in {P: 0.1}", "sizes", False, "length", "positive"),
+            "wraps": Key("the sense in which one goes round each, as in {P: ccw}", "senses"),
+            "mu": Key(
+                "friction where it slips, as in {P: 0.3}", "numbers", False, "number", "not negative"
+            ),
+            "length": _quantity("its own length, where the figure leaves it open", "length", "positive"),
+        },
+        "loads for its pull on each link",
+    ),
 }
 """Joints of the plane."""
 
@@ -250,6 +268,7 @@ SPACE_JOINTS = {
 
 # Loads
 _LINK = Key("the link that it acts on", "link", True)
+_BEARER = Key("the link that it acts on; none where it pulls the free end of a rope", "link")
 _PLACE = Key("its point, or [x, y]", "place", True)
 _AGAINST = Key("the link that takes the opposite, in place of the frame", "link")
 _SENSE = Key("the sense in which it is positive, ccw or cw", "sense")
@@ -277,18 +296,18 @@ LOADS = {
     "force": Kind(
         "a force",
         _size("a number, 'unknown', or two components [Fx, Fy]", "force", "load or pair"),
-        {"link": _LINK, "at": _PLACE, **DIRECTION, "against": _AGAINST, "turns_with": _TURNS_WITH},
+        {"link": _BEARER, "at": _PLACE, **DIRECTION, "against": _AGAINST, "turns_with": _TURNS_WITH},
     ),
     "torque": Kind(
         "a torque, positive counterclockwise or as it `turns`",
         _size(_TORQUE, "torque"),
         {"link": _LINK, "turns": _SENSE, "against": _AGAINST},
     ),
-    "weight": Kind("a weight, along -y", _size(_TORQUE, "force"), {"link": _LINK, "at": _PLACE}),
+    "weight": Kind("a weight, along -y", _size(_TORQUE, "force"), {"link": _BEARER, "at": _PLACE}),
     "mass": Kind(
         "a weight by its mass, with its unit",
         _size(_TORQUE, "mass", "load with unit", "not negative"),
-        {"link": _LINK, "at": _PLACE},
+        {"link": _BEARER, "at": _PLACE},
     ),
     "spring": Kind(
         "a spring: it pulls when longer than `free`",

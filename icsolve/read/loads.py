@@ -117,6 +117,9 @@ def _explain_keys(entry: Entry, kind: str, forms: Forms[T]) -> None:
             entry.refuse(mark, f"{entry.what} has no '{key}': {forms.elsewhere[key]}")
             told.append(key)
     entry.check(*told)
+    borne = entry.has("link") or word_at(entry, "at") in entry.reading.ends
+    if "link" in takes and not takes["link"].needed and not borne:
+        entry.need("link", "the link that it acts on")
 
 
 def magnitude(entry: Entry, name: str, kind: str, likes: Likes) -> tuple[bool, Magnitude]:
@@ -268,6 +271,10 @@ def read_loads(reading: Reading, section: Mapping) -> tuple[Load, ...]:
 
 
 def _force(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
+    if not entry.has("link") and word_at(entry, "at") in entry.reading.ends:
+        from icsolve.read.ropes import read_pull
+
+        return read_pull(entry, name, kind, likes)
     link, against, good = bearer(entry)
     at, turns_with = entry.place("at", f"@{name}"), entry.link("turns_with")
     if type(entry.node.items["force"]) is Sequence:
@@ -330,6 +337,10 @@ def _torque(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
 
 
 def _weight(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
+    if not entry.has("link") and word_at(entry, "at") in entry.reading.ends:
+        from icsolve.read.ropes import read_pull
+
+        return read_pull(entry, name, kind, likes)
     link, at = entry.link("link"), entry.place("at", f"@{name}")
     read, value = magnitude(entry, name, kind, likes)
     return Weight(name, link, at, value, kind == "mass") if read and link and at else None

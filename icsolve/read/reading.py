@@ -34,6 +34,7 @@ from icsolve.units import (
 if TYPE_CHECKING:
     from fractions import Fraction
 
+    from icsolve.case import Rope
     from icsolve.case.profiles import Touch
 
 
@@ -46,8 +47,9 @@ class Reading:
     angles, ``on_guides``: each guide), ``centroids`` those of others by their point; ``hidden`` the points
     that a load or centre gives by coordinates; ``kinds`` the kind of each load by its name. ``axes`` are
     those along which a force has components, ``couples`` those about which a couple has. ``profiled`` are the
-    links under ``profile``, ``touches`` the contacts whose places the profiles give, ``noticed`` sentences on
-    what may be a slip, ``unknowns`` the data of the figure that are to find.
+    links under ``profile``, ``touches`` the contacts whose places the profiles give, ``ends`` the ropes that
+    have a free end, by its point, ``noticed`` sentences on what may be a slip, ``unknowns`` the data of the
+    figure that are to find.
     """
 
     axes = "xy"
@@ -71,6 +73,7 @@ class Reading:
         self.noticed: list[str] = []
         self.unknowns: list[Unknown] = []
         self.touches: list[tuple[Touch, Mark]] = []
+        self.ends: dict[str, Rope] = {}
 
     def refuse(self, mark: Mark, message: str) -> None:
         """Note a problem."""

@@ -101,7 +101,7 @@ class Attempt(NamedTuple):
 
 def attempt(case: Case, *, reactions: bool = False) -> Attempt:
     """Solve all of a case once, and keep what was found: never raises `SceneError`."""
-    if case.space is not None:
+    if case.space is not None or case.dynamic:
         return _tried(case, reactions)
     if case.profiles is not None and case.profiles.touches:
         return _touching(case, reactions)
@@ -160,7 +160,8 @@ def _judged(parts: Parts, reactions: bool) -> Answer:
         return _with_friction(parts, reactions)
     _refuse_unbalanced(parts)
     parts.unknowns = bounded_values(parts.scene) if parts.scene else unbounded_values(parts.traced)
-    return _with_bodies(parts) if reactions else parts.answer()
+    slack = parts.case.ropes and _asks(parts.case)  # whether a rope would have to push, its tension tells
+    return _with_bodies(parts, reactions) if reactions or slack else parts.answer()
 
 
 def _evaluated(program: Program, bound: bool) -> Parts:
@@ -177,13 +178,13 @@ def _refuse_unbalanced(parts: Parts) -> None:
     refusals.refuse_unbalanced(parts.case, top, outcome.motions, outcome.balance, outcome.solution)
 
 
-def _with_bodies(parts: Parts) -> Answer:
+def _with_bodies(parts: Parts, reactions: bool) -> Answer:
     """The answer with the reactions, and with the unknown loads as free bodies give them."""
     from icsolve.statics.free_bodies import free_bodies
 
     by_power = {root: (value.value, value.error or 0.0) for root, value in parts.unknowns.items()}
     found = free_bodies(_position(parts), parts.figure.frame, parts.outcome.balance, by_power)
-    return found.added_to(parts.answer())
+    return found.added_to(parts.answer(), reactions)
 
 
 def _with_friction(parts: Parts, reactions: bool) -> Answer:
@@ -203,11 +204,12 @@ def _with_friction(parts: Parts, reactions: bool) -> Answer:
 
 def _position(parts: Parts) -> Position:
     """The scene as free bodies take it."""
-    from icsolve.statics.reaction_basis import Position
+    from icsolve.statics.reaction_basis import Position, rope_ties
 
-    figure, moves = parts.figure, parts.outcome.motions
+    case, figure, moves = parts.case, parts.figure, parts.outcome.motions
     scale, slack = figure.frame.scale, float(moves.slack)
-    return Position(parts.case, parts.program.top, figure.points, scale, moves.twists, slack)
+    ropes = rope_ties(case, figure.points, scale)
+    return Position(case, parts.program.top, figure.points, scale, moves.twists, slack, ropes)
 
 
 def _structure(program: Program, refusal: SceneError) -> Answer:

@@ -62,11 +62,12 @@ def prepare(case: Case, want: Want) -> Program:
     refusals.refuse_loose(case, top)
     wanted = _wanted_bodies(case, top, want)
     plan = make_plan(top, wanted)
-    if plan is not None and not plan.closed:
+    if plan is not None and (case.ropes or not plan.closed):
         plan = None
     bonds = motion.needed_bonds(plan, top)
     figure = solve_figure(case, None if want.examine else _wanted_points(case, top, bonds, want))
     refusals.refuse_no_direction(case, top, figure.points)
+    refusals.refuse_no_hanging(case, figure.points, figure.frame.scale)
     if any(isinstance(joint, Gears) for joint in case.joints):
         from icsolve.assembly.meshing import refuse_misfit
 
@@ -90,6 +91,8 @@ def _wanted_bodies(case: Case, top: Topology, want: Want) -> frozenset[int]:
     """
     if want.everything or not any(map(power.has_number, case.loads)):
         return frozenset(range(len(top.members)))
+    if case.ropes:
+        return frozenset(range(len(top.members)))
     links = {link for load in case.loads for link in (load.link, power.reacting(case, load))}
     links |= {given.link for given in case.motion}
     return frozenset(top.body_of[link] for link in links)
@@ -100,6 +103,7 @@ def _wanted_points(case: Case, top: Topology, bonds: tuple[int, ...], want: Want
     points = motion.needed_points(bonds, top)
     points += [p for load in case.loads for p in power.points_of(load)]
     points += [given.point for given in case.motion if given.point is not None]
+    points += [p for rope in case.ropes for p in rope.points]
     if want.bodies:
         points += [p for joint in case.joints if (p := getattr(joint, "at", None)) is not None]
     if want.everything:
@@ -124,6 +128,8 @@ def evaluate(program: Program, arithmetic: Arithmetic = FLOATS) -> tuple[Program
             return evaluate(without_plan(program), arithmetic)
     if motions is None:
         motions = motion.by_loops(case, top, points, arithmetic, figure.frame)
+    if case.ropes:
+        motions = motion.with_free_ends(motions, case, points, figure.frame.scale, arithmetic)
     # power
     wrenches = power.wrenches(case, figure.frame, points, arithmetic)
     balance = power.balance(wrenches, motions.twists, motions.mobility)

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from icsolve.case import Case
+import math
+
+from icsolve.case import Case, Weight
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.collinear import aligned, lined_up, tightest
 from icsolve.kinematics.motion import Motions
+from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.joints import Points
+from icsolve.screws.ropes import rope_parts
 from icsolve.statics import power
 from icsolve.structure.topology import Topology
 from icsolve.wording import sentences
@@ -15,12 +19,13 @@ from icsolve.wording import sentences
 def refuse_loose(case: Case, top: Topology) -> None:
     """Refuse links that no chain of joints ties to the frame."""
     seen, stack = {top.ground}, [top.ground]
+    held = [{top.body_of[link] for link in rope.links} for rope in case.ropes]
     while stack:
-        for k in top.at[stack.pop()]:
-            for body in (top.bonds[k].a, top.bonds[k].b):
-                if body not in seen:
-                    seen.add(body)
-                    stack.append(body)
+        body = stack.pop()
+        near = {end for k in top.at[body] for end in (top.bonds[k].a, top.bonds[k].b)}
+        near |= {other for bodies in held if body in bodies for other in bodies}
+        stack += near - seen
+        seen |= near
     names = [link for body, links in enumerate(top.members) if body not in seen for link in links]
     if names:
         raise SceneError(Status.LOOSE, sentences.loose(case, names))
@@ -41,6 +46,26 @@ def refuse_no_direction(case: Case, top: Topology, points: Points) -> None:
                 f"there is no direction for {what}: {sentences.listed(ends)} lie at one place. Give it by an "
                 "angle, or correct the points.",
             )
+
+
+HANGS = 2e-3
+"""Sine by which a part of a rope may lean on which a weight hangs."""
+
+
+def refuse_no_hanging(case: Case, points: Points, scale: float) -> None:
+    """Refuse a weight at the free end of a rope whose last part does not hang, and parts without a length."""
+    ropes = {rope.end: rope_parts(rope, points, scale, FLOATS) for rope in case.ropes}
+    for load in case.loads:
+        if isinstance(load, Weight) and load.link in ropes:
+            x, y = ropes[load.link][-1].along
+            if abs(x) > HANGS or y > 0.0:
+                toward = math.degrees(math.atan2(y, x)) % 360.0
+                raise SceneError(
+                    Status.INCONSISTENT,
+                    f"the weight {load.name} hangs at {load.at}, and the last part of the rope "
+                    f"{load.link[1:]} does not hang, but runs at {toward:.6g} deg. Put {load.at} under the "
+                    "last pulley, or give the pull as a `force`.",
+                )
 
 
 def rubs(case: Case) -> bool:

@@ -11,6 +11,7 @@ from icsolve.kinematics.speeds import Speed
 from icsolve.solve.bounds import Value
 from icsolve.statics.power import Balance, Wrench, known_value
 from icsolve.wording.senses import unit_of
+from icsolve.wording.sentences import link_words
 
 
 def load_values(balance: Balance, unknowns: Mapping[str, Value]) -> dict[str, float]:
@@ -41,7 +42,7 @@ def power_terms(
 
 def _where(case: Case, w: Wrench) -> str:
     at = getattr(w.load, "at", "@")
-    where = f"{w.load.name} on link {w.load.link}" + ("" if at.startswith("@") else f" at {at}")
+    where = f"{w.load.name} on {link_words(w.load.link)}" + ("" if at.startswith("@") else f" at {at}")
     return where if w.against == case.ground else f"{where} against link {w.against}"
 
 

@@ -19,7 +19,7 @@ from icsolve.numbers.linear import inverse, solve_square
 from icsolve.numbers.sparse import General, Row, eliminate
 from icsolve.screws.plane import Point, velocity
 from icsolve.statics.power import Balance, Wrench, force_scale, is_unknown, known_value
-from icsolve.statics.reaction_basis import Force, Position, Tie
+from icsolve.statics.reaction_basis import Force, Position, RopeTie, Tie
 
 
 class Rub(NamedTuple):
@@ -38,18 +38,23 @@ class Rub(NamedTuple):
 class Statics(NamedTuple):
     """The general solution of the equilibrium of all links.
 
-    Column numbers: the units of the ties from ``first[t]`` on, then the parameters: the known loads
-    together (1), the unknown loads ``roots``, the friction of each rub. Loads are ``scale`` times
-    their number in case units.
+    Column numbers: the units of the ties from ``first[t]`` on, the tension of each rope's first part, then
+    the parameters: the known loads together (1), the unknown loads ``roots``, the friction of each rub. Loads
+    are ``scale`` times their number in case units.
     """
 
     ties: tuple[Tie, ...]
+    ropes: tuple[RopeTie, ...]
     first: tuple[int, ...]
     known: int
     roots: tuple[str, ...]
     rubs: tuple[Rub, ...]
     scale: float
     general: General
+
+    def tension(self, n: int) -> int:
+        """Column of the tension of a rope."""
+        return self.known - len(self.ropes) + n
 
     def root(self, n: int) -> int:
         """Column of an unknown load."""
@@ -87,6 +92,9 @@ def equilibrium(
         for unit in tie.units:
             rows.between(tie, unit, column)
             column += 1
+    for tension in position.ropes:
+        rows.rope(tension, column)
+        column += 1
     scale = force_scale(balance)
     roots = tuple(w.load.name for w in balance.wrenches if is_unknown(w.load))
     for w in balance.wrenches:
@@ -94,7 +102,7 @@ def equilibrium(
     for n, rub in enumerate(rubs):
         rows.between(ties[rub.tie], rub.unit, column + 1 + len(roots) + n)
     general = _eliminated(rows.all(), column, position.mobility)
-    return Statics(tuple(ties), tuple(first), column, roots, tuple(rubs), scale, general)
+    return Statics(tuple(ties), position.ropes, tuple(first), column, roots, tuple(rubs), scale, general)
 
 
 def _eliminated(rows: list[Row], columns: int, mobility: int) -> General:
@@ -130,6 +138,10 @@ class _Rows:
         for tie in ties:
             self.about.setdefault(tie.by, tie.at)
             self.about.setdefault(tie.on, tie.at)
+        for rope in position.ropes:
+            for part in rope.parts:
+                for link in filter(None, part.links):
+                    self.about.setdefault(link, part.at)
         self.about.pop(position.case.ground, None)
         self.rows: dict[str, tuple[Row, Row, Row]] = {link: ({}, {}, {}) for link in self.about}
 
@@ -137,6 +149,13 @@ class _Rows:
         """A unit on the tie's second link, the opposite on its first."""
         self.add(tie.on, tie.at, unit, column)
         self.add(tie.by, tie.at, (-unit[0], -unit[1], -unit[2]), column)
+
+    def rope(self, tie: RopeTie, column: int) -> None:
+        """The pull of every part of a rope on both of its links (of the last, on the free end)."""
+        for k, part in enumerate(tie.parts):
+            at, (x, y, couple) = tie.unit(k)
+            self.add(part.links[0], at, (x, y, couple), column)
+            self.add(part.links[1] or tie.rope.end, at, (-x, -y, -couple), column)
 
     def load(self, w: Wrench, column: int, factor: float) -> None:
         """A load on its link, the opposite on the link against which it acts."""
@@ -178,6 +197,8 @@ def equations_of(position: Position, statics: Statics, balance: Balance) -> Equa
     for t, tie in enumerate(statics.ties):
         for n, unit in enumerate(tie.units):
             rows.between(tie, unit, statics.first[t] + n)
+    for n, rope in enumerate(statics.ropes):
+        rows.rope(rope, statics.tension(n))
     for w in balance.wrenches:
         rows.load(w, *_share(w, balance, statics.roots, statics.known, statics.scale))
     for n, rub in enumerate(statics.rubs):

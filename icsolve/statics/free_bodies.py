@@ -11,7 +11,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from icsolve.answer import Answer
-from icsolve.answer.bodies import Friction, Reactions, Witness
+from icsolve.answer.bodies import Friction, Reactions, Tension, Witness
 from icsolve.assembly import Frame, case_point
 from icsolve.case import ForceVector, Number
 from icsolve.errors import SceneError, Status
@@ -33,8 +33,8 @@ from icsolve.statics.equilibrium import (
 )
 from icsolve.statics.friction_interface import efficiency, friction_terms, has_friction
 from icsolve.statics.power import Balance, Wrench, is_unknown, known_value, wrenches
-from icsolve.statics.reaction_basis import Position, Tie, ties_of
-from icsolve.statics.reactions import is_unique, names_by_tie, notes_of, reactions_of
+from icsolve.statics.reaction_basis import Position, Tie, rope_ties, ties_of
+from icsolve.statics.reactions import is_unique, names_by_tie, notes_of, reactions_of, tensions_of
 from icsolve.wording.sentences import listed, plural
 
 
@@ -46,6 +46,7 @@ class FreeBodies(NamedTuple):
     residual: float = 0.0
     notes: tuple[str, ...] = ()
     friction: Friction | None = None
+    tensions: tuple[Tension, ...] = ()
 
     def added_to(self, answer: Answer, reactions: bool = True) -> Answer:
         """An answer with what free bodies add to it; friction brings its losses to the sum of power."""
@@ -57,6 +58,7 @@ class FreeBodies(NamedTuple):
             answer,
             terms=terms,
             reactions=self.reactions if reactions else None,
+            tensions=self.tensions if reactions else (),
             witnesses=self.witnesses if reactions else (),
             friction=friction,
             notes=(*answer.notes, *self.notes),
@@ -74,7 +76,8 @@ def structure(program: Program, refusal: SceneError) -> Answer:
         remedy = "Any value of the unknown load is carried: give it a number, or take out a joint or a link."
         raise SceneError(refusal.status, f"{said} {remedy}")
     still: dict[str, tuple[Triple, ...]] = dict.fromkeys((*case.links, case.ground), ())
-    place = Position(case, top, figure.points, figure.frame.scale, still)
+    scale = figure.frame.scale
+    place = Position(case, top, figure.points, scale, still, 0.0, rope_ties(case, figure.points, scale))
     balance = Balance(wrenches(case, figure.frame, figure.points, FLOATS), (), ())
     points = {n: case_point(figure.frame, p) for n, p in figure.points.items() if not n.startswith("@")}
     said = "the links form a structure: nothing moves, and statics alone gives the reactions."
@@ -102,7 +105,8 @@ def free_bodies(
     refuse_apart(found, position.slack)
     reactions = reactions_of(position, frame, statics, parameters)
     notes = notes_of(statics, reactions, names_by_tie(position.case, statics.ties))
-    return FreeBodies(reactions, found, residual(terms), (*left, *notes))
+    pulls = tensions_of(statics, parameters)
+    return FreeBodies(reactions, found, residual(terms), (*left, *notes), tensions=pulls)
 
 
 class Solved(NamedTuple):

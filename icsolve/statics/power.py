@@ -10,11 +10,25 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from icsolve.assembly.frame import Frame
-from icsolve.case import Case, Force, ForceVector, Like, Load, Number, Slope, Spring, Torque, Toward, Weight
+from icsolve.case import (
+    AlongRope,
+    Case,
+    Force,
+    ForceVector,
+    Like,
+    Load,
+    Number,
+    Slope,
+    Spring,
+    Torque,
+    Toward,
+    Weight,
+)
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, magnitude
 from icsolve.numbers.null_space import null_space
 from icsolve.screws.plane import Point, Triple, force_wrench, pairing
+from icsolve.screws.ropes import rope_parts
 
 Points = Mapping[str, Point]
 
@@ -59,6 +73,8 @@ def reacting(case: Case, load: Load) -> str:
 
 def points_of(load: Load) -> tuple[str, ...]:
     """The points that a load's wrench needs."""
+    if isinstance(load, Force) and isinstance(load.heading, AlongRope):
+        return load.heading.rope.points
     if isinstance(load, Torque):
         return ()
     if isinstance(load, Spring):
@@ -107,6 +123,9 @@ def _unit_wrench(
             size = vector_size(load) or 1.0
             x, y = arithmetic.given(load.x) / size, arithmetic.given(load.y) / size
             return force_wrench((x, y), points[load.at]), 1.0
+        case Force(heading=AlongRope(rope)):
+            along = rope_parts(rope, points, frame.scale, arithmetic)[-1].along
+            return force_wrench(along, points[load.at]), 1.0
         case Force():
             return force_wrench(direction(load, points, arithmetic), points[load.at]), 1.0
     raise TypeError(type(load).__name__)
@@ -115,6 +134,7 @@ def _unit_wrench(
 def direction(load: Force, points: Points, arithmetic: Arithmetic) -> Point:
     """Unit vector along which a force acts."""
     heading = load.heading
+    assert not isinstance(heading, AlongRope)
     if isinstance(heading, Toward):
         x, y = _between(points[load.at], points[heading.point], arithmetic)[0]
         return (-x, -y) if heading.away else (x, y)

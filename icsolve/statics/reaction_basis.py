@@ -15,11 +15,12 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from icsolve.assembly.meshing import MISFIT
-from icsolve.case import Belt, Case, Contact, Gears, Joint, KnownCentre, Pin, Roll, Weld
+from icsolve.case import Belt, Case, Contact, Gears, Guide, Joint, KnownCentre, Pin, Roll, Rope, Slide, Weld
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
 from icsolve.screws.joints import Points, freedoms, pitch_point, transmitted
 from icsolve.screws.plane import Point, Triple, shift, subtract
+from icsolve.screws.ropes import RopePart, rope_parts
 from icsolve.structure.topology import Bond, Topology, pairs_of
 
 Force = tuple[Scalar, Scalar, Scalar]
@@ -45,6 +46,19 @@ class Tie(NamedTuple):
     pivots: tuple[str, str] = ("", "")
 
 
+class RopeTie(NamedTuple):
+    """A rope between links: the tension of each part is ``ratios`` times that of the first."""
+
+    rope: Rope
+    parts: tuple[RopePart, ...]
+    ratios: tuple[float, ...]
+
+    def unit(self, k: int) -> tuple[Point, Force]:
+        """What a unit of tension in the first part does on the first link of a part: a force at a point."""
+        part, ratio = self.parts[k], self.ratios[k]
+        return part.at, (ratio * part.along[0], ratio * part.along[1], 0.0)
+
+
 class Position(NamedTuple):
     """A case in one position: normalised points, twists of the links (one per freedom; none: a structure)."""
 
@@ -55,6 +69,7 @@ class Position(NamedTuple):
     """normalised lengths per case length"""
     twists: Mapping[str, tuple[Triple, ...]]
     slack: float = 0.0
+    ropes: tuple[RopeTie, ...] = ()
 
     @property
     def mobility(self) -> int:
@@ -77,7 +92,27 @@ def ties_of(position: Position, arithmetic: Arithmetic = FLOATS) -> tuple[Tie, .
         for by, on in pairs_of(joint):
             bond = Bond(0, 1, 0, joint, (by, on), pivots.get((id(joint), (by, on)), ("", "")))
             found.append(_tie(position, bond, arithmetic))
+    return (*found, *(_end_tie(position, tie) for tie in position.ropes if tie.rope.is_free))
+
+
+def rope_ties(
+    case: Case, points: Points, scale: float, arithmetic: Arithmetic = FLOATS
+) -> tuple[RopeTie, ...]:
+    """Every rope of a case, without friction."""
+    found = []
+    for rope in case.ropes:
+        parts = rope_parts(rope, points, scale, arithmetic)
+        found.append(RopeTie(rope, parts, (1.0,) * len(parts)))
     return tuple(found)
+
+
+def _end_tie(position: Position, tie: RopeTie) -> Tie:
+    """What keeps the free end of a rope on the line of its last part, beside the tension."""
+    rope, (x, y) = tie.rope, tie.parts[-1].along
+    guide = Guide(None, (rope.points[-2], rope.points[-1]), None)
+    joint = Slide((rope.end, position.case.ground), rope.points[-1], guide)
+    at = position.points[rope.points[-1]]
+    return Tie(joint, position.case.ground, rope.end, at, "", ((0.0 - y, x, 0.0), COUPLE))
 
 
 def _tie(position: Position, bond: Bond, arithmetic: Arithmetic) -> Tie:

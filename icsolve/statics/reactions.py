@@ -9,10 +9,11 @@ import math
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
-from icsolve.answer.bodies import Reaction, Reactions, names_of
+from icsolve.answer.bodies import Reaction, Reactions, Tension, names_of
 from icsolve.assembly import Frame, case_point
-from icsolve.case import Belt, Case, Contact, Gears, KnownCentre, Roll, Slide, Slot
+from icsolve.case import Belt, Case, Contact, Gears, KnownCentre, Roll, Rope, Slide, Slot
 from icsolve.case.names import ordered_pair
+from icsolve.errors import SceneError, Status
 from icsolve.numbers.sparse import Row
 from icsolve.screws.plane import velocity
 from icsolve.statics.equilibrium import Statics
@@ -36,6 +37,8 @@ def reactions_of(
     names = names_by_tie(position.case, statics.ties)
     found = Reactions()
     for tie, rows, forces, name in zip(statics.ties, combined, values, names, strict=True):
+        if tie.on.startswith("@"):  # the free end of a rope, which is no link
+            continue
         unique = [all(abs(row.get(c, 0.0)) <= UNIQUE * size for c, size in sizes.items()) for row in rows]
         clean = [0.0 if abs(f) <= small else f for f, small in zip(forces, least, strict=True)]
         kept = [f if u else None for f, u in zip(clean, unique, strict=True)]
@@ -44,6 +47,40 @@ def reactions_of(
             pull = _net_pull(position, tie.joint, tie, forces) / statics.scale
             found[name] = found[name]._replace(parts=(("net pull", pull),))
     return found
+
+
+def tensions_of(statics: Statics, parameters: Mapping[int, float]) -> tuple[Tension, ...]:
+    """The pull of every rope, case units.
+
+    Raises SceneError where one would have to push.
+    """
+    sizes = _open_sizes(statics)
+    largest = max((abs(statics.value(c, parameters)) for c in range(statics.known)), default=0.0)
+    found = []
+    for n, tie in enumerate(statics.ropes):
+        row = statics.general.of(statics.tension(n))
+        if any(abs(row.get(c, 0.0)) > UNIQUE * size for c, size in sizes.items()):
+            found.append(Tension(tie.rope.name, None, why=SHARED))
+            continue
+        value = _value(statics, row, parameters)
+        if value < -SLACK * largest:
+            raise SceneError(Status.SLACK, _slack(tie.rope, value / statics.scale))
+        pull = max(value, 0.0) / statics.scale
+        slips = any(mu is not None for mu in tie.rope.mu)
+        found.append(Tension(tie.rope.name, pull, tuple(pull * r for r in tie.ratios) if slips else ()))
+    return tuple(found)
+
+
+SLACK = 1e-12
+"""A pull below zero by less than this fraction of the largest force is rounding."""
+SHARED = "the joints share the load in a way that equilibrium alone does not determine"
+
+
+def _slack(rope: Rope, value: float) -> str:
+    return (
+        f"the rope {rope.name} would have to push ({value:.6g}): it goes slack, and the links do not hold "
+        "so. Turn the load round that pulls it, or put a link in its place."
+    )
 
 
 def _net_pull(position: Position, belt: Belt, tie: Tie, force: tuple[float, ...]) -> float:
@@ -168,13 +205,15 @@ def _why(tie: Tie, kept: list[float | None]) -> str:
         return "the pull of the slack strand is not given: only the difference of the two pulls is determined"
     if isinstance(tie.joint, Gears) and tie.joint.pressure_angle is None:
         return "the part that pushes the gears apart needs `pressure angle`"
-    return "the joints share the load in a way that equilibrium alone does not determine"
+    return SHARED
 
 
 def notes_of(statics: Statics, reactions: Reactions, names: Sequence[str]) -> tuple[str, ...]:
     """All sentences, in the order of the joints."""
+    ties = [tie for tie in statics.ties if not tie.on.startswith("@")]
+    names = [name for name in names if name in reactions]
     shown = [reactions[name] for name in names]
-    both = zip(statics.ties, shown, strict=True)
+    both = zip(ties, shown, strict=True)
     touching = [sentence for tie, reaction in both for sentence in _touching(tie, reaction)]
     return (*_not_unique(statics, shown, names), *touching, *_black_boxes(statics.ties))
 

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from icsolve.answer.bodies import Friction, Reaction, Rubbing, Witness
+from icsolve.answer.bodies import Friction, Reaction, Rubbing, Tension, Witness
 from icsolve.case import Units
 
 if TYPE_CHECKING:
@@ -21,6 +21,7 @@ def bodies_dict(answer: Answer) -> dict[str, Any]:
     shown: dict[str, Any] = {}
     if answer.reactions is not None:
         shown["reactions"] = {name: _reaction(reaction) for name, reaction in answer.reactions.items()}
+        shown["reactions"] |= {tension.name: _tension(tension) for tension in answer.tensions}
     if answer.witnesses:
         shown["free_bodies"] = {w.load: witness_dict(w) for w in answer.witnesses}
     if answer.friction is not None:
@@ -51,6 +52,13 @@ def _reaction(reaction: Reaction) -> dict[str, Any]:
     return entry
 
 
+def _tension(tension: Tension) -> dict[str, Any]:
+    entry: dict[str, Any] = {"tension": tension.tension}
+    if tension.parts:
+        entry["tensions"] = list(tension.parts)
+    return entry if tension.tension is not None else {**entry, "undetermined": tension.why}
+
+
 def _friction(friction: Friction) -> dict[str, Any]:
     if friction.possible is not None:
         ends = [end if math.isfinite(end) else None for end in friction.possible]
@@ -70,7 +78,7 @@ def _rubbing(rubbing: Rubbing) -> dict[str, Any]:
 
 def bodies_lines(answer: Answer, show: Format, table: Table) -> list[str]:
     """Reactions, friction, and the unknown loads by free bodies."""
-    blocks = [reaction_lines(answer, show, table)]
+    blocks = [reaction_lines(answer, show, table), tension_lines(answer, show, table)]
     if answer.friction is not None:
         blocks.append(friction_lines(answer.friction, answer.case.units, show, table))
     blocks.append(witness_lines(answer, show))
@@ -86,6 +94,16 @@ def reaction_lines(answer: Answer, show: Format, table: Table) -> list[str]:
     couples = f"; couples in {units.torque}" if any(r.moment for r in answer.reactions.values()) else ""
     title = f"Reactions, {units.force}{couples}: the force of the first link on the second"
     return [title, *table(*(list(column) for column in zip(*rows, strict=True)))]
+
+
+def tension_lines(answer: Answer, show: Format, table: Table) -> list[str]:
+    """A line for each rope: its pull, or that of each of its parts."""
+    if not answer.tensions:
+        return []
+    pulls = [tension.parts or (tension.tension,) for tension in answer.tensions]
+    values = [", ".join(_number(pull, show) for pull in each) for each in pulls]
+    lines = table([tension.name for tension in answer.tensions], values)
+    return [f"Pulls of ropes, {answer.case.units.force}", *lines]
 
 
 def _columns(reaction: Reaction, show: Format) -> tuple[str, str, str]:

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from functools import lru_cache
 from typing import Any, NamedTuple
 
-from icsolve.case import Belt, Case, Contact, Gears, Joint, KnownCentre, Pin, Roll, Slide, Slot, Weld
+from icsolve.case import Belt, Case, Contact, Gears, Joint, KnownCentre, Pin, Roll, Rope, Slide, Slot, Weld
 from icsolve.errors import SceneError, Status
 
 FREEDOMS: dict[type[Any], int] = {
@@ -47,11 +47,41 @@ class Topology(NamedTuple):
     at: tuple[tuple[int, ...], ...]
     """for each body the indices of its bonds"""
     ground: int
+    ropes: tuple[Rope, ...] = ()
+    """those that are fixed at both ends: each is one constraint of several bodies"""
 
     @property
     def freedoms_by_count(self) -> int:
         """Mobility by counting: three a moving body less the constraints (Gruebler)."""
-        return 3 * (len(self.members) - 1) - sum(bond.constraints for bond in self.bonds)
+        return 3 * (len(self.members) - 1) - self.constraints
+
+    @property
+    def constraints(self) -> int:
+        """What the joints and ropes take."""
+        return sum(bond.constraints for bond in self.bonds) + len(self.ropes)
+
+    @property
+    def afloat(self) -> tuple[tuple[int, ...], ...]:
+        """The groups of bodies that no chain of joints ties to the frame."""
+        seen, groups = {self.ground}, []
+        self._reach(seen, self.ground)
+        for body in range(len(self.members)):
+            if body not in seen:
+                before = set(seen)
+                seen.add(body)
+                self._reach(seen, body)
+                groups.append(tuple(sorted(seen - before)))
+        return tuple(groups)
+
+    def _reach(self, seen: set[int], body: int) -> None:
+        """Add the bodies that joints tie to this one."""
+        stack = [body]
+        while stack:
+            for k in self.at[stack.pop()]:
+                for other in (self.bonds[k].a, self.bonds[k].b):
+                    if other not in seen:
+                        seen.add(other)
+                        stack.append(other)
 
 
 @lru_cache(maxsize=32)
@@ -75,7 +105,8 @@ def topology(case: Case) -> Topology:
     for k, bond in enumerate(bonds):
         at[bond.a].append(k)
         at[bond.b].append(k)
-    return Topology(body_of, members, bonds, tuple(map(tuple, at)), body_of[case.ground])
+    ropes = tuple(rope for rope in case.ropes if not rope.is_free)
+    return Topology(body_of, members, bonds, tuple(map(tuple, at)), body_of[case.ground], ropes)
 
 
 def _bodies(case: Case) -> tuple[dict[str, int], tuple[tuple[str, ...], ...]]:

@@ -20,6 +20,8 @@ def sense_of(w: Wrench, value: float) -> str:
             return "ccw" if (value > 0) == (w.load.turns == "ccw") else "cw"
         case Spring():
             return "pull" if value * float(w.gain) > 0 else "push"
+        case Force(link=link) if link.startswith("@"):
+            return "pull" if value > 0 else "push"
         case Force(heading=Toward() as heading):
             if w.load.against is not None:
                 return "pull" if (value > 0) != heading.away else "push"

@@ -22,6 +22,11 @@ def plural(count: int, word: str) -> str:
     return f"{count} {word}" + ("" if count == 1 else "s")
 
 
+def link_words(link: str) -> str:
+    """``link 3``; what stands for a link where loads pull the free end of a rope."""
+    return f"the end of the rope {link[1:]}" if link.startswith("@") else f"link {link}"
+
+
 def structure(bodies: int, constraints: int) -> str:
     """No joint lets anything move: moving links, and the freedoms that the joints take."""
     return (

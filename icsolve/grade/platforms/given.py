@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from icsolve.case import (
+    AlongRope,
     Belt,
     Case,
     Contact,
@@ -159,6 +160,8 @@ def _heading(load: Force) -> str:
             return f"{'away from' if away else 'toward'} {point}"
         case Slope(run, rise):
             return f"along the slope {_shown(run)} : {_shown(rise)}"
+        case AlongRope(rope):
+            return f"along the rope {rope.name}"
         case Number():
             return f"at {_shown(load.heading)} deg"
 

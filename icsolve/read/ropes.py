@@ -1,0 +1,166 @@
+"""Ropes: entries of ``joints`` that join several links, and the loads that pull their free ends."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar
+
+from icsolve.case import AlongRope, Force, Load, Number, Rope, Toward, Weight
+from icsolve.read.document import Mapping, Node, Sequence
+from icsolve.read.keys import JOINTS
+from icsolve.read.loads import Likes, magnitude, word_at
+from icsolve.read.names import shown, suggestion
+from icsolve.read.reading import Entry, Reading
+
+_FORM = "{rope: [A, P, B], on: [4, 3, 1]}"
+T = TypeVar("T")
+
+
+def read_ropes(reading: Reading, section: Sequence) -> tuple[tuple[Rope, ...], Sequence]:
+    """The ropes among the joints, and the other joints."""
+    others: list[Node] = []
+    found = []
+    for item in section.items:
+        if type(item) is Mapping and "rope" in item.items:
+            rope = _rope(reading, item)
+            if rope is not None:
+                found.append(rope)
+        else:
+            others.append(item)
+    for rope in found:
+        if rope.is_free:
+            reading.ends[rope.points[-1]] = rope
+    return tuple(found), Sequence(others, section.mark)
+
+
+def _rope(reading: Reading, node: Mapping) -> Rope | None:
+    names = reading.names(node.items["rope"], "the points of a rope", _FORM)
+    points = tuple(item.text for item in names or ())
+    for item in names or ():
+        reading.used.setdefault(item.text, item.mark)
+    name = "-".join(points) or "?"
+    path = _unlike(f"joints.{name}", reading)
+    reading.marks[path] = node.mark
+    entry = Entry(reading, node, path, f"the rope {name}", JOINTS["rope"].keys)
+    entry.check("rope")
+    links = _links(entry, points)
+    if len(points) < 2 and names is not None:
+        said = f"{entry.what} needs two points or more: its ends and its pulleys"
+        entry.refuse(node.items["rope"].mark, said)
+        return None
+    if names is None or links is None:
+        return None
+    before = len(reading.problems.found)
+    radii = _by_place(entry, "radii", points, lambda one, at: one.value(*_number(entry, one, "radii", at)))
+    wraps = _by_place(entry, "wraps", points, lambda one, at: one.word(at, ("ccw", "cw")))
+    mu = _by_place(entry, "mu", points, lambda one, at: one.value(*_number(entry, one, "mu", at)))
+    length = entry.number("length")
+    _check_wraps(entry, points, len(links), radii, wraps, mu)
+    if len(reading.problems.found) > before:
+        return None
+    return Rope(points, links, radii, wraps, mu, length)
+
+
+def _number(entry: Entry, one: Entry, key: str, at: str) -> tuple[Node, str, str, str, str]:
+    """What is read of a number for one place: its node, dimension, path, name and bound."""
+    own = entry.keys[key]
+    return one.node.items[at], own.dimension, f"{one.path}.{at}", at, own.bound
+
+
+def _unlike(path: str, reading: Reading) -> str:
+    """The path, with ``#2`` ... behind it where another rope runs through the same points."""
+    n, own = 2, path
+    while own in reading.marks:
+        own, n = f"{path}#{n}", n + 1
+    return own
+
+
+def _links(entry: Entry, points: tuple[str, ...]) -> tuple[str, ...] | None:
+    """One link for each point, or one less where the last end is free."""
+    node = entry.node.items.get("on")
+    items = entry.reading.names(node, f"'on' of {entry.what}", "[4, 3, 1]") if node is not None else None
+    if node is None or items is None:
+        return None
+    links = [entry.reading.link(item, f"'on' of {entry.what}") for item in items]
+    if len(items) not in (len(points), len(points) - 1) or not items:
+        said = f"{entry.what} runs through {len(points)} points, and 'on' names {len(items)} links"
+        entry.refuse(node.mark, f"{said}: give one for each point, or one less where its last end is free")
+        return None
+    return tuple(link for link in links if link is not None) if None not in links else None
+
+
+def _by_place(
+    entry: Entry, key: str, points: tuple[str, ...], read: Callable[[Entry, str], T | None]
+) -> tuple[T | None, ...]:
+    """What a mapping from points has for each place of the rope."""
+    node = entry.node.items.get(key)
+    form = entry.keys[key].says.partition(" as in ")[2]
+    mapping = None
+    if node is not None:
+        mapping = entry.reading.mapping(node, f"'{key}' of {entry.what}", f"as in {form}")
+    if mapping is None:
+        return (None,) * len(points)
+    inner = Entry(entry.reading, mapping, f"{entry.path}.{key}", f"'{key}' of {entry.what}")
+    for name, mark in mapping.keys.items():
+        if name not in points:
+            entry.refuse(mark, f"{entry.what} does not run through {shown(name)}{suggestion(name, points)}")
+    found = {name: read(inner, name) for name in mapping.items if name in points}
+    return tuple(found.get(point) for point in points)
+
+
+def _check_wraps(
+    entry: Entry,
+    points: tuple[str, ...],
+    links: int,
+    radii: tuple[Number | None, ...],
+    wraps: tuple[str | None, ...],
+    mu: tuple[Number | None, ...],
+) -> None:
+    """A pulley with a size has its sense, and one that rubs has both."""
+    given = {key: {*node.items} for key, node in entry.node.items.items() if type(node) is Mapping}
+    sized, wound, rubbing = (given.get(key, set()) for key in ("radii", "wraps", "mu"))
+    for k, point in enumerate(points):
+        inside = 0 < k < len(points) - 1
+        if point in sized and point not in wound:
+            said = f"{entry.what} goes round {point}, which has a radius: give its sense, {{{point}: ccw}}"
+            way = f"as one follows the rope from {points[0]} to {points[-1]}"
+            entry.refuse(entry.mark("radii"), f"{said} or cw under 'wraps', {way}")
+        if point in wound and point not in sized:
+            said = f"{entry.what} goes round {point}: give its radius, radii: {{{point}: 0.1}}"
+            entry.refuse(entry.mark("wraps"), said)
+        if point in rubbing and (point not in sized or not inside):
+            where = "with its 'radii' and 'wraps'" if inside else "between its ends"
+            said = f"{entry.what} slips only on what it goes round {where}, and has 'mu' at {point}"
+            entry.refuse(entry.mark("mu"), said)
+    if links < len(points) and points[-1] in sized:
+        said = f"the last end {points[-1]} of {entry.what} is free and has no radius"
+        entry.refuse(entry.mark("radii"), said)
+
+
+def read_pull(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
+    """A load without a link, which pulls the free end of a rope."""
+    rope = entry.reading.ends[word_at(entry, "at")]
+    others = [key for key in entry.node.items if key not in (kind, "at")]
+    for key in others:
+        said = f"{entry.what} pulls the free end of the rope {rope.name}, along it: take out '{key}'"
+        entry.refuse(entry.mark(key), said)
+    entry.point("at")
+    read, value = magnitude(entry, name, kind, likes)
+    if not read or others:
+        return None
+    if kind in ("weight", "mass"):
+        return Weight(name, rope.end, rope.points[-1], value, kind == "mass")
+    last = len(rope.links) - 1
+    heading = Toward(rope.points[-2], away=True) if rope.radii[last] is None else AlongRope(rope)
+    return Force(name, rope.end, rope.points[-1], value, heading)
+
+
+def check_ends(reading: Reading, ropes: tuple[Rope, ...], loads: tuple[Load, ...]) -> None:
+    """A free end without a load pulls nothing."""
+    pulled = {load.link for load in loads}
+    for rope in ropes:
+        if rope.is_free and rope.end not in pulled:
+            mark = reading.marks[f"joints.{rope.name}"]
+            end = rope.points[-1]
+            said = f"the last end {end} of the rope {rope.name} is free, and no load pulls it: give one,"
+            reading.refuse(mark, f"{said} {{force: 100, at: {end}}}, or name the link at {end} last in 'on'")

@@ -1,0 +1,131 @@
+"""A rope as a constraint of several links: its straight parts, and the wrench of its tension on each link.
+
+A part runs from one circle (a pulley, a drum; of radius 0 a point) to the next, along a line that touches
+both. With d from centre to centre, s the sense of a wrap (1 ccw) and a = s' r' - s r, the direction u and the
+length l of the part follow from d = l u - a n, n = (u_y, -u_x), l^2 = d^2 - a^2. Where the centre of the
+first is C, the line's moment about the origin is C x u + s r. The length of the rope stays where the sum of
+u . (v' - v) over the parts is zero, with the velocities of points of the links on their lines: the tension
+does no work.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import NamedTuple
+
+from icsolve.case import Rope
+from icsolve.errors import SceneError, Status
+from icsolve.numbers.arithmetic import Arithmetic, Scalar
+from icsolve.screws.plane import Point, Triple, force_wrench, pairing, velocity
+
+Points = Mapping[str, Point]
+
+
+class RopePart(NamedTuple):
+    """A straight part, between ``links`` (the second '' at a free end), in the normalised frame.
+
+    A unit of tension acts on the first link as ``wrench``, a force along ``along`` at ``at``, and on the
+    second as its opposite.
+    """
+
+    links: tuple[str, str]
+    at: Point
+    along: Point
+    length: Scalar
+    wrench: Triple
+    offset: Scalar
+    """moment of the line about the centre of the first circle"""
+
+
+def rope_parts(rope: Rope, points: Points, scale: float, arithmetic: Arithmetic) -> tuple[RopePart, ...]:
+    """The straight parts of a rope, from its first end to its last.
+
+    Raises SceneError where a part has no length, or two pulleys overlap.
+    """
+    places = [points[p] for p in rope.points]
+    offsets = [_offset(rope, k, scale, arithmetic) for k in range(len(places))]
+    links = (*rope.links, "")
+    found = []
+    for k in range(len(places) - 1):
+        (ax, ay), (bx, by) = places[k], places[k + 1]
+        d = (bx - ax, by - ay)
+        between = offsets[k + 1] - offsets[k]
+        square = d[0] * d[0] + d[1] * d[1]
+        apart = math.hypot(float(d[0]), float(d[1]))
+        if apart <= abs(float(between)) or apart == 0.0:
+            raise SceneError(Status.INCONSISTENT, _no_part(rope, k, apart, scale))
+        length = arithmetic.sqrt(square - between * between)
+        u = (
+            (length * d[0] + between * d[1]) / square,
+            (length * d[1] - between * d[0]) / square,
+        )
+        at = (ax + offsets[k] * u[1], ay - offsets[k] * u[0])
+        x, y, moment = force_wrench(u, (ax, ay))
+        wrench = (x, y, moment + offsets[k])
+        found.append(RopePart((links[k], links[k + 1]), at, u, length, wrench, offsets[k]))
+    return tuple(found)
+
+
+def _offset(rope: Rope, k: int, scale: float, arithmetic: Arithmetic) -> Scalar:
+    """Radius of a circle, positive where the rope goes round it ccw (normalised)."""
+    radius = rope.radii[k]
+    if radius is None:
+        return 0.0
+    size = arithmetic.given(radius) * scale
+    return size if rope.wraps[k] == "ccw" else 0.0 - size
+
+
+def _no_part(rope: Rope, k: int, apart: float, scale: float) -> str:
+    a, b = rope.points[k : k + 2]
+    if apart == 0.0:
+        return (
+            f"the rope {rope.name} has no direction from {a} to {b}: they lie at one place. Correct the "
+            "order of its points, or take one of them out."
+        )
+    return (
+        f"the rope {rope.name} has no straight part from {a} to {b}: they are {apart / scale:.6g} apart, "
+        "which is less than their radii need. Correct the `radii` or the `wraps`."
+    )
+
+
+def lengthening(parts: tuple[RopePart, ...], twists: Mapping[str, Triple]) -> Scalar:
+    """How fast the parts between links grow together, less what a free end's part gives away."""
+    total: Scalar = 0.0
+    for part in parts:
+        total = total - pairing(part.wrench, twists[part.links[0]])
+        if part.links[1]:
+            total = total + pairing(part.wrench, twists[part.links[1]])
+    return total
+
+
+def end_twist(parts: tuple[RopePart, ...], twists: Mapping[str, Triple]) -> Triple:
+    """The motion of a free end along its part, as the twist of a body that carries it."""
+    speed = 0.0 - lengthening(parts, twists)
+    x, y = parts[-1].along
+    return (0.0 - speed * y, speed * x, 0.0)
+
+
+def part_changes(part: RopePart, centre: Point, twists: Mapping[str, Triple], other: Point) -> Triple:
+    """Rate of a part's wrench; ``centre`` and ``other`` are the centres of its two circles."""
+    (vx, vy), (wx, wy) = (velocity(twists[q], p) for q, p in zip(part.links, (centre, other), strict=True))
+    ux, uy = part.along
+    turning = (ux * (wy - vy) - uy * (wx - vx)) / part.length
+    du = (0.0 - turning * uy, turning * ux)
+    moved = force_wrench((ux, uy), (vx, vy))[2]
+    a, b, turned = force_wrench(du, centre)
+    return (a, b, moved + turned)
+
+
+def wrap_angle(rope: Rope, k: int, parts: tuple[RopePart, ...]) -> float:
+    """The angle (rad) over which a rope lies on a pulley, in [0, 2 pi)."""
+    (ax, ay), (bx, by) = parts[k - 1].along, parts[k].along
+    turned = math.atan2(float(ax * by - ay * bx), float(ax * bx + ay * by))
+    sense = 1.0 if rope.wraps[k] == "ccw" else -1.0
+    return (sense * turned) % (2.0 * math.pi)
+
+
+def rope_points(rope: Rope) -> tuple[str, ...]:
+    """The points whose places a rope needs."""
+    return tuple(dict.fromkeys(rope.points))
+

@@ -1,0 +1,290 @@
+"""Ropes over pulleys: tackles, counterweights, drums and free ends by closed forms, and by both routes."""
+
+from __future__ import annotations
+
+import json
+import math
+from random import Random
+from typing import Any
+
+import pytest
+
+import icsolve
+from icsolve.answer import Answer
+from icsolve.errors import CaseError, SceneError
+
+
+def solved(text: str, **options: Any) -> Answer:
+    return icsolve.solve(icsolve.load("icsolve: 1\n" + text), reactions=True, **options)
+
+
+def refused(text: str) -> SceneError:
+    with pytest.raises(SceneError) as caught:
+        icsolve.solve(icsolve.load("icsolve: 1\n" + text))
+    return caught.value
+
+
+def exactly(number: float) -> Any:
+    return pytest.approx(number, rel=1e-13, abs=1e-13)
+
+
+def tension(answer: Answer, name: str) -> float | None:
+    return next(one.tension for one in answer.tensions if one.rope == name)
+
+
+# --- closed forms ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("parts", [1, 2, 3, 4, 5])
+def test_block_and_tackle(parts: int) -> None:
+    """The lower block hangs on so many parts, each of which carries as much: pulleys in one place too."""
+    points = ["P", "A"] if parts % 2 else ["A", "P"]
+    while len(points) < parts + 1:
+        points.append("A" if points[-1] == "P" else "P")
+    on = ["2" if point == "P" else "1" for point in points]
+    answer = solved(f"""
+points: {{A: [0, 3], P: [0, 1], B: [0, 1.5]}}
+joints:
+  - {{slide: [2, 1], at: P, along: 90}}
+  - {{rope: [{", ".join([*points, "B"])}], on: [{", ".join(on)}]}}
+loads:
+  W: {{weight: 100, link: 2, at: P}}
+  F: {{force: unknown, at: B}}
+""")
+    assert answer.answers["F"].value == exactly(100 / parts)
+    assert answer.answers["F"].sense == "pull"
+    assert tension(answer, "-".join([*points, "B"])) == exactly(100 / parts)
+
+
+def test_a_block_that_hangs_on_ropes_alone() -> None:
+    """A block without a joint on two ropes: its weight is shared by their directions."""
+    answer = solved("""
+points: {A: [-3, 4], B: [3, 4], C: [0, 0], D: [5, 4], E: [5, 0]}
+joints:
+  - {pin: [1, 3], at: D}
+  - {rope: [A, C], on: [1, 2]}
+  - {rope: [B, C], on: [1, 2]}
+loads:
+  W: {weight: 80, link: 2, at: C}
+  T: {torque: unknown, link: 3}
+  P: {force: 10, link: 3, at: E, angle: 0}
+""")
+    assert tension(answer, "A-C") == exactly(50)
+    assert tension(answer, "B-C") == exactly(50)
+    assert answer.answers["T"].value == exactly(-40)
+
+
+def test_counterweight_over_two_pulleys() -> None:
+    """A trapdoor held by a weight: the moment of the rope about the hinge against that of the door."""
+    answer = solved("""
+points: {A: [0, 0], G: [1, 0], C: [2, 0], P: [0, 3], Q: [-1, 3], B: [-1, 1]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {rope: [C, P, Q, B], on: [2, 1, 1]}
+loads:
+  W: {weight: 60, link: 2, at: G}
+  M: {mass: unknown, at: B}
+""")
+    arm = 6 / math.sqrt(13)
+    assert answer.answers["M"].value == exactly(60 / arm / 9.81)
+    assert answer.answers["M"].unit == "kg"
+    assert tension(answer, "C-P-Q-B") == exactly(60 / arm)
+
+
+def test_a_rope_with_a_radius_pulls_along_the_tangent() -> None:
+    """A lever pulled by a rope from a wheel of radius 0.5: the arms of its straight part."""
+    answer = solved("""
+points: {A: [0, 0], C: [3, 0], O: [0, 5], B: [-0.5, 2]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {rope: [C, O, B], on: [2, 1], radii: {O: 0.5}, wraps: {O: ccw}}
+loads:
+  W: {weight: 10, link: 2, at: C}
+  F: {force: unknown, at: B}
+""")
+    d, r = math.hypot(3, 5), 0.5
+    lean = math.atan2(5, -3) - math.asin(r / d)
+    arm = 3 * math.sin(lean)
+    assert answer.answers["F"].value == exactly(30 / arm)
+
+
+def test_windlass_and_differential_hoist() -> None:
+    """A drum of 0.2 m winds 50 N; one of 0.3 and 0.25 m with a loose block lifts by half the difference."""
+    drum = solved("""
+points: {O: [0, 0], B: [0.2, -1]}
+joints:
+  - {pin: [1, 2], at: O}
+  - {slide: [5, 1], at: B, along: 90}
+  - {rope: [O, B], on: [2, 5], radii: {O: 0.2}, wraps: {O: cw}}
+loads:
+  W: {weight: 50, link: 5, at: B}
+  T: {torque: unknown, link: 2}
+""")
+    assert drum.answers["T"].value == exactly(10)
+    assert tension(drum, "O-B") == exactly(50)
+    hoist = solved("""
+points: {O: [0, 0], P: [0.025, -2], N: [0, 0]}
+joints:
+  - {pin: [1, 2], at: O}
+  - {slide: [3, 1], at: P, along: 90}
+  - rope: [O, P, N]
+    on: [2, 3, 2]
+    radii: {O: 0.3, P: 0.275, N: 0.25}
+    wraps: {O: cw, P: cw, N: cw}
+loads:
+  W: {weight: 100, link: 3, at: P}
+  T: {torque: unknown, link: 2}
+""")
+    assert abs(hoist.answers["T"].value) == exactly(100 * (0.3 - 0.25) / 2)
+
+
+def test_rope_from_a_crank_by_its_arms() -> None:
+    answer = solved("""
+points: {A: [0, 0], B: [0.3, 0.4], P: [1, 2], C: [1, 0.5]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {slide: [3, 1], at: C, along: 90}
+  - {rope: [B, P, C], on: [2, 1, 3]}
+loads:
+  W: {weight: 100, link: 3, at: C}
+  T: {torque: unknown, link: 2}
+""")
+    dx, dy = 0.7, 1.6
+    pull = 100.0
+    moment = pull * (0.3 * dy - 0.4 * dx) / math.hypot(dx, dy)
+    assert answer.answers["T"].value == exactly(-moment)
+    assert answer.reactions is not None
+    shown = answer.to_dict()["reactions"]
+    assert shown["T B-P-C"] == {"tension": exactly(100)}
+    json.dumps(answer.to_dict(), allow_nan=False)
+
+
+# --- slack -----------------------------------------------------------------------------------------
+
+
+UP = ("{force: 100, link: 3, at: C, angle: 90}", "{force: [0, 7], link: 3, at: C}")
+
+
+@pytest.mark.parametrize("load", UP)
+def test_a_rope_that_would_have_to_push_is_slack(load: str) -> None:
+    error = refused(f"""
+points: {{A: [0, 0], B: [0.3, 0.4], P: [1, 2], C: [1, 0.5]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{slide: [3, 1], at: C, along: 90}}
+  - {{rope: [B, P, C], on: [2, 1, 3]}}
+loads:
+  W: {load}
+  T: {{torque: unknown, link: 2}}
+""")
+    assert error.status == "slack"
+    assert "B-P-C" in error.message
+
+
+def test_a_free_end_cannot_be_pushed() -> None:
+    error = refused("""
+points: {A: [0, 0], C: [3, 0], P: [3, 2], B: [5, 2]}
+joints: [{pin: [1, 2], at: A}, {rope: [C, P, B], on: [2, 1]}]
+loads: {W: {force: 10, link: 2, at: C, angle: 90}, F: {force: unknown, at: B}}
+""")
+    assert (error.status, "C-P-B" in error.message) == ("slack", True)
+
+
+# --- both routes -----------------------------------------------------------------------------------
+
+
+def roped(seed: int) -> str:
+    """Cranks, blocks and drums that a rope of random points joins; one torque is unknown."""
+    rng = Random(seed)
+
+    def spot() -> str:
+        return f"[{rng.uniform(-4, 4):.4f}, {rng.uniform(-4, 4):.4f}]"
+
+    count = rng.randint(1, 3)
+    points, joints, loads = {}, [], []
+    ends = []
+    for link in range(2, 3 + count):
+        points[f"O{link}"], points[f"E{link}"] = spot(), spot()
+        if rng.random() < 0.6 or link == 2:
+            joints.append(f"{{pin: [1, {link}], at: O{link}}}")
+        else:
+            joints.append(f"{{slide: [{link}, 1], at: E{link}, along: {rng.uniform(0, 180):.2f}}}")
+        ends.append((f"E{link}", str(link)))
+        if link > 2:
+            force = f"force: {rng.uniform(1, 90):.2f}, link: {link}, at: E{link}"
+            loads.append(f"  P{link}: {{{force}, angle: {rng.uniform(0, 360):.2f}}}")
+    loads.append("  U: {torque: unknown, link: 2}")
+    for k in range(count):
+        (a, i), (b, j) = ends[k], ends[k + 1]
+        points[f"P{k}"], points[f"Q{k}"] = spot(), spot()
+        wrap, radius = rng.choice(["cw", "ccw"]), rng.uniform(0.05, 0.3)
+        size = f", radii: {{P{k}: {radius:.3f}}}, wraps: {{P{k}: {wrap}}}" if rng.random() < 0.5 else ""
+        joints.append(f"{{rope: [{a}, P{k}, Q{k}, {b}], on: [{i}, 1, 1, {j}]{size}}}")
+    placed = ", ".join(f"{n}: {at}" for n, at in points.items())
+    return "points: {" + placed + "}\njoints: [" + ", ".join(joints) + "]\nloads:\n" + "\n".join(loads) + "\n"
+
+
+def test_power_and_free_bodies_agree_for_ropes_over_random_mechanisms() -> None:
+    compared: int = 0
+    refused_as: list[str] = []
+    for seed in range(150):
+        case = icsolve.load("icsolve: 1\n" + roped(seed))
+        try:
+            answer = icsolve.solve(case, reactions=True)
+        except SceneError as error:
+            refused_as.append(error.status)
+            continue
+        (witness,) = answer.witnesses
+        assert abs(witness.difference) <= max(witness.bound, 1e-9 * abs(witness.power)), roped(seed)
+        assert all(one.tension is not None and one.tension >= 0.0 for one in answer.tensions)
+        compared += 1
+    assert compared >= 15
+    assert refused_as.count("slack") >= 15
+    assert {*refused_as} <= {"slack", "inconsistent", "no-value", "dead-centre"}
+
+
+# --- slips -----------------------------------------------------------------------------------------
+
+ROPED = """
+points: {A: [0, 0], C: [3, 0], P: [3, 2], B: [5, 2], D: [4, 4]}
+joints: [{pin: [1, 2], at: A}, %s]
+loads: {W: {weight: 10, link: 2, at: C}, F: %s}
+"""
+PULL = "{force: unknown, at: B}"
+
+
+@pytest.mark.parametrize(
+    ("rope", "load", "said"),
+    [
+        ("{rope: [C, P, B], on: [2]}", PULL, "names 1 links: give one for each point, or one less"),
+        ("{rope: [C, P, B], on: [2, 1, 1, 1]}", PULL, "give one for each point"),
+        ("{rope: [C, P, B]}", PULL, "needs 'on'"),
+        ("{rope: [C, P, B], on: [2, 1], radii: {P: 0.1}}", PULL, "give its sense"),
+        ("{rope: [C, P, B], on: [2, 1], wraps: {P: cw}}", PULL, "give its radius"),
+        ("{rope: [C, P, B], on: [2, 1], mu: {P: 0.2}}", PULL, "with its 'radii' and 'wraps'"),
+        ("{rope: [C, P, B], on: [2, 1], radii: {Q: 0.1}, wraps: {Q: cw}}", PULL, "does not run through 'Q'"),
+        ("{rope: [C, P, B], on: [2, 1], radii: {P: -0.1}, wraps: {P: cw}}", PULL, "greater than zero"),
+        ("{rope: [C, P, B], on: [2, 1], wraps: {P: left}, radii: {P: 1}}", PULL, "ccw or cw"),
+        ("{rope: [C], on: [2]}", "{force: unknown, link: 2, at: C, angle: 3}", "two points or more"),
+        ("{rope: [C, P, B], on: [2, 1]}", "{torque: unknown, link: 2}", "no load pulls it"),
+        ("{rope: [C, P, B], on: [2, 1]}", "{force: unknown, at: B, angle: 30}", "take out 'angle'"),
+        ("{rope: [C, P, B], on: [2, 1]}", "{force: unknown, at: D, angle: 30}", "needs 'link'"),
+        ("{ropes: [C, P, B], on: [2, 1]}", "{torque: unknown, link: 2}", "did you mean 'rope'"),
+    ],
+)
+def test_slips_are_told_with_what_mends_them(rope: str, load: str, said: str) -> None:
+    with pytest.raises(CaseError) as caught:
+        icsolve.load("icsolve: 1\n" + ROPED % (rope, load))
+    assert said in str(caught.value)
+
+
+def test_a_weight_at_a_free_end_has_to_hang() -> None:
+    error = refused(ROPED % ("{rope: [C, P, B], on: [2, 1]}", "{weight: unknown, at: B}"))
+    assert error.status == "inconsistent"
+    assert "hang" in error.message
+
+
+def test_parts_without_a_length_are_refused() -> None:
+    rope = "{rope: [C, P, D, B], on: [2, 1, 1], radii: {P: 1.5, D: 1.5}, wraps: {P: cw, D: ccw}}"
+    error = refused(ROPED % (rope, PULL))
+    assert (error.status, "no straight part from P to D" in error.message) == ("inconsistent", True)
