@@ -48,6 +48,7 @@ COURSE = "course.yaml"
 @click.option("--course", metavar="FILE", help="Tolerances, marks, strictness [default: DIR/course.yaml].")
 @click.option("--attempt", type=click.Choice(["last", "first", "best"]), help="Which attempt counts [last].")
 @click.option("--decimal", type=click.Choice(["either", "point", "comma"]), help="What 1,234 means [either].")
+@click.option("--dates", type=click.Choice(["day", "month"]), help="What comes first in 05/12/2025.")
 @click.option("--seed", metavar="TEXT", help="Seed of the variants.")
 @click.option(
     "--variants", metavar="FILE", multiple=True, help="values.csv: the numbers handed out count. Repeatable."
@@ -117,7 +118,8 @@ def _job(options: dict[str, Any]) -> Job:
     submissions = tuple(options["submissions"])
     roster, variants = options["roster"] or "", tuple(options["variants"])
     overrides = tuple(options["overrides"])
-    return Job(submissions, options["cases"], course, roster, jobs, student, variants, seeds, overrides)
+    extra = (variants, seeds, overrides, options["dates"] or "")
+    return Job(submissions, options["cases"], course, roster, jobs, student, *extra)
 
 
 def _note_inputs(options: dict[str, Any]) -> None:

@@ -181,6 +181,14 @@ class CaseStore:
             return None
         return f"{name}:{what.strip()}" if colon and what.strip() else name
 
+    def near(self, text: str) -> str:
+        """The case whose name a text that names none is most like; '' for none."""
+        from difflib import get_close_matches
+
+        name = text.partition(":")[0].strip().lower()
+        found = get_close_matches(name, list(self._lower), 1, 0.75)
+        return self._lower[found[0]] if found else ""
+
     def solved(self, name: str, student: str = "") -> Solved:
         """The case of that name, solved; with the student's own values, if it has variables.
 

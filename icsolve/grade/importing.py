@@ -16,11 +16,14 @@ from icsolve.grade.results import HEADER
 from icsolve.grade.roster import Roster
 from icsolve.grade.store import Entry, Store
 from icsolve.grade.tables import Columns, HeaderError, Layout, Submission, Table, recognise
+from icsolve.grade.tables.columns import is_spoilt
 from icsolve.grade.tables.hand_ins import METADATA, exported, submissions
+from icsolve.grade.timestamps import order_of, year_first
 
 _LONGEST = 500
 """Characters of an answer that are kept; the reader takes far fewer."""
 _LONGEST_NAME = 200
+_MOST_TROUBLES = 10_000
 _STEP = 10_000
 """Answers between two reports of progress."""
 Progress = Callable[[str, float], None]
@@ -30,8 +33,9 @@ class Import:
     """Takes files in; remembers what questions were asked and who answered."""
 
     def __init__(
-        self, store: Store, case_store: CaseStore, issues: Issues, roster: Roster | None, progress: Progress
-    ) -> None:
+        self, store: Store, case_store: CaseStore, issues: Issues, roster: Roster | None, progress: Progress,
+        dates: str = "",
+    ) -> None:  # fmt: skip
         self.store = store
         self.case_store = case_store
         self.issues = issues
@@ -45,6 +49,10 @@ class Import:
         self._items: dict[str, tuple[str, str]] = {}
         self._people: dict[tuple[str, ...], str] = {}
         self._path = ""
+        self._troubles: dict[tuple[str, ...], str] = {}
+        """why no student can be told by these ids"""
+        self._dates = dates
+        self._order = ""
 
     def read(self, path: str, mapping: Iterable[tuple[str, str]], student: str = "") -> None:
         """Take in one file; all of it is of ``student``, if one is given.
@@ -54,7 +62,10 @@ class Import:
         try:
             self._read(path, mapping, student)
         except (HeaderError, ValueError) as error:
-            raise HeaderError(f"{path}: {error}") from None
+            if not student:
+                raise HeaderError(f"{path}: {error}") from None
+            self._matched((student,))
+            self.issues.note(path, 0, f"what {student} handed in can't be used: {error}", serious=True)
 
     def _read(self, path: str, mapping: Iterable[tuple[str, str]], student: str) -> None:
         self._path = path
@@ -64,7 +75,9 @@ class Import:
             return
         with _opened(path) as file:
             table = Table(file, lambda line, why: self.issues.note(path, line, why))
-            columns = Columns(table.header, mapping, self.case_store.find)
+            near = self.case_store.near
+            columns = Columns(table.header, mapping, self.case_store.find, lambda text: bool(near(text)))
+            self._order = self._date_order(path, table.header)
             entries: Iterator[Entry]
             if student:
                 entries = map(self._entry, submissions(table, columns, student))
@@ -118,6 +131,8 @@ class Import:
                 student, question, answer, unit, direction, attempt, variant, time = cells_of(cells)
                 known, found = people.get((student,)), items.get(question)
                 if known and found is not None and not found[1] and len(answer) < _LONGEST:
+                    if self._order:
+                        time = year_first(time, self._order)
                     yield Entry(known, found[0], line, answer, unit, direction, attempt, variant, time)
                     continue
                 cells.pop()
@@ -128,25 +143,51 @@ class Import:
         """Of a student or question that is met for the first time, or of a row that is in trouble."""
         student = self._people.get(s.student) or self._matched(s.student)
         item, why = self._items.get(s.question) or self._item(s.question)
-        trouble = s.trouble or why or ("" if student else "this row has no student's id")
+        unknown = self._troubles.get(s.student, "this row has no student's id")
+        trouble = s.trouble or why or ("" if student else unknown)
         if trouble:
             self.issues.note(self._path, s.line, trouble, serious=True)
         elif self.roster is not None and student not in self.roster.people:
             self.issues.note(self._path, s.line, self._stranger(student, s.student))
         answer = s.answer if len(s.answer) <= _LONGEST else s.answer[:_LONGEST] + "..."
-        texts = [text[:_LONGEST] for text in (s.unit, s.direction, s.attempt, s.variant, s.time)]
+        time = year_first(s.time, self._order) if self._order else s.time
+        texts = [text[:_LONGEST] for text in (s.unit, s.direction, s.attempt, s.variant, time)]
         return Entry._make((student, item, s.line, answer, *texts, trouble))
 
     def _matched(self, ids: tuple[str, ...]) -> str:
         """The student whose ids these are: by the roster, else the first id as it is written."""
-        found = self.roster.match(ids) if self.roster is not None else None
-        student = found if found is not None else ids[0][:_LONGEST_NAME]
+        known = self.roster.people if self.roster is not None else {}
+        good = tuple(name for name in ids if name in known or not is_spoilt(name))
+        try:
+            found = self.roster.match(good) if self.roster is not None else None
+        except ValueError as error:
+            return self._nobody(ids, str(error))
+        if not good and ids[0]:
+            return self._nobody(
+                ids,
+                f"the id {ids[0]!r} was rounded by a spreadsheet, and may be that of several students: "
+                f"export the "
+                "table again, or give its column the format Text",
+            )
+        student = found if found is not None else (good or ids)[0][:_LONGEST_NAME]
         student = student.encode("utf-8", "replace").decode("utf-8")
         if len(self._people) < 200_000:
             self._people[ids] = student
         if student:
             self.students[student] = None
         return student
+
+    def _nobody(self, ids: tuple[str, ...], why: str) -> str:
+        if len(self._troubles) < _MOST_TROUBLES:
+            self._troubles[ids] = why
+        return ""
+
+    def _date_order(self, path: str, header: list[str]) -> str:
+        """``day`` or ``month``: how the dates with slashes of a file are ordered, as they themselves show."""
+        if self._dates or path == "-":
+            return self._dates
+        with reading(path) as file:
+            return order_of(file)
 
     def _stranger(self, student: str, ids: tuple[str, ...]) -> str:
         assert self.roster is not None

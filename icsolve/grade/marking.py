@@ -15,7 +15,7 @@ from icsolve.grade.mistakes import Wrong
 from icsolve.grade.results import OVERRIDE, Marked, Result
 from icsolve.grade.store import Entry
 from icsolve.grade.tally import Counts, Tally
-from icsolve.grade.timestamps import NEVER, attempt_number, timestamp
+from icsolve.grade.timestamps import NEVER, attempt_number, readings
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.written import MISSING, Reader, Written
 from icsolve.grade.written.answer import Combined
@@ -161,6 +161,11 @@ class Marker:
         """The attempt that counts, of several in order of their lines; what nothing tells apart is listed."""
         good = [entry for entry in attempts if not entry.trouble] or attempts[-1:]
         ranked = sorted(good, key=self._rank)
+        if len(good) > 1:
+            by_day = sorted(good, key=lambda entry: self._rank(entry, 1))
+            at = 0 if self.course.attempt == "first" else -1
+            if by_day[at] != ranked[at] and self.course.attempt != "best":
+                return self._two_orders(ranked[at], by_day[at])
         for before, entry in pairwise(ranked):
             if self._rank(before) == self._rank(entry):
                 self._duplicate(before, entry)
@@ -170,9 +175,19 @@ class Marker:
             return max(reversed(ranked), key=lambda entry: self._marked(entry).judged.share)
         return ranked[-1]
 
-    def _rank(self, entry: Entry) -> tuple[int, float]:
-        """By the number of the attempt, then by its time."""
-        time = timestamp(entry.time)
+    def _two_orders(self, entry: Entry, other: Entry) -> Entry:
+        """Two attempts of which either may be the one that counts, as their dates are read."""
+        why = (
+            f"{entry.time!r} and {other.time!r} can be read month first or day first, and another "
+            f"attempt counts "
+            "then; --dates month or --dates day says which"
+        )
+        self.issues.note(self.path, entry.line, why, serious=True)
+        return entry._replace(trouble=why)
+
+    def _rank(self, entry: Entry, reading: int = 0) -> tuple[int, float]:
+        """By the number of the attempt, then by its time, its date read month first or (1) day first."""
+        time = readings(entry.time)[reading]
         if time is None:
             why = "this time can't be read; the order of the rows tells which is last"
             self.issues.note(self.path, entry.line, why)

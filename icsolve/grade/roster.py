@@ -29,22 +29,32 @@ class Roster:
 
     def __init__(self, people: Iterable[Person]) -> None:
         self.people: dict[str, Person] = {}
-        self._ids: dict[str, str] = {}
+        self._ids: dict[str, list[str]] = {}
         for person in people:
             self.people.setdefault(person.student_id, person)
         for person in self.people.values():
             for other in (person.student_id, person.email, *person.others):
                 if other:
-                    self._ids.setdefault(other.casefold(), person.student_id)
+                    students = self._ids.setdefault(other.casefold(), [])
+                    if person.student_id not in students:
+                        students.append(person.student_id)
 
     def match(self, ids: tuple[str, ...]) -> str | None:
-        """The student of the first id that the roster has; ids are text, ``007`` is not ``7``."""
+        """The student of the first id that the roster has; ids are text, ``007`` is not ``7``.
+
+        Raises ValueError, with a sentence, for an email or another id that several students share.
+        """
+        shared: list[str] = []
         for name in ids:
             if name in self.people:
                 return name
-            found = self._ids.get(name.casefold())
-            if found is not None:
-                return found
+            found = self._ids.get(name.casefold(), ())
+            if len(found) == 1:
+                return found[0]
+            if found:
+                shared.append(f"{name!r} is that of {' and '.join(found[:4])} on the roster")
+        if shared:
+            raise ValueError(f"{shared[0]}: whose answer is it? Give them different ones, or a student_id")
         return None
 
     def hint(self, ids: tuple[str, ...]) -> str:

@@ -180,6 +180,8 @@ class Job(NamedTuple):
     """seeds that may have been meant, should most answers be to other numbers"""
     overrides: tuple[str, ...] = ()
     """files of marks given by hand"""
+    dates: str = ""
+    """``day`` or ``month``: which comes first in dates with slashes"""
 
 
 class Graded(NamedTuple):
@@ -234,7 +236,7 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
     overrides = _overrides(job, case_store, roster)
     store = Store()
     try:
-        imported = Import(store, case_store, issues, roster, progress)
+        imported = Import(store, case_store, issues, roster, progress, job.dates)
         paths = expand(job.submissions)
         _take_in(imported, paths, job)
         questions = tuple(sorted(set(job.course.questions) or _asked(imported)))

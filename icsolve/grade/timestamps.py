@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from datetime import UTC, datetime
+from typing import IO
 
 _ZONE = re.compile(r" ?(?:UTC|GMT|Z)?(?:(?<=[TC ])([-+])(\d{1,2}):?(\d\d)?|(?<=[TCZ]))$")
 """``UTC``, ``GMT+1``, ``-0800``."""
@@ -16,24 +17,27 @@ _FORMATS = (
     "%b %d, %Y %I:%M %p",
     "%d.%m.%Y %H:%M:%S",
     "%d.%m.%Y %H:%M",
-    "%m/%d/%Y %H:%M:%S",
-    "%m/%d/%Y %H:%M",
-    "%m/%d/%Y %I:%M:%S %p",
-    "%m/%d/%Y %I:%M %p",
     "%Y/%m/%d %H:%M:%S",
+    "%Y/%m/%d %H:%M",
     "%Y/%m/%d %I:%M:%S %p",
+    "%Y/%m/%d %I:%M %p",
+    "%Y/%m/%d",
 )
-_GERMAN = {
-    "januar": "January",
-    "februar": "February",
-    "märz": "March",
-    "mai": "May",
-    "juni": "June",
-    "juli": "July",
-} | {
-    "oktober": "October",
-    "dezember": "December",
-}
+_MONTHS = {
+    word: english
+    for words, english in (
+        ("januar janvier enero gennaio", "January"), ("februar février fevrier febrero febbraio", "February"),
+        ("märz mars marzo", "March"), ("avril abril aprile", "April"), ("mai mayo maggio", "May"),
+        ("juni juin junio giugno", "June"), ("juli juillet julio luglio", "July"),
+        ("août aout agosto", "August"), ("septembre septiembre settembre", "September"),
+        ("oktober octobre octubre ottobre", "October"), ("novembre noviembre", "November"),
+        ("dezember décembre decembre diciembre dicembre", "December"),
+    )
+    for word in words.split()
+}  # fmt: skip
+_FOREIGN = re.compile(rf"\b({'|'.join(_MONTHS)})\b", re.IGNORECASE)
+_SLASHED = re.compile(r"(?<!\d)(\d{1,2})([/-])(\d{1,2})\2(\d{4}|\d{2})(?![\d/-])")
+_SLASHED_BYTES = re.compile(rb"(?<![\d/-])(\d{1,2})([/-])(\d{1,2})\2(?:\d{4}|\d{2})(?![\d/-])")
 _NAMED = {"CET": 1, "MEZ": 1, "CEST": 2, "MESZ": 2, "BST": 1, "EST": -5, "EDT": -4} | {
     "CST": -6,
     "CDT": -5,
@@ -50,7 +54,7 @@ NEVER = -1.0
 def timestamp(text: str) -> float | None:
     """Seconds since 1970, a time without a zone taken for UTC; NEVER for '', None for what can't be read.
 
-    Dates with slashes are month first, as in the exports that use them.
+    A date with slashes that could be read both ways is taken month first; `readings` has both.
     """
     text = " ".join(text.split())
     if not text:
@@ -80,9 +84,9 @@ def _seconds(time: datetime) -> float:
 
 def _otherwise(text: str) -> float | None:
     plain = re.sub(r"(?<=\d)(?:st|nd|rd|th)\b|, (?=\d+:)|^[A-Za-z]+, ", " ", text).replace(". ", " ")
-    for german, english in _GERMAN.items():
-        plain = re.sub(rf"\b{german}\b", english, plain, flags=re.IGNORECASE)
-    plain = " ".join(plain.split())
+    plain = _FOREIGN.sub(lambda found: _MONTHS[found.group().lower()], re.sub(r"\b(?:de|del)\b", " ", plain))
+    plain = re.sub(r"^[^\W\d]+\.?,? (?=\d{1,2}\.? +[^\W\d])", "", " ".join(plain.split()))
+    plain = re.sub(r"(?<=\d), (?=\d+:)", " ", year_first(plain, "month"))
     for form in _FORMATS:
         try:
             return _seconds(datetime.strptime(plain, form))
@@ -92,6 +96,44 @@ def _otherwise(text: str) -> float | None:
         return _seconds(datetime.fromisoformat(text))
     except ValueError:
         return None
+
+
+def year_first(text: str, order: str) -> str:
+    """A time whose date of slashes has its year first; by ``order`` (``day``, ``month``) where both could
+    be.
+    """
+
+    def turned(found: re.Match[str]) -> str:
+        first, _, second, year = found.groups()
+        by_day = int(first) > 12 or (order == "day" and int(second) <= 12)
+        day, month = (first, second) if by_day else (second, first)
+        return f"{year if len(year) == 4 else '20' + year}/{month}/{day}"
+
+    return _SLASHED.sub(turned, text, count=1)
+
+
+def readings(text: str) -> tuple[float | None, float | None]:
+    """A time with its date read month first, and day first."""
+    if _SLASHED.search(text) is None:
+        found = timestamp(text)
+        return found, found
+    return timestamp(year_first(text, "month")), timestamp(year_first(text, "day"))
+
+
+def order_of(file: IO[bytes]) -> str:
+    """How dates with slashes are ordered in a file, by those that can be read in one way only: ``day``,
+    ``month``, or '' where none, or both, are to be seen."""
+    seen = set()
+    rest = b""
+    while block := file.read(1 << 20):
+        for found in _SLASHED_BYTES.finditer(rest + block):
+            first, second = int(found.group(1)), int(found.group(3))
+            if first > 12 >= second > 0:
+                seen.add("day")
+            elif second > 12 >= first > 0:
+                seen.add("month")
+        rest = block[-16:]
+    return seen.pop() if len(seen) == 1 else ""
 
 
 def attempt_number(text: str) -> int:

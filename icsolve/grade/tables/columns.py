@@ -54,51 +54,57 @@ def identifier(text: str) -> str:
     text = text.strip()
     if text.startswith('="') and text.endswith('"'):
         text = text[2:-1]
-    return text.lstrip("'").strip() if text[:1] == "'" else text
+    return text.lstrip("'#").strip() if text[:1] in ("'", "#") else text
+
+
+def is_spoilt(name: str) -> bool:
+    """Whether a spreadsheet has made an id a rounded number, as ``2.00E+08``: many ids look like that
+    then.
+    """
+    return re.fullmatch(r"\d(?:[.,]\d+)?[eE]\+\d+", name) is not None
 
 
 FIELDS = {
-    "student_id": (
-        "student_id",
-        "student id",
-        "studentid",
-        "student",
-        "sid",
-        "matriculation number",
-        "matrikelnummer",
-    ),
-    "case": ("case", "case_id", "case id", "question", "problem"),
-    "answer": ("answer", "response", "submitted_answer"),
-    "unit": ("unit", "units"),
-    "direction": ("direction", "sense"),
-    "attempt": ("attempt", "attempt number", "versuch"),
-    "variant": ("variant",),
-    "submitted_at": (
-        "submitted_at",
-        "submitted at",
-        "submitted",
-        "submission time",
-        "timestamp",
-        "time",
-        "zeitstempel",
-    ),
-    "email": (
-        "email",
-        "email address",
-        "e-mail-adresse",
-        "e-mail address",
-        "e-mail",
-        "username",
-        "sis login id",
-    ),
-    "first_name": ("first_name", "first name", "vorname"),
-    "last_name": ("last_name", "last name", "surname", "nachname"),
-    "section": ("section", "sections"),
+    name: tuple(texts.split("|"))
+    for name, texts in {
+        "student_id": "student_id|student id|studentid|student|sid|matriculation number|matrikelnummer"
+        "|numéro d'étudiant|número de estudiante|matricola|orgdefinedid|org defined id",
+        "case": "case|case_id|case id|question|problem|q title",
+        "answer": "answer|response|submitted_answer",
+        "unit": "unit|units",
+        "direction": "direction|sense",
+        "attempt": "attempt|attempt number|attempt #|versuch|tentative|intento|tentativo",
+        "variant": "variant",
+        "submitted_at": "submitted_at|submitted at|submitted|submission time|timestamp|time|zeitstempel"
+        "|horodateur"
+        "|marca temporal|informazioni cronologiche|completion time|fertigstellungszeit|heure de fin"
+        "|hora de finalización|ora di completamento|attempt end",
+        "email": "email|email address|e-mail-adresse|e-mail address|e-mail|username|sis login id"
+        "|adresse de courriel|adresse e-mail|adresse de messagerie|courriel|dirección de correo|correo "
+        "electrónico"
+        "|dirección de correo electrónico|indirizzo email|indirizzo e-mail|posta elettronica"
+        "|benutzername|user name",
+        "first_name": "first_name|first name|firstname|vorname|prénom|nombre|nome",
+        "last_name": "last_name|last name|lastname|surname|nachname|nom|nom de famille|apellido(s)"
+        "|apellidos|cognome",
+        "section": "section|sections",
+    }.items()
 }
 """Fields that can be mapped, and the headers by which each is known."""
 
-ASIDE = ("[score]", "[feedback]", "[punktzahl]", "[punkte]")
-"""What a quiz of Google Forms adds to a question: columns of its own, and no answers."""
+_ASIDE = re.compile(
+    r"(?:points|score|feedback|punkte|puntos|punti|commentaires?|comentarios|rückmeldung|grade|max "
+    r"points|status) - .*"
+    r"|.*\[(?:score|feedback|punktzahl|punkte)\]"
+    r"|.*[-_ ](?:score|feedback|comments?|points|punkte|grade|correct\??|status|time|timestamp)"
+)
+"""What quizzes add to a question: columns of its points and comments, which are no answers."""
+
+
+def is_aside(name: str) -> bool:
+    """Whether a column, by its plain name, is one that a platform adds to a question."""
+    return _ASIDE.fullmatch(name) is not None
+
 
 Find = Callable[[str], "str | None"]
 """The question that a text names: ``press``, ``press:w4/w2``; None for none."""
@@ -112,10 +118,17 @@ def plain_name(text: str) -> str:
 class Columns:
     """The columns of a header, and the user's own mapping of them."""
 
-    def __init__(self, header: Sequence[str], mapping: Iterable[tuple[str, str]], find: Find) -> None:
+    def __init__(
+        self,
+        header: Sequence[str],
+        mapping: Iterable[tuple[str, str]],
+        find: Find,
+        near: Callable[[str], bool] | None = None,
+    ) -> None:
         self.header = list(header)
         self.names = [plain_name(text) for text in header]
         self.find = find
+        self._near = near
         self.fields: dict[str, int] = {}
         self.questions: dict[int, str] = {}
         for left, right in mapping:
@@ -145,9 +158,7 @@ class Columns:
         wanted = plain_name(name)
         exact = [i for i, text in enumerate(self.names) if text == wanted]
         start = re.compile(re.escape(wanted) + r"(?![\w-])")
-        return exact or [
-            i for i, text in enumerate(self.names) if start.match(text) and not text.endswith(ASIDE)
-        ]
+        return exact or [i for i, text in enumerate(self.names) if start.match(text) and not is_aside(text)]
 
     def _one(self, name: str) -> int:
         columns = self._matching(name)
@@ -178,11 +189,15 @@ class Columns:
         """The question of a column: mapped, or named in its header."""
         if index in self.questions:
             return self.questions[index]
-        for text in _candidates(self.header[index]):
+        for text in candidates(self.header[index]):
             question = self.find(text)
             if question is not None:
                 return question
         return None
+
+    def is_near(self, text: str) -> bool:
+        """Whether a header is much like the name of a case."""
+        return self._near is not None and self._near(text)
 
     def listed(self) -> str:
         """The columns, for a message."""
@@ -190,7 +205,7 @@ class Columns:
         return shown + (", ..." if len(self.header) > 20 else "")
 
 
-def _candidates(header: str) -> Iterable[str]:
+def candidates(header: str) -> Iterable[str]:
     """Texts of a header that may name a case: all of it, what brackets hold, what stands before a colon."""
     text = " ".join(header.split())
     yield text

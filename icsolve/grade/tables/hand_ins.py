@@ -14,7 +14,7 @@ from icsolve.grade.tables.text import Table
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, parse
 from icsolve.read.names import Problems, Stop
 
-_LINE = re.compile(r"\s*(?:[-*] )?([^=\s][^=]*?)(?:\s*=\s*|:\s+)(\S.*?)?\s*$")
+_LINE = re.compile(r"\s*(?:[-*] )?([^=\s][^=]*?)(?:\s*=\s*|:(?:\s+|$))(\S.*?)?\s*$")
 
 
 def submissions(table: Table, columns: Columns, student: str) -> Iterator[Submission]:
@@ -31,7 +31,7 @@ def submissions(table: Table, columns: Columns, student: str) -> Iterator[Submis
         yield _of_line(1, first, who)
     for row in table.rows():
         text = table.delimiter.join(row.cells)
-        if text.strip() and not text.lstrip().startswith("#"):
+        if text.strip(" ,;\t|") and not text.lstrip().startswith("#"):
             found = _of_line(row.line, text, who)
             yield found._replace(trouble=row.trouble) if row.trouble else found
 

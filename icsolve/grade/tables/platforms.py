@@ -7,20 +7,46 @@ import re
 from collections.abc import Callable, Iterator, Sequence
 from operator import itemgetter
 
-from icsolve.grade.tables.columns import ASIDE, FIELDS, Columns, HeaderError, Layout, Submission, identifier
+from icsolve.grade.tables.columns import (
+    FIELDS,
+    Columns,
+    HeaderError,
+    Layout,
+    Submission,
+    candidates,
+    identifier,
+    is_aside,
+)
 from icsolve.grade.tables.text import Row
 
 _RESPONSE = re.compile(r"(?:response|antwort|réponse|respuesta|risposta) \d+$")
-_MOODLE_STATE = ("state", "status", "started on", "completed", "begonnen am", "beendet", "statut", "estado")
+_MOODLE_STATE = (
+    "state", "status", "started on", "completed", "begonnen am", "beendet", "statut", "état", "commencé le",
+    "terminé", "estado", "comenzado el", "finalizado", "stato", "iniziato",
+)  # fmt: skip
 _META = re.compile(
-    r"(?:name|id|sis_id|section|section_id|section_sis_id|submitted|attempt|n correct|n incorrect|score|total"
-    r"|grade/.*|bewertung/.*|total score|max points|status|submission id|submission time|view count"
+    r"(?:name|id|#|sis_id|section|section_id|section_sis_id|submitted|attempt|attempt #|n correct|n "
+    r"incorrect|score|total"
+    r"|grade(?:/.*)?|bewertung(?:/.*)?|note(?:/.*)?|calificación(?:/.*)?|valutazione(?:/.*)?|punteggio(?:/.*)?"
+    r"|total score|total points|max points|quiz feedback|status|submission id|submission time|view count"
     r"|lateness \(h:m:s\)|submission count|user id|sis user id|sis login id|root account|integration id"
-    r"|institution|department|id number|id-nummer|state|started|started on|completed|time taken|begonnen am"
-    r"|beendet|verbrauchte zeit|section_name|sections|(?:question|right answer|frage) \d+|current score"
-    r"|final score|unposted .*|current grade|final grade|current points|final points|timestamp|username"
-    r"|feedback|comments?|email.*|e-mail.*|first.?name|last.?name|surname|vorname|nachname|student"
-    r"|\d+(?:\.\d+)?)$"
+    r"|institution|institución|istituzione|department|departamento|dipartimento|abteilung|département"
+    r"|id number|id-nummer|numéro d'identification|número de id|numero id|codice id"
+    r"|state|started|started on|completed|time taken|begonnen am|beendet|verbrauchte zeit"
+    r"|statut|état|commencé le|terminé|temps utilisé|durée|estado|comenzado el|finalizado|tiempo requerido"
+    r"|stato|iniziato|completato|tempo impiegato|dauer|duration|time spent.*"
+    r"|section_name|section #|sections|(?:question|right answer|frage|richtige antwort|réponse correcte"
+    r"|respuesta correcta|risposta corretta|question id|possible points|auto score|manual score|domanda"
+    r"|pregunta) ?\d*"
+    r"|current score|final score|unposted .*|current grade|final grade|current points|final points|timestamp"
+    r"|start time|completion time|last modified time|startzeit|fertigstellungszeit|heure de (?:début|fin)"
+    r"|hora de (?:inicio|finalización)|ora di (?:inizio|completamento)|hora de la última modificación"
+    r"|feedback|comments?|email.*|e-mail.*|adresse .*|courriel|correo.*|dirección .*|indirizzo .*|posta .*"
+    r"|first.?name|last.?name|full.?name|surname|vorname|nachname|nom|prénom|nombre|apellido.*|cognome|nome"
+    r"|student|user(?:name)?|benutzername|last access|availability|child course id|end-of-line indicator"
+    r"|ip.?address|ip|attempt (?:start|end)|out of|difficulty|q (?:#|type|text)|bonus\?|answer match"
+    r"|language|sprache"
+    r"|\d+(?:[.,]\d+)?)$"
 )
 """Columns that platforms add and that are no question."""
 
@@ -95,9 +121,10 @@ def _wide(columns: Columns, kind: str) -> Layout:
             f'no column names a case: {columns.listed()}; name them with --map, such as --map "Q3=press"'
         )
     attempt, time = columns.field("attempt"), columns.field("submitted_at")
-    if kind == "wide":  # every column there is a case; one that is none is listed answer by answer
-        asked |= {i: columns.header[i] for i in strange}
-        strange = []
+    if kind == "wide":  # a column much like a case is meant for one, and is listed answer by answer
+        meant = [i for i in strange if columns.is_near(columns.header[i])]
+        asked |= {i: columns.header[i] for i in meant}
+        strange = [i for i in strange if i not in meant]
     read = _wide_reader(ids, dict(sorted(asked.items())), (attempt, time), len(columns.header), kind)
     notes = tuple(f"the column '{columns.header[i][:60]}' names no case and is passed over" for i in strange)
     return Layout(kind, read, tuple(dict.fromkeys(asked.values())), notes)
@@ -115,7 +142,7 @@ def _wide_reader(
             return ()
         trouble = row.trouble or _wrong_width(cells, width)
         cells = cells + [""] * (width - len(cells))
-        found = (identifier(cells[i]) for i in ids if cells[i].strip())
+        found = (identifier(cells[i]) for i in ids if cells[i].strip().lower() not in _NOBODY)
         student = tuple(dict.fromkeys(found)) or ("",)
         tried = cells[attempt] if attempt is not None else ""
         when = cells[time] if time is not None else ""
@@ -143,7 +170,8 @@ def _questions(columns: Columns, kind: str, ids: set[int]) -> tuple[dict[int, st
         mapped = index in columns.questions
         if (index in taken and not mapped) or (not mapped and name in ("", *FIELDS["attempt"])):
             continue
-        meta = bool(_META.match(name)) or name.endswith(ASIDE)
+        exact = columns.find(columns.header[index]) is not None
+        meta = not exact and (bool(_META.match(name)) or is_aside(name))
         question = columns.question_of(index) if mapped or not meta else None
         if question is not None:
             asked[index] = question
@@ -172,15 +200,27 @@ def _moodle_row(cells: list[str]) -> bool:
     return _no_row(cells) or first.startswith(("overall average", "gesamtdurchschnitt", "durchschnitt"))
 
 
+_NOBODY = ("", "anonymous", "anonym", "anonyme", "anónimo", "anonimo")
+"""What stands where a form does not ask who answers."""
 _SKIPPED = {"canvas-gradebook": _canvas_row, "canvas-quiz": _canvas_row, "moodle": _moodle_row}
 _ANY_ID = ("student_id", "email")
 _IDS = {
     "wide": ("student_id", "id", "uid", "user", "email"),
     "gradescope": ("sid", "student_id", "email"),
     "canvas-quiz": ("student_id", "sis_id", "id", "email"),
-    "canvas-gradebook": ("sis user id", "sis login id", "id"),
-    "moodle": ("student_id", "id number", "id-nummer", "email"),
+    "canvas-gradebook": ("sis user id", "sis login id", "integration id", "id"),
+    "moodle": (
+        "student_id",
+        "id number",
+        "id-nummer",
+        "numéro d'identification",
+        "número de id",
+        "numero id",
+        "codice id",
+        "email",
+    ),
     "google-forms": ("student_id", "email"),
+    "microsoft-forms": ("student_id", "email"),
 }
 """Columns by which a platform's students are known, best first."""
 
@@ -237,6 +277,48 @@ def _is_long(columns: Columns) -> bool:
     return who and all(columns.field(name) is not None for name in ("case", "answer"))
 
 
+def _by_text(columns: Columns, text: str) -> str:
+    """The question that a text in a cell is about; the text itself where it names none."""
+    return next((q for c in candidates(text) if (q := columns.find(c)) is not None), text)
+
+
+def _long_by_text(columns: Columns, kind: str) -> Layout:
+    """One answer a row, whose question stands there in its own words (Blackboard, Brightspace)."""
+    plain = _long(columns, kind)
+
+    def read(row: Row) -> Sequence[Submission]:
+        return [s._replace(question=_by_text(columns, s.question)) for s in plain.read(row)]
+
+    return Layout(kind, read)
+
+
+def _blackboard(columns: Columns, kind: str) -> Layout:
+    """A row a student, with the words of each question beside its answer."""
+    pairs = [
+        (columns.names.index(f"question {name.removeprefix('answer ')}"), index)
+        for index, name in enumerate(columns.names)
+        if re.fullmatch(r"answer \d+", name) and f"question {name.removeprefix('answer ')}" in columns.names
+    ]
+    who, width = columns.field("student_id") or columns.field("email") or 0, len(columns.header)
+
+    def read(row: Row) -> Sequence[Submission]:
+        trouble = row.trouble or _wrong_width(row.cells, width)
+        cells = padded(row.cells, width)
+        student = (identifier(cells[who]),)
+        return [
+            Submission(row.line, student, columns.questions.get(answer) or _by_text(columns, cells[question]),
+                       cells[answer], trouble=trouble)
+            for question, answer in pairs
+            if cells[question].strip()
+        ]  # fmt: skip
+
+    return Layout(kind, read)
+
+
+_STAMPS = ("timestamp", "zeitstempel", "horodateur", "marca temporal", "informazioni cronologiche")
+_FORMS = ("start time", "startzeit", "heure de début", "hora de inicio", "ora di inizio")
+
+
 def _is_wide(columns: Columns) -> bool:
     named = columns.fields.keys() & {"student_id", "email"}
     return (
@@ -246,13 +328,29 @@ def _is_wide(columns: Columns) -> bool:
     )
 
 
+def _is_gradebook(columns: Columns) -> bool:
+    """Of Canvas: ids and sections beside names, in one column or two; a long export has SIS ids, not a
+    short.
+    """
+    named = columns.has("student") or columns.has("lastname", "firstname")
+    return named and columns.has("id", "section") and columns.names[0] in ("student", "lastname")
+
+
 _KINDS: tuple[tuple[str, Callable[[Columns], bool], Callable[[Columns, str], Layout]], ...] = (
     ("prairielearn", lambda c: c.has("uid", "qid", "submitted_answer"), _prairielearn),
+    ("brightspace", lambda c: c.has("q title", "answer"), _long_by_text),
+    ("blackboard", lambda c: c.has("question 1", "answer 1"), _blackboard),
+    ("blackboard-long", lambda c: c.has("username", "question", "answer"), _long_by_text),
     ("long", _is_long, _long),
-    ("canvas-quiz", lambda c: c.has("name", "id", "sis_id"), _wide),
-    ("canvas-gradebook", lambda c: c.has("student", "id", "section") and "sis login id" in c.names, _wide),
+    ("microsoft-forms", lambda c: c.names[0] == "id" and any(name in c.names for name in _FORMS), _wide),
+    (
+        "canvas-quiz",
+        lambda c: c.has("name", "id") and (c.has("sis_id") or c.has("submitted", "score")),
+        _wide,
+    ),
+    ("canvas-gradebook", _is_gradebook, _wide),
     ("gradescope", lambda c: c.has("sid", "email"), _wide),
     ("moodle", lambda c: c.field("email") is not None and any(s in c.names for s in _MOODLE_STATE), _wide),
-    ("google-forms", lambda c: c.names[0] in ("timestamp", "zeitstempel"), _wide),
+    ("google-forms", lambda c: c.names[0] in _STAMPS, _wide),
     ("wide", _is_wide, _wide),
 )

@@ -70,6 +70,12 @@ class Table:
 
         sample = file.read(_SAMPLE)
         file.seek(0)
+        if sample.startswith(b"PK\x03\x04"):
+            from icsolve.grade.tables.xlsx import as_csv
+
+            file = as_csv(file)
+            sample = file.read(_SAMPLE)
+            file.seek(0)
         if not _is_text(sample):
             raise ValueError("this is not a text file; save it as CSV")
         encoding = encoding_of(sample)
@@ -139,7 +145,7 @@ class Table:
 
 def _is_text(sample: bytes) -> bool:
     """Not an archive, a picture or a spreadsheet's own format."""
-    return not sample.startswith((b"PK\x03\x04", b"\xd0\xcf\x11\xe0", b"%PDF", b"\x89PNG", b"\x1f\x8b"))
+    return not sample.startswith((b"\xd0\xcf\x11\xe0", b"%PDF", b"\x89PNG", b"\x1f\x8b"))
 
 
 def _is_open(lines: list[str]) -> bool:

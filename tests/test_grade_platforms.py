@@ -1,0 +1,249 @@
+"""Tables of all platforms: found by their headers, in the languages that they speak; what is junk is no
+question.
+"""
+
+from __future__ import annotations
+
+import io
+import zipfile
+from pathlib import Path
+from xml.sax.saxutils import escape
+
+import pytest
+
+from grade_shell import Class, Ran
+
+
+@pytest.fixture
+def a_class(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Class:
+    return Class(tmp_path, capsys)
+
+
+def marks(ran: Ran) -> dict[tuple[str, str], str]:
+    """Verdicts by student and question."""
+    return {(row["student_id"], row["case"]): row["verdict"] for row in ran.rows()}
+
+
+RIGHT = {("a@x.test", "lever"): "right", ("b@x.test", "lever"): "wrong"}
+MOODLE = {
+    "English": "Last name,First name,Email address,State,Started on,Completed,Time "
+    "taken,Grade/10.00,Response 1",
+    "German": "Nachname;Vorname;E-Mail-Adresse;Status;Begonnen am;Beendet;Verbrauchte "
+    "Zeit;Bewertung/10,00;Antwort 1",
+    "French": "Nom,Prénom,Adresse de courriel,État,Commencé le,Terminé,Temps utilisé,Note/10.00,Réponse 1",
+    "Spanish": "Apellido(s),Nombre,Dirección de correo,Estado,Comenzado el,Finalizado,Tiempo requerido,"
+    "Calificación/10.00,Respuesta 1",
+    "Italian": "Cognome,Nome,Indirizzo email,Stato,Iniziato,Terminato,Tempo "
+    "impiegato,Valutazione/10.00,Risposta 1",
+}
+
+
+@pytest.mark.parametrize("language", MOODLE)
+def test_moodle_in_its_common_languages(a_class: Class, language: str) -> None:
+    header = MOODLE[language]
+    d = ";" if ";" in header else ","
+    rows = [
+        ["A", "Ann", "a@x.test", "x", "", "", "", "1", "200"],
+        ["B", "Bob", "b@x.test", "x", "", "", "", "0", "-200"],
+    ]
+    column = header.split(d)[-1]
+    table = "\n".join([header, *(d.join(row) for row in rows)]) + "\n"
+    assert marks(a_class.grade(table, "--map", f"{column}=lever")) == RIGHT
+
+
+FORMS = (
+    "ID,Start time,Completion time,Email,Name,Total points,Quiz feedback,Find T. [lever],Points - Find "
+    "T. [lever],"
+    "Feedback - Find T. [lever],How long did you work?\n"
+    "1,11/25/24 10:00:00,11/25/24 10:05:00,a@x.test,Ann,1,,200,1,good,2 h\n"
+    "2,11/25/24 10:00:00,11/25/24 10:09:00,b@x.test,Bob,0,,-200,0,,3 h\n"
+)
+
+
+def test_microsoft_forms_has_no_question_but_the_ones_that_name_a_case(a_class: Class) -> None:
+    ran = a_class.grade(FORMS)
+    assert marks(ran) == RIGHT
+    assert "'How long did you work?' names no case and is passed over" in ran.err
+
+
+def workbook(rows: list[list[object]]) -> bytes:
+    """An ``.xlsx`` as Forms writes it: shared texts, numbers, dates as numbers with a style."""
+    texts: list[str] = []
+    body = []
+    for n, row in enumerate(rows, 1):
+        cells = []
+        for k, value in enumerate(row):
+            name = f"{chr(65 + k)}{n}"
+            if isinstance(value, str) and value:
+                texts.append(value)
+                cells.append(f'<c r="{name}" t="s"><v>{len(texts) - 1}</v></c>')
+            elif isinstance(value, tuple):
+                cells.append(f'<c r="{name}" s="1"><v>{value[0]}</v></c>')
+            elif value != "":
+                cells.append(f'<c r="{name}"><v>{value}</v></c>')
+        body.append(f'<row r="{n}">{"".join(cells)}</row>')
+    main = 'xmlns="http://schemas.openxmlformats.org/spreadsheetml/2006/main"'
+    relation = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
+    package = "http://schemas.openxmlformats.org/package/2006/relationships"
+    parts = {
+        "xl/workbook.xml": f'<workbook {main} xmlns:r="{relation}"><sheets>'
+        '<sheet name="Form1" sheetId="1" r:id="rId7"/></sheets></workbook>',
+        "xl/_rels/workbook.xml.rels": f'<Relationships xmlns="{package}"><Relationship Id="rId7" '
+        'Target="worksheets/answers.xml"/></Relationships>',
+        "xl/styles.xml": f'<styleSheet {main}><cellXfs><xf numFmtId="0"/><xf numFmtId="22"/></cellXfs>'
+        "</styleSheet>",
+        "xl/sharedStrings.xml": f"<sst {main}>{''.join(f'<si><t>{escape(t)}</t></si>' for t in texts)}</sst>",
+        "xl/worksheets/answers.xml": f"<worksheet {main}><sheetData>{''.join(body)}</sheetData></worksheet>",
+    }
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w") as archive:
+        for name, text in parts.items():
+            archive.writestr(name, text)
+    return out.getvalue()
+
+
+def test_a_workbook_is_a_table_in_a_zip(a_class: Class) -> None:
+    """Two attempts of one student: the later one, by a date that is kept as a number, counts."""
+    header = ["ID", "Start time", "Completion time", "Email", "Name", "lever"]
+    data = workbook([
+        header, [1, (45678.5,), (45679.25,), "a@x.test", "Ann", 200],
+        [2, (45678.5,), (45678.75,), "a@x.test", "Ann", 5],
+        [3, (45678.5,), (45678.75,), "b@x.test", "Bob & Co", "-200 N*m"],
+    ])  # fmt: skip
+    assert marks(a_class.grade(data, name="forms.xlsx")) == RIGHT
+
+
+@pytest.mark.parametrize("cut", [100, 400])
+def test_a_broken_workbook_is_refused_by_name(a_class: Class, cut: int) -> None:
+    data = workbook([["student_id", "lever"], ["a", 200]])
+    ran = a_class.grade(data[:cut], name="forms.xlsx")
+    assert (ran.code, "forms.xlsx: " in ran.err) == (2, True)
+
+
+def test_canvas_quizzes_without_sis_ids(a_class: Class) -> None:
+    table = (
+        "name,id,section,section_id,section_sis_id,submitted,attempt,991: lever,1.0,n correct,n "
+        "incorrect,score\n"
+        "Ann,41,S,7,,2025-03-01 10:00:00 UTC,1,200,1.0,1,0,1\nBob,42,S,7,,2025-03-01 10:00:00 "
+        "UTC,1,-200,0,0,1,0\n"
+    )
+    assert marks(a_class.grade(table)) == {("41", "lever"): "right", ("42", "lever"): "wrong"}
+
+
+@pytest.mark.parametrize(
+    "header",
+    [
+        "Student;ID;SIS User ID;SIS Login ID;Section;lever (12)",
+        "Student,ID,Section,lever (12)",
+        "LastName,FirstName,ID,SIS User ID,Section,lever (12)",
+    ],
+)
+def test_canvas_gradebooks_with_other_separators_and_names(a_class: Class, header: str) -> None:
+    d = ";" if ";" in header else ","
+    names = header.split(d)
+    rows = [
+        d.join({"ID": i, "SIS User ID": i, "lever (12)": v, names[0]: "x"}.get(name, "") for name in names)
+        for i, v in (("41", "200"), ("42", "-200"))
+    ]
+    points = d.join(["    Points Possible", *[""] * (len(names) - 2), "1"])
+    ran = a_class.grade("\n".join([header, points, *rows]) + "\n")
+    assert marks(ran) == {("41", "lever"): "right", ("42", "lever"): "wrong"}
+
+
+def test_a_comma_of_a_blank_that_canvas_escapes(a_class: Class) -> None:
+    table = "name,id,sis_id,991: lever,1.0\nAnn,1,a,\"200\\,0 N*m\",1\n"
+    assert marks(a_class.grade(table)) == {("a", "lever"): "right"}
+
+
+def test_blackboard_by_user_and_by_question(a_class: Class) -> None:
+    wide = (
+        "Username,Last Name,First Name,Question ID 1,Question 1,Answer 1,Possible Points 1,Auto Score 1\n"
+        "a,A,Ann,_1,Find T. [lever],200,1,1\nb,B,Bob,_1,Find T. [lever],-200,1,0\n"
+    )
+    long = (
+        "Username\tLast Name\tFirst Name\tQuestion ID\tQuestion\tAnswer\tPossible Points\n"
+        "a\tA\tAnn\t_1\tFind T. [lever]\t200\t1\nb\tB\tBob\t_1\tFind T. [lever]\t-200\t1\n"
+    )
+    for table in (wide, long.encode("utf-16")):
+        assert marks(a_class.grade(table)) == {("a", "lever"): "right", ("b", "lever"): "wrong"}
+
+
+def test_brightspace_with_its_hashes(a_class: Class) -> None:
+    table = (
+        "Org Defined ID,Username,FirstName,LastName,Attempt #,Attempt Start,Attempt End,Section #,Q #,Q "
+        "Type,Q Title,"
+        "Q Text,Bonus?,Difficulty,Answer,Answer Match,Score,Out Of\n"
+        "#0017,a,Ann,A,1,,,,1,SA,lever,Find T,,1,200,,1,1\n#0018,b,Bob,B,1,,,,1,SA,lever,Find "
+        "T,,1,-200,,0,1\n"
+    )
+    assert marks(a_class.grade(table)) == {("0017", "lever"): "right", ("0018", "lever"): "wrong"}
+
+
+def test_a_column_much_like_a_case_is_listed_and_junk_is_not(a_class: Class) -> None:
+    ran = a_class.grade("student_id,lever,pushr,Duration,IP address,Remarks\na,200,5,12,1.2.3.4,hi\n")
+    assert {row["case"] for row in ran.rows()} == {"lever", "pushr"}
+    assert "there is no case 'pushr'" in ran.err
+    assert "'Remarks' names no case" in ran.err
+
+
+DATED = "student_id,case,answer,submitted_at\n"
+
+
+def test_dates_are_read_in_the_order_that_their_column_shows(a_class: Class) -> None:
+    """5 December is after 6 November; month first 05/12 would be in May."""
+    rows = "a,lever,200,05/12/2024 10:00\na,lever,5,06/11/2024 10:00\n"
+    day = a_class.grade(DATED + rows + "b,lever,1,25/11/2024 10:00\n")
+    month = a_class.grade(DATED + rows + "b,lever,1,11/25/2024 10:00\n")
+    assert (day.row("a")["verdict"], month.row("a")["verdict"]) == ("right", "wrong")
+
+
+def test_dates_whose_order_is_not_to_be_seen_are_refused_with_both_readings(a_class: Class) -> None:
+    rows = "a,lever,200,05/12/2024 10:00\na,lever,5,06/11/2024 10:00\nb,lever,200,05/12/2024 9:00\n"
+    ran = a_class.grade(DATED + rows)
+    assert (ran.code, ran.row("a")["verdict"], ran.row("b")["verdict"]) == (1, "review", "right")
+    assert "can be read month first or day first" in ran.err
+    assert a_class.grade(DATED + rows, "--dates", "day").row("a")["verdict"] == "right"
+    assert a_class.grade(DATED + rows, "--dates", "month").row("a")["verdict"] == "wrong"
+
+
+def test_the_order_of_dates_does_not_matter_where_both_give_the_same(a_class: Class) -> None:
+    ran = a_class.grade(DATED + "a,lever,5,05/10/2024 10:00\na,lever,200,06/11/2024 10:00\n")
+    assert (ran.code, ran.row("a")["verdict"]) == (0, "right")
+
+
+def test_ids_that_a_spreadsheet_has_rounded_are_refused_by_name(a_class: Class) -> None:
+    ran = a_class.grade("student_id,case,answer\n2.00E+08,lever,200\n2.00E+08,lever,5\n200000003,lever,200\n")
+    assert ran.code == 1
+    assert "the id '2.00E+08' was rounded by a spreadsheet" in ran.err
+    assert [row["verdict"] for row in ran.rows() if not row["student_id"]] == ["review", "review"]
+    assert ran.row("200000003")["verdict"] == "right"
+
+
+def test_an_email_of_two_students_is_refused_by_name(a_class: Class) -> None:
+    roster = a_class.file("roster.csv", "student_id,email\n1,x@x.test\n2,x@x.test\n3,y@x.test\n")
+    ran = a_class.grade("email,case,answer\nx@x.test,lever,200\ny@x.test,lever,200\n", "--roster", roster)
+    assert "'x@x.test' is that of 1 and 2 on the roster" in ran.err
+    assert ran.row("3")["verdict"] == "right"
+    assert ran.row("1")["verdict"] == ran.row("2")["verdict"] == "missing"
+
+
+def test_one_bad_hand_in_is_one_students(a_class: Class) -> None:
+    """A class's export in which one file is empty, one binary, one has empty lines and blank answers."""
+    folder = a_class.path("export")
+    people = {
+        "1": b"lever: 200\n\npusher:\n",
+        "2": b"",
+        "3": b"\x89PNG\r\n\x1a\n\0\0",
+        "4": b"\n\nlever = 200\n,,\n",
+    }
+    about = ""
+    for student, data in people.items():
+        (folder / f"submission_{student}").mkdir(parents=True)
+        (folder / f"submission_{student}" / "answers.txt").write_bytes(data)
+        about += f'submission_{student}:\n  :submitters:\n  - :name: N\n    :sid: "{student}"\n'
+    (folder / "submission_metadata.yml").write_text(about)
+    ran = a_class.run("grade", folder, "--cases", a_class.path("cases"), "-o", "-", "-q")
+    found = {s: ran.row(s)["verdict"] for s in people}
+    assert found == {"1": "right", "2": "missing", "3": "missing", "4": "right"}
+    assert ran.row("1", "pusher")["verdict"] == "missing"
+    assert "what 2 handed in can't be used: there is nothing in it" in ran.err
