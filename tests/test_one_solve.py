@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 import icsolve
-from icsolve.assembly.solution import solve_figure
+from icsolve.assembly.figure import solve_figure
 from icsolve.draw import Drawing, draw
 from icsolve.explain import explain
 from icsolve.page import page_html

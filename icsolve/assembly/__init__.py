@@ -6,8 +6,7 @@ construction again with another arithmetic (arrays, numbers on a tape, more digi
 
 from __future__ import annotations
 
-from icsolve.assembly.board import Key, Point
-from icsolve.assembly.frame import Frame, case_point
-from icsolve.assembly.solution import Figure, Placement, place, solve_figure
+from icsolve.assembly.figure import Figure, Placement, place, solve_figure
+from icsolve.assembly.workspace import Frame, Key, Point, case_point
 
 __all__ = ["Figure", "Frame", "Key", "Placement", "Point", "case_point", "place", "solve_figure"]

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from icsolve.assembly.board import Board
 from icsolve.assembly.data import Datum
-from icsolve.assembly.frame import Frame
-from icsolve.assembly.given import Given
-from icsolve.assembly.lead import leading_to, points_of
-from icsolve.assembly.misfit import agrees, size_of
+from icsolve.assembly.figure import Figure
 from icsolve.assembly.modes import Mode, Walk, choose, far_from_near, nearest, overridden, refusal
 from icsolve.assembly.order import Order, order_of
 from icsolve.assembly.refusals import Miss, mirrored
-from icsolve.assembly.solution import Figure
+from icsolve.assembly.residuals import agrees, size_of
+from icsolve.assembly.steps import Given, leading_to, points_of
+from icsolve.assembly.workspace import Frame, Workspace
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS
 
 MOST_RETRIES = 20
+
 
 def construct(case: Case, frame: Frame, goal: list[str], names: list[str]) -> Figure:
     """The wanted points of a figure that needs construction (see ``solve_figure``)."""
@@ -73,15 +72,15 @@ def _constructed(case: Case, frame: Frame, goal: list[str], best_effort: bool) -
 
 def _assembled(case: Case, frame: Frame, order: Order) -> Figure | Miss:
     """The one mode in which an order of construction is meant to assemble, or why it does not."""
-    board = Board(case, frame, FLOATS)
+    workspace = Workspace(case, frame, FLOATS)
     used = order.used()
     offs: dict[int, dict[Datum, float]] = {}
 
     def contradicted(mode: Mode) -> Miss | None:
-        miss, offs[id(mode.path)] = compared(board, order, mode, used)
+        miss, offs[id(mode.path)] = compared(workspace, order, mode, used)
         return miss
 
-    walk = Walk(order, board, contradicted).run()
+    walk = Walk(order, workspace, contradicted).run()
     if not walk.modes or walk.gave_up:
         return refusal(walk)
     miss = overridden(walk, nearest(walk))
@@ -92,30 +91,30 @@ def _assembled(case: Case, frame: Frame, order: Order) -> Figure | Miss:
 
 
 def compared(
-    board: Board, order: Order, mode: Mode, used: frozenset[Datum]
+    workspace: Workspace, order: Order, mode: Mode, used: frozenset[Datum]
 ) -> tuple[Miss | None, dict[Datum, float]]:
     """Compare the points with the data that did not make them."""
-    size = size_of(board, order.points)
+    size = size_of(workspace, order.points)
     data = [d for d in order.facts.data if all(p in mode.points for p in d.points)]
-    if used.issuperset(data) and agrees(board, data, size):
+    if used.issuperset(data) and agrees(workspace, data, size):
         return None, {}
-    from icsolve.assembly.compare import compare
+    from icsolve.assembly.residuals import compare
 
-    return compare(board, mode.steps, data, size)
+    return compare(workspace, mode.steps, data, size)
 
 
 def _figure(walk: Walk, mode: Mode, offs: dict[Datum, float], used: frozenset[Datum]) -> Figure | Miss:
     """The figure of the mode that is meant; a miss where what lies at `near` is another."""
-    order, board = walk.order, walk.board
-    board.points = mode.points
-    miss = mirrored(board, mode.steps, walk.near, size_of(board, order.points))
+    order, workspace = walk.order, walk.workspace
+    workspace.points = mode.points
+    miss = mirrored(workspace, mode.steps, walk.near, size_of(workspace, order.points))
     if miss is not None:
         return miss
     notes: tuple[str, ...] = ()
     if offs:
-        from icsolve.assembly.compare import notes_of
+        from icsolve.assembly.residuals import notes_of
 
         given = any(isinstance(step, Given) for step in order.steps)
-        notes = notes_of(board, offs, used, given, size_of(board, order.points))
+        notes = notes_of(workspace, offs, used, given, size_of(workspace, order.points))
     notes += far_from_near(walk, mode, order.points)
-    return Figure(board.frame, {p: mode.points[p] for p in order.points}, mode.steps, notes, ())
+    return Figure(workspace.frame, {p: mode.points[p] for p in order.points}, mode.steps, notes, ())

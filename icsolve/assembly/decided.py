@@ -9,26 +9,26 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple, TypeVar
 
-from icsolve.assembly.board import Board, Key, Point
-from icsolve.assembly.lead import leading_to
 from icsolve.assembly.loci import gaps_of_circles, gaps_of_line_and_circle, is_round, sine_between
-from icsolve.assembly.step import Step, aims
-from icsolve.assembly.steps import Meet
+from icsolve.assembly.steps import Meet, Step, aims, leading_to
+from icsolve.assembly.workspace import Key, Point, Workspace
 from icsolve.numbers.arithmetic import Scalar
 
 T = TypeVar("T")
 
 
-def decided(board: Board, steps: tuple[Step, ...], step: Step, question: Callable[[Board], T]) -> T | None:
+def decided(
+    workspace: Workspace, steps: tuple[Step, ...], step: Step, question: Callable[[Workspace], T]
+) -> T | None:
     """The answer to a question about a step, after those before it; None where 120 digits leave it open."""
-    from icsolve.assembly.group import Group
+    from icsolve.assembly.groups import Group
     from icsolve.numbers.balls import PRECISIONS, Balls, BelowZero, MoreDigits
 
     cone = leading_to(step.needs(), steps)
     if any(isinstance(each, Group) for each in cone):
         return None
     for digits in PRECISIONS:
-        exact = Board(board.case, board.frame, Balls(digits, highest=digits == PRECISIONS[-1]))
+        exact = Workspace(workspace.case, workspace.frame, Balls(digits, highest=digits == PRECISIONS[-1]))
         try:
             for each in cone:
                 each.place(exact)
@@ -45,56 +45,56 @@ class Gap(NamedTuple):
     value: float
 
 
-def _gap(board: Board, value: Scalar, size: float) -> Gap:
-    if value == 0.0 if type(value) is float else board.arithmetic.vanishes(value, size):
+def _gap(workspace: Workspace, value: Scalar, size: float) -> Gap:
+    if value == 0.0 if type(value) is float else workspace.arithmetic.vanishes(value, size):
         return Gap(0, 0.0)
     return Gap(1 if value > 0.0 else -1, float(value))
 
 
-def gaps_of(step: Meet, board: Board) -> list[Gap]:
+def gaps_of(step: Meet, workspace: Workspace) -> list[Gap]:
     """What must not be negative for two loci to meet; of two lines the angle's sine.
 
     Of two circles the distance of the centres comes last: 0 where they are one point.
     """
-    p, q = step.first.values(board), step.second.values(board)
+    p, q = step.first.values(workspace), step.second.values(workspace)
     if not is_round(step.second):
-        return [_gap(board, sine_between(p, q), 1.0)]
+        return [_gap(workspace, sine_between(p, q), 1.0)]
     if not is_round(step.first):
-        return [_gap(board, gap, 1.0 + abs(q[2])) for gap in gaps_of_line_and_circle(p, q)]
-    d, margins = gaps_of_circles(p, q, board.arithmetic)
+        return [_gap(workspace, gap, 1.0 + abs(q[2])) for gap in gaps_of_line_and_circle(p, q)]
+    d, margins = gaps_of_circles(p, q, workspace.arithmetic)
     size = 1.0 + abs(d) + abs(p[2]) + abs(q[2])
-    return [_gap(board, gap, size) for gap in (*margins, d)]
+    return [_gap(workspace, gap, size) for gap in (*margins, d)]
 
 
-def gaps_ahead(step: Meet, board: Board) -> list[Gap]:
+def gaps_ahead(step: Meet, workspace: Workspace) -> list[Gap]:
     """How far ahead on each ray the point lies, which is in place."""
-    return [_gap(board, value, 1.0) for value in step.ahead(board)]
+    return [_gap(workspace, value, 1.0) for value in step.ahead(workspace)]
 
 
-def gaps_ahead_of(step: Meet, board: Board) -> list[Gap]:
+def gaps_ahead_of(step: Meet, workspace: Workspace) -> list[Gap]:
     """How far ahead on each ray the point comes to lie."""
-    step.place(board)
-    return gaps_ahead(step, board)
+    step.place(workspace)
+    return gaps_ahead(step, workspace)
 
 
-def merged_pairs(step: Step, board: Board) -> list[tuple[Key, Key]]:
+def merged_pairs(step: Step, workspace: Workspace) -> list[tuple[Key, Key]]:
     """The pairs of points that a step aims by and that are one place."""
     out = []
     for a, b in aims(step):
-        (ax, ay), (bx, by) = board.points[a], board.points[b]
-        if _gap(board, bx - ax, 1.0).sign == 0 and _gap(board, by - ay, 1.0).sign == 0:
+        (ax, ay), (bx, by) = workspace.points[a], workspace.points[b]
+        if _gap(workspace, bx - ax, 1.0).sign == 0 and _gap(workspace, by - ay, 1.0).sign == 0:
             out.append((a, b))
     return out
 
 
-def places_of(step: Step, board: Board) -> dict[Key, Point]:
+def places_of(step: Step, workspace: Workspace) -> dict[Key, Point]:
     """Where a step puts its points, each coordinate the nearest double."""
     from icsolve.numbers.balls import Balls
 
-    step.place(board)
-    balls = board.arithmetic
+    step.place(workspace)
+    balls = workspace.arithmetic
     assert isinstance(balls, Balls)
-    points = board.points
+    points = workspace.points
     return {
         t: (balls.rounded(points[t][0], 1.0)[0], balls.rounded(points[t][1], 1.0)[0]) for t in step.targets
     }

@@ -19,10 +19,9 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from icsolve.assembly.board import Board, Point
 from icsolve.assembly.data import LENGTH
-from icsolve.assembly.equations import Unknown
-from icsolve.assembly.group import Group
+from icsolve.assembly.groups import Group, Unknown
+from icsolve.assembly.workspace import Point, Workspace
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]
@@ -80,12 +79,12 @@ class _Link(NamedTuple):
     square: float
 
 
-def every_solution(group: Group, board: Board) -> Solutions:
+def every_solution(group: Group, workspace: Workspace) -> Solutions:
     """All solutions of a group, each once."""
     unknowns = group.unknowns()
-    system = _quadratics(group, board, unknowns)
-    low, high, bounded = _bounds(group, board)
-    search = _Search(system, _links(group, board), low, high)
+    system = _quadratics(group, workspace, unknowns)
+    low, high, bounded = _bounds(group, workspace)
+    search = _Search(system, _links(group, workspace), low, high)
     search.run()
     places = [
         {t: (float(z[2 * k]), float(z[2 * k + 1])) for k, t in enumerate(group.targets)} for z in search.found
@@ -93,14 +92,14 @@ def every_solution(group: Group, board: Board) -> Solutions:
     return Solutions(places, bounded and search.complete, search.boxes)
 
 
-def _quadratics(group: Group, board: Board, unknowns: list[Unknown]) -> _Quadratics:
+def _quadratics(group: Group, workspace: Workspace, unknowns: list[Unknown]) -> _Quadratics:
     """The equations' coefficients, from their values and derivatives at the corners of the unit box."""
     n = len(unknowns)
 
     def derivatives(z: list[float]) -> tuple[list[float], Array]:
         for k, t in enumerate(group.targets):
-            board.points[t] = (z[2 * k], z[2 * k + 1])
-        rows = [equation.row(board) for equation in group.equations]
+            workspace.points[t] = (z[2 * k], z[2 * k + 1])
+        rows = [equation.row(workspace) for equation in group.equations]
         return [float(row.value) for row in rows], np.array(
             [[float(row.by.get(u, 0.0)) for u in unknowns] for row in rows]
         )
@@ -111,21 +110,21 @@ def _quadratics(group: Group, board: Board, unknowns: list[Unknown]) -> _Quadrat
     return _Quadratics(np.array(constant), gradient, hessian, np.abs(hessian))
 
 
-def _links(group: Group, board: Board) -> list[_Link]:
+def _links(group: Group, workspace: Workspace) -> list[_Link]:
     column = {t: 2 * k for k, t in enumerate(group.targets)}
     out = []
     for datum in group.data():
         if datum.kind == LENGTH:
             a, b = datum.points
-            fixed = [(0.0, 0.0) if p in column else board.points[p] for p in (a, b)]
-            length = float(board.length(datum))
+            fixed = [(0.0, 0.0) if p in column else workspace.points[p] for p in (a, b)]
+            length = float(workspace.length(datum))
             out.append(_Link(column.get(a, -1), column.get(b, -1), fixed[0], fixed[1], length * length))
     return out
 
 
-def _bounds(group: Group, board: Board) -> tuple[Array, Array, bool]:
+def _bounds(group: Group, workspace: Workspace) -> tuple[Array, Array, bool]:
     """A box that holds every solution, by the lengths that lead from points in place; whether they do."""
-    reach = {d.points: float(board.length(d)) for d in group.data() if d.kind == LENGTH}
+    reach = {d.points: float(workspace.length(d)) for d in group.data() if d.kind == LENGTH}
     size = max(reach.values(), default=1.0)
     own = set(group.targets)
     low = {t: [-UNBOUNDED * size] * 2 for t in own}
@@ -136,7 +135,7 @@ def _bounds(group: Group, board: Board) -> tuple[Array, Array, bool]:
         for t, d in _distances(anchor, reach, own).items():
             held.add(t)
             for axis in (0, 1):
-                centre = board.points[anchor][axis]
+                centre = workspace.points[anchor][axis]
                 low[t][axis] = max(low[t][axis], centre - d)
                 high[t][axis] = min(high[t][axis], centre + d)
     bounds = [np.array([side[t][axis] for t in group.targets for axis in (0, 1)]) for side in (low, high)]

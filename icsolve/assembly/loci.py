@@ -8,9 +8,8 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from icsolve.assembly.board import Board, Key, Point
 from icsolve.assembly.data import Datum, X
-from icsolve.assembly.heading import Heading, Span, data_in, ends_of
+from icsolve.assembly.workspace import Key, LineDirection, Point, Span, Workspace, data_in, ends_of
 from icsolve.numbers.arithmetic import Arithmetic, Scalar
 
 
@@ -100,9 +99,9 @@ class Circle(NamedTuple):
     centre: Key
     radius: Span
 
-    def values(self, board: Board) -> Values:
+    def values(self, workspace: Workspace) -> Values:
         """Centre and radius."""
-        return (*board.points[self.centre], board.length(self.radius))
+        return (*workspace.points[self.centre], workspace.length(self.radius))
 
     def data(self) -> tuple[Datum, ...]:
         """The data that it comes from."""
@@ -120,14 +119,14 @@ class Arc(NamedTuple):
     b: Key
     corner: Datum
 
-    def values(self, board: Board) -> Values:
+    def values(self, workspace: Workspace) -> Values:
         """Centre and radius: the centre stands off the chord's middle by half the chord times cot."""
-        (ax, ay), (bx, by) = board.points[self.a], board.points[self.b]
-        c, s = board.turn(self.corner)
+        (ax, ay), (bx, by) = workspace.points[self.a], workspace.points[self.b]
+        c, s = workspace.turn(self.corner)
         k = c / (2.0 * s)
         dx, dy = bx - ax, by - ay
         cx, cy = (ax + bx) / 2.0 - k * dy, (ay + by) / 2.0 + k * dx
-        return cx, cy, board.arithmetic.sqrt((ax - cx) * (ax - cx) + (ay - cy) * (ay - cy))
+        return cx, cy, workspace.arithmetic.sqrt((ax - cx) * (ax - cx) + (ay - cy) * (ay - cy))
 
     def data(self) -> tuple[Datum, ...]:
         """The corner."""
@@ -142,20 +141,20 @@ class Line(NamedTuple):
     """A line through a point; with ``ray`` only the half of it that lies ahead."""
 
     through: Key
-    heading: Heading
+    direction: LineDirection
     ray: bool
 
-    def values(self, board: Board) -> Values:
+    def values(self, workspace: Workspace) -> Values:
         """Point and unit direction."""
-        return (*board.points[self.through], *board.unit(self.heading))
+        return (*workspace.points[self.through], *workspace.unit(self.direction))
 
     def data(self) -> tuple[Datum, ...]:
         """The data that it comes from."""
-        return self.heading.data()
+        return self.direction.data()
 
     def needs(self) -> tuple[Key, ...]:
         """The points that it comes from."""
-        return (self.through, *self.heading.needs())
+        return (self.through, *self.direction.needs())
 
 
 class Axis(NamedTuple):
@@ -163,9 +162,9 @@ class Axis(NamedTuple):
 
     datum: Datum
 
-    def values(self, board: Board) -> Values:
+    def values(self, workspace: Workspace) -> Values:
         """Point and unit direction: toward +y for a known x, toward +x for a known y."""
-        value = board.coordinate(self.datum)
+        value = workspace.coordinate(self.datum)
         return (value, 0.0, 0.0, 1.0) if self.datum.kind == X else (0.0, value, 1.0, 0.0)
 
     def data(self) -> tuple[Datum, ...]:
@@ -182,22 +181,22 @@ class Shifted(NamedTuple):
 
     base: Circle | Arc | Line | Axis | Shifted
     span: Span
-    heading: Heading
+    direction: LineDirection
 
-    def values(self, board: Board) -> Values:
+    def values(self, workspace: Workspace) -> Values:
         """Those of the base, moved back along the vector."""
-        x, y, *rest = self.base.values(board)
-        length = board.length(self.span)
-        c, s = board.unit(self.heading)
+        x, y, *rest = self.base.values(workspace)
+        length = workspace.length(self.span)
+        c, s = workspace.unit(self.direction)
         return (x - length * c, y - length * s, *rest)
 
     def data(self) -> tuple[Datum, ...]:
         """The data of the base and of the vector."""
-        return (*self.base.data(), *data_in(self.span), *self.heading.data())
+        return (*self.base.data(), *data_in(self.span), *self.direction.data())
 
     def needs(self) -> tuple[Key, ...]:
         """The points that it comes from."""
-        return (*self.base.needs(), *ends_of(self.span), *self.heading.needs())
+        return (*self.base.needs(), *ends_of(self.span), *self.direction.needs())
 
 
 Locus = Circle | Arc | Line | Axis | Shifted
@@ -217,17 +216,17 @@ def is_ray(locus: Locus) -> bool:
     return type(locus) is Line and locus.ray
 
 
-def headings_of(locus: Locus) -> list[Heading]:
+def directions_of(locus: Locus) -> list[LineDirection]:
     """The directions that a locus goes by."""
     if isinstance(locus, Shifted):
-        return [locus.heading, *headings_of(locus.base)]
-    return [locus.heading] if isinstance(locus, Line) else []
+        return [locus.direction, *directions_of(locus.base)]
+    return [locus.direction] if isinstance(locus, Line) else []
 
 
-def crossing(first: Locus, second: Locus, board: Board, tangent: bool = False) -> Crossing:
+def crossing(first: Locus, second: Locus, workspace: Workspace, tangent: bool = False) -> Crossing:
     """Where two loci meet; a line comes first if there is one."""
-    p, q = first.values(board), second.values(board)
+    p, q = first.values(workspace), second.values(workspace)
     if not is_round(second):
         return meet_lines(p, q)
     meet = meet_circles if is_round(first) else meet_line_circle
-    return meet(p, q, board.arithmetic, tangent)
+    return meet(p, q, workspace.arithmetic, tangent)

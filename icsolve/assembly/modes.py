@@ -12,8 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 from typing import NamedTuple
 
-from icsolve.assembly.board import Board, Key, Point
-from icsolve.assembly.data import Datum
+from icsolve.assembly.data import Datum, listed, plain
 from icsolve.assembly.decided import (
     Gap,
     decided,
@@ -23,9 +22,7 @@ from icsolve.assembly.decided import (
     merged_pairs,
     places_of,
 )
-from icsolve.assembly.frame import case_point, normalised
 from icsolve.assembly.loci import gaps_of_circles, is_ray, is_round
-from icsolve.assembly.misfit import TOO_CLOSE, misfit, size_of
 from icsolve.assembly.order import Order
 from icsolve.assembly.refusals import (
     Miss,
@@ -38,9 +35,9 @@ from icsolve.assembly.refusals import (
     parallel,
     too_far,
 )
-from icsolve.assembly.step import CLOSED_FORMS, Step, aims
-from icsolve.assembly.steps import Meet
-from icsolve.assembly.words import listed, plain
+from icsolve.assembly.residuals import TOO_CLOSE, residual, size_of
+from icsolve.assembly.steps import CLOSED_FORMS, Meet, Step, aims
+from icsolve.assembly.workspace import Key, Point, Workspace, case_point, normalised
 from icsolve.errors import SceneError, Status
 
 U = 2.0**-53
@@ -51,7 +48,7 @@ PARALLEL = 1e-14
 DOUBT = 1e-6
 """Gaps below this, over the lengths that made them, are put to the decimals as written."""
 COARSE = 0.02
-"""Misfit at which a way is given up before its end; the finer test comes with the whole figure."""
+"""Residual at which a way is given up before its end; the finer test comes with the whole figure."""
 EVEN = 0.99
 SIDEWAYS = 0.05
 """Two ways are equally near where their distances from `near` have at least the ratio EVEN, and `near`
@@ -63,7 +60,6 @@ MOST_WAYS = 4096
 SAME = 1e-11
 """Points nearer than this (normalised, over 1 + their distance from the origin) are one point."""
 MOST_LISTED = 4
-
 
 
 class Path(NamedTuple):
@@ -117,7 +113,7 @@ class Fork(NamedTuple):
 
 
 class Walk:
-    """The walk over the steps of an order on one board.
+    """The walk over the steps of an order on one workspace.
 
     ``modes`` has what it found, ``dead_ends`` what failed; ``gave_up`` tells that there were too many
     branches to try. ``contradicted`` says what data that made no points have against a mode. With ``every``
@@ -127,12 +123,12 @@ class Walk:
     def __init__(
         self,
         order: Order,
-        board: Board,
+        workspace: Workspace,
         contradicted: Callable[[Mode], Miss | None],
         every: bool = False,
     ) -> None:
-        self.order, self.board, self.contradicted = order, board, contradicted
-        self.near = {p: normalised(board.frame, xy) for p, xy in board.case.near.items()}
+        self.order, self.workspace, self.contradicted = order, workspace, contradicted
+        self.near = {p: normalised(workspace.frame, xy) for p, xy in workspace.case.near.items()}
         self.checks = _due(order)
         self.budget = (10 if every else 1) * (20_000 + 20 * len(order.steps))
         self.most = MOST_WAYS if every else MOST_MODES
@@ -164,7 +160,7 @@ class Walk:
 
     def _arrived(self, path: Path) -> None:
         """Keep a mode that no datum contradicts."""
-        mode = Mode(path.steps(), dict(self.board.points), path)
+        mode = Mode(path.steps(), dict(self.workspace.points), path)
         miss = self.contradicted(mode)
         if miss is None:
             self.modes.append(mode)
@@ -186,7 +182,7 @@ class Walk:
         options.sort(key=lambda option: option.off)
         if len(options) > 1:
             forks.append(Fork(depth, options[1:]))
-        self.board.points.update(options[0].places)
+        self.workspace.points.update(options[0].places)
         return options[0]
 
     def _back(self, forks: list[Fork]) -> tuple[Path | None, int]:
@@ -198,7 +194,7 @@ class Walk:
                 continue
             if len(fork.options) > 1:
                 forks.append(Fork(fork.depth, fork.options[1:]))
-            self.board.points.update(option.places)
+            self.workspace.points.update(option.places)
             return option, fork.depth + 1
         return None, 0
 
@@ -213,16 +209,16 @@ class Walk:
                 else:
                     self.dead_ends.append(DeadEnd(depth, miss, longer))
         except ZeroDivisionError:
-            self.dead_ends.append(DeadEnd(depth, degenerate(step, self.board), path))
+            self.dead_ends.append(DeadEnd(depth, degenerate(step, self.workspace), path))
 
     def _longer(self, path: Path, step: Step) -> Path:
-        """The path with one more step, whose points are on the board."""
-        places = {t: self.board.points[t] for t in step.targets}
+        """The path with one more step, whose points are on the workspace."""
+        places = {t: self.workspace.points[t] for t in step.targets}
         off = sum(_square(at, self.near[t]) for t, at in places.items() if t in self.near)
         return Path(path, step, path.off + off, places)
 
     def _settled(self, depth: int, path: Path, step: Step) -> Iterator[Step]:
-        """The step with each of the branches that it has here, one after another put on the board."""
+        """The step with each of the branches that it has here, one after another put on the workspace."""
         close = self._close(path, step)
         if close is None:
             yield from self._put(path, step, self._branches(depth, path, step), in_doubt=False)
@@ -233,24 +229,24 @@ class Walk:
             self.dead_ends.append(DeadEnd(depth, miss, path))
 
     def _put(self, path: Path, step: Step, branches: Iterable[Step], in_doubt: bool) -> Iterator[Step]:
-        """Put each branch on the board: by the decimals as written where floats lose too much."""
+        """Put each branch on the workspace: by the decimals as written where floats lose too much."""
         for branch in branches:
             doubtful = in_doubt or (isinstance(branch, Meet) and self._doubtful(branch))
             question = partial(places_of, branch)
-            places = decided(self.board, path.steps(), branch, question) if doubtful else None
+            places = decided(self.workspace, path.steps(), branch, question) if doubtful else None
             if places is None:
-                branch.place(self.board)
+                branch.place(self.workspace)
             else:
-                self.board.points.update(places)
+                self.workspace.points.update(places)
             yield branch
 
     def _close(self, path: Path, step: Step) -> list[tuple[Key, Key]] | None:
         """The pairs of points that a step aims by and that are one place; None where none is in doubt."""
-        points = self.board.points
+        points = self.workspace.points
         apart = {(a, b): math.dist(points[a], points[b]) for a, b in aims(step)}
         if min(apart.values(), default=1.0) > DOUBT:
             return None
-        found = decided(self.board, path.steps(), step, partial(merged_pairs, step))
+        found = decided(self.workspace, path.steps(), step, partial(merged_pairs, step))
         return [pair for pair, d in apart.items() if d <= TOO_CLOSE] if found is None else found
 
     def _branches(self, depth: int, path: Path, step: Step) -> Iterable[Step]:
@@ -259,13 +255,13 @@ class Walk:
         if isinstance(step, CLOSED_FORMS):
             return [step]
         from icsolve.assembly import newton
-        from icsolve.assembly.group import Group
+        from icsolve.assembly.groups import Group
 
         assert isinstance(step, Group)
         search = newton.every if self.every else partial(newton.solutions, near=self.near)
-        found = search(step, self.board)
+        found = search(step, self.workspace)
         if found.miss is not None:
-            self.board.points.update(found.closest)
+            self.workspace.points.update(found.closest)
             longer = self._longer(path, step) if found.closest else path
             self.dead_ends.append(DeadEnd(depth, found.miss, longer))
         self.complete &= found.complete
@@ -273,24 +269,24 @@ class Walk:
 
     def _doubtful(self, step: Meet) -> bool:
         """Whether floats may be wrong on whether and where two loci meet."""
-        gaps = gaps_of(step, self.board)
+        gaps = gaps_of(step, self.workspace)
         return min(abs(gap.value) for gap in gaps) <= DOUBT * max(1.0, *(abs(gap.value) for gap in gaps))
 
     def _crossings(self, depth: int, path: Path, step: Meet) -> list[Step]:
         """The places where two loci meet, the one nearer to `near` first."""
-        gaps = gaps_of(step, self.board)
+        gaps = gaps_of(step, self.workspace)
         if self._doubtful(step):
-            gaps = decided(self.board, path.steps(), step, partial(gaps_of, step)) or _rounded(step, gaps)
+            gaps = decided(self.workspace, path.steps(), step, partial(gaps_of, step)) or _rounded(step, gaps)
         signs = [gap.sign for gap in gaps]
         if not is_round(step.second):
             if signs[0] != 0:
                 return [step]
-            miss = parallel(step, self.board)
+            miss = parallel(step, self.workspace)
         elif is_round(step.first) and signs[3] == 0:
-            miss = concentric(step, self.board)
+            miss = concentric(step, self.workspace)
         elif min(signs) < 0:
-            miss = too_far(step, self.board, [gap.value for gap in gaps])
-            self.board.points[step.target] = _between(step, self.board)
+            miss = too_far(step, self.workspace, [gap.value for gap in gaps])
+            self.workspace.points[step.target] = _between(step, self.workspace)
             path = self._longer(path, step)
         elif min(signs) == 0:
             return [step._replace(sign=0)]
@@ -300,7 +296,7 @@ class Walk:
         return []
 
     def _by_near(self, step: Meet) -> list[Step]:
-        found = step.cross(self.board)
+        found = step.cross(self.workspace)
         near = self.near.get(step.target) if isinstance(step.target, str) else None
         sign = 1
         if near is not None and found.half is not None:
@@ -311,19 +307,19 @@ class Walk:
     def _ahead(self, path: Path, step: Step) -> Miss | None:
         if not isinstance(step, Meet) or not (is_ray(step.first) or is_ray(step.second)):
             return None
-        gaps = gaps_ahead(step, self.board)
+        gaps = gaps_ahead(step, self.workspace)
         if min(abs(gap.value) for gap in gaps) <= DOUBT:
-            exact = decided(self.board, path.steps(), step, partial(gaps_ahead_of, step))
+            exact = decided(self.workspace, path.steps(), step, partial(gaps_ahead_of, step))
             gaps = exact or [gap._replace(sign=int(gap.value > TOO_CLOSE)) for gap in gaps]
         worst = min(gaps, key=lambda gap: (gap.sign, gap.value))
-        return None if worst.sign > 0 else behind(step, self.board, worst.value)
+        return None if worst.sign > 0 else behind(step, self.workspace, worst.value)
 
     def _clash(self, depth: int) -> Miss | None:
         for datum in self.checks.get(depth, ()):
-            off, ahead = misfit(self.board, datum)
-            reach = 1.0 + max(abs(c) for p in datum.points for c in self.board.points[p])
+            off, ahead = residual(self.workspace, datum)
+            reach = 1.0 + max(abs(c) for p in datum.points for c in self.workspace.points[p])
             if not ahead or abs(off) > COARSE * reach:
-                return clash(self.board, datum, off, ahead)
+                return clash(self.workspace, datum, off, ahead)
         return None
 
 
@@ -333,16 +329,16 @@ def _rounded(step: Meet, gaps: list[Gap]) -> list[Gap]:
     return [gap._replace(sign=0) if abs(gap.value) <= most else gap for gap in gaps]
 
 
-def _between(step: Meet, board: Board) -> Point:
+def _between(step: Meet, workspace: Workspace) -> Point:
     """Where two loci that do not meet come closest: the middle between them."""
-    p, q = step.first.values(board), step.second.values(board)
+    p, q = step.first.values(workspace), step.second.values(workspace)
     if not is_round(step.first):
         (px, py, vx, vy), (cx, cy, r) = p, q
         along = (cx - px) * vx + (cy - py) * vy
         x, y = px + along * vx, py + along * vy
         share = (1.0 + r / (math.hypot(x - cx, y - cy) or 1.0)) / 2.0
         return cx + (x - cx) * share, cy + (y - cy) * share
-    d, (far, over, _) = gaps_of_circles(p, q, board.arithmetic)
+    d, (far, over, _) = gaps_of_circles(p, q, workspace.arithmetic)
     (px, py, a), (qx, qy, b) = p, q
     # on the line of centres: between the circles, or where the one inside comes closest to the other
     along = (a + d - b) / 2.0 if far < 0.0 else (a + d + b) / 2.0 if over < 0.0 else -(a + b - d) / 2.0
@@ -437,12 +433,12 @@ def choose(walk: Walk, points: tuple[str, ...]) -> Mode:
     SceneError
         ``ambiguous``: several are about as near, listed point by point.
     """
-    board = walk.board
+    workspace = walk.workspace
     modes = sorted(distinct(walk.modes, points), key=lambda mode: mode.path.off)
     best = modes[0]
     rivals = [mode for mode in modes if mode is best or not _nearer(walk, best, mode, points)]
     if len(rivals) > 1:
-        raise SceneError(Status.AMBIGUOUS, _listing(board, rivals, points))
+        raise SceneError(Status.AMBIGUOUS, _listing(workspace, rivals, points))
     return best
 
 
@@ -466,12 +462,12 @@ def overridden(walk: Walk, chosen: Mode) -> Miss | None:
 
 def _promise(walk: Walk, chosen: Mode, end: DeadEnd) -> Miss:
     """What lies at `near`, why it does not assemble, and where another way lies."""
-    board = walk.board
+    workspace = walk.workspace
     ours, theirs = parted(walk, end.path, chosen.path)
     held = [p for p in ours if _square(ours[p], walk.near[p]) < _square(theirs[p], walk.near[p])]
-    there = {p: _pair(case_point(board.frame, theirs[p])) for p in held[:MOST_LISTED]}
+    there = {p: _pair(case_point(workspace.frame, theirs[p])) for p in held[:MOST_LISTED]}
     places = listed([f"{plain(p)} at ({at})" for p, at in there.items()])
-    away = measure(board, max(math.dist(theirs[p], walk.near[p]) for p in held))
+    away = measure(workspace, max(math.dist(theirs[p], walk.near[p]) for p in held))
     message = (
         f"what lies at near: does not assemble: {end.miss.message}; the figure assembles only with {places}, "
         f"{away} from near: correct the data, or move near: there if that is meant"
@@ -481,15 +477,15 @@ def _promise(walk: Walk, chosen: Mode, end: DeadEnd) -> Miss:
 
 def far_from_near(walk: Walk, chosen: Mode, points: tuple[str, ...]) -> tuple[str, ...]:
     """Notes on the points that lie farther from their `near` than half the figure."""
-    board = walk.board
-    half = size_of(board, points) / 2.0
+    workspace = walk.workspace
+    half = size_of(workspace, points) / 2.0
     out = []
     for p, near in walk.near.items():
         at = chosen.points.get(p)
         if at is not None and math.dist(at, near) > half:
             out.append(
-                f"near: for {plain(p)} is {measure(board, math.dist(at, near))} from where the data put it, "
-                f"({_pair(case_point(board.frame, at))}): farther than half the figure"
+                f"near: for {plain(p)} is {measure(workspace, math.dist(at, near))} from where the data put "
+                f"it, ({_pair(case_point(workspace.frame, at))}): farther than half the figure"
             )
     return tuple(out)
 
@@ -520,7 +516,7 @@ def _nearer(walk: Walk, one: Mode, two: Mode, points: tuple[str, ...]) -> bool:
     return nearer([one.points[p] for p in held], [two.points[p] for p in held], near)
 
 
-def _listing(board: Board, rivals: list[Mode], points: tuple[str, ...]) -> str:
+def _listing(workspace: Workspace, rivals: list[Mode], points: tuple[str, ...]) -> str:
     """The modes point by point: first the points that have a choice of their own."""
     forked = [p for p in points if any(differing(rivals[0], mode, (p,)) for mode in rivals[1:])]
     forks = [
@@ -528,25 +524,25 @@ def _listing(board: Board, rivals: list[Mode], points: tuple[str, ...]) -> str:
         for step in rivals[0].steps
         if isinstance(step, Meet) and step.sign and step.target in forked
     ] or forked
-    lines = [f"{plain(p)}: {_listed(board, rivals, str(p))}" for p in forks]
-    hint = _hint(board, rivals, str(next((p for p in forks if p not in board.case.near), forks[0])))
+    lines = [f"{plain(p)}: {_listed(workspace, rivals, str(p))}" for p in forks]
+    hint = _hint(workspace, rivals, str(next((p for p in forks if p not in workspace.case.near), forks[0])))
     return f"the figure assembles in several ways, {'; '.join(lines)}; {hint}"
 
 
-def _listed(board: Board, rivals: list[Mode], point: str) -> str:
+def _listed(workspace: Workspace, rivals: list[Mode], point: str) -> str:
     seen: list[tuple[float, float]] = []
     for mode in rivals:
         at = mode.points[point]
         if all(math.dist(at, other) > SAME * (1.0 + math.hypot(*at)) for other in seen):
             seen.append(at)
-    places = [_pair(case_point(board.frame, at)) for at in seen[:MOST_LISTED]]
+    places = [_pair(case_point(workspace.frame, at)) for at in seen[:MOST_LISTED]]
     more = f" or {len(seen) - MOST_LISTED} more" if len(seen) > MOST_LISTED else ""
     return " or ".join(f"({place})" for place in places) + more
 
 
-def _hint(board: Board, rivals: list[Mode], point: str) -> str:
-    example = _pair(case_point(board.frame, rivals[0].points[point]))
-    if point in board.case.near:
+def _hint(workspace: Workspace, rivals: list[Mode], point: str) -> str:
+    example = _pair(case_point(workspace.frame, rivals[0].points[point]))
+    if point in workspace.case.near:
         return (
             f"near: for {plain(point)} is about as far from the one as from the other; "
             "move it nearer to the one that is meant"

@@ -12,17 +12,13 @@ from collections.abc import Iterator, Mapping
 from itertools import islice, product
 from typing import NamedTuple
 
-from icsolve.assembly.board import Board
-from icsolve.assembly.data import CORNER, LENGTH, LINE, facts_of
-from icsolve.assembly.equations import Unknown, pivots, solved
-from icsolve.assembly.given import Given
-from icsolve.assembly.group import Group
+from icsolve.assembly.clusters import Drawing
+from icsolve.assembly.data import CORNER, LENGTH, LINE, datum_words, facts_of, listed, plain
+from icsolve.assembly.groups import Group, Unknown, pivots, solved
 from icsolve.assembly.order import grow
 from icsolve.assembly.refusals import Miss, measure
-from icsolve.assembly.sheet import Drawing
-from icsolve.assembly.step import Step
-from icsolve.assembly.steps import Meet
-from icsolve.assembly.words import datum_words, listed, plain
+from icsolve.assembly.steps import Given, Meet, Step
+from icsolve.assembly.workspace import Workspace
 from icsolve.errors import Status
 from icsolve.numbers.linear import inverse, solve_square
 
@@ -46,16 +42,16 @@ CLOSE_WORK = 60_000
 """The same once a solution was found from `near` itself."""
 
 
-def every(group: Group, board: Board) -> Found:
+def every(group: Group, workspace: Workspace) -> Found:
     """Every solution of a group, by exclusion; ``complete`` where they are shown to be all."""
     from icsolve.assembly.exclusion import every_solution
 
-    found = every_solution(group, board)
+    found = every_solution(group, workspace)
     groups = []
     for place in found.places:
         start = tuple(place[t] for t in group.targets)
-        groups.append(_polished(group, board, place) or group._replace(start=start))
-    miss = None if groups else _unreached(group, board, {})
+        groups.append(_polished(group, workspace, place) or group._replace(start=start))
+    miss = None if groups else _unreached(group, workspace, {})
     return Found(groups, miss, {}, found.complete)
 
 
@@ -81,34 +77,34 @@ class Descent(NamedTuple):
     steps: int
 
 
-def solutions(group: Group, board: Board, near: Mapping[str, Spot]) -> Found:
+def solutions(group: Group, workspace: Workspace, near: Mapping[str, Spot]) -> Found:
     """The solutions found of a group: from `near` itself first, then from other starts."""
     if not any(p in near for p in group.targets):
         return Found([], _needs_near(group), {}, False)
-    search = _Search(group, board, near)
+    search = _Search(group, workspace, near)
     search.run()
     held = [t for t in group.targets if t in near]
     search.found.sort(key=lambda end: math.hypot(*(math.dist(end[t], near[t]) for t in held)))
-    polished = [_polished(group, board, end) for end in search.found]
+    polished = [_polished(group, workspace, end) for end in search.found]
     settled = [option for option in polished if option is not None]
     if settled:
         first = dict(zip(group.targets, settled[0].start, strict=True))
         if not search.leaves(first):
             return Found(settled, None, {}, search.complete)
-        return Found(settled, _unreached(group, board, search.beside), search.beside, False)
+        return Found(settled, _unreached(group, workspace, search.beside), search.beside, False)
     if polished:
         return Found([], _flat(group), {}, False)
     closest = search.closest.end
-    miss = _unfinished(group) if search.spent else _unreached(group, board, closest)
+    miss = _unfinished(group) if search.spent else _unreached(group, workspace, closest)
     return Found([], miss, search.beside, False)
 
 
 class _Search:
     """Starts one after another, until it is shown that nothing nearer is left, or the work is spent."""
 
-    def __init__(self, group: Group, board: Board, near: Mapping[str, Spot]) -> None:
-        self.group, self.board, self.near = group, board, near
-        self.reach = _reach(group, board)
+    def __init__(self, group: Group, workspace: Workspace, near: Mapping[str, Spot]) -> None:
+        self.group, self.workspace, self.near = group, workspace, near
+        self.reach = _reach(group, workspace)
         self.found: list[Start] = []
         self.closest = Descent(math.inf, {}, 0)
         self.beside: Start = {}
@@ -119,11 +115,11 @@ class _Search:
         held = {t: self.near[t] for t in self.group.targets if t in self.near}
         if len(held) == len(self.group.targets):
             self._try(held, MOST_NEAR_STEPS)
-            if self.found and _alone(self.group, self.board, held, self.found[0]):
+            if self.found and _alone(self.group, self.workspace, held, self.found[0]):
                 self.complete = True
                 return
             known = len(self.found)
-            self.beside = _least_residual(self.group, self.board, held, self.reach)
+            self.beside = _least_residual(self.group, self.workspace, held, self.reach)
             if self.beside:
                 self._try(self.beside, MOST_STEPS)
             if len(self.found) > known:
@@ -137,7 +133,7 @@ class _Search:
 
     def _try(self, start: Start, most: int) -> int:
         """Descend from a start; how many steps it took."""
-        descent = _descend(self.group, self.board, start, self.reach, most)
+        descent = _descend(self.group, self.workspace, start, self.reach, most)
         if descent.off > CLOSED * self.reach * self.reach:
             self.closest = min(self.closest, descent, key=lambda each: each.off)
         elif not any(_same(descent.end, other, self.reach) for other in self.found):
@@ -156,9 +152,9 @@ class _Search:
         if self.found:
             yield from _about(near, self.found[0])
         if held:
-            yield from _constructed(group, self.board, near, held, self.reach)
+            yield from _constructed(group, self.workspace, near, held, self.reach)
         for point in held[:2] if len(held) > 1 else ():
-            yield from _constructed(group, self.board, near, [point], self.reach)
+            yield from _constructed(group, self.workspace, near, [point], self.reach)
         yield from _spread(group, near[held[0]], self.reach)
 
 
@@ -189,7 +185,7 @@ MOST_SHOWN = 60
 """Equations of the largest group for which an inverse is taken."""
 
 
-def _alone(group: Group, board: Board, near: Start, end: Start) -> bool:
+def _alone(group: Group, workspace: Workspace, near: Start, end: Start) -> bool:
     """Whether it is shown that no other solution is as near to `near` as one that was found.
 
     All points have a `near`. With Y the inverse of the derivatives J at `near`, there is at most one solution
@@ -197,8 +193,8 @@ def _alone(group: Group, board: Board, near: Start, end: Start) -> bool:
     """
     if len(group.equations) > MOST_SHOWN:
         return False
-    board.points.update(near)
-    rows, _ = _rows(group, board)
+    workspace.points.update(near)
+    rows, _ = _rows(group, workspace)
     inverted = inverse([[row.get(u, 0.0) for u in group.unknowns()] for row in rows])
     if inverted is None:
         return False
@@ -212,19 +208,19 @@ def _alone(group: Group, board: Board, near: Start, end: Start) -> bool:
     return math.sqrt(sum(v * v for row in inverted for v in row)) * change < 1.0
 
 
-def _least_residual(group: Group, board: Board, start: Start, reach: float) -> Start:
+def _least_residual(group: Group, workspace: Workspace, start: Start, reach: float) -> Start:
     """Where the data of a group are violated least, downhill from a start (Levenberg and Marquardt)."""
     unknowns = group.unknowns()
     if len(unknowns) > MOST_SHOWN:
         return {}
     at, damping = start, 1e-3 * reach * reach
-    board.points.update(at)
-    rows, values = _rows(group, board)
+    workspace.points.update(at)
+    rows, values = _rows(group, workspace)
     for _ in range(MOST_NEAR_STEPS):
         move = _damped(rows, values, unknowns, damping)
         after = _moved(at, move, 1.0)
-        board.points.update(after)
-        rows_after, values_after = _rows(group, board)
+        workspace.points.update(after)
+        rows_after, values_after = _rows(group, workspace)
         gain = math.hypot(*values) - math.hypot(*values_after)
         if gain > 0.0:
             done = gain < 1e-9 * math.hypot(*values)
@@ -253,32 +249,32 @@ def _damped(
     return dict(zip(unknowns, solve_square(normal, slope) or slope, strict=True))
 
 
-def _reach(group: Group, board: Board) -> float:
+def _reach(group: Group, workspace: Workspace) -> float:
     """The size of a group: its longest length, else 1."""
-    return max((board.length(d) for d in group.data() if d.kind == LENGTH), default=0.0) or 1.0
+    return max((workspace.length(d) for d in group.data() if d.kind == LENGTH), default=0.0) or 1.0
 
 
 def _same(one: Start, two: Start, reach: float) -> bool:
     return all(math.dist(one[t], two[t]) <= 1e-6 * (reach + math.hypot(*one[t])) for t in one)
 
 
-def _rows(group: Group, board: Board) -> tuple[list[dict[Unknown, float]], list[float]]:
+def _rows(group: Group, workspace: Workspace) -> tuple[list[dict[Unknown, float]], list[float]]:
     unknown = set(group.unknowns())
-    rows = [equation.row(board) for equation in group.equations]
+    rows = [equation.row(workspace) for equation in group.equations]
     return [{u: v for u, v in row.by.items() if u in unknown} for row in rows], [row.value for row in rows]
 
 
-def _descend(group: Group, board: Board, start: Start, reach: float, most: int) -> Descent:
+def _descend(group: Group, workspace: Workspace, start: Start, reach: float, most: int) -> Descent:
     """Newton steps of limited length from a start: the residual reached, where, and after how many.
 
     Without a line search: measured on random groups, a search triples the time and ends in
     local minima as often as the plain steps wander off.
     """
-    board.points.update(start)
+    workspace.points.update(start)
     off, taken = math.inf, 0
     while taken < most:
         taken += 1
-        rows, values = _rows(group, board)
+        rows, values = _rows(group, workspace)
         off = math.hypot(*values)
         if off <= CLOSED * reach * reach:
             break
@@ -286,8 +282,8 @@ def _descend(group: Group, board: Board, start: Start, reach: float, most: int) 
         move = solved(rows, values, order)
         longest = max(map(abs, move.values()), default=0.0)
         fraction = min(1.0, LONGEST_STEP * reach / longest) if longest > 0.0 else 0.0
-        board.points.update(_moved({t: board.points[t] for t in group.targets}, move, fraction))
-    return Descent(off, {t: board.points[t] for t in group.targets}, taken)
+        workspace.points.update(_moved({t: workspace.points[t] for t in group.targets}, move, fraction))
+    return Descent(off, {t: workspace.points[t] for t in group.targets}, taken)
 
 
 def _moved(at: Start, move: dict[Unknown, float], fraction: float) -> Start:
@@ -297,31 +293,31 @@ def _moved(at: Start, move: dict[Unknown, float], fraction: float) -> Start:
     }
 
 
-def _polished(group: Group, board: Board, end: Start) -> Group | None:
+def _polished(group: Group, workspace: Workspace, end: Start) -> Group | None:
     """The group settled on a solution in full precision; None where it does not stand alone."""
-    board.points.update(end)
+    workspace.points.update(end)
     best = math.inf
     option = group
     for _ in range(12):
-        rows, values = _rows(group, board)
+        rows, values = _rows(group, workspace)
         order, flatness = pivots(rows)
         if flatness < FLAT:
             return None
-        option = group._replace(start=tuple(board.points[t] for t in group.targets), order=tuple(order))
+        option = group._replace(start=tuple(workspace.points[t] for t in group.targets), order=tuple(order))
         move = solved(rows, values, order)
         longest = max(map(abs, move.values()))
         if longest >= best / 2.0 and best < 1e-7:
             break
         best = longest
-        board.points.update(_moved({t: board.points[t] for t in group.targets}, move, 1.0))
+        workspace.points.update(_moved({t: workspace.points[t] for t in group.targets}, move, 1.0))
     return option
 
 
 def _constructed(
-    group: Group, board: Board, near: Mapping[str, Spot], held: list[str], reach: float
+    group: Group, workspace: Workspace, near: Mapping[str, Spot], held: list[str], reach: float
 ) -> Iterator[Start]:
     """Starts by closed forms, with points held where `near` puts them, one of them also about there."""
-    drawing = Drawing(facts_of(board.case, group.data()), frozenset())
+    drawing = Drawing(facts_of(workspace.case, group.data()), frozenset())
     ground, goal = drawing.ground, set(group.targets)
     ground.begin([p for p in group.needs() if isinstance(p, str)] + held)
     ground.run(goal)
@@ -333,15 +329,17 @@ def _constructed(
     ring = [(x, y), (x + r, y), (x, y + r), (x - r, y), (x, y - r)] if len(held) == 1 else [(x, y)]
     for spot in ring:
         for signs in islice(product((1, -1), repeat=len(forks)), MOST_BRANCHES):
-            start = _run(drawing.steps, dict(zip(forks, signs, strict=True)), board, places | {point: spot})
+            start = _run(
+                drawing.steps, dict(zip(forks, signs, strict=True)), workspace, places | {point: spot}
+            )
             if start is not None:
                 yield {t: start.get(t, near.get(t, spot)) for t in group.targets}
 
 
-def _run(steps: list[Step], signs: dict[int, int], board: Board, held: Start) -> Start | None:
+def _run(steps: list[Step], signs: dict[int, int], workspace: Workspace, held: Start) -> Start | None:
     """Run a construction with given branches; circles that do not meet give the point between them."""
-    scratch = Board(board.case, board.frame, board.arithmetic)
-    scratch.points = dict(board.points)
+    scratch = Workspace(workspace.case, workspace.frame, workspace.arithmetic)
+    scratch.points = dict(workspace.points)
     scratch.points.update(held)
     placed: Start = dict(held)
     try:
@@ -365,19 +363,19 @@ def _spread(group: Group, about: Spot, reach: float) -> Iterator[Start]:
         yield start
 
 
-def _unreached(group: Group, board: Board, closest: Start) -> Miss:
+def _unreached(group: Group, workspace: Workspace, closest: Start) -> Miss:
     """No solution: the datum that is farthest off where the rest comes closest."""
-    from icsolve.assembly.misfit import misfit
+    from icsolve.assembly.residuals import residual
 
     names = listed([plain(t) for t in group.targets])
     if not closest:
         return Miss(Status.CANNOT_ASSEMBLE, f"no position found in which points {names} fit their data")
-    board.points.update(closest)
-    off, datum = max(((abs(misfit(board, d)[0]), d) for d in group.data()), key=lambda pair: pair[0])
+    workspace.points.update(closest)
+    off, datum = max(((abs(residual(workspace, d)[0]), d) for d in group.data()), key=lambda pair: pair[0])
     return Miss(
         Status.CANNOT_ASSEMBLE,
         f"the figure cannot be assembled: no position found in which points {names} fit their data "
-        f"together; the closest misses {datum_words(datum)} by {measure(board, off)}",
+        f"together; the closest misses {datum_words(datum)} by {measure(workspace, off)}",
         off,
     )
 

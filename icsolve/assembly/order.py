@@ -8,11 +8,9 @@ points that only all their data together determine.
 from collections.abc import Collection
 from typing import NamedTuple
 
+from icsolve.assembly.clusters import ALL_CLUSTERS, LOOSE_CLUSTERS, NOBODY, Cluster, Drawing
 from icsolve.assembly.data import LENGTH, Datum, Facts, facts_of, given_points
-from icsolve.assembly.lead import leading_to, points_of
-from icsolve.assembly.shapes import Base
-from icsolve.assembly.sheet import ALL_SHEETS, LOOSE_SHEETS, NOBODY, Drawing, Sheet
-from icsolve.assembly.step import Step
+from icsolve.assembly.steps import Base, Step, leading_to, points_of
 from icsolve.case import Case
 
 
@@ -67,44 +65,44 @@ def grow(drawing: Drawing) -> bool:
     """
     before = len(drawing.steps)
     _start(drawing)
-    for lenders in (NOBODY, LOOSE_SHEETS, ALL_SHEETS):
+    for lenders in (NOBODY, LOOSE_CLUSTERS, ALL_CLUSTERS):
         drawing.lenders = lenders
-        _extend(drawing, most=1 if lenders == ALL_SHEETS else None)
+        _extend(drawing, most=1 if lenders == ALL_CLUSTERS else None)
         if len(drawing.steps) > before:
-            for point in [p for sheet in drawing.sheets[1:] for p in sheet.placed]:
+            for point in [p for cluster in drawing.clusters[1:] for p in cluster.placed]:
                 drawing.ground.mark(point)
             return True
     return False
 
 
 def _extend(drawing: Drawing, most: int | None) -> None:
-    """Let every loose sheet take what is within its reach; with ``most``, the first that can."""
-    for sheet in drawing.sheets[1:]:
-        for point in list(sheet.placed):
-            sheet.reach_from(point)
-        if sheet.run(most=most) and most is not None:
+    """Let every loose cluster take what is within its reach; with ``most``, the first that can."""
+    for cluster in drawing.clusters[1:]:
+        for point in list(cluster.placed):
+            cluster.reach_from(point)
+        if cluster.run(most=most) and most is not None:
             return
 
 
 def _start(drawing: Drawing) -> None:
-    """A loose sheet for every length that no sheet holds."""
+    """A loose cluster for every length that no cluster holds."""
     for datum in drawing.facts.data:
         if datum.kind != LENGTH:
             continue
         a, b = datum.points
-        if any(b in sheet.placed for sheet in drawing.holding.get(a, ())):
+        if any(b in cluster.placed for cluster in drawing.holding.get(a, ())):
             continue
-        sheet = Sheet(drawing)
-        drawing.sheets.append(sheet)
-        sheet.put(Base(sheet.key(a), sheet.key(b), datum), (a, b), (100, 100, 0))
-        sheet.run()
+        cluster = Cluster(drawing)
+        drawing.clusters.append(cluster)
+        cluster.put(Base(cluster.key(a), cluster.key(b), datum), (a, b), (100, 100, 0))
+        cluster.run()
 
 
 def _group(drawing: Drawing, case: Case, goal: Collection[str], best_effort: bool) -> bool:
     """The smallest group that its data determine together becomes one step; else say what is free."""
     if best_effort:
         return False
-    from icsolve.assembly.group import next_group
+    from icsolve.assembly.groups import next_group
 
     step, points = next_group(drawing, case, goal)
     drawing.ground.put(step, points, (400, 400, 1))

@@ -4,14 +4,25 @@ import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from icsolve.assembly.board import Board
-from icsolve.assembly.data import CORNER, LENGTH, LINE, MEAN, RAY, Datum, X, Y, number_of
-from icsolve.assembly.frame import case_point
+from icsolve.assembly.data import (
+    CORNER,
+    LENGTH,
+    LINE,
+    MEAN,
+    RAY,
+    Datum,
+    X,
+    Y,
+    datum_words,
+    joined,
+    locus_words,
+    number_of,
+    plain,
+    span_words,
+)
 from icsolve.assembly.loci import Circle, is_round
-from icsolve.assembly.shapes import Turned
-from icsolve.assembly.step import Step
-from icsolve.assembly.steps import Meet, Polar
-from icsolve.assembly.words import datum_words, joined, locus_words, plain, span_words
+from icsolve.assembly.steps import Meet, Polar, Step, Turned
+from icsolve.assembly.workspace import Workspace, case_point
 from icsolve.case import Coordinates, Number
 from icsolve.errors import Status
 from icsolve.numbers.arithmetic import Floats, turn_of
@@ -31,43 +42,45 @@ class Miss(NamedTuple):
     vague: bool = False
 
 
-def measure(board: Board, length: float) -> str:
+def measure(workspace: Workspace, length: float) -> str:
     """A normalised length with its unit."""
-    return f"{length / board.frame.scale:.6g} {board.case.units.length}"
+    return f"{length / workspace.frame.scale:.6g} {workspace.case.units.length}"
 
 
-def bare(board: Board, length: float) -> str:
+def bare(workspace: Workspace, length: float) -> str:
     """A normalised length in case units."""
-    return f"{length / board.frame.scale:.6g}"
+    return f"{length / workspace.frame.scale:.6g}"
 
 
-def too_far(step: Meet, board: Board, gaps: list[float]) -> Miss:
+def too_far(step: Meet, workspace: Workspace, gaps: list[float]) -> Miss:
     """Two loci that do not meet."""
     gap = -min(gaps)
     if isinstance(step.first, Circle) and isinstance(step.second, Circle):
-        return Miss(Status.CANNOT_ASSEMBLE, _circles(step, step.first, step.second, board, gaps), gap)
+        return Miss(Status.CANNOT_ASSEMBLE, _circles(step, step.first, step.second, workspace, gaps), gap)
     message = (
         f"the figure cannot be assembled at {plain(step.target)}: {locus_words(step.first)} and "
-        f"{locus_words(step.second)} do not meet (closest gap {measure(board, gap)})"
+        f"{locus_words(step.second)} do not meet (closest gap {measure(workspace, gap)})"
     )
     return Miss(Status.CANNOT_ASSEMBLE, message, gap)
 
 
-def _circles(step: Meet, one: Circle, two: Circle, board: Board, gaps: list[float]) -> str:
+def _circles(step: Meet, one: Circle, two: Circle, workspace: Workspace, gaps: list[float]) -> str:
     a, b, at = plain(one.centre), plain(two.centre), plain(step.target)
     gap = -min(gaps)
-    apart = math.dist(board.points[one.centre], board.points[two.centre])
+    apart = math.dist(workspace.points[one.centre], workspace.points[two.centre])
     kind = "too far" if gaps[0] < 0.0 else "too close"
-    first, second = (f"{span_words(c.radius)} = {bare(board, board.length(c.radius))}" for c in (one, two))
+    first, second = (
+        f"{span_words(c.radius)} = {bare(workspace, workspace.length(c.radius))}" for c in (one, two)
+    )
     return (
-        f"{first} and {second} cannot meet at {at}: {a} and {b} are {bare(board, apart)} apart, "
-        f"{bare(board, gap)} {kind} (closest gap {measure(board, gap)})"
+        f"{first} and {second} cannot meet at {at}: {a} and {b} are {bare(workspace, apart)} apart, "
+        f"{bare(workspace, gap)} {kind} (closest gap {measure(workspace, gap)})"
     )
 
 
-def concentric(step: Meet, board: Board) -> Miss:
+def concentric(step: Meet, workspace: Workspace) -> Miss:
     """Two circles about one centre."""
-    (_, _, a), (_, _, b) = step.first.values(board), step.second.values(board)
+    (_, _, a), (_, _, b) = step.first.values(workspace), step.second.values(workspace)
     at = plain(step.target)
     centres = " and ".join(plain(c.centre) for c in (step.first, step.second) if isinstance(c, Circle))
     if math.isclose(a, b, rel_tol=1e-12, abs_tol=1e-300):
@@ -78,14 +91,14 @@ def concentric(step: Meet, board: Board) -> Miss:
         return Miss(Status.UNDERDETERMINED, message, 0.0, frozenset((step.first, step.second)))
     message = (
         f"the figure cannot be assembled at {at}: {centres} coincide, but their distances to {at} are "
-        f"{bare(board, a)} and {bare(board, b)} (gap {measure(board, abs(a - b))})"
+        f"{bare(workspace, a)} and {bare(workspace, b)} (gap {measure(workspace, abs(a - b))})"
     )
     return Miss(Status.CANNOT_ASSEMBLE, message, abs(a - b))
 
 
-def parallel(step: Meet, board: Board) -> Miss:
+def parallel(step: Meet, workspace: Workspace) -> Miss:
     """Two lines that are parallel, or are one line."""
-    (px, py, ux, uy), (qx, qy, _, _) = step.first.values(board), step.second.values(board)
+    (px, py, ux, uy), (qx, qy, _, _) = step.first.values(workspace), step.second.values(workspace)
     off = abs(ux * (qy - py) - uy * (qx - px))
     lines = f"{locus_words(step.first)} and {locus_words(step.second)}"
     at = plain(step.target)
@@ -95,17 +108,18 @@ def parallel(step: Meet, board: Board) -> Miss:
         )
         return Miss(Status.UNDERDETERMINED, message, 0.0, frozenset((step.first, step.second)))
     message = (
-        f"the figure cannot be assembled at {at}: {lines} are parallel, {measure(board, off)} apart, "
+        f"the figure cannot be assembled at {at}: {lines} are parallel, {measure(workspace, off)} apart, "
         "and never meet"
     )
     return Miss(Status.CANNOT_ASSEMBLE, message, off)
 
 
-def behind(step: Meet, board: Board, amount: float) -> Miss:
+def behind(step: Meet, workspace: Workspace, amount: float) -> Miss:
     """A point that lies on the wrong side of a ray's start."""
     message = (
         f"the figure cannot be assembled at {plain(step.target)}: {locus_words(step.first)} meets "
-        f"{locus_words(step.second)} only on the wrong side, {measure(board, -amount)} behind the ray's start"
+        f"{locus_words(step.second)} only on the wrong side, {measure(workspace, -amount)} "
+        "behind the ray's start"
     )
     return Miss(Status.CANNOT_ASSEMBLE, message, abs(amount))
 
@@ -116,10 +130,10 @@ def merged(target: str, a: str, b: str) -> Miss:
     return Miss(Status.CANNOT_ASSEMBLE, message, vague=True)
 
 
-def degenerate(step: Step, board: Board) -> Miss:
+def degenerate(step: Step, workspace: Workspace) -> Miss:
     """A step that divides by zero: parallel lines, concentric circles."""
     if isinstance(step, Meet):
-        return concentric(step, board) if is_round(step.second) else parallel(step, board)
+        return concentric(step, workspace) if is_round(step.second) else parallel(step, workspace)
     message = f"{plain(step.targets[0])} has no place ({step.name})"
     return Miss(Status.CANNOT_ASSEMBLE, message, vague=True)
 
@@ -138,7 +152,7 @@ ROUGH = 0.02
 
 
 def mirrored(
-    board: Board, steps: tuple[Step, ...], near: Mapping[str, tuple[float, float]], size: float
+    workspace: Workspace, steps: tuple[Step, ...], near: Mapping[str, tuple[float, float]], size: float
 ) -> Miss | None:
     """The first point whose `near` lies where the opposite angles would put it, and not where it is."""
     for step in steps:
@@ -148,17 +162,19 @@ def mirrored(
         if not angles:
             continue
         p = str(step.target)
-        at, other = board.points[p], _opposite(step, board, near[p])
+        at, other = workspace.points[p], _opposite(step, workspace, near[p])
         apart = math.dist(other, at)
         if apart > 2.0 * ROUGH * size and math.dist(other, near[p]) < apart / 2.0:
-            return Miss(Status.INCONSISTENT, _mirrored(board, p, at, angles))
+            return Miss(Status.INCONSISTENT, _mirrored(workspace, p, at, angles))
     return None
 
 
-def _opposite(step: Polar | Meet | Turned, board: Board, near: tuple[float, float]) -> tuple[float, float]:
+def _opposite(
+    step: Polar | Meet | Turned, workspace: Workspace, near: tuple[float, float]
+) -> tuple[float, float]:
     """Where the opposite angles would put a step's point: of two places the one nearer to its `near`."""
-    scratch = Board(board.case, board.frame, Mirrored())
-    scratch.points = dict(board.points)
+    scratch = Workspace(workspace.case, workspace.frame, Mirrored())
+    scratch.points = dict(workspace.points)
     places = []
     signs = (1, -1) if isinstance(step, Meet) and step.sign else (0,)
     for sign in signs:
@@ -168,9 +184,9 @@ def _opposite(step: Polar | Meet | Turned, board: Board, near: tuple[float, floa
     return min(places, key=lambda at: math.dist(at, near))
 
 
-def _mirrored(board: Board, p: str, at: tuple[float, float], angles: list[Datum]) -> str:
-    said = " and ".join(f"{joined(*d.points)} = {number_of(board.case, d).value:.6g}" for d in angles)
-    x, y = case_point(board.frame, at)
+def _mirrored(workspace: Workspace, p: str, at: tuple[float, float], angles: list[Datum]) -> str:
+    said = " and ".join(f"{joined(*d.points)} = {number_of(workspace.case, d).value:.6g}" for d in angles)
+    x, y = case_point(workspace.frame, at)
     corner = angles[-1]
     how = "from the x axis"
     if corner.kind == CORNER:
@@ -182,48 +198,49 @@ def _mirrored(board: Board, p: str, at: tuple[float, float], angles: list[Datum]
     )
 
 
-def clash(board: Board, datum: Datum, off: float, ahead: bool) -> Miss:
+def clash(workspace: Workspace, datum: Datum, off: float, ahead: bool) -> Miss:
     """A datum that the points contradict."""
-    return Miss(Status.INCONSISTENT, _clash(board, datum, off, ahead), abs(off) if ahead else math.inf)
+    return Miss(Status.INCONSISTENT, _clash(workspace, datum, off, ahead), abs(off) if ahead else math.inf)
 
 
-def _clash(board: Board, datum: Datum, off: float, ahead: bool) -> str:
+def _clash(workspace: Workspace, datum: Datum, off: float, ahead: bool) -> str:
     points, kind = datum.points, datum.kind
     name = plain(points[0])
     if kind == MEAN:
-        return f"{name} is {measure(board, abs(off))} off the centroid of {', '.join(map(plain, points[1:]))}"
+        of = ", ".join(map(plain, points[1:]))
+        return f"{name} is {measure(workspace, abs(off))} off the centroid of {of}"
     if kind in (LENGTH, RAY, CORNER, X, Y):
-        subject, value, found = _values(board, datum, off)
-        makers = "the coordinates make" if _all_given(board, points) else "the other data make"
+        subject, value, found = _values(workspace, datum, off)
+        makers = "the coordinates make" if _all_given(workspace, points) else "the other data make"
         return f"{subject} is given as {value}, {makers} it {found}"
     if not ahead:
         return f"{datum_words(datum)} has no direction: {joined(*points[2:])} are one point"
-    along = joined(*points[2:]) if kind == LINE else f"{number_of(board.case, datum).value:.6g} deg"
+    along = joined(*points[2:]) if kind == LINE else f"{number_of(workspace.case, datum).value:.6g} deg"
     line = f"the line through {plain(points[1])} along {along}"
-    return f"{name} is {measure(board, abs(off))} off its guide, {line}"
+    return f"{name} is {measure(workspace, abs(off))} off its guide, {line}"
 
 
-def _values(board: Board, datum: Datum, off: float) -> tuple[str, str, str]:
+def _values(workspace: Workspace, datum: Datum, off: float) -> tuple[str, str, str]:
     """What a number is of, the number, and what the points make it."""
     points, kind = datum.points, datum.kind
     if kind == LENGTH:
-        length = board.length(datum)
-        return joined(*points), bare(board, length), bare(board, length + off)
-    value = number_of(board.case, datum).value
+        length = workspace.length(datum)
+        return joined(*points), bare(workspace, length), bare(workspace, length + off)
+    value = number_of(workspace.case, datum).value
     if kind in (X, Y):
-        return datum_words(datum), f"{value:.6g}", f"{value + off / board.frame.scale:.6g}"
-    return datum_words(datum), f"{value:.6g}", _angle(board, datum)
+        return datum_words(datum), f"{value:.6g}", f"{value + off / workspace.frame.scale:.6g}"
+    return datum_words(datum), f"{value:.6g}", _angle(workspace, datum)
 
 
-def _all_given(board: Board, points: tuple[str, ...]) -> bool:
+def _all_given(workspace: Workspace, points: tuple[str, ...]) -> bool:
     """Whether coordinates alone place the points."""
-    places = (board.case.points.get(p) for p in points)
+    places = (workspace.case.points.get(p) for p in points)
     return all(isinstance(at, Coordinates) and None not in (at.x, at.y) for at in places)
 
 
-def _angle(board: Board, datum: Datum) -> str:
+def _angle(workspace: Workspace, datum: Datum) -> str:
     """What the points make of an angle: 0 to 360 degrees, -180 to 180 where a negative one is given."""
-    at = [board.points[p] for p in datum.points]
+    at = [workspace.points[p] for p in datum.points]
     if datum.kind == RAY:
         (ax, ay), (bx, by) = at
         angle = math.atan2(by - ay, bx - ax)
@@ -231,5 +248,5 @@ def _angle(board: Board, datum: Datum) -> str:
         (ax, ay), (vx, vy), (bx, by) = at
         angle = math.atan2(by - vy, bx - vx) - math.atan2(ay - vy, ax - vx)
     degrees = math.degrees(angle)
-    negative = number_of(board.case, datum).value < 0.0
+    negative = number_of(workspace.case, datum).value < 0.0
     return f"{math.remainder(degrees, 360.0) if negative else degrees % 360.0:.6g}"

@@ -1,12 +1,54 @@
-"""The steps that place one point from others: a centroid, a length along a direction, two loci."""
+"""The steps of a construction: given points, a centroid, a length along a direction, two loci, rigid shapes.
 
-from typing import NamedTuple
+Each puts points on a workspace (``place``), and tells its ``targets``, what it ``needs``, its ``data``
+and its ``name``, a sentence.
+"""
 
-from icsolve.assembly.board import Board, Key
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from typing import TYPE_CHECKING, NamedTuple, Union
+
 from icsolve.assembly.data import Datum
-from icsolve.assembly.given import told
-from icsolve.assembly.heading import Heading, Span, data_in, ends_of
-from icsolve.assembly.loci import Crossing, Locus, crossing, is_ray
+from icsolve.assembly.loci import Crossing, Locus, crossing, directions_of, is_ray
+from icsolve.assembly.workspace import Apart, Key, LineDirection, Span, Workspace, data_in, ends_of
+
+if TYPE_CHECKING:
+    from icsolve.assembly.groups import Group
+
+
+def told(step: Step) -> str:
+    """A step as a sentence."""
+    from icsolve.assembly.data import step_words
+
+    return step_words(step)
+
+
+class Given(NamedTuple):
+    """Points whose coordinates the case gives."""
+
+    targets: tuple[Key, ...]
+
+    @property
+    def name(self) -> str:
+        """What the step does."""
+        return told(self)
+
+    def place(self, workspace: Workspace) -> None:
+        """Put the points."""
+        for key in self.targets:
+            workspace.points[key] = workspace.coordinates(key if isinstance(key, str) else key[1])
+
+    def data(self) -> tuple[Datum, ...]:
+        """None but the coordinates."""
+        return ()
+
+    def needs(self) -> tuple[Key, ...]:
+        """Nothing."""
+        return ()
+
+
+# --- the steps that place one point from others: a centroid, a length along a direction, two loci ---
 
 
 class Mean(NamedTuple):
@@ -32,20 +74,20 @@ class Mean(NamedTuple):
         """What the step does."""
         return told(self)
 
-    def place(self, board: Board) -> None:
+    def place(self, workspace: Workspace) -> None:
         """Put the point."""
-        points = board.points
+        points = workspace.points
         x, y = 0.0, 0.0
         for key in self.others:
             px, py = points[key]
             x, y = x + px, y + py
         if self.centroid is None:
             n = float(len(self.others))
-            board.points[self.target] = (x / n, y / n)
+            workspace.points[self.target] = (x / n, y / n)
         else:
             n, k = float(len(self.others) + self.parts), float(self.parts)
             gx, gy = points[self.centroid]
-            board.points[self.target] = ((n * gx - x) / k, (n * gy - y) / k)
+            workspace.points[self.target] = ((n * gx - x) / k, (n * gy - y) / k)
 
     def data(self) -> tuple[Datum, ...]:
         """The centroid."""
@@ -62,7 +104,7 @@ class Polar(NamedTuple):
     target: Key
     base: Key
     span: Span
-    heading: Heading
+    direction: LineDirection
 
     @property
     def targets(self) -> tuple[Key, ...]:
@@ -74,20 +116,20 @@ class Polar(NamedTuple):
         """What the step does."""
         return told(self)
 
-    def place(self, board: Board) -> None:
+    def place(self, workspace: Workspace) -> None:
         """Put the point."""
-        x, y = board.points[self.base]
-        length = board.length(self.span)
-        c, s = board.unit(self.heading)
-        board.points[self.target] = (x + length * c, y + length * s)
+        x, y = workspace.points[self.base]
+        length = workspace.length(self.span)
+        c, s = workspace.unit(self.direction)
+        workspace.points[self.target] = (x + length * c, y + length * s)
 
     def data(self) -> tuple[Datum, ...]:
         """Length and directions."""
-        return (*data_in(self.span), *self.heading.data())
+        return (*data_in(self.span), *self.direction.data())
 
     def needs(self) -> tuple[Key, ...]:
         """What it starts from."""
-        return (self.base, *ends_of(self.span), *self.heading.needs())
+        return (self.base, *ends_of(self.span), *self.direction.needs())
 
 
 class Meet(NamedTuple):
@@ -112,33 +154,33 @@ class Meet(NamedTuple):
         """What the step does."""
         return told(self)
 
-    def cross(self, board: Board) -> Crossing:
+    def cross(self, workspace: Workspace) -> Crossing:
         """Where the loci meet, both places."""
-        return crossing(self.first, self.second, board, self.sign == 0)
+        return crossing(self.first, self.second, workspace, self.sign == 0)
 
-    def put(self, board: Board, found: Crossing) -> None:
+    def put(self, workspace: Workspace, found: Crossing) -> None:
         """Put the point that ``sign`` takes."""
         x, y = found.middle
         if self.sign != 0 and found.half is not None:
             hx, hy = found.half
             x, y = (x + hx, y + hy) if self.sign > 0 else (x - hx, y - hy)
-        board.points[self.target] = (x, y)
+        workspace.points[self.target] = (x, y)
 
-    def ahead(self, board: Board) -> list[float]:
+    def ahead(self, workspace: Workspace) -> list[float]:
         """How far ahead on each ray among the loci the point lies."""
-        x, y = board.points[self.target]
+        x, y = workspace.points[self.target]
         out = []
         for locus in (self.first, self.second):
             if is_ray(locus):
-                px, py, vx, vy = locus.values(board)
+                px, py, vx, vy = locus.values(workspace)
                 out.append((x - px) * vx + (y - py) * vy)
         return out
 
-    def place(self, board: Board) -> None:
+    def place(self, workspace: Workspace) -> None:
         """Put the point, and note the margins."""
-        found = self.cross(board)
-        self.put(board, found)
-        board.margins[self.target] = (*found.margins, *self.ahead(board))
+        found = self.cross(workspace)
+        self.put(workspace, found)
+        workspace.margins[self.target] = (*found.margins, *self.ahead(workspace))
 
     def data(self) -> tuple[Datum, ...]:
         """The data of both loci."""
@@ -147,3 +189,157 @@ class Meet(NamedTuple):
     def needs(self) -> tuple[Key, ...]:
         """The points of both loci."""
         return (*self.first.needs(), *self.second.needs())
+
+
+# --- shapes that move as a whole: how one begins on a cluster of its own, and how it carries its points ---
+
+
+class Base(NamedTuple):
+    """The first two points of a link's own cluster: one at its origin, the other along its x."""
+
+    a: Key
+    b: Key
+    span: Span
+
+    @property
+    def targets(self) -> tuple[Key, ...]:
+        """Both points."""
+        return (self.a, self.b)
+
+    @property
+    def name(self) -> str:
+        """What the step does."""
+        return told(self)
+
+    def place(self, workspace: Workspace) -> None:
+        """Put both points."""
+        workspace.points[self.a] = (0.0, 0.0)
+        workspace.points[self.b] = (workspace.length(self.span), 0.0)
+
+    def data(self) -> tuple[Datum, ...]:
+        """The length."""
+        return data_in(self.span)
+
+    def needs(self) -> tuple[Key, ...]:
+        """What the length comes from."""
+        return ends_of(self.span)
+
+
+class Transfer(NamedTuple):
+    """A point of a shape that two other points hold: ``pose`` here, ``shape`` on its own cluster.
+
+    ``shape`` has the cluster's keys of the two points and of the one to place. As complex numbers:
+    target = p + (q - p) (s_target - s_p) / (s_q - s_p), of length one.
+    """
+
+    target: Key
+    pose: tuple[Key, Key]
+    shape: tuple[Key, Key, Key]
+
+    @property
+    def targets(self) -> tuple[Key, ...]:
+        """The point placed."""
+        return (self.target,)
+
+    @property
+    def name(self) -> str:
+        """What the step does."""
+        return told(self)
+
+    def place(self, workspace: Workspace) -> None:
+        """Put the point: the shape turned as p to q is, and not stretched."""
+        points, sqrt = workspace.points, workspace.arithmetic.sqrt
+        (px, py), (qx, qy) = (points[key] for key in self.pose)
+        (ax, ay), (bx, by), (tx, ty) = (points[key] for key in self.shape)
+        dx, dy, ex, ey = qx - px, qy - py, bx - ax, by - ay
+        norm = sqrt(dx * dx + dy * dy) * sqrt(ex * ex + ey * ey)
+        c, s = (dx * ex + dy * ey) / norm, (dy * ex - dx * ey) / norm
+        tx, ty = tx - ax, ty - ay
+        points[self.target] = (px + c * tx - s * ty, py + s * tx + c * ty)
+
+    def data(self) -> tuple[Datum, ...]:
+        """None of its own."""
+        return ()
+
+    def needs(self) -> tuple[Key, ...]:
+        """The pose and the shape."""
+        return (*self.pose, *self.shape)
+
+
+class Turned(NamedTuple):
+    """A point of a shape that one point in place and a known direction in it hold.
+
+    ``direction`` is the direction of the shape's pair ``shape[:2]``; ``shape[2:]`` are the point in place
+    and the one to place, on the shape's own cluster.
+    """
+
+    target: Key
+    base: Key
+    direction: LineDirection
+    shape: tuple[Key, Key, Key, Key]
+
+    @property
+    def targets(self) -> tuple[Key, ...]:
+        """The point placed."""
+        return (self.target,)
+
+    @property
+    def name(self) -> str:
+        """What the step does."""
+        return told(self)
+
+    def place(self, workspace: Workspace) -> None:
+        """Put the point: the shape turned until its pair lies in the known direction."""
+        (px, py), (ux, uy) = workspace.points[self.base], workspace.unit(self.direction)
+        (ax, ay), (bx, by), (qx, qy), (tx, ty) = (workspace.points[key] for key in self.shape)
+        ex, ey, dx, dy = bx - ax, by - ay, tx - qx, ty - qy
+        norm = workspace.arithmetic.sqrt(ex * ex + ey * ey)
+        c, s = (ux * ex + uy * ey) / norm, (uy * ex - ux * ey) / norm
+        workspace.points[self.target] = (px + c * dx - s * dy, py + s * dx + c * dy)
+
+    def data(self) -> tuple[Datum, ...]:
+        """The direction."""
+        return self.direction.data()
+
+    def needs(self) -> tuple[Key, ...]:
+        """What it starts from, and the shape."""
+        return (self.base, *self.direction.needs(), *self.shape)
+
+
+# --- every kind of step of a construction ---
+
+
+Step = Union[Given, Mean, Polar, Meet, Base, Transfer, Turned, "Group"]
+CLOSED_FORMS = (Given, Mean, Polar, Base, Transfer, Turned)
+"""Steps that have one way only."""
+
+
+def aims(step: Step) -> list[tuple[Key, Key]]:
+    """The pairs of points whose direction a step goes by."""
+    if isinstance(step, Transfer):
+        return [step.pose, step.shape[:2]]
+    pairs = [step.shape[:2]] if isinstance(step, Turned) else []
+    directions = [step.direction] if isinstance(step, Polar | Turned) else []
+    for locus in (step.first, step.second) if isinstance(step, Meet) else ():
+        directions += directions_of(locus)
+    return pairs + [(h.root.a, h.root.b) for h in directions if isinstance(h.root, Apart)]
+
+
+# --- which steps lead to which points ---
+
+
+def leading_to(goal: Collection[Key], steps: Sequence[Step]) -> tuple[Step, ...]:
+    """Only the steps that lead to some points."""
+    needed: set[Key] = set(goal)
+    kept: list[Step] = []
+    for step in reversed(steps):
+        targets = tuple(key for key in step.targets if key in needed)
+        if targets:
+            needed.update(step.needs())
+            kept.append(Given(targets) if isinstance(step, Given) else step)
+    return tuple(reversed(kept))
+
+
+def points_of(steps: Sequence[Step]) -> tuple[str, ...]:
+    """The points that steps place on the ground."""
+    return tuple(key for step in steps for key in step.targets if isinstance(key, str))

@@ -6,16 +6,14 @@ import math
 from dataclasses import replace
 from typing import NamedTuple
 
-from icsolve.assembly.board import Board
 from icsolve.assembly.construct import compared
-from icsolve.assembly.data import names_of
-from icsolve.assembly.frame import Frame, case_point, frame_of
-from icsolve.assembly.group import Group
+from icsolve.assembly.data import listed, names_of, plain
+from icsolve.assembly.groups import Group
 from icsolve.assembly.modes import Mode, Walk, differing, distinct, refusal
 from icsolve.assembly.order import Order, order_of
 from icsolve.assembly.refusals import Miss
 from icsolve.assembly.steps import Meet
-from icsolve.assembly.words import listed, plain
+from icsolve.assembly.workspace import Frame, Workspace, case_point, frame_of
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS
@@ -93,13 +91,13 @@ def _can_be_placed(case: Case, name: str) -> bool:
 
 
 def _walk(case: Case, frame: Frame, order: Order) -> Walk:
-    board = Board(case, frame, FLOATS)
+    workspace = Workspace(case, frame, FLOATS)
     used = order.used()
 
     def contradicted(mode: Mode) -> Miss | None:
-        return compared(board, order, mode, used)[0]
+        return compared(workspace, order, mode, used)[0]
 
-    return Walk(order, board, contradicted, every=True).run()
+    return Walk(order, workspace, contradicted, every=True).run()
 
 
 def _ways(case: Case, walk: Walk, order: Order, loose: list[str]) -> Ways:
@@ -116,7 +114,7 @@ def _ways(case: Case, walk: Walk, order: Order, loose: list[str]) -> Ways:
         )
     if loose:
         notes.append(f"nothing says where {listed([plain(p) for p in loose])} may be")
-    frame = walk.board.frame
+    frame = walk.workspace.frame
     picked = _choices(modes, order)
     digits = _digits(modes, picked, frame)
     ways = []

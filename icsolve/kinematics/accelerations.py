@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from icsolve.assembly.frame import Frame
+from icsolve.assembly.workspace import Frame
 from icsolve.case import Belt, Case, Contact, Gears, KnownCentre, Motion, Pin, Roll, Slide, Slot
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Arithmetic, Scalar

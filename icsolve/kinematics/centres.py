@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from icsolve.answer import Centre
-from icsolve.assembly.frame import Frame
+from icsolve.assembly.workspace import Frame
 from icsolve.case import Belt, Case, Gears, KnownCentre, Pair, Weld
 from icsolve.case.names import ordered_pair
 from icsolve.kinematics.kennedy import BodyPair, Kennedy, Known, ordered, sine_between, unit

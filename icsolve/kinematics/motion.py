@@ -4,7 +4,7 @@ the loop equations of the whole scene. What is singular, redundant or rigid is s
 import math
 from typing import NamedTuple
 
-from icsolve.assembly.frame import Frame
+from icsolve.assembly.workspace import Frame
 from icsolve.case import Case, KnownCentre, Roll
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.loops import ORIGIN, Bases, LoopMotions, all_motions

@@ -8,7 +8,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from icsolve.assembly.frame import Frame
+from icsolve.assembly.workspace import Frame
 from icsolve.case import Case, SpeedIs
 from icsolve.case import Motion as Given
 from icsolve.errors import SceneError, Status

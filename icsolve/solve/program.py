@@ -69,7 +69,7 @@ def prepare(case: Case, want: Want) -> Program:
     refusals.refuse_no_direction(case, top, figure.points)
     refusals.refuse_no_hanging(case, figure.points, figure.frame.scale)
     if any(isinstance(joint, Gears) for joint in case.joints):
-        from icsolve.assembly.meshing import refuse_misfit
+        from icsolve.assembly.residuals import refuse_misfit
 
         refuse_misfit(case, top, figure.points, figure.frame.scale)
     return Program(case, want, top, plan, figure)

@@ -14,7 +14,7 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from icsolve.assembly.meshing import MISFIT
+from icsolve.assembly.residuals import MISFIT
 from icsolve.case import Belt, Case, Contact, Gears, Guide, Joint, KnownCentre, Pin, Roll, Rope, Slide, Weld
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar

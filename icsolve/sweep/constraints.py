@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from icsolve.assembly.board import Board
 from icsolve.assembly.data import Datum
-from icsolve.assembly.equations import Equation
+from icsolve.assembly.groups import Equation
+from icsolve.assembly.workspace import Workspace
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.screws.plane import Point, Triple
@@ -152,8 +152,8 @@ class Row(NamedTuple):
 class Rows:
     """The equations of constraints on bodies that are at places."""
 
-    def __init__(self, shape: Shape, places: Places, bases: dict[int, Spot], board: Board) -> None:
-        self.shape, self.places, self.bases, self.board = shape, places, bases, board
+    def __init__(self, shape: Shape, places: Places, bases: dict[int, Spot], workspace: Workspace) -> None:
+        self.shape, self.places, self.bases, self.workspace = shape, places, bases, workspace
 
     def of(self, constraint: Constraint) -> Row:
         """The equation of a constraint."""
@@ -264,12 +264,12 @@ class Rows:
     def _drawn(self, c: Drawn) -> Row:
         owners = {name: (body, name) for body, name in c.owners}
         for name, spot in owners.items():
-            self.board.points[name] = self.places.place(spot)
-        row = Equation(c.datum).row(self.board)
+            self.workspace.points[name] = self.places.place(spot)
+        row = Equation(c.datum).row(self.workspace)
         by: dict[tuple[int, int], Scalar] = {}
         for (name, axis), value in row.by.items():
             w = (value, 0.0) if axis == 0 else (0.0, value)
-            for key, part in self._pushed((owners[name][0], w, self.board.points[name])).items():
+            for key, part in self._pushed((owners[name][0], w, self.workspace.points[name])).items():
                 by[key] = by.get(key, 0.0) + part
         return Row(row.value, by)
 

@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from icsolve.assembly.board import Board
 from icsolve.assembly.data import data_of, number_of
+from icsolve.assembly.workspace import Workspace
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS
@@ -83,7 +83,7 @@ def _added(
         mechanism.shape,
         Still(mechanism.shape),
         bases_of(mechanism, bodies),
-        Board(mechanism.case, mechanism.frame, FLOATS),
+        Workspace(mechanism.case, mechanism.frame, FLOATS),
     )
     more = np.vstack([rows, matrix(bodies, [still.of(constraint)])])
     return (more, True) if rank(more) > rank(rows) else (rows, False)

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from icsolve.assembly.group import Group
+from icsolve.assembly.groups import Group
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.adjoint import behind, gradient

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
-from icsolve.assembly.frame import Frame
+from icsolve.assembly.workspace import Frame
 from icsolve.case import (
     Belt,
     Case,

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
-from icsolve.assembly.board import Board
+from icsolve.assembly.workspace import Workspace
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Traced, varies
 from icsolve.screws.plane import Point
@@ -132,8 +132,8 @@ class _Run:
 
     def checked(self, left: Iterable[Constraint]) -> Iterator[int]:
         """Nodes that vanish where the conditions that were not needed are met."""
-        board = Board(self.mechanism.case, self.mechanism.frame, self.record)
-        rows = Rows(self.shape, self.moved, {}, board)
+        workspace = Workspace(self.mechanism.case, self.mechanism.frame, self.record)
+        rows = Rows(self.shape, self.moved, {}, workspace)
         for value in (*self.spare, *(rows.of(c).value for c in left)):
             if isinstance(value, Traced) and value.row:
                 yield value.index

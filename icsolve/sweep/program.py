@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from icsolve.assembly import Figure, place, solve_figure
 from icsolve.assembly.data import names_of, number_of
-from icsolve.assembly.meshing import refuse_misfit
+from icsolve.assembly.residuals import refuse_misfit
 from icsolve.case import Case, Pair
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar

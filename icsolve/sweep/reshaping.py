@@ -7,7 +7,7 @@ from collections.abc import Collection, Mapping
 from dataclasses import replace
 
 from icsolve.assembly import case_point, solve_figure
-from icsolve.assembly.frame import normalised
+from icsolve.assembly.workspace import normalised
 from icsolve.case import Belt, Case, Gears, Roll, Slide, Slot
 from icsolve.errors import SceneError
 from icsolve.screws.plane import Point

@@ -8,7 +8,7 @@ from itertools import combinations
 import numpy as np
 import numpy.typing as npt
 
-from icsolve.assembly.board import Board
+from icsolve.assembly.workspace import Workspace
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.plane import Point
@@ -85,8 +85,8 @@ def matrix(bodies: Sequence[int], rows: Iterable[Row]) -> Matrix:
     return np.array(found).reshape(len(found), 3 * len(bodies))
 
 
-def _board(mechanism: Mechanism) -> Board:
-    return Board(mechanism.case, mechanism.frame, FLOATS)
+def _board(mechanism: Mechanism) -> Workspace:
+    return Workspace(mechanism.case, mechanism.frame, FLOATS)
 
 
 def rank(m: Matrix) -> int:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from icsolve.assembly.group import Group
+from icsolve.assembly.groups import Group
 from icsolve.assembly.loci import is_round
 from icsolve.assembly.steps import Meet
 from icsolve.case import Case

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from icsolve.assembly.board import Board
+from icsolve.assembly.workspace import Workspace
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Op, Record, Traced
 from icsolve.numbers.replay import Array, Code
@@ -83,8 +83,8 @@ def settled(mechanism: Mechanism, moved: Moved, step: Newton, number: int) -> To
     start = [x for body in step.bodies for x in (*mechanism.shape.ref[bases[body][1]], 0.0)]
     guessed = [record.input(f"guess {number} {k}", float(x)) for k, x in enumerate(start)]
     q = {body: tuple(guessed[3 * n : 3 * n + 3]) for n, body in enumerate(step.bodies)}
-    board = Board(mechanism.case, mechanism.frame, record)
-    rows = list(_equations(mechanism, moved, step, Guess(moved, bases, q), board))
+    workspace = Workspace(mechanism.case, mechanism.frame, record)
+    rows = list(_equations(mechanism, moved, step, Guess(moved, bases, q), workspace))
     columns = [(body, part) for body in step.bodies for part in range(3)]
     group = Together(
         step.bodies,
@@ -106,8 +106,10 @@ def settled(mechanism: Mechanism, moved: Moved, step: Newton, number: int) -> To
     )
 
 
-def _equations(mechanism: Mechanism, moved: Moved, step: Newton, guess: Guess, board: Board) -> Iterator[Row]:
-    rows = Rows(mechanism.shape, guess, dict(guess.bases), board)
+def _equations(
+    mechanism: Mechanism, moved: Moved, step: Newton, guess: Guess, workspace: Workspace
+) -> Iterator[Row]:
+    rows = Rows(mechanism.shape, guess, dict(guess.bases), workspace)
     return equations(mechanism, rows, step.constraints, moved)
 
 

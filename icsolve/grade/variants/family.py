@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from icsolve.answer import Answer
 from icsolve.assembly import Figure, solve_figure
-from icsolve.assembly.group import Group
+from icsolve.assembly.groups import Group
 from icsolve.assembly.loci import is_round
 from icsolve.assembly.order import order_of
 from icsolve.assembly.steps import Meet

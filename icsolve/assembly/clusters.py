@@ -1,8 +1,8 @@
-"""A sheet on which points are put one after another: the ground's, or one that moves with a shape.
+"""A cluster on which points are put one after another: the ground's, or one that moves with a shape.
 
-The ground's sheet has coordinates and absolute directions. A loose sheet starts from a length whose
+The ground's cluster has coordinates and absolute directions. A loose cluster starts from a length whose
 place is not known yet and grows by lengths, corners and guides alone: the shape of a link, or of
-several that hold one another. A shape that shares one point with another sheet lends it
+several that hold one another. A shape that shares one point with another cluster lends it
 distances; one that shares two is carried by them.
 """
 
@@ -11,39 +11,35 @@ from __future__ import annotations
 import heapq
 from collections.abc import Iterable
 
-from icsolve.assembly.board import Key
+from icsolve.assembly.candidates import Cost, best_step
 from icsolve.assembly.data import LENGTH, LINE, MEAN, RAY, Facts
-from icsolve.assembly.given import Given
-from icsolve.assembly.heading import Apart, Heading
 from icsolve.assembly.loci import Circle, Line, Shifted
-from icsolve.assembly.reach import Cost, best_step
-from icsolve.assembly.shapes import Transfer, Turned
-from icsolve.assembly.step import Step
-from icsolve.assembly.steps import Meet, Polar
+from icsolve.assembly.steps import Given, Meet, Polar, Step, Transfer, Turned
+from icsolve.assembly.workspace import Apart, Key, LineDirection
 
-NOBODY, LOOSE_SHEETS, ALL_SHEETS = 0, 1, 2
-"""Which sheets lend their distances to loose ones."""
+NOBODY, LOOSE_CLUSTERS, ALL_CLUSTERS = 0, 1, 2
+"""Which clusters lend their distances to loose ones."""
 
 
 class Drawing:
-    """All sheets of a figure, and the steps so far in the order in which they can run.
+    """All clusters of a figure, and the steps so far in the order in which they can run.
 
-    ``lenders`` says which sheets lend distances to loose ones; ``holding`` which sheets hold a
+    ``lenders`` says which clusters lend distances to loose ones; ``holding`` which clusters hold a
     point; ``banned`` has the pairs of loci that turned out not to determine a point (parallel
     lines, concentric circles).
     """
 
-    __slots__ = ("banned", "count", "facts", "holding", "lenders", "sheets", "steps")
+    __slots__ = ("banned", "clusters", "count", "facts", "holding", "lenders", "steps")
 
     def __init__(self, facts: Facts, banned: frozenset[frozenset[object]]) -> None:
         self.facts = facts
         self.banned = banned
-        self.holding: dict[str, list[Sheet]] = {}
+        self.holding: dict[str, list[Cluster]] = {}
         self.steps: list[Step] = []
         self.count = 0
         self.lenders = NOBODY
-        self.sheets: list[Sheet] = []
-        self.sheets.append(Sheet(self))
+        self.clusters: list[Cluster] = []
+        self.clusters.append(Cluster(self))
 
     def tick(self) -> int:
         """A number that rises."""
@@ -51,27 +47,27 @@ class Drawing:
         return self.count
 
     @property
-    def ground(self) -> Sheet:
-        """The sheet that does not move."""
-        return self.sheets[0]
+    def ground(self) -> Cluster:
+        """The cluster that does not move."""
+        return self.clusters[0]
 
 
-class Sheet:
+class Cluster:
     """Points that are in place with respect to one another; ``number`` 0 is the ground.
 
-    ``placed`` has the cost of each point's step. ``headings`` has the known directions of pairs
+    ``placed`` has the cost of each point's step. ``directions`` has the known directions of pairs
     that are arms of corners or have a direction given. ``committed`` has the numbers of the
-    sheets that lent a distance: their shapes are part of this one; ``carried`` the lengths of the
+    clusters that lent a distance: their shapes are part of this one; ``carried`` the lengths of the
     vectors by which loci were moved.
     """
 
-    __slots__ = ("carried", "committed", "dirty", "drawing", "headings", "heap", "number", "placed", "turn")
+    __slots__ = ("carried", "committed", "directions", "dirty", "drawing", "heap", "number", "placed", "turn")
 
     def __init__(self, drawing: Drawing) -> None:
         self.drawing = drawing
-        self.number = len(drawing.sheets)
+        self.number = len(drawing.clusters)
         self.placed: dict[str, Cost] = {}
-        self.headings: dict[tuple[str, str], Heading] = {}
+        self.directions: dict[tuple[str, str], LineDirection] = {}
         self.committed: set[int] = set()
         self.carried: set[object] = set()
         self.dirty: dict[str, None] = {}
@@ -79,17 +75,17 @@ class Sheet:
         self.turn: dict[str, int] = {}
 
     def key(self, point: str) -> Key:
-        """The point's key on a board."""
+        """The point's key on a workspace."""
         return point if self.number == 0 else (self.number, point)
 
     def begin(self, points: list[str]) -> None:
-        """Start the ground's sheet from the given points and directions."""
+        """Start the ground's cluster from the given points and directions."""
         if points:
             self.put(Given(tuple(points)), points, (0, 0, 0))
         for datum in self.drawing.facts.data:
             if datum.kind == RAY:
                 a, b = datum.points
-                self.learn(a, b, Heading(datum))
+                self.learn(a, b, LineDirection(datum))
         for point in self.drawing.facts.of:
             self.mark(point)
 
@@ -111,9 +107,9 @@ class Sheet:
         for datum in self.drawing.facts.of.get(point, ()):
             for other in datum.points:
                 self.mark(other)
-        for sheet in self.drawing.holding.get(point, ()):
-            if sheet is not self and sheet.number != 0:
-                for other in sheet.placed:
+        for cluster in self.drawing.holding.get(point, ()):
+            if cluster is not self and cluster.number != 0:
+                for other in cluster.placed:
                     self.mark(other)
 
     def mark(self, point: str) -> None:
@@ -127,22 +123,22 @@ class Sheet:
             for datum in self.drawing.facts.of.get(p, ()):
                 if datum.kind == LENGTH:
                     a, b = datum.points
-                    if (a, b) in self.headings:
+                    if (a, b) in self.directions:
                         stack.append(b if a == p else a)
 
-    def learn(self, a: str, b: str, heading: Heading) -> None:
+    def learn(self, a: str, b: str, direction: LineDirection) -> None:
         """Note a direction, and those that corners make of it."""
-        arms, stack = self.drawing.facts.arms, [(a, b, heading)]
+        arms, stack = self.drawing.facts.arms, [(a, b, direction)]
         while stack:
-            a, b, heading = stack.pop()
-            if (a, b) in self.headings:
+            a, b, direction = stack.pop()
+            if (a, b) in self.directions:
                 continue
-            self.headings[a, b], self.headings[b, a] = heading, heading.reverse()
+            self.directions[a, b], self.directions[b, a] = direction, direction.reverse()
             self._renew(a)
             self._renew(b)
             for at, arm in ((a, b), (b, a)):
                 for corner, other, sense in arms.get((at, arm), ()):
-                    stack.append((at, other, self.headings[at, arm].turned(corner, sense)))
+                    stack.append((at, other, self.directions[at, arm].turned(corner, sense)))
 
     def run(self, goal: set[str] | None = None, most: int | None = None) -> bool:
         """Place what can be placed, cheapest data first, until the goal is reached; whether any was.
@@ -176,9 +172,9 @@ class Sheet:
             if datum.kind == LINE:
                 for other in datum.points:
                     self.mark(other)
-        for sheet in self.drawing.holding.get(point, ()):
-            if sheet is not self and sheet.number != 0:
-                for other in sheet.placed:
+        for cluster in self.drawing.holding.get(point, ()):
+            if cluster is not self and cluster.number != 0:
+                for other in cluster.placed:
                     self.mark(other)
 
     def _commit(self, step: Step) -> None:
@@ -203,9 +199,9 @@ class Sheet:
             for other in datum.points:
                 if other == point or other not in self.placed or self.key(other) in aimed:
                     continue
-                pair = Heading(Apart(self.key(point), self.key(other)))
-                if (point, other) in self.headings:
-                    self.headings[point, other], self.headings[other, point] = pair, pair.reverse()
+                pair = LineDirection(Apart(self.key(point), self.key(other)))
+                if (point, other) in self.directions:
+                    self.directions[point, other], self.directions[other, point] = pair, pair.reverse()
                 else:
                     self.learn(point, other, pair)
 

@@ -1,11 +1,16 @@
-"""The normalised frame: an origin among the given points, and a power of two."""
+"""Where a construction runs: the normalised frame, the points so far, and how to measure on them."""
+
+from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from functools import lru_cache
 from typing import NamedTuple
 
+from icsolve.assembly.data import Datum, X, number_of
 from icsolve.case import Case, Coordinates, Number
 from icsolve.errors import SceneError, Status
+from icsolve.numbers.arithmetic import Arithmetic, Scalar
 
 SMALLEST_RESOLUTION = 1e-3
 """Coarsest step between neighbouring doubles that still draws a figure, over the figure's size."""
@@ -157,3 +162,123 @@ def _difference(a: Number, b: Number) -> float:
         return abs(float(Decimal(a.digits) - Decimal(b.digits))) * a.factor
     except InvalidOperation:
         return 0.0
+
+
+# --- where a construction takes its directions and its lengths from ---
+
+
+class Apart(NamedTuple):
+    """The distance (or the direction) from one constructed point to another."""
+
+    a: Key
+    b: Key
+
+
+class LineDirection(NamedTuple):
+    """A direction: that of a datum or between two points, turned by corners, reversed if ``flip``."""
+
+    root: Datum | Apart
+    flip: bool = False
+    turns: tuple[tuple[Datum, int], ...] = ()
+
+    def reverse(self) -> LineDirection:
+        """The opposite direction."""
+        if isinstance(self.root, Apart):
+            return LineDirection(Apart(self.root.b, self.root.a), self.flip, self.turns)
+        return LineDirection(self.root, not self.flip, self.turns)
+
+    def turned(self, corner: Datum, sense: int) -> LineDirection:
+        """Turned by a corner, ccw with sense +1."""
+        return LineDirection(self.root, self.flip, (*self.turns, (corner, sense)))
+
+    def data(self) -> tuple[Datum, ...]:
+        """The data that it comes from."""
+        root = data_in(self.root)
+        return (*root, *(datum for datum, _ in self.turns))
+
+    def needs(self) -> tuple[Key, ...]:
+        """The points that it comes from."""
+        return () if isinstance(self.root, Datum) else (self.root.a, self.root.b)
+
+
+Span = Datum | Apart
+"""Where a length comes from: a length of the case, or two points that are in place."""
+
+
+def data_in(span: Span) -> tuple[Datum, ...]:
+    """The data that a length is."""
+    return (span,) if isinstance(span, Datum) else ()
+
+
+def ends_of(span: Span) -> tuple[Key, ...]:
+    """The points that a length is taken from."""
+    return () if isinstance(span, Datum) else (span.a, span.b)
+
+
+# --- the drawing workspace on which a construction runs: its case, its arithmetic, and the points so far ---
+
+
+Key = str | tuple[int, str]
+"""A point of the figure by its name, or of a link's own cluster by the cluster and the name."""
+Point = tuple[Scalar, Scalar]
+
+
+class Workspace:
+    """Points in normalised coordinates, and how to measure on them.
+
+    ``margins`` collects, for each point where two loci meet, what must not be negative for it to
+    assemble: gaps of circles, distances along rays (normalised). Groups that
+    Newton's method solves start from ``starts`` where it has them, and take ``rounds`` steps.
+    """
+
+    __slots__ = ("arithmetic", "case", "frame", "margins", "points", "rounds", "starts")
+
+    def __init__(self, case: Case, frame: Frame, arithmetic: Arithmetic) -> None:
+        self.case = case
+        self.frame = frame
+        self.arithmetic = arithmetic
+        self.points: dict[Key, Point] = {}
+        self.margins: dict[Key, tuple[Scalar, ...]] = {}
+        self.starts: Mapping[str, Point] = {}
+        self.rounds = 1
+
+    def length(self, span: Span) -> Scalar:
+        """A length, normalised."""
+        if isinstance(span, Datum):
+            return self.arithmetic.given(number_of(self.case, span)) * self.frame.scale
+        (ax, ay), (bx, by) = self.points[span.a], self.points[span.b]
+        dx, dy = bx - ax, by - ay
+        return self.arithmetic.sqrt(dx * dx + dy * dy)
+
+    def turn(self, datum: Datum) -> Point:
+        """Cosine and sine of an angle of the case."""
+        return self.arithmetic.turn(number_of(self.case, datum))
+
+    def unit(self, direction: LineDirection) -> Point:
+        """The unit vector of a direction."""
+        root = direction.root
+        if isinstance(root, Datum):
+            x, y = self.turn(root)
+        else:
+            (ax, ay), (bx, by) = self.points[root.a], self.points[root.b]
+            x, y = bx - ax, by - ay
+            d = self.arithmetic.sqrt(x * x + y * y)
+            x, y = x / d, y / d
+        for datum, sense in direction.turns:
+            c, s = self.turn(datum)
+            x, y = (c * x - s * y, s * x + c * y) if sense > 0 else (c * x + s * y, c * y - s * x)
+        return (-x, -y) if direction.flip else (x, y)
+
+    def coordinates(self, name: str) -> Point:
+        """A point that the case gives."""
+        place = self.case.points[respelled(self.case).get(name, name)]
+        assert type(place) is Coordinates
+        assert place.x is not None
+        assert place.y is not None
+        given, (ox, oy, scale) = self.arithmetic.given, self.frame
+        return (given(place.x) - ox) * scale, (given(place.y) - oy) * scale
+
+    def coordinate(self, datum: Datum) -> Scalar:
+        """The one coordinate that the case gives of a point."""
+        value = self.arithmetic.given(number_of(self.case, datum))
+        return (value - (self.frame.ox if datum.kind == X else self.frame.oy)) * self.frame.scale

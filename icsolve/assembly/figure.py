@@ -5,17 +5,16 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from typing import TYPE_CHECKING, NamedTuple
 
-from icsolve.assembly.board import Board, Key, Point
 from icsolve.assembly.data import GUIDE, LINE, Datum, data_of, names_of
-from icsolve.assembly.frame import Frame, frame_of
-from icsolve.assembly.given import Given
-from icsolve.assembly.misfit import agrees, size_of
+from icsolve.assembly.residuals import agrees, size_of
+from icsolve.assembly.steps import Given
+from icsolve.assembly.workspace import Frame, Key, Point, Workspace, frame_of
 from icsolve.case import Case, Coordinates
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
 
 if TYPE_CHECKING:
-    from icsolve.assembly.step import Step
+    from icsolve.assembly.steps import Step
 
 
 class Figure(NamedTuple):
@@ -38,7 +37,7 @@ class Placement(NamedTuple):
 
     ``margins`` has, for each point where two loci meet, what must not be negative (normalised):
     gaps of circles, distances along rays. Callers with arrays test them outside. (Points on the
-    sheet of a loose shape have keys of the sheet's number and the name.)
+    cluster of a loose shape have keys of the cluster's number and the name.)
     """
 
     points: dict[str, Point]
@@ -62,11 +61,11 @@ def place(
         figure's own numbers, where that step carries the derivatives by all data
     starts : where such groups start (normalised); left out, at the figure's own points
     """
-    board = Board(case, figure.frame, arithmetic)
-    board.rounds, board.starts = rounds, starts or {}
+    workspace = Workspace(case, figure.frame, arithmetic)
+    workspace.rounds, workspace.starts = rounds, starts or {}
     for step in figure.steps:
-        step.place(board)
-    return Placement({p: at for p, at in board.points.items() if isinstance(p, str)}, board.margins)
+        step.place(workspace)
+    return Placement({p: at for p, at in workspace.points.items() if isinstance(p, str)}, workspace.margins)
 
 
 def solve_figure(case: Case, wanted: Collection[str] | None = None) -> Figure:
@@ -95,23 +94,25 @@ def _is_given(case: Case, point: str) -> bool:
 
 def _drawn(case: Case, frame: Frame, goal: list[str], names: list[str]) -> Figure:
     """The figure where every point is given: nothing to construct, the other data are compared."""
-    board = Board(case, frame, FLOATS)
+    workspace = Workspace(case, frame, FLOATS)
     steps: tuple[Step, ...] = (Given(tuple(goal)),)
-    steps[0].place(board)
-    data = [d for d in data_of(case) if all(p in board.points for p in d.points)]
-    notes = _compared(board, steps, data, goal) if data else ()
-    points = {p: board.points[p] for p in goal}
+    steps[0].place(workspace)
+    data = [d for d in data_of(case) if all(p in workspace.points for p in d.points)]
+    notes = _compared(workspace, steps, data, goal) if data else ()
+    points = {p: workspace.points[p] for p in goal}
     return Figure(frame, points, steps, notes, tuple(p.lstrip("@") for p in names if p not in points))
 
 
-def _compared(board: Board, steps: tuple[Step, ...], data: list[Datum], goal: list[str]) -> tuple[str, ...]:
+def _compared(
+    workspace: Workspace, steps: tuple[Step, ...], data: list[Datum], goal: list[str]
+) -> tuple[str, ...]:
     """Notes on the data that the coordinates make spare; guides that are met need none."""
-    size = size_of(board, goal)
-    if agrees(board, data, size) and all(d.kind in (GUIDE, LINE) for d in data):
+    size = size_of(workspace, goal)
+    if agrees(workspace, data, size) and all(d.kind in (GUIDE, LINE) for d in data):
         return ()
-    from icsolve.assembly.compare import compare, notes_of
+    from icsolve.assembly.residuals import compare, notes_of
 
-    miss, offs = compare(board, steps, data, size)
+    miss, offs = compare(workspace, steps, data, size)
     if miss is not None:
         raise SceneError(miss.status, miss.message)
-    return notes_of(board, offs, frozenset(), True, size)
+    return notes_of(workspace, offs, frozenset(), True, size)

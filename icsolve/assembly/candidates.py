@@ -1,0 +1,240 @@
+"""Within candidate: the loci that a point's data put it on, and the best step that they make."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from itertools import combinations
+from typing import TYPE_CHECKING
+
+from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, X, Y
+from icsolve.assembly.loci import Arc, Axis, Circle, Line, Locus, Shifted, is_round
+from icsolve.assembly.steps import Mean, Meet, Polar, Step, Transfer, Turned
+from icsolve.assembly.workspace import Apart, LineDirection
+
+if TYPE_CHECKING:
+    from icsolve.assembly.clusters import Cluster
+
+
+Cost = tuple[int, int, int]
+"""Authority of the data (the lowest wins): the worst datum, the sum, and the number of ways."""
+
+EXACT, BY_LENGTH, BY_ANGLE, BY_ARC = 0, 100, 200, 300
+"""What data cost: coordinates and guides, lengths, angles, angles seen from the point itself."""
+
+
+Candidate = tuple[int, Locus]
+"""A locus of a point, after the cost of its data."""
+
+
+def best_step(cluster: Cluster, point: str) -> tuple[Cost, Step] | None:
+    """The step of greatest authority that places a point, if there is one."""
+    found: list[tuple[Cost, Step]] = [*_means(cluster, point), *_transfers(cluster, point)]
+    candidates = sorted(candidates_of(cluster, point), key=lambda candidate: candidate[0])
+    for one, two in combinations(candidates, 2):
+        step = _meet(cluster, point, one[1], two[1])
+        if step is not None:
+            found.append((_cost(cluster, one, two, step), step))
+    return min(found, key=lambda pair: pair[0], default=None)
+
+
+def _cost(cluster: Cluster, one: Candidate, two: Candidate, step: Step) -> Cost:
+    """What a step costs; nothing where a locus that came by its vector is in place already."""
+    if isinstance(step, Polar) and step.span in cluster.carried:
+        return (EXACT, EXACT, 0)
+    return max(one[0], two[0]), one[0] + two[0], 1 if isinstance(step, Meet) and step.sign else 0
+
+
+def candidates_of(cluster: Cluster, point: str, after: tuple[str, ...] = ()) -> Iterator[Candidate]:
+    """The loci of a point on a cluster; ``after`` are points that already lean on it."""
+    for datum in cluster.drawing.facts.of.get(point, ()):
+        if cluster.number == 0 or datum.kind in (LENGTH, CORNER, LINE):
+            yield from KINDS[datum.kind](cluster, datum, point)
+    yield from _rays(cluster, point)
+    yield from _derived(cluster, point)
+    yield from _shifted(cluster, point, after)
+
+
+def _circle(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:
+    a, b = datum.points
+    centre = b if a == point else a
+    if centre in cluster.placed:
+        yield BY_LENGTH, Circle(cluster.key(centre), datum)
+
+
+def _seen(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:
+    """The vertex of a corner whose arms' ends are in place."""
+    a, at, b = datum.points
+    if point != at or a not in cluster.placed or b not in cluster.placed or (at, a) in cluster.directions:
+        return
+    ends = cluster.key(a), cluster.key(b)
+    if datum in cluster.drawing.facts.flat:
+        yield BY_ARC, Line(ends[0], LineDirection(Apart(*ends)), False)
+    else:
+        yield BY_ARC, Arc(*ends, datum)
+
+
+def _guided(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:
+    """A guide by its angle: its two points lie along it."""
+    at, through = datum.points
+    other = through if point == at else at
+    if other in cluster.placed:
+        yield EXACT, Line(cluster.key(other), LineDirection(datum), False)
+
+
+def _lined(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:
+    """A guide by two of its points: at to through is parallel to e1 to e2."""
+    at, through, e1, e2 = datum.points
+    if point in (at, through) and point not in (e1, e2):
+        pairs = [(through if point == at else at, e1, e2)]
+    elif point in (e1, e2) and point not in (at, through):
+        pairs = [(e2 if point == e1 else e1, at, through)]
+    else:
+        others = list(dict.fromkeys(p for p in datum.points if p != point))
+        pairs = [(others[0], others[0], others[1])] if len(others) == 2 else []
+    for base, a, b in pairs:
+        direction = cluster.directions.get((a, b))
+        if direction is None and a in cluster.placed and b in cluster.placed:
+            direction = LineDirection(Apart(cluster.key(a), cluster.key(b)))
+        if direction is not None and base in cluster.placed:
+            yield EXACT, Line(cluster.key(base), direction, False)
+
+
+def _axis(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:
+    yield EXACT, Axis(datum)
+
+
+def _nothing(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:
+    yield from ()
+
+
+KINDS: dict[str, Callable[[Cluster, Datum, str], Iterator[Candidate]]] = {
+    X: _axis, Y: _axis, MEAN: _nothing, GUIDE: _guided, LINE: _lined,
+    LENGTH: _circle, RAY: _nothing, CORNER: _seen,
+}  # fmt: skip
+
+
+def _rays(cluster: Cluster, point: str) -> Iterator[Candidate]:
+    """Rays from points in place along known directions, given or made by corners."""
+    others: dict[str, None] = {}
+    for datum in cluster.drawing.facts.of.get(point, ()):
+        if datum.kind == RAY:
+            others.update(dict.fromkeys(datum.points))
+        elif datum.kind == CORNER:
+            at = datum.points[1]
+            others.update(dict.fromkeys(datum.points[::2] if point == at else (at,)))
+    for other in others:
+        direction = cluster.directions.get((other, point))
+        if other in cluster.placed and direction is not None:
+            yield BY_ANGLE + len(direction.turns), Line(cluster.key(other), direction, True)
+
+
+def _derived(cluster: Cluster, point: str) -> Iterator[Candidate]:
+    """Circles whose radii other clusters lend."""
+    data = cluster.drawing.facts.of.get(point, ())
+    lengths = {other for datum in data if datum.kind == LENGTH for other in datum.points}
+    for lender in cluster.drawing.holding.get(point, ()):
+        if cluster.number != 0 and cluster.drawing.lenders < (1 if lender.number else 2):
+            continue
+        shared = _shared(cluster, lender)
+        if lender.number != 0 and len(shared) > 1:
+            continue
+        for other in shared:
+            if other not in lengths:
+                cost = max(BY_LENGTH, lender.placed[point][0], lender.placed[other][0])
+                span = Apart(lender.key(other), lender.key(point))
+                lengths.add(other)
+                yield cost, Circle(cluster.key(other), span)
+
+
+def _shared(cluster: Cluster, lender: Cluster) -> list[str]:
+    """The points in place on both clusters."""
+    small, large = sorted((cluster, lender), key=lambda s: len(s.placed))
+    return [point for point in small.placed if point in large.placed]
+
+
+def _shifted(cluster: Cluster, point: str, after: tuple[str, ...]) -> Iterator[Candidate]:
+    """The loci of points at known vectors from this one, none of them in place yet."""
+    for datum in cluster.drawing.facts.of.get(point, ()):
+        if datum.kind != LENGTH:
+            continue
+        a, b = datum.points
+        other = b if a == point else a
+        direction = cluster.directions.get((point, other))
+        if direction is None or other in cluster.placed or other in after:
+            continue
+        for cost, locus in candidates_of(cluster, other, (*after, point)):
+            yield max(cost, BY_ANGLE) + 10, Shifted(locus, datum, direction)
+
+
+def _means(cluster: Cluster, point: str) -> Iterator[tuple[Cost, Step]]:
+    for datum in cluster.drawing.facts.of.get(point, ()):
+        if datum.kind != MEAN:
+            continue
+        whole, *of = datum.points
+        others = [cluster.key(p) for p in of if p != point]
+        if not all(p in cluster.placed for p in datum.points if p != point):
+            continue
+        if point == whole and point not in of:
+            yield (EXACT, EXACT, 0), Mean(cluster.key(point), datum, tuple(others))
+        elif point != whole:
+            parts = len(of) - len(others)
+            yield (EXACT, EXACT, 0), Mean(cluster.key(point), datum, tuple(others), cluster.key(whole), parts)
+
+
+def _transfers(cluster: Cluster, point: str) -> Iterator[tuple[Cost, Step]]:
+    """A point of a shape that two of its points hold on this cluster, or one and a direction."""
+    for lender in cluster.drawing.holding.get(point, ()):
+        if lender.number == 0 or lender is cluster or (cluster.number and not cluster.drawing.lenders):
+            continue
+        shared = _shared(cluster, lender)
+        cost = (EXACT, EXACT, 0)
+        if lender.number not in cluster.committed:
+            worst, total, ways = lender.placed[point]
+            cost = (worst, total + 1, ways)
+        if len(shared) > 1:
+            p, q = shared[:2]
+            shape = (lender.key(p), lender.key(q), lender.key(point))
+            yield cost, Transfer(cluster.key(point), (cluster.key(p), cluster.key(q)), shape)
+        elif shared:
+            yield from _turned(cluster, lender, shared[0], point, cost)
+
+
+def _turned(
+    cluster: Cluster, lender: Cluster, base: str, point: str, cost: Cost
+) -> Iterator[tuple[Cost, Step]]:
+    """A point of a shape that has one point in place, by the first direction known in the shape."""
+    for a, b in _sights(cluster, lender):
+        direction = cluster.directions[a, b]
+        shape = (lender.key(a), lender.key(b), lender.key(base), lender.key(point))
+        worst = max(cost[0], BY_ANGLE + len(direction.turns))
+        yield (
+            (worst, cost[1] + BY_ANGLE, cost[2]),
+            Turned(cluster.key(point), cluster.key(base), direction, shape),
+        )
+        return
+
+
+def _sights(cluster: Cluster, lender: Cluster) -> Iterator[tuple[str, str]]:
+    """The pairs of a shape whose direction is known on a cluster."""
+    for a in lender.placed:
+        for datum in cluster.drawing.facts.of.get(a, ()):
+            for b in datum.points if datum.kind in (RAY, CORNER) else ():
+                if b in lender.placed and (a, b) in cluster.directions:
+                    yield a, b
+
+
+def _meet(cluster: Cluster, point: str, one: Locus, two: Locus) -> Step | None:
+    """The step that two loci make; None where they are one locus or are known not to determine a point."""
+    if frozenset((one, two)) in cluster.drawing.banned:
+        return None
+    line, other = (two, one) if is_round(one) and not is_round(two) else (one, two)
+    if isinstance(line, Line) and isinstance(other, Circle):
+        if line.ray and line.through == other.centre:
+            return Polar(cluster.key(point), line.through, other.radius, line.direction)
+    elif isinstance(one, Circle) and isinstance(two, Circle) and one.centre == two.centre:
+        return None
+    elif isinstance(line, Line) and isinstance(other, Line):
+        h, k = line.direction, other.direction
+        if h.root == k.root and h.turns == k.turns:
+            return None
+    return Meet(cluster.key(point), line, other, 1 if is_round(other) else 0)

@@ -1,0 +1,436 @@
+"""Points that have no order of construction: the conditions on them, which of these determine which points,
+and the smallest group that only all its data together place."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import NamedTuple
+
+from icsolve.assembly.clusters import Drawing
+from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, X, Y, listed, plain
+from icsolve.assembly.steps import told
+from icsolve.assembly.workspace import Key, Workspace
+from icsolve.case import Case
+from icsolve.errors import SceneError, Status
+from icsolve.numbers.arithmetic import Scalar
+
+Unknown = tuple[str, int]
+"""A coordinate: the point and 0 for x, 1 for y."""
+
+
+class Row(NamedTuple):
+    """An equation at the points on a workspace: its value and its derivatives by the coordinates."""
+
+    value: Scalar
+    by: dict[Unknown, Scalar]
+
+
+class Equation(NamedTuple):
+    """A datum, or one coordinate of a centroid."""
+
+    datum: Datum
+    part: int = 0
+
+    def unknowns(self) -> list[Unknown]:
+        """The coordinates that bear on it."""
+        kind, points = self.datum.kind, self.datum.points
+        if kind in (X, Y):
+            return [(points[0], 0 if kind == X else 1)]
+        parts = (self.part,) if kind == MEAN else (0, 1)
+        return [(p, part) for p in dict.fromkeys(points) for part in parts]
+
+    def row(self, workspace: Workspace) -> Row:
+        """Value and derivatives at the points on a workspace."""
+        return ROWS[self.datum.kind](workspace, self)
+
+
+def _sum(value: Scalar, *parts: tuple[str, Scalar, Scalar]) -> Row:
+    """A row whose points may repeat."""
+    by: dict[Unknown, Scalar] = {}
+    for point, dx, dy in parts:
+        by[point, 0] = by[point, 0] + dx if (point, 0) in by else dx
+        by[point, 1] = by[point, 1] + dy if (point, 1) in by else dy
+    return Row(value, by)
+
+
+def _length(workspace: Workspace, equation: Equation) -> Row:
+    """(d^2 - l^2) / 2."""
+    a, b = equation.datum.points
+    (ax, ay), (bx, by), length = workspace.points[a], workspace.points[b], workspace.length(equation.datum)
+    dx, dy = bx - ax, by - ay
+    return _sum((dx * dx + dy * dy - length * length) / 2.0, (a, -dx, -dy), (b, dx, dy))
+
+
+def _along(workspace: Workspace, equation: Equation) -> Row:
+    """The second point lies along a known direction from the first, or against it."""
+    a, b = equation.datum.points
+    (ax, ay), (bx, by), (c, s) = workspace.points[a], workspace.points[b], workspace.turn(equation.datum)
+    return _sum(c * (by - ay) - s * (bx - ax), (a, s, -c), (b, -s, c))
+
+
+def _corner(workspace: Workspace, equation: Equation) -> Row:
+    """The first arm, turned by the angle, lies along the second."""
+    a, v, b = equation.datum.points
+    (ax, ay), (vx, vy), (bx, by) = (workspace.points[p] for p in equation.datum.points)
+    c, s = workspace.turn(equation.datum)
+    px, py, qx, qy = ax - vx, ay - vy, bx - vx, by - vy
+    tx, ty = c * px - s * py, s * px + c * py
+    dax, day = c * qy - s * qx, -s * qy - c * qx
+    return _sum(tx * qy - ty * qx, (a, dax, day), (b, -ty, tx), (v, ty - dax, -tx - day))
+
+
+def _line(workspace: Workspace, equation: Equation) -> Row:
+    """From through to at is parallel to from e1 to e2."""
+    at, through, a, b = equation.datum.points
+    (x, y), (tx, ty), (ax, ay), (bx, by) = (workspace.points[p] for p in equation.datum.points)
+    dx, dy, wx, wy = bx - ax, by - ay, x - tx, y - ty
+    return _sum(dx * wy - dy * wx, (at, -dy, dx), (through, dy, -dx), (a, -wy, wx), (b, wy, -wx))
+
+
+def _mean(workspace: Workspace, equation: Equation) -> Row:
+    """n times a coordinate of the centroid less the sum of the points'."""
+    part = equation.part
+    whole, *of = equation.datum.points
+    n = float(len(of))
+    by: dict[Unknown, Scalar] = {(whole, part): n}
+    value = n * workspace.points[whole][part]
+    for p in of:
+        value = value - workspace.points[p][part]
+        by[p, part] = by.get((p, part), 0.0) - 1.0
+    return Row(value, by)
+
+
+def _axis(workspace: Workspace, equation: Equation) -> Row:
+    ((point, part),) = equation.unknowns()
+    return Row(workspace.points[point][part] - workspace.coordinate(equation.datum), {(point, part): 1.0})
+
+
+ROWS: dict[str, Callable[[Workspace, Equation], Row]] = {
+    LENGTH: _length, RAY: _along, GUIDE: _along, CORNER: _corner,
+    LINE: _line, MEAN: _mean, X: _axis, Y: _axis,
+}  # fmt: skip
+
+
+class Pivot(NamedTuple):
+    """An equation, and the unknown that it is solved for."""
+
+    row: int
+    unknown: Unknown
+
+
+def pivots(rows: list[dict[Unknown, float]]) -> tuple[list[Pivot], float]:
+    """Complete pivoting: the order of elimination, and the smallest pivot over the largest."""
+    work = {i: dict(row) for i, row in enumerate(rows)}
+    order: list[Pivot] = []
+    sizes: list[float] = []
+    while work:
+        size, i, unknown = max(
+            ((abs(v), i, u) for i, row in work.items() for u, v in row.items()), default=(0.0, -1, ("", 0))
+        )
+        if size == 0.0:
+            return order, 0.0
+        order.append(Pivot(i, unknown))
+        sizes.append(size)
+        top = work.pop(i)
+        for row in work.values():
+            _clear(row, top, unknown)
+    return order, min(sizes) / max(sizes)
+
+
+def _clear(row: dict[Unknown, Scalar], top: dict[Unknown, Scalar], unknown: Unknown) -> Scalar:
+    """Take the multiple of a pivot row that clears one unknown; the multiple."""
+    if unknown not in row:
+        return None
+    ratio = row.pop(unknown) / top[unknown]
+    for u, v in top.items():
+        if u != unknown:
+            row[u] = row[u] - ratio * v if u in row else -(ratio * v)
+    return ratio
+
+
+def solved(
+    rows: list[dict[Unknown, Scalar]], values: list[Scalar], order: list[Pivot]
+) -> dict[Unknown, Scalar]:
+    """x with rows . x = values, eliminated in a given order; unknowns without a pivot stay at zero."""
+    work, right = [dict(row) for row in rows], list(values)
+    for k, (i, unknown) in enumerate(order):
+        for j, _ in order[k + 1 :]:
+            ratio = _clear(work[j], work[i], unknown)
+            if ratio is not None:
+                right[j] = right[j] - ratio * right[i]
+    out: dict[Unknown, Scalar] = {}
+    for i, unknown in reversed(order):
+        total = right[i]
+        for u, v in work[i].items():
+            if u in out:
+                total = total - v * out[u]
+        out[unknown] = total / work[i][unknown]
+    return out
+
+
+# --- which conditions determine which coordinates: a matching, and what it leaves free ---
+
+
+class System(NamedTuple):
+    """The conditions on the points that are not in place, matched to their coordinates.
+
+    ``of`` has for each coordinate the equations that it bears on; ``matched`` the equation of a
+    coordinate and ``solves`` the coordinate of an equation; ``free`` what is not determined.
+    """
+
+    equations: list[Equation]
+    reach: list[list[Unknown]]
+    of: dict[Unknown, list[int]]
+    matched: dict[Unknown, int]
+    free: set[Unknown]
+
+
+def system_of(data: Iterable[Datum], placed: Iterable[str], wanted: Iterable[str]) -> System:
+    """Match every condition on points not in place to one of their coordinates."""
+    known = set(placed)
+    equations = [
+        Equation(datum, part)
+        for datum in data
+        for part in ((0, 1) if datum.kind == MEAN else (0,))
+        if not known.issuperset(datum.points)
+    ]
+    reach = [[u for u in equation.unknowns() if u[0] not in known] for equation in equations]
+    of: dict[Unknown, list[int]] = {(p, part): [] for p in wanted if p not in known for part in (0, 1)}
+    for equation in equations:
+        for p in equation.datum.points:
+            if p not in known:
+                of.setdefault((p, 0), [])
+                of.setdefault((p, 1), [])
+    for i, unknowns in enumerate(reach):
+        for u in unknowns:
+            of[u].append(i)
+    matched: dict[Unknown, int] = {}
+    for i in range(len(equations)):
+        _augment(i, reach, matched)
+    return System(equations, reach, of, matched, _free(of, matched))
+
+
+def _augment(root: int, reach: list[list[Unknown]], matched: dict[Unknown, int]) -> None:
+    """Give an equation a coordinate, moving others along an alternating path (breadth first)."""
+    came: dict[Unknown, int] = {}
+    before: dict[int, Unknown | None] = {root: None}
+    queue = [root]
+    for i in queue:
+        for u in reach[i]:
+            if u in came:
+                continue
+            came[u] = i
+            if u not in matched:
+                _flip(u, came, before, matched)
+                return
+            before.setdefault(matched[u], u)
+            queue.append(matched[u])
+
+
+def _flip(
+    end: Unknown, came: dict[Unknown, int], before: dict[int, Unknown | None], matched: dict[Unknown, int]
+) -> None:
+    u: Unknown | None = end
+    while u is not None:
+        i = came[u]
+        matched[u] = i
+        u = before[i]
+
+
+def _free(of: dict[Unknown, list[int]], matched: dict[Unknown, int]) -> set[Unknown]:
+    """The coordinates that an unmatched one reaches: its equations may solve for it instead of theirs."""
+    solves = {i: u for u, i in matched.items()}
+    stack = [u for u in of if u not in matched]
+    free = set(stack)
+    while stack:
+        for i in of[stack.pop()]:
+            u = solves.get(i)
+            if u is not None and u not in free:
+                free.add(u)
+                stack.append(u)
+    return free
+
+
+def leans(system: System, point: str) -> list[str]:
+    """The points not in place that the equations of a point's coordinates bind it to."""
+    rows = [system.matched[u] for u in ((point, 0), (point, 1)) if u in system.matched]
+    return list(dict.fromkeys(p for i in rows for p, _ in system.reach[i] if p != point))
+
+
+def leading(system: System, wanted: list[str]) -> list[str]:
+    """The wanted points and all that they lean on."""
+    found = dict.fromkeys(wanted)
+    stack = list(found)
+    while stack:
+        for p in leans(system, stack.pop()):
+            if p not in found:
+                found[p] = None
+                stack.append(p)
+    return list(found)
+
+
+def groups_of(system: System, goal: list[str]) -> list[tuple[str, ...]]:
+    """The strongly connected parts that lean on no other part."""
+    ahead = {p: _reached(p, lambda q: leans(system, q)) for p in goal}
+    parts = {p: tuple(q for q in goal if q in ahead[p] and p in ahead[q]) for p in goal}
+    return [part for p, part in parts.items() if part[0] == p and set(part) == ahead[p]]
+
+
+def _reached(point: str, following: Callable[[str], list[str]]) -> set[str]:
+    """A point and all that can be reached from it."""
+    found, stack = {point}, [point]
+    while stack:
+        for p in following(stack.pop()):
+            if p not in found:
+                found.add(p)
+                stack.append(p)
+    return found
+
+
+# --- what is free in a figure with too few data, and what would fix it, in words ---
+
+
+COUNT = {1: "one more length, angle or coordinate", 2: "two more (lengths, angles or coordinates)"}
+
+
+def underdetermined(case: Case, system: System, placed: Iterable[str], goal: list[str]) -> SceneError:
+    """The refusal that lists every free part of the figure that the goal leans on."""
+    known = set(placed)
+    parts = [part for part in _parts(system) if any(p in part for p in goal)]
+    return SceneError(Status.UNDERDETERMINED, "; ".join(_said(system, part, known) for part in parts))
+
+
+def _parts(system: System) -> list[list[str]]:
+    """The free points, together where an equation binds them."""
+    free = list(dict.fromkeys(p for p, part in system.of if (p, part) in system.free))
+    parts: list[list[str]] = []
+    seen: set[str] = set()
+    for root in free:
+        if root in seen:
+            continue
+        part = [root]
+        seen.add(root)
+        for point in part:
+            for u in ((point, 0), (point, 1)):
+                for i in system.of[u]:
+                    for p, axis in system.reach[i]:
+                        if p not in seen and (p, axis) in system.free:
+                            seen.add(p)
+                            part.append(p)
+        parts.append(sorted(part, key=free.index))
+    return parts
+
+
+def _said(system: System, part: list[str], known: set[str]) -> str:
+    """What one free part lacks."""
+    names = listed([plain(p) for p in part])
+    unknowns = [(p, axis) for p in part for axis in (0, 1)]
+    missing = sum(u not in system.matched for u in unknowns)
+    rows = {i for u in unknowns for i in system.of[u]}
+    if not rows:
+        return f"nothing says where point {names} is: give its coordinates, or two lengths or angles"
+    data = [system.equations[i].datum for i in rows]
+    anchors = {p for datum in data for p in datum.points if p in known}
+    absolute = any(datum.kind in (X, Y) for datum in data)
+    turned = any(datum.kind in (RAY, GUIDE, X, Y) for datum in data)
+    if not anchors and not absolute:
+        direction = "" if turned else " and one direction (the angle of a pair)"
+        return (
+            f"nothing fixes where the figure of {names} lies: "
+            f"give coordinates of one of its points{direction}"
+        )
+    hint = ""
+    if len(anchors) == 1 and not turned and missing == 1:
+        about = plain(next(iter(anchors)))
+        hint = f"; nothing fixes how it is turned about {about}: give the direction of a pair"
+    subject = "point" if len(part) == 1 else "points"
+    verb = "is" if missing == 1 else "are"
+    return f"{subject} {names}: {COUNT.get(missing, f'{missing} more data')} {verb} needed{hint}"
+
+
+# --- points that have no order of construction: the smallest group that its data determine together ---
+
+
+class Group(NamedTuple):
+    """Points placed by Newton's method. ``start`` is the solution that was settled on.
+
+    ``place`` takes ``workspace.rounds`` steps from there with the elimination's order held: at the
+    solution, one step carries the derivatives by all data.
+    """
+
+    targets: tuple[str, ...]
+    equations: tuple[Equation, ...]
+    start: tuple[tuple[float, float], ...] = ()
+    order: tuple[Pivot, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """What the step does."""
+        return told(self)
+
+    def place(self, workspace: Workspace) -> None:
+        """Put the points, and improve them."""
+        for target, at in zip(self.targets, self.start, strict=True):
+            workspace.points[target] = workspace.starts.get(target, at)
+        unknown = set(self.unknowns())
+        for _ in range(workspace.rounds):
+            self.improve(workspace, unknown)
+
+    def improve(self, workspace: Workspace, unknown: set[Unknown]) -> None:
+        """One Newton step."""
+        rows = [equation.row(workspace) for equation in self.equations]
+        inner = [{u: v for u, v in row.by.items() if u in unknown} for row in rows]
+        move = solved(inner, [row.value for row in rows], list(self.order))
+        for target in self.targets:
+            x, y = workspace.points[target]
+            workspace.points[target] = (x - _moved(move, target, 0), y - _moved(move, target, 1))
+
+    def unknowns(self) -> list[Unknown]:
+        """The coordinates that it solves for."""
+        return [(target, part) for target in self.targets for part in (0, 1)]
+
+    def data(self) -> tuple[Datum, ...]:
+        """The data of its equations."""
+        return tuple(dict.fromkeys(equation.datum for equation in self.equations))
+
+    def needs(self) -> tuple[Key, ...]:
+        """The points that its equations bind to it."""
+        own = set(self.targets)
+        return tuple(dict.fromkeys(p for e in self.equations for p in e.datum.points if p not in own))
+
+
+def _moved(move: dict[Unknown, Scalar], target: str, part: int) -> Scalar:
+    return move.get((target, part), 0.0)
+
+
+def _counting(drawing: Drawing) -> list[Datum]:
+    """The data without those that only repeat the shape of a loose cluster: they hold nothing more."""
+    used = {datum for step in drawing.steps for datum in step.data()}
+    shapes = [cluster.placed.keys() for cluster in drawing.clusters[1:]]
+    return [
+        datum
+        for datum in drawing.facts.data
+        if datum in used
+        or datum.kind not in (LENGTH, CORNER, LINE, MEAN)
+        or not any(shape >= set(datum.points) for shape in shapes)
+    ]
+
+
+def next_group(drawing: Drawing, case: Case, wanted: Iterable[str]) -> tuple[Group, tuple[str, ...]]:
+    """The smallest group that leads to the wanted points.
+
+    Raises
+    ------
+    SceneError
+        ``underdetermined`` with what is free.
+    """
+    placed = drawing.ground.placed.keys()
+    goal = [p for p in wanted if p not in placed]
+    system = system_of(_counting(drawing), placed, goal)
+    goal = leading(system, goal)
+    if any((p, part) in system.free for p in goal for part in (0, 1)):
+        raise underdetermined(case, system, placed, goal)
+    points = min(groups_of(system, goal), key=len)
+    own = {(p, part) for p in points for part in (0, 1)}
+    equations = tuple(system.equations[i] for i in sorted(system.matched[u] for u in own))
+    return Group(points, equations), points
