@@ -21,6 +21,7 @@ from grade_shell import CASES, PRESS, Class
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.keys import Key
+from test_grade_verdict import ZERO
 
 ANSWERS = (
     "student_id,case,answer\n"
@@ -362,4 +363,103 @@ def test_an_unknown_kind_is_refused(a_class: Class) -> None:
     ran = a_class.grade(ANSWERS, "--write", f"schoology={a_class.path('x')}")
     assert ran.code == 2
     assert "there is no such kind" in ran.err
-    assert a_class.run("export", "qti", str(a_class.path("cases")), "-o", "x").code == 2
+    assert a_class.run("export", "scorm", str(a_class.path("cases")), "-o", "x").code == 2
+
+
+QTI = "{http://www.imsglobal.org/xsd/ims_qtiasiv1p2}"
+PACKAGE = "{http://www.imsglobal.org/xsd/imsccv1p1/imscp_v1p1}"
+
+
+def test_a_canvas_quiz_as_qti(a_class: Class) -> None:
+    """Every file that the manifest names is in the package; each question has its band, figure and unit."""
+    a_class.case("press", PRESS)
+    a_class.case("zero", ZERO)
+    a_class.course("course: Mechanics <II>\ncases: {lever: {points: 3}}\n")
+    out = a_class.path("quiz.zip")
+    ran = a_class.run("export", "qti", str(a_class.path("cases")), "-o", str(out), "--count", "3")
+    assert ran.code == 1
+    assert "dead.yaml: " in ran.err
+    with zipfile.ZipFile(out) as archive:
+        names = set(archive.namelist())
+        manifest = ElementTree.fromstring(archive.read("imsmanifest.xml"))
+        named = {file.get("href") for file in manifest.iter(f"{PACKAGE}file")}
+        assert named | {"imsmanifest.xml"} == names
+        (quiz,) = [r for r in manifest.iter(f"{PACKAGE}resource") if r.get("type") == "imsqti_xmlv1p2"]
+        root = ElementTree.fromstring(archive.read(quiz[0].get("href") or ""))
+        pictures = [archive.read(name).decode() for name in names if name.endswith(".svg")]
+    assert root[0].get("title") == "Mechanics <II>"
+    items = {item.get("title"): item for item in root.iter(f"{QTI}item")}
+    assert set(items) == {"lever", "pusher", "press v1", "press v2", "press v3", "zero"}
+    lever = items["lever"]
+    told = {field[0].text: field[1].text for field in lever.iter(f"{QTI}qtimetadatafield")}
+    assert (told["question_type"], told["points_possible"]) == ("numerical_question", "3")
+    assert lever.find(f".//{QTI}render_fib").get("fibtype") == "Decimal"  # type: ignore[union-attr]
+    assert band(lever) == pytest.approx([200.0, 198.0, 202.0])
+    assert band(items["zero"]) == pytest.approx([0.0, -0.2, 0.2])
+    text = lever.findtext(f".//{QTI}mattext") or ""
+    assert "$IMS-CC-FILEBASE$/figures/" in text
+    assert "Write the number alone, in N*m." in text
+    assert lever.findtext(f".//{QTI}setvar") == "100"
+    told_after = {f.get("ident") for f in lever.iter(f"{QTI}itemfeedback")}
+    assert told_after == {"correct_fb", "general_incorrect_fb"}
+    group = next(s for s in root.iter(f"{QTI}section") if s.get("title") == "press")
+    assert group.findtext(f".//{QTI}selection_number") == "1"
+    assert len(group.findall(f"{QTI}item")) == 3
+    assert len(pictures) == 6
+    assert all("= ?" in picture for picture in pictures)
+
+
+def band(item: ElementTree.Element) -> list[float]:
+    """The right answer of an item, and the ends of what is accepted."""
+    return [float(item.findtext(f".//{QTI}{tag}") or "nan") for tag in ("varequal", "vargte", "varlte")]
+
+
+def test_questions_whose_answer_is_zero_are_exported(a_class: Class) -> None:
+    for name in ("lever", "pusher", "dead"):
+        a_class.path(f"cases/{name}.yaml").unlink()
+    a_class.case("zero", ZERO)
+    for kind in ("moodle-xml", "gift", "qti", "prairielearn"):
+        ran = a_class.run("export", kind, str(a_class.path("cases")), "-o", str(a_class.path(f"out-{kind}")))
+        assert (ran.code, kind) == (0, kind)
+
+
+def test_exports_carry_no_number_of_one_variant_in_titles(a_class: Class) -> None:
+    a_class.case("press", PRESS.replace("title: Press", "title: Press with P = $P"))
+    folder = a_class.path("elements")
+    a_class.run("export", "prairielearn", str(a_class.path("cases/press.yaml")), "-o", str(folder))
+    title = json.loads((folder / "press" / "info.json").read_text())["title"]
+    assert not re.search(r"\d", title)
+    assert not re.search(r"\d", (folder / "press" / "question.html").read_text())
+    a_class.case("press", PRESS)
+    questions = moodle(a_class, str(a_class.path("cases/press.yaml")), "--no-figures", "--count", "2")[1:]
+    assert all("<p>Press</p>" in (q.findtext("questiontext/text") or "") for q in questions)
+
+
+def test_right_answers_have_sensible_digits(a_class: Class) -> None:
+    case, out = str(CASES / "ch13" / "13_08_four_bar.yaml"), a_class.path("e")
+    a_class.run("export", "prairielearn", case, "-o", str(out))
+    server = out / "13_08_four_bar" / "server.py"
+    scope: dict[str, Any] = {"__file__": str(server)}
+    exec(server.read_text(), scope)
+    data: dict[str, Any] = {"variant_seed": "1", "params": {}, "correct_answers": {}}
+    scope["generate"](data)
+    assert data["correct_answers"]["answer"] == "29.6722 lbf*in"
+    pins = r"serverFilesCourse icsolve==\S+ numpy==\S+ shapely==\S+ click==\S+ pyyaml==\S+"
+    assert re.search(pins, server.read_text())
+    data |= {"submitted_answers": {"answer": "1,234"}, "format_errors": {}}
+    scope["parse"](data)
+    assert "two ways" in data["format_errors"]["answer"]
+
+
+def test_an_autograder_carries_the_record_of_the_numbers(a_class: Class) -> None:
+    a_class.case("press", PRESS)
+    roster = a_class.file("roster.csv", "student_id\n1\n2\n")
+    cases, sheets = str(a_class.path("cases")), str(a_class.path("sheets"))
+    a_class.run("variants", cases, "--roster", roster, "-o", sheets, "--no-figures")
+    out = str(a_class.path("auto.zip"))
+    a_class.run("export", "gradescope-zip", cases, "-o", out, "--roster", roster, "--variants", sheets)
+    with zipfile.ZipFile(out) as archive:
+        assert {"variants/press/values.csv", "variants/press/key.csv"} <= set(archive.namelist())
+        assert "--variants variants" in archive.read("run_autograder").decode()
+        setup = archive.read("setup.sh").decode()
+    assert re.search(r'install "numpy==\S+" "shapely==\S+" "click==\S+" "pyyaml==\S+"', setup)

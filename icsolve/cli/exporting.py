@@ -11,7 +11,7 @@ from icsolve.errors import CaseError
 
 
 @click.command("export")
-@click.argument("kind", type=click.Choice(["moodle-xml", "gift", "prairielearn", "gradescope-zip"]))
+@click.argument("kind", type=click.Choice(["moodle-xml", "gift", "qti", "prairielearn", "gradescope-zip"]))
 @click.argument("cases", metavar="CASES")
 @click.option("-o", "--output", metavar="FILE", required=True, help="The file; for prairielearn a folder.")
 @click.option(
@@ -19,6 +19,9 @@ from icsolve.errors import CaseError
 )
 @click.option("--roster", metavar="FILE", help="For gradescope-zip: by which students get their variants.")
 @click.option("--seed", metavar="TEXT", help="Seed of the variants.")
+@click.option(
+    "--variants", metavar="FILE", multiple=True, help="For gradescope-zip: values.csv, the record."
+)
 @click.option(
     "--count", type=click.IntRange(1, 1000), default=10, show_default=True, help="Variants of a case."
 )
@@ -29,6 +32,7 @@ def export_command(kind: str, cases: str, output: str, **options: Any) -> int:
 
     \b
     icsolve export moodle-xml cases/ -o quiz.xml
+    icsolve export qti cases/ -o quiz.zip
     icsolve export gradescope-zip cases/ -o autograder.zip
     """
     from icsolve.cli.grading import course_file, course_of
@@ -45,7 +49,8 @@ def export_command(kind: str, cases: str, output: str, **options: Any) -> int:
             check_free(output, options["force"])
         own = options["course"] or course_file(cases)
         drawn = (options["force"], options["figures"], options["count"])
-        made = export(kind, Order(case_store, output, *drawn, own, options["roster"] or ""), problems.append)
+        order = Order(case_store, output, *drawn, own, options["roster"] or "")
+        made = export(kind, order._replace(records=tuple(options["variants"])), problems.append)
     except CaseError as error:
         complain(str(error))
         return UNREADABLE

@@ -10,8 +10,7 @@ from icsolve.grade.course import Course
 from icsolve.grade.judge import feedback, judge_answer
 from icsolve.grade.keys import AnyKey, Key, RangeKey
 from icsolve.grade.platforms.given import given
-from icsolve.grade.platforms.questions import asked, figure
-from icsolve.grade.results import number
+from icsolve.grade.platforms.questions import asked, figure, sensible
 from icsolve.grade.written import Reader
 from icsolve.grade.written.answer import Combined
 
@@ -45,8 +44,8 @@ class Task:
         if isinstance(key, RangeKey):
             return key.accepted
         if not isinstance(key, Key):
-            return f"({number(key.place[0])}, {number(key.place[1])}) {key.unit_name}"
-        return f"{number(key.value)} {key.unit_name}".strip()
+            return f"({key.place[0]:.6g}, {key.place[1]:.6g}) {key.unit_name}"
+        return f"{sensible(key)} {key.unit_name}".strip()
 
     def grade(self, what: str, answer: str) -> dict[str, Any]:
         """``verdict``, ``score`` from 0 to 1, ``code`` and ``feedback`` of an answer."""

@@ -15,12 +15,21 @@ from icsolve.grade.case_store import CaseStore, Solved, unknowns
 from icsolve.grade.course import Course
 from icsolve.grade.keys import Key
 from icsolve.grade.platforms.given import given
-from icsolve.grade.platforms.gradescope import Source, autograder_zip
+from icsolve.grade.platforms.gradescope import Source, autograder_zip, pinned
+from icsolve.grade.platforms.qti import SMALLEST, qti_zip
 from icsolve.grade.platforms.questions import Question, asked, figure, gift, moodle_xml
+from icsolve.grade.roster import read_roster
 from icsolve.grade.tolerance import NoKeyError
+from icsolve.grade.variants.record import KEYS, VALUES, read_records
 
 _SERVER = '''\
-"""A question of icsolve: values by student, and marks with the cause of a mistake."""
+"""A question of icsolve: values by student, and marks with the cause of a mistake.
+
+It needs icsolve where PrairieLearn finds the Python modules of a course, in serverFilesCourse; in the
+course's folder:
+
+    python -m pip install --target serverFilesCourse {pins}
+"""
 
 from pathlib import Path
 
@@ -52,7 +61,7 @@ def file(data):
 
 def parse(data):
     marks = task(data).grade(QUESTION, data["submitted_answers"].get("answer", ""))
-    if marks["verdict"] in ("invalid", "missing"):
+    if marks["verdict"] in ("invalid", "missing", "review"):
         data["format_errors"]["answer"] = marks["feedback"]
 
 
@@ -102,7 +111,7 @@ def element(question: Question, made: Made) -> dict[str, str]:
     files = {
         "info.json": json.dumps(about, indent=2, ensure_ascii=False) + "\n",
         "question.html": _HTML.format(title=escape(question.title or question.name), figure=figure),
-        "server.py": _SERVER.format(file=f"{made.name}.yaml", question=made.what),
+        "server.py": _SERVER.format(pins=" ".join(pinned()), file=f"{made.name}.yaml", question=made.what),
         f"{made.name}.yaml": made.case,
     }
     if made.course:
@@ -126,6 +135,10 @@ class Order(NamedTuple):
     variants: int
     course: str = ""
     roster: str = ""
+    smallest: float = 0.0
+    """the least answer that the platform can hold"""
+    records: tuple[str, ...] = ()
+    """files of the numbers that were handed out"""
 
 
 def questions(order: Order, complain: Complain) -> Iterator[Question]:
@@ -135,28 +148,31 @@ def questions(order: Order, complain: Complain) -> Iterator[Question]:
             varied = order.case_store.variation(name)
             if varied is None:
                 solved = order.case_store.solved(name)
-                yield from _of_case(solved, solved.case, name, order.figures)
+                yield from _of_case(solved, solved.case, name, order, solved.case.title)
                 continue
             varied.foresee(str(n) for n in range(1, order.variants + 1))
             for n in range(1, order.variants + 1):
                 case = varied.read(varied.draw(str(n)).values)
-                yield from _of_case(varied.solved(str(n)), case, f"{name} v{n}", order.figures)
+                yield from _of_case(varied.solved(str(n)), case, f"{name} v{n}", order, varied.title)
         except NoKeyError as error:
             complain(f"{order.case_store.paths.get(name, name)}: {error}")
 
 
-def _of_case(solved: Solved, case: Case, name: str, figures: bool) -> Iterator[Question]:
+def _of_case(solved: Solved, case: Case, name: str, order: Order, title: str) -> Iterator[Question]:
     names = unknowns(case)
     if not names:
         raise NoKeyError("no unknown load, so no question")
-    picture = figure(case) if figures else ""
+    picture = figure(case) if order.figures else ""
     for what in names:
         own = case.name if len(names) == 1 else f"{case.name}:{what}"
         key = solved.key(own)
-        assert isinstance(key, Key)
+        if not isinstance(key, Key):
+            raise NoKeyError(f"{what} holds over a range, for which no such question can ask")
+        if order.smallest and 0.0 < abs(key.value) < order.smallest:
+            raise NoKeyError(f"{what} is {key.value:.3g} {key.unit_name}, and Canvas keeps four decimals")
         text = asked(key, solved.target(own))
         shown = name if len(names) == 1 else f"{name}:{what}"
-        yield Question(shown, tuple(given(case)), text, key, picture, case.title)
+        yield Question(shown, tuple(given(case)), text, key, picture, title)
 
 
 def export(kind: str, order: Order, complain: Complain) -> int:
@@ -164,13 +180,22 @@ def export(kind: str, order: Order, complain: Complain) -> int:
 
     Raises KeptError or OSError.
     """
+    if order.records:
+        roster = read_roster(order.roster, lambda line, why: None) if order.roster else None
+        order.case_store.keep_to(read_records(order.records, order.case_store, roster))
     if kind == "gradescope-zip":
         return _zip(order)
     if kind == "prairielearn":
         return _elements(order._replace(variants=1), complain)
-    found = list(questions(order._replace(figures=order.figures and kind == "moodle-xml"), complain))
-    make = moodle_xml if kind == "moodle-xml" else gift
-    write_whole(order.path, make(found, order.case_store.course.title or "icsolve"), order.force)
+    smallest = SMALLEST if kind == "qti" else 0.0
+    order = order._replace(figures=order.figures and kind != "gift", smallest=smallest)
+    found = list(questions(order, complain))
+    title = order.case_store.course.title or "icsolve"
+    if kind == "qti":
+        write_whole(order.path, qti_zip(found, title), order.force)
+    else:
+        make = moodle_xml if kind == "moodle-xml" else gift
+        write_whole(order.path, make(found, title), order.force)
     return len(found)
 
 
@@ -194,7 +219,13 @@ def _zip(order: Order) -> int:
     cases = {os.path.basename(at): case_store.text(name) for name, at in case_store.paths.items()}
     course, roster = (_text(path) if path else "" for path in (order.course, order.roster))
     seed = case_store.course.seed if case_store.course.seed != Course().seed else ""
-    write_whole(order.path, autograder_zip(Source(cases, course, roster, seed)), order.force)
+    records = {}
+    for name, record in case_store.records.items():
+        for path in (record.path, os.path.join(os.path.dirname(record.path), KEYS)):
+            if os.path.isfile(path):
+                records[f"{name}/{os.path.basename(path) if path != record.path else VALUES}"] = _text(path)
+    source = Source(cases, course, roster, seed, records)
+    write_whole(order.path, autograder_zip(source), order.force)
     return len(cases)
 
 
@@ -203,4 +234,4 @@ def _text(path: str) -> str:
         return file.read()
 
 
-KINDS = ("moodle-xml", "gift", "prairielearn", "gradescope-zip")
+KINDS = ("moodle-xml", "gift", "qti", "prairielearn", "gradescope-zip")

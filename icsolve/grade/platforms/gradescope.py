@@ -14,13 +14,13 @@ _SETUP = """\
 # Gradescope runs this once, when the image is built. icsolve itself is in this zip.
 set -e
 export DEBIAN_FRONTEND=noninteractive
-base=${AUTOGRADER:-/autograder}
+base=${{AUTOGRADER:-/autograder}}
 apt-get update -y
 for version in 3.13 3.12 3.11; do
   if apt-get install -y "python$version" "python$version-venv"; then break; fi
 done
 "python$version" -m venv "$base/venv"
-"$base/venv/bin/python" -m pip install "numpy>=1.26" "shapely>=2.0" "click>=8.1.7" "pyyaml>=6.0.1"
+"$base/venv/bin/python" -m pip install {pins}
 """
 _RUN = """\
 #!/usr/bin/env bash
@@ -36,6 +36,23 @@ python="$base/venv/bin/python"
   '{{"score": 0, "output": "Nothing could be graded: hand in answers.txt or answers.csv."}}' \\
   > "$base/results/results.json"
 """
+
+
+def pinned() -> list[str]:
+    """icsolve and what it runs on, in the versions with which this export was made."""
+    from importlib.metadata import PackageNotFoundError, version
+
+    import icsolve
+
+    found = [f"icsolve=={icsolve.__version__}"]
+    for name in ("numpy", "shapely", "click", "pyyaml"):
+        try:
+            found.append(f"{name}=={version(name)}")
+        except PackageNotFoundError:
+            found.append(name)
+    return found
+
+
 class Source(NamedTuple):
     """What goes into an autograder: the texts of cases by file name, of the course and of the roster ('' for
     none), and the seed of the variants."""
@@ -44,6 +61,8 @@ class Source(NamedTuple):
     course: str = ""
     roster: str = ""
     seed: str = ""
+    records: Mapping[str, str] = {}
+    """the numbers that were handed out, by file"""
 
 
 def autograder_zip(source: Source) -> bytes:
@@ -53,15 +72,19 @@ def autograder_zip(source: Source) -> bytes:
     """
     options = f" \\\n  --seed {shlex.quote(source.seed)}" if source.seed else ""
     options += " \\\n  --roster roster.csv" if source.roster else ""
+    options += " \\\n  --variants variants" if source.records else ""
     buffer = io.BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
-        _add(archive, "setup.sh", _SETUP.encode(), executable=True)
+        pins = " ".join(f'"{pin}"' for pin in pinned()[1:])
+        _add(archive, "setup.sh", _SETUP.format(pins=pins).encode(), executable=True)
         _add(archive, "run_autograder", _RUN.format(options=options).encode(), executable=True)
         for name, text in sorted(source.cases.items()):
             _add(archive, f"cases/{name}", text.encode("utf-8"))
         for name, text in (("cases/course.yaml", source.course), ("roster.csv", source.roster)):
             if text:
                 _add(archive, name, text.encode("utf-8"))
+        for name, text in sorted(source.records.items()):
+            _add(archive, f"variants/{name}", text.encode("utf-8"))
         for name, data in _package():
             _add(archive, name, data)
     return buffer.getvalue()

@@ -92,7 +92,7 @@ def _xml_question(question: Question) -> str:
         '<generalfeedback format="html"><text/></generalfeedback>',
         f"<defaultgrade>{key.policy.points:.10g}</defaultgrade><penalty>0.3333333</penalty>",
         "<hidden>0</hidden>",
-        _answer(100.0, key.value, key.half, f"Right: {key.accepted} is accepted."),
+        _answer(100.0, float(sensible(key)), _half(key), f"Right: {key.accepted} is accepted."),
         *(_answer(share, w.value, reach, message(w.code, w.where)) for w, share, reach in wrong_rows(key)),
         '<answer fraction="0" format="moodle_auto_format"><text>*</text>'
         f'<feedback format="html"><text>{_text(otherwise)}</text></feedback>'
@@ -103,14 +103,19 @@ def _xml_question(question: Question) -> str:
     return "\n".join(parts)
 
 
-def _statement(question: Question) -> str:
-    """The text with its table of values, and the picture in the file itself."""
+def table_of(question: Question, image: str) -> str:
+    """The statement in HTML: title, figure, what is given, what is asked."""
     rows = "".join(
         f"<tr><td>{_text(name)}</td><td>{_text(value)}</td></tr>" for name, value in question.given
     )
     title = f"<p>{_text(question.title)}</p>" if question.title else ""
+    return f"{title}{image}<table>{rows}</table><p>{_text(question.asked)}</p>"
+
+
+def _statement(question: Question) -> str:
+    """The text with its table of values, and the picture in the file itself."""
     image = '<p><img src="@@PLUGINFILE@@/figure.svg" alt="figure"/></p>' if question.picture else ""
-    html = f"{title}{image}<table>{rows}</table><p>{_text(question.asked)}</p>".replace("]]>", "]]&gt;")
+    html = table_of(question, image).replace("]]>", "]]&gt;")
     file = ""
     if question.picture:
         data = base64.b64encode(question.picture.encode("utf-8")).decode("ascii")
@@ -120,9 +125,9 @@ def _statement(question: Question) -> str:
 
 def _answer(fraction: float, value: float, tolerance: float, feedback: str) -> str:
     return (
-        f'<answer fraction="{fraction:.7g}" format="moodle_auto_format"><text>{_number(value)}</text>'
+        f'<answer fraction="{fraction:.7g}" format="moodle_auto_format"><text>{number(value)}</text>'
         f'<feedback format="html"><text>{_text(feedback)}</text></feedback>'
-        f"<tolerance>{_number(tolerance)}</tolerance></answer>"
+        f"<tolerance>{number(tolerance)}</tolerance></answer>"
     )
 
 
@@ -158,7 +163,7 @@ def _units(key: Key) -> str:
             "<showunits>3</showunits><unitsleft>0</unitsleft>"
         )
     rows = "".join(
-        f"<unit><multiplier>{_number(multiplier)}</multiplier><unit_name>{_text(name)}</unit_name></unit>"
+        f"<unit><multiplier>{number(multiplier)}</multiplier><unit_name>{_text(name)}</unit_name></unit>"
         for name, multiplier in unit_rows(key)
     )
     graded = "1" if key.policy.unit == "required" else "0"
@@ -187,10 +192,10 @@ def _gift_question(question: Question) -> str:
     key = question.key
     values = "; ".join(f"{name} = {value}" for name, value in question.given)
     text = _gift(f"{_sentence(question.title)}Given: {values}. {question.asked}")
-    rows = [f"=%100%{_number(key.value)}:{_number(key.half)}#{_gift(f'Right: {key.accepted} is accepted.')}"]
+    rows = [f"=%100%{sensible(key)}:{number(key.half)}#{_gift(f'Right: {key.accepted} is accepted.')}"]
     for wrong, share, reach in wrong_rows(key):
         said = _gift(message(wrong.code, wrong.where))
-        rows.append(f"=%{share:.7g}%{_number(wrong.value)}:{_number(reach)}#{said}")
+        rows.append(f"=%{share:.7g}%{number(wrong.value)}:{number(reach)}#{said}")
     body = "\n".join(rows)
     return (
         f"::{_gift(question.name)}::{text} {{#\n{body}\n####{_gift(f'Accepted is an answer {key.rule}.')}\n}}"
@@ -208,8 +213,21 @@ def _gift(text: str) -> str:
     return "".join(f"\\{c}" if c in "\\~=#{}:" else c for c in plain)
 
 
-def _number(value: float) -> str:
+def number(value: float) -> str:
+    """A number with twelve digits at most."""
     return f"{value:.12g}"
+
+
+def _half(key: Key) -> float:
+    """Half the accepted band, as large a part of the answer as it is shown as of the answer itself."""
+    return key.half * abs(float(sensible(key)) / key.value) if key.value else key.half
+
+
+def sensible(key: Key) -> str:
+    """The right answer with six digits, and more where its tolerance asks for them."""
+    ratio = key.half / abs(key.value) if key.value else 1.0
+    digits = 6 if ratio >= 1e-3 else min(17, 4 - math.floor(math.log10(ratio))) if ratio > 0.0 else 17
+    return f"{key.value:.{digits}g}"
 
 
 def _text(text: str) -> str:

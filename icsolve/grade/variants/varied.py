@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from collections import OrderedDict
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
@@ -272,6 +273,14 @@ class Varied:
                 "no numbers were handed out to this student",
             )
         return Draw(handed.label or label(self.name, handed.values), handed.values)
+
+    @cached_property
+    def title(self) -> str:
+        """The case's title without any student's numbers."""
+        root = parse(self.text, Problems(self.path))
+        found = root.items.get("title") if type(root) is Tree else None
+        text = found.text if type(found) is Scalar else ""
+        return " ".join(re.sub(r"\(?[^\s(]*\$\w+[^\s)]*\)?", "", text).split())
 
     def is_drawn(self, student: str, values: Texts) -> bool:
         """Whether values are a draw of this student by the present seed, whatever the filter says of it."""
