@@ -82,7 +82,7 @@ def test_the_answers_of_the_section_have_one_reading() -> None:
 
 
 def test_every_verdict_code_and_kind_stands_in_the_section() -> None:
-    words = set(re.findall(r"`([a-z-]+)`", SECTION)) | set(re.findall(r"[a-z-]+", "".join(
+    words = set(re.findall(r"`([a-z-]+)`", SECTION)) | set(re.findall(r"[a-z-]+", " ".join(
         re.findall(r"`icsolve export ([^`]+)`", SECTION)
     )))  # fmt: skip
     assert {*VERDICTS, *CODES, *OUTPUTS, *QUESTIONS} - words == set()
