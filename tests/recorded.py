@@ -8,11 +8,11 @@ import numpy as np
 from mpmath import mp, mpf
 
 import icsolve
+from icsolve.assembly.driven.groups import NewtonGroup
 from icsolve.case import Case
 from icsolve.numbers.record import Op, Traced
 from icsolve.sweep.numbers import numbers_of
 from icsolve.sweep.program import Sheet
-from icsolve.sweep.together import Together
 
 mp.dps = 60
 RADIAN = mp.pi / 180
@@ -82,7 +82,7 @@ class InSixtyDigits:
                 return mp.nint(a)
         raise AssertionError(node)
 
-    def _solve(self, group: Together) -> None:
+    def _solve(self, group: NewtonGroup) -> None:
         """Newton's method to the last digit; the unknowns of a body are x, y and degrees."""
         guess = [self.values[k] for k in group.solved]
         for _ in range(8):

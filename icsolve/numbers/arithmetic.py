@@ -13,6 +13,8 @@ from icsolve.numbers.given import Number
 
 Scalar = Any
 """A float, an array of them, or any number type with + - * /."""
+RADIAN = math.pi / 180.0
+"""A degree, in radians."""
 
 
 def magnitude(value: Scalar) -> float:

@@ -9,6 +9,7 @@ their own errors; a group that Newton's method solved brings those of its equati
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,7 +17,9 @@ from icsolve.numbers.noise import still_noise
 from icsolve.numbers.passing import Pass, Passed
 from icsolve.numbers.record import Op, Record, Traced, operands
 from icsolve.numbers.replay import Array, Code
-from icsolve.sweep.together import Together
+
+if TYPE_CHECKING:
+    from icsolve.assembly.driven.groups import NewtonGroup
 
 SLICE = 1024
 """Rows of one pass; fewer where there are very many values."""
@@ -34,7 +37,7 @@ class Backward:
         self,
         record: Record,
         targets: Sequence[int],
-        groups: Sequence[Together],
+        groups: Sequence[NewtonGroup],
         exact: Iterable[int],
         leaves: Iterable[int] = (),
     ) -> None:

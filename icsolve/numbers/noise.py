@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.arithmetic import RADIAN, Scalar
 from icsolve.numbers.record import Op, Record, Traced
 from icsolve.numbers.tape import TURN_NOISE, UNIT
-from icsolve.sweep.constraints import RADIAN
 
 ANGLE_NOISE = 720.0 * UNIT
 """Error of an angle that an arc tangent gives, degrees."""

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from typing import Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 
+from icsolve.numbers.arithmetic import RADIAN
 from icsolve.numbers.noise import ANGLE_NOISE
 from icsolve.numbers.record import Op, Record, Traced, operands
 from icsolve.numbers.replay import Array, Code, Step
 from icsolve.numbers.tape import TURN_NOISE, UNIT
-from icsolve.sweep.constraints import RADIAN
-from icsolve.sweep.together import Together
+
+if TYPE_CHECKING:
+    from icsolve.assembly.driven.groups import NewtonGroup
 
 FACTORED = (Op.MUL, Op.DIV, Op.SQRT, Op.NEG)
 """Operations whose operands' relative errors are those of the result."""
@@ -28,8 +30,8 @@ class Source(Protocol):
     code: Code
     exact: frozenset[int]
     leaves: frozenset[int]
-    groups: dict[int, Together]
-    member: dict[int, Together]
+    groups: dict[int, NewtonGroup]
+    member: dict[int, NewtonGroup]
 
     def reached(self, targets: Iterable[int]) -> set[int]:
         """The nodes that lead to the targets."""
@@ -223,7 +225,7 @@ class Pass:
         part = self._over(weight, size)
         return [(a, self._times(part, y, -1.0)), (b, self._times(part, x))]
 
-    def _group(self, group: Together) -> None:
+    def _group(self, group: NewtonGroup) -> None:
         """Through a solved group: the weights of its equations (implicit differentiation)."""
         mine = [self.weights.get(k) for k in group.solved]
         if not any(mine):

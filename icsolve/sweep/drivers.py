@@ -6,22 +6,269 @@ pose it, as many are held as the mechanism has freedoms left.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
-from icsolve.assembly.data import data_of, number_of
-from icsolve.assembly.workspace import Workspace
-from icsolve.case import Case
+from icsolve.assembly import case_point, solve_figure
+from icsolve.assembly.data import CORNER, LENGTH, RAY, Datum, X, Y, data_of, number_of
+from icsolve.assembly.driven.constraints import (
+    BodyLine,
+    ConditionRows,
+    Constraint,
+    Drawn,
+    Immovable,
+    OnLine,
+    Pointed,
+    SpotDistance,
+    Turning,
+)
+from icsolve.assembly.driven.groups import Matrix, bases_of, jacobian, matrix, rank
+from icsolve.assembly.driven.mechanism import Mechanism
+from icsolve.assembly.driven.poses import Rotation, Spot, Still, minus
+from icsolve.assembly.workspace import Workspace, normalised
+from icsolve.case import Belt, Case, Coordinates, Gears, Number, Roll, Slide, Slot
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import FLOATS
-from icsolve.sweep.constraints import Constraint, Immovable, Rows, Turning
-from icsolve.sweep.mechanism import Mechanism
-from icsolve.sweep.poses import Still
-from icsolve.sweep.posing import KINDS, Pose, condition, pose_of, posing, value_of
-from icsolve.sweep.smallest import Matrix, bases_of, jacobian, matrix, rank
+from icsolve.numbers.arithmetic import FLOATS, Scalar
+from icsolve.screws.plane import Point
+from icsolve.sweep.numbers import with_numbers
 from icsolve.wording.sentences import listed, plural
+
+SAME = 1e-8
+"""Change of a distance that is none, where a coordinate changed by a thousandth (normalised)."""
+
+WHEELS = (Gears, Belt, Roll)
+
+Places = Mapping[str, tuple[float, float]]
+
+
+def only_poses(mechanism: Mechanism, path: str, point: str, written: float) -> bool:
+    """Whether a given coordinate only poses the figure: changed a little, it leaves every link's shape.
+
+    The figure is solved again as if written so; what hangs on it must be as far apart as before.
+    """
+    if (mechanism.top.ground, point) in mechanism.spots[mechanism.top.ground]:
+        return False
+    return _leaves_shapes(mechanism, path, written)
+
+
+def turns_a_wheel(mechanism: Mechanism, path: str, moved: Collection[str], written: float) -> bool:
+    """Whether a number that moves these points turns what carries them: bodies that mesh, roll or bear a
+    belt and so turn others, all of which keep their shapes."""
+    wheels = {b for bond in mechanism.top.bonds if isinstance(bond.joint, WHEELS) for b in (bond.a, bond.b)}
+    carriers = {body for body, spots in mechanism.spots.items() if any(name in moved for _, name in spots)}
+    if not carriers or not carriers <= wheels - {mechanism.top.ground}:
+        return False
+    return _leaves_shapes(mechanism, path, written)
+
+
+def _leaves_shapes(mechanism: Mechanism, path: str, written: float) -> bool:
+    if any(isinstance(c, Immovable) for c in mechanism.constraints):
+        return False
+    step = 2.0**-10 / mechanism.frame.scale
+    for change in (step, -step):
+        try:
+            return _same_shapes(mechanism, with_numbers(mechanism.case, {path: written + change}))
+        except SceneError:
+            continue
+    return False
+
+
+def _same_shapes(mechanism: Mechanism, other: Case) -> bool:
+    """Whether a case, solved near the places of the mechanism, has links of the same shapes."""
+    frame, still = mechanism.frame, Still(mechanism.shape)
+    names = [name for name in mechanism.shape.ref if not name.startswith("@")]
+    near = {name: case_point(frame, still.place((0, name))) for name in names}
+    figure = solve_figure(replace(other, near=near), [name for name in names if name in mechanism.owners])
+    at = {name: case_point(figure.frame, place) for name, place in figure.points.items()}
+    places = {name: normalised(frame, place) for name, place in at.items()}
+    return _unmoved(mechanism, places) and _unbent(mechanism, places)
+
+
+def _unbent(mechanism: Mechanism, places: Places) -> bool:
+    """Points of a link are as far apart as before."""
+    for body, spots in mechanism.spots.items():
+        names = [name for _, name in spots if name in places]
+        for n, p in enumerate(names):
+            for q in names[n + 1 :]:
+                before = mechanism.shape.apart((body, p), (body, q))
+                if abs(math.dist(places[p], places[q]) - before) > SAME:
+                    return False
+    return True
+
+
+def _unmoved(mechanism: Mechanism, places: Places) -> bool:
+    """The frame's points are where they were, and so are guides beside the points of links that slide."""
+    ground, still = mechanism.top.ground, Still(mechanism.shape)
+    for spot in mechanism.spots[ground]:
+        if spot[1] in places and math.dist(places[spot[1]], still.place(spot)) > SAME:
+            return False
+    return all(
+        _beside(mechanism, index, line, places)
+        for index, line in mechanism.lines.items()
+        if line.body == ground or _slides_on(mechanism, line.body, ground)
+    )
+
+
+def _slides_on(mechanism: Mechanism, body: int, ground: int) -> bool:
+    """Whether a body keeps its direction."""
+    return any(
+        isinstance(c, Turning) and c.alike and c.bodies == frozenset((body, ground))
+        for c in mechanism.constraints
+    )
+
+
+def _beside(mechanism: Mechanism, index: int, line: BodyLine, places: Places) -> bool:
+    """A guide, drawn anew as if written so, has the points of its link as far beside it as before."""
+    joint = mechanism.case.joints[index]
+    assert isinstance(joint, Slide | Slot)
+    guide = joint.guide
+    name = guide.through or (guide.ends[0] if guide.ends else joint.at)
+    if name not in places:
+        return True
+    still, body = Still(mechanism.shape), line.body
+    moved = _off(places[name], still.place((body, name)), line)
+    if body == mechanism.top.ground:
+        return abs(moved) <= SAME
+    own = [spot for spot in mechanism.spots[body] if spot[1] in places and spot[1] != name]
+    return all(abs(_off(places[spot[1]], still.place(spot), line) - moved) <= SAME for spot in own)
+
+
+def _off(now: tuple[float, float], before: Point, line: BodyLine) -> float:
+    """How far a point has gone square to a line."""
+    (x, y), (c, s) = minus(now, before), line.along
+    return float(c * y - s * x)
+
+
+# --- the data that pose a figure, as conditions on where the links are ---
+
+
+KINDS = (LENGTH, RAY, CORNER, X, Y)
+"""Data that can pose a figure."""
+CENTRED = {X: ((0.0, 1.0), 0), Y: ((1.0, 0.0), 1)}
+"""A given coordinate: the line's direction, and the axis on which it is given."""
+ALIGNED = 1e-9
+"""An angle that the figure has to this many degrees is the written one."""
+
+
+class Pose(NamedTuple):
+    """A datum that poses the figure, and the spots of its points."""
+
+    datum: Datum
+    spots: tuple[Spot, ...]
+
+
+def pose_of(mechanism: Mechanism, path: str) -> Pose | None:
+    """The datum at a path if it poses the figure: it is not one of the shape of a link."""
+    case = mechanism.case
+    for datum in data_of(case):
+        if datum.kind in KINDS and number_of(case, datum).path == path:
+            return posing(mechanism, datum)
+    section, _, name = path.partition(".")
+    point, _, axis = name.rpartition(".")
+    if section != "points" or not isinstance(case.points.get(point), Coordinates):
+        return None
+    datum = Datum(X if axis == "x" else Y, point, (point,))
+    return posing(mechanism, datum) if only_poses(mechanism, path, point, value_of(case, datum)) else None
+
+
+def posing(mechanism: Mechanism, datum: Datum) -> Pose | None:
+    """A datum with the spots of its points; None where they are all of one link (of the frame, for a
+    direction or a coordinate)."""
+    ground = mechanism.top.ground
+    carriers = [_carriers(mechanism, name) for name in datum.points]
+    if not all(carriers):
+        return None
+    common = set.intersection(*carriers)
+    if datum.kind in (RAY, X, Y):
+        if ground in common:
+            return None
+    elif common:
+        return None
+    if common:
+        body = min(common)
+        return Pose(datum, tuple((body, name) for name in datum.points))
+    spots = zip(carriers, datum.points, strict=True)
+    return Pose(datum, tuple((ground if ground in c else min(c), p) for c, p in spots))
+
+
+def _carriers(mechanism: Mechanism, name: str) -> set[int]:
+    return {body for body, spots in mechanism.spots.items() if (body, name) in spots}
+
+
+# --- the condition that a datum is ----------------------------------------------------------------
+
+
+def condition(mechanism: Mechanism, pose: Pose, value: Scalar) -> Constraint:
+    """The datum as a condition on the links; ``value`` is its number."""
+    datum, spots, scale = pose.datum, pose.spots, mechanism.frame.scale
+    bodies = {spot[0] for spot in spots}
+    if datum.kind == RAY and len(bodies) == 1:
+        return _pointed(mechanism, spots, number_of(mechanism.case, datum), value)
+    if datum.kind == LENGTH:
+        return SpotDistance(spots[0], spots[1], value * scale)
+    if datum.kind in (X, Y):
+        along, axis = CENTRED[datum.kind]
+        place = (value - mechanism.frame[axis]) * scale
+        through = (place, 0.0) if axis == 0 else (0.0, place)
+        return OnLine(spots[0], BodyLine(mechanism.top.ground, through, along))
+    if datum.kind == CORNER:
+        arms = _arms(mechanism, datum)
+        if arms is not None:
+            written = number_of(mechanism.case, datum).value
+            return Turning(((arms[1], 1.0), (arms[0], -1.0)), value - written)
+    if datum.kind == RAY and spots[0][0] == mechanism.top.ground:
+        line = BodyLine(mechanism.top.ground, mechanism.shape.ref[datum.points[0]], _turned(mechanism, value))
+        return OnLine(spots[1], line)
+    return Drawn(datum, spots)
+
+
+def _turned(mechanism: Mechanism, value: Scalar) -> Point:
+    return mechanism.shape.record.turned(value)
+
+
+def _pointed(mechanism: Mechanism, spots: Sequence[Spot], number: Number, value: Scalar) -> Pointed:
+    """The direction from one point of a body to another; its turning is counted from the figure's own."""
+    (p, q), shape = spots, mechanism.shape
+    x, y = shape.between(p, q)
+    length = shape.span(p, q)
+    found = math.degrees(math.atan2(float(y), float(x)))
+    off = math.remainder(found - number.value, 360.0)
+    written = number.value if abs(off) <= ALIGNED else number.value + off
+    rotation = Rotation(_turned(mechanism, value), (x / length, y / length), value - written, (p, q, length))
+    return Pointed(p[0], rotation)
+
+
+def _arms(mechanism: Mechanism, datum: Datum) -> tuple[int, int] | None:
+    """The bodies that carry the arms of a corner, if there are two; the frame where it can be."""
+    a, at, b = (_carriers(mechanism, name) for name in datum.points)
+    ground = mechanism.top.ground
+    one, two = (sorted(arm & at, key=lambda body: body != ground) for arm in (a, b))
+    pairs = [(i, j) for i in one for j in two if i != j]
+    return pairs[0] if pairs else None
+
+
+def turning(mechanism: Mechanism, link: str, degrees: Scalar) -> Turning:
+    """A link turned from the position as written."""
+    return Turning(((mechanism.top.body_of[link], 1.0),), degrees)
+
+
+def value_of(case: Case, datum: Datum) -> float:
+    """The number that the case writes for a datum."""
+    if datum.kind in (X, Y):
+        place = case.points[datum.points[0]]
+        assert isinstance(place, Coordinates)
+        number = place.x if datum.kind == X else place.y
+        assert number is not None
+        return number.value
+    return number_of(case, datum).value
+
+
+# --- what varied numbers do: they move the mechanism, reshape it, or change a load ---
+
 
 NOISE = 1e-9
 """A part of a unit motion that is none (rounding)."""
@@ -79,7 +326,7 @@ def _added(
     mechanism: Mechanism, bodies: Sequence[int], rows: Matrix, constraint: Constraint
 ) -> tuple[Matrix, bool]:
     """The equations with one more, if it takes a freedom."""
-    still = Rows(
+    still = ConditionRows(
         mechanism.shape,
         Still(mechanism.shape),
         bases_of(mechanism, bodies),

@@ -11,6 +11,9 @@ from typing import NamedTuple
 
 from icsolve.assembly import Figure, place, solve_figure
 from icsolve.assembly.data import names_of, number_of
+from icsolve.assembly.driven.constraints import Constraint, Turning
+from icsolve.assembly.driven.mechanism import Mechanism, mechanism
+from icsolve.assembly.driven.motion import Motion, order_of, set_moving
 from icsolve.assembly.residuals import refuse_misfit
 from icsolve.case import Case, Pair
 from icsolve.errors import SceneError, Status
@@ -19,13 +22,8 @@ from icsolve.numbers.record import Record, varies
 from icsolve.screws.plane import Point
 from icsolve.solve import refusals
 from icsolve.structure.topology import Topology, topology
-from icsolve.sweep.constraints import Constraint, Turning
-from icsolve.sweep.drivers import Drive, drive_of
-from icsolve.sweep.mechanism import Mechanism, mechanism
-from icsolve.sweep.moving import Motion, order_of, set_moving
+from icsolve.sweep.drivers import Drive, condition, drive_of, pose_of, turning, turns_a_wheel
 from icsolve.sweep.numbers import find_number, numbers_of
-from icsolve.sweep.posing import condition, pose_of, turning
-from icsolve.sweep.reshaping import turns_a_wheel
 from icsolve.sweep.scene import Scene, centre, moved_scene, rates, statics
 from icsolve.wording.sentences import listed
 

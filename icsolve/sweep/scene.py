@@ -6,6 +6,8 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
+from icsolve.assembly.driven.mechanism import Mechanism
+from icsolve.assembly.driven.poses import Moved, Spot, product
 from icsolve.assembly.workspace import Frame
 from icsolve.case import (
     Belt,
@@ -36,8 +38,6 @@ from icsolve.solve import refusals
 from icsolve.statics import power
 from icsolve.structure.plan import make_plan
 from icsolve.structure.topology import Topology, topology
-from icsolve.sweep.mechanism import Mechanism
-from icsolve.sweep.poses import Moved, Spot, product
 
 Points = dict[str, Point]
 

@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from icsolve.numbers.arithmetic import RADIAN
 from icsolve.numbers.replay import Array
-from icsolve.sweep.constraints import RADIAN
 
 FAR = 0.35
 """The longest move (normalised, radians) that one step may bring."""

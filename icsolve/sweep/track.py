@@ -12,10 +12,10 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 import numpy.typing as npt
 
+from icsolve.assembly.driven.groups import ROUNDS, Solver
 from icsolve.numbers.replay import Array, Code
 from icsolve.sweep.program import Sheet
 from icsolve.sweep.stretch import Step, Stretch, counts, cubic, goes_on, stretch_of
-from icsolve.sweep.together import ROUNDS, Solver
 from icsolve.sweep.way import State, Touches, Way
 
 FIRST = 2.0**-5

@@ -1,57 +1,133 @@
 """The order in which a driven mechanism closes, link by link, from the frame.
 
-Closed forms as far as they go: a link turns as another does, hangs on one or two places that are
-known, swings until its slot meets one; two loci of a pin meet. Where nothing of this kind is left,
+Closed forms as far as they go: a link turns as another does, is placed by one or two points that are
+known, turns until its slot meets one; two loci of a pin meet. Where nothing of this kind is left,
 the smallest set of links that their conditions determine goes to Newton's method.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import NamedTuple
 
+from icsolve.assembly.driven.constraints import (
+    Constraint,
+    OnLine,
+    Pointed,
+    RolledRound,
+    RolledStraight,
+    SpotDistance,
+    Turning,
+)
+from icsolve.assembly.driven.intersections import By, Through, ThroughTurned, reference, sine
+from icsolve.assembly.driven.poses import Shape, Spot
 from icsolve.errors import SceneError, Status
-from icsolve.sweep.constraints import Apart, Constraint, OnLine, Pointed, RolledRound, RolledStraight, Turning
-from icsolve.sweep.loci import By, Through, ThroughTurned, reference
-from icsolve.sweep.meeting import sine
-from icsolve.sweep.poses import Shape, Spot
-from icsolve.sweep.trains import together
+from icsolve.numbers.arithmetic import Scalar
+
+GONE = 1e-12
+"""A factor that elimination leaves below this fraction of its parts is zero."""
+
+
+class _Row(NamedTuple):
+    """A sum of ratios: factors by body, degrees, and the ratio that it stands instead of."""
+
+    factors: dict[int, Scalar]
+    degrees: Scalar
+    source: Turning
+
+
+def train_ratios(ratios: Sequence[Turning], known: Collection[int]) -> tuple[int, Turning, Turning] | None:
+    """A body, the ratio of its rotation to known ones, and which of the given ratios that stands instead of.
+
+    Elimination without division, so that whole numbers of teeth stay whole; None where no rotation
+    follows from the known ones.
+    """
+    rows = [_row(ratio) for ratio in ratios]
+    done: list[tuple[int, _Row]] = []
+    while rows:
+        body, row = max(
+            ((b, r) for r in rows for b in _open(r, known)),
+            key=lambda pair: abs(float(pair[1].factors[pair[0]])) / _size(pair[1]),
+            default=(-1, rows[0]),
+        )
+        if body < 0:
+            break
+        rows = [_without(other, row, body) for other in rows if other is not row]
+        done = [(b, _without(other, row, body)) for b, other in done]
+        done.append((body, row))
+    for body, row in done:
+        if _open(row, known) == [body]:
+            return body, Turning(tuple(row.factors.items()), row.degrees), row.source
+    return None
+
+
+def _row(ratio: Turning) -> _Row:
+    factors: dict[int, Scalar] = {}
+    for body, factor in ratio.terms:
+        factors[body] = factors[body] + factor if body in factors else factor
+    return _Row(factors, ratio.degrees, ratio)
+
+
+def _open(row: _Row, known: Collection[int]) -> list[int]:
+    """The bodies of a sum whose rotation is not known."""
+    return [body for body in row.factors if body not in known]
+
+
+def _size(row: _Row) -> float:
+    return max(abs(float(factor)) for factor in row.factors.values())
+
+
+def _without(row: _Row, pivot: _Row, body: int) -> _Row:
+    """A sum less so many times another that a body is no longer in it."""
+    if body not in row.factors:
+        return row
+    own, its = row.factors[body], pivot.factors[body]
+    factors: dict[int, Scalar] = {}
+    for other in dict.fromkeys((*row.factors, *pivot.factors)):
+        a, b = row.factors.get(other, 0.0) * its, pivot.factors.get(other, 0.0) * own
+        if other != body and abs(float(a - b)) > GONE * (abs(float(a)) + abs(float(b))):
+            factors[other] = a - b
+    return _Row(factors, row.degrees * its - pivot.degrees * own, row.source)
+
+
+# --- the order in which a driven mechanism closes, link by link, from the frame ---
+
 
 TOUCHING = 1e-7
 """Loci that cross at a smaller angle (sine) in the position as written touch."""
 
 
-class Turn(NamedTuple):
+class RotateWith(NamedTuple):
     """A body's rotation from those of the others in a `Turning`, or from a driver; ``instead`` of a
-    condition where several were taken together."""
+    condition where several were taken train_ratios."""
 
     body: int
     by: Turning | Pointed | RolledStraight | RolledRound
     instead: Turning | None = None
 
 
-class Hang(NamedTuple):
+class PlaceByPoint(NamedTuple):
     """A body whose rotation is known is placed by a spot."""
 
     body: int
     spot: Spot
 
 
-class Hold(NamedTuple):
+class PlaceByTwoPoints(NamedTuple):
     """A body is placed by two spots."""
 
     body: int
     spots: tuple[Spot, Spot]
 
 
-class Meet(NamedTuple):
+class PlaceAtIntersection(NamedTuple):
     """A spot is where two of its loci meet."""
 
     spot: Spot
     loci: tuple[By, By]
 
 
-class Swing(NamedTuple):
+class RotateToLine(NamedTuple):
     """Bodies turn alike about ``pivot`` of the first until its line passes beside ``aim`` as it is to."""
 
     bodies: tuple[int, ...]
@@ -60,17 +136,17 @@ class Swing(NamedTuple):
     by: OnLine
 
 
-class Newton(NamedTuple):
-    """Bodies that only all their conditions together determine."""
+class AssurGroup(NamedTuple):
+    """Bodies that only all their conditions train_ratios determine."""
 
     bodies: tuple[int, ...]
     constraints: tuple[Constraint, ...]
 
 
-Closing = Turn | Hang | Hold | Meet | Swing | Newton
+Closing = RotateWith | PlaceByPoint | PlaceByTwoPoints | PlaceAtIntersection | RotateToLine | AssurGroup
 
 
-class Order:
+class ClosingOrder:
     """The closings as they are found; ``full`` bodies are placed, ``turned`` have their rotation.
 
     A point in ``near`` may be where two loci only touch as written: `near` tells which way it goes on.
@@ -108,18 +184,18 @@ class Order:
         """Note what a closing makes known."""
         self.steps.append(step)
         match step:
-            case Turn(body, by, instead):
+            case RotateWith(body, by, instead):
                 self.turned.add(body)
                 self.used.update((id(by), id(instead)))
-            case Hang(body) | Hold(body):
+            case PlaceByPoint(body) | PlaceByTwoPoints(body):
                 self._fill((body,))
-            case Meet(spot, loci):
+            case PlaceAtIntersection(spot, loci):
                 self.located.add(self.shape.one(spot))
                 self.used.update(id(locus.by) for locus in loci if isinstance(locus, ThroughTurned))
-            case Swing(bodies, _, _, by):
+            case RotateToLine(bodies, _, _, by):
                 self.turned.update(bodies)
                 self.used.add(id(by))
-            case Newton(bodies, constraints):
+            case AssurGroup(bodies, constraints):
                 self._fill(bodies)
                 self.used.update(map(id, constraints))
 
@@ -138,7 +214,7 @@ class Order:
 
     # --- rules ------------------------------------------------------------------------------------
 
-    def _turns(self) -> Iterator[Turn]:
+    def _turns(self) -> Iterator[RotateWith]:
         for c in self.constraints:
             left = [body for body in c.bodies if body not in self.turned]
             if len(left) != 1 or not isinstance(c, Turning | Pointed | RolledStraight | RolledRound):
@@ -146,14 +222,14 @@ class Order:
             if id(c) in self.used:
                 continue
             if self._tells(c):
-                yield Turn(left[0], c)
+                yield RotateWith(left[0], c)
 
-    def _trains(self) -> Iterator[Turn]:
-        """A rotation that several ratios of wheels tell together."""
+    def _trains(self) -> Iterator[RotateWith]:
+        """A rotation that several ratios of wheels tell train_ratios."""
         ratios = [c for c in self.constraints if isinstance(c, Turning) and id(c) not in self.used]
-        found = together(ratios, self.turned)
+        found = train_ratios(ratios, self.turned)
         if found is not None:
-            yield Turn(*found)
+            yield RotateWith(*found)
 
     def _tells(self, c: Turning | Pointed | RolledStraight | RolledRound) -> bool:
         """Whether a condition tells the one rotation in it that is not known."""
@@ -161,21 +237,21 @@ class Order:
             return c.line.body in self.full and self.known(c.centre)
         return not isinstance(c, RolledRound) or (self.known(c.one) and self.known(c.two))
 
-    def _hangs(self) -> Iterator[Hang]:
+    def _hangs(self) -> Iterator[PlaceByPoint]:
         for body in self._open():
             if body in self.turned:
-                yield from (Hang(body, spot) for spot in self.spots[body] if self.known(spot))
+                yield from (PlaceByPoint(body, spot) for spot in self.spots[body] if self.known(spot))
 
-    def _holds(self) -> Iterator[Hold]:
+    def _holds(self) -> Iterator[PlaceByTwoPoints]:
         """By the two known spots that are farthest apart."""
         for body in self._open():
             known = [spot for spot in self.spots[body] if self.known(spot)]
             pairs = [(p, q) for n, p in enumerate(known) for q in known[n + 1 :]]
             apart = max(pairs, key=lambda pair: self.shape.apart(*pair), default=None)
             if apart is not None and self.shape.apart(*apart) > TOUCHING:
-                yield Hold(body, apart)
+                yield PlaceByTwoPoints(body, apart)
 
-    def _swings(self) -> Iterator[Swing]:
+    def _swings(self) -> Iterator[RotateToLine]:
         for c in self.constraints:
             if not isinstance(c, OnLine) or c.line.body in self.turned:
                 continue
@@ -183,11 +259,11 @@ class Order:
             if pivot is None:
                 continue
             if self.known(c.spot):
-                yield Swing((c.line.body,), pivot, c.spot, c)
+                yield RotateToLine((c.line.body,), pivot, c.spot, c)
                 continue
             aim = self._pivot(c.spot[0])
             if aim is not None and c.spot[0] not in self.turned and self._alike(*c.bodies):
-                yield Swing((c.line.body, c.spot[0]), pivot, aim, c)
+                yield RotateToLine((c.line.body, c.spot[0]), pivot, aim, c)
 
     def _pivot(self, body: int) -> Spot | None:
         return next((spot for spot in self.spots[body] if self.known(spot)), None)
@@ -198,9 +274,9 @@ class Order:
             isinstance(c, Turning) and c.alike and c.bodies == frozenset((a, b)) for c in self.constraints
         )
 
-    def _meets(self) -> Iterator[Meet]:
+    def _meets(self) -> Iterator[PlaceAtIntersection]:
         """The spot whose two loci cross best."""
-        best: tuple[float, Meet] | None = None
+        best: tuple[float, PlaceAtIntersection] | None = None
         for one, members in self.members.items():
             if one in self.located or any(spot[0] in self.full for spot in members):
                 continue
@@ -209,7 +285,7 @@ class Order:
                 for second in loci[n + 1 :]:
                     found = self._crossing(one, first, second)
                     if best is None or found > best[0]:
-                        best = (found, Meet(one, (first, second)))
+                        best = (found, PlaceAtIntersection(one, (first, second)))
         if best is not None and (best[0] > TOUCHING or best[1].spot[1] in self.near):
             yield best[1]
         elif best is not None:
@@ -242,7 +318,7 @@ class Order:
                 yield ThroughTurned(spot, c, c.spot)
             elif c.line.body == body and turned and self.known(c.spot):
                 yield ThroughTurned(spot, c, None)
-        elif isinstance(c, Apart):
+        elif isinstance(c, SpotDistance):
             for mine, other in ((c.one, c.two), (c.two, c.one)):
                 if mine[0] == body and self.known(other) and (turned or self._same(mine, spot)):
                     yield ThroughTurned(spot, c, mine)

@@ -5,6 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
+from icsolve.assembly.driven import rolling
+from icsolve.assembly.driven.constraints import BodyLine, Constraint, Immovable, OnLine, Turning
+from icsolve.assembly.driven.poses import Shape, Spot, dot, minus, square
+from icsolve.assembly.driven.rolling import ROUNDED, Side
 from icsolve.assembly.workspace import Frame
 from icsolve.case import (
     Belt,
@@ -27,10 +31,6 @@ from icsolve.numbers.record import Record
 from icsolve.screws.joints import guide_direction, joint_freedoms, transmitted
 from icsolve.screws.plane import Point
 from icsolve.structure.topology import Bond, Topology
-from icsolve.sweep import rolling
-from icsolve.sweep.constraints import Constraint, Immovable, Line, OnLine, Turning
-from icsolve.sweep.poses import Shape, Spot, dot, minus, square
-from icsolve.sweep.rolling import ROUNDED, Side
 
 
 class Mechanism(NamedTuple):
@@ -48,7 +48,7 @@ class Mechanism(NamedTuple):
     spots: dict[int, list[Spot]]
     owners: dict[str, Spot]
     constraints: list[Constraint]
-    lines: dict[int, Line]
+    lines: dict[int, BodyLine]
     contacts: dict[str, rolling.Contact]
 
 
@@ -183,15 +183,15 @@ def _spans(
     return spans
 
 
-def _line(guide: Guide, at: str, body: int, ref: Mapping[str, Point], record: Record) -> Line:
+def _line(guide: Guide, at: str, body: int, ref: Mapping[str, Point], record: Record) -> BodyLine:
     """The guide's line: through its own point, or through the joint's where that misses it."""
     along = guide_direction(guide, ref, record)
     name = guide.through or (guide.ends[0] if guide.ends else at)
     off = dot(square(along), minus(ref[at], ref[name]))
-    return Line(body, ref[name] if abs(float(off)) <= ROUNDED else ref[at], along)
+    return BodyLine(body, ref[name] if abs(float(off)) <= ROUNDED else ref[at], along)
 
 
-def _guided(joint: Slide | Slot, line: Line, top: Topology, ref: Mapping[str, Point]) -> list[Constraint]:
+def _guided(joint: Slide | Slot, line: BodyLine, top: Topology, ref: Mapping[str, Point]) -> list[Constraint]:
     body = top.body_of[joint.links[0]]
     if body == line.body:
         return []
@@ -244,7 +244,7 @@ def _carrier(bond: Bond, top: Topology) -> int:
     return top.body_of[named] if named else min(carriers)
 
 
-def _base(spots: dict[int, list[Spot]], lines: Iterable[Line], ref: dict[str, Point]) -> None:
+def _base(spots: dict[int, list[Spot]], lines: Iterable[BodyLine], ref: dict[str, Point]) -> None:
     """A body that carries no point has one of its own: on a guide of its, else at the origin."""
     for line in lines:
         if not spots[line.body]:

@@ -6,21 +6,18 @@ alike) and an `OnLine`; a slot is an `OnLine`; gears and belts are a `Turning`; 
 
 from __future__ import annotations
 
-import math
 from typing import NamedTuple
 
 from icsolve.assembly.data import Datum
+from icsolve.assembly.driven.poses import Places, Rotation, Shape, Spot, dot, minus, square
 from icsolve.assembly.groups import Equation
 from icsolve.assembly.workspace import Workspace
 from icsolve.errors import SceneError
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.arithmetic import RADIAN, Scalar
 from icsolve.screws.plane import Point, Triple
-from icsolve.sweep.poses import Places, Rotation, Shape, Spot, dot, minus, square
-
-RADIAN = math.pi / 180.0
 
 
-class Line(NamedTuple):
+class BodyLine(NamedTuple):
     """A line that a body carries: a point and the unit direction, as written."""
 
     body: int
@@ -32,7 +29,7 @@ class OnLine(NamedTuple):
     """A spot lies ``offset`` to the left of a line."""
 
     spot: Spot
-    line: Line
+    line: BodyLine
     offset: Scalar = 0.0
 
     @property
@@ -41,7 +38,7 @@ class OnLine(NamedTuple):
         return frozenset((self.spot[0], self.line.body))
 
 
-class Apart(NamedTuple):
+class SpotDistance(NamedTuple):
     """Two spots are so far apart."""
 
     one: Spot
@@ -91,7 +88,7 @@ class RolledStraight(NamedTuple):
     """
 
     centre: Spot
-    line: Line
+    line: BodyLine
     radius: Scalar
 
     @property
@@ -138,10 +135,10 @@ class Immovable(NamedTuple):
         return frozenset(self.ends)
 
 
-Constraint = OnLine | Apart | Turning | Pointed | RolledStraight | RolledRound | Drawn | Immovable
+Constraint = OnLine | SpotDistance | Turning | Pointed | RolledStraight | RolledRound | Drawn | Immovable
 
 
-class Row(NamedTuple):
+class ConditionRow(NamedTuple):
     """An equation: its value, which is to vanish, and its derivatives by (body, part): the steps of
     the body's base along x and y, and its turning in radians."""
 
@@ -149,18 +146,18 @@ class Row(NamedTuple):
     by: dict[tuple[int, int], Scalar]
 
 
-class Rows:
+class ConditionRows:
     """The equations of constraints on bodies that are at places."""
 
     def __init__(self, shape: Shape, places: Places, bases: dict[int, Spot], workspace: Workspace) -> None:
         self.shape, self.places, self.bases, self.workspace = shape, places, bases, workspace
 
-    def of(self, constraint: Constraint) -> Row:
+    def of(self, constraint: Constraint) -> ConditionRow:
         """The equation of a constraint."""
         match constraint:
             case OnLine():
                 return self._on_line(constraint)
-            case Apart():
+            case SpotDistance():
                 return self._apart(constraint)
             case Turning():
                 return self._turning(constraint)
@@ -174,20 +171,20 @@ class Rows:
                 return self._immovable(constraint)
         return self._drawn(constraint)
 
-    def pinned(self, one: Spot, two: Spot) -> list[Row]:
+    def pinned(self, one: Spot, two: Spot) -> list[ConditionRow]:
         """The two equations of a pin."""
         p, q = self.places.place(one), self.places.place(two)
         rows = []
         for axis in (0, 1):
             w = (1.0 - axis, float(axis))
-            rows.append(Row(p[axis] - q[axis], self._pushed((one[0], w, p), (two[0], _less(w), q))))
+            rows.append(ConditionRow(p[axis] - q[axis], self._pushed((one[0], w, p), (two[0], _less(w), q))))
         return rows
 
-    def held(self, spot: Spot, at: Point) -> list[Row]:
+    def held(self, spot: Spot, at: Point) -> list[ConditionRow]:
         """The two equations of a pin whose place is known."""
         p = self.places.place(spot)
         axes = (((1.0, 0.0), p[0] - at[0]), ((0.0, 1.0), p[1] - at[1]))
-        return [Row(value, self._pushed((spot[0], w, p))) for w, value in axes]
+        return [ConditionRow(value, self._pushed((spot[0], w, p))) for w, value in axes]
 
     def _pushed(self, *pushes: tuple[int, Point, Point]) -> dict[tuple[int, int], Scalar]:
         """Derivatives of a force's work: (body, force, point) for each."""
@@ -200,41 +197,41 @@ class Rows:
                 by[body, part] = by.get((body, part), 0.0) + value
         return by
 
-    def _on_line(self, c: OnLine) -> Row:
+    def _on_line(self, c: OnLine) -> ConditionRow:
         p, through = self.places.place(c.spot), self.places.point(c.line.body, c.line.through)
         normal = square(self.places.vector(c.line.body, c.line.along))
         by = self._pushed((c.spot[0], normal, p), (c.line.body, _less(normal), p))
-        return Row(dot(normal, minus(p, through)) - c.offset, by)
+        return ConditionRow(dot(normal, minus(p, through)) - c.offset, by)
 
-    def _apart(self, c: Apart) -> Row:
+    def _apart(self, c: SpotDistance) -> ConditionRow:
         p, q = self.places.place(c.one), self.places.place(c.two)
         e = minus(p, q)
         value = (dot(e, e) - c.distance * c.distance) * 0.5
-        return Row(value, self._pushed((c.one[0], e, p), (c.two[0], _less(e), q)))
+        return ConditionRow(value, self._pushed((c.one[0], e, p), (c.two[0], _less(e), q)))
 
-    def _turning(self, c: Turning) -> Row:
+    def _turning(self, c: Turning) -> ConditionRow:
         by = {(body, 2): factor for body, factor in c.terms if body in self.bases}
         if c.alike:
             a, b = (self.places.vector(body, (1.0, 0.0)) for body, _ in c.terms)
-            return Row(dot(square(b), a), by)
+            return ConditionRow(dot(square(b), a), by)
         total: Scalar = -c.degrees
         for body, factor in c.terms:
             total = total + factor * self.places.degrees(body)
-        return Row(total * RADIAN, by)
+        return ConditionRow(total * RADIAN, by)
 
-    def _pointed(self, c: Pointed) -> Row:
+    def _pointed(self, c: Pointed) -> ConditionRow:
         z = self.places.vector(c.body, c.rotation.ref)
-        return Row(dot(square(c.rotation.z), z), {(c.body, 2): dot(c.rotation.z, z)})
+        return ConditionRow(dot(square(c.rotation.z), z), {(c.body, 2): dot(c.rotation.z, z)})
 
-    def _straight(self, c: RolledStraight) -> Row:
+    def _straight(self, c: RolledStraight) -> ConditionRow:
         o, b = self.places.place(c.centre), c.line.body
         along = self.places.vector(b, c.line.along)
         contact = minus(o, _times(c.radius, square(along)))
         turned = (self.places.degrees(c.centre[0]) - self.places.degrees(b)) * RADIAN
         value = dot(along, minus(o, self.places.point(c.line.body, c.line.through))) + c.radius * turned
-        return Row(value, self._pushed((c.centre[0], along, contact), (b, _less(along), contact)))
+        return ConditionRow(value, self._pushed((c.centre[0], along, contact), (b, _less(along), contact)))
 
-    def _round(self, c: RolledRound) -> Row:
+    def _round(self, c: RolledRound) -> ConditionRow:
         """Slip of the arcs; the line of the centres may have turned any number of times."""
         (one, two), (r, q) = (c.one, c.two), c.radii
         p, o = self.places.place(one), self.places.place(two)
@@ -248,9 +245,11 @@ class Rows:
         normal = (e[0] / whole, e[1] / whole)
         along = square(normal)
         contact = (p[0] + r * normal[0], p[1] + r * normal[1])
-        return Row(value * RADIAN, self._pushed((one[0], along, contact), (two[0], _less(along), contact)))
+        return ConditionRow(
+            value * RADIAN, self._pushed((one[0], along, contact), (two[0], _less(along), contact))
+        )
 
-    def _immovable(self, c: Immovable) -> Row:
+    def _immovable(self, c: Immovable) -> ConditionRow:
         """Power of the wrench on the relative step of the two bodies."""
         x, y, m = c.wrench
         by: dict[tuple[int, int], Scalar] = {}
@@ -259,9 +258,9 @@ class Rows:
                 px, py = self.places.place(self.bases[body])
                 for part, value in enumerate((y, -x, x * px + y * py + m)):
                     by[body, part] = sign * value
-        return Row(0.0, by)
+        return ConditionRow(0.0, by)
 
-    def _drawn(self, c: Drawn) -> Row:
+    def _drawn(self, c: Drawn) -> ConditionRow:
         owners = {name: (body, name) for body, name in c.owners}
         for name, spot in owners.items():
             self.workspace.points[name] = self.places.place(spot)
@@ -271,7 +270,7 @@ class Rows:
             w = (value, 0.0) if axis == 0 else (0.0, value)
             for key, part in self._pushed((owners[name][0], w, self.workspace.points[name])).items():
                 by[key] = by.get(key, 0.0) + part
-        return Row(row.value, by)
+        return ConditionRow(row.value, by)
 
 
 def _less(v: Point) -> Point:

@@ -5,27 +5,34 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
-from icsolve.assembly.workspace import Workspace
-from icsolve.numbers.arithmetic import Scalar
-from icsolve.numbers.record import Traced, varies
-from icsolve.screws.plane import Point
-from icsolve.sweep.closing import TOUCHING, Closing, Hang, Hold, Meet, Newton, Order, Swing, Turn
-from icsolve.sweep.constraints import (
-    RADIAN,
+from icsolve.assembly.driven.constraints import (
+    ConditionRows,
     Constraint,
     Immovable,
     Pointed,
     RolledRound,
     RolledStraight,
-    Rows,
     Turning,
 )
-from icsolve.sweep.loci import locus, reference
-from icsolve.sweep.mechanism import Mechanism
-from icsolve.sweep.meeting import Locus, meet, side, sine, swung
-from icsolve.sweep.poses import Moved, Rotation, Spot, dot, minus, scaled, square
-from icsolve.sweep.smallest import smallest
-from icsolve.sweep.together import Together, settled
+from icsolve.assembly.driven.groups import NewtonGroup, settled, smallest
+from icsolve.assembly.driven.intersections import PinLocus, locus, meet, reference, side, sine, swung
+from icsolve.assembly.driven.mechanism import Mechanism
+from icsolve.assembly.driven.order import (
+    TOUCHING,
+    AssurGroup,
+    Closing,
+    ClosingOrder,
+    PlaceAtIntersection,
+    PlaceByPoint,
+    PlaceByTwoPoints,
+    RotateToLine,
+    RotateWith,
+)
+from icsolve.assembly.driven.poses import Moved, Rotation, Spot, dot, minus, scaled, square
+from icsolve.assembly.workspace import Workspace
+from icsolve.numbers.arithmetic import RADIAN, Scalar
+from icsolve.numbers.record import Traced, varies
+from icsolve.screws.plane import Point
 
 
 class Motion(NamedTuple):
@@ -40,12 +47,12 @@ class Motion(NamedTuple):
     steps: tuple[Closing, ...]
     branches: dict[int, str]
     written: dict[str, float]
-    groups: tuple[Together, ...]
+    groups: tuple[NewtonGroup, ...]
     checks: tuple[int, ...]
     """what the conditions leave that were not needed: it is to vanish"""
 
 
-def order_of(mechanism: Mechanism, drivers: list[Constraint]) -> Order:
+def order_of(mechanism: Mechanism, drivers: list[Constraint]) -> ClosingOrder:
     """The order in which the mechanism closes.
 
     Raises SceneError where a joint cannot be moved, links stay loose, or the position as written is singular.
@@ -54,7 +61,7 @@ def order_of(mechanism: Mechanism, drivers: list[Constraint]) -> Order:
     for constraint in constraints:
         if isinstance(constraint, Immovable):
             raise constraint.refusal
-    order = Order(mechanism.shape, mechanism.spots, constraints, mechanism.case.near)
+    order = ClosingOrder(mechanism.shape, mechanism.spots, constraints, mechanism.case.near)
     while True:
         while order.advance():
             pass
@@ -64,7 +71,7 @@ def order_of(mechanism: Mechanism, drivers: list[Constraint]) -> Order:
         order.take(smallest(mechanism, order, left))
 
 
-def set_moving(mechanism: Mechanism, order: Order, signs: Mapping[str, Scalar]) -> Motion:
+def set_moving(mechanism: Mechanism, order: ClosingOrder, signs: Mapping[str, Scalar]) -> Motion:
     """Run the closings; ``signs`` has those of branches that change on the way, by name."""
     run = _Run(mechanism, signs)
     for step in order.steps:
@@ -89,7 +96,7 @@ class _Run:
         self.moved = Moved(self.shape)
         self.branches: dict[int, str] = {}
         self.written: dict[str, float] = {}
-        self.groups: list[Together] = []
+        self.groups: list[NewtonGroup] = []
         self.spare: list[Scalar] = []
         ground = self.shape.ground
         self._locate((ground, name) for _, name in mechanism.spots[ground])
@@ -102,19 +109,19 @@ class _Run:
     def take(self, step: Closing) -> None:
         """Run one closing."""
         match step:
-            case Turn(body, by):
+            case RotateWith(body, by):
                 self.moved.rotations[body] = self._rotation(body, by)
-            case Hang(body, spot):
+            case PlaceByPoint(body, spot):
                 self._placed(body, spot, (spot,))
-            case Hold(body, (p, q)):
+            case PlaceByTwoPoints(body, (p, q)):
                 z = minus(self.moved.place(q), self.moved.place(p))
                 self.moved.rotations[body] = Rotation(z, self.shape.between(p, q))
                 self._placed(body, p, (p, q))
-            case Meet():
+            case PlaceAtIntersection():
                 self._meet(step)
-            case Swing():
+            case RotateToLine():
                 self._swing(step)
-            case Newton():
+            case AssurGroup():
                 self._newton(step)
 
     def _placed(self, body: int, base: Spot, used: tuple[Spot, ...]) -> None:
@@ -133,7 +140,7 @@ class _Run:
     def checked(self, left: Iterable[Constraint]) -> Iterator[int]:
         """Nodes that vanish where the conditions that were not needed are met."""
         workspace = Workspace(self.mechanism.case, self.mechanism.frame, self.record)
-        rows = Rows(self.shape, self.moved, {}, workspace)
+        rows = ConditionRows(self.shape, self.moved, {}, workspace)
         for value in (*self.spare, *(rows.of(c).value for c in left)):
             if isinstance(value, Traced) and value.row:
                 yield value.index
@@ -187,7 +194,7 @@ class _Run:
 
     # --- closed forms -----------------------------------------------------------------------------
 
-    def _meet(self, step: Meet) -> None:
+    def _meet(self, step: PlaceAtIntersection) -> None:
         one, two = (locus(self.shape, self.moved, by) for by in step.loci)
         first, second = (reference(self.shape, by, step.spot) for by in step.loci)
         written = side(first, second, self._written(step.spot[1], first, second))
@@ -196,7 +203,7 @@ class _Run:
         self._branch(name, written)
         self.moved.located[self.shape.one(step.spot)] = place
 
-    def _written(self, name: str, first: Locus, second: Locus) -> Point:
+    def _written(self, name: str, first: PinLocus, second: PinLocus) -> Point:
         """Where a spot is as written; where its loci only touch there, where `near` would have it."""
         x, y = self.shape.ref[name]
         at = (float(x), float(y))
@@ -206,7 +213,7 @@ class _Run:
         ox, oy, scale = self.mechanism.frame
         return ((near[0] - ox) * scale, (near[1] - oy) * scale)
 
-    def _swing(self, step: Swing) -> None:
+    def _swing(self, step: RotateToLine) -> None:
         line, c, moved = step.by.line, step.by, self.moved
         name = f"swing {step.bodies[0]} {c.spot[1]}"
         e = minus(moved.place(step.aim), moved.place(step.pivot))
@@ -236,7 +243,7 @@ class _Run:
         for node in self.record.roots:
             self.branches.setdefault(node, name)
 
-    def _newton(self, step: Newton) -> None:
+    def _newton(self, step: AssurGroup) -> None:
         group = settled(self.mechanism, self.moved, step, len(self.groups))
         self.groups.append(group)
         for body, rotation in group.rotations.items():

@@ -6,12 +6,19 @@ import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
+from icsolve.assembly.driven.constraints import (
+    BodyLine,
+    Constraint,
+    OnLine,
+    RolledRound,
+    RolledStraight,
+    SpotDistance,
+)
+from icsolve.assembly.driven.poses import Places, Spot, minus, plus, scaled, square
 from icsolve.case import Roll
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.screws.plane import Point
-from icsolve.sweep.constraints import Apart, Constraint, Line, OnLine, RolledRound, RolledStraight
-from icsolve.sweep.poses import Places, Spot, minus, plus, scaled, square
 
 NEAR = 2e-3
 """A centre may miss its radius by this fraction of it."""
@@ -27,7 +34,7 @@ class Contact(NamedTuple):
 
     centre: Spot
     radius: Scalar
-    flank: Line | None
+    flank: BodyLine | None
     other: Spot | None
     whole: Scalar = 1.0
 
@@ -102,7 +109,7 @@ def _on_flank(
     side, centre, flank = (a, spots[0], b.body) if first else (b, spots[1], a.body)
     out = normal if first else (-normal[0], -normal[1])
     along = square(out)  # the centre is on its left: minus the outward normal is along turned by 90 degrees
-    line = Line(flank, contact, along)
+    line = BodyLine(flank, contact, along)
     radius = side.radius if float(side.radius) > 0.0 else -side.radius
     away = minus(places[centre[1]], contact)
     offset = square(along)[0] * away[0] + square(along)[1] * away[1]
@@ -117,7 +124,7 @@ def _on_round(sides: tuple[Side, Side], spots: tuple[Spot, Spot], centres: dict[
     radii = (sides[0].radius, sides[1].radius)
     whole = radii[0] + radii[1]
     distance = whole if float(whole) > 0.0 else -whole
-    conditions = (Apart(*spots, distance), RolledRound(*spots, radii))
+    conditions = (SpotDistance(*spots, distance), RolledRound(*spots, radii))
     return Rolling(conditions, Contact(spots[0], radii[0], None, spots[1], whole), centres)
 
 

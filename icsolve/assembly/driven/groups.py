@@ -1,4 +1,4 @@
-"""A group of links that Newton's method places: its equations on a record, and their solution on rows.
+"""A group of links that Newton's method places: the smallest that only all its conditions determine.
 
 The equations and their derivatives are expressions of a guess; what solves them enters the record as
 inputs of their own, on which all that follows hangs.
@@ -6,21 +6,159 @@ inputs of their own, on which all that follows hangs.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from itertools import combinations
 from typing import NamedTuple
 
 import numpy as np
+import numpy.typing as npt
 
+from icsolve.assembly.driven.constraints import ConditionRow, ConditionRows, Constraint
+from icsolve.assembly.driven.mechanism import Mechanism
+from icsolve.assembly.driven.order import AssurGroup, ClosingOrder, touching
+from icsolve.assembly.driven.poses import Moved, Rotation, Spot, Still, minus, plus, product
 from icsolve.assembly.workspace import Workspace
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.errors import SceneError, Status
+from icsolve.numbers.arithmetic import FLOATS, RADIAN, Scalar
 from icsolve.numbers.record import Op, Record, Traced
 from icsolve.numbers.replay import Array, Code
 from icsolve.screws.plane import Point
-from icsolve.sweep.closing import Newton
-from icsolve.sweep.constraints import RADIAN, Row, Rows
-from icsolve.sweep.mechanism import Mechanism
-from icsolve.sweep.poses import Moved, Rotation, Spot, minus, plus, product
-from icsolve.sweep.smallest import bases_of, equations
+from icsolve.wording.sentences import listed
+
+DEPENDENT = 1e-10
+"""A singular value below this fraction of the largest is zero (normalised frame)."""
+MOST_TRIED = 4000
+
+Matrix = npt.NDArray[np.float64]
+
+
+def bases_of(mechanism: Mechanism, bodies: Iterable[int]) -> dict[int, Spot]:
+    """For each body the spot that its place is told by: a pin where it has one."""
+    pins = mechanism.shape.joined
+    return {
+        body: next((spot for spot in mechanism.spots[body] if spot in pins), mechanism.spots[body][0])
+        for body in bodies
+    }
+
+
+def equations(
+    mechanism: Mechanism,
+    rows: ConditionRows,
+    constraints: Iterable[Constraint],
+    known: Moved | None = None,
+) -> Iterator[ConditionRow]:
+    """The equations of the bodies of ``rows``: their conditions and their pins.
+
+    ``known`` has the spots that are located; without it the other bodies stand as written.
+    """
+    for c in constraints:
+        yield rows.of(c)
+    members: dict[Spot, list[Spot]] = {}
+    for spot, one in mechanism.shape.joined.items():
+        members.setdefault(one, []).append(spot)
+    for one, spots in members.items():
+        own = [spot for spot in spots if spot[0] in rows.bases]
+        fixed = _fixed(one, spots, rows, known)
+        first = own[:1] if fixed is None else []
+        for spot in own[len(first) :]:
+            yield from rows.pinned(spot, first[0]) if fixed is None else rows.held(spot, fixed)
+
+
+def _fixed(one: Spot, spots: list[Spot], rows: ConditionRows, known: Moved | None) -> Point | None:
+    """Where a pin is known to be."""
+    if known is not None:
+        return known.located.get(one)
+    others = [spot for spot in spots if spot[0] not in rows.bases]
+    return rows.places.place(others[0]) if others else None
+
+
+def jacobian(mechanism: Mechanism, bodies: Sequence[int], constraints: Iterable[Constraint]) -> Matrix:
+    """Derivatives of all equations of some bodies in the position as written, the others held."""
+    bases = bases_of(mechanism, bodies)
+    rows = ConditionRows(mechanism.shape, Still(mechanism.shape), bases, _board(mechanism))
+    return matrix(bodies, equations(mechanism, rows, constraints))
+
+
+def matrix(bodies: Sequence[int], rows: Iterable[ConditionRow]) -> Matrix:
+    """The derivatives by the three parts of each body."""
+    column = {body: 3 * n for n, body in enumerate(bodies)}
+    found = []
+    for row in rows:
+        line = np.zeros(3 * len(bodies))
+        for (body, part), value in row.by.items():
+            if body in column:
+                line[column[body] + part] += float(value)
+        found.append(line)
+    return np.array(found).reshape(len(found), 3 * len(bodies))
+
+
+def _board(mechanism: Mechanism) -> Workspace:
+    return Workspace(mechanism.case, mechanism.frame, FLOATS)
+
+
+def rank(m: Matrix) -> int:
+    """Rank of a matrix whose rows are scaled alike."""
+    if not m.size:
+        return 0
+    sizes = np.abs(m).max(axis=1)
+    scaled = m[sizes > 0.0] / sizes[sizes > 0.0][:, None]
+    if not scaled.size:
+        return 0
+    values = np.linalg.svd(scaled, compute_uv=False)
+    return int(np.sum(values > DEPENDENT * values[0]))
+
+
+def smallest(mechanism: Mechanism, order: ClosingOrder, left: Sequence[int]) -> AssurGroup:
+    """The smallest set of the bodies that are left whose conditions determine it.
+
+    Raises SceneError where no set is determined.
+    """
+    tried = 0
+    for size in range(1, len(left) + 1):
+        for bodies in combinations(left, size):
+            tried += 1
+            if tried > MOST_TRIED and size < len(left):
+                break
+            group = _group(mechanism, order, bodies)
+            if group is not None:
+                return group
+    raise _refusal(mechanism, order, left)
+
+
+def _group(mechanism: Mechanism, order: ClosingOrder, bodies: Sequence[int]) -> AssurGroup | None:
+    reach = {*bodies, *order.full}
+    constraints = tuple(c for c in order.constraints if c.bodies <= reach and c.bodies & set(bodies))
+    shape = _held(mechanism, order, bodies)
+    rows = ConditionRows(
+        mechanism.shape, Still(mechanism.shape), bases_of(mechanism, bodies), _board(mechanism)
+    )
+    found = matrix(bodies, equations(mechanism, rows, constraints, shape))
+    return AssurGroup(tuple(bodies), constraints) if rank(found) == 3 * len(bodies) else None
+
+
+def _held(mechanism: Mechanism, order: ClosingOrder, bodies: Collection[int]) -> Moved:
+    """The spots that are located, as written."""
+    moved = Moved(mechanism.shape)
+    for one in order.located:
+        x, y = mechanism.shape.ref[one[1]]
+        moved.located[one] = (float(x), float(y))
+    return moved
+
+
+def _refusal(mechanism: Mechanism, order: ClosingOrder, left: Sequence[int]) -> SceneError:
+    names = [mechanism.top.members[body][0] for body in left]
+    plural = "link" if len(names) == 1 else "links"
+    if order.nearest is not None:
+        return touching(order.nearest)
+    return SceneError(
+        Status.MOBILITY,
+        f"nothing drives {plural} {listed(names)}: the mechanism has more freedoms than numbers that move "
+        "it. Vary another angle or length too, or turn another link.",
+    )
+
+
+# --- a group of links that Newton's method places: its equations on a record, and their solution on rows ---
+
 
 ROUNDS = 25
 CLOSE = 1e-9
@@ -60,7 +198,7 @@ class Guess:
         return self.q[body][2] if body in self.q else self.moved.degrees(body)
 
 
-class Together(NamedTuple):
+class NewtonGroup(NamedTuple):
     """The group on the record: three numbers a body (place of its base, degrees), guessed and solved.
 
     ``residuals`` and ``derivatives`` (a row each) are nodes or floats.
@@ -76,7 +214,7 @@ class Together(NamedTuple):
     places: dict[int, Point]
 
 
-def settled(mechanism: Mechanism, moved: Moved, step: Newton, number: int) -> Together:
+def settled(mechanism: Mechanism, moved: Moved, step: AssurGroup, number: int) -> NewtonGroup:
     """Write the equations of a group, and solve them in the position in which the record is made."""
     record = mechanism.shape.record
     bases = bases_of(mechanism, step.bodies)
@@ -86,7 +224,7 @@ def settled(mechanism: Mechanism, moved: Moved, step: Newton, number: int) -> To
     workspace = Workspace(mechanism.case, mechanism.frame, record)
     rows = list(_equations(mechanism, moved, step, Guess(moved, bases, q), workspace))
     columns = [(body, part) for body in step.bodies for part in range(3)]
-    group = Together(
+    group = NewtonGroup(
         step.bodies,
         tuple(g.index for g in guessed),
         (),
@@ -107,13 +245,13 @@ def settled(mechanism: Mechanism, moved: Moved, step: Newton, number: int) -> To
 
 
 def _equations(
-    mechanism: Mechanism, moved: Moved, step: Newton, guess: Guess, workspace: Workspace
-) -> Iterator[Row]:
-    rows = Rows(mechanism.shape, guess, dict(guess.bases), workspace)
+    mechanism: Mechanism, moved: Moved, step: AssurGroup, guess: Guess, workspace: Workspace
+) -> Iterator[ConditionRow]:
+    rows = ConditionRows(mechanism.shape, guess, dict(guess.bases), workspace)
     return equations(mechanism, rows, step.constraints, moved)
 
 
-def _at_record(record: Record, group: Together) -> Array:
+def _at_record(record: Record, group: NewtonGroup) -> Array:
     """The solution at the values that the record was made with."""
     solver = Solver(record, group)
     env = {k: np.array([node.value]) for k, node in enumerate(record.nodes) if node.op == Op.INPUT}
@@ -126,7 +264,7 @@ def _at_record(record: Record, group: Together) -> Array:
 class Solver:
     """Newton's method on rows of a group."""
 
-    def __init__(self, record: Record, group: Together) -> None:
+    def __init__(self, record: Record, group: NewtonGroup) -> None:
         self.group = group
         flat = [value for row in group.derivatives for value in row]
         self.traced = [n for n, value in enumerate(flat) if isinstance(value, Traced)]
