@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 
 class IcsolveError(Exception):
@@ -53,16 +53,20 @@ class NotACase(CaseError):
 
 
 class SceneError(IcsolveError):
-    """A case that was read but has no answer: ``status`` is a stable word, ``message`` a sentence."""
+    """A case that was read but has no answer: ``status`` is a stable word, ``message`` a sentence.
 
-    def __init__(self, status: str, message: str) -> None:
+    ``more`` has what the JSON object of the refusal shows besides.
+    """
+
+    def __init__(self, status: str, message: str, more: dict[str, Any] | None = None) -> None:
         self.status = status
         self.message = message
+        self.more = more or {}
         super().__init__(message)
 
-    def __reduce__(self) -> tuple[type[SceneError], tuple[str, str]]:
+    def __reduce__(self) -> tuple[type[SceneError], tuple[str, str, dict[str, Any]]]:
         """Across processes it goes with its status."""
-        return type(self), (self.status, self.message)
+        return type(self), (self.status, self.message, self.more)
 
 
 class Status:

@@ -9,6 +9,7 @@ import pytest
 from icsolve.answer import Centre, Found, Term
 from icsolve.answer.as_json import pair_name, refusal_dict, to_dict
 from icsolve.case import Coordinates, Motion, Torque, Units
+from icsolve.errors import SceneError
 from icsolve.report.text import answer_text
 from made import four_bar_answer, four_bar_case, number
 
@@ -85,7 +86,7 @@ def test_a_reconstruction_is_labelled_wherever_it_is_shown() -> None:
 
 
 def test_a_refusal_has_status_and_message() -> None:
-    assert refusal_dict("press", "dead-centre", "2 can't drive.") == {
+    assert refusal_dict("press", SceneError("dead-centre", "2 can't drive.")) == {
         "schema": "icsolve/solve/1",
         "case": "press",
         "status": "dead-centre",

@@ -13,6 +13,7 @@ from icsolve.errors import SceneError
 if TYPE_CHECKING:
     from icsolve.answer.bodies import Friction, Reactions, Tension, Witness
     from icsolve.answer.contacts import Touching
+    from icsolve.answer.equilibrium import Position, Stiffness
     from icsolve.answer.space import Spatial
     from icsolve.solve.parts import Parts
 
@@ -186,6 +187,12 @@ class Answer:
     friction: Friction | None = None
     touching: tuple[Touching, ...] = ()
     """the contacts that profiles gave"""
+    positions: tuple[Position, ...] | None = None
+    """where it rests, of a case with an unknown datum of the figure; None of any other"""
+    stability: str | None = None
+    """of the position as written, where it was asked; with its stiffness, or why there is none"""
+    stiffness: Stiffness | None = None
+    why_no_stiffness: str = ""
     spatial: Spatial | None = None
     """reactions and points of a case in space, which has no others"""
     scene: Parts | None = None

@@ -7,8 +7,10 @@ from collections.abc import Mapping
 from typing import Any
 
 from icsolve.answer import Answer, Centre, Found, Term
+from icsolve.answer.equilibrium import position_dict, stiffness_dict
 from icsolve.case import Case
 from icsolve.case.names import pair_name
+from icsolve.errors import SceneError
 
 SCHEMA = "icsolve/solve/1"
 
@@ -36,6 +38,7 @@ def to_dict(answer: Answer) -> dict[str, Any]:
         **_motion(answer),
         **_contacts(answer),
         **_bodies(answer),
+        **_equilibrium(answer),
         "points": {name: _numbers(place) for name, place in _places(answer).items()},
         "errors": _errors(answer),
         "advantage": None if answer.advantage is None else _plain(answer.advantage),
@@ -46,9 +49,9 @@ def to_dict(answer: Answer) -> dict[str, Any]:
     }
 
 
-def refusal_dict(name: str, status: str, message: str) -> dict[str, Any]:
+def refusal_dict(name: str, error: SceneError) -> dict[str, Any]:
     """The object of a case that was read but has no answer."""
-    return {"schema": SCHEMA, "case": name, "status": status, "message": message}
+    return {"schema": SCHEMA, "case": name, "status": error.status, "message": error.message, **error.more}
 
 
 def _plain(value: float) -> float:
@@ -141,6 +144,16 @@ def _bodies(answer: Answer) -> dict[str, Any]:
     from icsolve.statics.report import bodies_dict
 
     return bodies_dict(answer)
+
+
+def _equilibrium(answer: Answer) -> dict[str, Any]:
+    """Positions of equilibrium, or the stability of the position as written."""
+    if answer.positions is not None:
+        return {"positions": [position_dict(position) for position in answer.positions]}
+    if answer.stability is None:
+        return {}
+    stiffness = stiffness_dict(answer.stiffness, answer.why_no_stiffness)
+    return {"stability": answer.stability, "stiffness": stiffness}
 
 
 def _rate(rate: float | str) -> float | dict[str, str]:

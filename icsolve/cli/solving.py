@@ -151,4 +151,4 @@ def _as_text(options: Options, several: bool) -> Work:
 def _refuse_json(case: Case, path: str, error: SceneError) -> None:
     from icsolve.answer.as_json import refusal_dict
 
-    print_json(refusal_dict(case.name, error.status, error.message))
+    print_json(refusal_dict(case.name, error))

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
+from typing import Any
 
 from icsolve.answer import Answer, Centre, Found, Term
 from icsolve.answer.as_json import shown_points
+from icsolve.answer.equilibrium import Stiffness
 from icsolve.case import Case, Coordinates, Pair, Torque
 from icsolve.case.names import link_order, pair_name
 
@@ -23,6 +25,7 @@ def answer_text(answer: Answer, digits: int = 6) -> str:
     sections = [
         _title(case),
         _unknowns(answer, digits),
+        _positions(answer, digits),
         _points(answer, show),
         _centres(answer, digits),
         _power(answer, digits),
@@ -59,6 +62,42 @@ def _unknowns(answer: Answer, digits: int) -> list[str]:
         return lines
     least = min((certain_digits(found, digits) for found in answer.answers.values()), default=digits)
     return [*lines, _advantage(answer, answer.advantage, _formatter(least))]
+
+
+def _positions(answer: Answer, digits: int) -> list[str]:
+    """Where it rests: a line a position with what becomes of a small push."""
+    lines = []
+    for position in answer.positions or ():
+        at = ", ".join(
+            f"{path} {_held(answer.case, path, value, position.error[path], digits)}"
+            for path, value in position.at.items()
+        )
+        lines.append(f"{at}{_kind(position.stability, position.stiffness, position.why, digits)}")
+    if answer.stability is not None:
+        kind = _kind(answer.stability, answer.stiffness, answer.why_no_stiffness, digits)
+        lines.append(f"the position as written{kind}")
+    return lines
+
+
+def _held(case: Case, path: str, value: Any, error: Any, digits: int) -> str:
+    """A datum's value, or the range in which friction holds, with its unit."""
+    unit = "deg" if path.startswith("angles.") else case.units.length
+    values, errors = (value, error) if isinstance(value, tuple) else ((value,), (error,))
+    shown = [_formatter(_certain(v, e, digits))(v) for v, e in zip(values, errors, strict=True)]
+    return f"= {shown[0]} {unit}" if len(shown) == 1 else f"holds still from {shown[0]} to {shown[1]} {unit}"
+
+
+def _kind(stability: str | None, stiffness: Stiffness | None, why: str, digits: int) -> str:
+    """``: stable (stiffness 232.445 N*m/rad)``."""
+    if stability is None:
+        return ""
+    if stiffness is None:
+        return f": {stability} ({why.rstrip('.')})" if why else f": {stability}"
+    if isinstance(stiffness.value, float):
+        return f": {stability} (stiffness {_formatter(digits)(stiffness.value)} {stiffness.unit})"
+    rows = zip(stiffness.value, stiffness.unit, strict=True)
+    cells = [[f"{_formatter(digits)(v)} {u}" for v, u in zip(vs, us, strict=True)] for vs, us in rows]
+    return f": {stability} (stiffness {'; '.join(', '.join(row) for row in cells)})"
 
 
 def _advantage(answer: Answer, advantage: float, show: Format) -> str:

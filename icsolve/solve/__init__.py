@@ -65,6 +65,10 @@ def solve(
 
         asked = {"all_centres": all_centres, "rates": True, "examine": examine}
         return solve_dynamic(case, solve, **asked, bound=bound, reactions=reactions)
+    if case.unknowns:
+        from icsolve.equilibrium import solve_positions
+
+        return solve_positions(case, all_centres=all_centres, rates=rates, reactions=reactions)
     if case.space is not None:
         from icsolve.statics.space.solve import solve_space
 

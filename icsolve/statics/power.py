@@ -318,3 +318,13 @@ def _workless(rows: list[list[Scalar]], roots: list[str]) -> str:
         if all(row[k] == 0.0 for row in rows):
             return root
     return roots[0] if roots else ""
+
+
+def known_power(b: Balance, m: int, arithmetic: Arithmetic) -> Scalar:
+    """The power of the known loads in motion m: force units times normalised length a unit of the motion."""
+    scale = force_scale(b)
+    total: Scalar = 0.0
+    for w, factor in zip(b.wrenches, b.factors[m], strict=True):
+        if not is_unknown(w.source):
+            total = total + _share(w, (), {}, scale, arithmetic)[1] * factor
+    return total

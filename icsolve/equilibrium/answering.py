@@ -1,0 +1,116 @@
+"""A case with an unknown datum of its figure, answered: its positions, or why there are none."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+from icsolve.answer import Answer
+from icsolve.answer.equilibrium import Position
+from icsolve.case import Case, Unknown
+from icsolve.equilibrium.positions import Search, find_positions, with_scene
+from icsolve.equilibrium.resting import Range, find_ranges
+from icsolve.errors import SceneError, Status
+from icsolve.solve import solve
+from icsolve.statics.power import is_unknown
+
+
+def solve_positions(
+    case: Case, *, all_centres: bool = False, rates: bool = False, reactions: bool = False
+) -> Answer:
+    """The positions of equilibrium of a case whose figure has an unknown datum.
+
+    Raises SceneError (``any-value``, ``no-value``) where the loads balance everywhere or nowhere, with what
+    the JSON object shows besides.
+    """
+    unknown = _unknown(case)
+    if rubs(case):
+        return _resting(case, unknown, all_centres, rates, reactions)
+    search = find_positions(_written(case), unknown.path, span_of(unknown))
+    _refuse_none(search)
+    found = []
+    for one in search.positions:
+        scene = with_scene(one, all_centres=all_centres, rates=rates, reactions=reactions)
+        at, error = {search.path: one.value}, {search.path: one.error}
+        found.append(Position(at, error, one.stability, one.stiffness, one.why, scene))
+    return Answer(case, positions=tuple(found), mobility=1, notes=(*case.noticed, *search.notes))
+
+
+def rubs(case: Case) -> bool:
+    """Whether a joint has friction."""
+    frictions = (getattr(joint, "friction", None) for joint in case.joints)
+    return any(friction is not None and friction.mu.value > 0 for friction in frictions)
+
+
+def span_of(unknown: Unknown) -> tuple[float, float] | None:
+    """The range that a case gives, or None for all that there is."""
+    if unknown.low is None or unknown.high is None:
+        return None
+    return unknown.low.value, unknown.high.value
+
+
+def _unknown(case: Case) -> Unknown:
+    loads = [load.name for load in case.loads if is_unknown(load)]
+    if loads:
+        raise SceneError(
+            Status.MOBILITY,
+            f"{loads[0]} is unknown beside {case.unknowns[0].path}: where a mechanism rests is asked for "
+            "loads that are all known. Give the load a number, or the figure.",
+        )
+    if len(case.unknowns) > 1:
+        paths = " and ".join(one.path for one in case.unknowns)
+        raise SceneError(
+            Status.UNSUPPORTED,
+            f"{paths} are unknown: positions are searched for one unknown datum at a time.",
+        )
+    return case.unknowns[0]
+
+
+def _written(case: Case) -> Case:
+    """The case as an ordinary one; its datum gets a number before it is used."""
+    return replace(case, unknowns=(), motion=(), expect=())
+
+
+def _refuse_none(search: Search) -> None:
+    if search.any_value:
+        raise SceneError(
+            Status.ANY_VALUE,
+            f"the loads balance in every position: any value of {search.path} will do.",
+            {"positions": []},
+        )
+    if not search.positions:
+        raise no_value(search.path, search.nearest, search.notes)
+
+
+def no_value(path: str, nearest: float | None, notes: tuple[str, ...]) -> SceneError:
+    """The refusal of a case whose loads balance nowhere."""
+    where = "" if nearest is None else f" They come nearest to it at {path} = {nearest:.6g}."
+    more: dict[str, object] = {"positions": [], **({"notes": list(notes)} if notes else {})}
+    if nearest is not None and math.isfinite(nearest):
+        more["nearest"] = {"at": {path: nearest}}
+    said = "".join(f" {note}" for note in notes)
+    return SceneError(
+        Status.NO_VALUE, f"the loads balance for no value of {path} that was searched.{where}{said}", more
+    )
+
+
+def _resting(case: Case, unknown: Unknown, all_centres: bool, rates: bool, reactions: bool) -> Answer:
+    """With friction: the ranges in which the mechanism holds still."""
+    search = find_ranges(_written(case), unknown.path, span_of(unknown))
+    if not search.ranges:
+        raise no_value(unknown.path, search.nearest, search.notes)
+
+    def scene_of(one: Range) -> Answer:
+        scene = solve(one.case, all_centres=all_centres, rates=rates, reactions=reactions)
+        return replace(
+            scene,
+            centres=scene.centres if all_centres else {},
+            rates=scene.rates if rates else None,
+            velocities=scene.velocities if rates else None,
+        )
+
+    found = [
+        Position({unknown.path: one.held}, {unknown.path: one.error}, None, None, "", scene_of(one))
+        for one in search.ranges
+    ]
+    return Answer(case, positions=tuple(found), mobility=1, notes=(*case.noticed, *search.notes))

@@ -1,0 +1,138 @@
+"""Branches: the modes of a figure followed along the free datum, straight on through change points."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from icsolve.case import Case
+from icsolve.equilibrium.load_function import LoadFunction
+from icsolve.errors import SceneError, Status
+from icsolve.numbers.replay import Array, Code
+
+SAMPLES = 720
+EVEN = 0.99
+"""Two branches whose distances from `near` have at least this ratio are about equally near."""
+
+
+class Branches:
+    """The modes sampled from ``low`` to ``high``, and which samples one varying figure joins."""
+
+    def __init__(self, functions: Sequence[LoadFunction], low: float, high: float) -> None:
+        self.functions, self.low, self.high = functions, low, high
+        self.values = np.linspace(low, high, SAMPLES + 1)
+        self.names = [name for name in functions[0].places if all(name in f.places for f in functions)]
+        self.places = np.array([self._places(f) for f in functions])  # (modes, samples, 2 points)
+        self.whole = np.array([self._assembles(f) for f in functions])  # (modes, samples)
+        self.ids = self._followed()
+
+    def _places(self, function: LoadFunction) -> Array:
+        nodes = [k for name in self.names for k in function.places[name]]
+        found = Code(function.record, nodes).run({function.input: self.values}, len(self.values))
+        columns = [np.array(np.broadcast_to(v, len(self.values))) for v in found]
+        ox, oy, scale = function.sheet.scene.frame
+        origin = np.tile([ox, oy], len(self.names))
+        return np.array(np.stack(columns, axis=1) / scale + origin)
+
+    def _assembles(self, function: LoadFunction) -> npt.NDArray[np.bool_]:
+        found = Code(function.record, function.margins).run({function.input: self.values}, len(self.values))
+        whole = np.ones(len(self.values), dtype=bool)
+        for margin in found:
+            whole &= np.broadcast_to(margin >= 0.0, len(self.values))
+        return whole
+
+    def _followed(self) -> npt.NDArray[np.int64]:
+        """The branch of every sample of every mode; -1 where it does not assemble."""
+        modes, samples = self.whole.shape
+        ids = np.full((modes, samples), -1, dtype=np.int64)
+        ids[:, 0] = np.where(self.whole[:, 0], np.arange(modes), -1)
+        count = modes
+        for k in range(1, samples):
+            taken: dict[int, int] = {}
+            for m in range(modes):
+                if ids[m, k - 1] < 0:
+                    continue
+                ahead = self._ahead(ids, m, k)
+                free = [self.whole[n, k] and n not in taken for n in range(modes)]
+                away = [float(np.abs(self.places[n, k] - ahead).max()) for n in range(modes)]
+                off = [d if f else math.inf for d, f in zip(away, free, strict=True)]
+                n = int(np.argmin(off))
+                stays = self.whole[m, k] and m not in taken
+                if off[n] < math.inf and (not stays or off[n] < 0.25 * off[m]):
+                    taken[n] = int(ids[m, k - 1]) if self._joined(m, n, k) else -1
+                elif stays:
+                    taken[m] = int(ids[m, k - 1])
+            for n in range(modes):
+                if not self.whole[n, k]:
+                    continue
+                if taken.get(n, -1) >= 0:
+                    ids[n, k] = taken[n]
+                else:
+                    ids[n, k], count = count, count + 1
+        return self._closed(ids)
+
+    def _ahead(self, ids: npt.NDArray[np.int64], m: int, k: int) -> Array:
+        """Where a branch would be at the next sample, going straight on."""
+        here = self.places[m, k - 1]
+        if k < 2:
+            return np.asarray(here)
+        before = np.flatnonzero(ids[:, k - 2] == ids[m, k - 1])
+        return np.asarray(2.0 * here - self.places[before[0], k - 2] if before.size else here)
+
+    def _joined(self, m: int, n: int, k: int) -> bool:
+        """Whether two modes come so near to one another that a branch may pass from one to the other."""
+        if m == n:
+            return True
+        if not (self.whole[m, k] and self.whole[n, k - 1]):
+            return False
+        gap = min(np.abs(self.places[m, j] - self.places[n, j]).max() for j in (k - 1, k))
+        step = np.abs(self.places[m, k] - self.places[m, k - 1]).max()
+        return bool(gap <= 4.0 * step)
+
+    def _closed(self, ids: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
+        """A whole turn ends where it begins: what is one there is one branch."""
+        if self.high - self.low != 360.0 or not self.functions[0].path.startswith("angles."):
+            return ids
+        for m in range(len(ids)):
+            if ids[m, 0] >= 0 and ids[m, -1] >= 0 and ids[m, 0] != ids[m, -1]:
+                ids[ids == ids[m, -1]] = ids[m, 0]
+        return ids
+
+    def assembling(self, m: int) -> list[float]:
+        """The sampled values at which a mode assembles."""
+        found: list[float] = self.values[self.whole[m]].tolist()
+        return found
+
+    def on(self, m: int, value: float) -> int:
+        """The branch of a mode at a value."""
+        k = int(np.clip(round((value - self.low) / (self.high - self.low) * SAMPLES), 0, SAMPLES))
+        for j in (k, k - 1, k + 1):
+            if 0 <= j <= SAMPLES and self.ids[m, j] >= 0:
+                return int(self.ids[m, j])
+        return -1
+
+    def nearest(self, case: Case) -> frozenset[int]:
+        """The branch that passes nearest to `near` at any value.
+
+        Raises SceneError where two are about equally near.
+        """
+        off = np.zeros(self.whole.shape)
+        for name, (x, y) in case.near.items():
+            if name in self.names:
+                at = 2 * self.names.index(name)
+                off += (self.places[:, :, at] - x) ** 2 + (self.places[:, :, at + 1] - y) ** 2
+        off[~self.whole] = np.inf
+        best: Mapping[int, float] = {
+            int(i): float(np.sqrt(off[self.ids == i].min())) for i in np.unique(self.ids) if i >= 0
+        }
+        order = sorted(best, key=lambda i: best[i])
+        if len(order) > 1 and best[order[0]] >= EVEN * best[order[1]]:
+            raise SceneError(
+                Status.AMBIGUOUS,
+                f"two branches of the figure pass about equally near to near ({best[order[0]]:.4g} and "
+                f"{best[order[1]]:.4g} {case.units.length} from it): move near toward the one that is meant.",
+            )
+        return frozenset(order[:1])

@@ -1,0 +1,224 @@
+"""The power of all loads in the motion of a mechanism, as a function of one number of its figure.
+
+A figure may assemble in several ways at each value of the number: of one order of construction each choice
+of the places where two loci meet is a mode, and has a function of its own. Positions of equilibrium are where
+that power vanishes: the principle of virtual work.
+"""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import NamedTuple
+
+from icsolve.assembly import Figure, place
+from icsolve.assembly.groups import Group
+from icsolve.assembly.loci import is_round
+from icsolve.assembly.order import order_of
+from icsolve.assembly.steps import Meet, Step
+from icsolve.assembly.workspace import frame_of
+from icsolve.case import Case, Coordinates, Number
+from icsolve.errors import SceneError, Status
+from icsolve.kinematics import motion
+from icsolve.numbers.adjoint import gradient
+from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.record import Record, varies
+from icsolve.screws.plane import velocity
+from icsolve.solve import refusals
+from icsolve.statics import power
+from icsolve.structure.plan import make_plan
+from icsolve.structure.topology import Topology, topology
+from icsolve.sweep.drivers import Drive
+from icsolve.sweep.numbers import with_numbers
+from icsolve.sweep.program import Asked, Setting, Sheet, sheet_of, wanted_points
+
+Steps = tuple[Step, ...]
+
+MOST_MODES = 256
+SAMPLES = 181
+
+
+class LoadFunction(NamedTuple):
+    """One mode of a figure and its power on a record whose input is the free number.
+
+    Nodes of ``record``: ``power`` (over the power of the first number's largest load, in the record's own
+    scale of the motion) and its derivative by the free number, ``rate`` of the free number in that motion,
+    ``margins``, none of which may be negative, and the places of the points that assemble in two places.
+    """
+
+    case: Case
+    path: str
+    sheet: Sheet
+    figure: Figure
+    input: int
+    power: int
+    slope: int
+    rate: int
+    margins: tuple[int, ...]
+    places: dict[str, tuple[int, int]]
+    links: list[str]
+    """those that turn, the fastest first where the record was made"""
+    force_scale: float
+    """by what the loads were multiplied"""
+
+    @property
+    def record(self) -> Record:
+        """The record of the mode."""
+        return self.sheet.record
+
+
+def load_functions(case: Case, path: str, low: float, high: float) -> tuple[list[LoadFunction], bool]:
+    """The functions of all modes that assemble somewhere between two values of the number at ``path``;
+    whether every mode is among them.
+
+    Raises SceneError where no value gives a figure, or the mechanism has not one freedom.
+    """
+    top = topology(case)
+    refusals.refuse_loose(case, top)
+    values = [low + (high - low) * (k + 0.37) / SAMPLES for k in range(SAMPLES)]
+    refusal: SceneError | None = None
+    found: list[LoadFunction] = []
+    goal = wanted_points(case)
+    order = order_of(given_at(case, path, values[SAMPLES // 2]), goal)
+    if any(isinstance(step, Group) for step in order.steps):
+        raise SceneError(
+            Status.UNSUPPORTED,
+            "once the unknown has a value, points of this figure can only all together be placed, and no "
+            "search over such a group is complete. Take a datum as the unknown that places them one by one.",
+        )
+    count = 0
+    for steps in _modes(order.steps):
+        count += 1
+        if count > MOST_MODES:
+            return found, False
+        samples = _assembling(case, path, steps, values)
+        for value in samples[:3]:
+            written = given_at(case, path, value)
+            frame = frame_of(written)
+            placed = place(Figure(frame, {}, steps), written).points
+            figure = Figure(frame, {p: placed[p] for p in order.points}, steps)
+            try:
+                found.append(_function(written, path, top, figure))
+            except (SceneError, ZeroDivisionError) as error:
+                refusal = error if isinstance(error, SceneError) else refusal
+                continue
+            break
+    if not found:
+        raise refusal or SceneError(
+            Status.CANNOT_ASSEMBLE,
+            f"the figure assembles for no value of {path} between {low:g} and {high:g}.",
+        )
+    return found, True
+
+
+def given_at(case: Case, path: str, value: float) -> Case:
+    """The case with its free datum at a value, as if written so."""
+    section, name, *part = path.split(".")
+    at = case.points.get(name)
+    if section != "points" or not isinstance(at, Coordinates):
+        return with_numbers(case, {path: value})
+    number = Number(value, 0.0, path, repr(value))
+    placed = at._replace(x=number) if part == ["x"] else at._replace(y=number)
+    return replace(case, points={**case.points, name: placed})
+
+
+def _modes(steps: Steps) -> Iterator[Steps]:
+    """The steps with every choice of the places where two loci meet."""
+    forks = [k for k, step in enumerate(steps) if isinstance(step, Meet) and is_round(step.second)]
+    for signs in itertools.product((1, -1), repeat=len(forks)):
+        mode = list(steps)
+        for k, sign in zip(forks, signs, strict=True):
+            step = mode[k]
+            assert isinstance(step, Meet)
+            mode[k] = step._replace(sign=sign)
+        yield tuple(mode)
+
+
+def _assembling(case: Case, path: str, steps: Steps, values: list[float]) -> list[float]:
+    """The sampled values at which a mode assembles, those farthest from its limits first."""
+    found = []
+    for value in values:
+        written = given_at(case, path, value)
+        try:
+            margins = place(Figure(frame_of(written), {}, steps), written).margins
+        except (ZeroDivisionError, ValueError, SceneError):
+            continue
+        least = min((float(m) for step in margins.values() for m in step), default=1.0)
+        if least > 0.0:
+            found.append((-least, value))
+    return [value for _, value in sorted(found)]
+
+
+def _function(case: Case, path: str, top: Topology, figure: Figure) -> LoadFunction:
+    setting = Setting(case, top, figure, (path,), (), Drive((), (), ()))
+    sheet = sheet_of(setting, Asked(answers=False))
+    record, scene, given = sheet.record, sheet.scene, sheet.inputs[path]
+    plan = make_plan(top, range(len(top.members)))
+    motions = None
+    if plan is not None and plan.closed:
+        motions = motion.by_plan(plan, top, scene.points, record)
+    if motions is None:
+        motions = motion.by_loops(case, top, scene.points, record, scene.frame)
+    if motions.mobility != 1:
+        raise SceneError(
+            Status.MOBILITY,
+            f"the mechanism has {motions.mobility} degrees of freedom: as many data of its figure have to be "
+            "unknown as it has.",
+        )
+    wrenches = power.wrenches(case, scene.frame, scene.points, record)
+    balance = power.balance(wrenches, motions.twists, 1)
+    total = power.known_power(balance, 0, record)
+    rate = _rate(case, scene.points, motions.twists, record, given)
+    slope = gradient(record, total, (given,))[given]
+    margins = [m for step in place(figure, case, record).margins.values() for m in step if varies(m)]
+    named = {p: scene.points[p] for p in figure.points if not p.startswith("@")}
+    places = {p: (record.lifted(x).index, record.lifted(y).index) for p, (x, y) in named.items()}
+    return LoadFunction(
+        case,
+        path,
+        sheet,
+        figure,
+        given,
+        record.lifted(total).index,
+        record.lifted(slope).index,
+        record.lifted(rate).index,
+        tuple(record.lifted(m).index for m in margins),
+        places,
+        _turning(motions.twists),
+        power.force_scale(balance),
+    )
+
+
+def _turning(twists: Mapping[str, tuple[tuple[Scalar, Scalar, Scalar], ...]]) -> list[str]:
+    rates = {link: abs(ts[0][2]) for link, ts in twists.items()}
+    return sorted((link for link, rate in rates.items() if rate > 0.0), key=lambda link: -rates[link])
+
+
+def _rate(
+    case: Case,
+    points: Mapping[str, tuple[Scalar, Scalar]],
+    twists: Mapping[str, tuple[tuple[Scalar, Scalar, Scalar], ...]],
+    record: Record,
+    given: int,
+) -> Scalar:
+    """The rate of the free number in the motion: that with which a point goes along its path, over how
+    far it goes along that path for each unit of the number."""
+    best: tuple[float, Scalar] | None = None
+    for link, names in case.carries.items():
+        if link == case.ground:
+            continue
+        for name in names:
+            if name not in points or name.startswith("@"):
+                continue
+            x, y = points[name]
+            dx, dy = gradient(record, x, (given,))[given], gradient(record, y, (given,))[given]
+            square = dx * dx + dy * dy
+            size = float(square)
+            if best is None or size > 4.0 * best[0]:
+                vx, vy = velocity(twists[link][0], (x, y))
+                best = (size, (vx * dx + vy * dy) / square if size else 0.0)
+    return best[1] if best is not None else 0.0
+
+
+__all__ = ["LoadFunction", "load_functions"]

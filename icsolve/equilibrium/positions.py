@@ -1,0 +1,476 @@
+"""Positions of equilibrium: every value of a free datum of the figure at which the loads balance."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from icsolve.answer import Answer
+from icsolve.answer.equilibrium import Stiffness
+from icsolve.case import Case, Coordinates, Torque
+from icsolve.equilibrium.branches import Branches
+from icsolve.equilibrium.load_function import LoadFunction, given_at, load_functions
+from icsolve.equilibrium.search import isolate
+from icsolve.errors import SceneError
+from icsolve.numbers.intervals import Interval, enclose
+from icsolve.numbers.replay import Code
+from icsolve.solve import solve
+
+PROBE = "@equilibrium"
+"""The name of the unknown load by which `icsolve.solve` tells how far a position is from equilibrium."""
+STEPS = 64
+JUMP = 1e-5
+"""Beside a zero, even one at which the load rises as steeply as a root, it is smaller than this fraction."""
+AT_LIMIT = "at a limit of the unknown the other links' rates per unit of it grow without bound."
+DEGREES = 180.0 / math.pi
+
+
+class Rest(NamedTuple):
+    """One position of equilibrium of a mode; ``answer`` is the scene in it, ``function`` the mode."""
+
+    value: float
+    error: float
+    stability: str
+    stiffness: Stiffness | None
+    why: str
+    answer: Answer
+    function: LoadFunction
+
+
+class Search(NamedTuple):
+    """What was found over a range: positions by rising value, sentences, and where the loads come nearest."""
+
+    path: str
+    positions: tuple[Rest, ...]
+    notes: tuple[str, ...]
+    any_value: bool
+    nearest: float | None
+
+
+def find_positions(case: Case, path: str, span: tuple[float, float] | None) -> Search:
+    """All positions of equilibrium of a case whose datum at ``path`` is free.
+
+    Parameters
+    ----------
+    case : all of its loads known, of one freedom
+    span : the values that are searched, both included; None: a whole turn, or wherever it assembles
+
+    Raises SceneError where the figure assembles nowhere, or `near` does not tell branches apart.
+    """
+    low, high = span or whole_range(case, path)
+    functions, complete = load_functions(case, path, low, high)
+    branches = Branches(functions, low, high)
+    kept = branches.nearest(case) if case.near else None
+    notes: list[str] = []
+    modes = [n for n in range(len(functions)) if kept is None or kept & set(branches.ids[n].tolist())]
+    meant, open_modes = [], []
+    for n in modes:
+        state = _balances_everywhere(functions[n], branches.assembling(n))
+        if isinstance(state, SceneError):
+            notes.append(f"in one way in which the figure assembles it has no answer: {state.message}")
+            continue
+        meant.append(n)
+        if not state:
+            open_modes.append(n)
+    balanced = len(meant) - len(open_modes)
+    if balanced and not open_modes:
+        return Search(path, (), (), True, None)
+    if balanced:
+        notes.append(
+            f"in {balanced} of the {len(meant)} ways in which the figure assembles the loads balance in "
+            "every position; the positions of the others are listed."
+        )
+    searched = search_modes(functions, branches, kept, low, high, span is None, open_modes, notes)
+    found = [rest for _, rest in searched]
+    if not complete:
+        notes.append(f"the figure has more than {len(functions)} ways of assembling: not all were searched.")
+    found.sort(key=lambda p: p.value)
+    nearest = None if found else _nearest(functions, branches, kept)
+    return Search(path, tuple(_distinct(found)), tuple(dict.fromkeys(notes)), False, nearest)
+
+
+def search_modes(
+    functions: Sequence[LoadFunction],
+    branches: Branches,
+    kept: frozenset[int] | None,
+    low: float,
+    high: float,
+    whole: bool,
+    modes: Sequence[int] | None = None,
+    notes: list[str] | None = None,
+) -> list[tuple[int, Rest]]:
+    """The positions of some modes (None: of all), each with its mode; ``kept`` has the branches that are
+    meant, and ``notes`` takes sentences on what stays open."""
+    found: list[tuple[int, Rest]] = []
+    slack = 1e-9 * (high - low)
+    path = functions[0].path
+    for n in range(len(functions)) if modes is None else modes:
+        function = functions[n]
+        search = isolate(function, low - slack, high + slack)
+        if not search.complete and notes is not None:
+            doubt = f"{path} was searched from {low:g} to {high:g}, but not proven to have no other position."
+            notes.append(doubt)
+        for bracket in search.brackets:
+            position = _settled(function, bracket, (low, high), whole)
+            if position is not None and (kept is None or branches.on(n, position.value) in kept):
+                found.append((n, position))
+        for cluster in search.open_cells if search.complete else ():
+            value = _in_open_cells(function, cluster)
+            inside = value is not None and low - slack <= value[0] <= high + slack
+            if value is not None and inside and (kept is None or branches.on(n, value[0]) in kept):
+                found.append((n, _described(function, *value)))
+    found += [(-1, position) for position in _at_limits(functions, branches, kept)]
+    return found
+
+
+def with_scene(rest: Rest, *, all_centres: bool, rates: bool, reactions: bool) -> Answer:
+    """The scene in a position with what is asked of it; reactions are those of loads that balance."""
+    if not (all_centres or rates or reactions):
+        return replace(rest.answer, rates=None, velocities=None, centres={})
+    case = scene_at(rest.function, rest.value)
+    if reactions:
+        case = replace(case, loads=(*case.loads, Torque(PROBE, rest.function.links[0], None)))
+    found = solve(case, all_centres=all_centres, rates=rates, reactions=reactions)
+    return replace(found, case=rest.answer.case, answers={}, centres=found.centres if all_centres else {})
+
+
+def whole_range(case: Case, path: str) -> tuple[float, float]:
+    """A whole turn; of a length or a coordinate all that the sizes of the figure allow."""
+    if path.startswith("angles."):
+        return 0.0, 360.0
+    lengths = [length.value.value for length in case.lengths if length.value.path != path]
+    places = [at for at in case.points.values() if isinstance(at, Coordinates)]
+    given = [n.value for at in places for n in (at.x, at.y) if n is not None and math.isfinite(n.value)]
+    spread = max(given, default=0.0) - min(given, default=0.0)
+    reach = sum(x for x in lengths if math.isfinite(x)) + 2.0 * spread or 1.0
+    if path.startswith("lengths."):
+        return 0.0, reach
+    middle = sum(given) / len(given) if given else 0.0
+    return middle - reach - spread, middle + reach + spread
+
+
+def _balances_everywhere(function: LoadFunction, values: Sequence[float]) -> bool | SceneError:
+    """Whether the loads balance wherever the mode assembles: at places of no meaning, all of them; why
+    nothing can be said where none of these has an answer."""
+    some = [values[len(values) * k // 7] for k in (1, 3, 5)] if len(values) > 6 else list(values)
+    refusal: SceneError | None = None
+    loads = []
+    for value in some:
+        try:
+            loads.append(_probe(function, value)[0])
+        except SceneError as error:
+            refusal = error
+    if not loads and refusal is not None:
+        return refusal
+    return bool(loads) and refusal is None and not any(loads)
+
+
+# --- one position ---------------------------------------------------------------------------------
+
+
+def _settled(
+    function: LoadFunction, bracket: tuple[float, float], span: tuple[float, float], turns: bool
+) -> Rest | None:
+    """The position in a bracket, to the last digit: between two doubles the power changes its sign."""
+    start = _closed_in(function, *bracket)
+    closest = _to_the_last_digit(function, start, bracket)
+    if closest is None:
+        return None
+    value, error = closest
+    low, high = span
+    if turns and function.path.startswith("angles."):
+        value = value % 360.0
+    elif not low <= value <= high:
+        end = low if abs(value - low) < abs(value - high) else high
+        if abs(value - end) > 4.0 * error:
+            return None
+        value = end
+    return _described(function, value, error)
+
+
+def _closed_in(function: LoadFunction, low: float, high: float) -> float:
+    """The zero of the power in floats, by cutting the bracket into many parts again and again."""
+    code = Code(function.record, [function.power])
+    for _ in range(12):
+        at = np.linspace(low, high, STEPS + 1)
+        (values,) = code.run({function.input: at}, len(at))
+        signs = np.signbit(values)
+        change = np.flatnonzero(signs[1:] != signs[:-1])
+        if not change.size:
+            break
+        low, high = float(at[change[0]]), float(at[change[0] + 1])
+        if math.nextafter(low, high) >= high:
+            break
+    return 0.5 * (low + high)
+
+
+def _to_the_last_digit(
+    function: LoadFunction, start: float, bracket: tuple[float, float]
+) -> tuple[float, float] | None:
+    """The double nearest to the zero and a bound of its error, by the scene's own answers; None where the
+    load jumps from one sign to the other."""
+    step = math.ulp(start) or 5e-324
+    here, _ = _probe(function, start)
+    if here == 0.0:
+        return start, step
+    side = _probe(function, bracket[1])[0]
+    toward = 1.0 if (side > 0.0) != (here > 0.0) else -1.0
+    low, at_low, reach = start, here, step
+    while True:
+        high = start + toward * reach
+        if not bracket[0] <= high <= bracket[1]:
+            high = bracket[1] if toward > 0.0 else bracket[0]
+        at_high, _ = _probe(function, high)
+        if at_high == 0.0:
+            return high, math.ulp(high) or step
+        if (at_high > 0.0) != (at_low > 0.0) or high in bracket:
+            break
+        low, at_low, reach = high, at_high, 4.0 * reach
+    while True:
+        middle = 0.5 * (low + high)
+        if middle in (low, high):
+            best = low if abs(at_low) <= abs(at_high) else high
+            jumps = min(abs(at_low), abs(at_high)) > JUMP * max(abs(here), abs(side))
+            return None if jumps else (best, abs(high - low))
+        at_middle, _ = _probe(function, middle)
+        if at_middle == 0.0:
+            return middle, math.ulp(middle)
+        if (at_middle > 0.0) == (at_low > 0.0):
+            low, at_low = middle, at_middle
+        else:
+            high, at_high = middle, at_middle
+
+
+def scene_at(function: LoadFunction, value: float) -> Case:
+    """The case with the free datum at a value, in the mode of the function."""
+    ox, oy, scale = function.sheet.scene.frame
+    nodes = [k for pair in function.places.values() for k in pair]
+    found = Code(function.record, nodes).run({function.input: np.array(value)}, 1)
+    flat = [float(np.ravel(v)[0]) for v in found]
+    pairs = zip(function.places, zip(flat[::2], flat[1::2], strict=True), strict=True)
+    near = {name: (x / scale + ox, y / scale + oy) for name, (x, y) in pairs if math.isfinite(x + y)}
+    free = {name: at for name, at in near.items() if name not in _given(function.case)}
+    return replace(given_at(function.case, function.path, value), near=free, motion=(), expect=())
+
+
+def _given(case: Case) -> set[str]:
+    places = [(name, at) for name, at in case.points.items() if isinstance(at, Coordinates)]
+    return {name for name, at in places if at.x is not None and at.y is not None}
+
+
+def _probe(function: LoadFunction, value: float, on: str = "") -> tuple[float, str]:
+    """The torque on a link that would balance the loads, as `icsolve.solve` finds it, and that link."""
+    case = scene_at(function, value)
+    refusal: SceneError | None = None
+    for link in [on] if on else function.links:
+        probe = Torque(PROBE, link, None)
+        try:
+            found = solve(replace(case, loads=(*case.loads, probe)))
+        except SceneError as error:
+            refusal = error
+            continue
+        answer = found.answers[PROBE].value
+        assert answer is not None
+        return answer, link
+    assert refusal is not None
+    raise refusal
+
+
+def _described(function: LoadFunction, value: float, error: float) -> Rest:
+    """A position with its stiffness: enclosed about the value by the record."""
+    here = Interval(np.array([value - error]), np.array([value + error]))
+    slope, rate = enclose(function.record, [function.slope, function.rate], {function.input: here})
+    factor, unit = _units(function)
+    stiffness, why = None, ""
+    stability = "neutral"
+    with np.errstate(all="ignore"):
+        pairs = [(float(s.flat[0]), float(r.flat[0])) for s in slope for r in rate] if _apart(rate) else []
+    ends = [-s / r * factor for s, r in pairs]
+    if ends and all(map(math.isfinite, ends)):
+        low, high = min(ends), max(ends)
+        middle = 0.5 * (low + high)
+        stiffness = Stiffness(middle, unit, 0.5 * (high - low) + 4.0 * math.ulp(middle))
+        stability = "stable" if low > 0.0 else "unstable" if high < 0.0 else "neutral"
+    else:
+        why = AT_LIMIT
+    answer = solve(scene_at(function, value), rates=True)
+    return Rest(value, error, stability, stiffness, why, answer, function)
+
+
+def _apart(rate: Interval) -> bool:
+    return bool((rate.low.flat[0] > 0.0) or (rate.high.flat[0] < 0.0))
+
+
+def _units(function: LoadFunction) -> tuple[float, str]:
+    """What brings minus slope over rate into the unit of a stiffness, and that unit."""
+    case, frame = function.case, function.sheet.scene.frame
+    per_load = 1.0 / (function.force_scale * frame.scale)
+    units = case.units
+    if function.path.startswith("angles."):
+        return per_load * DEGREES * DEGREES * units.torque_per_force_length, f"{units.torque}/rad"
+    return per_load, f"{units.force}/{units.length}"
+
+
+TOUCHING = 1e-20
+"""Where the power turns round without changing its sign, a load this much smaller than beside is zero."""
+
+
+def _in_open_cells(function: LoadFunction, cluster: tuple[float, float]) -> tuple[float, float] | None:
+    """The position in cells that stayed open, where there is one: a zero of higher order, at which the
+    stiffness vanishes too. At a limit and at a change point there is none here."""
+    low, high = cluster
+    width = max(high - low, 4.0 * math.ulp(abs(low) + abs(high)))
+    low, high = low - width, high + width
+    try:
+        at_low, at_high = _probe(function, low)[0], _probe(function, high)[0]
+        if (at_low > 0.0) != (at_high > 0.0):
+            return _to_the_last_digit(function, 0.5 * (low + high), (low, high))
+        beside = max(abs(at_low), abs(at_high))
+        while True:  # where it comes nearest to zero
+            one, two = low + (high - low) / 3.0, high - (high - low) / 3.0
+            if not low < one < two < high:
+                break
+            a, b = abs(_probe(function, one)[0]), abs(_probe(function, two)[0])
+            low, high = (low, two) if a <= b else (one, high)
+        least, value = min((abs(_probe(function, at)[0]), at) for at in (low, one, two, high))
+    except SceneError:
+        return None
+    return (value, 4.0 * math.ulp(value)) if least <= TOUCHING * beside else None
+
+
+class _Limit(NamedTuple):
+    """Where a mode ends: the last value at which it assembles, and on which side it does."""
+
+    mode: int
+    value: float
+    side: float
+
+
+def _limits(functions: Sequence[LoadFunction], branches: Branches) -> list[_Limit]:
+    """The ends of all modes inside of the range."""
+    found = []
+    for n, function in enumerate(functions):
+        whole = branches.whole[n]
+        for k in np.flatnonzero(whole[1:] != whole[:-1]).tolist():
+            inside, outside = (k, k + 1) if whole[k] else (k + 1, k)
+            value = _last(function, float(branches.values[inside]), float(branches.values[outside]))
+            found.append(_Limit(n, value, 1.0 if inside < outside else -1.0))
+    return found
+
+
+def _last(function: LoadFunction, inside: float, outside: float) -> float:
+    """The last double at which a mode assembles, between one at which it does and one at which not."""
+    code = Code(function.record, function.margins)
+    while True:
+        middle = 0.5 * (inside + outside)
+        if middle in (inside, outside):
+            return inside
+        whole = all(float(np.ravel(m)[0]) > 0.0 for m in code.run({function.input: np.array(middle)}, 1))
+        inside, outside = (middle, outside) if whole else (inside, middle)
+
+
+def _at_limits(
+    functions: Sequence[LoadFunction], branches: Branches, kept: frozenset[int] | None
+) -> list[Rest]:
+    """Rests at limits of the free datum: there two modes meet, and the load changes its sign from one
+    to the other along the motion that the mechanism has."""
+    limits = _limits(functions, branches)
+    found = []
+    for k, one in enumerate(limits):
+        for other in limits[k + 1 :]:
+            near = abs(one.value - other.value) <= 1e-9 * (branches.high - branches.low)
+            if not near or one.side != other.side or one.mode == other.mode:
+                continue
+            on = {branches.on(limit.mode, limit.value) for limit in (one, other)}
+            if kept is None or on & kept:
+                found += _between(functions[one.mode], functions[other.mode], one)
+    return found
+
+
+def _between(one: LoadFunction, two: LoadFunction, limit: _Limit) -> list[Rest]:
+    """The position between two modes that meet at a limit, where the load changes its sign there."""
+    step = 1e-7 * max(1.0, abs(limit.value))
+    here = limit.value - limit.side * step
+    try:
+        a, b = solve(scene_at(one, here), rates=True), solve(scene_at(two, here), rates=True)
+        size = max((abs(c) for at in a.points.values() for c in at), default=1.0)
+        if any(math.dist(at, b.points[name]) > 0.02 * size for name, at in a.points.items()):
+            return []
+        link = one.links[0]
+        last = limit.value - limit.side * 2.0 * math.ulp(limit.value)
+        p, q = _probe(one, last, link)[0], _probe(two, last, link)[0]
+        if (p > 0.0) == (q > 0.0) and p != 0.0 and q != 0.0:
+            return []
+        far, away = _probe(one, here, link)[0], _probe(two, here, link)[0]
+        way = _swing(one, two, link, here)
+    except SceneError:
+        return []
+    rises = (away - far) * way
+    stability = "stable" if rises > 0.0 else "unstable" if rises < 0.0 else "neutral"
+    error = 4.0 * math.ulp(limit.value)
+    scene = solve(scene_at(one, last), rates=True)
+    return [Rest(limit.value, error, stability, None, AT_LIMIT, scene, one)]
+
+
+def _swing(one: LoadFunction, two: LoadFunction, link: str, value: float) -> float:
+    """The sense in which a link turns from one mode to the other through the limit."""
+    carried = [p for p in one.case.carries[link] if p in one.places]
+    first, second = solve(scene_at(one, value)).points, solve(scene_at(two, value)).points
+    a, b = max(
+        ((p, q) for p in carried for q in carried if p != q),
+        key=lambda pair: math.dist(first[pair[0]], first[pair[1]]),
+        default=("", ""),
+    )
+    if not a:
+        return 0.0
+    (ax, ay), (bx, by) = first[a], first[b]
+    (cx, cy), (dx, dy) = second[a], second[b]
+    return (bx - ax) * (dy - cy) - (by - ay) * (dx - cx)
+
+
+def _distinct(found: Sequence[Rest]) -> list[Rest]:
+    """Rests that two modes share, once."""
+    kept: list[Rest] = []
+    for one in found:
+        if not any(_same(one, other) for other in kept):
+            kept.append(one)
+    return kept
+
+
+def _same(one: Rest, other: Rest) -> bool:
+    if abs(one.value - other.value) > 4.0 * (one.error + other.error):
+        return False
+    size = max((abs(c) for at in one.answer.points.values() for c in at), default=1.0)
+    theirs = other.answer.points
+    return all(math.dist(at, theirs[name]) <= 1e-6 * size for name, at in one.answer.points.items())
+
+
+def _nearest(
+    functions: Sequence[LoadFunction], branches: Branches, kept: frozenset[int] | None
+) -> float | None:
+    """Where the generalised load is smallest: sampled, then closed in on."""
+    best: tuple[float, float] | None = None
+    for n, function in enumerate(functions):
+        code = Code(function.record, [function.power, function.rate])
+        values = np.array([v for v in branches.assembling(n) if kept is None or branches.on(n, v) in kept])
+        if not values.size:
+            continue
+        step = float(values[1] - values[0]) if values.size > 1 else 0.0
+        for _ in range(14):
+            power, rate = code.run({function.input: values}, len(values))
+            with np.errstate(all="ignore"):
+                load = np.abs(power / rate) / (function.force_scale * function.sheet.scene.frame.scale)
+            k = int(np.nanargmin(load))
+            if best is None or float(load[k]) < best[0]:
+                best = (float(load[k]), float(values[k]))
+            values = np.linspace(float(values[k]) - step, float(values[k]) + step, 33)
+            values = values[(values >= branches.low) & (values <= branches.high)]
+            step /= 8.0
+    return None if best is None else best[1]
+
+
+__all__ = ["Rest", "Search", "find_positions", "scene_at", "search_modes", "whole_range", "with_scene"]

@@ -1,0 +1,335 @@
+"""Where mechanisms rest: every position over the whole range, to the last digit, with its stability.
+
+Closed forms where a textbook has them; random mechanisms against the potential of their loads, written apart
+in forty digits with mpmath: its derivative vanishes in a position of equilibrium, and its second difference
+there is the stiffness (the principle of virtual work; R. C. Hibbeler, Engineering Mechanics: Statics,
+ch. 11).
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import random
+from collections.abc import Callable
+
+import mpmath
+import numpy as np
+import pytest
+
+import icsolve
+from icsolve.answer.equilibrium import Position
+from icsolve.errors import SceneError
+from icsolve.numbers.intervals import Interval, enclose
+from icsolve.numbers.record import Record
+
+FULL = os.environ.get("ICSOLVE_FULL") == "1"
+PENDULUM = """icsolve: 1
+points: {{A: [0, 0]{more}}}
+angles: {{AB: {free}}}
+lengths: {{AB: 2}}
+joints:
+  - {{pin: [1, 2], at: A{friction}}}
+loads:
+  W: {{weight: {weight}, link: 2, at: B}}
+  {load}
+"""
+
+
+def pendulum(load: str, free: str = "unknown", weight: str = "10", more: str = "", friction: str = "") -> str:
+    """A weight on a crank of length 2, and another load."""
+    return PENDULUM.format(load=load, free=free, weight=weight, more=more, friction=friction)
+
+
+def positions(text: str) -> tuple[Position, ...]:
+    """Where a case rests."""
+    found = icsolve.solve(icsolve.load(text)).positions
+    assert found is not None
+    return found
+
+
+def places(text: str) -> list[float]:
+    """The values of its one free datum."""
+    return [value for one in positions(text) for value in one.at.values() if isinstance(value, float)]
+
+
+# --- closed forms ---------------------------------------------------------------------------------
+
+
+def test_a_slider_crank_on_a_spring_rests_where_the_format_says() -> None:
+    """V = 12 g 0.15 sin u + 400 (0.6 cos u - 0.2)^2 (case-format: 69.09945 deg, 232.445 N*m/rad)."""
+    text = """icsolve: 1
+points: {A: [0, 0], G: {centroid: [A, B]}}
+angles: {AB: {unknown: [10, 90]}}
+lengths: {AB: 0.3, BC: 0.3}
+near: {C: [0.5, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {slide: [4, 1], at: C, along: 0, through: A}
+loads:
+  W: {mass: 12 kg, link: 2, at: G}
+  S: {spring: 800 N/m, free: 0.2 m, link: 3, at: C, to: A}
+"""
+    (one,) = positions(text)
+    assert one.at["angles.AB"] == pytest.approx(69.09944948584229, abs=1e-13)
+    assert one.stability == "stable" and one.stiffness is not None
+    assert one.stiffness.value == pytest.approx(232.4449865878324, rel=1e-12)
+    assert one.stiffness.unit == "N*m/rad"
+    assert one.answer.points["B"] == pytest.approx((0.107024092621695, 0.280260313991301), abs=1e-14)
+
+
+def test_a_weight_on_a_crank_with_a_torque_rests_at_two_angles() -> None:
+    """10 x 2 cos u = 8: stable below, where V = 20 sin u - 8 u has its least."""
+    found = positions(pendulum("T: {torque: 8, link: 2}"))
+    cosine = math.degrees(math.acos(0.4))
+    assert [one.at["angles.AB"] for one in found] == pytest.approx([cosine, 360.0 - cosine], abs=1e-12)
+    assert [one.stability for one in found] == ["unstable", "stable"]
+    sine = 20.0 * math.sqrt(1.0 - 0.16)
+    values = [one.stiffness.value for one in found if one.stiffness is not None]
+    assert values == pytest.approx([-sine, sine], rel=1e-13)
+
+
+def test_a_range_has_its_ends_and_nothing_beyond_them() -> None:
+    assert places(pendulum("T: {torque: 0, link: 2}", "{unknown: [90, 270]}")) == [90.0, 270.0]
+    with pytest.raises(SceneError, match="balance for no value"):
+        positions(pendulum("T: {torque: 0, link: 2}", "{unknown: [91, 269]}"))
+
+
+def test_loads_that_balance_nowhere_say_where_they_come_nearest() -> None:
+    with pytest.raises(SceneError) as refused:
+        positions(pendulum("T: {torque: 25, link: 2}"))
+    assert refused.value.status == "no-value"
+    assert refused.value.more["positions"] == []
+    assert refused.value.more["nearest"]["at"]["angles.AB"] % 360.0 == pytest.approx(0.0, abs=1e-6)
+
+
+def test_loads_that_balance_everywhere_say_so() -> None:
+    """A steelyard's two weights whose moments cancel at every angle."""
+    text = pendulum("V: {weight: 10, link: 2, at: C}").replace("{AB: 2}", "{AB: 2, AC: 2}")
+    text = text.replace("AB: unknown", "AB: unknown, BAC: 180")
+    with pytest.raises(SceneError) as refused:
+        positions(text)
+    assert refused.value.status == "any-value"
+
+
+@pytest.mark.parametrize(("weight", "kind"), [("19", "stable"), ("20", "neutral"), ("21", "unstable")])
+def test_an_upright_strut_loses_its_stability_at_the_critical_load(weight: str, kind: str) -> None:
+    """The spring from its top to a point 4 above the pin: V = 2 W sin u + 5 (r - 1)^2, r^2 = 20 - 16 sin u,
+    so V'' = 40 - 2 W upright, where the derivative of V vanishes threefold at W = 20."""
+    spring = "S: {spring: 10 N/m, free: 1, link: 2, at: B, to: D}"
+    found = positions(pendulum(spring, "{unknown: [45, 135]}", weight, ", D: [0, 4]"))
+    upright = [one for one in found if one.at["angles.AB"] == pytest.approx(90.0, abs=1e-6)]
+    assert [one.stability for one in upright] == [kind]
+    stiffness = upright[0].stiffness
+    assert stiffness is not None
+    assert stiffness.value == pytest.approx(40.0 - 2.0 * float(weight), abs=1e-10)
+
+
+@pytest.mark.parametrize("mu", [0.1, 0.3])
+def test_with_a_rubbing_pin_a_crank_holds_over_a_range(mu: float) -> None:
+    """The weight's line stays within the friction circle: |2 cos u| <= r sin(atan mu)."""
+    found = positions(pendulum("T: {torque: 0, link: 2}", friction=f", mu: {mu}, radius: 0.5"))
+    reach = math.degrees(math.asin(0.5 * math.sin(math.atan(mu)) / 2.0))
+    ranges = [one.at["angles.AB"] for one in found]
+    assert ranges[0] == pytest.approx((90.0 - reach, 90.0 + reach), abs=1e-9)
+    assert ranges[1] == pytest.approx((270.0 - reach, 270.0 + reach), abs=1e-9)
+    assert [one.stability for one in found] == [None, None]
+
+
+# --- random mechanisms against forty digits -------------------------------------------------------
+
+Potential = Callable[[mpmath.mpf], mpmath.mpf]
+
+
+def four_bar(draw: random.Random) -> tuple[str, list[Potential]]:
+    """A four-bar with weights on coupler and rocker and a spring; its potential in either mode."""
+    a, b, c, d = (round(draw.uniform(*span), 2) for span in ((0.4, 1.2), (1.6, 2.6), (1.2, 2.2), (1.5, 2.5)))
+    w, v, k, free = (round(draw.uniform(*span), 1) for span in ((5, 20), (5, 20), (5, 60), (0.2, 1.5)))
+    fx, fy = round(draw.uniform(-1, 3), 1), round(draw.uniform(-2, 3), 1)
+    text = f"""icsolve: 1
+points: {{A: [0, 0], D: [{d}, 0], F: [{fx}, {fy}], G: {{centroid: [B, C]}}}}
+lengths: {{AB: {a}, BC: {b}, CD: {c}}}
+angles: {{AB: unknown}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{pin: [4, 1], at: D}}
+loads:
+  W: {{weight: {w}, link: 3, at: G}}
+  V: {{weight: {v}, link: 4, at: C}}
+  S: {{spring: {k} N/m, free: {free} m, link: 2, at: B, to: F}}
+"""
+
+    def mode(sign: int) -> Potential:
+        def potential(u: mpmath.mpf) -> mpmath.mpf:
+            bx, by = mpmath.mpf(str(a)) * mpmath.cos(u), mpmath.mpf(str(a)) * mpmath.sin(u)
+            m = [mpmath.mpf(str(x)) for x in (b, d, 0, c)]
+            cy = circles(bx, by, *m, sign)[1]
+            reach = mpmath.hypot(bx - mpmath.mpf(str(fx)), by - mpmath.mpf(str(fy)))
+            spring = mpmath.mpf(str(k)) / 2 * (reach - mpmath.mpf(str(free))) ** 2
+            return mpmath.mpf(str(w)) * (by + cy) / 2 + mpmath.mpf(str(v)) * cy + spring
+
+        return potential
+
+    return text, [mode(1), mode(-1)]
+
+
+def slider_crank(draw: random.Random) -> tuple[str, list[Potential]]:
+    """An offset slider-crank with weights and a spring at the slider; its potential in either mode."""
+    a, b, e = (round(draw.uniform(*span), 2) for span in ((0.4, 1.0), (1.3, 2.4), (-0.25, 0.25)))
+    w, v, k, free = (round(draw.uniform(*span), 1) for span in ((5, 20), (5, 20), (5, 60), (0.2, 1.5)))
+    tilt = draw.choice([0, 20, 50, 90])
+    text = f"""icsolve: 1
+points: {{A: [0, 0], E: [0, {e}], F: [4, 1], G: {{centroid: [B, C]}}}}
+lengths: {{AB: {a}, BC: {b}}}
+angles: {{AB: unknown}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{slide: [4, 1], at: C, along: {tilt}, through: E}}
+loads:
+  W: {{weight: {w}, link: 3, at: G}}
+  V: {{weight: {v}, link: 4, at: C}}
+  S: {{spring: {k} N/m, free: {free} m, link: 4, at: C, to: F}}
+"""
+    angle = mpmath.radians(tilt)
+
+    def mode(sign: int) -> Potential:
+        def potential(u: mpmath.mpf) -> mpmath.mpf:
+            bx, by = mpmath.mpf(str(a)) * mpmath.cos(u), mpmath.mpf(str(a)) * mpmath.sin(u)
+            dx, dy = mpmath.cos(angle), mpmath.sin(angle)
+            px, py = bx, by - mpmath.mpf(str(e))
+            along = px * dx + py * dy
+            off = px * dy - py * dx
+            s = along + sign * mpmath.sqrt(mpmath.mpf(str(b)) ** 2 - off**2)
+            cx, cy = s * dx, mpmath.mpf(str(e)) + s * dy
+            reach = mpmath.hypot(cx - 4, cy - 1)
+            spring = mpmath.mpf(str(k)) / 2 * (reach - mpmath.mpf(str(free))) ** 2
+            return mpmath.mpf(str(w)) * (by + cy) / 2 + mpmath.mpf(str(v)) * cy + spring
+
+        return potential
+
+    return text, [mode(1), mode(-1)]
+
+
+def six_bar(draw: random.Random) -> tuple[str, list[Potential]]:
+    """A four-bar whose rocker drives a second one (Watt), with a weight on the last rocker and a spring."""
+    a, b, c, d = 0.5, round(draw.uniform(1.8, 2.2), 2), round(draw.uniform(1.2, 1.6), 2), 2
+    f, g, h = (round(draw.uniform(*span), 2) for span in ((1.2, 1.6), (1.9, 2.4), (1.3, 1.8)))
+    w, v, k = (round(draw.uniform(*span), 1) for span in ((5, 20), (5, 20), (5, 30)))
+    text = f"""icsolve: 1
+points: {{A: [0, 0], D: [{d}, 0], H: [4, 0.2], F: [1, -2]}}
+lengths: {{AB: {a}, BC: {b}, CD: {c}, DE: {f}, EK: {g}, KH: {h}}}
+angles: {{AB: unknown, CDE: -30}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{pin: [4, 1], at: D}}
+  - {{pin: [4, 5], at: E}}
+  - {{pin: [5, 6], at: K}}
+  - {{pin: [6, 1], at: H}}
+loads:
+  W: {{weight: {w}, link: 6, at: K}}
+  V: {{weight: {v}, link: 2, at: B}}
+  S: {{spring: {k} N/m, free: 0.5 m, link: 4, at: C, to: F}}
+"""
+
+    def mode(one: int, two: int) -> Potential:
+        def potential(u: mpmath.mpf) -> mpmath.mpf:
+            m = [mpmath.mpf(str(x)) for x in (a, b, c, d, f, g, h)]
+            bx, by = m[0] * mpmath.cos(u), m[0] * mpmath.sin(u)
+            cx, cy = circles(bx, by, m[1], m[3], mpmath.mpf(0), m[2], one)
+            turn = -mpmath.pi / 6
+            ux, uy = (cx - m[3]) / m[2], cy / m[2]
+            ex = m[3] + m[4] * (ux * mpmath.cos(turn) - uy * mpmath.sin(turn))
+            ey = m[4] * (ux * mpmath.sin(turn) + uy * mpmath.cos(turn))
+            _, ky = circles(ex, ey, m[5], mpmath.mpf(4), mpmath.mpf("0.2"), m[6], two)
+            reach = mpmath.hypot(cx - 1, cy + 2)
+            spring = mpmath.mpf(str(k)) / 2 * (reach - mpmath.mpf("0.5")) ** 2
+            return mpmath.mpf(str(w)) * ky + mpmath.mpf(str(v)) * by + spring
+
+        return potential
+
+    return text, [mode(one, two) for one in (1, -1) for two in (1, -1)]
+
+
+def circles(
+    px: mpmath.mpf, py: mpmath.mpf, r: mpmath.mpf, qx: mpmath.mpf, qy: mpmath.mpf, s: mpmath.mpf, sign: int
+) -> tuple[mpmath.mpf, mpmath.mpf]:
+    """Where two circles meet, on either side of the line of their centres; complex where they do not."""
+    dx, dy = qx - px, qy - py
+    square = dx * dx + dy * dy
+    along = (square + r * r - s * s) / (2 * square)
+    off = mpmath.sqrt(r * r / square - along**2)
+    return px + along * dx - sign * off * dy, py + along * dy + sign * off * dx
+
+
+def stationary(potential: Potential, samples: int = 720) -> list[mpmath.mpf]:
+    """The angles at which a potential's derivative vanishes: sign changes on a fine grid, closed in on."""
+    fast = [potential(mpmath.radians(360.0 * (n + 0.31) / samples)) for n in range(samples + 2)]
+    real = [abs(mpmath.im(v)) == 0 for v in fast]
+
+    def slope(u: mpmath.mpf) -> mpmath.mpf:
+        return mpmath.diff(lambda t: mpmath.re(potential(t)), u)
+
+    found = []
+    for n in range(1, samples + 1):
+        if real[n - 1] and real[n] and real[n + 1] and (fast[n] - fast[n - 1]) * (fast[n + 1] - fast[n]) <= 0:
+            ends = [mpmath.radians(360.0 * (m + 0.31) / samples) for m in (n - 1, n + 1)]
+            found.append(mpmath.findroot(slope, ends, solver="anderson", tol=1e-60))
+    return found
+
+
+KINDS = {"four-bar": four_bar, "slider-crank": slider_crank, "six-bar": six_bar}
+
+
+@pytest.mark.parametrize("seed", range(150 if FULL else 2))
+@pytest.mark.parametrize("kind", KINDS)
+def test_all_positions_none_missing_none_invented(kind: str, seed: int) -> None:
+    text, modes = KINDS[kind](random.Random(f"{kind} {seed}"))
+    with mpmath.workdps(40):
+        expected = []
+        for potential in modes:
+            for u in stationary(potential):
+                second = mpmath.diff(lambda t, v=potential: mpmath.re(v(t)), u, 2)
+                expected.append((float(mpmath.degrees(u) % 360), float(second)))
+    if not expected:
+        with pytest.raises(SceneError, match=r"balance for no value|assembles for no value"):
+            positions(text)
+        return
+    found = positions(text)
+    got = sorted((one.at["angles.AB"], one) for one in found if one.stiffness is not None)
+    assert [at for at, _ in got] == pytest.approx([at for at, _ in sorted(expected)], abs=1e-11)
+    for (at, one), (_, second) in zip(got, sorted(expected), strict=True):
+        assert one.stiffness is not None
+        assert one.stiffness.value == pytest.approx(second, rel=1e-8)
+        assert one.stability == ("stable" if second > 0 else "unstable")
+        assert one.error["angles.AB"] <= 4.0 * math.ulp(at)
+
+
+# --- enclosures -----------------------------------------------------------------------------------
+
+
+def test_an_enclosure_holds_the_values_that_a_record_takes_over_a_range() -> None:
+    record = Record()
+    x, y = record.input("x", 0.7), record.input("y", 2.3)
+    c, s = record.turned(x * 50.0 + y)
+    values = [x * y - y, (x + 3.0) / (y + 2.0), record.sqrt(x * x + y), c * s, c - s * x]
+    values.append(record.angle(x + 3.0, y))
+    wanted = [v.index for v in values]
+    draw = np.random.default_rng(7)
+    for _ in range(40):
+        low = np.array([draw.uniform(-2, 2), draw.uniform(0.1, 3)])
+        high = low + draw.uniform(0, 1.5, 2)
+        boxes = {node.index: Interval(low[[n]], high[[n]]) for n, node in enumerate((x, y))}
+        ends = enclose(record, wanted, boxes)
+        for px, py in zip(*(draw.uniform(low[n], high[n], 30) for n in (0, 1)), strict=True):
+            points = {node.index: Interval(np.array([p]), np.array([p])) for node, p in ((x, px), (y, py))}
+            for wide, narrow in zip(ends, enclose(record, wanted, points), strict=True):
+                assert wide.low.min() <= narrow.low.min() and narrow.high.max() <= wide.high.max()
+                assert narrow.high.max() - narrow.low.min() < 1e-11
