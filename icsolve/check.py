@@ -27,6 +27,7 @@ from icsolve.case import (
 )
 from icsolve.case.names import pair_name
 from icsolve.wording.bearings import bearing, same_way, turned_at_most
+from icsolve.wording.senses import holding
 
 if TYPE_CHECKING:
     from icsolve.answer.space import Spatial
@@ -237,8 +238,7 @@ def _load_value(answer: Answer, name: str) -> float:
 
 def _found_value(name: str, found: Found) -> float:
     if found.holds is not None:
-        least, most = map(_digits, found.holds)
-        raise _MissingError(f"{name} holds from {least} to {most}: give `motion` for one value")
+        raise _MissingError(f"{name} {holding(found, _digits)}: give `motion` for one value")
     return found.value
 
 

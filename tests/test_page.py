@@ -248,7 +248,7 @@ def test_the_terms_add_up_to_zero_in_every_position() -> None:
     for name in ("ch13/13_02_four_bar_free_bodies.yaml", "springs/balanced_arm.yaml", SLIDER):
         model = model_of(page_of(name))
         unknown = column(model["answers"][0]["values"])
-        terms = [column(term["ratio"]) * term["value"] for term in model["terms"]]
+        terms = [t["sign"] * column(t["ratio"]) * column(t["size"]) for t in model["terms"]]
         size = np.maximum.reduce([np.abs(unknown), *(np.abs(t) for t in terms)])
         known = np.isfinite(unknown)
         assert known.sum() > 300

@@ -319,6 +319,7 @@ def test_the_terms_follow(opened: Any) -> None:
     row = int(abs(found.degrees - 37).argmin())
     ratio, value = found.shares["P"][row], found.found.answers["T12"][row]
     assert window.text("#ratio-0") == figure_number(ratio, 6)
+    assert window.text("#size-0") == "10"
     assert window.text("#product-0") == figure_number(10.0 * ratio, 6)
     assert window.text("#root-product") == figure_number(value, 6)
 

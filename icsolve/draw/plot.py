@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING, NamedTuple
 
 from icsolve.draw.marks import Area, Group, Mark, Point, Run, Stroke, Text, bounds, text_width
 from icsolve.draw.svg import document
 from icsolve.draw.words import figure_number, name_runs, unit_word, wrapped
-from icsolve.errors import Status
+from icsolve.errors import SceneError, Status
+from icsolve.statics.power import is_unknown
 from icsolve.wording.senses import unit_of
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from icsolve.case import Case
     from icsolve.sweep import Sweep
 
 STEEP = 3.0
@@ -28,12 +32,12 @@ SAME = 1e-5
 
 class Curve(NamedTuple):
     """Values over the range, not a number where there is none; ``unit`` stands at the axis, ``dead`` are
-    known dead centres."""
+    its dead centres (None: they are judged by how the values grow)."""
 
     name: str
     values: Sequence[float]
     unit: str
-    dead: Sequence[float] = ()
+    dead: Sequence[float] | None = None
 
 
 class Frame(NamedTuple):
@@ -65,8 +69,14 @@ def rows_of(x: Sequence[float], values: Sequence[float]) -> list[Row]:
     return [Row(a, v) for a, v in zip(x, values, strict=True) if math.isfinite(v)]
 
 
+def poles(x: Sequence[float], curve: Curve) -> list[float]:
+    """Where a curve runs off to infinity."""
+    return asymptotes(x, curve.values) if curve.dead is None else sorted(curve.dead)
+
+
 def asymptotes(x: Sequence[float], values: Sequence[float], dead: Sequence[float] = ()) -> list[float]:
-    """The dead centres of a curve: those known, and where it runs off to infinity and comes back.
+    """The dead centres of a curve of which nobody knows all: those known, and where it runs off to infinity
+    and comes back.
 
     Between two neighbours of opposite sign lies a pole, and not a zero, where the curve grows toward it
     on both sides. Near a pole p values go as 1 / (x - p), which places it between the neighbours.
@@ -107,7 +117,7 @@ def limits(curves: Sequence[Curve], x: Sequence[float]) -> tuple[float, float]:
         return (-1.0, 1.0)
     low, high = values[0], values[-1]
     broken = any(not math.isfinite(v) for curve in curves for v in curve.values)
-    if broken or any(asymptotes(x, curve.values, curve.dead) for curve in curves):
+    if broken or any(poles(x, curve) for curve in curves):
         first, last = values[len(values) // 4], values[-1 - len(values) // 4]
         room = STEEP * ((last - first) or abs(last) or 1.0)
         low, high = max(low, first - room), min(high, last + room)
@@ -118,7 +128,7 @@ def limits(curves: Sequence[Curve], x: Sequence[float]) -> tuple[float, float]:
 
 def pieces(frame: Frame, x: Sequence[float], curve: Curve) -> Iterator[tuple[Point, ...]]:
     """The stretches of a curve between gaps and asymptotes, cut off at the frame."""
-    breaks = asymptotes(x, curve.values, curve.dead)
+    breaks = poles(x, curve)
     for stretch in _stretches(x, curve.values, breaks):
         if len(stretch) == 1 and frame.y[0] <= stretch[0].y <= frame.y[1]:
             p = frame.at(*stretch[0])
@@ -234,7 +244,7 @@ def plot_marks(
     ticks = _ticks(low, high)
     texts = [figure_number(tick, 6) for tick in ticks]
     gutter = max(text_width(text, 11.0) for text in texts) + 12.0
-    dead = sorted({place for curve in curves for place in asymptotes(x, curve.values, curve.dead)})
+    dead = sorted({place for curve in curves for place in poles(x, curve)})
     left = corner[0] + gutter
     legend = list(_legend(_entries(curves, dead, shades), (left, corner[1] + 4.0), size[0] - gutter))
     top = bounds(legend)[3] + 10.0
@@ -376,15 +386,35 @@ def sweep_markdown(found: Sweep) -> str:
 
 def _curves(found: Sweep, order: Sequence[int], x: Sequence[float], status: Sequence[str]) -> Iterator[Curve]:
     """A curve an unknown; where it holds over a range, its two ends."""
-    dead = [a for a, word in zip(x, status, strict=True) if word in DEAD]
+    found_dead = dead_centres(found.case, found.vary)
+    rows = [a for a, word in zip(x, status, strict=True) if word in DEAD]
     units = {load.name: unit_of(load, found.case) for load in found.case.loads}
     for name, column in found.answers.items():
         values = [float(column[row]) for row in order]
         if any(map(math.isfinite, values)) or name not in found.holds:
+            dead = asymptotes(x, values, rows) if found_dead is None else sorted({*found_dead, *rows})
             yield Curve(name, values, units[name], dead)
         for end, words in ((0, "least"), (1, "most")) if name in found.holds else ():
             ends = [float(found.holds[name][row][end]) for row in order]
             yield Curve(f"{name}, {words} that holds", ends, units[name])
+
+
+def dead_centres(case: Case, varied: Mapping[str, npt.ArrayLike]) -> list[float] | None:
+    """The dead centres of the first unknown load over the range of one number (a path, or a link that is
+    turned): those of ``sweep --find dead``; None where they can't be looked for."""
+    from icsolve.sweep.ask import AskError
+    from icsolve.sweep.finding import Query, find
+
+    driven = {name: values for name, values in varied.items() if name in case.links}
+    paths = {name: values for name, values in varied.items() if name not in driven}
+    unknown = next((load.name for load in case.loads if is_unknown(load)), None)
+    if unknown is None:
+        return []
+    try:
+        spots = find(case, paths, Query("dead", unknown), drive=driven)
+    except (SceneError, AskError, ArithmeticError):
+        return None
+    return [spot.at for spot in spots if spot.kind == "dead"]
 
 
 def _shades(x: Sequence[float], status: Sequence[str]) -> Iterable[Shade]:

@@ -8,9 +8,9 @@ from collections.abc import Iterable, Sequence
 
 from icsolve.case.names import pair_name
 from icsolve.derivation import Known, Step
-from icsolve.derivation.words import range_words, sense_words
 from icsolve.draw.marks import Group, Mark, Run, Text, bounds, text_width
 from icsolve.draw.svg import runs_of
+from icsolve.wording.senses import holding, spelt
 
 DIGITS = 4
 
@@ -138,9 +138,9 @@ def answer_sentences(known: Known) -> list[str]:
     found = []
     for name, value in known.answer.answers.items():
         if value.holds is not None:
-            found.append(f"{name} {range_words(value, figure_number)}")
+            found.append(f"{name} {holding(value, figure_number)}")
             continue
-        sense = sense_words(value.sense, figure_number)
+        sense = spelt(value.sense, figure_number)
         found.append(f"{name} = {quantity(abs(value.value), value.unit)}" + (f", {sense}" if sense else ""))
     return found
 

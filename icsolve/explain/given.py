@@ -35,10 +35,10 @@ from icsolve.case import (
 )
 from icsolve.case.names import pair_name
 from icsolve.derivation import Known
-from icsolve.derivation.words import SENSES
 from icsolve.explain.document import Block, Inline, Items, Section, Table, words
 from icsolve.explain.formula import Name, Num, Quantity
 from icsolve.statics.power import is_unknown, reacting
+from icsolve.wording.senses import SPELT
 from icsolve.wording.sentences import link_words, listed
 
 
@@ -282,4 +282,4 @@ def _motion(figures: Figures, motion: Motion) -> str:
         return f"Point {motion.point} of link {motion.link} moves{size}{way}."
     clockwise = (motion.turns == "cw") != (speed is not None and speed < 0.0)
     size = "" if speed is None else f" at {figures.number(abs(speed)).digits} rad/s"
-    return f"Link {motion.link} turns{size}, {SENSES['cw' if clockwise else 'ccw']}."
+    return f"Link {motion.link} turns{size}, {SPELT['cw' if clockwise else 'ccw']}."

@@ -8,7 +8,6 @@ from collections.abc import Iterable, Sequence
 from icsolve.answer import Answer, Found
 from icsolve.case import Torque
 from icsolve.derivation import Known, Step, acting_loads, all_steps, answer_ratios, needed_steps
-from icsolve.derivation.words import SENSES, range_words
 from icsolve.errors import SceneError
 from icsolve.explain.centres import centre_sections, ratio_section
 from icsolve.explain.document import Block, Document, Inline, Items, Section, Table, words
@@ -24,6 +23,7 @@ from icsolve.explain.given import (
 )
 from icsolve.explain.power import motions_section, power_section
 from icsolve.statics.power import is_unknown
+from icsolve.wording.senses import holding, spelt
 
 
 def answer_section(known: Known, figures: Figures) -> Iterable[Section]:
@@ -42,8 +42,8 @@ def answer_section(known: Known, figures: Figures) -> Iterable[Section]:
 
 def _found(known: Known, figures: Figures, name: str, found: Found) -> tuple[Inline, ...]:
     if found.holds is not None:
-        return (load_name(name), f" {range_words(found, lambda value: figures.number(value).digits)}.")
-    sense = SENSES.get(found.sense, found.sense)
+        return (load_name(name), f" {holding(found, lambda value: figures.number(value).digits)}.")
+    sense = spelt(found.sense)
     size = figures.quantity(abs(found.value), found.unit)
     said = f", {sense}" if sense else ""
     load = next((load for load in known.case.loads if load.name == name), None)

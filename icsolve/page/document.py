@@ -12,27 +12,34 @@ from html import escape
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from icsolve.case import Torque
+import numpy as np
+
+from icsolve.case import Spring, Torque, Weight
 from icsolve.derivation import Acting, Known, Step, acting_loads
-from icsolve.draw.words import answer_sentences, figure_number, name_runs, step_sentence, unit_word
+from icsolve.draw.words import answer_sentences, name_runs, step_sentence, unit_word
 from icsolve.explain.document import AsHtml, Document, Formula, formula
 from icsolve.explain.formula import MATHML, Expr, Name, Num, Quotient, Sum, product
 from icsolve.explain.given import load_name
-from icsolve.page.motion import Motion, exact, script_json
+from icsolve.page.model import gain_rows
+from icsolve.page.motion import Array, Motion, exact, script_json
 from icsolve.page.pictures import track_svg
-from icsolve.wording.senses import unit_of
 
 
 class Equation(NamedTuple):
     """The equation in MathML, its rows as names and units, and the columns behind them.
 
-    ``rows``: for each known load its name, its ratio of speeds (MathML both), the unit of that.
+    ``rows``: for each known load what it exerts, its ratio of speeds (MathML both), the unit of that and of
+    what it exerts; ``root`` is what the unknown load exerts, with its unit. Each of ``data`` has the force
+    or torque that a load exerts, the ratio of its speed to that of the unknown, and the ``sign`` in front of
+    it, in every position.
     """
 
     symbols: str
     ratio: str
-    rows: tuple[tuple[str, str, str], ...]
+    rows: tuple[tuple[str, str, str, str], ...]
+    root: tuple[str, str]
     data: list[dict[str, Any]]
+    sign: int
 
 
 def equation_of(known: Known, motion: Motion | None) -> Equation | None:
@@ -43,24 +50,53 @@ def equation_of(known: Known, motion: Motion | None) -> Equation | None:
     if motion is None or len(unknown) != 1 or set(motion.shares) != {a.load.name for a in others}:
         return None
     root = unknown[0]
-    terms: list[tuple[int, Expr]] = [(1, product(load_name(a.load.name), speed_of(known, a))) for a in others]
-    terms.append((1, product(load_name(root.load.name), speed_of(known, root))))
-    symbols = _displayed(formula(Sum(tuple(terms)), Num("0")))
+    signed = [(turn_of(a), product(exerted(a), speed_of(known, a))) for a in (*others, root)]
+    symbols = _displayed(formula(Sum(tuple(signed)), Num("0")))
     over = [Quotient(speed_of(known, a), speed_of(known, root)) for a in others]
     solved: list[tuple[int, Expr]] = [
-        (-1, product(load_name(a.load.name), ratio)) for a, ratio in zip(others, over, strict=True)
+        (-turn_of(a) * turn_of(root), product(exerted(a), ratio))
+        for a, ratio in zip(others, over, strict=True)
     ]
-    ratio = _displayed(formula(load_name(root.load.name), Sum(tuple(solved)))) if solved else ""
+    ratio = _displayed(formula(exerted(root), Sum(tuple(solved)))) if solved else ""
     rows = slice(motion.first, motion.last + 1)
-    data = [
-        {"name": a.load.name, "value": a.value, "ratio": exact(motion.shares[a.load.name][rows].tolist())}
-        for a in others
-    ]
+    gain = turn_of(root) * gain_rows(known, motion, root)[rows]
+    data = [_term(known, motion, a, rows, gain) for a in others]
     shown = tuple(
-        (_math(load_name(a.load.name)), _math(q), ratio_unit(known, root, a))
+        (_math(exerted(a)), _math(q), ratio_unit(known, root, a), unit_exerted(known, a))
         for a, q in zip(others, over, strict=True)
     )
-    return Equation(symbols, ratio, shown, data)
+    own = (_math(exerted(root)), unit_exerted(known, root))
+    return Equation(symbols, ratio, shown, own, data, turn_of(root))
+
+
+def _term(known: Known, motion: Motion, acting: Acting, rows: slice, root: Array) -> dict[str, Any]:
+    """A known load in every position: what it exerts, and its speed over that of the unknown.
+
+    ``shares`` are in units of the loads themselves, ``root`` is what a unit of the unknown exerts, signed.
+    """
+    gain, sign = gain_rows(known, motion, acting)[rows], turn_of(acting)
+    with np.errstate(all="ignore"):
+        ratio = motion.shares[acting.load.name][rows] * root / (sign * gain)
+    size = exact((gain * (acting.value or 0.0)).tolist())
+    return {"name": acting.load.name, "sign": sign, "size": size, "ratio": exact(ratio.tolist())}
+
+
+def turn_of(acting: Acting) -> int:
+    """-1 for a torque that is positive clockwise: its power has a minus in the equation."""
+    return -1 if isinstance(acting.load, Torque) and acting.load.turns == "cw" else 1
+
+
+def exerted(acting: Acting) -> Expr:
+    """The force or torque of a load: of a mass its weight, of a spring its pull."""
+    name = load_name(acting.load.name)
+    if isinstance(acting.load, Spring):
+        return product(name, Name("s", acting.load.name))
+    return product(name, Name("g")) if isinstance(acting.load, Weight) and acting.load.mass else name
+
+
+def unit_exerted(known: Known, acting: Acting) -> str:
+    """Its unit."""
+    return known.case.units.torque if isinstance(acting.load, Torque) else known.case.units.force
 
 
 def _displayed(block: Formula) -> str:
@@ -81,7 +117,7 @@ def speed_of(known: Known, acting: Acting) -> Name:
 
 def ratio_unit(known: Known, root: Acting, of: Acting) -> str:
     """The unit of the ratio of speeds, in which the unit of a known load, times it, is the root's."""
-    own, theirs = unit_of(root.load, known.case), unit_of(of.load, known.case)
+    own, theirs = unit_exerted(known, root), unit_exerted(known, of)
     if own == theirs:
         return ""
     for one, other, form in ((own, theirs, "{}"), (theirs, own, "1/{}")):
@@ -301,22 +337,22 @@ def _power(parts: Parts) -> str:
     equation, known = parts.equation, parts.known
     if equation is None or known.answer is None:
         return ""
-    (name,) = known.answer.answers
-    units = {load.name: _text(unit_word(unit_of(load, known.case))) for load in known.case.loads}
     rows = ""
-    for n, ((symbol, ratio, unit), term) in enumerate(zip(equation.rows, equation.data, strict=True)):
-        size = f"{figure_number(float(term['value']), 6)} {units[term['name']]}"
+    unit_of_all = _text(unit_word(equation.root[1]))
+    for n, (symbol, ratio, unit, own) in enumerate(equation.rows):
         rows += (
-            f'<tr><td>{symbol}</td><td>{size}</td><td>{ratio} = <span id="ratio-{n}"></span> '
-            f'{_text(unit_word(unit))}</td><td><span id="product-{n}"></span> {units[name]}</td></tr>'
+            f'<tr><td>{symbol}</td><td><span id="size-{n}"></span> {_text(unit_word(own))}</td>'
+            f'<td>{ratio} = <span id="ratio-{n}"></span> {_text(unit_word(unit))}</td>'
+            f'<td><span id="product-{n}"></span> {unit_of_all}</td></tr>'
         )
-    total = f'<span id="root-product"></span> {units[name]}'
-    heads = "".join(f"<th>{word}</th>" for word in ("Load", "Size", "Ratio of speeds", "Product"))
+    total = f'<span id="root-product"></span> {unit_of_all}'
+    less = "minus their sum" if equation.sign > 0 else "their sum"
+    heads = "".join(f'<th scope="col">{word}</th>' for word in ("Load", "Size", "Ratio of speeds", "Product"))
     return (
         '<section aria-label="Power"><h2>The sum of the powers is zero</h2>\n'
         f"{equation.symbols}\n{equation.ratio}\n"
         f'<div class="scroll"><table><thead><tr>{heads}</tr></thead><tbody>{rows}'
-        f'<tr class="sum"><td>{_name(name)}</td><td></td><td>minus their sum</td><td>{total}</td></tr>'
+        f'<tr class="sum"><td>{equation.root[0]}</td><td></td><td>{less}</td><td>{total}</td></tr>'
         "</tbody></table></div></section>"
     )
 

@@ -12,11 +12,10 @@ from typing import Any
 
 import numpy as np
 
-from icsolve.answer import Centre
-from icsolve.case import Force, Pair, Spring, Torque, Toward
+from icsolve.answer import Centre, Found
+from icsolve.case import Force, Pair, Spring, Toward, Weight
 from icsolve.case.names import pair_name
 from icsolve.derivation import Acting, Known, Step, acting_loads
-from icsolve.derivation.words import range_words, sense_words
 from icsolve.draw.loads import axle
 from icsolve.draw.marks import Point, View
 from icsolve.draw.scene import Scene
@@ -25,8 +24,7 @@ from icsolve.draw.words import centre_runs, figure_number, name_runs, unit_word
 from icsolve.errors import Status
 from icsolve.page.figure import Figure
 from icsolve.page.motion import FINE, Array, Motion, compact, exact, moved, moves
-from icsolve.page.pictures import dead_centres
-from icsolve.wording.senses import unit_of
+from icsolve.wording.senses import holding, sense_as, spelt, unit_of
 
 # --- loads through a motion ------------------------------------------------------------------------------
 
@@ -66,35 +64,23 @@ def _target(known: Known, motion: Motion, acting: Acting, name: str) -> tuple[Ar
 
 def senses(known: Known, motion: Motion, acting: Acting, values: Array) -> list[str]:
     """The sense of the load's value in every row, in words; '' where it has none."""
-    headings = heading_rows(known, motion, acting)
-    signs = np.sign(np.nan_to_num(values))
-    if isinstance(acting.load, Spring):
-        signs = signs * np.sign(_stretch(known, motion, acting, acting.load))
-    return [_sense(acting, s, h) if s else "" for s, h in zip(signs.tolist(), headings.tolist(), strict=True)]
+    rows = zip(
+        np.nan_to_num(values).tolist(),
+        gain_rows(known, motion, acting).tolist(),
+        heading_rows(known, motion, acting).tolist(),
+        strict=True,
+    )
+    return [spelt(sense_as(acting.load, *row), figure_number) for row in rows]
 
 
-def _stretch(known: Known, motion: Motion, acting: Acting, load: Spring) -> Array:
-    assert acting.at is not None
-    x, y = place_rows(known, motion, acting.link, acting.at)
-    a, b = _target(known, motion, acting, load.to)
-    return np.asarray(np.hypot(a - x, b - y) - load.free.value)
-
-
-def _sense(acting: Acting, sign: float, heading: float) -> str:
+def gain_rows(known: Known, motion: Motion, acting: Acting) -> Array:
+    """The force or torque that one unit of a load exerts in every row: a mass g, a spring its stretch."""
     load = acting.load
-    if isinstance(load, Torque):
-        word = "ccw" if (sign > 0) == (load.turns == "ccw") else "cw"
-    elif isinstance(load, Spring):
-        word = "pull" if sign > 0 else "push"
-    else:
-        word = f"at {round(heading + (0.0 if sign > 0 else 180.0), 6) % 360.0:.6g} deg"
-        if isinstance(load, Force) and isinstance(load.heading, Toward):
-            nearer = (sign > 0) != load.heading.away
-            if load.against is not None:
-                word = "pull" if nearer else "push"
-            elif nearer:
-                word = f"toward {load.heading.point}"
-    return sense_words(word, figure_number)
+    if isinstance(load, Spring) and acting.at is not None:
+        x, y = place_rows(known, motion, acting.link, acting.at)
+        a, b = _target(known, motion, acting, load.to)
+        return np.asarray(np.hypot(a - x, b - y) - load.free.value)
+    return np.full(len(motion.degrees), acting.gain if isinstance(load, Weight) else 1.0)
 
 
 def load_data(scene: Scene, motion: Motion | None, acting: Acting) -> dict[str, Any]:
@@ -176,7 +162,7 @@ def motion_data(known: Known, view: View, motion: Motion) -> dict[str, Any]:
         "low": _round(degrees[0]),
         "high": _round(degrees[-1]),
         "turns": motion.whole_turn,
-        "dead": [round(d, 3) for d in dead_centres(motion)],
+        "dead": motion.dead,
         "hints": _hints(motion),
         "links": _links(known, view, motion, rows),
         "points": {
@@ -317,17 +303,13 @@ def _answers(known: Known, motion: Motion | None, loads: Sequence[Acting]) -> li
         low = runs[1].text if len(runs) > 1 else ""
         one: dict[str, Any] = {"name": name, "base": runs[0].text, "low": low, "unit": unit_word(value.unit)}
         if motion is None or name not in motion.found.answers:
-            one["holds"] = [range_words(value, figure_number)] if value.holds is not None else None
+            one["holds"] = [holding(value, figure_number)] if value.holds is not None else None
             one["values"] = exact([value.value])
-            one["senses"], one["sense"] = _indexed([_written(value.sense)])
+            one["senses"], one["sense"] = _indexed([spelt(value.sense, figure_number)])
         else:
             _through(known, motion, one, name, acting[name])
         found.append(one)
     return found
-
-
-def _written(sense: str) -> str:
-    return sense_words(sense, figure_number)
 
 
 def _through(known: Known, motion: Motion, one: dict[str, Any], name: str, acting: Acting) -> None:
@@ -339,14 +321,13 @@ def _through(known: Known, motion: Motion, one: dict[str, Any], name: str, actin
     if name in motion.found.holds:
         held = motion.found.holds[name][rows]
         unit = unit_of(acting.load, known.case)
-        one["holds"] = [_held(float(low), float(high), unit) for low, high in held]
+        one["holds"] = [_held((float(low), float(high)), unit) for low, high in held]
 
 
-def _held(low: float, high: float, unit: str) -> str:
+def _held(holds: tuple[float, float], unit: str) -> str:
     """A range in words; '' where there is none."""
-    if np.isnan(low) or np.isnan(high):
-        return ""
-    return f"holds still from {figure_number(low)} to {figure_number(high)} {unit_word(unit)}"
+    found = Found(0.0, unit_word(unit), "", holds=holds)
+    return "" if any(map(np.isnan, holds)) else holding(found, figure_number)
 
 
 def _indexed(words: Sequence[str]) -> tuple[list[str], dict[str, Any]]:

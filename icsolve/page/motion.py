@@ -29,8 +29,9 @@ from icsolve.case import (
 )
 from icsolve.case.names import pair_name
 from icsolve.derivation import Known, loaded_links
+from icsolve.draw.plot import asymptotes, dead_centres
 from icsolve.draw.words import figure_number, unit_word
-from icsolve.errors import SceneError
+from icsolve.errors import SceneError, Status
 from icsolve.screws.plane import Point
 from icsolve.solve.refusals import rubs
 from icsolve.statics.power import is_unknown
@@ -292,6 +293,8 @@ class Motion(NamedTuple):
     poses: Mapping[str, Pose]
     shares: Mapping[str, Array]
     """for each known load the power that it does while the unknown load does 1 (where there is one)"""
+    dead: list[float]
+    """the dead centres between the first and the last row"""
 
     @property
     def driver(self) -> str:
@@ -336,7 +339,23 @@ def motion_of(known: Known, pairs: Sequence[Pair]) -> Motion | None:
     if first == last:
         return None
     poses = poses_of(known, by.link, degrees, zero, found)
-    return Motion(by, degrees, zero, first, last, found, poses, _shares(case, by, degrees, found))
+    dead = _dead(case, by, degrees, (float(degrees[first]), float(degrees[last])), found)
+    return Motion(by, degrees, zero, first, last, found, poses, _shares(case, by, degrees, found), dead)
+
+
+DEAD = (Status.DEAD_CENTRE, Status.NO_VALUE)
+
+
+def _dead(case: Case, by: Input, degrees: Array, reach: tuple[float, float], found: Sweep) -> list[float]:
+    """The dead centres within reach, each to its last digit; where they can't be looked for, the rows that
+    are, and with them the places where an answer runs off to infinity (a jump of friction is none)."""
+    some = None if by.slides else dead_centres(case, by.driven(degrees))
+    if some is None:
+        x = degrees.tolist()
+        some = [at for at, word in zip(x, found.status, strict=True) if word in DEAD]
+        for values in () if rubs(case) else found.answers.values():
+            some = asymptotes(x, values.tolist(), some)
+    return [at + 0.0 for at in some if reach[0] <= at <= reach[1]]
 
 
 def why_still(known: Known) -> str:

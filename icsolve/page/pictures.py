@@ -12,13 +12,12 @@ import numpy as np
 from icsolve.derivation import Known, Step
 from icsolve.draw.centres import circle_marks
 from icsolve.draw.marks import Box, Mark, bounds, leaves
-from icsolve.draw.plot import Curve, Frame, asymptotes, plot_marks
+from icsolve.draw.plot import Curve, Frame, plot_marks
 from icsolve.draw.svg import element, escaped, number
 from icsolve.draw.words import description, figure_number
 from icsolve.errors import Status
 from icsolve.page.figure import Figure
 from icsolve.page.motion import FINE, Array, Motion, compact
-from icsolve.solve.refusals import rubs
 from icsolve.wording.senses import unit_of
 
 SIZE = (440.0, 250.0)
@@ -40,7 +39,7 @@ class Plot(NamedTuple):
 def plots_of(known: Known, motion: Motion) -> list[Plot]:
     """The answer and the mechanical advantage; without an unknown load the ratios of the rates."""
     x = motion.degrees[motion.first : motion.last + 1].tolist()
-    dead = dead_rows(motion)
+    dead = motion.dead
     found = [
         ("The answer" if len(some) == 1 else "The answers", some) for some in _answers(known, motion, dead)
     ]
@@ -50,24 +49,6 @@ def plots_of(known: Known, motion: Motion) -> list[Plot]:
     found += [("Ratios of angular velocities", rates)] if rates else []
     axis = f"link {motion.driver} {motion.by.verb} from the position as written, {motion.by.unit_name}"
     return [_plot(heading, x, curves, axis) for heading, curves in found]
-
-
-def dead_rows(motion: Motion) -> list[float]:
-    """The degrees of the rows that are dead centres."""
-    rows = range(motion.first, motion.last + 1)
-    status = motion.status
-    return [float(motion.degrees[row]) for row in rows if status[row] in DEAD]
-
-
-def dead_centres(motion: Motion) -> list[float]:
-    """The degrees of all dead centres, those between rows too (a jump of friction is none)."""
-    x = motion.degrees[motion.first : motion.last + 1].tolist()
-    places = set(dead_rows(motion))
-    if rubs(motion.found.case):
-        return sorted(places)
-    for name in motion.found.answers:
-        places |= set(asymptotes(x, _rows(motion, motion.found.answers[name]), sorted(places)))
-    return sorted(places)
 
 
 def _rows(motion: Motion, column: Array) -> list[float]:
@@ -84,7 +65,7 @@ def _answers(known: Known, motion: Motion, dead: Sequence[float]) -> list[list[C
             curves.append(Curve(f"{name}, least", _rows(motion, low), units[name]))
             curves.append(Curve(f"{name}, most", _rows(motion, high), units[name]))
         else:
-            curves.append(Curve(name, _rows(motion, column), units[name], tuple(dead)))
+            curves.append(Curve(name, _rows(motion, column), units[name], dead))
     kinds = dict.fromkeys(curve.unit for curve in curves)
     return [[c for c in curves if c.unit == unit][:MOST] for unit in kinds]
 
@@ -98,7 +79,7 @@ def _advantage(known: Known, motion: Motion, dead: Sequence[float]) -> list[Curv
     curves = []
     for other, share in motion.shares.items():
         unit = "" if units[name] == units[other] else f"{units[name]} per {units[other]}"
-        curves.append(Curve(f"{name}/{other}", _rows(motion, -share), unit, tuple(dead)))
+        curves.append(Curve(f"{name}/{other}", _rows(motion, -share), unit, dead))
     same = [curve for curve in curves if curve.unit == curves[0].unit]
     return same[:MOST]
 
@@ -213,7 +194,10 @@ def track_svg(motion: dict[str, Any]) -> str:
         return f'<rect class="{kind}" x="{share(start)}" y="2" width="{width}%" height="10"/>'
 
     gaps = [bar("gap", a, b) for a, b in ((low, first), (last, high)) if b - a > 1e-9]
-    dead = [f'<line class="dead" x1="{share(d)}" x2="{share(d)}" y1="0" y2="14"/>' for d in motion["dead"]]
+    dead = [
+        f'<line class="dead" data-at="{at!r}" x1="{share(at)}" x2="{share(at)}" y1="0" y2="14"/>'
+        for at in motion["dead"]
+    ]
     ticks = []
     for degrees in _ticks(low, high) if motion["verb"] == "turned" else _quarters(low, high):
         x = share(degrees)

@@ -11,11 +11,10 @@ from icsolve.answer.as_json import shown_points
 from icsolve.answer.equilibrium import Stiffness
 from icsolve.case import Case, Coordinates, Pair, Torque
 from icsolve.case.names import link_order, pair_name
+from icsolve.wording.senses import SPELT, holding, spelt
 
 Format = Callable[[float], str]
 """A number with the digits that were asked for."""
-
-_WORDS = {"ccw": "counterclockwise", "cw": "clockwise"}
 
 
 def answer_text(answer: Answer, digits: int = 6) -> str:
@@ -114,27 +113,13 @@ def _unknown(case: Case, name: str, found: Found, digits: int) -> str:
     """One line: size, unit and sense; the signed value where the sign is not plus."""
     show = _formatter(certain_digits(found, digits))
     if found.holds is not None:
-        return _range(name, found, show)
+        return f"{name}: {holding(found, show)}"
     line = f"{name} = {show(abs(found.value))} {found.unit}".rstrip()
     if found.sense:
-        line += f", {_sense(found.sense)}"
+        line += f", {spelt(found.sense)}"
     if found.value < 0.0:
         line += f"   ({name} = {show(found.value)}, {_positive(case, name)})"
     return line
-
-
-def _range(name: str, found: Found, show: Format) -> str:
-    """The values at which the mechanism holds still."""
-    least, most = found.holds or (0.0, 0.0)
-    if most - least <= 2.0 * (found.error or 0.0):
-        reach = f"only at {show(least)} {found.unit}"
-    elif math.isfinite(least) and math.isfinite(most):
-        reach = f"from {show(least)} to {show(most)} {found.unit}"
-    elif math.isfinite(least):
-        reach = f"from {show(least)} {found.unit} up"
-    else:
-        reach = f"up to {show(most)} {found.unit}" if math.isfinite(most) else "at any value"
-    return f"{name}: holds still {reach}" + (", self-locking" if found.self_locking else "")
 
 
 def certain_digits(found: Found, digits: int) -> int:
@@ -156,15 +141,11 @@ def _shown(value: float, error: float | None, digits: int) -> str:
     return _formatter(_certain(value, error, digits))(value)
 
 
-def _sense(sense: str) -> str:
-    return _WORDS.get(sense, sense)
-
-
 def _positive(case: Case, name: str) -> str:
     """What a plus sign means for the load of that name."""
     load = next((load for load in case.loads if load.name == name), None)
     if isinstance(load, Torque):
-        return f"positive {_WORDS[load.turns]}"
+        return f"positive {SPELT[load.turns]}"
     return "positive along its line as the case gives it"
 
 

@@ -1,39 +1,72 @@
-"""The sense of a load in words, and its unit."""
+"""What is said of a load's value: its sense, the range in which friction lets it be, its unit."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from icsolve.case import Case, Force, Load, Spring, Torque, Toward, Weight
 
 if TYPE_CHECKING:
+    from icsolve.answer import Found
     from icsolve.statics.power import Wrench
+
+
+SPELT = {"ccw": "counterclockwise", "cw": "clockwise"}
 
 
 def sense_of(w: Wrench, value: float) -> str:
     """Sense of a load with this value: ``ccw``, ``at 210 deg``, ``toward A``, ``pull``; '' for zero."""
+    return sense_as(w.load, value, float(w.gain), math.degrees(math.atan2(-w.unit[0], w.unit[1])))
+
+
+def sense_as(load: Load, value: float, gain: float, degrees: float) -> str:
+    """The same of a load whose unit exerts ``gain``, in the direction ``degrees`` where that is positive."""
     if value == 0.0:
         return ""
-    match w.load:
+    match load:
         case Torque():
-            return "ccw" if (value > 0) == (w.load.turns == "ccw") else "cw"
+            return "ccw" if (value > 0) == (load.turns == "ccw") else "cw"
         case Spring():
-            return "pull" if value * float(w.gain) > 0 else "push"
+            return "pull" if value * gain > 0 else "push"
         case Force(link=link) if link.startswith("@"):
             return "pull" if value > 0 else "push"
         case Force(heading=Toward() as heading):
-            if w.load.against is not None:
+            if load.against is not None:
                 return "pull" if (value > 0) != heading.away else "push"
             if (value > 0) != heading.away:
                 return f"toward {heading.point}"
-    degrees = _heading(w) if value > 0 else (_heading(w) + 180.0) % 360.0
-    return f"at {round(degrees, 6) % 360.0:.6g} deg"
+    return f"at {round(degrees % 360.0 + (0.0 if value > 0 else 180.0), 6) % 360.0:.6g} deg"
 
 
-def _heading(w: Wrench) -> float:
-    """Direction of the unit force of a wrench, degrees in [0, 360)."""
-    return math.degrees(math.atan2(-w.unit[0], w.unit[1])) % 360.0
+Show = Callable[[float], str]
+"""A number with the digits that are wanted."""
+
+
+def spelt(sense: str, show: Show | None = None) -> str:
+    """``ccw`` spelt out; with ``show`` the degrees of ``at 339.778 deg`` by their sign."""
+    if show is not None and sense.startswith("at ") and sense.endswith(" deg"):
+        return f"at {show(float(sense[3:-4]))}°"
+    return SPELT.get(sense, sense)
+
+
+def reach_of(holds: tuple[float, float], unit: str, show: Show, error: float | None = None) -> str:
+    """A range of values: ``from 3 to 4 N``, ``only at 3 N`` where its ends are one within the error."""
+    least, most = holds
+    if most - least <= 2.0 * (error or 0.0):
+        return f"only at {show(least)} {unit}"
+    if math.isfinite(least) and math.isfinite(most):
+        return f"from {show(least)} to {show(most)} {unit}"
+    if math.isfinite(least):
+        return f"from {show(least)} {unit} up"
+    return f"up to {show(most)} {unit}" if math.isfinite(most) else "at any value"
+
+
+def holding(found: Found, show: Show) -> str:
+    """``holds still from 3 to 4 N``, and whether it locks itself."""
+    reach = reach_of(found.holds or (math.nan, math.nan), found.unit, show, found.error)
+    return f"holds still {reach}" + (", self-locking" if found.self_locking else "")
 
 
 def unit_of(load: Load, case: Case) -> str:

@@ -32,11 +32,13 @@ function tell(r) {
   let sum = 0;
   terms.forEach((term, n) => {
     const ratio = term.ratio.v[r];
-    const product = ratio === null ? null : ratio * term.value;
+    const size = term.size.v[r];
+    const product = ratio === null || size === null ? null : term.sign * ratio * size;
     sum += product === null ? NaN : product;
+    byId(`size-${n}`).textContent = size === null ? "none" : number(size, 6);
     byId(`ratio-${n}`).textContent = ratio === null ? "none" : number(ratio, 6);
     byId(`product-${n}`).textContent = product === null ? "none" : number(product, 6);
   });
-  const value = answers[0].values[r];
-  byId("root-product").textContent = value === null ? "none" : number(value, 6);
+  const value = -data.sign * sum;
+  byId("root-product").textContent = answers[0].values[r] === null || Number.isNaN(value) ? "none" : number(value, 6);
 }

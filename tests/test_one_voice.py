@@ -1,0 +1,225 @@
+"""Every command tells one truth of a case: values, senses, ranges, ratios and dead centres.
+
+What `solve` finds is what `--report`, `explain`, `draw`, `check` and `page` say, over the library and over
+random cases: torques that are positive clockwise, motions at points, springs, loads between two links.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+from functools import cache
+from html import unescape
+from pathlib import Path
+from random import Random
+from typing import Any
+
+import pytest
+
+import icsolve
+import mechanisms
+import transcribe
+from icsolve.answer import Answer
+from icsolve.case import Case, RatioIs, Torque
+from icsolve.check import value_of
+from icsolve.derivation import Known, answer_ratios, known_of
+from icsolve.draw import draw
+from icsolve.draw.words import figure_number
+from icsolve.errors import SceneError
+from icsolve.explain import explain
+from icsolve.page import page_html
+from icsolve.report.text import answer_text
+from icsolve.statics.power import reacting
+from icsolve.sweep.finding import Query, find
+from icsolve.wording.senses import holding, spelt
+from loading import drawn
+
+LIBRARY = Path(__file__).parent.parent / "cases"
+FILES = {path.relative_to(LIBRARY).as_posix(): path for path in sorted(LIBRARY.rglob("*.yaml"))}
+MAKERS = (
+    mechanisms.four_bar,
+    mechanisms.slider_crank,
+    mechanisms.inverted_slider_crank,
+    mechanisms.quick_return,
+    mechanisms.watt,
+    mechanisms.scotch_yoke,
+    mechanisms.gear_pair,
+    mechanisms.rack,
+    mechanisms.cam,
+)
+RANDOM = [(maker, seed) for maker in MAKERS for seed in range(3)]
+
+
+def random_case(maker: mechanisms.Generator, seed: int) -> Case:
+    """A sound scene with loads of all kinds, every second one with a motion given at a point."""
+    scene = drawn(seed, maker)
+    if seed % 2:
+        answer = icsolve.solve(icsolve.load(transcribe.text(scene)), rates=True)
+        moving = {
+            key: v
+            for key, v in (answer.velocities or {}).items()
+            if not isinstance(v, str) and math.hypot(*v) > 1e-6
+        }
+        point, link = Random(seed).choice(sorted(moving))
+        x, y = moving[(point, link)]
+        angle = round(math.degrees(math.atan2(y, x)), 6)
+        scene = scene | {"motion": {"point": point, "link": link, "speed": 0.25, "angle": angle}}
+    return icsolve.load(transcribe.text(scene))
+
+
+def solved(case: Case, **more: bool) -> Answer | None:
+    try:
+        return icsolve.solve(case, **more)
+    except SceneError:
+        return None
+
+
+def case_of(name: str) -> Case:
+    """A case of the library, or a random one by its maker's name and seed."""
+    maker, _, seed = name.partition("-")
+    if seed.isdigit() and hasattr(mechanisms, maker):
+        return random_case(getattr(mechanisms, maker), int(seed))
+    return icsolve.load(FILES[name])
+
+
+NAMES = [*FILES, *(f"{maker.__name__}-{seed}" for maker, seed in RANDOM)]
+
+
+@cache
+def known(name: str) -> Known:
+    return known_of(case_of(name), reactions=True)
+
+
+@cache
+def page(name: str) -> tuple[str, dict[str, Any]]:
+    """The page of a case, and what its script reads."""
+    text = page_html(known(name))
+    data = re.search(r'id="data">(.*?)</script>', text, re.DOTALL)
+    assert data is not None
+    return text, json.loads(data[1])
+
+
+def column(packed: dict[str, Any], row: int) -> float | None:
+    """A number of a column."""
+    if "v" in packed:
+        value: float | None = packed["v"][row]
+        return value
+    return float(sum(packed["d"][: row + 1]) / packed["s"])
+
+
+def plain(text: str) -> str:
+    """A text for comparison: one kind of minus, dot and degree, no markup."""
+    text = unescape(re.sub(r"<[^>]+>", "", text))
+    return re.sub(r"\s+", " ", text.replace("−", "-").replace("·", "*").replace("°", " deg"))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_statuses(name: str) -> None:
+    """A case has an answer in every command, or none with one status."""
+    try:
+        icsolve.solve(case_of(name))
+        status = "ok"
+    except SceneError as refusal:
+        status = refusal.status
+    shown = known(name).refusal
+    assert (shown.status if shown else "ok") == status
+    said = explain(known(name).case, known=known(name))
+    assert (f"(Status: {status}.)" in said) == (status != "ok")
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_values_senses_and_ranges(name: str) -> None:
+    """The value with its sense, or the range, in the words of one room."""
+    answer = solved(case_of(name))
+    if answer is None:
+        return
+    shown = known(name)
+    told = {
+        "report": (answer_text(answer), 6),
+        "explain": (explain(shown.case, known=shown), 6),
+        "draw": (draw(shown.case, known=shown), 4),
+    }
+    for load, found in answer.answers.items():
+        assert shown.answer is not None
+        again = shown.answer.answers[load]
+        assert again.value == pytest.approx(found.value, rel=1e-9)
+        for room, (text, digits) in told.items():
+
+            def show(value: float, digits: int = digits, room: str = room) -> str:
+                one = float(format(value, f".{digits}g")) + 0.0
+                return figure_number(value) if room == "draw" else format(one, ".12g")
+
+            if found.holds is not None:
+                words = holding(found, show)
+            else:
+                words = spelt(found.sense, show if room == "draw" else None)
+            assert plain(words) in plain(text), room
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_the_page_says_in_its_written_position_what_solve_says(name: str) -> None:
+    answer = solved(case_of(name))
+    if answer is None:
+        return
+    _, model = page(name)
+    row = model["motion"]["zero"] if "motion" in model else 0
+    for one in model["answers"]:
+        found = answer.answers[one["name"]]
+        if found.holds is not None:
+            held = one["holds"][row if len(one["holds"]) > row else 0]
+            assert plain(held).removesuffix(", self-locking") in plain(holding(found, figure_number))
+        elif (value := column(one["values"], row)) is not None:
+            assert value == pytest.approx(found.value, rel=1e-6, abs=1e-9)
+            sense = one["senses"][int(column(one["sense"], row if "motion" in model else 0) or 0)]
+            assert plain(sense) == plain(spelt(found.sense, figure_number))
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_ratios_of_speeds(name: str) -> None:
+    """The ratios that a solution works with, and those in the page's table, are those of the rates."""
+    case = case_of(name)
+    answer = solved(case, rates=True)
+    ratios = answer_ratios(known(name))
+    if answer is None or answer.rates is None or ratios is None or answer.mobility != 1:
+        return
+    rates = {link: rate for link, rate in answer.rates.items() if isinstance(rate, float)}
+    reference = rates.get(ratios.reference, 0.0)
+    for link, rate in ratios.rates.items():
+        if reference and known(name).turns(link):
+            assert rate == pytest.approx(rates[link] / reference, rel=1e-7)
+            assert rate == pytest.approx(value_of(answer, RatioIs(link, ratios.reference))[0], rel=1e-7)
+    _, model = page(name)
+    roots = [load for load in case.loads if load.name in answer.answers]
+    if not model["terms"] or not isinstance(roots[0], Torque) or len(roots) > 1:
+        return
+    loads = {load.name: load for load in case.loads}
+    own = rates[roots[0].link] - rates[reacting(case, roots[0])]
+    for term in model["terms"]:
+        load = loads[term["name"]]
+        shown = column(term["ratio"], model["motion"]["zero"])
+        if isinstance(load, Torque) and shown is not None:
+            assert shown == pytest.approx((rates[load.link] - rates[reacting(case, load)]) / own, rel=1e-6)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_dead_centres_of_the_page_are_those_that_are_found(name: str) -> None:
+    text, model = page(name)
+    if "motion" not in model or model["motion"]["verb"] != "turned":
+        return
+    motion = model["motion"]
+    marks = [float(at) for at in re.findall(r'<line class="dead" data-at="([^"]+)"', text)]
+    case = known(name).case
+    low, high = motion["first"], motion["first"] + motion["step"] * (motion["rows"] - 1)
+    rows = [low + motion["step"] * k for k in range(motion["rows"])]
+    unknown = next((load.name for load in case.loads if load.name in {a["name"] for a in model["answers"]}), "")
+    if not unknown:
+        assert not marks
+        return
+    try:
+        found = find(case, None, Query("dead", unknown), drive={motion["driver"]: rows})
+    except SceneError:
+        return
+    places = [spot.at for spot in found if spot.kind == "dead" and low <= spot.at <= high]
+    assert len(marks) == len(places)
+    assert all(math.isclose(a, b, rel_tol=1e-12, abs_tol=1e-12) for a, b in zip(marks, places, strict=True))
