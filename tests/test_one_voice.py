@@ -212,7 +212,8 @@ def test_dead_centres_of_the_page_are_those_that_are_found(name: str) -> None:
     case = known(name).case
     low, high = motion["first"], motion["first"] + motion["step"] * (motion["rows"] - 1)
     rows = [low + motion["step"] * k for k in range(motion["rows"])]
-    unknown = next((load.name for load in case.loads if load.name in {a["name"] for a in model["answers"]}), "")
+    asked = {one["name"] for one in model["answers"]}
+    unknown = next((load.name for load in case.loads if load.name in asked), "")
     if not unknown:
         assert not marks
         return
@@ -223,3 +224,39 @@ def test_dead_centres_of_the_page_are_those_that_are_found(name: str) -> None:
     places = [spot.at for spot in found if spot.kind == "dead" and low <= spot.at <= high]
     assert len(marks) == len(places)
     assert all(math.isclose(a, b, rel_tol=1e-12, abs_tol=1e-12) for a, b in zip(marks, places, strict=True))
+
+
+UNUSED = """
+icsolve: 1
+units: {length: m, force: N}
+points: {A: [0, 0], B: [1, 1], C: [4, 2], D: [4, 0], E: [5, unknown]}
+links: {3: [E]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {pin: [4, 1], at: D}
+loads: {P: {force: 100, link: 4, at: C, angle: 180}, T: {torque: unknown, link: 2}}
+expect: {w4/w2: 0.3333}
+"""
+VERBS = {
+    "solve": [],
+    "solve --report": [],
+    "explain": [],
+    "draw": [],
+    "page": [],
+    "check": [],
+    "sweep": ["--drive", "2=0:2:1"],
+    "sweep --find": ["dead", "--drive", "2=0:2:1"],
+}
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_an_undetermined_point_that_nothing_needs_stops_no_command(verb: str, tmp_path: Path) -> None:
+    from icsolve.cli import main
+
+    path = tmp_path / "case.yaml"
+    path.write_text(UNUSED, encoding="utf-8")
+    with pytest.raises(SystemExit) as done:
+        main([*verb.split()[:1], str(path), *verb.split()[1:], *VERBS[verb]])
+    assert done.value.code == 0

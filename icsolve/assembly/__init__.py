@@ -6,7 +6,17 @@ construction again with another arithmetic (arrays, numbers on a tape, more digi
 
 from __future__ import annotations
 
-from icsolve.assembly.figure import Figure, Placement, place, solve_figure
+from icsolve.assembly.figure import Figure, Placement, place, placed_figure, solve_figure
 from icsolve.assembly.workspace import Frame, Key, Point, case_point
 
-__all__ = ["Figure", "Frame", "Key", "Placement", "Point", "case_point", "place", "solve_figure"]
+__all__ = [
+    "Figure",
+    "Frame",
+    "Key",
+    "Placement",
+    "Point",
+    "case_point",
+    "place",
+    "placed_figure",
+    "solve_figure",
+]

@@ -87,6 +87,29 @@ def solve_figure(case: Case, wanted: Collection[str] | None = None) -> Figure:
     return construct(case, frame, goal, names)
 
 
+def placed_figure(case: Case, wanted: Collection[str], needed: Collection[str]) -> Figure:
+    """The figure with the wanted points that the data place; those that are ``needed`` have to be.
+
+    A note says of each of the others why it is left out. Raises SceneError as `solve_figure`, for needed
+    points alone.
+    """
+    try:
+        return solve_figure(case, wanted)
+    except SceneError:
+        solve_figure(case, needed)
+    placed = dict.fromkeys(needed)
+    notes = []
+    for point in wanted:
+        try:
+            solve_figure(case, [*placed, point])
+        except SceneError as refusal:
+            notes.append(f"left out, as nothing needs it: {refusal.message}")
+        else:
+            placed[point] = None
+    figure = solve_figure(case, placed)
+    return figure._replace(notes=(*figure.notes, *dict.fromkeys(notes)))
+
+
 def _is_given(case: Case, point: str) -> bool:
     place = case.points.get(point)
     return type(place) is Coordinates and place.x is not None and place.y is not None

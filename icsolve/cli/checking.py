@@ -62,8 +62,6 @@ def check_cases(cases: tuple[str, ...], show: Printer, settings: Mapping[str, st
         return NO_ANSWER if any(row.verdict == DISAGREES for row in rows) else DONE
 
     def refuse(case: Case, path: str, error: SceneError) -> None:
-        nonlocal files
-        files += 1
         tally["without an answer"] += 1
         on_stderr(case, path, error)
 

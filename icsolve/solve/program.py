@@ -7,8 +7,10 @@ It runs on floats, on numbers that carry their error bound, on arrays of positio
 from functools import lru_cache
 from typing import NamedTuple
 
-from icsolve.assembly import Figure, place, solve_figure
+from icsolve.assembly import Figure, place, placed_figure, solve_figure
+from icsolve.assembly.data import names_of
 from icsolve.case import Case, Gears
+from icsolve.errors import SceneError, Status
 from icsolve.kinematics import motion, speeds
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic
 from icsolve.screws.joints import Points
@@ -65,7 +67,7 @@ def prepare(case: Case, want: Want) -> Program:
     if plan is not None and (case.ropes or not plan.closed):
         plan = None
     bonds = motion.needed_bonds(plan, top)
-    figure = solve_figure(case, None if want.examine else _wanted_points(case, top, bonds, want))
+    figure = _figure(case, top, bonds, want)
     refusals.refuse_no_direction(case, top, figure.points)
     refusals.refuse_no_hanging(case, figure.points, figure.frame.scale)
     if any(isinstance(joint, Gears) for joint in case.joints):
@@ -78,9 +80,22 @@ def prepare(case: Case, want: Want) -> Program:
 def without_plan(program: Program) -> Program:
     """The program that takes the loop equations of the whole scene at once."""
     bonds = motion.needed_bonds(None, program.top)
-    points = _wanted_points(program.case, program.top, bonds, program.want)
-    figure = solve_figure(program.case, None if program.want.examine else points)
-    return program._replace(plan=None, figure=figure)
+    return program._replace(plan=None, figure=_figure(program.case, program.top, bonds, program.want))
+
+
+def _figure(case: Case, top: Topology, bonds: tuple[int, ...], want: Want) -> Figure:
+    """The points that are needed, and those whose velocities are told; of the latter only those that the
+    data place, for nothing hangs on the others."""
+    needed = _wanted_points(case, top, bonds, want)
+    if want.examine:
+        try:
+            return solve_figure(case)
+        except SceneError as refusal:
+            if refusal.status != Status.UNDERDETERMINED:
+                raise
+        return placed_figure(case, names_of(case), needed)
+    told = [p for link in case.links for p in speeds.moving_points(case, link)] if want.everything else []
+    return placed_figure(case, list(dict.fromkeys((*needed, *told))), needed)
 
 
 def _wanted_bodies(case: Case, top: Topology, want: Want) -> frozenset[int]:
@@ -106,8 +121,6 @@ def _wanted_points(case: Case, top: Topology, bonds: tuple[int, ...], want: Want
     points += [p for rope in case.ropes for p in rope.points]
     if want.bodies:
         points += [p for joint in case.joints if (p := getattr(joint, "at", None)) is not None]
-    if want.everything:
-        points += [p for link in case.links for p in speeds.moving_points(case, link)]
     return list(dict.fromkeys(points))
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from icsolve.assembly import Figure, place, solve_figure
+from icsolve.assembly import Figure, place, placed_figure
 from icsolve.assembly.data import names_of, number_of
 from icsolve.assembly.driven.constraints import Constraint, Turning
 from icsolve.assembly.driven.mechanism import Mechanism, mechanism
@@ -21,6 +21,7 @@ from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record, varies
 from icsolve.screws.plane import Point
 from icsolve.solve import refusals
+from icsolve.statics.power import points_of
 from icsolve.structure.topology import Topology, topology
 from icsolve.sweep.drivers import Drive, condition, drive_of, pose_of, turning, turns_a_wheel
 from icsolve.sweep.numbers import find_number, numbers_of
@@ -86,7 +87,7 @@ def setting_of(case: Case, paths: Sequence[str], links: Sequence[str]) -> Settin
     own = tuple(find_number(case, path).path for path in paths)
     top = topology(case)
     refusals.refuse_loose(case, top)
-    figure = solve_figure(case, wanted_points(case))
+    figure = placed_figure(case, *wanted_points(case))
     refuse_misfit(case, top, figure.points, figure.frame.scale)
     drive = Drive((), (), ())
     if links or any(path.split(".")[0] in ("points", "lengths", "angles") for path in own):
@@ -94,13 +95,18 @@ def setting_of(case: Case, paths: Sequence[str], links: Sequence[str]) -> Settin
     return Setting(case, top, figure, own, tuple(links), drive)
 
 
-def wanted_points(case: Case) -> list[str]:
-    """Every point that a joint, a link or a load has, and those that are given."""
+def wanted_points(case: Case) -> tuple[list[str], list[str]]:
+    """Every point that a joint, a link or a load has, and those that are given; and which of them joints,
+    loads and motions need."""
     carried = [p for points in case.carries.values() for p in points]
     used = [p for joint in case.joints if (p := getattr(joint, "at", None)) is not None]
     given = [name for name in names_of(case) if name in case.points]
     loads = [getattr(getattr(load, "heading", None), "point", None) for load in case.loads]
-    return list(dict.fromkeys([*carried, *used, *given, *(p for p in loads if p)]))
+    wanted = list(dict.fromkeys([*carried, *used, *given, *(p for p in loads if p)]))
+    guides = [guide for joint in case.joints if (guide := getattr(joint, "guide", None)) is not None]
+    needed = {*used, *(p for guide in guides for p in (*(guide.ends or ()), guide.through))}
+    needed |= {p for load in case.loads for p in points_of(load)} | {m.point for m in case.motion}
+    return wanted, [p for p in wanted if p in needed]
 
 
 def _drive(case: Case, top: Topology, figure: Figure, paths: Sequence[str], links: Sequence[str]) -> Drive:

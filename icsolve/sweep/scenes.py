@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from icsolve.answer import Answer
-from icsolve.assembly import case_point, solve_figure
+from icsolve.assembly import case_point, placed_figure
 from icsolve.case import Case
 from icsolve.case.names import link_order
 from icsolve.errors import SceneError
@@ -244,7 +244,7 @@ def _steps(sets: Array, written: list[float]) -> Array:
 def _places(case: Case) -> dict[str, tuple[float, float]] | None:
     """Where the points of a figure are, in case units; None where it does not assemble."""
     try:
-        figure = solve_figure(case, wanted_points(case))
+        figure = placed_figure(case, *wanted_points(case))
     except SceneError:
         return None
     named = {name: place for name, place in figure.points.items() if not name.startswith("@")}

@@ -315,7 +315,7 @@ def _only_unknown(case: Case, answer: Answer) -> str:
 
 def _built(case: Case) -> Figure:
     """The figure, if it is constructed step by step, of no more data than it needs, by `near` alone."""
-    goal = wanted_points(case)
+    goal, _ = wanted_points(case)
     figure = solve_figure(case, goal)
     order = order_of(case, list(figure.points))
     spare = {d for d in set(order.facts.data) - order.used() if all(p in figure.points for p in d.points)}
