@@ -43,6 +43,12 @@ class Known(NamedTuple):
         return None if self.whole is None else self.whole.scene
 
     @property
+    def structure(self) -> bool:
+        """Whether nothing can move, so that statics alone gives what there is to find."""
+        moving = self.whole is not None and self.whole.scene is not None
+        return self.answer is not None and self.answer.reactions is not None and not moving
+
+    @property
     def title(self) -> str:
         """What the case is called."""
         return self.case.title or self.case.name

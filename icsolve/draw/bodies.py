@@ -60,6 +60,20 @@ def body_panels(scene: Scene, left: float, top: float, width: float) -> list[Mar
     ]
 
 
+def support_parts(scene: Scene, solid: shapely.Geometry) -> list[Part]:
+    """The forces of the frame on a structure, in the figure itself."""
+    answer, ground = scene.known.answer, scene.case.ground
+    if answer is None or not scene.known.structure:
+        return []
+    pushes = [
+        _reaction(scene, name, r if r.by == ground else r.reversed())
+        for name, r in (answer.reactions or {}).items()
+        if ground in (r.by, r.on)
+    ]
+    largest = max((math.hypot(*push.force) for push in pushes), default=0.0)
+    return [part for n, push in enumerate(pushes) for part in _drawn(scene, push, largest, solid, n)]
+
+
 def _smaller(scene: Scene) -> Scene:
     view = scene.view._replace(scale=SMALLER * scene.view.scale)
     return scene._replace(view=view, at={name: view.at(p) for name, p in scene.known.points.items()})

@@ -12,6 +12,7 @@ import shapely
 
 from icsolve.case import Case, Pin
 from icsolve.derivation import Known, Step, all_steps, known_of, needed_steps
+from icsolve.draw.bodies import body_panels, support_parts
 from icsolve.draw.centres import centre_parts, circle_marks
 from icsolve.draw.frame import belts, frame_parts, joint_parts, point_parts, rims
 from icsolve.draw.links import Body, bars, body_of, inside_plate, link_part, outline, wheel_parts
@@ -82,6 +83,7 @@ def figure_marks(scene: Scene, steps: Sequence[Step] = (), *, velocities: bool =
         *joint_parts(scene),
         *centre_parts(scene, steps),
         *load_parts(scene, _filled(links, speeds)),
+        *support_parts(scene, links),
         *speeds,
         *point_parts(scene),
     ]
@@ -193,7 +195,5 @@ def _under(scene: Scene, drawing: Drawing, marks: Sequence[Mark]) -> list[Mark]:
         found += [scale] if scale is not None else []
         bottom = max(bottom, bounds(found)[3]) if found else bottom
     if drawing.bodies:
-        from icsolve.draw.bodies import body_panels
-
         found += body_panels(scene, left, bottom + 30.0, max(right - left, 760.0))
     return found

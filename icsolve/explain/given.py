@@ -145,7 +145,9 @@ def asked_section(known: Known, figures: Figures) -> Section:
     case = known.case
     unknown = [load for load in case.loads if is_unknown(load)]
     if not unknown:
-        return Section("Asked", (words("The instant centres, and how fast the links move."),))
+        what = "instant centres, and how fast the links move"
+        what = "forces and couples in the joints" if known.structure else what
+        return Section("Asked", (words(f"The {what}."),))
     entries = tuple(_load(known, figures, load) for load in unknown)
     count = "is the load that holds" if len(unknown) == 1 else "are the loads that hold"
     return Section(

@@ -204,7 +204,7 @@ def _sections(known: Known, figures: Figures, bodies: bool) -> Iterable[Section]
     yield from answer_section(known, figures)
     yield from left_out(known, steps, bodies=bodies)
     yield from check_section(known, figures)
-    if bodies:
+    if bodies or known.structure:
         from icsolve.explain.bodies import bodies_sections
 
         yield from bodies_sections(known, figures)
