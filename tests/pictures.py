@@ -47,7 +47,8 @@ def parsed(svg: str) -> Picture:
     left, top, width, height = map(float, root.attrib["viewBox"].split())
     joints = [circle(e) for e in root.iter(f"{SVG}circle") if e.attrib["class"] in JOINTS]
     view = shapely.box(left, top, left + width, top + height)
-    return Picture(root, tuple(label(e) for e in root.iter(f"{SVG}text")), tuple(joints), view)
+    texts = (e for e in root.iter(f"{SVG}text") if "halo" not in e.attrib["class"])
+    return Picture(root, tuple(map(label, texts)), tuple(joints), view)
 
 
 JOINTS = ("pin", "primary", "secondary")

@@ -117,9 +117,9 @@ def test_colours_hold_on_paper_and_in_the_dark() -> None:
     """WCAG AA: text at 4.5 to 1 or more, strokes at 3 to 1 or more, on both papers."""
     from icsolve.draw import svg
 
-    for name, ink, _ in svg._TEXTS:
+    for name, ink, _ in svg.TEXTS:
         assert min(contrast(ink.light, svg.PAPER.light), contrast(ink.dark, svg.PAPER.dark)) >= 4.5, name
-    for name, stroke, _, _ in svg._RULES:
+    for name, stroke, _, _ in svg.RULES:
         if stroke is not None and name != "grid":
             assert contrast(stroke.light, svg.PAPER.light) >= 3.0, name
             assert contrast(stroke.dark, svg.PAPER.dark) >= 3.0, name

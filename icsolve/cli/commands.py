@@ -20,10 +20,10 @@ VERBS = {
     "grade": "grading",
     "variants": "varying",
     "export": "exporting",
-    "explain": "explaining",
-    "draw": "drawing",
+    "explain": "picturing",
+    "draw": "picturing",
     "gallery": "showing",
-    "page": "paging",
+    "page": "picturing",
     "sweep": "sweeping",
     "bench": "benching",
 }

@@ -21,6 +21,7 @@ from icsolve.draw.marks import HEIGHT, WIDTH, Box, Mark, bounds, view_of
 from icsolve.draw.place import joined
 from icsolve.draw.scene import Part, Round, Scene, outline_boxes, round_things, together, with_labels
 from icsolve.draw.svg import document
+from icsolve.draw.tikz import standalone
 from icsolve.draw.words import captioned, description
 
 SHORT, LARGER = 52.0, 1.5
@@ -133,18 +134,26 @@ class Drawing(NamedTuple):
 PLAIN = Drawing()
 
 
-def draw(case: Case, drawing: Drawing = PLAIN, known: Known | None = None) -> str:
-    """The drawing of a case as an SVG document, the same bytes every time.
+def draw(case: Case, drawing: Drawing = PLAIN, known: Known | None = None, form: str = "svg") -> str:
+    """The drawing of a case as a document, the same bytes every time: ``svg``, or ``tex`` (TikZ).
 
     A case that has no answer is drawn as far as it is known, with the reason below.
     """
     known = known or known_of(case, reactions=drawing.bodies)
-    marks, steps = _in_space(known, drawing) if case.space is not None else _in_plane(known, drawing)
-    if drawing.captions or not marks:
-        marks = captioned(known, marks, steps, drawing.step)
+    marks = drawn(known, drawing)
+    if form == "tex":
+        return standalone(marks, known.title)
     left, top, right, bottom = bounds(marks)
     view = (left - PAD, top - PAD, right + PAD, bottom + PAD)
     return document(marks, view, known.title, description(known))
+
+
+def drawn(known: Known, drawing: Drawing) -> list[Mark]:
+    """The marks of a drawing."""
+    marks, steps = _in_space(known, drawing) if known.case.space is not None else _in_plane(known, drawing)
+    if drawing.captions or not marks:
+        marks = captioned(known, marks, steps, drawing.step)
+    return marks
 
 
 def _in_space(known: Known, drawing: Drawing) -> tuple[list[Mark], tuple[Step, ...]]:

@@ -32,7 +32,7 @@ CENTRE = Ink("#6f42c1", "#c9a6ff")
 LIT = Ink("#e3d8f7", "#3a2f52")
 MOTION = Ink("#00704e", "#4fd6a8")
 
-_RULES: tuple[tuple[str, Ink | None, Ink | None, str], ...] = (
+RULES: tuple[tuple[str, Ink | None, Ink | None, str], ...] = (
     # class, stroke, fill, width and the rest
     ("paper", None, PAPER, ""),
     ("body", LINE, BODY, "stroke-width:1.3;stroke-linejoin:round"),
@@ -76,7 +76,7 @@ _RULES: tuple[tuple[str, Ink | None, Ink | None, str], ...] = (
     ("badge", LINE, PAPER, "stroke-width:1"),
 )  # fmt: skip
 
-_TEXTS: tuple[tuple[str, Ink, str], ...] = (
+TEXTS: tuple[tuple[str, Ink, str], ...] = (
     ("t-point", LINE, "font-style:italic"),
     ("t-link", LINE, ""),
     ("t-known", KNOWN, "font-weight:600"),
@@ -92,31 +92,36 @@ _TEXTS: tuple[tuple[str, Ink, str], ...] = (
 
 
 _HALOED = frozenset({"t-point", "t-known", "t-unknown", "t-reaction", "t-centre", "t-velocity"})
-_HALO = ";stroke-width:2.4;stroke-opacity:0.85;stroke-linejoin:round;paint-order:stroke"
-"""Lines that a label crosses stop short of its letters."""
+_HALO = "stroke-width:2.4;stroke-opacity:0.85;stroke-linejoin:round"
+"""Lines that a label crosses stop short of its letters. A browser paints such a stroke under the letters; in
+a document by itself the letters stand a second time above it, for readers that know no `paint-order`."""
 
 
-def sheet(used: frozenset[str]) -> str:
+def sheet(used: frozenset[str], *, painted: bool = True) -> str:
     """The rules that a picture with these classes needs, light first, then what the dark changes."""
-    light = [_FONT, *_rules(used, dark=False)]
-    dark = "".join(_rules(used, dark=True))
+    light = [_FONT, *_rules(used, painted, dark=False)]
+    dark = "".join(_rules(used, painted, dark=True))
     return "".join(light) + f"@media screen and (prefers-color-scheme:dark){{{dark}}}"
 
 
 _FONT = ".ic text{font-family:'Helvetica Neue',Helvetica,Arial,'Liberation Sans',sans-serif}"
 
 
-def _rules(used: frozenset[str], *, dark: bool) -> list[str]:
+def _rules(used: frozenset[str], painted: bool, *, dark: bool) -> list[str]:
     rules = []
-    for name, stroke, fill, rest in _RULES:
+    for name, stroke, fill, rest in RULES:
         if name in used:
             parts = [f"fill:{_hue(fill, dark)}", f"stroke:{_hue(stroke, dark)}"]
             rules.append(f".ic .{name}{{{';'.join([*parts, rest] if rest and not dark else parts)}}}")
-    for name, ink, rest in _TEXTS:
+    for name, ink, rest in TEXTS:
         if name in used:
             style = f"fill:{_hue(ink, dark)}" + (f";{rest}" if rest and not dark else "")
-            halo = f";stroke:{_hue(PAPER, dark)}" if name in _HALOED else ""
-            rules.append(f".ic .{name}{{{style}{halo}{_HALO if halo and not dark else ''}}}")
+            if painted and name in _HALOED:
+                style += f";stroke:{_hue(PAPER, dark)}" + ("" if dark else f";{_HALO};paint-order:stroke")
+            rules.append(f".ic .{name}{{{style}}}")
+    if not painted and used & _HALOED:
+        rest = "" if dark else f";{_HALO}"
+        rules.append(f".ic .halo{{fill:none;stroke:{_hue(PAPER, dark)}{rest}}}")
     return rules
 
 
@@ -164,9 +169,9 @@ def document(marks: Iterable[Mark], view: Box, title: str, description: str) -> 
             f' height="{size[1]}" role="img">',
             f"<title>{escaped(title)}</title>",
             f"<desc>{escaped(description)}</desc>",
-            f"<style>{sheet(used)}</style>",
+            f"<style>{sheet(used, painted=False)}</style>",
             _paper(number(left), number(top), *size),
-            *(element(mark) for mark in marks),
+            *(element(mark, halo=True) for mark in marks),
             "</svg>\n",
         )
     )
@@ -180,8 +185,8 @@ def _kinds(marks: Iterable[Mark]) -> Iterable[str]:
     return (name for mark in leaves(marks) for name in mark.kind.split())
 
 
-def element(mark: Mark) -> str:
-    """One mark."""
+def element(mark: Mark, *, halo: bool = False) -> str:
+    """One mark; with ``halo`` a label's letters stand on a stroke of the paper's colour."""
     match mark:
         case Area():
             rings = " ".join(f"M{_chain(ring)}Z" for ring in mark.rings)
@@ -194,9 +199,10 @@ def element(mark: Mark) -> str:
         case Arc():
             return _arc(mark)
         case Text():
-            return _text(mark)
+            under = _text(mark, " halo") + "\n" if halo and mark.kind in _HALOED else ""
+            return under + _text(mark)
         case Group():
-            return _group(mark)
+            return _group(mark, halo)
 
 
 def _chain(points: Iterable[tuple[float, float]]) -> str:
@@ -210,11 +216,13 @@ def _arc(arc: Arc) -> str:
     return f'<path class="{arc.kind}" d="M{ends[0]} A{r},{r} 0 {large} {turn} {ends[1]}"/>'
 
 
-def _text(text: Text) -> str:
+def _text(text: Text, more: str = "") -> str:
     x, y = number(text.at[0]), number(text.at[1] + 0.35 * text.size)
     anchor = "" if text.anchor == "start" else f' text-anchor="{text.anchor}"'
     size = number(text.size)
-    return f'<text class="{text.kind}" x="{x}" y="{y}" font-size="{size}"{anchor}>{_runs(text)}</text>'
+    hidden = ' aria-hidden="true"' if more else ""
+    place = f'x="{x}" y="{y}" font-size="{size}"{anchor}{hidden}'
+    return f'<text class="{text.kind}{more}" {place}>{_runs(text)}</text>'
 
 
 def _runs(text: Text) -> str:
@@ -230,12 +238,12 @@ def _runs(text: Text) -> str:
     return "".join(parts)
 
 
-def _group(group: Group) -> str:
+def _group(group: Group, halo: bool) -> str:
     name = f' id="{escaped(identifier(group.name))}"' if group.name else ""
     kind = f' class="{group.kind}"' if group.kind else ""
     data = "".join(f' {key}="{escaped(value)}"' for key, value in group.data)
     title = f"<title>{escaped(group.title)}</title>" if group.title else ""
-    body = "".join(f"\n{element(mark)}" for mark in group.marks)
+    body = "".join(f"\n{element(mark, halo=halo)}" for mark in group.marks)
     return f"<g{name}{kind}{data}>{title}{body}\n</g>"
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 
 from icsolve.case import Case
 from icsolve.derivation import Known, known_of
-from icsolve.explain.document import AsHtml, AsMarkdown, AsText
+from icsolve.explain.document import AsMarkdown, AsText
 from icsolve.explain.solution import solution
 
-FORMATS = ("text", "md", "html")
+FORMATS = ("text", "md", "html", "tex")
 
 
 def explain(
@@ -18,7 +18,7 @@ def explain(
 
     Parameters
     ----------
-    form : ``text``, ``md`` or ``html``
+    form : ``text``, ``md``, ``html`` or ``tex``
     digits : significant digits of the numbers shown
     bodies : the three equations of every link, and the reactions, too
     known : what is known of the case, where that was found before (with reactions, for the check)
@@ -29,9 +29,13 @@ def explain(
         return AsText().whole(document)
     if form == "md":
         return AsMarkdown().whole(document)
-    from icsolve.draw import Drawing, draw
+    from icsolve.draw.figure import Drawing, draw, drawn
+    from icsolve.explain.typeset import AsHtml, AsTex
 
-    return AsHtml(draw(case, Drawing(bodies=bodies, captions=False), known)).whole(document)
+    drawing = Drawing(bodies=bodies, captions=False)
+    if form == "tex":
+        return AsTex(drawn(known, drawing)).whole(document)
+    return AsHtml(draw(case, drawing, known)).whole(document)
 
 
 __all__ = ["FORMATS", "explain"]

@@ -1,5 +1,5 @@
-"""A worked solution as a document: sections of paragraphs, formulas, lists and tables; as plain text, as
-Markdown with LaTeX, or as one HTML file with MathML and the figure in it, which has nothing to load."""
+"""A worked solution as a document: sections of paragraphs, formulas, lists and tables; as plain text and as
+Markdown with LaTeX."""
 
 from __future__ import annotations
 
@@ -10,8 +10,7 @@ from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
-from icsolve.draw.svg import escaped
-from icsolve.explain.formula import LATEX, MATHML, PLAIN, Equation, Expr, Notation, Quantity
+from icsolve.explain.formula import LATEX, PLAIN, Equation, Expr, Notation, Quantity
 
 Inline = str | Expr
 """A piece of a paragraph: words, or a symbol or short formula."""
@@ -188,66 +187,3 @@ class AsMarkdown(Layout):
                 heading, *rows = self.cells(block)
                 rows = [heading, ["---"] * len(heading), *rows]
                 return "\n".join(f"| {' | '.join(row)} |" for row in rows)
-
-
-STYLE = """
-:root{color-scheme:light dark;--ink:#1b1f24;--paper:#fff;--line:#d0d7de}
-@media screen and (prefers-color-scheme:dark){:root{--ink:#e6e9ed;--paper:#14181d;--line:#3d444d}}
-body{font:1rem/1.55 'Helvetica Neue',Helvetica,Arial,'Liberation Sans',sans-serif;color:var(--ink);
-background:var(--paper);max-width:46rem;margin:2rem auto;padding:0 1rem}
-h1{font-size:1.5rem;line-height:1.25}h2{font-size:1.15rem;margin-top:1.8em}
-.lead{font-style:italic}math[display=block]{margin:.5em 0;overflow-x:auto;overflow-y:hidden}
-table{border-collapse:collapse;display:block;overflow-x:auto}
-th,td{text-align:left;padding:.2em .8em .2em 0;border-bottom:1px solid var(--line)}
-figure{margin:1rem 0}svg{max-width:100%;height:auto}
-"""
-
-
-class AsHtml(Layout):
-    """A whole page; ``figure`` is an SVG drawing."""
-
-    notation = MATHML
-
-    def __init__(self, figure: str = "") -> None:
-        self.figure = figure
-
-    def text(self, text: str) -> str:
-        return escaped(dotted(text))
-
-    def symbol(self, expression: Expr) -> str:
-        return f"<math>{self.notation.expression(expression)}</math>"
-
-    def whole(self, document: Document) -> str:
-        title = escaped(document.title)
-        lead = "".join(f'<p class="lead">{escaped(text)}</p>\n' for text in document.lead)
-        picture = f"<figure>{self.figure}</figure>\n" if self.figure else ""
-        return (
-            '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'
-            '<meta name="viewport" content="width=device-width,initial-scale=1">\n'
-            f"<title>{title}</title>\n<style>{STYLE}</style></head>\n<body><main>\n"
-            f"<h1>{title}</h1>\n{lead}{picture}{self.sections(document)}</main></body></html>\n"
-        )
-
-    def sections(self, document: Document) -> str:
-        """The sections alone, to stand in another page."""
-        return "".join(
-            f"<section><h2>{escaped(section.title)}</h2>\n{''.join(map(self._block, section.blocks))}"
-            "</section>\n"
-            for section in document.sections
-        )
-
-    def _block(self, block: Block) -> str:
-        match block:
-            case Words():
-                return f"<p>{self.inline(block.parts)}</p>\n"
-            case Formula():
-                return f'<math display="block">{self.notation.equation(block.equation)}</math>\n'
-            case Items():
-                tag = "ol" if block.numbered else "ul"
-                entries = "".join(f"<li>{self.inline(entry)}</li>" for entry in block.entries)
-                return f"<{tag}>{entries}</{tag}>\n"
-            case Table():
-                heading, *rows = self.cells(block)
-                head = "".join(f'<th scope="col">{cell}</th>' for cell in heading)
-                body = "".join(f"<tr>{''.join(f'<td>{cell}</td>' for cell in row)}</tr>" for row in rows)
-                return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>\n"

@@ -17,9 +17,10 @@ import numpy as np
 from icsolve.case import Spring, Torque, Weight
 from icsolve.derivation import Acting, Known, Step, acting_loads
 from icsolve.draw.words import answer_sentences, name_runs, step_sentence, unit_word
-from icsolve.explain.document import AsHtml, Document, Formula, formula
+from icsolve.explain.document import Document, Formula, formula
 from icsolve.explain.formula import MATHML, Expr, Name, Num, Quotient, Sum, product
 from icsolve.explain.given import load_name
+from icsolve.explain.typeset import AsHtml
 from icsolve.page.model import gain_rows
 from icsolve.page.motion import Array, Motion, exact, script_json
 from icsolve.page.pictures import track_svg

@@ -1,0 +1,162 @@
+"""`icsolve draw`, `icsolve explain`, `icsolve page`: one case laid out as a picture, a solution, a page."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import PurePath
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from icsolve.cli.options import DIGITS, SET
+from icsolve.cli.output import OUTPUT, one_source, write_output
+from icsolve.cli.run import NO_ANSWER, UNREADABLE, complain, for_each, on_stderr
+
+if TYPE_CHECKING:
+    from icsolve.case import Case
+    from icsolve.derivation import Known
+
+DRAWN = {".svg": "svg", ".tex": "tex"}
+EXPLAINED = {
+    ".txt": "text",
+    ".md": "md",
+    ".markdown": "md",
+    ".html": "html",
+    ".htm": "html",
+    ".tex": "tex",
+}
+PAGED = {".html": "html", ".htm": "html"}
+
+
+@click.command("draw")
+@click.argument("case", metavar="CASE")
+@OUTPUT
+@click.option(
+    "--centres",
+    type=click.Choice(["needed", "all", "none"]),
+    default="needed",
+    show_default=True,
+    help="Which instant centres, with the lines that find them.",
+)
+@click.option("--step", type=click.IntRange(0), metavar="K", help="The construction after K centres found.")
+@click.option("--circle", is_flag=True, help="The Kennedy circle diagram beside the figure.")
+@click.option("--velocities", is_flag=True, help="The velocities of the points.")
+@click.option("--bodies", is_flag=True, help="The free-body diagrams of all links.")
+@SET
+def draw_command(case: str, output: str | None, settings: dict[str, str], **asked: Any) -> int:
+    """Draw a case: the mechanism, its loads with the answer, its instant centres.
+
+    \b
+    icsolve draw press.yaml -o press.svg
+    icsolve draw press.yaml --centres all --circle -o centres.svg
+    icsolve draw press.yaml --step 1 -o step1.svg
+    icsolve draw press.yaml -o press.tex
+
+    The ending of the file says what is written: .svg, or .tex (TikZ for LaTeX). A case without an answer is
+    drawn as far as it is known, with the reason below; exit status 1.
+    """
+    form = form_of("draw", output, DRAWN)
+
+    def made(known: Known) -> str:
+        from icsolve.draw import Drawing, draw
+
+        return draw(known.case, Drawing(**asked), known, form or "svg")
+
+    return laid_out("draw", case, output, settings, made, reactions=asked["bodies"]) if form else UNREADABLE
+
+
+@click.command("explain")
+@click.argument("case", metavar="CASE")
+@OUTPUT
+@click.option(
+    "--format",
+    "form",
+    type=click.Choice(["text", "md", "html", "tex"]),
+    help="text, md (Markdown with LaTeX formulas), html or tex; by the ending of -o, else text.",
+)
+@click.option("--bodies", is_flag=True, help="The equations of equilibrium of every link, and the reactions.")
+@SET
+@DIGITS
+def explain_command(
+    case: str, output: str | None, form: str | None, bodies: bool, settings: dict[str, str], digits: int
+) -> int:
+    """Print the worked solution of a case, in the textbook's order and words.
+
+    \b
+    icsolve explain press.yaml
+    icsolve explain press.yaml -o press.html
+    icsolve explain press.yaml -o press.tex
+    icsolve explain press.yaml --format md --bodies --digits 4
+
+    A case without an answer is explained as far as it goes, with the reason; exit status 1.
+    """
+    form = form or form_of("explain", output, EXPLAINED)
+
+    def made(known: Known) -> bytes:
+        from icsolve.explain import explain
+
+        text = explain(known.case, form or "text", digits, bodies=bodies, known=known)
+        return text.encode("utf-8", "backslashreplace")
+
+    return laid_out("explain", case, output, settings, made) if form else UNREADABLE
+
+
+@click.command("page")
+@click.argument("case", metavar="CASE")
+@OUTPUT
+@SET
+def page_command(case: str, output: str | None, settings: dict[str, str]) -> int:
+    """Make a page of a case that moves: one HTML file that needs no network.
+
+    \b
+    icsolve page press.yaml -o press.html
+
+    A slider turns the input through its whole range; buttons go through the construction a centre at a time;
+    the power equation, the answer and its curve follow. A case that cannot move is shown as it stands, with
+    the reason; one without an answer too, with exit status 1.
+    """
+
+    def made(known: Known) -> str:
+        from icsolve.page import page_html
+
+        return page_html(known)
+
+    known_ending = form_of("page", output, PAGED)
+    return laid_out("page", case, output, settings, made) if known_ending else UNREADABLE
+
+
+def form_of(verb: str, output: str | None, endings: Mapping[str, str]) -> str | None:
+    """What a file's ending asks for; the first of the forms without one, None where it is not known."""
+    ending = PurePath(output or "").suffix.lower()
+    if ending in endings or not ending:
+        return endings.get(ending, next(iter(endings.values())))
+    *some, last = endings
+    names = f"{', '.join(some)} or {last}"
+    complain(f"icsolve {verb}: {output} should end in {names}, which is what {verb} writes")
+    return None
+
+
+def laid_out(
+    verb: str,
+    argument: str,
+    output: str | None,
+    settings: Mapping[str, str],
+    made: Callable[[Known], str | bytes],
+    *,
+    reactions: bool = True,
+) -> int:
+    """Write what is made of one case that was solved as far as it goes; returns the exit status."""
+    if not one_source(verb, argument):
+        return UNREADABLE
+
+    def work(case: Case, path: str) -> int:
+        from icsolve.derivation import known_of
+
+        known = known_of(case, reactions=reactions)
+        code = write_output(verb, made(known), output, [argument])
+        if known.refusal is not None:
+            on_stderr(case, path, known.refusal)
+            return max(code, NO_ANSWER)
+        return code
+
+    return for_each([argument], work, settings=settings)
