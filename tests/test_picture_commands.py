@@ -4,6 +4,8 @@ is never written over."""
 from __future__ import annotations
 
 import os
+import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -16,6 +18,7 @@ from test_draw import DEAD_CENTRE, FOUR_BAR
 
 ROOT = Path(__file__).parent.parent
 VERBS = ("draw", "explain")
+ENDINGS = {"draw": ".svg", "explain": ".txt", "page": ".html"}
 
 
 def ran(*words: str) -> int:
@@ -35,7 +38,7 @@ def press(tmp_path: Path) -> Path:
 def test_a_file_is_what_standard_output_would_be(
     verb: str, press: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    out = tmp_path / "out.svg"
+    out = tmp_path / f"out{ENDINGS[verb]}"
     assert ran(verb, str(press)) == 0
     shown = capsys.readouterr()
     assert ran(verb, str(press), "-o", str(out)) == 0
@@ -44,7 +47,7 @@ def test_a_file_is_what_standard_output_would_be(
 
 
 @pytest.mark.parametrize("verb", VERBS)
-@pytest.mark.parametrize("name", ["missing/out.svg", "."])
+@pytest.mark.parametrize("name", ["missing/out", "."])
 def test_a_path_that_cannot_be_written_is_said(
     verb: str, name: str, press: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -134,3 +137,34 @@ def test_the_same_bytes_in_every_process(words: tuple[str, ...]) -> None:
         for seed in ("1", "7")
     ]
     assert both[0] == both[1] and both[0]
+
+
+@pytest.mark.parametrize("verb", VERBS)
+@pytest.mark.parametrize("ending", ["png", "pdf", "eps", "dxf", "docx"])
+def test_an_ending_that_is_not_known_is_refused_with_those_that_are(
+    verb: str, ending: str, press: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / f"out.{ending}"
+    assert ran(verb, str(press), "-o", str(out)) == 2
+    said = capsys.readouterr().err
+    assert ENDINGS[verb] in said and "should end in" in said
+    assert not out.exists()
+
+
+@pytest.mark.parametrize("verb", ["draw", "explain"])
+def test_latex_is_written_by_its_ending(verb: str, tmp_path: Path) -> None:
+    """Every group is closed, every style that is used is defined once, and no text is left to chance."""
+    case, out = tmp_path / "case.yaml", tmp_path / "out.tex"
+    case.write_text(FOUR_BAR.format(title="'50 % & more: #1 $x_2$ ^~\\{}'", crank=1))
+    assert ran(verb, str(case), "-o", str(out)) == 0
+    text = out.read_text(encoding="utf-8")
+    begun, ended = re.findall(r"\\begin{(.*?)}", text), re.findall(r"\\end{(.*?)}", text)
+    assert sorted(begun) == sorted(ended) and "tikzpicture" in begun
+    bare = re.sub(r"\\[\\{}%]", "", re.sub(r"(?m)(?<!\\)%.*$", "", text))
+    assert bare.count("{") == bare.count("}")
+    styles = re.findall(r"\\tikzset{ic ([\w-]+)/", text)
+    assert len(styles) == len(set(styles))
+    assert set(re.findall(r"\[ic ([\w-]+)[],]", text)) <= set(styles)
+    assert r"50 \% \& more: \#1 \$x\_2\$" in text
+    if shutil.which("pdflatex"):
+        subprocess.run(["pdflatex", "-interaction=batchmode", out.name], cwd=tmp_path, check=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Mapping
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
@@ -55,7 +56,7 @@ def draw_command(case: str, output: str | None, settings: dict[str, str], **aske
     The ending of the file says what is written: .svg, or .tex (TikZ for LaTeX). A case without an answer is
     drawn as far as it is known, with the reason below; exit status 1.
     """
-    form = form_of("draw", output, DRAWN)
+    form = form_of("draw", case, output, DRAWN)
 
     def made(known: Known) -> str:
         from icsolve.draw import Drawing, draw
@@ -90,7 +91,7 @@ def explain_command(
 
     A case without an answer is explained as far as it goes, with the reason; exit status 1.
     """
-    form = form or form_of("explain", output, EXPLAINED)
+    form = form or form_of("explain", case, output, EXPLAINED)
 
     def made(known: Known) -> bytes:
         from icsolve.explain import explain
@@ -121,14 +122,16 @@ def page_command(case: str, output: str | None, settings: dict[str, str]) -> int
 
         return page_html(known)
 
-    known_ending = form_of("page", output, PAGED)
+    known_ending = form_of("page", case, output, PAGED)
     return laid_out("page", case, output, settings, made) if known_ending else UNREADABLE
 
 
-def form_of(verb: str, output: str | None, endings: Mapping[str, str]) -> str | None:
-    """What a file's ending asks for; the first of the forms without one, None where it is not known."""
+def form_of(verb: str, case: str, output: str | None, endings: Mapping[str, str]) -> str | None:
+    """What a file's ending asks for; the first of the forms without one, None where it is not known (the case
+    itself is refused when it comes to writing)."""
     ending = PurePath(output or "").suffix.lower()
-    if ending in endings or not ending:
+    itself = output is not None and os.path.exists(output) and os.path.exists(case)
+    if ending in endings or not ending or (itself and os.path.samefile(output or "", case)):
         return endings.get(ending, next(iter(endings.values())))
     *some, last = endings
     names = f"{', '.join(some)} or {last}"
