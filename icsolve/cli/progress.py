@@ -4,14 +4,26 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from contextlib import AbstractContextManager, nullcontext
 from types import TracebackType
-from typing import Any
+from typing import Any, TypeVar
 
 import click
 
+T = TypeVar("T")
+
 PATIENCE = 1.0
 """Seconds of work before a bar is shown."""
+
+
+def watched(
+    items: Iterable[T], count: int, label: str, quiet: bool = False
+) -> AbstractContextManager[Iterable[T]]:
+    """The items, with a bar on standard error where someone sees it."""
+    if quiet or sys.stderr is None or not sys.stderr.isatty():
+        return nullcontext(items)
+    return click.progressbar(items, length=count, label=label, file=sys.stderr)
 
 
 class Progress:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -13,6 +12,7 @@ from icsolve.cli import BUG
 from icsolve.cli.faults import bug_report
 from icsolve.cli.inputs import STDIN, Source, sources
 from icsolve.cli.output import write_output
+from icsolve.cli.progress import watched
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain
 from icsolve.errors import CaseError, NotACase
 
@@ -100,7 +100,7 @@ def _write(items: list[Item], output: str, title: str, inputs: Iterable[str]) ->
 
     exhibits: list[Exhibit] = []
     worst = DONE
-    with click.progressbar(items, label="gallery", file=sys.stderr, hidden=not _watched()) as bar:
+    with watched(items, len(items), "gallery") as bar:
         for item in bar:
             one, code = _shown(item)
             if one is None:
@@ -111,11 +111,6 @@ def _write(items: list[Item], output: str, title: str, inputs: Iterable[str]) ->
             exhibits.append(one._replace(files={}))
     done = _put(output, f"{INDEX}.html", index_html(exhibits, title), inputs)
     return worst if done else UNREADABLE
-
-
-def _watched() -> bool:
-    """Whether someone sees the progress."""
-    return sys.stderr is not None and sys.stderr.isatty()
 
 
 def _shown(item: Item) -> tuple[Exhibit | None, int]:

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import os
-import sys
 import time
-from collections.abc import Iterable
-from contextlib import AbstractContextManager
 from typing import TYPE_CHECKING, TypeVar
 
 import click
 
+from icsolve.cli.progress import watched
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain
 from icsolve.errors import CaseError
 from icsolve.files import reading_text
@@ -127,7 +125,7 @@ def _one(varied: Varied, people: list[Person], folder: str, figures: bool, force
     start = time.perf_counter()
     found: list[Task] = []
     code = DONE
-    with _bar(zip(people, tasks(varied, people), strict=True), len(people), "variants", quiet) as bar:
+    with watched(zip(people, tasks(varied, people), strict=True), len(people), "variants", quiet) as bar:
         for person, task in bar:
             if isinstance(task, NoKeyError):
                 complain(f"{person.student_id}: {task}")
@@ -177,18 +175,12 @@ def _draw(varied: Varied, groups: list[list[Task]], folder: str, force: bool, qu
     from icsolve.files import write_whole
     from icsolve.grade.variants.sheets import figure, sheet
 
-    with _bar(groups, len(groups), "figures", quiet) as bar:
+    with watched(groups, len(groups), "figures", quiet) as bar:
         for tasks in bar:
             picture = figure(varied, tasks[0].draw)
             write_whole(_figure_path(folder, tasks[0].draw.label), picture, force)
             for task in tasks:
                 write_whole(_sheet_path(folder, task), sheet(varied, task, picture), force)
-
-
-def _bar(items: Iterable[T], count: int, label: str, quiet: bool) -> AbstractContextManager[Iterable[T]]:
-    """A progress bar, on a terminal only."""
-    hidden = quiet or not sys.stderr.isatty()
-    return click.progressbar(items, length=count, label=label, hidden=hidden, file=sys.stderr)
 
 
 def _figure_path(folder: str, label: str) -> str:
