@@ -73,15 +73,24 @@ def _found(found: Found) -> dict[str, Any]:
     if found.holds is not None:
         ends = [_plain(end) if math.isfinite(end) else None for end in found.holds]
         held: dict[str, Any] = {"value": None, "holds": ends, "self_locking": found.self_locking}
-        held |= {"unit": found.unit, "sense": "", "error": found.error}
-        return held if found.error is not None else {**held, "why": found.why}
-    entry = {
-        "value": _plain(found.value),
-        "unit": found.unit,
-        "sense": found.sense,
-        "error": found.error,
-    }
-    return entry if found.error is not None else {**entry, "why": found.why}
+        return {**held, "unit": found.unit, "sense": "", **_bound(found)}
+    return {"value": _plain(found.value), "unit": found.unit, "sense": found.sense, **_bound(found)}
+
+
+def _bound(found: Found) -> dict[str, Any]:
+    """The bound of the error, or why there is none; one beyond all numbers is none."""
+    if found.error is None:
+        return {"error": None, "why": found.why}
+    if not math.isfinite(found.error):
+        return {"error": None, "why": "the bound of the rounding error is beyond all numbers"}
+    return {"error": found.error}
+
+
+def _finite(errors: Any) -> Any:
+    """Errors by name, each None where it is beyond all numbers."""
+    if isinstance(errors, Mapping):
+        return {name: _finite(error) for name, error in errors.items()}
+    return errors if not isinstance(errors, float) or math.isfinite(errors) else None
 
 
 def _centre(case: Case, centre: Centre) -> dict[str, Any]:
@@ -167,7 +176,8 @@ def _velocity(velocity: tuple[float, float] | str) -> list[float] | dict[str, st
 def _errors(answer: Answer) -> dict[str, Any]:
     case = answer.case
     known = {pair_name(case, pair): c.error for pair, c in answer.centres.items() if c.error is not None}
-    return {**answer.errors, **({"centres": known} if known else {})}
+    found: dict[str, Any] = _finite({**answer.errors, **({"centres": known} if known else {})})
+    return found
 
 
 def _term(term: Term) -> dict[str, Any]:

@@ -98,7 +98,10 @@ class Solved:
         Raises NoKeyError.
         """
         if question not in self._keys:
-            self._keys[question] = self._made(question)
+            try:
+                self._keys[question] = self._made(question)
+            except SceneError as error:
+                raise NoKeyError(f"{question} has no answer ({error.status}): {error.message}") from None
         return self._keys[question]
 
     def target(self, question: str) -> Target:

@@ -11,7 +11,7 @@ from icsolve.answer import Answer
 from icsolve.case import Case, CentreIs, DistanceIs, Load, RateIs, RatioIs, Target, Torque
 from icsolve.case.names import pair_name
 from icsolve.check import value_of
-from icsolve.errors import IcsolveError
+from icsolve.errors import IcsolveError, SceneError
 from icsolve.grade.mistakes.changed import (
     Place,
     Resolve,
@@ -117,7 +117,10 @@ Shares = dict[str, float]
 
 def shares(answer: Answer, unknown: str) -> Shares:
     """What each known load contributes to the unknown, by the sum of power: ``-L * factor / own factor``."""
-    own = next((term for term in answer.terms if term.load == unknown), None)
+    try:
+        own = next((term for term in answer.terms if term.load == unknown), None)
+    except SceneError:  # the motions of the links leave the powers open
+        return {}
     if own is None or own.factor == 0.0 or sum(term.unknown for term in answer.terms) != 1:
         return {}
     return {term.load: -term.power / own.factor for term in answer.terms if not term.unknown}
