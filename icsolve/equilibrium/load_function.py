@@ -79,7 +79,7 @@ def load_functions(case: Case, path: str, low: float, high: float) -> tuple[list
     values = [low + (high - low) * (k + 0.37) / SAMPLES for k in range(SAMPLES)]
     refusal: SceneError | None = None
     found: list[LoadFunction] = []
-    goal = wanted_points(case)
+    goal = wanted_points(case)[0]
     order = order_of(given_at(case, path, values[SAMPLES // 2]), goal)
     if any(isinstance(step, Group) for step in order.steps):
         raise SceneError(
