@@ -7,15 +7,20 @@ from typing import Any
 from mpmath import mp, mpf
 
 from icsolve.case import Number
+from icsolve.units import ExactRatio
 
 mp.dps = 60
 
 
 class SixtyDigits:
-    """An arithmetic of mpmath numbers; converted units are taken as the doubles that were read."""
+    """An arithmetic of mpmath numbers, on the decimals of the file and the exact ratios of their units."""
 
     def given(self, number: Number) -> Any:
-        return mpf(number.digits) if number.factor == 1.0 else mpf(number.value)
+        return mpf(number.digits) if number.exact is None else self.ratio(number.exact)
+
+    def ratio(self, exact: ExactRatio) -> Any:
+        num, den, power = exact
+        return mpf(num) / den * mp.pi**power
 
     def turn(self, number: Number) -> tuple[Any, Any]:
         radians = self.given(number) * mp.pi / 180

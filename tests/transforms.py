@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Callable
+from decimal import Context, Decimal
 from typing import Any, NamedTuple
 
 from reference import DOUBLE
@@ -122,16 +123,33 @@ def mirror(scene: Scene) -> tuple[Scene, Effect]:
     return new, NO_EFFECT._replace(place=place, direction=direction, factor={"torque": -1.0})
 
 
+class Written(float):
+    """A number that is written with all its decimals: a case is what its decimals say, not their doubles."""
+
+    digits: str
+
+    def __repr__(self) -> str:
+        return self.digits
+
+
+def _times(value: float, factor: float) -> float:
+    """A number as it is written times a power of two, exactly."""
+    exact = Context(prec=400).multiply(Decimal(repr(value)), Decimal(factor))
+    found = Written(exact)
+    found.digits = str(exact)
+    return found
+
+
 def scaled(scene: Scene, power: int) -> tuple[Scene, Effect]:
     """Every length times 2^power, forces as before: nothing may change but by powers of two."""
     factor = 2.0**power
 
     def place(p: Place) -> Place:
-        return [factor * a for a in p]
+        return [_times(a, factor) for a in p]
 
     new = _moved(scene, place, _same)
     if "lengths" in new:
-        new["lengths"] = {pair: factor * value for pair, value in new["lengths"].items()}
+        new["lengths"] = {pair: _times(value, factor) for pair, value in new["lengths"].items()}
     for joint in new["joints"]:
         if "radii" in joint:
             joint["radii"] = place(joint["radii"])
@@ -143,7 +161,7 @@ def scaled(scene: Scene, power: int) -> tuple[Scene, Effect]:
 def _scale_load(load: Entry, was: Entry, factor: float) -> None:
     for key, by in (("torque", factor), ("spring", 1 / factor), ("free", factor)):
         if isinstance(load.get(key), int | float):
-            load[key] = by * load[key]
+            load[key] = _times(load[key], by)
     for key in ("slope", "force"):  # not lengths, though `_moved` took them for such
         if isinstance(load.get(key), list):
             load[key] = was[key]

@@ -12,6 +12,7 @@ from icsolve.case import Case, Contact, Coordinates, Force, KnownCentre, Number
 from icsolve.solve import refusals
 from icsolve.solve.bounds import evaluate_bounded
 from icsolve.solve.program import Program, Want, evaluate, prepare
+from icsolve.units import ExactRatio
 
 DIGITS = 60
 UNIT = 2.0**-53
@@ -29,6 +30,11 @@ class AsRead:
     def given(self, number: Number) -> Any:
         """The nearest double, exactly."""
         return self.mp.mpf(number.value)
+
+    def ratio(self, exact: ExactRatio) -> Any:
+        """As it is."""
+        num, den, power = exact
+        return self.mp.mpf(num) / den * self.mp.pi**power
 
     def turn(self, number: Number) -> tuple[Any, Any]:
         """Cosine and sine of an angle in degrees."""
@@ -48,8 +54,8 @@ class AsWritten(AsRead):
     """The same on the decimals of the file: what a bound must cover."""
 
     def given(self, number: Number) -> Any:
-        """The decimal as written; the double where a unit was converted."""
-        return self.mp.mpf(number.digits) if number.factor == 1.0 else super().given(number)
+        """The decimal as written, and the exact ratio of its unit."""
+        return self.mp.mpf(number.digits) if number.exact is None else self.ratio(number.exact)
 
 
 class Truth(NamedTuple):

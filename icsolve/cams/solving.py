@@ -28,7 +28,7 @@ def solve_touching(case: Case, **options: Any) -> Answer:
     Raises SceneError as `icsolve.solve`, and where no contact can be found.
     """
     known = found(case)
-    answer, reactions = _solved(known.case, options)
+    answer, reactions = _solved(known.case, {**options, "bound": False})
     touching = tuple(pressed(one, known.case, reactions) for one in known.touching)
     return replace(
         answer,

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import cache
 from typing import Any
 
 from icsolve.answer import Centre
@@ -15,55 +16,66 @@ from icsolve.assembly.workspace import Frame
 from icsolve.case import Belt, Case, Gears, KnownCentre, Pair, Weld
 from icsolve.case.names import ordered_pair
 from icsolve.kinematics.kennedy import BodyPair, Kennedy, Known, ordered, sine_between, unit
-from icsolve.numbers.arithmetic import Arithmetic
+from icsolve.numbers.arithmetic import ROUNDING_NOISE, Arithmetic, Showing, all_vanish
 from icsolve.numbers.null_space import ROUNDING
 from icsolve.screws.joints import Points, freedoms, joint_freedoms, joint_points, pitch_point
 from icsolve.screws.plane import Triple, cross, subtract
 from icsolve.structure.topology import FREEDOMS, Topology
 
 LinkTwists = Mapping[str, Sequence[Triple]]
-ONE = 1e-13
-"""Links whose twists differ by less than this fraction move as one (rounding)."""
-SPREAD = 1e-9
-"""Relative twists of two motions nearer than this angle share their centre."""
+ONE = 5.0
+"""In floats links move as one whose twists differ by less than so many times the rounding noise."""
+SPREAD = 5e4
+"""In floats relative twists of two motions share their centre within so many times the noise."""
 TRUSTED = 1e-8
-"""A construction that loses more digits than this is not shown; the loop equations are. So too where
-the two disagree by more than the construction can have lost."""
+"""A construction that loses more digits than this is not told as the way; the loop equations are. So too
+where the two disagree by more than the construction can have lost."""
 
 
 class CentreFinder:
-    """Centres of one scene; ``twists`` has the motions that are meant, per link."""
+    """Centres of one scene; ``twists`` has the motions that are meant, per link.
+
+    The twists give the places; the search for the lines that lead to them runs on floats.
+    """
 
     def __init__(
-        self, case: Case, top: Topology, twists: LinkTwists, frame: Frame, points: Points, a: Arithmetic
+        self, case: Case, top: Topology, twists: LinkTwists, frame: Frame, points: Points, a: Showing
     ) -> None:
         self.case, self.top, self.frame = case, top, frame
         self.twists = {top.body_of[link]: twists[link] for link in top.body_of if link in twists}
         self.points, self.arithmetic = points, a
         self.fastest = max((_length(t) for ts in twists.values() for t in ts), default=0.0)
+        self.relative = cache(self._relative)
 
     def find(self, pairs: Iterable[Pair], slack: float = 0.0) -> dict[Pair, Centre]:
         """A `Centre` for every pair of links; ``slack`` is how far given centres contradict."""
         pairs = list(pairs)
-        moving = _Moving(self._relative)
+        moving = _Moving(self._seen)
         primaries, normals = self._by_inspection()
-        search = Kennedy(self.twists, primaries, normals, moving, self.top.ground)
+        joints = {pair: (_in_floats(point), by) for pair, (point, by) in primaries.items()}
+        guides = {pair: tuple(map(_in_floats, lines)) for pair, lines in normals.items()}
+        search = Kennedy(self.twists, joints, guides, moving, self.top.ground)
         search.find(ordered(self.top.body_of[a], self.top.body_of[b]) for a, b in pairs)
         return {pair: self._centre(pair, search, moving, primaries, slack) for pair in pairs}
 
+    def _seen(self, i: int, j: int) -> Triple | None:
+        """The same in floats."""
+        twist = self.relative(i, j)
+        return twist if twist is None or twist is REST else _in_floats(twist)
+
     def _relative(self, i: int, j: int) -> Triple | None:
         """The relative twist; REST where the two move as one, None where the centre is open."""
-        best, size = REST, 0.0
+        a = self.arithmetic
         relatives: list[Triple] = []
         for ti, tj in zip(self.twists[i], self.twists[j], strict=True):
             t = subtract(tj, ti)
-            length = _length(t)
-            if length > ONE * self.fastest:
+            if not all_vanish(a, ((part, ONE * self.fastest) for part in t)):
                 relatives.append(t)
-                if length > size:
-                    best, size = t, length
-        if any(sine_between(best, t) > SPREAD for t in relatives if _length(t) > ONE * size):
-            return None
+        best = max(relatives, key=_length, default=REST)
+        for t in relatives:
+            size = SPREAD * _length(best) * _length(t)
+            if t is not best and not all_vanish(a, ((part, size) for part in cross(best, t))):
+                return None
         return best
 
     def _by_inspection(
@@ -99,8 +111,8 @@ class CentreFinder:
         own = self._own(pair)
         if own is not None or (bodies in primaries and bodies in moving):
             point, by = own or primaries[bodies]
-            return self._placed(pair, Known(point, ROUNDING, by))
-        if i == j or (bodies not in moving and self._relative(*bodies) == REST):
+            return self._placed(pair, point, Known(point, ROUNDING, by))
+        if i == j or (bodies not in moving and self.relative(*bodies) == REST):
             return Centre(pair, "undefined", why=f"{pair[0]} and {pair[1]} move as one")
         if bodies not in moving:
             why = f"{pair[0]} and {pair[1]} have no one centre: they have more than one relative freedom"
@@ -108,7 +120,9 @@ class CentreFinder:
         known = search.known[bodies]
         if known.error > TRUSTED or not _agree(known, moving[bodies], slack):
             known = Known(unit(moving[bodies]), ROUNDING, "loop equations")
-        return self._placed(pair, known)
+        twist = self.relative(*bodies)
+        assert twist is not None
+        return self._placed(pair, twist, known)
 
     def _own(self, pair: Pair) -> tuple[Triple, str] | None:
         """The centre of the joint between two links, which stands even where they do not move (a weld
@@ -122,13 +136,22 @@ class CentreFinder:
                 return joint_freedoms(joint, self.points, self.arithmetic)[0], by
         return None
 
-    def _placed(self, pair: Pair, known: Known) -> Centre:
-        x, y, w = known.point
+    def _placed(self, pair: Pair, at: Triple, known: Known) -> Centre:
+        """The centre at a homogeneous point, found in a way that is known."""
+        a, (x, y, w), (ox, oy, scale) = self.arithmetic, at, self.frame
         lines = tuple(tuple(self._names(end) for end in line.ends) for line in known.lines)
-        if abs(w) <= max(16 * ROUNDING, min(4 * known.error, 1e-10)) * max(abs(x), abs(y)):
-            return Centre(pair, "toward", (direction_of(x, y),), known.by, lines)
-        place = (x / w / self.frame.scale + self.frame.ox, y / w / self.frame.scale + self.frame.oy)
-        return Centre(pair, "at", (place[0] + 0.0, place[1] + 0.0), known.by, lines)
+        largest = max(abs(x), abs(y))
+        if a.vanishes(w, max(INFINITE, min(4.0 * known.error, 1e-10) / ROUNDING_NOISE) * largest):
+            toward = a.degrees(x, y)
+            angle, error = a.rounded(toward + 180.0 if float(toward) < 0.0 else toward, 180.0)
+            angle = 0.0 if angle == 180.0 else angle
+            return Centre(pair, "toward", (angle,), known.by, lines, "", _bound(error))
+        place, errors = [], []
+        for part, origin in ((x, ox), (y, oy)):
+            shown, error = a.rounded(part / w / scale + origin, largest / abs(w) / scale + abs(origin))
+            place.append(shown)
+            errors.append(error)
+        return Centre(pair, "at", (place[0], place[1]), known.by, lines, "", _bound(sum(errors)))
 
     def _names(self, pair: BodyPair) -> Pair:
         return ordered_pair(self.case, self.top.members[pair[0]][0], self.top.members[pair[1]][0])
@@ -179,12 +202,6 @@ def own_centre(top: Topology, pair: Pair, points: Points, arithmetic: Arithmetic
     return None
 
 
-def direction_of(x: float, y: float) -> float:
-    """Direction of a point at infinity, degrees in [0, 180)."""
-    toward = math.degrees(math.atan2(y, x)) % 180.0
-    return 0.0 if toward == 180.0 else toward
-
-
 def _agree(known: Known, twist: Triple, slack: float) -> bool:
     """Whether a construction and the loop equations give one place, as far as its digits go."""
     return sine_between(known.point, twist) <= max(1e-12, 1e3 * known.error, 10.0 * slack)
@@ -193,5 +210,21 @@ def _agree(known: Known, twist: Triple, slack: float) -> bool:
 REST: Triple = (0.0, 0.0, 0.0)
 
 
+INFINITE = 0.1
+"""In floats a centre lies at infinity whose weight is below so many times the rounding noise."""
+
+
+def _bound(error: float) -> float | None:
+    """A bound that is known."""
+    return error if error < math.inf else None
+
+
 def _length(t: Triple) -> float:
-    return math.sqrt(t[0] * t[0] + t[1] * t[1] + t[2] * t[2])
+    return math.hypot(float(t[0]), float(t[1]), float(t[2]))
+
+
+def _in_floats(t: Triple) -> Triple:
+    """A homogeneous point in floats, of a size near 1."""
+    x, y, w = (float(part) for part in t)
+    size = max(abs(x), abs(y), abs(w))
+    return (x / size, y / size, w / size)

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from icsolve.case import Contact, Pin, Slot
-from icsolve.kinematics.twists import SINGULAR, Closure, is_dead, products, rate_sizes
+from icsolve.kinematics.twists import Closure, is_dead, products, rate_sizes
+from icsolve.numbers.arithmetic import Arithmetic
 from icsolve.structure.topology import Bond, Topology
 from icsolve.wording.sentences import listed
 
 
-def lined_up(closure: Closure, top: Topology, body: int) -> tuple[int, ...]:
+def lined_up(closure: Closure, top: Topology, body: int, arithmetic: Arithmetic) -> tuple[int, ...]:
     """The bonds whose centres lie on one line and so hold a body at rest; empty where none do.
 
     A dead group holds the bodies before it. A body of the group itself rests where the line of its own
@@ -21,19 +22,15 @@ def lined_up(closure: Closure, top: Topology, body: int) -> tuple[int, ...]:
     if not closure.columns:
         return ()
     if body not in bodies:
-        return tuple(sorted(bonds)) if is_dead(closure) else ()
-    if not _rests(closure, n := bodies.index(body)):
+        return tuple(sorted(bonds)) if is_dead(closure, arithmetic) else ()
+    n = bodies.index(body)
+    if not arithmetic.vanishes(closure.numerators[n], rate_sizes(closure)[n]):
         return ()
     kept = (bonds[1], bonds[2 if n == 0 else 0]) if closure.group.kind == "dyad" else bonds[1:]
     ends = closure.group.ends
     shared = (k for k in top.at[ends[0]] if top.bonds[k].other(ends[0]) == ends[1])
     driver = next((k for k in shared if top.bonds[k].freedom == 1), None)
     return () if driver is None else tuple(sorted((driver, *kept)))
-
-
-def _rests(closure: Closure, n: int) -> bool:
-    """Whether the rate of a group's n-th body vanishes."""
-    return bool(abs(closure.numerators[n]) <= SINGULAR * rate_sizes(closure)[n])
 
 
 def tightest(closures: Iterable[Closure]) -> Closure | None:

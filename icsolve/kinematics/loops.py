@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from icsolve.numbers.arithmetic import Scalar
-from icsolve.numbers.null_space import ZERO, NullSpace, null_space
+from icsolve.numbers.null_space import ZERO, NullSpace, Vanishes, null_space
 from icsolve.screws.joints import transmitted
 from icsolve.screws.plane import Triple, add, blend, pairing, subtract
 from icsolve.screws.ropes import RopePart
@@ -124,12 +124,16 @@ def rope_row(top: Topology, tree: Tree, parts: Sequence[RopePart]) -> list[Scala
 
 
 def all_motions(
-    top: Topology, bases: Bases, zero: float = ZERO, ropes: Sequence[Sequence[RopePart]] = ()
+    top: Topology,
+    bases: Bases,
+    zero: float = ZERO,
+    ropes: Sequence[Sequence[RopePart]] = (),
+    vanishes: Vanishes | None = None,
 ) -> LoopMotions:
     """Null space of the loop equations of the bonds in ``bases`` and of ropes, from the frame."""
     tree = span(top, sorted(bases), (top.ground,), bases, [group[0] for group in top.afloat])
     rows = [row[:-1] for row in loop_rows(top, tree, bases, {top.ground: ORIGIN})]
     rows += [rope_row(top, tree, parts) for parts in ropes]
-    found = null_space(rows, tree.columns, zero, 1.0)
+    found = null_space(rows, tree.columns, zero, 1.0, vanishes)
     motions = [twists_on(tree, (*rates, 0.0), {top.ground: ORIGIN}) for rates in found.basis]
     return LoopMotions({body: tuple(m[body] for m in motions) for body in tree.branches}, found)

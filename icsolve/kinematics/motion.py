@@ -9,7 +9,7 @@ from icsolve.case import Case, KnownCentre, Roll
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.loops import ORIGIN, Bases, LoopMotions, all_motions
 from icsolve.kinematics.twists import Closure, is_singular, run
-from icsolve.numbers.arithmetic import Arithmetic
+from icsolve.numbers.arithmetic import Arithmetic, decider
 from icsolve.screws.joints import Points, freedoms, points_of
 from icsolve.screws.plane import Triple, cross, subtract
 from icsolve.screws.ropes import end_twist, rope_parts
@@ -51,7 +51,7 @@ def by_plan(plan: Plan, top: Topology, points: Points, arithmetic: Arithmetic) -
     """The one motion by the groups of the plan; None where a group is singular."""
     bases = {k: freedoms(top.bonds[k], points, arithmetic) for k in plan.bonds}
     found = run(plan, top, bases, arithmetic)
-    if any(map(is_singular, found.closures)):
+    if any(is_singular(closure, arithmetic) for closure in found.closures):
         return None
     frame = found.twists.get(top.ground)
     twists: dict[str, tuple[Triple, ...]] = {}
@@ -70,7 +70,7 @@ def by_loops(case: Case, top: Topology, points: Points, arithmetic: Arithmetic, 
     """
     bases = {k: freedoms(bond, points, arithmetic) for k, bond in enumerate(top.bonds)}
     ropes = [rope_parts(rope, points, frame.scale, arithmetic) for rope in top.ropes]
-    motions = all_motions(top, bases, ropes=ropes)
+    motions = all_motions(top, bases, ropes=ropes, vanishes=decider(arithmetic))
     notes: tuple[str, ...] = ()
     exact = bool(motions.found.basis)
     if not exact and ropes:

@@ -12,12 +12,23 @@ from icsolve.assembly.workspace import Frame
 from icsolve.case import Case, SpeedIs
 from icsolve.case import Motion as Given
 from icsolve.errors import SceneError, Status
+from icsolve.numbers.arithmetic import (
+    FLOATS,
+    ROUNDING_NOISE,
+    Arithmetic,
+    Scalar,
+    all_vanish,
+    decider,
+    zero_of,
+)
 from icsolve.numbers.null_space import null_space
 from icsolve.screws.plane import Point, Triple, velocity
 
 Twists = Mapping[str, Sequence[Triple]]
-STILL = 2e-14
-"""What moves slower than this fraction of the fastest link is at rest (rounding); normalised frame."""
+STILL = ROUNDING_NOISE
+"""In floats what moves slower than this fraction of the fastest link is at rest; normalised frame."""
+LOOSE = 5e4
+"""In floats a combination of several motions is zero within so many times as much."""
 
 OPEN = "a freedom that no given motion fixes moves it."
 
@@ -26,66 +37,71 @@ class Speed(NamedTuple):
     """The motions that are meant: ``particular / divisor`` plus any combination of ``open``
     (coefficients of the motions)."""
 
-    particular: tuple[float, ...]
-    open: tuple[tuple[float, ...], ...]
-    divisor: float = 1.0
+    particular: tuple[Scalar, ...]
+    open: tuple[tuple[Scalar, ...], ...]
+    divisor: Scalar = 1.0
     reference: tuple[str, str | None] | None = None
     """the link (and point of it) whose rate (speed) in the one motion is ``divisor``"""
+    arithmetic: Arithmetic = FLOATS
 
-    def of(self, values: Sequence[float], scale: float) -> float | None:
+    def of(self, values: Sequence[Scalar], scale: float) -> Scalar | None:
         """A quantity that has ``values[m]`` in motion m; None where it is undetermined.
 
-        ``scale`` is the size of ``values`` before cancellation; below `STILL` of it the value is zero.
+        ``scale`` is the size of ``values`` before cancellation, by which a zero is judged.
         """
-        if any(abs(_dot(direction, values)) > 1e-9 * scale for direction in self.open):
+        if any(not self.arithmetic.vanishes(_dot(d, values), LOOSE * scale) for d in self.open):
             return None
         return self.particular_of(values, scale)
 
-    def particular_of(self, values: Sequence[float], scale: float) -> float:
+    def particular_of(self, values: Sequence[Scalar], scale: float) -> Scalar:
         """The same in one motion of those that are meant, as good as any other."""
         value = _dot(self.particular, values)
         size = scale * max(map(abs, self.particular), default=0.0)
-        return 0.0 if abs(value) <= STILL * size else value / self.divisor
+        if self.arithmetic.vanishes(value, size):
+            return zero_of(value / self.divisor)
+        return value / self.divisor
 
 
-def _dot(a: Sequence[float], b: Sequence[float]) -> float:
-    return sum(x * y for x, y in zip(a, b, strict=True))
+def _dot(a: Sequence[Scalar], b: Sequence[Scalar]) -> Scalar:
+    return sum((x * y for x, y in zip(a, b, strict=True)), 0.0)
 
 
-def speed_of(case: Case, twists: Twists, frame: Frame, points: Mapping[str, Point]) -> Speed:
+def speed_of(
+    case: Case, twists: Twists, frame: Frame, points: Mapping[str, Point], arithmetic: Arithmetic = FLOATS
+) -> Speed:
     """The motion that the case asks for, or the normalised one of the format.
 
     Raises SceneError where the given motion cannot be: a dead centre, or motions that contradict.
     """
     motions = len(next(iter(twists.values())))
     if motions == 1 and len(case.motion) <= 1:
-        return _single(case, twists, frame, points)
-    rows = [_row(given, case, twists, frame, points) for given in case.motion]
+        return _single(case, twists, frame, points, arithmetic)
+    rows = [_row(given, case, twists, frame, points, arithmetic) for given in case.motion]
     if not rows:
-        rows = [_normal_row(case, twists, frame)[1:]]
-    return _combined(rows, motions)
+        rows = [_normal_row(case, twists, frame, arithmetic)[1:]]
+    return _combined(rows, motions, arithmetic)
 
 
-def _single(case: Case, twists: Twists, frame: Frame, points: Mapping[str, Point]) -> Speed:
+def _single(case: Case, twists: Twists, frame: Frame, points: Mapping[str, Point], a: Arithmetic) -> Speed:
     if case.motion:
         given = case.motion[0]
-        values, target = _row(given, case, twists, frame, points)
-        return Speed((target,), (), values[0], (given.link, given.point))
-    link, values, target = _normal_row(case, twists, frame)
-    turns = values[0] == twists[link][0][2]
-    return Speed((target,), (), values[0], (link, None) if turns else None)
+        values, target = _row(given, case, twists, frame, points, a)
+        return Speed((target,), (), values[0], (given.link, given.point), a)
+    link, values, target = _normal_row(case, twists, frame, a)
+    turns = values[0] is twists[link][0][2]
+    return Speed((target,), (), values[0], (link, None) if turns else None, a)
 
 
-Row = tuple[tuple[float, ...], float]
+Row = tuple[tuple[Scalar, ...], Scalar]
 """What a condition takes from each motion, and what their sum is to be."""
 
 
-def _combined(rows: list[Row], motions: int) -> Speed:
+def _combined(rows: list[Row], motions: int, a: Arithmetic) -> Speed:
     matrix = [[*values, -target] for values, target in rows]
     sizes = [max(map(abs, row)) or 1.0 for row in matrix]
     scaled = [[v / s for v in row] for row, s in zip(matrix, sizes, strict=True)]
-    found = null_space(scaled, motions + 1, 1e-12)
-    with_target = [vector for vector in found.basis if abs(vector[-1]) > 1e-9]
+    found = null_space(scaled, motions + 1, 1e-12, vanishes=decider(a))
+    with_target = [vector for vector in found.basis if not a.vanishes(vector[-1], LOOSE)]
     if not with_target:
         message = "the motions given contradict each other: no motion has all of them."
         raise SceneError(Status.INCONSISTENT, message)
@@ -93,27 +109,29 @@ def _combined(rows: list[Row], motions: int) -> Speed:
     particular = tuple(v / first[-1] for v in first[:-1])
     rest = [v for v in found.basis if v is not first]
     open_ = tuple(tuple(v[k] - v[-1] * particular[k] for k in range(motions)) for v in rest)
-    return Speed(particular, open_)
+    return Speed(particular, open_, arithmetic=a)
 
 
-def _row(given: Given, case: Case, twists: Twists, frame: Frame, points: Mapping[str, Point]) -> Row:
+def _row(
+    given: Given, case: Case, twists: Twists, frame: Frame, points: Mapping[str, Point], a: Arithmetic
+) -> Row:
     """The condition that a given motion puts on the coefficients."""
     if given.link == case.ground:
         message = f"link {given.link} is the frame and has no motion: give the motion of another link."
         raise SceneError(Status.INCONSISTENT, message)
     link = twists[given.link]
     if given.point is not None:
-        return _point_row(given, link, fastest(twists), frame, points[given.point])
+        return _point_row(given, link, fastest(twists), frame, points[given.point], a)
     rates = tuple(t[2] for t in link)
     largest = fastest(twists)
-    if all(abs(rate) <= STILL * largest for rate in rates):
-        raise SceneError(Status.DEAD_CENTRE, _cannot_turn(given.link, link, largest))
+    if all_vanish(a, ((rate, largest) for rate in rates)):
+        raise SceneError(Status.DEAD_CENTRE, _cannot_turn(given.link, link, largest, a))
     sign = -1.0 if given.turns == "cw" else 1.0
-    return rates, sign * (given.speed.value if given.speed is not None else 1.0)
+    return rates, sign * (a.given(given.speed) if given.speed is not None else 1.0)
 
 
-def _cannot_turn(name: str, link: Sequence[Triple], largest: float) -> str:
-    if all(_extent(t) <= STILL * largest for t in link):
+def _cannot_turn(name: str, link: Sequence[Triple], largest: float, a: Arithmetic) -> str:
+    if all_vanish(a, ((x, largest) for t in link for x in t)):
         return (
             f"link {name} cannot drive in this position (dead centre): when the mechanism moves, link {name} "
             "stands still. Give the motion of another link, or another position."
@@ -124,29 +142,40 @@ def _cannot_turn(name: str, link: Sequence[Triple], largest: float) -> str:
     )
 
 
-def _point_row(given: Given, link: Sequence[Triple], largest: float, frame: Frame, p: Point) -> Row:
+def _point_row(
+    given: Given, link: Sequence[Triple], largest: float, frame: Frame, p: Point, a: Arithmetic
+) -> Row:
     velocities = [velocity(t, p) for t in link]
-    sizes = [math.hypot(*v) for v in velocities]
     assert given.speed is not None
-    target = given.speed.value * frame.scale
-    if max(sizes) <= STILL * largest:
+    target = a.given(given.speed) * frame.scale
+    if all_vanish(a, ((x, largest) for v in velocities for x in v)):
         raise SceneError(
             Status.DEAD_CENTRE,
             f"point {given.point} of link {given.link} is at rest in this position when the mechanism moves: "
             "it cannot be given a speed. Give the motion of another point or link.",
         )
     if given.angle is None:
-        v = velocities[sizes.index(max(sizes))]
-        along = (v[0] / max(sizes), v[1] / max(sizes))
-        along = along if along[0] > 0 or (along[0] == 0 and along[1] > 0) else (-along[0], -along[1])
+        along = _rightward(max(velocities, key=_speed), largest, a)
     else:
-        radians = math.radians(given.angle.value)
-        along = (math.cos(radians), math.sin(radians))
+        along = a.turn(given.angle)
         if len(link) == 1:
-            _check_direction(given, velocities[0], along)
-            sign = 1.0 if velocities[0][0] * along[0] + velocities[0][1] * along[1] > 0 else -1.0
-            return (sign * sizes[0],), target
+            (x, y), (c, s) = velocities[0], along
+            _check_direction(given, (float(x), float(y)), (float(c), float(s)))
+            size = a.sqrt(x * x + y * y)
+            return (size if x * c + y * s > 0.0 else -size,), target
     return tuple(v[0] * along[0] + v[1] * along[1] for v in velocities), target
+
+
+def _speed(v: Point) -> float:
+    return math.hypot(float(v[0]), float(v[1]))
+
+
+def _rightward(v: Point, largest: float, a: Arithmetic) -> Point:
+    """Unit vector along a velocity, in the sense toward +x (+y where it is upright)."""
+    size = a.sqrt(v[0] * v[0] + v[1] * v[1])
+    x, y = v[0] / size, v[1] / size
+    positive = y > 0.0 if a.vanishes(x, largest / _speed(v)) else x > 0.0
+    return (x, y) if positive else (-x, -y)
 
 
 def _check_direction(given: Given, v: Point, along: Point) -> None:
@@ -175,27 +204,26 @@ def joint_order(case: Case) -> list[str]:
     return list(dict.fromkeys(link for joint in case.joints for link in joint.links))
 
 
-def _normal_row(case: Case, twists: Twists, frame: Frame) -> tuple[str, tuple[float, ...], float]:
+def _normal_row(
+    case: Case, twists: Twists, frame: Frame, a: Arithmetic
+) -> tuple[str, tuple[Scalar, ...], Scalar]:
     """The first link that turns does so at +1; where none turns, unit speed of the first that moves."""
     largest = fastest(twists)
     for link in joint_order(case):
         rates = tuple(t[2] for t in twists.get(link, ()))
-        if any(abs(rate) > STILL * largest for rate in rates):
+        if rates and not all_vanish(a, ((rate, largest) for rate in rates)):
             return link, rates, 1.0
     for link in joint_order(case):
         speeds = [(t[1], -t[0]) for t in twists.get(link, ())]
-        fast = max(speeds, key=lambda v: math.hypot(*v), default=(0.0, 0.0))
-        size = math.hypot(*fast)
-        if size > STILL * largest:
-            x, y = fast[0] / size, fast[1] / size
-            along = (x, y) if x > STILL or (abs(x) <= STILL and y > 0) else (-x, -y)
+        if speeds and not all_vanish(a, ((x, largest) for v in speeds for x in v)):
+            along = _rightward(max(speeds, key=_speed), largest, a)
             return link, tuple(v[0] * along[0] + v[1] * along[1] for v in speeds), frame.scale
     raise SceneError(Status.STRUCTURE, "no link of the mechanism moves in this position.")
 
 
-def link_rates(case: Case, twists: Twists, speed: Speed) -> dict[str, float | str]:
+def link_rates(case: Case, twists: Twists, speed: Speed) -> dict[str, Scalar | str]:
     """Angular velocity of every link; a sentence where it is undetermined."""
-    rates: dict[str, float | str] = {}
+    rates: dict[str, Scalar | str] = {}
     largest = fastest(twists)
     for link in case.links:
         value = speed.of([t[2] for t in twists[link]], largest)
@@ -205,9 +233,9 @@ def link_rates(case: Case, twists: Twists, speed: Speed) -> dict[str, float | st
 
 def point_velocities(
     case: Case, twists: Twists, speed: Speed, frame: Frame, points: Mapping[str, Point]
-) -> dict[tuple[str, str], tuple[float, float] | str]:
+) -> dict[tuple[str, str], tuple[Scalar, Scalar] | str]:
     """Velocity (case length a second) of every point on the links that carry it."""
-    result: dict[tuple[str, str], tuple[float, float] | str] = {}
+    result: dict[tuple[str, str], tuple[Scalar, Scalar] | str] = {}
     largest = fastest(twists)
     for link in case.links:
         for name in moving_points(case, link):

@@ -9,8 +9,8 @@ from typing import NamedTuple
 
 from icsolve.case import Pin
 from icsolve.kinematics.loops import ORIGIN, Bases, loop_rows, span, twists_on
-from icsolve.numbers.arithmetic import Arithmetic, Scalar, magnitude
-from icsolve.numbers.null_space import ROUNDING, null_space
+from icsolve.numbers.arithmetic import Arithmetic, Scalar, all_vanish, decider, magnitude
+from icsolve.numbers.null_space import null_space
 from icsolve.screws.joints import weights_of
 from icsolve.screws.plane import Point, Triple, blend, cross, dyad_twists, monad_twist, shift, subtract, times
 from icsolve.structure.plan import Group, Plan
@@ -128,7 +128,7 @@ def _close(group: Group, top: Topology, bases: Bases, arithmetic: Arithmetic, po
         if mesh.pivots[0] and _on_carrier(group, top):
             return _wheel(group, mesh, bases, weights_of(mesh, arithmetic), pool)
         return _monad(group, bases, pool)
-    return _eliminated(group, top, bases, pool)
+    return _eliminated(group, top, bases, pool, arithmetic)
 
 
 def _monad(group: Group, bases: Bases, pool: _Pool) -> Closed:
@@ -204,13 +204,14 @@ def _seen(basis: Triple, o: Point) -> Triple:
     return shift(basis, o)
 
 
-def _eliminated(group: Group, top: Topology, bases: Bases, pool: _Pool) -> Closed:
+def _eliminated(group: Group, top: Topology, bases: Bases, pool: _Pool, arithmetic: Arithmetic) -> Closed:
     ends = {body for k in group.bonds for body in (top.bonds[k].a, top.bonds[k].b)}
     roots = {body: pool.now(body, FRAME) for body in sorted(ends - set(group.bodies))}
     tree = span(top, group.bonds, roots, bases)
     if not ends <= tree.branches.keys():  # part of it hangs on nothing known: all joints at once then
         return Closure(group, 0.0, (0.0,)), dict.fromkeys(group.bodies, ORIGIN), FRAME
-    solved = null_space(loop_rows(top, tree, bases, roots), tree.columns + 1, unit=1.0)
+    rows = loop_rows(top, tree, bases, roots)
+    solved = null_space(rows, tree.columns + 1, unit=1.0, vanishes=decider(arithmetic))
     if len(solved.basis) != 1:
         return Closure(group, 0.0, (0.0,)), dict.fromkeys(group.bodies, ORIGIN), FRAME
     rates = solved.basis[0]
@@ -219,29 +220,27 @@ def _eliminated(group: Group, top: Topology, bases: Bases, pool: _Pool) -> Close
     return Closure(group, rates[-1], tuple(rates[:-1])), found, FRAME
 
 
-SINGULAR = 64 * ROUNDING
-"""A determinant below this fraction of the products that it is summed from is zero."""
 CLEAR = 1e-6
-"""Above this it is not: in the normalised frame the products are of order 1."""
+"""A determinant above this is looked at no closer: in the normalised frame the products are of order 1."""
 
 
-def is_singular(closure: Closure) -> bool:
+def is_singular(closure: Closure, arithmetic: Arithmetic) -> bool:
     """Whether D and all rates vanish: the group leaves a freedom of its own (a change point)."""
     if not closure.columns:
         return bool(closure.factor == 0.0 and all(n == 0.0 for n in closure.numerators))
-    return is_dead(closure) and all(
-        abs(n) <= SINGULAR * size for n, size in zip(closure.numerators, rate_sizes(closure), strict=True)
-    )
-
-
-def is_dead(closure: Closure) -> bool:
-    """Whether D vanishes: what drives the group from before stands still."""
-    if not closure.columns:
-        return bool(abs(closure.factor) <= SINGULAR * max(map(abs, closure.numerators)))
     if abs(closure.factor) > CLEAR:
         return False
     *bases, _ = closure.columns
-    return bool(abs(closure.factor) <= SINGULAR * products(*bases))
+    sizes = (products(*bases), *rate_sizes(closure))
+    return all_vanish(arithmetic, zip((closure.factor, *closure.numerators), sizes, strict=True))
+
+
+def is_dead(closure: Closure, arithmetic: Arithmetic) -> bool:
+    """Whether D vanishes: what drives the group from before stands still."""
+    if not closure.columns:
+        return arithmetic.vanishes(closure.factor, max(map(abs, closure.numerators)))
+    *bases, _ = closure.columns
+    return arithmetic.vanishes(closure.factor, products(*bases))
 
 
 def rate_sizes(closure: Closure) -> tuple[float, ...]:

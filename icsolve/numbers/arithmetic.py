@@ -7,9 +7,11 @@ the same methods as `Floats`.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterable
 from typing import Any, Protocol
 
 from icsolve.numbers.given import Number
+from icsolve.units import ExactRatio, nearest
 
 Scalar = Any
 """A float, an array of them, or any number type with + - * /."""
@@ -41,6 +43,9 @@ class Arithmetic(Protocol):
     def given(self, number: Number) -> Scalar:
         """A number of the case in case units."""
 
+    def ratio(self, exact: ExactRatio) -> Scalar:
+        """An exact ratio, as of two units."""
+
     def turn(self, number: Number) -> tuple[Scalar, Scalar]:
         """Cosine and sine of an angle of the case (degrees)."""
 
@@ -48,7 +53,18 @@ class Arithmetic(Protocol):
         """Square root; the value is never negative by more than rounding."""
 
     def vanishes(self, value: Scalar, size: float) -> bool:
-        """Whether a value is zero but for rounding; ``size`` is that of the products it is summed from."""
+        """Whether a value is zero (in floats: but for rounding); ``size`` is that of the products it is
+        summed from. Balls raise MoreDigits where that is open."""
+
+
+class Showing(Arithmetic, Protocol):
+    """An arithmetic whose numbers are shown: floats, or balls."""
+
+    def rounded(self, value: Scalar, size: float = 0.0) -> tuple[float, float]:
+        """The nearest double, and a bound on its error (in floats nothing is known of it: infinite)."""
+
+    def degrees(self, x: Scalar, y: Scalar) -> Scalar:
+        """The direction of a vector, within half a turn."""
 
 
 ROUNDING_NOISE = 2e-14
@@ -62,6 +78,10 @@ class Floats:
         """The nearest double."""
         return number.value
 
+    def ratio(self, exact: ExactRatio) -> Scalar:
+        """The nearest double."""
+        return nearest(exact)
+
     def turn(self, number: Number) -> tuple[float, float]:
         """Cosine and sine, exact at multiples of 90 degrees."""
         return turn_of(number.value)
@@ -74,5 +94,34 @@ class Floats:
         """Zero where it is below a fraction of its products that rounding explains."""
         return abs(value) <= ROUNDING_NOISE * size
 
+    def rounded(self, value: float, size: float = 0.0) -> tuple[float, float]:
+        """The number itself."""
+        return value + 0.0, math.inf
+
+    def degrees(self, x: float, y: float) -> float:
+        """The direction of a vector, within half a turn."""
+        return math.degrees(math.atan2(y, x))
+
 
 FLOATS = Floats()
+
+
+def decider(a: Arithmetic) -> Callable[[Scalar, float], bool] | None:
+    """What decides whether a number is zero, where it is known for certain; None in floats."""
+    return a.vanishes if getattr(a, "certain", False) else None
+
+
+def zero_of(value: Scalar) -> Scalar:
+    """The zero that a value was found to be; a ball keeps how far it may lie from it."""
+    return value.as_zero() if hasattr(value, "as_zero") else 0.0
+
+
+def all_vanish(a: Arithmetic, terms: Iterable[tuple[Scalar, float]]) -> bool:
+    """Whether values are zero, all of them; each stands with the size of its terms.
+
+    One that is not settles it, though others be open.
+    """
+    terms = list(terms)
+    if any(getattr(value, "is_certain", False) for value, _ in terms):
+        return False
+    return all(a.vanishes(value, size) for value, size in terms)

@@ -41,8 +41,13 @@ PRECISIONS = (30, 60, 120)
 """Digits with which a scene is evaluated, one after the other, until everything is decided."""
 NORMAL = 1e-300
 """Above this floats have all their digits."""
+SPENT = 30
+"""Digits that a number of a scene loses on the way, at the most, where it is zero and its terms are too."""
 INEXACT = -(10**9)
 """The last digit's exponent of a number that is not known to be exact."""
+
+FOUND_ZERO = INEXACT - 1
+"""In its place, where a number was found to be zero."""
 
 Operand = Union["Ball", float]
 
@@ -106,12 +111,13 @@ class Ball:
         """A sum or difference with its bound: exact where no digit fell off the end."""
         a, spread = self.arithmetic, self.radius + other.radius
         if not value:
+            spread *= a.carried
             return Ball(a, value, spread * UP, 0.0, self.last if self.last < other.last else other.last)
         if spread == 0.0:
             last = self.last if self.last < other.last else other.last
             if value.adjusted() - last < a.digits:
                 return Ball(a, value, 0.0, size, last)
-        return Ball(a, value, (spread + a.unit * size) * UP + TINY, size, INEXACT)
+        return Ball(a, value, (spread * a.carried + a.unit * size) * UP + TINY, size, INEXACT)
 
     def __rsub__(self, other: float) -> "Ball":
         if other == 0.0:
@@ -137,7 +143,9 @@ class Ball:
             if not value or value.adjusted() - last < a.digits:
                 return Ball(a, value, 0.0, size, last)
             return Ball(a, value, (a.unit * size) * UP + TINY, size, INEXACT)
-        return Ball(a, value, (m * s + n * r + r * s + a.unit * size) * UP + TINY, size, INEXACT)
+        radius = ((m * s + n * r + r * s) * a.carried + a.unit * size) * UP + TINY
+        zero = not value and FOUND_ZERO in (self.last, other.last)
+        return Ball(a, value, radius, size, FOUND_ZERO if zero else INEXACT)
 
     __rmul__ = __mul__
 
@@ -160,7 +168,8 @@ class Ball:
         radius = (self.radius + size * other.radius) / least
         if radius == 0.0 and (last := _exact_quotient(self, other, value)) is not None:
             return Ball(a, value, 0.0, size, last)
-        return Ball(a, value, (radius + a.unit * size) * UP + TINY, size, INEXACT)
+        last = FOUND_ZERO if self.last == FOUND_ZERO else INEXACT
+        return Ball(a, value, (radius * a.carried + a.unit * size) * UP + TINY, size, last)
 
     def __rtruediv__(self, other: float) -> "Ball":
         return self.arithmetic.ball(other) / self
@@ -204,6 +213,16 @@ class Ball:
             raise MoreDigits
         return -1 if self.value.is_signed() else 1
 
+    def as_zero(self) -> "Ball":
+        """The zero that this was found to be, with the distance that it may lie off."""
+        radius = (abs(float(self.value)) + self.radius) * UP
+        return Ball(self.arithmetic, Decimal(0), radius, 0.0, FOUND_ZERO if radius else 0)
+
+    @property
+    def is_certain(self) -> bool:
+        """Whether it is certainly not zero."""
+        return not self.holds_zero
+
     @property
     def holds_zero(self) -> bool:
         """Whether zero lies in the ball."""
@@ -239,17 +258,23 @@ class Balls:
     """The arithmetic of `Ball` at a number of digits; an `icsolve.numbers.arithmetic.Arithmetic`.
 
     ``highest`` says that no more digits will be asked for: then what is zero to within 1e-40 of its terms
-    is zero.
+    is zero. With ``carried`` 0 a ball has its own rounding alone: along very long chains radii explode that
+    the true errors do not fill, and a tape then tells how these add up, to first order.
     """
 
-    def __init__(self, digits: int, highest: bool = False) -> None:
-        self.digits, self.highest = digits, highest
+    certain = True
+    """what it says of a zero is so"""
+
+    def __init__(self, digits: int, highest: bool = False, carried: float = 1.0) -> None:
+        self.digits, self.highest, self.carried = digits, highest, carried
         context = _context(digits)
         self.add, self.subtract = context.add, context.subtract
         self.multiply, self.divide, self.root = context.multiply, context.divide, context.sqrt
         self.unit = max(float(f"1e-{digits}"), TINY) * UP * 5.0
         """half a unit of the last digit, over the value: at most 5 in the digit after it"""
         self.up = UP * (1.0 + self.unit)
+        self.nothing = float(f"1e{SPENT - digits}")
+        """what is zero in a frame of size 1, though its terms vanish too"""
         self.inputs: dict[str, tuple[Number, Ball]] = {}
         self.turns: dict[str, tuple[Number, tuple[Scalar, Scalar]]] = {}
         self.floats: dict[float, Ball] = {}
@@ -366,7 +391,7 @@ class Balls:
             if root.adjusted() - last < self.digits and _WIDE.multiply(root, root) == value.value:
                 return Ball(self, root, 0.0, size, last)
         radius = value.radius / size * UP * UP  # |sqrt x - sqrt v| <= |x - v| / sqrt v
-        return Ball(self, root, (radius + self.unit * size) * UP + TINY, size, INEXACT)
+        return Ball(self, root, (radius * self.carried + self.unit * size) * UP + TINY, size, INEXACT)
 
     def vanishes(self, value: Scalar, size: float) -> bool:
         """Whether a value is zero; ``size`` is that of the products it is summed from.
@@ -375,13 +400,33 @@ class Balls:
         """
         if type(value) is not Ball:
             return bool(value == 0.0)
+        if not self.carried and value.radius:
+            return not abs(float(value.value)) > ZERO_FRACTION * size
         if not value.holds_zero:
             return False
         if value.radius == 0.0:
             return True
-        if self.highest and value.radius <= ZERO_FRACTION * size:
+        if self.highest and value.radius <= max(ZERO_FRACTION * size, self.nothing):
             return True
         raise MoreDigits
+
+    def degrees(self, x: Scalar, y: Scalar) -> Scalar:
+        """The direction of a vector, within half a turn.
+
+        What is left of it at the angle that floats give is an arc tangent of 1e-15, of which three terms
+        of the series are good to 1e-105.
+        """
+        near = math.degrees(math.atan2(float(y), float(x)))
+        c, s = self.cos_sin(self.ball(near))
+        along = x * c + y * s
+        t = (y * c - x * s) / along
+        if type(t) is not Ball:
+            return near
+        square = t * t
+        rest = t - t * square / 3.0 + t * square * square / 5.0
+        left = rest * 180.0 / self.pi()
+        left.radius += t.size**7 * 60.0 + TINY
+        return left + near
 
     def rounded(self, value: Scalar, size: float = 0.0) -> tuple[float, float]:
         """The nearest double, and a bound on its error (at most 2 units in its last place).
@@ -394,12 +439,53 @@ class Balls:
         near = float(value.value)
         if math.isinf(near):
             return near, math.inf
+        if value.last == FOUND_ZERO:
+            return 0.0, value.radius
         if value.holds_zero and self.vanishes(value, size):
             return 0.0, (abs(near) + value.radius) * UP
         if not value.radius <= 0.25 * math.ulp(near):
             raise MoreDigits
-        off = abs(float(_WIDE.subtract(value.value, Decimal(near))))
+        off = abs(float(self.subtract(value.value, Decimal(near))))
         return near + 0.0, (off * UP + value.radius) * UP if off or value.radius else 0.0
+
+
+class HalfUnits(Balls):
+    """Numbers of 15 digits or more stand for all that round to them: what half a unit of their last digits
+    may make zero, is zero."""
+
+    def _read(self, number: Number) -> Ball:
+        found = super()._read(number)
+        if is_long(number):
+            half = number.half or math.ulp(number.value) / 2.0
+            found = Ball(self, found.value, half * UP, found.size + half, INEXACT)
+        return found
+
+    def vanishes(self, value: Scalar, size: float) -> bool:
+        """Whether a value may be zero; raises MoreDigits where that would say nothing."""
+        if type(value) is not Ball or value.radius == 0.0 or not value.holds_zero:
+            return super().vanishes(value, size)
+        if value.radius > COARSE * size:
+            raise MoreDigits
+        return True
+
+    def rounded(self, value: Scalar, size: float = 0.0) -> tuple[float, float]:
+        """The nearest double, and how far off half units may put it."""
+        if type(value) is not Ball or value.last == FOUND_ZERO:
+            return super().rounded(value, size)
+        near = float(value.value)
+        return near + 0.0, (value.radius + math.ulp(near)) * UP
+
+
+COARSE = 1e-9
+"""Half units that put a zero in doubt by more than this fraction of its terms explain nothing."""
+LONG = 15
+"""Digits from which on a number was written by a program."""
+
+
+def is_long(number: Number) -> bool:
+    """Whether a number has at least 15 digits, as programs write them."""
+    digits = number.digits.lower().partition("e")[0]
+    return len(digits.replace(".", "").lstrip("+-−0")) >= LONG
 
 
 GUARD = 10

@@ -4,6 +4,7 @@ Complete pivoting is backward stable enough to decide ranks of the small systems
 Higham, Accuracy and Stability of Numerical Algorithms, 2002, ch. 9), and needs no numpy.
 """
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 from icsolve.numbers.arithmetic import Scalar
@@ -11,6 +12,10 @@ from icsolve.numbers.arithmetic import Scalar
 ROUNDING = 2.0**-53
 ZERO = 64 * ROUNDING
 """A pivot below this fraction of the largest is zero, times the number of rows (normalised frame)."""
+
+
+Vanishes = Callable[[Scalar, float], bool]
+"""Whether a value is zero, by the size of its terms; raises where that is open."""
 
 
 class NullSpace(NamedTuple):
@@ -23,10 +28,17 @@ class NullSpace(NamedTuple):
     dropped: float
 
 
-def null_space(rows: list[list[Scalar]], columns: int, zero: float = ZERO, unit: float = 0.0) -> NullSpace:
+def null_space(
+    rows: list[list[Scalar]],
+    columns: int,
+    zero: float = ZERO,
+    unit: float = 0.0,
+    vanishes: Vanishes | None = None,
+) -> NullSpace:
     """All x with ``rows @ x = 0``; a pivot below ``zero`` times the number of rows counts as none.
 
     The pivots are measured by the first, and that by ``unit``: where all rows are rounding, none counts.
+    With ``vanishes`` (of balls) that decides: a pivot is the largest that is certainly not zero.
     """
     work = [list(row) for row in rows]
     order = list(range(columns))
@@ -35,10 +47,16 @@ def null_space(rows: list[list[Scalar]], columns: int, zero: float = ZERO, unit:
     rank = 0
     dropped = 0.0
     while rank < min(len(work), columns):
-        size, r, c = _largest(work, rank, columns)
-        fraction = size / (pivots[0] if pivots else max(size, unit)) if size else 0.0
-        if fraction <= limit:
-            dropped = fraction
+        size, r, c = _largest(work, rank, columns, vanishes is not None)
+        if vanishes is None:
+            fraction = size / (pivots[0] if pivots else max(size, unit)) if size else 0.0
+            if fraction <= limit:
+                dropped = fraction
+                break
+        elif size <= 0.0:
+            for row in work[rank:]:
+                for value in row[rank:columns]:
+                    vanishes(value, max(pivots[0] if pivots else 0.0, unit))  # raises where that is open
             break
         pivots.append(size)
         _pivot(work, order, rank, r, c)
@@ -48,13 +66,14 @@ def null_space(rows: list[list[Scalar]], columns: int, zero: float = ZERO, unit:
     return NullSpace(basis, rank, tuple(p / top for p in pivots), dropped)
 
 
-def _largest(work: list[list[Scalar]], rank: int, columns: int) -> tuple[float, int, int]:
-    best, where = -1.0, (rank, rank)
+def _largest(work: list[list[Scalar]], rank: int, columns: int, certain: bool) -> tuple[float, int, int]:
+    """The largest entry; if ``certain``, of those that are certainly not zero."""
+    best, where = 0.0 if certain else -1.0, (rank, rank)
     for r in range(rank, len(work)):
         row = work[r]
         for c in range(rank, columns):
             size = abs(row[c])
-            if size > best:
+            if size > best and (not certain or getattr(row[c], "is_certain", True)):
                 best, where = size, (r, c)
     return best, where[0], where[1]
 

@@ -13,6 +13,7 @@ from icsolve.numbers.arithmetic import ROUNDING_NOISE, Scalar, turn_of
 from icsolve.numbers.given import Number
 from icsolve.numbers.tape import decimal_noise
 from icsolve.numbers.traced import Node, Op, Root, Traced, is_plainly, varies
+from icsolve.units import ExactRatio, nearest
 
 TWO = frozenset((Op.ADD, Op.SUB, Op.MUL, Op.DIV, Op.ANGLE))
 """The operations on two nodes."""
@@ -92,6 +93,10 @@ class Record:
         return found
 
     # --- operations -------------------------------------------------------------------------------
+
+    def ratio(self, exact: ExactRatio) -> Scalar:
+        """The nearest double."""
+        return nearest(exact)
 
     def sqrt(self, value: Scalar) -> Scalar:
         """Square root; of what is below zero: zero."""

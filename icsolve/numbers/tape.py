@@ -15,6 +15,7 @@ from typing import NamedTuple, Union
 
 from icsolve.numbers.arithmetic import Scalar, turn_of
 from icsolve.numbers.given import Number
+from icsolve.units import ExactRatio, nearest
 
 UNIT = 2.0**-53
 TURN_NOISE = 3.0 * UNIT
@@ -181,6 +182,11 @@ class Tape:
             if number.factor != 1.0:
                 self.converted[number.path] = noise
         return found
+
+    def ratio(self, exact: ExactRatio) -> Taped:
+        """The nearest double, with its rounding."""
+        value = nearest(exact)
+        return Taped(self, (0, 0.0, 0, 0.0, 0.0 if value == 1.0 else UNIT * abs(value)), value, abs(value))
 
     def turn(self, number: Number) -> tuple[Taped, Taped]:
         """Cosine and sine of an angle of the case (degrees)."""

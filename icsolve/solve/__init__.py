@@ -11,16 +11,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import suppress
 from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from icsolve.answer import Answer
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
+from icsolve.numbers.balls import is_long
 from icsolve.solve import refusals
-from icsolve.solve.bounds import Value, bounded_values, evaluate_bounded, unbounded_values
+from icsolve.solve.bounds import Evaluation, Scene, Value
 from icsolve.solve.parts import Parts
-from icsolve.solve.program import Program, Want, evaluate, prepare
+from icsolve.solve.program import Program, Want, prepare
 from icsolve.statics import power
 
 if TYPE_CHECKING:
@@ -50,7 +52,7 @@ def solve(
     examine : bool
         Solve and check the whole figure, also what the answer does not need.
     bound : bool
-        Bound the error of every answer, rate and centre (three times the work).
+        Every number to the last digit of its double, with a bound on its error; else in floats alone.
     reactions : bool
         The force of each link on each other at every joint too. A structure whose loads are all known is
         solved for them in any case.
@@ -111,7 +113,7 @@ def attempt(case: Case, *, reactions: bool = False) -> Attempt:
         return _touching(case, reactions)
     want = _wanted(case, Want(True, True, False, reactions))
     try:
-        parts = _evaluated(prepare(case, want), True)
+        parts = Parts(Scene(prepare(case, want), certain=True))
     except SceneError:  # of a link or point that the answer does not need, it may be
         return _tried(case, reactions)
     try:
@@ -149,13 +151,26 @@ def _touching(case: Case, reactions: bool) -> Attempt:
 def _solved(case: Case, want: Want, bound: bool, reactions: bool) -> Answer:
     """Position, centres, power: the answer of a planar case whose contacts are given."""
     program = prepare(case, want)  # the steps that are needed, and the figure in its position
-    try:
-        parts = _evaluated(program, bound)  # the twist of every link, and the power of the loads on them
+    try:  # the twist of every link, and the power of the loads on them
+        return _judged(Parts(Scene(program, bound)), reactions)
     except SceneError as refusal:
+        if bound and refusal.status in INEXACT and _has_long_numbers(case):
+            with suppress(SceneError):
+                return _judged(Parts(Scene(program, bound, explained=True)), reactions)
         if refusal.status == Status.STRUCTURE and (reactions or not _asks(case)):
             return _structure(prepare(case, want._replace(bodies=True)), refusal)
         raise
-    return _judged(parts, reactions)
+
+
+INEXACT = (Status.STRUCTURE, Status.MOBILITY, Status.NEAR_SINGULAR, Status.CONTRADICTORY)
+"""What a case may seem whose numbers a program has rounded."""
+
+
+def _has_long_numbers(case: Case) -> bool:
+    """Whether a program wrote numbers of a case."""
+    from icsolve.solve.sensitivity import numbers_of
+
+    return any(map(is_long, numbers_of(case).values()))
 
 
 def _judged(parts: Parts, reactions: bool) -> Answer:
@@ -163,23 +178,18 @@ def _judged(parts: Parts, reactions: bool) -> Answer:
     if parts.program.want.bodies and refusals.rubs(parts.case):
         return _with_friction(parts, reactions)
     _refuse_unbalanced(parts)
-    parts.unknowns = bounded_values(parts.scene) if parts.scene else unbounded_values(parts.traced)
     slack = parts.case.ropes and _asks(parts.case)  # whether a rope would have to push, its tension tells
     return _with_bodies(parts, reactions) if reactions or slack else parts.answer()
 
 
-def _evaluated(program: Program, bound: bool) -> Parts:
-    """Motions and the sum of power; on a tape where the answer is to have its bound."""
-    if not bound:
-        return Parts(*evaluate(program), None)
-    scene = evaluate_bounded(program)
-    return Parts(scene.program, scene.outcome, scene)
-
-
 def _refuse_unbalanced(parts: Parts) -> None:
     """Refuse unknown loads that power does not determine."""
-    top, outcome = parts.program.top, parts.traced
-    refusals.refuse_unbalanced(parts.case, top, outcome.motions, outcome.balance, outcome.solution)
+
+    def refuse(found: Evaluation) -> None:
+        top, (_, motions, balance, solution) = found.program.top, found.outcome
+        refusals.refuse_unbalanced(parts.case, top, motions, balance, solution, found.arithmetic)
+
+    parts.scene.ask(refuse)
 
 
 def _with_bodies(parts: Parts, reactions: bool) -> Answer:
@@ -196,14 +206,14 @@ def _with_friction(parts: Parts, reactions: bool) -> Answer:
     from icsolve.statics.friction import Scene, solved
 
     def answer_with(values: Mapping[str, Value]) -> Answer:
-        parts.unknowns = dict(values)
+        parts.given = dict(values)
         return parts.answer()
 
     outcome = parts.outcome
     if not refusals.is_workless(outcome.motions, outcome.solution):
         _refuse_unbalanced(parts)
     scene = Scene(_position(parts), parts.figure.frame, outcome.balance, outcome.solution, parts.speed)
-    return solved(scene._replace(traced=parts.scene), answer_with, reactions)
+    return solved(scene._replace(traced=parts.traced), answer_with, reactions)
 
 
 def _position(parts: Parts) -> Position:

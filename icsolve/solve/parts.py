@@ -2,100 +2,134 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import cached_property
 
 from icsolve.answer import Answer, Centre, Deferred, Found, Later, Term
-from icsolve.assembly import Figure, case_point
 from icsolve.case import Case, Pair
 from icsolve.case.names import link_order
 from icsolve.errors import SceneError
 from icsolve.kinematics import speeds
 from icsolve.kinematics.centres import CentreFinder
 from icsolve.kinematics.motion import Motions
-from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers.arithmetic import Scalar
 from icsolve.screws.plane import Triple
 from icsolve.solve.bounds import (
     Bounded,
+    Evaluation,
+    Scene,
     Value,
-    bounded_centre,
-    coefficients,
+    evaluate_bounded,
     floats,
     plain,
-    rate_errors,
     slopes,
+    unknown_values,
 )
 from icsolve.solve.program import Outcome, Program, Want
-from icsolve.solve.terms import advantage, load_values, power_terms
+from icsolve.solve.terms import advantage, power_terms
 from icsolve.statics import power
 from icsolve.wording import sentences
 from icsolve.wording.senses import sense_of, unit_of
+
+Velocities = dict[tuple[str, str], tuple[float, float] | str]
 
 
 class Parts:
     """What was found of a scene, and what an answer shows of it."""
 
-    def __init__(self, program: Program, outcome: Outcome, scene: Bounded | None) -> None:
-        self.program, self.case, self.figure = program, program.case, program.figure
-        self.traced, self.scene = outcome, scene
-        self.unknowns: dict[str, Value] = {}
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self.first = scene.ask(lambda found: found)
+        self.program, self.case = self.first.program, self.first.program.case
+        self.figure = self.program.figure
+        self.given: dict[str, Value] | None = None
+        """the unknown loads, where something else than power gave them"""
 
     @cached_property
     def outcome(self) -> Outcome:
-        """In floats, without the tape."""
-        return plain(self.traced)
+        """In floats."""
+        return plain(self.first.outcome)
+
+    @cached_property
+    def traced(self) -> Bounded | None:
+        """On a tape."""
+        return evaluate_bounded(self.program) if self.scene.certain else None
 
     @cached_property
     def speed(self) -> speeds.Speed:
-        """Which motion is meant, and how fast."""
+        """Which motion is meant, and how fast, in floats."""
         return speeds.speed_of(self.case, self.outcome.motions.twists, self.figure.frame, self.figure.points)
+
+    @cached_property
+    def unknowns(self) -> dict[str, Value]:
+        """The unknown loads by name, and those that are like them."""
+        if self.given is None:
+            return self.scene.ask(unknown_values)
+        found = {}
+        for w in self.outcome.balance.wrenches:
+            if w.root in self.given:
+                value, error, why = self.given[w.root]
+                error = None if error is None else abs(w.ratio) * error
+                found[w.load.name] = Value(w.ratio * value + 0.0, error, why)
+        return found
+
+    def _values(self, found: Evaluation) -> Mapping[str, Scalar]:
+        """The same in an arithmetic, by the load that has the number."""
+        if self.given is None:
+            return found.outcome.solution.values
+        return {root: value.value for root, value in self.given.items()}
 
     def answer(self) -> Answer:
         """The answer as frozen values; a given motion that can't be is refused."""
-        balance, motions = self.traced.balance, self.traced.motions
-        values = load_values(balance, self.unknowns)
-        moving = self._moving() if self.program.want.rates else (None, None)
-        if self.case.motion:
-            _ = self.speed
+        balance, motions = self.first.outcome.balance, self.first.outcome.motions
+        rates, errors, velocities = self.scene.ask(_moving) if self.program.want.rates else (None, {}, None)
+        if self.case.motion and rates is None:
+            self.scene.ask(_speed)
         return Answer(
             case=self.case,
-            answers=_found(self.case, balance, self.unknowns, values),
-            centres=Deferred(self._centres),
-            rates=moving[0],
-            velocities=moving[1],
-            points=Deferred(lambda: _shown(self.figure)),
-            terms=Later(lambda: self._terms(values)),
-            advantage=advantage(balance, values, self.unknowns),
+            answers=_found(self.case, balance, self.unknowns),
+            centres=Deferred(self.plain_centres),
+            rates=rates,
+            velocities=velocities,
+            points=Deferred(lambda: self.scene.ask(_points)),
+            terms=Later(lambda: self.scene.ask(self._terms)),
+            advantage=self.scene.ask(lambda found: advantage(found, self._values(found))),
             mobility=motions.mobility,
-            notes=(*self.figure.notes, *motions.notes, *_notes(self.program, self.traced)),
-            skipped=Later(lambda: _skipped(self.program, self.traced)),
+            notes=(*self.figure.notes, *motions.notes, *self._explained(), *self._notes()),
+            skipped=Later(lambda: _skipped(self.program, self.first.outcome)),
             steps=Later(lambda: _steps(self.program)),
-            sensitivities=Deferred(lambda: slopes(self.scene) if self.scene else {}),
-            errors=Deferred(self._errors),
+            sensitivities=Deferred(lambda: slopes(self.traced) if self.traced else {}),
+            errors={"rates": errors} if errors else {},
             scene=self,
         )
 
     def moving(self) -> Answer:
-        """The motion alone, without bounds: all centres, rates, velocities and points.
+        """The motion alone: all centres, rates, velocities and points.
 
         Where the given motion can't be, those of the motion that a case without one has.
         """
         try:
-            rates, velocities = self._moving()
+            rates, _, velocities = self.scene.ask(_moving)
         except SceneError:
             if not self.case.motion:
                 raise
-            bare = replace(self.case, motion=())
-            return Parts(self.program._replace(case=bare), self.traced, self.scene).moving()
+            bare = self.program._replace(case=replace(self.case, motion=()))
+            return Parts(Scene(bare, self.scene.certain, self.scene.explained)).moving()
         return Answer(
             case=self.case,
             centres=Deferred(self.plain_centres),
             rates=rates,
             velocities=velocities,
-            points=Deferred(lambda: _shown(self.figure)),
-            mobility=self.traced.motions.mobility,
+            points=Deferred(lambda: self.scene.ask(_points)),
+            mobility=self.first.outcome.motions.mobility,
             scene=self,
         )
+
+    def plain_centres(self) -> dict[Pair, Centre]:
+        """The centres that are asked for."""
+        return self.scene.ask(_centres)
 
     @cached_property
     def twists(self) -> dict[str, Triple]:
@@ -111,39 +145,66 @@ class Parts:
         cleaned = {link: _without_rounding(t, least) for link, t in known.items()}
         return {link: frame.twist_shown(t, speed.divisor) for link, t in cleaned.items()}
 
-    def _moving(self) -> tuple[dict[str, float | str], dict[tuple[str, str], tuple[float, float] | str]]:
-        """Link rates and point velocities."""
-        case, twists, figure = self.case, self.outcome.motions.twists, self.figure
-        velocities = speeds.point_velocities(case, twists, self.speed, figure.frame, figure.points)
-        return speeds.link_rates(case, twists, self.speed), velocities
+    def _explained(self) -> tuple[str, ...]:
+        return (sentences.EXPLAINED,) if self.scene.explained else ()
 
-    def _terms(self, values: dict[str, float]) -> tuple[Term, ...]:
-        balance = self.outcome.balance
-        return tuple(power_terms(self.case, self.figure.frame, balance, values, self.speed))
+    def _notes(self) -> list[str]:
+        return _notes(self.program, self.first.outcome)
 
-    def _errors(self) -> dict[str, dict[str, float]]:
-        if self.scene is None or not self.program.want.rates:
-            return {}
-        return {"rates": rate_errors(self.scene, self.speed)}
+    def _terms(self, found: Evaluation) -> tuple[Term, ...]:
+        return tuple(power_terms(found, self._values(found), _speed(found)))
 
-    def plain_centres(self) -> dict[Pair, Centre]:
-        """The centres that are asked for: all, or those of the loaded links. With one freedom they are the
-        same at every speed, 0 among them."""
-        case, figure, twists = self.case, self.figure, self.outcome.motions.twists
-        if case.motion and any(len(motions) > 1 for motions in twists.values()):
-            twists = {link: speeds.meant(twists, self.speed, link) for link in twists}
-        finder = CentreFinder(case, self.program.top, twists, figure.frame, figure.points, FLOATS)
-        pairs = [pair for pair in wanted_pairs(case, self.program.want) if {*pair} <= twists.keys()]
-        return finder.find(pairs, self.outcome.motions.slack)
 
-    def _centres(self) -> dict[Pair, Centre]:
-        """The centres with the bounds of their errors."""
-        case, found = self.case, self.plain_centres()
-        if self.scene is None:
-            return found
-        several = case.motion and self.outcome.motions.mobility == 2
-        weights = coefficients(self.scene, self.speed) if several else None
-        return {pair: bounded_centre(self.scene, centre, weights) for pair, centre in found.items()}
+def _speed(found: Evaluation) -> speeds.Speed:
+    """Which motion is meant, and how fast."""
+    twists, points = found.outcome.motions.twists, found.outcome.points
+    frame = found.program.figure.frame
+    return speeds.speed_of(found.program.case, twists, frame, points, found.arithmetic)
+
+
+def _moving(found: Evaluation) -> tuple[dict[str, float | str], dict[str, float], Velocities]:
+    """Link rates, bounds of their errors, and point velocities."""
+    case, twists, frame = found.program.case, found.outcome.motions.twists, found.program.figure.frame
+    speed, a = _speed(found), found.arithmetic
+    rates: dict[str, float | str] = {}
+    errors: dict[str, float] = {}
+    for link, rate in speeds.link_rates(case, twists, speed).items():
+        if isinstance(rate, str):
+            rates[link] = rate
+        else:
+            rates[link], error = a.rounded(rate)
+            errors |= {link: error} if error < math.inf else {}
+    velocities: Velocities = {}
+    for key, both in speeds.point_velocities(case, twists, speed, frame, found.outcome.points).items():
+        velocities[key] = both if isinstance(both, str) else (a.rounded(both[0])[0], a.rounded(both[1])[0])
+    return rates, errors, velocities
+
+
+def _centres(found: Evaluation) -> dict[Pair, Centre]:
+    """The centres that are asked for: all, or those of the loaded links. With one freedom they are the
+    same at every speed, 0 among them."""
+    program, motions = found.program, found.outcome.motions
+    case, twists = program.case, motions.twists
+    if case.motion and motions.mobility > 1:
+        speed = _speed(found)
+        twists = {link: speeds.meant(twists, speed, link) for link in twists}
+    finder = CentreFinder(
+        case, program.top, twists, program.figure.frame, found.outcome.points, found.arithmetic
+    )
+    pairs = [pair for pair in wanted_pairs(case, program.want) if {*pair} <= twists.keys()]
+    return finder.find(pairs, motions.slack)
+
+
+def _points(found: Evaluation) -> dict[str, tuple[float, float]]:
+    """The points that have a name in the case, in case units."""
+    a, (ox, oy, scale) = found.arithmetic, found.program.figure.frame
+    shown = {}
+    for name, (x, y) in found.outcome.points.items():
+        if not name.startswith("@"):
+            px, _ = a.rounded(x / scale + ox, 1.0 / scale + abs(ox))
+            py, _ = a.rounded(y / scale + oy, 1.0 / scale + abs(oy))
+            shown[name] = (px, py)
+    return shown
 
 
 STILL = 1e-12
@@ -161,23 +222,13 @@ def _without_rounding(t: Triple, least: float) -> Triple:
     return (t[0], t[1], 0.0 if abs(t[2]) <= least else t[2])
 
 
-def _shown(figure: Figure) -> dict[str, tuple[float, float]]:
-    """The points that have a name in the case, in case units."""
-    named = (name for name in figure.points if not name.startswith("@"))
-    return {name: case_point(figure.frame, figure.points[name]) for name in named}
-
-
-def _found(
-    case: Case, balance: power.Balance, unknowns: dict[str, Value], values: dict[str, float]
-) -> dict[str, Found]:
+def _found(case: Case, balance: power.Balance, unknowns: Mapping[str, Value]) -> dict[str, Found]:
     """The unknown loads and those that are like them, in order."""
     found = {}
     for w in balance.wrenches:
-        if w.root in unknowns:
-            name, unknown = w.load.name, unknowns[w.root]
-            error = None if unknown.error is None else abs(w.ratio) * unknown.error
-            sense = sense_of(w, values[name])
-            found[name] = Found(values[name], unit_of(w.load, case), sense, error, unknown.why)
+        if w.load.name in unknowns:
+            value, error, why = unknowns[w.load.name]
+            found[w.load.name] = Found(value, unit_of(w.load, case), sense_of(w, value), error, why)
     return found
 
 

@@ -8,7 +8,7 @@ from icsolve.case import Case, Weight
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.collinear import aligned, lined_up, tightest
 from icsolve.kinematics.motion import Motions
-from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers.arithmetic import FLOATS, Arithmetic, all_vanish
 from icsolve.screws.joints import Points
 from icsolve.screws.ropes import rope_parts
 from icsolve.statics import power
@@ -82,7 +82,12 @@ def is_workless(motions: Motions, solution: power.Solution) -> bool:
 
 
 def refuse_unbalanced(
-    case: Case, top: Topology, motions: Motions, balance: power.Balance, solution: power.Solution
+    case: Case,
+    top: Topology,
+    motions: Motions,
+    balance: power.Balance,
+    solution: power.Solution,
+    arithmetic: Arithmetic = FLOATS,
 ) -> None:
     """Refuse unknown loads that have no value, or any, or are not as many as the freedoms."""
     unknowns = sum(power.is_unknown(load) for load in case.loads)
@@ -96,11 +101,15 @@ def refuse_unbalanced(
         ends = sentences.free_ends(top)
         message = sentences.wrong_count(motions.mobility, unknowns, len(solution.idle), ends)
         raise SceneError(Status.MOBILITY, message)
-    raise _no_work(top, motions, balance, solution)
+    raise _no_work(top, motions, balance, solution, arithmetic)
 
 
 def _no_work(
-    top: Topology, motions: Motions, balance: power.Balance, solution: power.Solution
+    top: Topology,
+    motions: Motions,
+    balance: power.Balance,
+    solution: power.Solution,
+    arithmetic: Arithmetic,
 ) -> SceneError:
     """An unknown that does no work: a dead centre, no value, or any value."""
     culprit = next(w for w in balance.wrenches if w.load.name == solution.culprit)
@@ -110,9 +119,9 @@ def _no_work(
         return SceneError(status, sentences.on_the_frame(culprit.load.name, culprit.load.link, others))
     largest = max(abs(x) for ts in motions.twists.values() for t in ts for x in t)
     on, off = motions.twists[culprit.load.link], motions.twists[culprit.against]
-    apart = max(abs(x - y) for a, b in zip(on, off, strict=True) for x, y in zip(a, b, strict=True))
-    at_rest = apart <= AT_REST * largest
-    clause = _why_at_rest(top, motions, culprit.load.link) if at_rest else ""
+    apart = [x - y for a, b in zip(on, off, strict=True) for x, y in zip(a, b, strict=True)]
+    at_rest = all_vanish(arithmetic, ((part, largest) for part in apart))
+    clause = _why_at_rest(top, motions, culprit.load.link, arithmetic) if at_rest else ""
     message = sentences.workless(culprit.load.name, culprit.load.link, at_rest, others, clause)
     if len(top.members) > 2 and (ends := sentences.free_ends(top)):
         message += f" Is a joint missing? {ends[0].upper()}{ends[1:]}."
@@ -120,12 +129,23 @@ def _no_work(
     return SceneError(status, message)
 
 
-def _why_at_rest(top: Topology, motions: Motions, link: str) -> str:
+def _why_at_rest(top: Topology, motions: Motions, link: str, arithmetic: Arithmetic) -> str:
     """Which centres on one line hold a link at rest."""
     body = top.body_of[link]
     own_first = sorted(motions.closures, key=lambda closure: body not in closure.group.bodies)
-    clauses = (aligned(top, lined_up(closure, top, body)) for closure in own_first)
+    clauses = (aligned(top, lined_up(closure, top, body, arithmetic)) for closure in own_first)
     return next(filter(None, clauses), "")
+
+
+def not_as_written() -> SceneError:
+    """The refusal of a figure that the doubles close, and the decimals of the file do not."""
+    return SceneError(Status.CANNOT_ASSEMBLE, sentences.not_as_written())
+
+
+def overflow(load: str) -> SceneError:
+    """The refusal of a load beyond the range of doubles."""
+    message = f"{load} is larger than the largest double in these units: give the case in other `units`."
+    return SceneError(Status.UNSUPPORTED, message)
 
 
 def too_close(top: Topology, motions: Motions, load: str, open_by: float | None) -> SceneError:
@@ -133,7 +153,3 @@ def too_close(top: Topology, motions: Motions, load: str, open_by: float | None)
     group = tightest(motions.closures)
     why = aligned(top, sorted(group.group.bonds), "lie nearly on") if group else ""
     return SceneError(Status.NEAR_SINGULAR, sentences.too_close(load, why, open_by))
-
-
-AT_REST = 1e-13
-"""A link whose twist is below this fraction of the fastest stands still (rounding)."""

@@ -5,39 +5,38 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 
 from icsolve.answer import Term
-from icsolve.assembly import Frame
-from icsolve.case import Case
+from icsolve.case import Case, ForceVector, Number
 from icsolve.kinematics.speeds import Speed
-from icsolve.solve.bounds import Value
-from icsolve.statics.power import Balance, Wrench, known_value
+from icsolve.numbers.arithmetic import Arithmetic, Scalar
+from icsolve.solve.bounds import Evaluation
+from icsolve.statics.power import Wrench, known_value, vector_size
 from icsolve.wording.senses import unit_of
 from icsolve.wording.sentences import link_words
 
 
-def load_values(balance: Balance, unknowns: Mapping[str, Value]) -> dict[str, float]:
-    """The number of every load, known or found, in its own unit."""
-    values = {}
-    for w in balance.wrenches:
-        known = known_value(w)
-        if known is None:
-            known = unknowns[w.root].value if w.root in unknowns else 0.0
-        values[w.load.name] = float(w.ratio) * known + 0.0
-    return values
+def load_value(w: Wrench, values: Mapping[str, Scalar], a: Arithmetic) -> Scalar:
+    """The number of a load, known or found (``values``, by the load that has it), in its own unit."""
+    if w.root in values:
+        return w.ratio * values[w.root]
+    if isinstance(w.source, ForceVector):
+        return w.ratio * vector_size(w.source)
+    return w.ratio * (a.given(w.source.value) if isinstance(w.source.value, Number) else 0.0)
 
 
-def power_terms(
-    case: Case, frame: Frame, balance: Balance, values: dict[str, float], speed: Speed
-) -> Iterable[Term]:
+def power_terms(found: Evaluation, values: Mapping[str, Scalar], speed: Speed) -> Iterable[Term]:
     """One term a load, for the motion that is printed."""
-    motions = range(len(balance.factors))
+    case, frame, balance = found.program.case, found.program.figure.frame, found.outcome.balance
+    a, motions = found.arithmetic, range(len(balance.factors))
     for n, w in enumerate(balance.wrenches):
-        row = [float(balance.factors[m][n]) for m in motions]
+        row = [balance.factors[m][n] for m in motions]
+        per = w.measure / frame.scale
         size = max(balance.sizes[m][n] for m in motions)
-        factor = speed.particular_of(row, size) * (w.measure / frame.scale)
-        value, name = values[w.load.name], w.load.name
+        factor = speed.particular_of(row, size) * per
+        value = load_value(w, values, a)
         unknown = known_value(w) is None
-        unit = unit_of(w.load, case)
-        yield Term(name, w.load.link, value, unit, factor, value * factor, unknown, _where(case, w))
+        power, _ = a.rounded(value * factor, abs(value) * size * per / abs(speed.divisor))
+        numbers = a.rounded(value)[0], unit_of(w.load, case), a.rounded(factor)[0], power
+        yield Term(w.load.name, w.load.link, *numbers, unknown, _where(case, w))
 
 
 def _where(case: Case, w: Wrench) -> str:
@@ -46,10 +45,13 @@ def _where(case: Case, w: Wrench) -> str:
     return where if w.against == case.ground else f"{where} against link {w.against}"
 
 
-def advantage(balance: Balance, values: dict[str, float], unknowns: Mapping[str, Value]) -> float | None:
+def advantage(found: Evaluation, values: Mapping[str, Scalar]) -> float | None:
     """unknown / known where there is one of each and the known one is not zero."""
-    found = [w.load.name for w in balance.wrenches if w.root in unknowns]
-    known = [w.load.name for w in balance.wrenches if w.root not in unknowns]
-    if len(found) != 1 or len(known) != 1 or values[known[0]] == 0.0:
+    wrenches = found.outcome.balance.wrenches
+    ours = [w for w in wrenches if w.root in values]
+    known = [w for w in wrenches if w.root not in values]
+    if len(ours) != 1 or len(known) != 1:
         return None
-    return values[found[0]] / values[known[0]]
+    a = found.arithmetic
+    above, below = (load_value(w, values, a) for w in (*ours, *known))
+    return None if below == 0.0 else a.rounded(above / below)[0]

@@ -7,6 +7,7 @@ twist of the bodies between which it acts.
 
 import math
 from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 from typing import NamedTuple
 
 from icsolve.assembly.workspace import Frame
@@ -25,7 +26,7 @@ from icsolve.case import (
     Weight,
 )
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Arithmetic, Scalar, magnitude
+from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider, magnitude
 from icsolve.numbers.null_space import null_space
 from icsolve.screws.plane import Point, Triple, force_wrench, pairing
 from icsolve.screws.ropes import rope_parts
@@ -109,11 +110,12 @@ def _unit_wrench(
     match load:
         case Torque():
             sign = -1.0 if load.turns == "cw" else 1.0
-            return (0.0, 0.0, sign), 1.0 / case.units.torque_per_force_length
+            num, den, pi = case.units.exact_torque
+            return (0.0, 0.0, sign), arithmetic.ratio((den, num, -pi))
         case Weight():
             gain: Scalar = 1.0
             if load.mass:
-                gain = arithmetic.given(case.gravity) * case.units.force_per_newton
+                gain = arithmetic.given(case.gravity) * arithmetic.ratio(case.units.exact_newton)
             return force_wrench((0.0, -1.0), points[load.at]), gain
         case Spring():
             toward, length = _between(points[load.at], points[load.to], arithmetic)
@@ -185,13 +187,14 @@ class Solution(NamedTuple):
 
     ``verdict`` is ``balanced``; ``no value`` / ``any value`` (an unknown does no work; the known
     loads do, do not), ``too few unknowns`` or ``too many unknowns``. ``idle`` names the motions in
-    which no load does work.
+    which no load does work. A value that vanishes is 0.0, and ``off`` says how far from it it may lie.
     """
 
     verdict: str
     values: dict[str, Scalar]
     idle: tuple[int, ...] = ()
     culprit: str = ""
+    off: Mapping[str, float] = MappingProxyType({})
 
 
 def solve_balance(b: Balance, arithmetic: Arithmetic) -> Solution:
@@ -201,10 +204,20 @@ def solve_balance(b: Balance, arithmetic: Arithmetic) -> Solution:
     scale = force_scale(b)
     shares = [_share(w, unknown, place, scale, arithmetic) for w in b.wrenches]
     columns = len(unknown) + 1
-    rows = [_row(shares, b.factors[m], b.sizes[m], columns, arithmetic) for m in range(len(b.factors))]
+    offs: list[list[float]] = []
+    rows = []
+    for factors, sizes in zip(b.factors, b.sizes, strict=True):
+        row, off = _row(shares, factors, sizes, columns, arithmetic)
+        rows.append(row)
+        offs.append(off)
     still = [0.0] * columns
     idle = tuple([m for m, row in enumerate(rows) if row == still])
-    return _solved(rows, list(place), idle, [(scale, w.measure) for w in unknown])
+    solution = _solved(rows, list(place), idle, [(scale, w.measure) for w in unknown], arithmetic)
+    if len(rows) - len(idle) == len(unknown) == 1 and solution.values:
+        m = next(m for m in range(len(rows)) if m not in idle)
+        off = offs[m][1] / abs(rows[m][0]) / scale / unknown[0].measure
+        return solution._replace(off={unknown[0].root: off})
+    return solution
 
 
 def is_unknown(load: Load) -> bool:
@@ -261,19 +274,27 @@ def _row(
     sizes: Sequence[float],
     columns: int,
     arithmetic: Arithmetic,
-) -> list[Scalar]:
-    """Factor of each unknown in one motion, then the (scaled) power of the known loads."""
+) -> tuple[list[Scalar], list[float]]:
+    """Factor of each unknown in one motion, then the (scaled) power of the known loads; of what vanishes
+    among them, how far it may lie from zero."""
     sums: list[Scalar] = [0.0] * columns
     terms = [0.0] * columns
     for (k, amount), factor, size in zip(shares, factors, sizes, strict=True):
         sums[k] = sums[k] + amount * factor
         terms[k] += abs(amount) * size
-    vanishes = arithmetic.vanishes
-    return [0.0 if vanishes(x, size) else x for x, size in zip(sums, terms, strict=True)]
+    off = [0.0] * columns
+    for k, (value, size) in enumerate(zip(sums, terms, strict=True)):
+        if arithmetic.vanishes(value, size):
+            sums[k], off[k] = 0.0, abs(value) + getattr(value, "radius", 0.0)
+    return sums, off
 
 
 def _solved(
-    rows: list[list[Scalar]], roots: list[str], idle: tuple[int, ...], scales: list[tuple[float, float]]
+    rows: list[list[Scalar]],
+    roots: list[str],
+    idle: tuple[int, ...],
+    scales: list[tuple[float, float]],
+    arithmetic: Arithmetic,
 ) -> Solution:
     working = [row for m, row in enumerate(rows) if m not in idle]
     if len(working) == 1 and len(roots) == 1:
@@ -281,20 +302,25 @@ def _solved(
         if factor == 0.0:
             return Solution("no value", {}, idle, roots[0])
         return Solution("balanced", {roots[0]: -known / factor / scales[0][0] / scales[0][1]}, idle)
-    return _solved_many(_equilibrated(working), roots, idle, scales)
+    return _solved_many(_equilibrated(working), roots, idle, scales, arithmetic)
 
 
 def _equilibrated(rows: list[list[Scalar]]) -> list[list[Scalar]]:
-    sizes = [max(abs(value) for value in row) for row in rows]
+    """The rows over powers of two that bring their largest entries near 1."""
+    sizes = [math.ldexp(1.0, math.frexp(max(abs(value) for value in row))[1]) for row in rows]
     return [[value / size for value in row] for row, size in zip(rows, sizes, strict=True)]
 
 
 def _solved_many(
-    rows: list[list[Scalar]], roots: list[str], idle: tuple[int, ...], scales: list[tuple[float, float]]
+    rows: list[list[Scalar]],
+    roots: list[str],
+    idle: tuple[int, ...],
+    scales: list[tuple[float, float]],
+    arithmetic: Arithmetic,
 ) -> Solution:
     count = len(roots)
-    free = null_space([row[:count] for row in rows], count, 1e-13)
-    whole = null_space(rows, count + 1, 1e-13)
+    free = null_space([row[:count] for row in rows], count, 1e-13, vanishes=decider(arithmetic))
+    whole = null_space(rows, count + 1, 1e-13, vanishes=decider(arithmetic))
     if whole.rank > free.rank:
         verdict = "no value" if free.rank < count and len(rows) <= count else "too few unknowns"
         return Solution(verdict, {}, idle, _workless(rows, roots))
@@ -304,12 +330,21 @@ def _solved_many(
     if not whole.basis or not roots:
         return Solution("balanced", dict.fromkeys(roots, 0.0), idle)
     vector = whole.basis[0]
-    if vector[-1] == 0.0:
+    if arithmetic.vanishes(vector[-1], 1.0):
         raise SceneError(
             Status.NEAR_SINGULAR, "the equations of power of the motions can't be told from dependent ones"
         )
-    values = {root: vector[k] / vector[-1] / scales[k][0] / scales[k][1] for k, root in enumerate(roots)}
-    return Solution("balanced", values, idle)
+    largest = max(abs(value) for value in vector)
+    values: dict[str, Scalar] = {}
+    off = {}
+    for k, root in enumerate(roots):
+        per = vector[-1] * scales[k][0] * scales[k][1]
+        if arithmetic.vanishes(vector[k], largest):
+            values[root] = 0.0
+            off[root] = (abs(vector[k]) + getattr(vector[k], "radius", 0.0)) / abs(per)
+        else:
+            values[root] = vector[k] / per
+    return Solution("balanced", values, idle, off=off)
 
 
 def _workless(rows: list[list[Scalar]], roots: list[str]) -> str:

@@ -52,6 +52,20 @@ def near_structure(last: float) -> str:
     )
 
 
+EXPLAINED = (
+    "constraints that agree to within half a unit of the last digit of numbers of 15 digits or more count as "
+    "exact; the errors say what that leaves open."
+)
+
+
+def not_as_written() -> str:
+    """Links that meet within the rounding of doubles, and not as their decimals are written."""
+    return (
+        "the figure cannot be assembled: links that all but reach each other miss by less than doubles tell, "
+        "as the decimals are written. Lengthen one by half a unit of its last decimal."
+    )
+
+
 def too_close(load: str, why: str, open_by: float | None) -> str:
     """The data do not tell this position from the singular one beside it."""
     cause = f"a dead centre ({why})" if why else "a dead centre or a change point"

@@ -34,6 +34,6 @@ ENTRIES = (
         "34",
         f"chain of {LOOPS} four-bars",
         long_chain,
-        answered({"U": Value(-11.522422276394831, 1e-9, 1e-6)}),
+        answered({"U": Value(-11.522422276394837, 1e-15, 1e-14)}),
     ),
 )

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 from icsolve.bench.catalogue.scenes import four_bar, scene, torques, unknown
 from icsolve.bench.stress import Stress, Value, answered, refused
 
@@ -34,6 +36,15 @@ def three_cranks(third: str) -> str:
         "  - {pin: [3, 4], at: F}\n",
         torques(2, 1),
     )
+
+
+def turned_cranks(angle: float) -> str:
+    """The same with all points turned by an angle in radians, as a program writes them."""
+    c, s = math.cos(angle), math.sin(angle)
+    spots = {"A": (0, 0), "B": (2, 0), "C": (5, 0), "D": (1, 2), "E": (3, 2), "F": (6, 2)}
+    points = ", ".join(f"{p}: [{x * c - y * s!r}, {x * s + y * c!r}]" for p, (x, y) in spots.items())
+    text = three_cranks("6, 2")
+    return text.replace(text[text.index("points:") : text.index("\njoints:")], f"points: {{{points}}}")
 
 
 FIVE_BAR = scene(
@@ -117,7 +128,7 @@ ENTRIES = (
         "6d",
         "the same + 1e-15",
         near_toggle(".000000000000001", torques(3, 1)),
-        refused(*CLOSE, says=["dead centre", "A, B and B0"]),
+        answered({"M1": Value(-5e14, 0.0, 0.1)}),
     ),
     Stress(
         "7",
@@ -157,7 +168,10 @@ ENTRIES = (
         answered({"M1": -1.0}, says=("1 redundant constraint", "not unique", "goes on moving")),
     ),
     Stress(
-        "22a", "one pin off 1e-14", three_cranks("6.00000000000001, 2"), answered({"M1": Value(-1.0, 1e-9)})
+        "22a",
+        "turned by a program, to 16 digits",
+        turned_cranks(0.3),
+        answered({"M1": Value(-1.0, 1e-9)}, says=["half a unit of the last digit"]),
     ),
     Stress(
         "22b",
