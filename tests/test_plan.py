@@ -10,6 +10,7 @@ import pytest
 import mechanisms
 import transcribe
 from chains import BUTTERFLY, FLIER
+from icsolve.structure.groups import Matching
 from icsolve.structure.plan import Plan, make_plan
 from icsolve.structure.topology import Topology, topology
 
@@ -76,3 +77,39 @@ def test_a_redundant_constraint_leaves_the_plan_open() -> None:
     plan = plan_for(topology(transcribe.case({"points": points, "joints": joints, "loads": {}})), "2", "1")
     assert not plan.closed
     assert plan.groups == ()
+
+
+def chain_of_butterflies(count: int) -> Topology:
+    """Double butterflies, the last link of each being the crank of the next."""
+    joints, places = [], {}
+    before, links = "2", 2
+    for unit in range(count):
+        names = {"0": "1", "1": before}
+        for link in "234567":
+            links += 1
+            names[link] = str(links)
+        for k, pair in enumerate(BUTTERFLY.split()):
+            if unit == 0 or pair != "01":
+                joints.append({"pin": [names[pair[0]], names[pair[1]]], "at": f"Q{unit}_{pair}"})
+                places[f"Q{unit}_{pair}"] = [unit, k]
+        before = names["5"]
+    return topology(transcribe.case({"points": places, "joints": joints, "loads": {}}))
+
+
+def test_a_chain_of_double_butterflies_has_a_group_of_six_each(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One matching an input serves all groups: what is matched anew grows with the links, not their square."""
+    placed: dict[int, int] = {}
+    place = Matching._place
+    for count in (10, 20):
+        placed[count] = 0
+
+        def counting(matching: Matching, row: tuple[int, int], count: int = count) -> bool:
+            placed[count] += 1
+            return place(matching, row)
+
+        monkeypatch.setattr(Matching, "_place", counting)
+        top = chain_of_butterflies(count)
+        plan = plan_for(top, *top.body_of)
+        assert plan.closed
+        assert [len(group.bodies) for group in plan.groups] == [6] * count
+    assert placed[20] < 2.5 * placed[10]

@@ -150,14 +150,22 @@ def _on_carrier(group: Group, top: Topology) -> bool:
     mine, its = two.pivots if two.b == other else two.pivots[::-1]
     if not isinstance(one.joint, Pin) or one.joint.at != mine:
         return False
-    at_its = [b for b in top.bonds if isinstance(b.joint, Pin) and b.joint.at == its]
-    here = {body for bond in at_its for body in (bond.a, bond.b)}
-    return carrier in here and other in here
+    here = _pinned(top, other, its)
+    return carrier in here or (bool(here) and bool(_pinned(top, carrier, its)))
 
 
-def _wheel(
-    group: Group, mesh: Bond, bases: Bases, weights: tuple[Scalar, Scalar], pool: _Pool
-) -> Closed:
+def _pinned(top: Topology, body: int, at: str) -> set[int]:
+    """A body and those that a pin at a point joins it to; none where it has no pin there."""
+    bonds = [top.bonds[k] for k in top.at[body]]
+    return {
+        end
+        for bond in bonds
+        if isinstance(bond.joint, Pin) and bond.joint.at == at
+        for end in (bond.a, bond.b)
+    }
+
+
+def _wheel(group: Group, mesh: Bond, bases: Bases, weights: tuple[Scalar, Scalar], pool: _Pool) -> Closed:
     """A wheel on the carrier of its mesh, seen from which the two rates are as -q : p (weights crosswise).
 
     No point enters: a pitch point rounded in the frame costs digits where the wheels are small.

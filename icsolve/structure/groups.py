@@ -7,81 +7,108 @@ groups of the theory of machines).
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Hashable, Iterable, Mapping
+from typing import NamedTuple, TypeVar
 
 from icsolve.structure.topology import Topology
 
+T = TypeVar("T", bound=Hashable)
 
-def smallest_group(top: Topology, known: Collection[int]) -> tuple[int, ...]:
-    """The bodies of the smallest group, in order; empty where nothing is determined."""
-    owner = _matching(top, known)
-    needs = _needs(top, known, owner)
-    counts = dict.fromkeys(needs, 0)
-    for body in owner.values():
-        counts[body] += 1
-    loose = [body for body in needs if counts[body] < 3]
-    determined = set(needs) - _reach_back(needs, loose)
-    best: set[int] = set()
-    for body in determined:
-        group = _reach(needs, body)
-        if not best or len(group) < len(best):
-            best = group
-    return tuple(sorted(best))
+Constraint = tuple[int, int]
+"""A bond and one of its constraints."""
 
 
-def _matching(top: Topology, known: Collection[int]) -> dict[tuple[int, int], int]:
-    """Constraint (bond, row) -> the unknown body it is matched to; at most three a body."""
-    owner: dict[tuple[int, int], int] = {}
-    load: dict[int, list[tuple[int, int]]] = {}
+class Part(NamedTuple):
+    """Bodies that determine one another, and the other bodies that they need to be known first."""
 
-    def place(row: tuple[int, int], seen: set[int]) -> bool:
-        bond = top.bonds[row[0]]
-        for body in (bond.a, bond.b):
-            if body in known or body in seen:
-                continue
-            seen.add(body)
-            rows = load.setdefault(body, [])
-            if len(rows) < 3:
-                rows.append(row)
-                owner[row] = body
-                return True
-            for other in list(rows):
-                if place(other, seen):
-                    rows.remove(other)
-                    rows.append(row)
-                    owner[row] = body
+    bodies: set[int]
+    others: set[int]
+
+
+class Matching:
+    """Constraints matched to the unknown bodies that they help to determine, at most three a body.
+
+    As bodies become known their constraints are matched anew, and only these: a matching of all serves
+    every group of a mechanism.
+    """
+
+    def __init__(self, top: Topology, known: set[int]) -> None:
+        self.top = top
+        self.known = known
+        self.parts: list[Part] = []
+        self.load: dict[int, list[Constraint]] = {
+            body: [] for body in range(len(top.members)) if body not in known
+        }
+        for k, bond in enumerate(top.bonds):
+            for row in range(bond.constraints):
+                self._place((k, row))
+
+    def smallest_group(self) -> tuple[int, ...]:
+        """The bodies of the smallest group, in order; empty where nothing is determined."""
+        moved = self._follow()
+        self.parts = [part for part in self.parts if not part.bodies <= self.known]
+        if moved or not self.parts or any(part.bodies & self.known for part in self.parts):
+            self.parts = self._determined()
+        closed = [part for part in self.parts if part.others <= self.known]
+        best = min(closed, key=lambda part: len(part.bodies), default=None)
+        return () if best is None else tuple(sorted(best.bodies))
+
+    def _follow(self) -> bool:
+        """Match anew what was matched to bodies that are known now; whether anything was."""
+        gone = [body for body in self.load if body in self.known]
+        freed = [row for body in gone for row in self.load.pop(body)]
+        placed = [self._place(row) for row in freed]
+        return any(placed)
+
+    def _determined(self) -> list[Part]:
+        """The parts that no body with too few constraints bears on."""
+        needs = {body: self._needs(body, rows) for body, rows in self.load.items()}
+        loose = [body for body, rows in self.load.items() if len(rows) < 3]
+        reaching = _reach_back(needs, loose)
+        held = {body: others for body, others in needs.items() if body not in reaching}
+        return [
+            Part(set(members), {other for body in members for other in held[body]} - set(members))
+            for members in strongly_connected(held)
+        ]
+
+    def _place(self, root: Constraint) -> bool:
+        """Match a constraint, moving others along an alternating path (breadth first); whether it can be."""
+        came: dict[int, Constraint] = {}
+        before: dict[Constraint, int | None] = {root: None}
+        queue = [root]
+        for row in queue:
+            bond = self.top.bonds[row[0]]
+            for body in (bond.a, bond.b):
+                if body in came or body not in self.load or body in self.known:
+                    continue
+                came[body] = row
+                if len(self.load[body]) < 3:
+                    self._flip(body, came, before)
                     return True
+                for other in self.load[body]:
+                    if other not in before:
+                        before[other] = body
+                        queue.append(other)
         return False
 
-    for k, bond in enumerate(top.bonds):
-        if bond.a not in known or bond.b not in known:
-            for row in range(bond.constraints):
-                place((k, row), set())
-    return owner
+    def _flip(
+        self, end: int, came: Mapping[int, Constraint], before: Mapping[Constraint, int | None]
+    ) -> None:
+        body: int | None = end
+        while body is not None:
+            row = came[body]
+            self.load[body].append(row)
+            body = before[row]
+            if body is not None:
+                self.load[body].remove(row)
+
+    def _needs(self, body: int, rows: Iterable[Constraint]) -> list[int]:
+        """The other unknown bodies that a body's own constraints touch."""
+        found = dict.fromkeys(self.top.bonds[k].other(body) for k, _ in rows)
+        return [other for other in found if other not in self.known]
 
 
-def _needs(
-    top: Topology, known: Collection[int], owner: dict[tuple[int, int], int]
-) -> dict[int, set[int]]:
-    """For each unknown body the other unknown bodies that its own constraints touch."""
-    needs: dict[int, set[int]] = {body: set() for body in range(len(top.members)) if body not in known}
-    for (k, _), body in owner.items():
-        other = top.bonds[k].other(body)
-        if other not in known:
-            needs[body].add(other)
-    return needs
-
-
-def _reach(needs: dict[int, set[int]], start: int) -> set[int]:
-    seen, stack = {start}, [start]
-    while stack:
-        for body in needs[stack.pop()] - seen:
-            seen.add(body)
-            stack.append(body)
-    return seen
-
-
-def _reach_back(needs: dict[int, set[int]], ends: list[int]) -> set[int]:
+def _reach_back(needs: Mapping[int, Collection[int]], ends: list[int]) -> set[int]:
     """The bodies from which one of ``ends`` can be reached."""
     users: dict[int, set[int]] = {body: set() for body in needs}
     for body, others in needs.items():
@@ -94,3 +121,42 @@ def _reach_back(needs: dict[int, set[int]], ends: list[int]) -> set[int]:
             seen.add(body)
             stack.append(body)
     return seen
+
+
+def strongly_connected(needs: Mapping[T, Collection[T]]) -> list[list[T]]:
+    """The strongly connected parts of a graph, each after those that it leads to.
+
+    R. Tarjan, SIAM Journal on Computing 1, 1972, without recursion.
+    """
+    order: dict[T, int] = {}
+    low: dict[T, int] = {}
+    placed: set[T] = set()
+    out: list[list[T]] = []
+    path: list[T] = []
+    for root in needs:
+        if root in order:
+            continue
+        order[root] = low[root] = len(order)
+        path.append(root)
+        stack = [(root, iter(needs[root]))]
+        while stack:
+            node, others = stack[-1]
+            for other in others:
+                if other not in order:
+                    order[other] = low[other] = len(order)
+                    path.append(other)
+                    stack.append((other, iter(needs[other])))
+                    break
+                if other not in placed:
+                    low[node] = min(low[node], order[other])
+            else:
+                stack.pop()
+                if stack:
+                    low[stack[-1][0]] = min(low[stack[-1][0]], low[node])
+                if low[node] == order[node]:
+                    members: list[T] = []
+                    while not members or members[-1] != node:
+                        members.append(path.pop())
+                    placed.update(members)
+                    out.append(members)
+    return out

@@ -10,7 +10,7 @@ from collections import deque
 from collections.abc import Collection, Iterable
 from typing import NamedTuple
 
-from icsolve.structure.groups import smallest_group
+from icsolve.structure.groups import Matching
 from icsolve.structure.topology import Topology
 
 
@@ -97,6 +97,7 @@ class _Growth:
         self.top = top
         self.entry = entry
         self.known = set(known)
+        self.matching: Matching | None = None
         self.queue = deque(self._neighbours(self.known))
         self.surplus = any(
             k != entry and top.bonds[k].a in self.known and top.bonds[k].b in self.known
@@ -121,7 +122,9 @@ class _Growth:
             for other in self._neighbours((body,)):
                 if self._held(body) + self._held(other) + self._between(body, other) >= 6:
                     return (body, other)
-        return smallest_group(self.top, self.known)
+        if self.matching is None:
+            self.matching = Matching(self.top, self.known)
+        return self.matching.smallest_group()
 
     def _take(self, bodies: tuple[int, ...]) -> Group:
         self.known.update(bodies)

@@ -137,6 +137,10 @@ def _pinned_at(case: Case, body_of: dict[str, int]) -> dict[str, list[int]]:
 
 
 def _bonds(case: Case, body_of: dict[str, int], pins: dict[str, list[int]]) -> Iterable[Bond]:
+    pins_of: dict[int, list[str]] = {}
+    for point, bodies in pins.items():
+        for body in dict.fromkeys(bodies):
+            pins_of.setdefault(body, []).append(point)
     for joint in case.joints:
         for links in pairs_of(joint):
             a, b = body_of[links[0]], body_of[links[1]]
@@ -144,7 +148,7 @@ def _bonds(case: Case, body_of: dict[str, int], pins: dict[str, list[int]]) -> I
                 continue
             pivots = ("", "")
             if isinstance(joint, Gears | Belt):
-                pivots = _pivots(joint, body_of, pins)
+                pivots = _pivots(joint, body_of, pins, pins_of)
             yield Bond(a, b, FREEDOMS[type(joint)], joint, links, pivots)
 
 
@@ -154,16 +158,18 @@ def pairs_of(joint: Joint) -> list[tuple[str, str]]:
     return [(first, other) for other in others]
 
 
-def _pivots(joint: Gears | Belt, body_of: dict[str, int], pins: dict[str, list[int]]) -> tuple[str, str]:
+def _pivots(
+    joint: Gears | Belt, body_of: dict[str, int], pins: dict[str, list[int]], pins_of: dict[int, list[str]]
+) -> tuple[str, str]:
+    """The pins about which two wheels turn on a common carrier."""
     a, b = (body_of[link] for link in joint.links)
     wanted = body_of[joint.carrier] if joint.carrier else None
     found: dict[tuple[str, str], int] = {}
-    for p, on_p in pins.items():
-        for q, on_q in pins.items():
-            if p != q and a in on_p and b in on_q:
-                for carrier in set(on_p) & set(on_q) - {a, b}:
-                    if wanted in (None, carrier):
-                        found.setdefault((p, q), carrier)
+    for p in pins_of.get(a, ()):
+        for q in pins_of.get(b, ()):
+            for carrier in set(pins[p]) & set(pins[q]) - {a, b} if p != q else ():
+                if wanted in (None, carrier):
+                    found.setdefault((p, q), carrier)
     if len(found) == 1:
         return next(iter(found))
     kind = "gears" if isinstance(joint, Gears) else "belt"
