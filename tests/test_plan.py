@@ -97,7 +97,7 @@ def chain_of_butterflies(count: int) -> Topology:
 
 
 def test_a_chain_of_double_butterflies_has_a_group_of_six_each(monkeypatch: pytest.MonkeyPatch) -> None:
-    """One matching an input serves all groups: what is matched anew grows with the links, not their square."""
+    """One matching an input serves all groups: what is matched anew grows with the links."""
     placed: dict[int, int] = {}
     place = Matching._place
     for count in (10, 20):
