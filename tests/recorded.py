@@ -21,10 +21,10 @@ RADIAN = mp.pi / 180
 class InSixtyDigits:
     """The values of a sheet's nodes for one row; groups are solved by Newton's method from the row's own."""
 
-    def __init__(self, sheet: Sheet, row: dict[int, float]) -> None:
+    def __init__(self, sheet: Sheet, row: dict[int, Any]) -> None:
         self.sheet, self.record = sheet, sheet.record
         self.constants = self._decimals(sheet.setting.case)
-        self.values: dict[int, Any] = {k: mpf(float(v)) for k, v in row.items()}
+        self.values: dict[int, Any] = {k: mpf(v) for k, v in row.items()}
         for group in sheet.motion.groups if sheet.motion else ():
             self._solve(group)
 
@@ -101,11 +101,12 @@ class InSixtyDigits:
 
 
 def truths(sweep: icsolve.Sweep, row: int) -> dict[tuple[str, str], list[Any]]:
-    """All of a row in sixty digits, by kind and name, on the decimals of the case and the doubles varied."""
+    """All of a row in sixty digits, by kind and name, on the decimals of the case and of the numbers varied."""
     work = sweep._case_of.__self__  # type: ignore[union-attr]
     part = next(p for p in work.done if row in p.rows)
     one = part.some(np.flatnonzero(part.rows == row))
-    given = {k: float(np.ravel(v)[0]) for k, v in work.parts.given(one)[0].items()}
-    sheet = part.runner.sheet
+    given: dict[int, Any] = {k: float(np.ravel(v)[0]) for k, v in work.parts.given(one)[0].items()}
+    sheet, arrays = part.runner.sheet, work.columns.arrays
+    given |= {k: repr(float(arrays[name][row])) for name, k in sheet.inputs.items() if name in arrays}
     exact = InSixtyDigits(sheet, given)
     return {key: [exact.or_float(value) for value in values] for key, values in sheet.outputs.items()}

@@ -40,7 +40,7 @@ def pessimism(sweep: icsolve.Sweep, rows: range) -> list[float]:
             values, bounds = (np.atleast_1d(t[kind][name][row]) for t in (sweep.kinds, sweep.errors))
             for value, bound, true in zip(values, bounds, exact, strict=True):
                 error = float(abs(true - float(value)))
-                assert error <= bound, (kind, name, row)
+                assert error <= bound or error < 1e-50, (kind, name, row)
                 if error > 0.0:
                     found.append(bound / error)
     return found
@@ -116,8 +116,9 @@ loads: {P: {force: 20, link: 4, at: C, angle: 180}, T: {torque: unknown, link: 2
     assert pessimism(sweep, range(0, 25, 6))
 
 
-def test_rows_near_a_limit_have_large_bounds_that_hold() -> None:
-    """A rocker that drives, ever nearer to the end of its reach: the rod's place is lost like a root."""
+def test_rows_near_a_limit_have_bounds_that_hold() -> None:
+    """A rocker that drives, ever nearer to the end of its reach: in doubles the rod's place is lost like a
+    root, and the bound says so; nearest, where that would be much, a row has its decimals' own value."""
     text = """icsolve: 1
 points: {A: [0, 0], D: [4, 0]}
 lengths: {AB: 1, BC: 3.5, CD: 2.5}
@@ -130,8 +131,10 @@ loads: {T14: {torque: 10, link: 4}, T12: {torque: unknown, link: 2}}
     limit = 95.73917047726678
     sweep = icsolve.sweep(case, {"angles.DC": limit + 10.0 ** -np.arange(0.0, 13.0)}, ALL)
     assert pessimism(sweep, range(13))
-    ok = sweep.status == "ok"
-    assert (np.diff((sweep.error["T12"] / np.abs(sweep.answers["T12"]))[ok][2:]) > 0.0).all()
+    assert (sweep.status == "ok").all()
+    relative = sweep.error["T12"] / np.abs(sweep.answers["T12"])
+    assert (np.diff(relative[1:6]) > 0.0).all()
+    assert relative.max() < 1e-6
 
 
 def test_bounds_cost_few_operations_and_change_no_answer() -> None:

@@ -86,14 +86,13 @@ def test_known_centres_that_hold_a_mechanism_are_refused_by_name() -> None:
 
 def test_a_row_exactly_at_a_limit_has_a_bound() -> None:
     """Chebyshev's lambda, driven by its rocker to where crank and coupler are in line: 3 = 5 - 2 as written,
-    so that C is at (0, -3) and B at (0, -5), and the torque 75 N m. The last digit of a length would be
-    worth the root of it there: the bound is as large."""
+    so that C is at (0, -3) and B at (0, -5), and the torque 75 N m. The last digit of a double would be worth
+    the root of it there; in the decimals as written nothing is lost."""
     case = icsolve.load(str(CASES / "linkages" / "chebyshev_lambda.yaml"))
     want = ("answers", "status", "error", "points")
     sweep = icsolve.sweep(case, drive={"4": [90.0, 100.0]}, want=want)
     assert sweep.status[0] == "ok"
     assert sweep.points["B"][0] == pytest.approx([0.0, -5.0], abs=1e-12)
     assert abs(sweep.answers["T12"][0] + 75.0) <= sweep.error["T12"][0]
-    assert 1e-9 < sweep.error["T12"][0] < 1e-4
-    assert 1e-9 < sweep.errors["points"]["B"][0, 0] < 1e-5
-    assert sweep.error["T12"][1] < 1e-9
+    assert (sweep.error["T12"] < 1e-9).all()
+    assert (sweep.errors["points"]["B"] < 1e-12).all()

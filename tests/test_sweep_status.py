@@ -66,14 +66,14 @@ def of_circle(degrees: Any) -> Any:
 
 @pytest.mark.parametrize("step", [0.5, 1.0, 0.7, 7.0, 47.0, 90.0])
 def test_a_parallelogram_stays_one_through_its_change_points(step: float) -> None:
-    """Whether a row hits the change points at 0 and 180 degrees, or the rows pass them, it is said."""
+    """Rows at the change points at 0 and 180 degrees say so, none beside them; what is passed is noted."""
     degrees = np.arange(0.0, 360.001, step)
     sweep = icsolve.sweep(icsolve.load(PARALLELOGRAM), {"angles.AB": degrees}, ALL)
     assert np.abs(sweep.points["C"] - of_circle(degrees)).max() < 1e-13
     said = degrees[sweep.status == "change-point"]
-    beyond = next(v for v in degrees if v >= 180.0)
-    assert said.tolist() == [0.0, beyond] + ([360.0] if degrees[-1] == 360.0 else [])
     there = np.isin(degrees, (0.0, 180.0, 360.0))
+    assert said.tolist() == degrees[there].tolist()
+    assert any("change point at angles.AB = 180" in note for note in sweep.notes)
     assert np.isnan(sweep.answers["T12"][there]).all()
     assert sweep.answers["T12"][~there] == pytest.approx(-10.0, rel=1e-9)
     assert complete(sweep)
@@ -82,7 +82,8 @@ def test_a_parallelogram_stays_one_through_its_change_points(step: float) -> Non
 def test_rows_far_from_the_case_as_written_are_reached_through_the_change_point() -> None:
     sweep = icsolve.sweep(icsolve.load(PARALLELOGRAM), {"angles.AB": [240.0, 250.0]}, ALL)
     assert np.abs(sweep.points["C"] - of_circle([240.0, 250.0])).max() < 1e-14
-    assert sweep.status.tolist() == ["change-point", "ok"]
+    assert sweep.status.tolist() == ["ok", "ok"]
+    assert "change point at angles.AB = 180" in sweep.notes[0]
 
 
 def test_near_a_change_point_the_branch_stays() -> None:
@@ -104,10 +105,11 @@ def test_newtons_method_keeps_the_branch_too(monkeypatch: pytest.MonkeyPatch) ->
     degrees = np.arange(0.5, 360.0, 1.0)
     sweep = icsolve.sweep(icsolve.load(PARALLELOGRAM), {"angles.AB": degrees}, ALL)
     assert np.abs(sweep.points["C"] - of_circle(degrees)).max() < 1e-12
-    assert degrees[sweep.status == "change-point"].tolist() == [180.5]
+    assert (sweep.status == "ok").all()
+    assert "change point at angles.AB = 180" in sweep.notes[0]
     assert sweep.answers["T12"] == pytest.approx(-10.0, rel=1e-9)
     at = icsolve.sweep(icsolve.load(PARALLELOGRAM), {"angles.AB": [100.0, 180.0, 181.0]}, ALL)
-    assert at.status.tolist() in (["ok", "change-point", "ok"], ["ok", "near-singular", "change-point"])
+    assert at.status.tolist() == ["ok", "change-point", "ok"]
 
 
 def test_a_rhombus_goes_on_where_two_pins_meet() -> None:
@@ -117,7 +119,8 @@ def test_a_rhombus_goes_on_where_two_pins_meet() -> None:
     degrees = np.arange(-60.5, 60.0, 1.0)
     sweep = icsolve.sweep(case, {"angles.AB": degrees}, ALL)
     assert np.abs(sweep.points["C"] - of_circle(degrees) + [1.0, 0.0]).max() < 1e-12
-    assert "change-point" in sweep.status
+    assert (sweep.status == "ok").all()
+    assert "change point at angles.AB = " in sweep.notes[0]
 
 
 # --- dead centres -----------------------------------------------------------------------------------
@@ -144,9 +147,8 @@ def test_where_the_known_load_does_no_work_the_answer_is_zero() -> None:
     assert (sweep.status == "ok").all()
 
 
-def test_close_to_a_dead_centre_the_bound_grows_and_then_refuses() -> None:
-    """Unknown force 10^-k degrees beside the dead centre: it grows, its relative bound too, until the row is
-    refused."""
+def test_close_to_a_dead_centre_the_force_grows_and_keeps_its_digits() -> None:
+    """Unknown force 10^-k degrees beside the dead centre: as large as the nearness makes it, to the last row."""
     text = (
         SLIDER_CRANK.replace("P_", "unknown")
         .replace("T_", "100")
@@ -156,13 +158,10 @@ def test_close_to_a_dead_centre_the_bound_grows_and_then_refuses() -> None:
     dead = np.degrees(np.arcsin(0.1 / 210.0))  # crank and rod in line
     offs = 10.0 ** -np.arange(1.0, 15.0)
     sweep = icsolve.sweep(case, {"angles.AB": dead + offs}, ALL)
-    ok = sweep.status == "ok"
-    assert ok[:8].all()
-    assert not ok[-1]
-    assert set(sweep.status[~ok]) <= {"near-singular", "dead-centre"}
-    relative = (sweep.error["P"] / np.abs(sweep.answers["P"]))[ok]
-    assert (np.diff(relative) > 0.0).all()
-    assert relative[-1] <= 1e-3
+    assert (sweep.status[:-1] == "ok").all()
+    force = np.abs(sweep.answers["P"])
+    assert force[1:10] / force[:9] == pytest.approx(10.0, rel=1e-2)
+    assert (sweep.error["P"] <= 1e-9 * force)[:-1].all()
 
 
 # --- what does not assemble -------------------------------------------------------------------------

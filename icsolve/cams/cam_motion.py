@@ -39,8 +39,8 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
 from icsolve.sweep.ask import Columns
 from icsolve.sweep.program import Asked
-from icsolve.sweep.second import CODE, Codes
 from icsolve.sweep.start import start_of
+from icsolve.sweep.table import CODE, Codes
 from icsolve.sweep.work import Work
 
 FAR = 4.0

@@ -25,8 +25,7 @@ from icsolve.sweep.numbers import with_numbers
 from icsolve.sweep.program import Asked, setting_of
 from icsolve.sweep.runner import Progress
 from icsolve.sweep.runner import Rows as Which
-from icsolve.sweep.scenes import Table
-from icsolve.sweep.swept import Sweep
+from icsolve.sweep.table import Sweep, Table
 
 SAID = "each row is solved as a scene of its own, with its contacts found on the profiles."
 SHAPING = ("points", "lengths", "angles", "profile", "joints")

@@ -129,7 +129,7 @@ def _table(read: Case, path: str, asked: Asked) -> int:
     """All rows, as a table or a picture."""
     from icsolve.cli.progress import Progress
     from icsolve.sweep import sweep
-    from icsolve.sweep.sheet_out import FORMATS
+    from icsolve.sweep.table import FORMATS
 
     varied, driven = _columns(asked)
     with Progress(math.prod(len(values) for _, values in (*asked.vary, *asked.drive))) as progress:

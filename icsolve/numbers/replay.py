@@ -12,13 +12,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from icsolve.numbers.arithmetic import turn_of
 from icsolve.numbers.record import Op, Record, operands
 
 Array = npt.NDArray[np.float64]
 BLOCK = 4096
 """Rows that run at once: some thirty buffers of them fit the second-level cache."""
 FEW = 512
+LEAST = 8
 MOST_SIZES = 24
 
 Step = tuple[Callable[..., Any], tuple[Any, ...]]
@@ -94,7 +94,7 @@ class Code:
 
     def bound(self, rows: int) -> tuple[list[Step], Array]:
         """The steps on buffers for so many rows (few rows: up to the next power of two), one set a thread."""
-        room = rows if rows > FEW else 1 << (rows - 1).bit_length()
+        room = rows if rows > FEW else max(LEAST, 1 << (rows - 1).bit_length())
         key = (room, get_ident())
         if key not in self._bound:
             if len(self._bound) > MOST_SIZES:
@@ -167,9 +167,6 @@ def turn(degrees: Array, cosine: Array | None, sine: Array | None, a: Array, b: 
     With m quarter turns (-2 to 2) the cosine is ``cos r (1 - |m|) + sin r m (|m| - 2)``, and cos r is
     the root of ``(1 - sin r)(1 + sin r)``, which loses nothing so near to 1.
     """
-    if degrees.size == 1:
-        _turn_one(float(degrees.flat[0]), cosine, sine)
-        return
     c, s = np.empty_like(a), np.empty_like(a)
     quarters = np.rint(np.divide(degrees, 90.0, a), a)
     np.subtract(degrees, np.multiply(quarters, 90.0, b), s)
@@ -183,10 +180,3 @@ def turn(degrees: Array, cosine: Array | None, sine: Array | None, a: Array, b: 
         np.add(np.multiply(c, along, cosine), s * quarters, cosine)
     if sine is not None:
         np.subtract(np.multiply(s, along, sine), c * quarters, sine)
-
-
-def _turn_one(degrees: float, cosine: Array | None, sine: Array | None) -> None:
-    found = turn_of(degrees) if np.isfinite(degrees) else (np.nan, np.nan)
-    for out, value in zip((cosine, sine), found, strict=True):
-        if out is not None:
-            out.fill(value)

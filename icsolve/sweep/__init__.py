@@ -9,6 +9,6 @@ becomes a ``mechanism`` of links that keep their shapes; ``drivers`` says what t
 from __future__ import annotations
 
 from icsolve.sweep.sweeping import sweep
-from icsolve.sweep.swept import Sweep
+from icsolve.sweep.table import Sweep
 
 __all__ = ["Sweep", "sweep"]

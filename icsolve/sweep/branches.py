@@ -30,6 +30,9 @@ PAST = 0.125
 """A way is followed beyond its last place by this part of its longest step."""
 STEPS, STEPS_A_ROW = 2000, 20
 """Steps of a way that may lie between rows, in all and for each row."""
+CELLS = 4
+MOST_CELLS = 1_000_000
+"""Branches are looked for at so many places in a longest step, and at most at so many at all."""
 MOST_PLACES = 4096
 """Limits are looked for at so many places."""
 
@@ -152,23 +155,24 @@ def _valleys(radicand: Array) -> Iterator[int]:
         last = int(k)
 
 
-def grid_of(rows: Array, start: float, widest: float) -> Array:
-    """The rows' places and the start in order, with places between so that no step is too wide.
+def grid_of(ends: Iterable[float], way: Way) -> Array:
+    """Places by which branches are looked for, from the start of the way to beyond all ends in equal steps:
+    the same whichever rows there are."""
+    step, ends = way.widest / CELLS, [way.start, *ends]
+    step *= max(1, math.ceil((max(ends) - min(ends)) / step / MOST_CELLS))
+    low, high = (math.floor((end - way.start) / step) for end in (min(ends), max(ends)))
+    return way.start + step * np.arange(low - 2, high + 4)
 
-    Raises AskError where those would be far more than the rows: the work of a sweep is that of its rows.
-    """
-    known = np.unique(np.append(rows, start))
-    steps = np.diff(known)
-    if np.sum(steps) / widest > STEPS + STEPS_A_ROW * len(known):
+
+def _refuse_long(sheet: Sheet, way: Way, ends: Sequence[float], rows: int) -> None:
+    """Raise AskError where far more steps than rows would have to be followed one by one."""
+    assert sheet.motion is not None
+    steps = (max(way.start, *ends) - min(way.start, *ends)) / way.widest
+    if (sheet.motion.groups or sheet.record.counted) and steps > STEPS + STEPS_A_ROW * rows:
         raise AskError(
-            f"the motion is followed step by step, and {np.sum(steps) / widest:.3g} steps lie between these"
-            f" {len(rows)} rows: take whole turns off, or ask for rows nearer to each other"
+            f"the motion is followed step by step, and {steps:.3g} steps lie between these {rows} rows: "
+            "take whole turns off, or ask for rows nearer to each other"
         )
-    between = [
-        np.linspace(known[k], known[k + 1], int(steps[k] / widest) + 2)[1:-1]
-        for k in np.flatnonzero(steps > widest)
-    ]
-    return np.unique(np.concatenate([known, *between])) if between else known
 
 
 def follow(remake: Remake, sheet: Sheet, way: Way, start: State, rows: Array) -> Followed:
@@ -176,11 +180,14 @@ def follow(remake: Remake, sheet: Sheet, way: Way, start: State, rows: Array) ->
 
     ``remake`` makes the sheet with the signs of some branches as inputs.
     """
-    grid = grid_of(rows, way.start, way.widest)
-    track = Track(sheet, way, start, Touches({}), _reach(grid, way))
+    ends = [float(rows.min()), float(rows.max())]
+    _refuse_long(sheet, way, ends, len(rows))
+    grid = grid_of(ends, way)
+    track = Track(sheet, way, start, Touches({}), _reach(ends, way))
     if _has_limits(sheet, track, grid):
-        grid = grid_of(np.append(grid, _turns_of(way)), way.start, way.widest)
-        track = Track(sheet, way, start, Touches({}), _reach(grid, way))
+        ends += _turns_of(way)
+        grid = grid_of(ends, way)
+        track = Track(sheet, way, start, Touches({}), _reach(ends, way))
     found: dict[str, Passing] = {}
     done: set[str] = set()
     while True:
@@ -221,9 +228,10 @@ def _has_limits(sheet: Sheet, track: Track, grid: Array) -> bool:
     return any(math.isfinite(end) for end in _Radicands(sheet, track).limits(grid))
 
 
-def _reach(grid: Array, way: Way) -> tuple[float, float]:
+def _reach(ends: Iterable[float], way: Way) -> tuple[float, float]:
     """From the first to the last place and a little beyond, so that none is at the very end of the way."""
-    return float(grid[0]) - PAST * way.widest, float(grid[-1]) + PAST * way.widest
+    ends = [way.start, *ends]
+    return min(ends) - PAST * way.widest, max(ends) + PAST * way.widest
 
 
 def _turns_of(way: Way) -> list[float]:

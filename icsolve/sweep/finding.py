@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
+from decimal import Decimal
 from typing import NamedTuple
 
 import numpy as np
@@ -23,9 +24,9 @@ from icsolve.numbers.replay import Array, Code
 from icsolve.solve import solve
 from icsolve.solve.refusals import rubs
 from icsolve.sweep.ask import AskError, columns_of
+from icsolve.sweep.exact import as_written
 from icsolve.sweep.parts import Part
 from icsolve.sweep.program import Asked
-from icsolve.sweep.rows import RowCases
 from icsolve.sweep.start import start_of
 from icsolve.sweep.work import Work
 
@@ -173,10 +174,13 @@ class _Search:
         given = self.given(np.array([at]))
         if not np.isfinite(given[self.input][0]):
             return None
-        numbers = {path: float(a[self.part.rows[0]]) for path, a in self.work.columns.paths.items()}
+        numbers = {path: as_written(a[self.part.rows[0]]) for path, a in self.work.columns.paths.items()}
         if self.name in numbers:
-            numbers[self.name] = at
-        return RowCases(self.sheet).at(given, numbers)
+            numbers[self.name] = as_written(at)
+        exact = {k: Decimal(float(np.ravel(v)[0])) for k, v in given.items()}
+        inputs = self.sheet.inputs
+        exact |= {inputs[name]: value for name, value in numbers.items() if name in inputs}
+        return self.part.runner.cases.case({**exact, self.input: as_written(at)}, numbers)
 
     # --- kinds ------------------------------------------------------------------------------------
 

@@ -33,13 +33,15 @@ def _walk(value: Any) -> Iterator[Number]:
             yield from _walk(item)
 
 
-def with_numbers(case: Case, values: Mapping[str, float]) -> Case:
+def with_numbers(case: Case, values: Mapping[str, float | Number]) -> Case:
     """The case with other numbers at some paths, each as if written so (exact)."""
 
     def changed(value: Any) -> Any:
         if isinstance(value, Number):
             new = values.get(value.path)
-            return value if new is None else Number(new, 0.0, value.path, repr(new))
+            if new is None or isinstance(new, Number):
+                return new or value
+            return Number(new, 0.0, value.path, repr(new))
         if isinstance(value, dict):
             return {key: changed(item) for key, item in value.items()}
         if isinstance(value, tuple):

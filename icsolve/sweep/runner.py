@@ -1,11 +1,13 @@
 """The rows of a sweep, block by block: the outputs as arrays, and which rows need a second look.
 
-A row is looked at again where something that is divided by, or whose root is taken, is small beside what
-it is in the other rows, or where the answer nearly vanishes. The others are what one scene would give.
+A row is looked at again where something that is divided by, or whose root is taken, is small beside its
+terms, or where an answer is very small or very large. The others are what one scene would give. What is
+small is told by the place where the record was made, never by the other rows.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import NamedTuple
@@ -15,20 +17,22 @@ import numpy.typing as npt
 
 from icsolve.numbers.backward import Backward
 from icsolve.numbers.noise import noise_of
-from icsolve.numbers.record import Node, Op, Root, varies
+from icsolve.numbers.record import Node, Op, Record, varies
 from icsolve.numbers.replay import BLOCK, Array, Code, live
-from icsolve.sweep.branches import live_roots
+from icsolve.sweep.exact import RowScenes
 from icsolve.sweep.program import Sheet
-from icsolve.sweep.rows import RowCases
 
+SHALLOW = 1e-9
+"""A radicand below this fraction of its terms makes its row doubtful."""
 SMALL = 1e-7
-"""Below this fraction of its size elsewhere a divisor or radicand makes its row doubtful."""
+"""Below this fraction of the terms that it is summed from (where the record was made) a divisor makes its row
+doubtful, and so does an answer that many times smaller or larger than there."""
 CLOSE = 1e-7
 """Below this a margin of the figure makes its row doubtful (normalised)."""
 AGREED = 1e-9
 """Conditions that were not needed to place the links are met to this (normalised)."""
-FAINT = 1e-9
-"""Below this fraction of its size elsewhere an answer may be zero."""
+NOTHING = 1e-13
+"""An answer below this fraction of its terms where the record was made is nothing in every row."""
 BATCH = 8
 """So many outputs are bounded at once: each takes a few megabytes."""
 STEEP = 2.0
@@ -61,13 +65,14 @@ class Runner:
         alive = Code(record, wanted).order
         self.roots = [record.roots[k] for k in alive if k in record.roots]
         self.divisors = _divisors(record.nodes, alive)
-        self.faint = [n for n, (key, _, _) in enumerate(self.moving) if key[0] == "answers"]
+        self.loose = [n for n, (key, _, _) in enumerate(self.moving) if key[0] == "answers"]
         self.margins = sheet.margins
         self.checks = _living(sheet, alive)
         watched = [*(root.radicand for root in self.roots), *self.divisors, *self.margins, *self.checks]
         self.code = Code(record, [*wanted, *watched])
-        self.typical = np.array([abs(record.nodes[k].value) for k in self.divisors])
-        self.deep = np.array([record.nodes[root.radicand].value for root in self.roots])
+        self.typical = [_terms(record.nodes, k) for k in self.divisors]
+        self.deep = [math.prod(record.nodes[size].value for _, size in root.margins) for root in self.roots]
+        self.usual = [_usual(record, index) for _, _, index in self.moving]
 
     @cached_property
     def sequential(self) -> bool:
@@ -112,35 +117,9 @@ class Runner:
             yield [(key, part) for key, part, _ in some], self.passes([index for *_, index in some])
 
     @cached_property
-    def branches(self) -> list[Root]:
-        """The branches that bear on what is asked, those behind groups too."""
-        return live_roots(self.sheet)
-
-    @cached_property
-    def reaching(self) -> Code:
-        """The margins of the branches, each with its size."""
-        return Code(self.sheet.record, [n for r in self.branches for margin in r.margins for n in margin])
-
-    @cached_property
-    def conditions(self) -> Code:
-        """Margins of the figure as written, and what is to vanish."""
-        return Code(self.sheet.record, [*self.margins, *self.checks])
-
-    @cached_property
-    def cases(self) -> RowCases:
+    def cases(self) -> RowScenes:
         """Rows as cases of their own."""
-        return RowCases(self.sheet)
-
-    @cached_property
-    def doubts(self) -> Backward:
-        """Backward passes from the answers, then from what is divided by."""
-        return self.passes([*(index for _, index in self.answers), *self.divisors])
-
-    @cached_property
-    def places(self) -> Backward:
-        """Backward passes from the (normalised) places of all points."""
-        values = (v for p in self.sheet.scene.points.values() for v in p)
-        return self.passes(sorted({v.index for v in values if varies(v)}))
+        return RowScenes(self.sheet)
 
     def passes(self, targets: Sequence[int], leaves: Sequence[int] = ()) -> Backward:
         """Backward passes from some nodes, as far as to the leaves."""
@@ -193,19 +172,19 @@ class Runner:
         bad: list[Rows] = []
         with np.errstate(all="ignore"):
             for n, radicand in enumerate(radicands):
-                high = max(float(np.maximum.reduce(radicand)), float(self.deep[n]))
-                low = self._below(radicand, SMALL * high, bad)
+                low = self._below(radicand, SHALLOW * self.deep[n], bad)
                 steep = steep or low <= STEEP * _step(radicand, last[n] if last else None, scratch)
             for n, divisor in enumerate(divisors):
-                size = np.abs(divisor, scratch)
-                self._below(size, SMALL * max(float(self.typical[n]), float(np.maximum.reduce(size))), bad)
+                self._below(np.abs(divisor, scratch), SMALL * self.typical[n], bad)
             for margin in found[cuts[2] : cuts[3]]:
                 self._below(margin, CLOSE, bad)
             for check in found[cuts[3] :]:
                 self._below(np.negative(np.abs(check, scratch), scratch), -AGREED, bad)
-            for n in self.faint:
-                size = np.abs(found[n], scratch)
-                self._below(size, FAINT * float(np.maximum.reduce(size)), bad)
+            for n in self.loose:
+                if self.usual[n]:
+                    size = np.abs(found[n], scratch)
+                    self._below(size, SMALL * self.usual[n], bad)
+                    self._below(np.negative(size, scratch), -self.usual[n] / SMALL, bad)
         again = np.unique(np.concatenate(bad)) if bad else np.empty(0, np.int64)
         return again, steep, [float(radicand[-1]) for radicand in radicands]
 
@@ -234,6 +213,22 @@ def _living(sheet: Sheet, alive: Sequence[int]) -> list[int]:
 def column(array: Array, part: int) -> Array:
     """One part of an output's array."""
     return array if array.ndim == 1 else array[:, part]
+
+
+def _terms(nodes: Sequence[Node], k: int) -> float:
+    """The size of the terms that a value is summed from, where the record was made."""
+    node = nodes[k]
+    if node.op in (Op.ADD, Op.SUB):
+        return _terms(nodes, node.a) + _terms(nodes, node.b)
+    return _terms(nodes, node.a) if node.op == Op.NEG else abs(node.value)
+
+
+def _usual(record: Record, k: int) -> float:
+    """The size of an answer where the record was made; 0 where it is nothing in every row."""
+    nodes, top = record.nodes, k
+    while nodes[top].op in (Op.DIV, Op.NEG) or (nodes[top].op == Op.MUL and not nodes[nodes[top].b].row):
+        top = nodes[top].a
+    return abs(nodes[k].value) if abs(nodes[top].value) > NOTHING * _terms(nodes, top) else 0.0
 
 
 def _divisors(nodes: Sequence[Node], alive: Sequence[int]) -> list[int]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -17,10 +18,9 @@ from icsolve.sweep.ask import Columns, Wanted, columns_of, refuse_size, shown_po
 from icsolve.sweep.numbers import with_numbers
 from icsolve.sweep.program import Asked
 from icsolve.sweep.runner import Progress
-from icsolve.sweep.scenes import Table, by_scenes, families
-from icsolve.sweep.second import CODE
+from icsolve.sweep.scenes import by_scenes, families
 from icsolve.sweep.start import Start, start_of
-from icsolve.sweep.swept import Sweep
+from icsolve.sweep.table import CODE, Sweep, Table
 from icsolve.sweep.work import Work
 
 BY_SCENES = "with friction each row is solved as a scene of its own."
@@ -82,21 +82,8 @@ def _together(start: Start, columns: Columns, wanted: Wanted, progress: Progress
     """All rows by one record."""
     work = Work(start, columns, wanted.error, progress)
     work.run()
-    tables = work.tables()
-    if not wanted.asked.rates:
-        tables = tables._replace(rates={}, errors={**tables.errors, "rates": {}})
-    return Sweep(
-        start.case,
-        _shown(columns),
-        tables.answers,
-        tables.points,
-        tables.centres,
-        tables.rates,
-        tables.errors if wanted.error else {},
-        notes=tuple(work.notes),
-        codes=work.codes,
-        _case_of=work.case_of,
-    )
+    found = work.table.sweep(start.case, _shown(columns), wanted.error, tuple(work.notes), work.case_of)
+    return found if wanted.asked.rates else replace(found, rates={}, errors={**found.errors, "rates": {}})
 
 
 @lru_cache(maxsize=64)
@@ -110,9 +97,8 @@ def _rubbing(start: Start, columns: Columns, wanted: Wanted, progress: Progress 
     work = Work(placed, columns, False)
     work.run()
     table = Table(columns.rows, wanted.asked)
-    table.codes[:] = np.where(work.codes == CODE[Status.CHANGE_POINT], 0, work.codes)
+    table.codes[:] = work.codes
     by_scenes(table, np.flatnonzero(table.codes == 0).tolist(), work.case_of, progress)
-    table.codes[:] = np.where(table.codes == 0, work.codes, table.codes)
     return table.sweep(start.case, _shown(columns), wanted.error, (*work.notes, BY_SCENES), work.case_of)
 
 

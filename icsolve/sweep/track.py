@@ -12,7 +12,8 @@ from collections.abc import Iterator, Mapping, Sequence
 import numpy as np
 import numpy.typing as npt
 
-from icsolve.assembly.driven.groups import ROUNDS, Solver
+from icsolve.assembly.driven.groups import ROUNDS, NewtonGroup, Solver
+from icsolve.numbers.record import Op
 from icsolve.numbers.replay import Array, Code
 from icsolve.sweep.program import Sheet
 from icsolve.sweep.stretch import Step, Stretch, counts, cubic, goes_on, stretch_of
@@ -28,6 +29,17 @@ QUICK = 6
 HALVINGS = 30
 
 Mask = npt.NDArray[np.bool_]
+
+
+BENT = 1e-4
+"""Below this part of its size elsewhere the determinant of a group makes its row doubtful."""
+
+
+def _size(j: Array) -> Array:
+    """The size of the determinant of each matrix (rows, equations, unknowns)."""
+    if j.shape[1] != j.shape[2]:
+        return np.asarray(np.sqrt(np.abs(np.linalg.det(np.swapaxes(j, 1, 2) @ j))))
+    return np.asarray(np.abs(np.linalg.det(j)))
 
 
 class Track:
@@ -234,6 +246,24 @@ class Track:
         if s in self.senses and not np.array_equal(self.senses[s], now):
             self.breaks.append((s, there))
         self.senses[there] = now
+
+    def bent(self, s: Array) -> Mask:
+        """Places at which a group is near a singular position: its determinant is small beside what it is
+        where the record was made."""
+        small = np.zeros(len(s), dtype=bool)
+        if not self.groups or not self.stretches:
+            return small
+        given, _ = self.given(s)
+        for group, solver in self.groups:
+            q = np.stack([np.broadcast_to(given[k], len(s)) for k in group.solved], axis=1)
+            small |= ~(_size(solver.system(given, q)[1]) > BENT * self._typical(group, solver))
+        return small
+
+    def _typical(self, group: NewtonGroup, solver: Solver) -> float:
+        nodes = self.sheet.record.nodes
+        env = {k: np.array([node.value]) for k, node in enumerate(nodes) if node.op == Op.INPUT}
+        q = np.array([[nodes[k].value for k in group.solved]])
+        return float(_size(solver.system(env, q)[1])[0])
 
     def _senses(self, given: Mapping[int, Array], q: Array, turns: Array) -> Array:
         """Signs of the determinants of the groups at one place."""

@@ -1,0 +1,360 @@
+"""One row in high precision: the record of a sweep run in decimals, on the figures of the file.
+
+What a row beside a singular position is decided by: whether its links reach one another, on which side of a
+change point it stands, and where its points are, to so many digits that the scene by those coordinates is the
+row itself. The varied numbers are the shortest decimals that name their doubles, as a file would have them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from decimal import Context, Decimal, DivisionByZero, InvalidOperation, localcontext
+from functools import lru_cache
+
+from icsolve.assembly.driven.groups import NewtonGroup
+from icsolve.case import Case, Centroid, Coordinates, Number
+from icsolve.errors import SceneError, Status
+from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.record import Op, Root, Traced
+from icsolve.numbers.replay import live
+from icsolve.sweep.branches import live_roots
+from icsolve.sweep.numbers import numbers_of, with_numbers
+from icsolve.sweep.program import Sheet
+
+DIGITS = 120
+ZERO = Decimal("1e-40")
+"""What is below this fraction of its terms is zero."""
+STEP = Decimal("1e-30")
+"""Derivatives are differences over such steps: exact to twice as many digits as this has."""
+ROUNDS = 250
+"""Steps of Newton's method: so many bring half of the digits where two solutions have become one."""
+HALF = Decimal("1e-50")
+"""Half of the digits."""
+AGREED = Decimal("1e-9")
+"""Conditions that were not needed to place the links are met to this (normalised)."""
+LEAST = Decimal("1e-80")
+"""Places of a row (normalised) are multiples of this."""
+SHORT = Context(prec=100)
+"""Coordinates of a row have so many digits: more than any scene is decided by."""
+APART = "the links do not reach one another in this row."
+ANYWHERE = "change point: two links have come to lie so that a point of them may be anywhere on a circle."
+CONTEXT = Context(prec=DIGITS, Emin=-999_999, Emax=999_999, traps=[InvalidOperation, DivisionByZero])
+
+Values = dict[int, Decimal]
+
+
+class Unreached(ArithmeticError):
+    """The links do not assemble there."""
+
+
+class ExactRecord:
+    """A record in high precision; ``given`` of its methods are the inputs of a row by their nodes."""
+
+    def __init__(self, sheet: Sheet) -> None:
+        self.sheet, self.record = sheet, sheet.record
+        self.still: Values = {}
+        self.orders: dict[tuple[int, ...], list[int]] = {}
+        self.constants = self._decimals()
+        self.last: tuple[Values, Values] | None = None
+
+    def _decimals(self) -> Values:
+        """What the constants of the record are in the file."""
+        numbers = numbers_of(self.sheet.setting.case)
+        return {
+            traced.index: decimal_of(numbers[name]) if name in numbers else Decimal(value)
+            for (value, name), traced in self.record._constants.items()
+        }
+
+    def values(self, wanted: Iterable[Scalar], given: Mapping[int, Decimal]) -> list[Decimal]:
+        """Expressions at a row. Raises Unreached where a group of links has no solution."""
+        wanted = list(wanted)
+        with localcontext(CONTEXT):
+            indices = [v.index if isinstance(v, Traced) else None for v in wanted]
+            found = self._found([k for k in indices if k is not None], self._solved(given))
+            return [
+                Decimal(float(v)) if k is None else found[k] for v, k in zip(wanted, indices, strict=True)
+            ]
+
+    def margins(self, roots: Sequence[Root], given: Mapping[int, Decimal]) -> list[Decimal]:
+        """The smaller margin of each branch over the size of its terms; what is zero is 0, and not a number
+        where nothing says where its place is."""
+        nodes = [self.record.at(n) for root in roots for margin in root.margins for n in margin]
+        flat = iter(self.values(nodes, given))
+        with localcontext(CONTEXT):
+            pairs = [[_over(next(flat), next(flat)) for _ in range(2)] for _ in roots]
+        return [Decimal("NaN") if one.is_nan() or two.is_nan() else min(one, two) for one, two in pairs]
+
+    def states(self, given: Mapping[int, Decimal], nodes: Sequence[int]) -> list[Decimal]:
+        """Unknowns of the groups, solved. Raises Unreached where they have no solution."""
+        with localcontext(CONTEXT):
+            solved = self._solved(given)
+        return [solved[k] for k in nodes]
+
+    # --- straight on ------------------------------------------------------------------------------
+
+    def _found(self, wanted: Sequence[int], given: Mapping[int, Decimal]) -> Mapping[int, Decimal]:
+        key = tuple(wanted)
+        if key not in self.orders:
+            self.orders[key] = live(self.record, wanted, ())
+        values = dict(given)
+        nodes = self.record.nodes
+        for k in self.orders[key]:
+            if k not in values:
+                values[k] = self._value(k, values)
+        for k in wanted:
+            if not nodes[k].row:
+                values[k] = self._constant(k)
+        return values
+
+    def _constant(self, k: int) -> Decimal:
+        """A value that is the same in every row."""
+        stack = [k]
+        while stack:
+            n = stack[-1]
+            missing = [m for m in _operands(self.record.nodes[n]) if m not in self.still]
+            stack += missing
+            if not missing:
+                stack.pop()
+                if n not in self.still:
+                    self.still[n] = self.constants[n] if n in self.constants else self._value(n, self.still)
+        return self.still[k]
+
+    def _value(self, k: int, values: Mapping[int, Decimal]) -> Decimal:
+        node, nodes = self.record.nodes[k], self.record.nodes
+        a, b = (
+            Decimal(0) if op is None else values[op] if nodes[op].row else self._constant(op)
+            for op in (*_operands(node), None, None)[:2]
+        )
+        match node.op:
+            case Op.ADD:
+                return a + b
+            case Op.SUB:
+                return a - b
+            case Op.MUL:
+                return a * b
+            case Op.DIV:
+                return a / b if b else Decimal("NaN")
+            case Op.NEG:
+                return -a
+            case Op.SQRT:
+                return a.sqrt() if a > 0 else Decimal(0)
+            case Op.COS:
+                return cos_sin(a)[0]
+            case Op.SIN:
+                return cos_sin(a)[1]
+            case Op.ANGLE:
+                return angle(a, b)
+            case Op.NEAREST:
+                return a.to_integral_value()
+        raise KeyError(k)  # an input that is not given
+
+    # --- groups -----------------------------------------------------------------------------------
+
+    def _solved(self, given: Mapping[int, Decimal]) -> Values:
+        """The inputs with the groups' unknowns solved, from what they are in floats."""
+        values = dict(given)
+        groups = self.sheet.motion.groups if self.sheet.motion else ()
+        if not groups:
+            return values
+        if self.last is None or self.last[0] != given:
+            for group in groups:
+                values |= zip(group.solved, self._newton(group, values), strict=True)
+            self.last = (dict(given), values)
+        return self.last[1]
+
+    def _newton(self, group: NewtonGroup, given: Values) -> list[Decimal]:
+        """Newton's method to the last digit. Where two solutions have become one its steps halve the error,
+        and half of the digits are all that there is."""
+        q = [given[k] for k in group.solved]
+        units = [Decimal(1), Decimal(1), pi() / 180] * (len(q) // 3)
+        least, last = Decimal(10) ** (12 - DIGITS), Decimal(0)
+        wanted = [*group.residuals, *(v for row in group.derivatives for v in row)]
+        indices = [v.index for v in wanted if isinstance(v, Traced)]
+        for _ in range(ROUNDS):
+            found = self._found(indices, {**given, **dict(zip(group.guesses, q, strict=True))})
+            flat = [found[v.index] if isinstance(v, Traced) else Decimal(float(v)) for v in wanted]
+            f, rest = flat[: len(group.residuals)], flat[len(group.residuals) :]
+            j = [rest[n * len(q) : (n + 1) * len(q)] for n in range(len(f))]
+            move = least_squares(j, f)
+            size = max(map(abs, move))
+            if size < least:
+                return q
+            if not size < 1:
+                break
+            if size < HALF and size > last / 3:
+                return [x.quantize(HALF) for x in q]
+            q = [x - m / unit for x, m, unit in zip(q, move, units, strict=True)]
+            last = size
+        raise Unreached
+
+
+def _operands(node: object) -> tuple[int, ...]:
+    op, a, b = node[0], node[1], node[2]  # type: ignore[index]
+    if op in (Op.INPUT, Op.CONST):
+        return ()
+    return (a, b) if op in (Op.ADD, Op.SUB, Op.MUL, Op.DIV, Op.ANGLE) else (a,)
+
+
+def _over(value: Decimal, size: Decimal) -> Decimal:
+    """A value as a fraction of its terms."""
+    return value / size if size else Decimal("NaN")
+
+
+def as_written(value: float) -> Decimal:
+    """The decimal by which a file would name a double."""
+    return Decimal(repr(float(value)))
+
+
+def decimal_of(number: Number) -> Decimal:
+    """A number of the case, as the file has it."""
+    return Decimal(number.digits) if number.factor == 1.0 else Decimal(number.value)
+
+
+# --- rows as scenes --------------------------------------------------------------------------------
+
+
+class RowScenes:
+    """Rows of a compiled sweep as cases: all points by coordinates, directions as they have turned."""
+
+    def __init__(self, sheet: Sheet) -> None:
+        self.sheet, self.exact = sheet, ExactRecord(sheet)
+        self.roots = live_roots(sheet)
+        self.scene, record = sheet.scene, sheet.record
+        self.points = dict(self.scene.points)
+        self.directions = {own.path: (c, s) for own, c, s in record.directions.values()}
+        self.numbers = {path: value for path, value in record.vary.items() if path.endswith("@")}
+
+    def refuse_apart(self, given: Mapping[int, Decimal]) -> None:
+        """Raise SceneError where the links do not reach one another, spare conditions are not met, or two
+        loci of a point have become one."""
+        sheet, exact = self.sheet, self.exact
+        try:
+            margins = exact.margins(self.roots, given)
+            margins += exact.values([sheet.record.at(k) for k in sheet.margins], given)
+            checks = [sheet.record.at(k) for k in sheet.motion.checks] if sheet.motion else []
+            off = exact.values(checks, given)
+        except Unreached:
+            raise SceneError(Status.CANNOT_ASSEMBLE, APART) from None
+        apart = any(m < -ZERO for m in margins if not m.is_nan())
+        if apart or any(abs(v) > AGREED for v in off if not v.is_nan()):
+            raise SceneError(Status.CANNOT_ASSEMBLE, APART)
+        if any(v.is_nan() for v in (*margins, *off, *exact.values(self._flat(), given))):
+            raise SceneError(Status.CHANGE_POINT, ANYWHERE)
+
+    def case(self, given: Mapping[int, Decimal], values: Mapping[str, Decimal]) -> Case:
+        """The case of a row: ``given`` has its inputs by node, ``values`` its varied numbers."""
+        ox, oy, scale = map(Decimal, self.scene.frame)
+        found = iter(self.exact.values(self._flat(), given))
+        points: dict[str, Coordinates | Centroid] = {}
+        with localcontext(CONTEXT):
+            for name in self.points:
+                x, y = (next(found).quantize(LEAST) / scale + o for o in (ox, oy))
+                points[name] = Coordinates(_exact(x, f"points.{name}.x"), _exact(y, f"points.{name}.y"))
+            turned = {path: angle(next(found), next(found)) for path in self.directions}
+        numbers = {path: _exact(v, path) for path, v in {**values, **turned}.items()}
+        numbers |= {path: _exact(next(found), path) for path in self.numbers}
+        return self._with(points, numbers)
+
+    def _flat(self) -> list[Scalar]:
+        pairs = (*self.points.values(), *self.directions.values())
+        return [*(v for pair in pairs for v in pair), *self.numbers.values()]
+
+    def _with(self, points: dict[str, Coordinates | Centroid], numbers: Mapping[str, Number]) -> Case:
+        case = with_numbers(self.scene.case, numbers)
+        motion = tuple(m._replace(angle=None) if m.point else m for m in case.motion)
+        carries = {
+            link: tuple(name for name in names if name in self.points) for link, names in case.carries.items()
+        }
+        case = replace(case, lengths=(), angles=(), near={}, motion=motion, expect=())
+        return replace(case, points=points, carries=carries)
+
+
+def _exact(value: Decimal, path: str) -> Number:
+    short = SHORT.plus(value)
+    return Number(float(short), 0.0, path, str(short))
+
+
+# --- functions ------------------------------------------------------------------------------------
+
+
+@lru_cache(maxsize=1)
+def pi() -> Decimal:
+    """Pi by Machin's formula."""
+    with localcontext(CONTEXT) as context:
+        context.prec += 10
+
+        def arctan_of_inverse(n: int) -> Decimal:
+            term = total = Decimal(1) / n
+            k = 1
+            while abs(term) > Decimal(10) ** -(DIGITS + 10):
+                term /= -n * n
+                k += 2
+                total += term / k
+            return total
+
+        return 4 * (4 * arctan_of_inverse(5) - arctan_of_inverse(239))
+
+
+@lru_cache(maxsize=64)
+def cos_sin(degrees: Decimal) -> tuple[Decimal, Decimal]:
+    """Cosine and sine of an angle in degrees, exact at multiples of 90."""
+    with localcontext(CONTEXT):
+        reduced = degrees % 360
+        quarter = int((reduced / 90).to_integral_value())
+        x = (reduced - 90 * quarter) * pi() / 180
+        x2, term, k = x * x, Decimal(1), 0
+        c, s = Decimal(0), Decimal(0)
+        while term and term.adjusted() > -DIGITS - 5:
+            c += term
+            k += 2
+            s += term / (k - 1)
+            term = -term * x2 / (k * (k - 1))
+        s *= x
+        return ((c, s), (-s, c), (-c, -s), (s, -c))[quarter % 4]
+
+
+def angle(x: Decimal, y: Decimal) -> Decimal:
+    """Direction of a vector in degrees, within half a turn."""
+    with localcontext(CONTEXT):
+        size = max(abs(x), abs(y))
+        if not size or not size.is_finite():
+            return Decimal("NaN") if size else Decimal(0)
+        x, y = x / size, y / size
+        found = Decimal(math.degrees(math.atan2(float(y), float(x))))
+        for quarter in (-180, -90, 0, 90, 180):
+            c, s = cos_sin(Decimal(quarter))
+            if y * c == x * s and x * c + y * s > 0:
+                return Decimal(quarter)
+        for _ in range(4):
+            c, s = cos_sin(found)
+            across, along = y * c - x * s, x * c + y * s
+            tangent = across / along
+            found += (tangent - tangent**3 / 3) * 180 / pi()
+        return found
+
+
+def least_squares(j: Sequence[Sequence[Decimal]], f: Sequence[Decimal]) -> list[Decimal]:
+    """Solution of a square system, or in least squares; raises Unreached where it is singular."""
+    count = len(j[0])
+    if len(j) != count:
+        turned = list(zip(*j, strict=True))
+        f = [sum((a * b for a, b in zip(row, f, strict=True)), Decimal(0)) for row in turned]
+        j = [[sum((a * b for a, b in zip(r, s, strict=True)), Decimal(0)) for s in turned] for r in turned]
+    rows = [[*row, right] for row, right in zip(j, f, strict=True)]
+    for k in range(count):
+        best = max(range(k, count), key=lambda n: abs(rows[n][k]))
+        rows[k], rows[best] = rows[best], rows[k]
+        pivot = rows[k][k]
+        if not pivot or not pivot.is_finite():
+            raise Unreached
+        for n in range(k + 1, count):
+            factor = rows[n][k] / pivot
+            if factor:
+                rows[n] = [a - factor * b for a, b in zip(rows[n], rows[k], strict=True)]
+    x: list[Decimal] = [Decimal(0)] * count
+    for k in reversed(range(count)):
+        known = sum((rows[k][n] * x[n] for n in range(k + 1, count)), Decimal(0))
+        x[k] = (rows[k][count] - known) / rows[k][k]
+    return x

@@ -1,0 +1,166 @@
+"""Doubtful rows: each decided in high precision, and solved as a scene of its own.
+
+Where something that is divided by, or whose root is taken, is small, doubles leave open whether the links
+reach one another, on which side of a change point the row stands, and what balances. The record in decimals
+says where the points are; the scene by those coordinates goes to `icsolve.solve`, whose status and value the
+row then has. Nothing here looks at another row.
+"""
+
+from __future__ import annotations
+
+from decimal import Decimal, localcontext
+
+import numpy as np
+
+from icsolve.case import Case
+from icsolve.errors import SceneError, Status
+from icsolve.numbers.record import Root
+from icsolve.sweep.exact import APART, CONTEXT, STEP, ZERO, RowScenes, Unreached, as_written
+from icsolve.sweep.parts import Part, Parts
+
+CLEAR = 2.0**-12
+"""A row farther from a change point than this part of the longest step is on the side that floats say."""
+
+
+AROUND = 2.0**-10
+"""States are interpolated from some that are this part of the longest step apart."""
+
+
+class Recheck:
+    """Rows of one part of a sweep, in high precision."""
+
+    def __init__(self, parts: Parts, part: Part) -> None:
+        self.parts, self.part = parts, part
+        self.sheet = part.runner.sheet
+        self.scenes: RowScenes = part.runner.cases
+        self.track = part.followed.track if part.followed else None
+        self.touches: dict[tuple[str, float], Decimal] = {}
+        self.last: tuple[int, dict[int, Decimal]] = (-1, {})
+
+    def given(self, row: int) -> dict[int, Decimal]:
+        """The inputs of a row (its number in the sweep) by node."""
+        if self.last[0] != row:
+            self.last = (row, self._given(row))
+        return self.last[1]
+
+    def _given(self, row: int) -> dict[int, Decimal]:
+        at = np.flatnonzero(self.part.rows == row)
+        floats, good = self.parts.given(self.part.some(at))
+        if not good.all():
+            raise SceneError(Status.CANNOT_ASSEMBLE, APART)
+        arrays = self.parts.arrays
+        varied = {k: as_written(arrays[n][row]) for n, k in self.sheet.inputs.items() if n in arrays}
+        given = {k: Decimal(float(np.ravel(v)[0])) for k, v in floats.items()} | varied
+        if self.track is not None:
+            (main,) = self.track.way.slope
+            given |= self._signs(as_written(arrays[main][row]))
+            given |= self._states(row, float(arrays[main][row]))
+        return given
+
+    def refuse_apart(self, row: int) -> None:
+        """Raise SceneError where the links do not reach one another."""
+        self.scenes.refuse_apart(self.given(row))
+
+    def case(self, row: int) -> Case:
+        """The row as a scene of its own, by its coordinates."""
+        given = self.given(row)
+        return self.scenes.case(given, {p: as_written(a[row]) for p, a in self.parts.columns.paths.items()})
+
+    def outputs(self, row: int) -> dict[tuple[str, str], list[float]]:
+        """All outputs, each rounded once; not a number where one is without a value."""
+        outputs = self.sheet.outputs
+        flat = self.scenes.exact.values([v for parts in outputs.values() for v in parts], self.given(row))
+        found = iter(flat)
+        return {key: [_rounded(next(found), float(part)) for part in parts] for key, parts in outputs.items()}
+
+    def _states(self, row: int, s: float) -> dict[int, Decimal]:
+        """The states of groups near a singular position, by the polynomial through states around it: the way
+        goes straight on there, where Newton's method alone might take the other one."""
+        track = self.track
+        if track is None or not track.groups or not track.bent(np.array([s]))[0]:
+            return {}
+        columns = [k for group, _ in track.groups for k in group.solved]
+        at, step = as_written(s), Decimal(AROUND * track.way.widest)
+        weights, total = (1, -6, 15, 15, -6, 1), Decimal(20)
+        places = [at + k * step for k in (-3, -2, -1, 1, 2, 3)]
+        try:
+            states = [self.scenes.exact.states(self._along(place, row), columns) for place in places]
+        except Unreached:
+            return {}
+        with localcontext(CONTEXT):
+            mixed = [
+                sum((w * x for w, x in zip(weights, xs, strict=True)), Decimal(0)) / total
+                for xs in zip(*states, strict=True)
+            ]
+        return dict(zip(columns, mixed, strict=True))
+
+    # --- sides of change points -------------------------------------------------------------------
+
+    def _signs(self, s: Decimal) -> dict[int, Decimal]:
+        """The signs of branches that change near a place of the way, by the exact places of the changes."""
+        assert self.track is not None
+        track, found = self.track, {}
+        for name, places in track.touches.places.items():
+            for place in places:
+                copy = self._copy(place, float(s))
+                clear = CLEAR * track.way.widest
+                if abs(float(s) - copy) >= clear or name not in self.sheet.inputs:
+                    continue
+                exact = self._place(name, copy)
+                side = np.array([copy + clear * (1.0 if s > exact else -1.0)])
+                flip = float(track.touches.flips(name, side, track.way)[0])
+                found[self.sheet.inputs[name]] = Decimal(track.start.signs[name] * flip)
+        return found
+
+    def _copy(self, place: float, s: float) -> float:
+        """A place, so many whole turns away that it is near to another."""
+        period = self.track.way.period if self.track else None
+        return place if period is None else place + period * round((s - place) / period)
+
+    def _place(self, name: str, near: float) -> Decimal:
+        """Where exactly a branch changes: its radicand is lowest there."""
+        if (name, near) not in self.touches:
+            motion = self.sheet.motion
+            root = next(r for r in self.scenes.roots if motion and motion.branches[r.node] == name)
+            self.touches[name, near] = self._lowest(root, near)
+        return self.touches[name, near]
+
+    def _lowest(self, root: Root, near: float) -> Decimal:
+        at, radicand = as_written(near), self.sheet.record.at(root.radicand)
+        with localcontext(CONTEXT):
+            for _ in range(12):
+                try:
+                    around = [self._along(at + k * STEP) for k in (-1, 0, 1)]
+                    low, here, high = (self.scenes.exact.values([radicand], given)[0] for given in around)
+                except Unreached:
+                    return as_written(near)
+                bend = (high - 2 * here + low) / STEP
+                if not bend > 0:
+                    return at
+                move = (low - high) / (2 * bend)
+                if abs(move) > Decimal("1e-3"):
+                    return as_written(near)
+                at += move
+                if abs(move) < Decimal("1e-50"):
+                    break
+        return at
+
+    def _along(self, s: Decimal, row: int | None = None) -> dict[int, Decimal]:
+        """All inputs at a place of the way, with the other numbers of a row (the first one)."""
+        assert self.track is not None
+        row, arrays, way = self.part.rows[0] if row is None else row, self.parts.arrays, self.track.way
+        floats, good = self.track.given(np.array([float(s)]))
+        if not good.all():
+            raise Unreached
+        given: dict[int, Decimal] = {k: Decimal(float(np.ravel(v)[0])) for k, v in floats.items()}
+        given |= {k: as_written(arrays[n][row]) for n, k in self.sheet.inputs.items() if n in arrays}
+        (main,) = way.slope
+        if main in self.sheet.inputs:
+            given[self.sheet.inputs[main]] = s
+        return given
+
+
+def _rounded(value: Decimal, usual: float) -> float:
+    """The nearest double; zero for what is nothing beside the value elsewhere."""
+    found = float(value)
+    return 0.0 if abs(found) < float(ZERO) * abs(usual) else found

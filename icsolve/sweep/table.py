@@ -1,0 +1,350 @@
+"""The rows of a sweep as arrays: filled by the record or scene by scene, read as a `Sweep`, written out."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import math
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from icsolve.answer import Answer
+from icsolve.case import Case, Coordinates
+from icsolve.case.names import link_order
+from icsolve.errors import SceneError, Status
+from icsolve.numbers.replay import Array
+from icsolve.numbers.tape import UNIT
+from icsolve.sweep.program import Asked
+from icsolve.sweep.runner import Key, Rows
+
+WORDS = (
+    Status.OK,
+    Status.CANNOT_ASSEMBLE,
+    Status.CHANGE_POINT,
+    Status.DEAD_CENTRE,
+    Status.NO_VALUE,
+    Status.ANY_VALUE,
+    Status.NEAR_SINGULAR,
+    Status.MOBILITY,
+    Status.STRUCTURE,
+    Status.UNSUPPORTED,
+    Status.INCONSISTENT,
+    Status.CONTRADICTORY,
+    Status.LOOSE,
+    Status.AMBIGUOUS,
+    Status.UNDERDETERMINED,
+    "holds",
+    Status.JAM,
+    Status.UNBALANCED,
+)
+"""The statuses of rows; ``holds``: with friction and no motion, the unknown holds over a range."""
+CODE = {word: n for n, word in enumerate(WORDS)}
+
+Codes = npt.NDArray[np.int8]
+
+
+Value = float | tuple[float, ...]
+OTHER = CODE["near-singular"]
+
+
+# --- a sweep as it is read ------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, eq=False)
+class Sweep:
+    """The rows of a sweep; n is their number. Arrays that were not wanted are not there.
+
+    Attributes
+    ----------
+    vary : the varied numbers by path, and the turnings of driven links by link, (n,)
+    answers : unknown loads by name, (n,) [case units]; not a number where the status is another than ok
+    error : bounds of the absolute rounding errors of the answers, (n,)
+    errors : the same by kind (``answers``, ``points``, ``centres``, ``rates``) and name, each number's own,
+        in the shape of its array; not a number where none is proven (with friction)
+    points : places, (n, 2) [case length]
+    centres : relative centres as homogeneous coordinates, (n, 3): (x, y, w) at (x/w, y/w), at infinity
+        toward (x, y) where w is zero; all zero where the two links have no relative motion
+    rates : angular velocities of the links, (n,) [rad/s, or scaled as in one scene]
+    touching : with profiles and where points were wanted, the places of the contacts by their two links
+        (``2-3``), (n, 2) [case length]; not a number where the status is another than ok
+    holds : with friction and no motion, the ranges in which unknown loads hold, (n, 2)
+    notes : sentences about the sweep
+    """
+
+    case: Case
+    vary: dict[str, Array]
+    answers: dict[str, Array] = field(default_factory=dict)
+    points: dict[str, Array] = field(default_factory=dict)
+    centres: dict[str, Array] = field(default_factory=dict)
+    rates: dict[str, Array] = field(default_factory=dict)
+    errors: dict[str, dict[str, Array]] = field(default_factory=dict)
+    holds: dict[str, Array] = field(default_factory=dict)
+    touching: dict[str, Array] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+    codes: Codes = field(default_factory=lambda: np.empty(0, np.int8))
+    _case_of: Callable[[int], Case] | None = None
+
+    def __len__(self) -> int:
+        return len(self.codes)
+
+    def __repr__(self) -> str:
+        """What was varied, and how the rows came out."""
+        return f"<Sweep {self.case.name}: {self.outcome}>"
+
+    @property
+    def outcome(self) -> str:
+        """What was varied, and how many rows came out how, in words."""
+        counts = Counter(str(word) for word in self.status)
+        rows = "1 row" if len(self) == 1 else f"{len(self)} rows"
+        varied = f" of {', '.join(self.vary)}" if self.vary else ""
+        return f"{rows}{varied}: " + (", ".join(f"{n} {word}" for word, n in counts.most_common()) or "none")
+
+    @cached_property
+    def status(self) -> npt.NDArray[np.str_]:
+        """The status of every row in words, (n,)."""
+        if not self.codes.any():
+            return np.full(len(self.codes), WORDS[0])
+        return np.array(WORDS)[self.codes]
+
+    def case_of(self, row: int) -> Case:
+        """The case of a row, as `icsolve.solve` takes it: its points by coordinates.
+
+        In a family of figures: the case as if written so. Raises ValueError where the links do not
+        assemble.
+        """
+        if self._case_of is None or self.status[row] == Status.CANNOT_ASSEMBLE:
+            raise ValueError(f"row {row} does not assemble")
+        return self._case_of(row)
+
+    @property
+    def error(self) -> dict[str, Array]:
+        """Bounds of the answers."""
+        return self.errors.get("answers", {})
+
+    @property
+    def kinds(self) -> dict[str, dict[str, Array]]:
+        """The arrays of each kind."""
+        return dict(zip(KINDS, (self.answers, self.points, self.centres, self.rates), strict=True))
+
+
+KINDS = ("answers", "points", "centres", "rates")
+
+
+def by_kind(arrays: Mapping[tuple[str, str], Array]) -> dict[str, dict[str, Array]]:
+    """Arrays by kind and then by name."""
+    kinds: dict[str, dict[str, Array]] = {kind: {} for kind in KINDS}
+    for (kind, name), array in arrays.items():
+        kinds[kind][name] = array
+    return kinds
+
+
+# --- a sweep as it is filled ----------------------------------------------------------------------
+
+
+class Table:
+    """Rows filled one by one."""
+
+    def __init__(self, rows: int, asked: Asked) -> None:
+        self.rows, self.asked = rows, asked
+        self.codes: Codes = np.zeros(rows, dtype=np.int8)
+        self.values: dict[Key, Array] = {}
+        self.errors: dict[Key, Array] = {}
+        self.holds: dict[str, Array] = {}
+
+    def put(self, kind: str, name: str, row: int, value: Value, error: Value | None = None) -> None:
+        """One value, and the bound of its error where one is proven."""
+        shape = (self.rows,) if isinstance(value, float) else (self.rows, len(value))
+        self._table(self.values, (kind, name), shape)[row] = value
+        self._table(self.errors, (kind, name), shape)[row] = np.nan if error is None else error
+
+    def _table(self, tables: dict[Key, Array], key: Key, shape: tuple[int, ...]) -> Array:
+        """The array of a kind and name; not a number where nothing was put."""
+        if key not in tables:
+            tables[key] = np.full(shape, np.nan)
+        return tables[key]
+
+    def refuse(self, row: int, error: SceneError) -> None:
+        """A row without an answer."""
+        self.codes[row] = CODE.get(error.status, OTHER)
+
+    def take(self, rows: Rows, part: Sweep) -> None:
+        """Rows that were swept together."""
+        self.codes[rows] = part.codes
+        for tables, kinds in ((self.values, part.kinds), (self.errors, part.errors)):
+            for kind, arrays in kinds.items():
+                for name, array in arrays.items():
+                    self._table(tables, (kind, name), (self.rows, *array.shape[1:]))[rows] = array
+
+    def some(self, rows: Rows | list[int]) -> Table:
+        """Some rows as a table of their own."""
+        part = Table(len(rows), self.asked)
+        part.codes = self.codes[rows]
+        part.values = {key: array[rows] for key, array in self.values.items()}
+        part.errors = {key: array[rows] for key, array in self.errors.items()}
+        part.holds = {name: array[rows] for name, array in self.holds.items()}
+        return part
+
+    def merge(self, rows: Rows | list[int], part: Table) -> None:
+        """Rows of a table of their own."""
+        self.codes[rows] = part.codes
+        for mine, theirs in ((self.values, part.values), (self.errors, part.errors)):
+            for key, array in theirs.items():
+                self._table(mine, key, (self.rows, *array.shape[1:]))[rows] = array
+        for name, array in part.holds.items():
+            self.holds.setdefault(name, np.full((self.rows, 2), np.nan))[rows] = array
+
+    def fill(self, row: int, answer: Answer, missing: bool = False) -> None:
+        """All that is asked of a solved row; or only the answers that it does not have yet."""
+        asked, case = self.asked, answer.case
+        for name, found in answer.answers.items() if asked.answers else ():
+            if missing and not np.isnan(self.values["answers", name][row]):
+                continue
+            value = float(found.value) if found.holds is None else np.nan
+            self.put("answers", name, row, value, found.error)
+            if found.holds is not None:
+                self.codes[row] = CODE["holds"]
+                self.holds.setdefault(name, np.full((self.rows, 2), np.nan))[row] = found.holds
+        if missing and not self.lacks_rates(row):
+            return
+        for name in asked.points if not missing else ():
+            if name in answer.points:
+                x, y = answer.points[name]
+                given = isinstance(case.points.get(name), Coordinates)
+                error = (abs(x) * UNIT, abs(y) * UNIT) if given else None
+                self.put("points", name, row, (x, y), error)
+        errors = answer.errors.get("rates", {})
+        for link, rate in (answer.rates or {}).items() if asked.rates else ():
+            if isinstance(rate, float):
+                self.put("rates", link, row, rate, errors.get(link, 0.0 if rate == 0.0 else None))
+        for pair in asked.centres if not missing else ():
+            triple = _triple(answer, pair)
+            if triple is not None:
+                first, second = sorted(pair, key=lambda link: link_order(case, link))
+                self.put("centres", f"{first}-{second}", row, triple, _centre_error(answer, pair))
+
+    def lacks_rates(self, row: int) -> bool:
+        """Whether a link of a row has no rate: what scales the others stands still there."""
+        rates = [array[row] for (kind, _), array in self.values.items() if kind == "rates"]
+        return self.asked.rates and bool(np.isnan(rates).any())
+
+    def sweep(
+        self,
+        case: Case,
+        vary: dict[str, Array],
+        error: bool,
+        notes: tuple[str, ...],
+        case_of: Callable[[int], Case],
+    ) -> Sweep:
+        """The table as a sweep."""
+        return Sweep(
+            case,
+            vary,
+            **by_kind(self.values),
+            errors=by_kind(self.errors) if error else {},
+            holds=self.holds,
+            notes=notes,
+            codes=self.codes,
+            _case_of=case_of,
+        )
+
+
+def _triple(answer: Answer, pair: tuple[str, str]) -> tuple[float, float, float] | None:
+    centre = answer.centres.get(pair)
+    if centre is None or centre.kind == "undetermined":
+        return None
+    if centre.kind == "at":
+        return (centre.place[0], centre.place[1], 1.0)
+    if centre.kind == "toward":
+        angle = np.radians(centre.place[0])
+        return (float(np.cos(angle)), float(np.sin(angle)), 0.0)
+    return (0.0, 0.0, 0.0)
+
+
+def _centre_error(answer: Answer, pair: tuple[str, str]) -> tuple[float, float, float] | None:
+    """Bounds of the coordinates of `_triple`, of which the weight is exact."""
+    centre = answer.centres[pair]
+    if centre.kind not in ("at", "toward"):
+        return (0.0, 0.0, 0.0)
+    if centre.error is None:
+        return None
+    error = centre.error if centre.kind == "at" else float(np.radians(centre.error)) + UNIT
+    return (error, error, 0.0)
+
+
+# --- a sweep as it is written ---------------------------------------------------------------------
+
+PART = 8192
+"""Rows that are written at once."""
+
+
+def columns(sweep: Sweep) -> dict[str, Array]:
+    """Every array of numbers of a sweep as columns of its table, by name, (n,) each."""
+    table: dict[str, Array] = dict(sweep.vary)
+    for kind, arrays in sweep.kinds.items():
+        bounds = sweep.errors.get(kind, {})
+        for name, array in arrays.items():
+            table |= _parted(kind, name, array)
+            if name in bounds:
+                table |= {f"error {n}": bound for n, bound in _parted(kind, name, bounds[name]).items()}
+    for name, array in sweep.holds.items():
+        table |= {f"{name} from": array[:, 0], f"{name} to": array[:, 1]}
+    return table
+
+
+def _parted(kind: str, name: str, array: Array) -> dict[str, Array]:
+    """The columns of one array."""
+    if kind == "points":
+        return {f"{name}.x": array[:, 0], f"{name}.y": array[:, 1]}
+    if kind == "centres":
+        return {f"I{name}.{axis}": array[:, k] for k, axis in enumerate("xyw")}
+    return {name if kind == "answers" else f"w{name}": array}
+
+
+def as_csv(sweep: Sweep) -> Iterator[bytes]:
+    """A header and a line a row; what is not a number stands empty beside its status."""
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow([*columns(sweep), "status"])
+    for part in _parts(sweep, lambda value: "" if math.isnan(value) else repr(value + 0.0)):
+        writer.writerows(zip(*part.values(), strict=True))
+        yield out.getvalue().encode("utf-8")
+        out.seek(0)
+        out.truncate()
+
+
+def as_jsonl(sweep: Sweep) -> Iterator[bytes]:
+    """An object a row; what is not a number is null."""
+    for part in _parts(sweep, lambda value: None if math.isnan(value) else value + 0.0):
+        rows = zip(*part.values(), strict=True)
+        yield "".join(json.dumps(dict(zip(part, row, strict=True))) + "\n" for row in rows).encode("utf-8")
+
+
+def as_npz(sweep: Sweep) -> Iterator[bytes]:
+    """The arrays of the sweep in one npz, under the names of the columns."""
+    out = io.BytesIO()
+    arrays: Mapping[str, Any] = {**columns(sweep), "status": sweep.status}
+    np.savez(out, **arrays)
+    yield out.getvalue()
+
+
+FORMATS: dict[str, Callable[[Sweep], Iterator[bytes]]] = {
+    ".csv": as_csv,
+    ".jsonl": as_jsonl,
+    ".npz": as_npz,
+}
+
+
+def _parts(sweep: Sweep, shown: Callable[[float], object]) -> Iterator[dict[str, list[Any]]]:
+    """The columns of so many rows after another, as lists; the status in words last."""
+    table = columns(sweep)
+    for start in range(0, len(sweep), PART):
+        rows = slice(start, start + PART)
+        part = {name: [shown(value) for value in column[rows].tolist()] for name, column in table.items()}
+        yield {**part, "status": [WORDS[code] for code in sweep.codes[rows].tolist()]}

@@ -1,0 +1,224 @@
+"""A row is a scene: beside limits, dead centres, change points and toggles, 1e-2 to 1e-13 degrees away, each row
+has the status and the value of its own position, whatever the other rows are.
+
+Truth is the closed form in sixty digits, on the decimals as written; where there is none, the record of the
+sweep in sixty digits.
+"""
+
+from __future__ import annotations
+
+from random import Random
+from typing import Any
+
+import numpy as np
+import pytest
+from mpmath import mp, mpf
+
+import full_turns
+import icsolve
+import transcribe
+from recorded import truths
+from test_sweep_status import FOUR_BAR, PARALLELOGRAM, SLIDER_CRANK
+
+mp.dps = 60
+WANT = ("answers", "status", "error", "points")
+OFFS = [sign * 10.0**-k for k in range(2, 14) for sign in (-1.0, 1.0)]
+FRAME = """icsolve: 1
+points: {{A: [0, 0], D: [{d}, 0]}}
+lengths: {{AB: {a}, BC: {b}, CD: {c}}}
+angles: {{{path}: {written}}}
+near: {{{point}: [{x}, {y}]}}
+joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}}, {{pin: [4, 1], at: D}}]
+loads: {{T14: {{torque: 10, link: 4}}, T12: {{torque: unknown, link: 2}}}}
+"""
+
+
+def turned(degrees: Any) -> Any:
+    """A unit vector as a complex number."""
+    return mp.expjpi(mpf(degrees) / 180)
+
+
+def meets(p: Any, q: Any, r: Any, s: Any, sign: int) -> Any:
+    """Where circles of radii r and s about p and q meet, to the left of pq or to its right; None apart."""
+    d = abs(q - p)
+    along = (r * r - s * s + d * d) / (2 * d)
+    left = r * r - along * along
+    return None if left < 0 else p + (q - p) / d * (along + mp.mpc(0, 1) * sign * mp.sqrt(left))
+
+
+def torque(a: Any, b: Any, d: Any, c: Any) -> Any:
+    """T12 against 10 on link 4: speeds of B and C along BC are equal."""
+    rod = c - b
+    w2, w4 = ((mp.conj(rod) * mp.mpc(0, 1) * arm).real for arm in (b - a, c - d))
+    return -10 * w2 / w4
+
+
+def checked(text: str, path: str, place: float, exact: Any, relative: float = 1e-6) -> icsolve.Sweep:
+    """The rows beside a place held against the exact answer of each (None: it does not assemble)."""
+    rows = np.array([place + off for off in OFFS])
+    sweep = icsolve.sweep(icsolve.load(text), {path: rows}, WANT)
+    for n, value in enumerate(rows):
+        truth = exact(mpf(repr(float(value))))
+        if truth is None:
+            assert sweep.status[n] == "cannot-assemble", (value, sweep.status[n])
+            continue
+        assert sweep.status[n] == "ok", (float(value) - place, sweep.status[n])
+        error, bound = abs(mpf(float(sweep.answers["T12"][n])) - truth), sweep.error["T12"][n]
+        assert error <= bound, (float(value) - place, float(error), bound)
+        assert bound <= relative * abs(truth)
+    return sweep
+
+
+# --- four-bars --------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_beside_the_limits_of_a_rocker_that_drives(seed: int) -> None:
+    """Crank and rod in line, stretched: B is lost like a root, the torque falls like one."""
+    rng = Random(seed)
+    d, a, c = rng.randint(300, 500), rng.randint(50, 120), rng.randint(150, 280)
+    b = d + rng.randint(-60, 20)
+    d, a, b, c = (mpf(x) / 100 for x in (d, a, b, c))
+    limit = 180 - mp.degrees(mp.acos((d * d + c * c - (a + b) ** 2) / (2 * d * c)))
+    written = mp.nint(limit + 7)
+    sign = rng.choice((-1, 1))
+
+    def at(degrees: Any) -> Any:
+        end = d + c * turned(degrees)
+        b_ = meets(mpf(0), end, a, b, sign)
+        return None if b_ is None else torque(0, b_, d, end)
+
+    start = meets(mpf(0), d + c * turned(written), a, b, sign)
+    text = FRAME.format(
+        a=a, b=b, c=c, d=d, path="DC", written=int(written), point="B", x=float(start.real), y=float(start.imag)
+    )
+    checked(text, "angles.DC", float(limit), at)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_beside_the_dead_centres_of_a_crank(seed: int) -> None:
+    """Rod and rocker in line, where the crank can go no further; and where the rocker stands still."""
+    rng = Random(seed)
+    d, a, b, c = (mpf(rng.randint(*r)) / 100 for r in ((300, 320), (150, 190), (200, 240), (100, 130)))
+    limit = mp.degrees(mp.acos((a * a + d * d - (b + c) ** 2) / (2 * a * d)))
+    written, sign = mp.nint(limit - 9), rng.choice((-1, 1))
+
+    def at(degrees: Any) -> Any:
+        pin = a * turned(degrees)
+        c_ = meets(pin, d, b, c, sign)
+        return None if c_ is None else torque(0, pin, d, c_)
+
+    start = meets(a * turned(written), d, b, c, sign)
+    text = FRAME.format(
+        a=a, b=b, c=c, d=d, path="AB", written=int(written), point="C", x=float(start.real), y=float(start.imag)
+    )
+    checked(text, "angles.AB", float(limit), at)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_beside_change_points_the_way_goes_straight_on(seed: int) -> None:
+    """All links in line where the crank lies along the frame: C goes through the line to its other side."""
+    rng = Random(seed)
+    a, d = rng.randint(5, 30), rng.randint(40, 60)
+    folded = rng.random() < 0.5
+    c = rng.randint(a + 5, d - 5)
+    b, place = (d + a - c, 180.0) if folded else (d - a + c, 0.0)
+    a, b, c, d = (mpf(x) / 10 for x in (a, b, c, d))
+    written, sign = place - 35, rng.choice((-1, 1))
+
+    def at(degrees: Any) -> Any:
+        pin = a * turned(degrees)
+        c_ = meets(pin, d, b, c, sign if degrees < place else -sign)
+        return torque(0, pin, d, c_)
+
+    start = meets(a * turned(written), d, b, c, sign)
+    text = FRAME.format(
+        a=a, b=b, c=c, d=d, path="AB", written=int(written), point="C", x=float(start.real), y=float(start.imag)
+    )
+    sweep = checked(text, "angles.AB", place, at, 1e-3)
+    assert any(f"change point at angles.AB = {place:.6g}" in note for note in sweep.notes)
+    there = icsolve.sweep(icsolve.load(text), {"angles.AB": [place]}, WANT)
+    assert there.status.tolist() == ["change-point"]
+    assert np.isnan(there.answers["T12"]).all()
+
+
+# --- slider-cranks ----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("offset", ["0", "0.1", "-7.3"])
+@pytest.mark.parametrize("unknown", ["P", "T"])
+def test_beside_the_dead_centres_of_a_slider_crank(offset: str, unknown: str) -> None:
+    """An unknown force that grows without bound, an unknown torque that goes through zero."""
+    text = SLIDER_CRANK.replace("P_", "unknown" if unknown == "P" else "2000")
+    text = text.replace("T_", "unknown" if unknown == "T" else "100")
+    text = text.replace("C: [unknown, 0]", f"C: [unknown, {offset}]").replace("[195, 0]", f"[195, {offset}]")
+    case, y = icsolve.load(text), mpf(offset)
+    for reach, turn in ((210, 0), (110, 180)):
+        place = float(mp.degrees(mp.asin(y / reach)) + turn)
+        rows = np.array([place + off for off in OFFS])
+        sweep = icsolve.sweep(case, {"angles.AB": rows}, WANT)
+        assert (sweep.status == "ok").all()
+        for n, value in enumerate(rows):
+            pin = 50 * turned(repr(float(value)))
+            rise = y - pin.imag
+            run = mp.sqrt(25600 - rise * rise)
+            speed = -pin.imag - rise / run * -pin.real  # of C along the guide at unit speed of the crank
+            truth = 100 / speed if unknown == "P" else 2000 * speed
+            error = abs(mpf(float(sweep.answers[unknown][n])) - truth)
+            assert error <= sweep.error[unknown][n], (float(value) - place, float(error))
+            assert sweep.error[unknown][n] <= 1e-6 * abs(truth) or unknown == "T"
+
+
+# --- every row by itself ----------------------------------------------------------------------------
+
+SINGULAR = [
+    ("limit", FOUR_BAR, "angles.DC", 95.73917047726678),
+    ("change point", PARALLELOGRAM, "angles.AB", 180.0),
+    ("dead centre", SLIDER_CRANK.replace("P_", "unknown").replace("T_", "100"), "angles.AB", 180.0),
+    ("toggle", FOUR_BAR.replace("{DC: 100}", "{AB: 20}").replace("B: [0.5", "C: [3.5"), "angles.AB", 180.0),
+]
+
+
+@pytest.mark.parametrize(("text", "path", "place"), [s[1:] for s in SINGULAR], ids=[s[0] for s in SINGULAR])
+def test_a_row_is_the_same_alone_in_a_long_sweep_and_in_another_order(
+    text: str, path: str, place: float
+) -> None:
+    case, rng = icsolve.load(text), np.random.default_rng(1)
+    rows = np.array([place + off for off in [*OFFS, 0.0]])
+    alone = [icsolve.sweep(case, {path: [row]}, WANT) for row in rows]
+    order = rng.permutation(len(rows))
+    mixed = icsolve.sweep(case, {path: rows[order]}, WANT)
+    long = icsolve.sweep(case, {path: np.concatenate([np.arange(0.0, 360.0, 0.7), rows])}, WANT)
+    for n, one in enumerate(alone):
+        there = int(np.flatnonzero(order == n)[0])
+        for other, k in ((mixed, there), (long, len(long) - len(rows) + n)):
+            assert other.status[k] == one.status[0], (rows[n] - place, other.status[k], one.status[0])
+            for kind, name in (("answers", "T12"), ("points", "C")):
+                if name in one.kinds[kind]:
+                    both = np.array([other.kinds[kind][name][k], one.kinds[kind][name][0]])
+                    assert np.array_equal(both[0], both[1], equal_nan=True), (rows[n] - place, both)
+
+
+@full_turns.EVERY
+def test_beside_whatever_is_singular_on_a_full_turn(
+    name: str, scene: transcribe.Scene, link: str, period: float
+) -> None:
+    """Where the answer of a mechanism of all kinds of joints vanishes or has its pole: rows beside the place
+    have their bounds."""
+    case = icsolve.load(transcribe.text(scene))
+    coarse = icsolve.sweep(case, drive={link: np.linspace(0.3, period, 361)}, want=WANT)
+    answer = coarse.answers["U"]
+    changes = np.flatnonzero(answer[:-1] * answer[1:] < 0.0)
+    for k in changes[:2]:
+        low, high = coarse.vary[link][k], coarse.vary[link][k + 1]
+        for _ in range(4):
+            cut = np.linspace(low, high, 65)
+            found = np.sign(icsolve.sweep(case, drive={link: cut}).answers["U"])
+            n = int(np.flatnonzero(found[:-1] * found[1:] <= 0.0)[0])
+            low, high = cut[n], cut[n + 1]
+        rows = np.array([low + off for off in OFFS])
+        sweep = icsolve.sweep(case, drive={link: rows}, want=WANT)
+        assert (sweep.status == "ok").all()
+        for n in range(0, len(rows), 3):
+            (true,) = truths(sweep, n)["answers", "U"]
+            assert abs(true - mpf(float(sweep.answers["U"][n]))) <= sweep.error["U"][n], rows[n] - low
