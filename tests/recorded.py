@@ -101,7 +101,7 @@ class InSixtyDigits:
 
 
 def truths(sweep: icsolve.Sweep, row: int) -> dict[tuple[str, str], list[Any]]:
-    """All of a row in sixty digits, by kind and name, on the decimals of the case and of the numbers varied."""
+    """All of a row in sixty digits, by kind and name, on the decimals of the case and of what varies."""
     work = sweep._case_of.__self__  # type: ignore[union-attr]
     part = next(p for p in work.done if row in p.rows)
     one = part.some(np.flatnonzero(part.rows == row))

@@ -1,5 +1,5 @@
-"""A row is a scene: beside limits, dead centres, change points and toggles, 1e-2 to 1e-13 degrees away, each row
-has the status and the value of its own position, whatever the other rows are.
+"""A row is a scene: beside limits, dead centres, change points and toggles, 1e-2 to 1e-13 degrees away, each
+row has the status and the value of its own position, whatever the other rows are.
 
 Truth is the closed form in sixty digits, on the decimals as written; where there is none, the record of the
 sweep in sixty digits.
@@ -31,6 +31,12 @@ near: {{{point}: [{x}, {y}]}}
 joints: [{{pin: [1, 2], at: A}}, {{pin: [2, 3], at: B}}, {{pin: [3, 4], at: C}}, {{pin: [4, 1], at: D}}]
 loads: {{T14: {{torque: 10, link: 4}}, T12: {{torque: unknown, link: 2}}}}
 """
+
+
+def written_as(a: Any, b: Any, c: Any, d: Any, path: str, written: int, point: str, near: Any) -> str:
+    """A four-bar posed by an angle, with a point near a place."""
+    at = {"x": float(near.real), "y": float(near.imag)}
+    return FRAME.format(a=a, b=b, c=c, d=d, path=path, written=written, point=point, **at)
 
 
 def turned(degrees: Any) -> Any:
@@ -89,9 +95,7 @@ def test_beside_the_limits_of_a_rocker_that_drives(seed: int) -> None:
         return None if b_ is None else torque(0, b_, d, end)
 
     start = meets(mpf(0), d + c * turned(written), a, b, sign)
-    text = FRAME.format(
-        a=a, b=b, c=c, d=d, path="DC", written=int(written), point="B", x=float(start.real), y=float(start.imag)
-    )
+    text = written_as(a, b, c, d, "DC", int(written), "B", start)
     checked(text, "angles.DC", float(limit), at)
 
 
@@ -109,9 +113,7 @@ def test_beside_the_dead_centres_of_a_crank(seed: int) -> None:
         return None if c_ is None else torque(0, pin, d, c_)
 
     start = meets(a * turned(written), d, b, c, sign)
-    text = FRAME.format(
-        a=a, b=b, c=c, d=d, path="AB", written=int(written), point="C", x=float(start.real), y=float(start.imag)
-    )
+    text = written_as(a, b, c, d, "AB", int(written), "C", start)
     checked(text, "angles.AB", float(limit), at)
 
 
@@ -132,9 +134,7 @@ def test_beside_change_points_the_way_goes_straight_on(seed: int) -> None:
         return torque(0, pin, d, c_)
 
     start = meets(a * turned(written), d, b, c, sign)
-    text = FRAME.format(
-        a=a, b=b, c=c, d=d, path="AB", written=int(written), point="C", x=float(start.real), y=float(start.imag)
-    )
+    text = written_as(a, b, c, d, "AB", int(written), "C", start)
     sweep = checked(text, "angles.AB", place, at, 1e-3)
     assert any(f"change point at angles.AB = {place:.6g}" in note for note in sweep.notes)
     there = icsolve.sweep(icsolve.load(text), {"angles.AB": [place]}, WANT)

@@ -148,7 +148,7 @@ def test_where_the_known_load_does_no_work_the_answer_is_zero() -> None:
 
 
 def test_close_to_a_dead_centre_the_force_grows_and_keeps_its_digits() -> None:
-    """Unknown force 10^-k degrees beside the dead centre: as large as the nearness makes it, to the last row."""
+    """Unknown force 10^-k degrees beside the dead centre: as large as the nearness makes it, to the end."""
     text = (
         SLIDER_CRANK.replace("P_", "unknown")
         .replace("T_", "100")

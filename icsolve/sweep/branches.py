@@ -161,7 +161,7 @@ def grid_of(ends: Iterable[float], way: Way) -> Array:
     step, ends = way.widest / CELLS, [way.start, *ends]
     step *= max(1, math.ceil((max(ends) - min(ends)) / step / MOST_CELLS))
     low, high = (math.floor((end - way.start) / step) for end in (min(ends), max(ends)))
-    return way.start + step * np.arange(low - 2, high + 4)
+    return np.asarray(way.start + step * np.arange(low - 2, high + 4), dtype=np.float64)
 
 
 def _refuse_long(sheet: Sheet, way: Way, ends: Sequence[float], rows: int) -> None:
