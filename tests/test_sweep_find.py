@@ -2,12 +2,42 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+from random import Random
+
 import numpy as np
 import pytest
+from mpmath import mp, mpf
 
 import icsolve
 from icsolve.sweep.finding import Query, find
 from test_sweep_status import FOUR_BAR, PARALLELOGRAM, SLIDER_CRANK
+
+mp.dps = 60
+CASES = Path(__file__).parent.parent / "cases"
+PRESS = """icsolve: 1
+units: {length: in, force: lbf}
+points: {A: [0, 0], D: [4, 0]}
+lengths: {AB: 1, BC: 3.5, CD: 2.5, DE: 1.5}
+angles: {AB: 60, CDE: 0}
+near: {C: [3.5, 2.4]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {pin: [4, 1], at: D}]
+loads: {P: {force: 100, link: 4, at: E, angle: 180}, T12: {torque: unknown, link: 2}}
+"""
+YOKE = """icsolve: 1
+points: {A: [0, 0], B: [0.3, 0.4], C: [0.3, 1]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {slot: [2, 3], at: B, along: 90}
+  - {slide: [3, 1], at: C, along: 0}
+loads: {P: {force: 8, link: 3, at: C, angle: 0}, T: {torque: unknown, link: 2}}
+"""
+PEAKS = [(335.0, 379.0, 1.0, 335.45462335342813), (60.0, 105.0, 5.0, 103.43328155257909)]
+NOT_DEAD = [
+    ("steelyard", "beam", np.array([-180.0, 180.0])),
+    ("roberval_balance", "2", np.array([-180.0, 180.0])),
+    ("double_butterfly", "2", np.array([-20.1, -19.9])),
+]
 
 
 def found(text: str, path: str, values: np.ndarray, query: Query) -> list[tuple[str, float, float | None]]:
@@ -90,6 +120,77 @@ def test_along_a_load_or_a_length() -> None:
     assert [answer for _, _, answer in spots] == pytest.approx([-1e5], rel=1e-14)
     rods = found(UNKNOWN_TORQUE, "lengths.BC", np.linspace(100.0, 400.0, 11), Query("value", "T", -8e4))
     assert [answer for _, _, answer in rods] == pytest.approx([-8e4], rel=1e-12)
+
+
+# --- nothing missed, nothing invented ---------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("first", "last", "step", "peak"), PEAKS)
+def test_a_peak_in_the_first_or_the_last_interval(
+    first: float, last: float, step: float, peak: float
+) -> None:
+    spots = find(icsolve.load(PRESS), {"angles.AB": np.arange(first, last + step, step)}, Query("max"))
+    assert [spot.at for spot in spots] == [peak]
+
+
+@pytest.mark.parametrize("rows", [[0.0, 360.0], np.arange(0.0, 361.0, 1.0), [0.0, 100.0, 101.0, 360.0]])
+def test_what_is_found_does_not_depend_on_the_rows_between(rows: list[float]) -> None:
+    spots = find(icsolve.load(PRESS), {"angles.AB": rows}, Query("max"))
+    assert [spot.at for spot in spots] == [103.43328155257909, 335.45462335342813]
+    assert spots.notes == ()
+
+
+@pytest.mark.parametrize("below", [1e-3, 1e-6, 1e-9, 1e-12])
+def test_a_value_just_below_a_peak_is_taken_twice(below: float) -> None:
+    """As far from the peak as the root of what is below it; just above, nowhere."""
+    case, rows = icsolve.load(PRESS), {"angles.AB": [200.0, 360.0]}
+    (peak,) = find(case, rows, Query("max"))
+    assert peak.answer is not None
+    pair = find(case, rows, Query("value", "T12", peak.answer * (1.0 - below)))
+    assert len(pair) == 2
+    assert pair[0].at < peak.at < pair[1].at
+    wide = find(case, rows, Query("value", "T12", peak.answer * (1.0 - 1e-4)))
+    ratio = (pair[1].at - pair[0].at) / (wide[1].at - wide[0].at)
+    assert ratio == pytest.approx(np.sqrt(below / 1e-4), rel=0.05)
+    assert find(case, rows, Query("value", "T12", peak.answer * (1.0 + below))) == []
+
+
+def test_a_value_that_is_only_touched() -> None:
+    """The torque of a Scotch yoke is P r sin(angle): 4 is its peak, taken once, and -4 the other."""
+    written = np.degrees(np.arctan2(0.4, 0.3))
+    for value, quarter in ((4.0, 90.0), (-4.0, 270.0)):
+        spots = find(icsolve.load(YOKE), None, Query("value", "T", value), drive={"2": [0.0, 359.0]})
+        assert [spot.at for spot in spots] == pytest.approx([quarter - written], rel=1e-14)
+
+
+@pytest.mark.parametrize(("name", "link", "rows"), NOT_DEAD)
+def test_no_dead_centre_where_the_scene_has_none(name: str, link: str, rows: np.ndarray) -> None:
+    """A steelyard upright balances whatever hangs on it, and so does a Roberval balance; where a group of
+    links is singular and the answer goes on, nothing locks."""
+    case = icsolve.load(str(next(CASES.rglob(f"{name}.yaml"))))
+    assert [spot for spot in find(case, None, Query("dead"), drive={link: rows}) if spot.kind == "dead"] == []
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_places_to_the_last_digit(seed: int) -> None:
+    """Dead centres of random offset slider-cranks and limits of rockers, by closed forms in sixty digits."""
+    rng = Random(seed)
+    r, rod, e = (rng.randint(*span) for span in ((300, 600), (900, 2000), (-200, 200)))
+    text = UNKNOWN_FORCE.replace("AB: 50", f"AB: {r / 10}").replace("BC: 160", f"BC: {rod / 10}")
+    text = text.replace("[unknown, 7]", f"[unknown, {e / 10}]").replace("[195, 0]", f"[{rod / 10}, 0]")
+    stretched, folded = mp.asin(mpf(e) / (rod + r)), mp.pi + mp.asin(mpf(e) / (rod - r))
+    exact = sorted(float(mp.degrees(x) % 360) for x in (stretched, folded))
+    spots = find(icsolve.load(text), {"angles.AB": [0.0, 360.0]}, Query("dead"))
+    assert [spot.at for spot in spots] == exact
+    assert all(0.0 < spot.error <= 2.0**-52 * spot.at for spot in spots)
+    d, a, c = (mpf(rng.randint(*span)) / 100 for span in ((350, 450), (60, 120), (200, 280)))
+    b = d - mpf(rng.randint(20, 60)) / 100
+    text = FOUR_BAR.replace("D: [4, 0]", f"D: [{d}, 0]").replace("DC: 100", "DC: 110")
+    text = text.replace("{AB: 1, BC: 3.5, CD: 2.5}", f"{{AB: {a}, BC: {b}, CD: {c}}}")
+    ends = [180 - mp.degrees(mp.acos((d * d + c * c - q * q) / (2 * d * c))) for q in (a + b, b - a)]
+    spots = find(icsolve.load(text), {"angles.DC": [60.0, 180.0]}, Query("dead"))
+    limits = [spot.at for spot in spots if spot.kind == "limit"]
+    assert limits == sorted(float(end) for end in ends if 60 < end < 180)
 
 
 def test_what_cannot_be_looked_for() -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from icsolve.errors import Status
@@ -11,7 +10,7 @@ from icsolve.errors import Status
 if TYPE_CHECKING:
     from icsolve.case import Case
     from icsolve.errors import SceneError
-    from icsolve.sweep.finding import Query, Spot
+    from icsolve.sweep.finding import Query, Spots
 
 SCHEMA = "icsolve/find/1"
 WORDS = ("dead", "max")
@@ -87,7 +86,7 @@ def _unit(case: Case, name: str) -> str | None:
     return next((unit_of(load, case) for load in case.loads if load.name == name), None)
 
 
-def as_text(case: Case, along: str, query: Query, spots: Sequence[Spot], digits: int) -> str:
+def as_text(case: Case, along: str, query: Query, spots: Spots, digits: int) -> str:
     """A line for each position; a sentence where there is none."""
     unit = _unit(case, query.load)
 
@@ -108,7 +107,7 @@ def _plain(value: float) -> str:
     return repr(value + 0.0).removesuffix(".0")
 
 
-def as_json(case: Case, along: str, query: Query, spots: Sequence[Spot]) -> str:
+def as_json(case: Case, along: str, query: Query, spots: Spots) -> str:
     """One object on one line."""
     what = f"{query.load}={_plain(query.value)}" if query.kind == "value" else query.kind
     unit = _unit(case, query.load)
@@ -116,6 +115,7 @@ def as_json(case: Case, along: str, query: Query, spots: Sequence[Spot]) -> str:
         {
             "kind": KINDS[spot.kind],
             "at": {along: spot.at + 0.0},
+            "error": {along: spot.error},
             "answers": {}
             if spot.answer is None
             else {query.load: {"value": spot.answer + 0.0, "unit": unit}},
@@ -123,6 +123,8 @@ def as_json(case: Case, along: str, query: Query, spots: Sequence[Spot]) -> str:
         for spot in spots
     ]
     entry = {"schema": SCHEMA, "case": case.name, "status": Status.OK, "find": what, "found": found}
+    if spots.notes:
+        entry["notes"] = list(spots.notes)
     return json.dumps(entry, allow_nan=False) + "\n"
 
 

@@ -170,6 +170,8 @@ def _find(read: Case, path: str, asked: Asked) -> int:
         text = as_json(read, along, query, spots)
     else:
         text = as_text(read, along, query, spots, asked.digits)
+        for note in spots.notes:
+            complain(f"{path}: {note}")
     return _written(text, asked.output, asked)
 
 

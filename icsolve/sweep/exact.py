@@ -17,8 +17,8 @@ from icsolve.assembly.driven.groups import NewtonGroup
 from icsolve.case import Case, Centroid, Coordinates, Number
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
-from icsolve.numbers.record import Op, Root, Traced
-from icsolve.numbers.replay import live
+from icsolve.numbers.record import Node, Op, Root, Traced, operands
+from icsolve.numbers.replay import BINARY, live
 from icsolve.sweep.branches import live_roots
 from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.sweep.program import Sheet
@@ -43,6 +43,8 @@ ANYWHERE = "change point: two links have come to lie so that a point of them may
 CONTEXT = Context(prec=DIGITS, Emin=-999_999, Emax=999_999, traps=[InvalidOperation, DivisionByZero])
 
 Values = dict[int, Decimal]
+Step = tuple[int, Op, int, int]
+"""A node, its operation and what it is made of."""
 
 
 class Unreached(ArithmeticError):
@@ -55,7 +57,7 @@ class ExactRecord:
     def __init__(self, sheet: Sheet) -> None:
         self.sheet, self.record = sheet, sheet.record
         self.still: Values = {}
-        self.orders: dict[tuple[int, ...], list[int]] = {}
+        self.orders: dict[tuple[int, ...], tuple[list[Step], Values]] = {}
         self.constants = self._decimals()
         self.last: tuple[Values, Values] | None = None
 
@@ -95,17 +97,18 @@ class ExactRecord:
     # --- straight on ------------------------------------------------------------------------------
 
     def _found(self, wanted: Sequence[int], given: Mapping[int, Decimal]) -> Mapping[int, Decimal]:
-        key = tuple(wanted)
+        key, nodes = tuple(wanted), self.record.nodes
         if key not in self.orders:
-            self.orders[key] = live(self.record, wanted, ())
-        values = dict(given)
-        nodes = self.record.nodes
-        for k in self.orders[key]:
+            order = [k for k in live(self.record, wanted, ()) if nodes[k].op != Op.INPUT]
+            steps = [(k, nodes[k].op, *_pair(nodes[k])) for k in order]
+            needed = {n for *_, a, b in steps for n in (a, b)} | set(wanted)
+            still = {k: self._constant(k) for k in needed if not nodes[k].row}
+            self.orders[key] = (steps, still)
+        steps, still = self.orders[key]
+        values = {**still, **given}
+        for k, op, a, b in steps:
             if k not in values:
-                values[k] = self._value(k, values)
-        for k in wanted:
-            if not nodes[k].row:
-                values[k] = self._constant(k)
+                values[k] = _result(op, values[a], values[b])
         return values
 
     def _constant(self, k: int) -> Decimal:
@@ -113,42 +116,24 @@ class ExactRecord:
         stack = [k]
         while stack:
             n = stack[-1]
-            missing = [m for m in _operands(self.record.nodes[n]) if m not in self.still]
+            missing = [m for m in operands(self.record, n) if m not in self.still]
             stack += missing
             if not missing:
                 stack.pop()
                 if n not in self.still:
-                    self.still[n] = self.constants[n] if n in self.constants else self._value(n, self.still)
+                    given = self.record.nodes[n].op == Op.CONST
+                    self.still[n] = self._written(n) if given else self._still(n)
         return self.still[k]
 
-    def _value(self, k: int, values: Mapping[int, Decimal]) -> Decimal:
-        node, nodes = self.record.nodes[k], self.record.nodes
-        a, b = (
-            Decimal(0) if op is None else values[op] if nodes[op].row else self._constant(op)
-            for op in (*_operands(node), None, None)[:2]
-        )
-        match node.op:
-            case Op.ADD:
-                return a + b
-            case Op.SUB:
-                return a - b
-            case Op.MUL:
-                return a * b
-            case Op.DIV:
-                return a / b if b else Decimal("NaN")
-            case Op.NEG:
-                return -a
-            case Op.SQRT:
-                return a.sqrt() if a > 0 else Decimal(0)
-            case Op.COS:
-                return cos_sin(a)[0]
-            case Op.SIN:
-                return cos_sin(a)[1]
-            case Op.ANGLE:
-                return angle(a, b)
-            case Op.NEAREST:
-                return a.to_integral_value()
-        raise KeyError(k)  # an input that is not given
+    def _still(self, k: int) -> Decimal:
+        a, b = _pair(self.record.nodes[k])
+        return _result(self.record.nodes[k].op, self.still[a], self.still[b])
+
+    def _written(self, k: int) -> Decimal:
+        """A constant of the record, which may have grown."""
+        if k not in self.constants:
+            self.constants = self._decimals()
+        return self.constants[k]
 
     # --- groups -----------------------------------------------------------------------------------
 
@@ -190,11 +175,31 @@ class ExactRecord:
         raise Unreached
 
 
-def _operands(node: object) -> tuple[int, ...]:
-    op, a, b = node[0], node[1], node[2]  # type: ignore[index]
-    if op in (Op.INPUT, Op.CONST):
-        return ()
-    return (a, b) if op in (Op.ADD, Op.SUB, Op.MUL, Op.DIV, Op.ANGLE) else (a,)
+def _result(op: Op, a: Decimal, b: Decimal) -> Decimal:
+    """An operation."""
+    match op:
+        case Op.MUL:
+            return a * b
+        case Op.ADD:
+            return a + b
+        case Op.SUB:
+            return a - b
+        case Op.DIV:
+            return a / b if b else Decimal("NaN")
+        case Op.NEG:
+            return -a
+        case Op.SQRT:
+            return a.sqrt() if a > 0 else Decimal(0)
+        case Op.ANGLE:
+            return angle(a, b)
+        case Op.NEAREST:
+            return a.to_integral_value()
+    return cos_sin(a)[0 if op == Op.COS else 1]
+
+
+def _pair(node: Node) -> tuple[int, int]:
+    """What a node is made of; twice, where that is one."""
+    return (node.a, node.b) if node.op in BINARY or node.op == Op.ANGLE else (node.a, node.a)
 
 
 def _over(value: Decimal, size: Decimal) -> Decimal:

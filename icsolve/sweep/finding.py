@@ -1,15 +1,18 @@
-"""Positions in a sweep: where it locks, where the answer peaks, where it takes a value, to full precision.
+"""Positions in a sweep: where it locks, where the answer peaks, where it takes a value, to the last digit.
 
 An answer is a quotient of two powers, per unit of the unknown and of the known loads. Its poles are the
-zeros of the one (the unknown does no work: a dead centre), its own zeros those of the other, so that each
-is a change of sign between rows, and is closed in from there.
+zeros of the one (the unknown does no work: a dead centre), its own zeros those of the other. Zeros are
+isolated over whole cells of the range by bounds of the function and its derivatives, so that none is missed
+and none invented, touching ones and close pairs too; each is then closed in on the record in decimals.
+Groups of links that Newton's method places have no such bounds: there the range is searched at many places,
+and a note says so.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterator, Mapping
-from decimal import Decimal
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from decimal import Decimal, localcontext
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -18,30 +21,42 @@ import numpy.typing as npt
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
-from icsolve.numbers.backward import Backward
+from icsolve.numbers.jets import Ball, Cells, Jet
 from icsolve.numbers.record import Op, Record, Traced
-from icsolve.numbers.replay import Array, Code
+from icsolve.numbers.replay import Array
+from icsolve.numbers.tape import UNIT
 from icsolve.solve import solve
 from icsolve.solve.refusals import rubs
 from icsolve.sweep.ask import AskError, columns_of
-from icsolve.sweep.exact import as_written
-from icsolve.sweep.parts import Part
+from icsolve.sweep.exact import CONTEXT, STEP, Unreached, as_written
+from icsolve.sweep.parts import Part, Parts
 from icsolve.sweep.program import Asked
+from icsolve.sweep.recheck import Recheck
+from icsolve.sweep.runner import terms_of
 from icsolve.sweep.start import start_of
-from icsolve.sweep.work import Work
 
-SECTIONS = 64
-ROUNDS = 12
-"""A bracket is cut in so many parts, so many times: to the last digit."""
+CELLS = 256
+"""Cells at first."""
+MOST_CELLS = 60_000
+"""More cells than these are not looked at: what is left is said."""
+NARROW = 2.0**-32
+"""Cells that are this part of the range wide are at an end of it, or at a change point."""
+PLACES = 2048
+"""Places at which groups are searched."""
+NOTHING = Decimal("1e-35")
+"""Below this fraction of its size elsewhere a value is zero."""
+CLOSED = Decimal("1e-45")
+"""Zeros are closed in to this."""
 
 
 class Spot(NamedTuple):
-    """A position that was found: the varied number there, what it is (``dead``, ``limit``, ``change-point``,
-    ``max``, ``value``), and the answer (None where there is none)."""
+    """A position that was found: the varied number there with the bound of its error, what it is (``dead``,
+    ``limit``, ``change-point``, ``max``, ``value``), and the answer (None where there is none)."""
 
     at: float
     kind: str
     answer: float | None
+    error: float = 0.0
 
 
 class Query(NamedTuple):
@@ -52,18 +67,24 @@ class Query(NamedTuple):
     value: float = 0.0
 
 
+class Spots(list[Spot]):
+    """Positions in order; ``notes`` say what was searched where nothing shows that none is missing."""
+
+    notes: tuple[str, ...] = ()
+
+
 def find(
     case: Case,
     vary: Mapping[str, npt.ArrayLike] | None,
     query: Query,
     *,
     drive: Mapping[str, npt.ArrayLike] | None = None,
-) -> list[Spot]:
-    """The positions in a sweep along one number, in order.
+) -> Spots:
+    """The positions in a sweep along one number, in order: all that lie from its first to its last value.
 
     Parameters
     ----------
-    case, vary, drive : as for `icsolve.sweep`; the values are the rows between which is looked
+    case, vary, drive : as for `icsolve.sweep`
     query : what to look for
 
     Raises
@@ -85,23 +106,34 @@ def find(
     start = start_of(case, columns, Asked())
     if start.one_by_one or rubs(case):
         raise SceneError(Status.UNSUPPORTED, why)
-    work = Work(start, columns, False)
-    work.run()
-    spots = (spot for part in work.done for spot in _Search(work, part, names[0], query).spots())
-    return sorted(spots, key=lambda spot: (spot.at, spot.kind))
+    spots = Spots()
+    if start.sheet().refusal is None:
+        parts = Parts(start, columns)
+        with localcontext(CONTEXT):
+            search = _Search(parts, parts.whole(), names[0], query)
+            spots.extend(sorted(search.spots(), key=lambda spot: (spot.at, spot.kind)))
+        spots.notes = tuple(search.notes)
+    return spots
 
 
 class _Search:
-    """Positions in one part of a sweep."""
+    """Positions in a sweep."""
 
-    def __init__(self, work: Work, part: Part, name: str, query: Query) -> None:
-        self.work, self.part, self.query, self.name = work, part, query, name
+    def __init__(self, parts: Parts, part: Part, name: str, query: Query) -> None:
+        self.part, self.query, self.name = part, query, name
+        self.along = Recheck(parts, part)
         self.sheet = part.runner.sheet
         self.record = self.sheet.record
-        self.input = self.sheet.inputs[name]
-        order = np.argsort(work.columns.arrays[name][part.rows], kind="stable")
-        self.places, first = np.unique(work.columns.arrays[name][part.rows][order], return_index=True)
-        self.codes = work.codes[part.rows][order][first]
+        self.exact = self.along.scenes.exact
+        self.roots = self.along.scenes.roots
+        values = parts.arrays[name][part.rows]
+        self.ends = (float(values.min()), float(values.max()))
+        self.paths = {path: as_written(a[part.rows[0]]) for path, a in parts.columns.paths.items()}
+        self.notes: dict[str, None] = {}
+        self.touches = sorted({s for s in self.along.touching(name) if self._inside(s)})
+
+    def _inside(self, s: Decimal) -> bool:
+        return as_written(self.ends[0]) <= s <= as_written(self.ends[1])
 
     def spots(self) -> Iterator[Spot]:
         """All positions of the kind that is asked."""
@@ -115,72 +147,9 @@ class _Search:
         if self.query.kind == "value":
             yield from self._values(answer, load)
         elif self.query.kind == "max":
-            yield from self._peaks(answer, load)
+            yield from (self._spot(s, "max", load) for s in self._peaks(answer))
         else:
             yield from self._dead(answer, load)
-
-    # --- values on the way ------------------------------------------------------------------------
-
-    def given(self, at: Array) -> dict[int, Array]:
-        """The inputs at places of the way."""
-        arrays, inputs = self.work.columns.arrays, self.sheet.inputs
-        row = self.part.rows[0]
-        given = {inputs[name]: np.array(a[row]) for name, a in arrays.items() if name in inputs}
-        if self.part.followed is not None:
-            along, good = self.part.followed.track.given(at)
-            given = {**along, **given}
-            at = np.where(good, at, np.nan)
-        return {**given, self.input: at}
-
-    def evaluator(self, value: Scalar) -> Callable[[Array], Array]:
-        """A value as a function of the varied number; not a number where the links do not assemble."""
-        if not isinstance(value, Traced) or not value.row:
-            return lambda at: np.full(len(at), float(value))
-        roots = [root.radicand for root in self.part.runner.roots]
-        code = Code(self.record, [value.index, *roots])
-
-        def evaluate(at: Array) -> Array:
-            found, *radicands = code.run(self.given(at), len(at))
-            out = np.array(np.broadcast_to(found, len(at)))
-            for radicand in radicands:
-                out[~(np.broadcast_to(radicand, len(at)) >= 0.0)] = np.nan
-            return out
-
-        return evaluate
-
-    def slope(self, value: Traced) -> Callable[[Array], Array]:
-        """The derivative of a value by the varied number."""
-        passes: Backward = self.part.runner.passes([value.index])
-
-        def evaluate(at: Array) -> Array:
-            parts = [at[n : n + passes.rows] for n in range(0, len(at), passes.rows)]
-            return np.concatenate([self._slope(passes, part) for part in parts])
-
-        return evaluate
-
-    def _slope(self, passes: Backward, at: Array) -> Array:
-        (passed,) = passes.run(self.given(at), len(at))
-        return np.array(passed.by.get(self.input, np.zeros(len(at))))
-
-    def answer(self, at: float, load: str) -> float | None:
-        """The answer of the scene at a position."""
-        case = self._case(at)
-        try:
-            return float(solve(case).answers[load].value) if case is not None else None
-        except SceneError:
-            return None
-
-    def _case(self, at: float) -> Case | None:
-        given = self.given(np.array([at]))
-        if not np.isfinite(given[self.input][0]):
-            return None
-        numbers = {path: as_written(a[self.part.rows[0]]) for path, a in self.work.columns.paths.items()}
-        if self.name in numbers:
-            numbers[self.name] = as_written(at)
-        exact = {k: Decimal(float(np.ravel(v)[0])) for k, v in given.items()}
-        inputs = self.sheet.inputs
-        exact |= {inputs[name]: value for name, value in numbers.items() if name in inputs}
-        return self.part.runner.cases.case({**exact, self.input: as_written(at)}, numbers)
 
     # --- kinds ------------------------------------------------------------------------------------
 
@@ -188,95 +157,321 @@ class _Search:
         """Where the answer takes a value: its numerator less so many times its denominator vanishes."""
         top, bottom = fraction(self.record, answer)
         miss = top - self.query.value * bottom
-        for at in self._zeros(self.evaluator(miss)):
-            yield Spot(at, "value", self.answer(at, load))
+        limits = [s for s, _ in self._limits()]
+        for s in [*self._zeros(miss), *(s for s in limits if self._is_nothing(miss, s))]:
+            if not self._is_nothing(bottom, s):
+                yield self._spot(s, "value", load)
 
     def _dead(self, answer: Scalar, load: str) -> Iterator[Spot]:
-        """Where the unknown does no work, where the links reach their limit, where branches meet."""
+        """Where the unknown does no work, where the links reach their limit, where branches meet. Where the
+        known loads do none either, any value balances, or the quotient goes through: no dead centre."""
         _, bottom = fraction(self.record, answer)
-        evaluate = self.evaluator(bottom)
-        changes = list(self._change_points())
-        yield from (Spot(at, "change-point", None) for at in changes)
-        for at in self._zeros(evaluate):
-            if all(abs(at - other) > MERGED * max(1.0, abs(at)) for other in changes):
-                yield Spot(at, "dead", None)
-        yield from (Spot(at, "limit", self.answer(at, load)) for at in self._limits(evaluate))
+        yield from (self._spot(s, "change-point", None) for s in self.touches)
+        for s in self._zeros(bottom):
+            if self._is_pole(answer, s) and all(abs(s - touch) > NEAR for touch in self.touches):
+                yield self._spot(s, "dead", None)
+        for s, error in self._limits():
+            yield self._spot(s, "limit", load, error)
 
-    def _change_points(self) -> Iterator[float]:
-        """Where branches meet: their radicands are lowest there, so their slopes change sign."""
-        if self.part.followed is None:
-            return
-        names = self.sheet.motion.branches if self.sheet.motion else {}
-        seen: list[float] = []
-        for root in self.part.runner.roots:
-            passing = self.part.followed.passed.get(names[root.node])
-            slope = self.slope(self.record.at(root.radicand))
-            for at in passing.touches if passing else ():
-                near = next(self._closed(slope, at - NEAR, at + NEAR), at)
-                if self.places[0] <= near <= self.places[-1] and all(abs(near - s) > NEAR for s in seen):
-                    seen.append(near)
-                    yield near
-
-    def _peaks(self, answer: Scalar, load: str) -> Iterator[Spot]:
+    def _peaks(self, answer: Scalar) -> Iterator[Decimal]:
         """Where the size of the answer is larger than on both sides."""
         if not isinstance(answer, Traced) or not answer.row:
             return
-        _, bottom = fraction(self.record, answer)
-        size, slope = np.abs(self.evaluator(answer)(self.places)), self.slope(answer)
-        poles = np.sign(self.evaluator(bottom)(self.places))
-        for k in range(1, len(self.places) - 1):
-            around = slice(k - 1, k + 2)
-            if not (size[k] > size[k - 1] and size[k] >= size[k + 1]) or abs(poles[around].sum()) != 3.0:
-                continue
-            for at in self._closed(slope, self.places[k - 1], self.places[k + 1]):
-                yield Spot(at, "max", self.answer(at, load))
+        top, bottom = fraction(self.record, answer)
+        if self._vanishes(bottom) or self._vanishes(top - float(answer) * bottom):
+            return
 
-    def _zeros(self, evaluate: Callable[[Array], Array]) -> Iterator[float]:
-        """Changes of sign from row to row, and rows at which it vanishes."""
-        values = evaluate(self.places)
-        size = float(np.nanmax(np.abs(values), initial=0.0))
-        tiny = np.abs(values) <= TINY * size
-        yield from self.places[tiny].tolist()
-        for k in np.flatnonzero((values[:-1] * values[1:] < 0.0) & ~tiny[:-1] & ~tiny[1:]):
-            yield from self._closed(evaluate, self.places[k], self.places[k + 1])
+        def slope(s: Decimal) -> Decimal:
+            return self._value(answer, s + STEP) - self._value(answer, s - STEP)
 
-    def _closed(self, evaluate: Callable[[Array], Array], low: float, high: float) -> Iterator[float]:
-        """A change of sign between two places, closed in to the last digit (of the places about zero)."""
-        least = TINY * max(abs(low), abs(high))
-        for _ in range(ROUNDS):
-            cuts = np.linspace(low, high, SECTIONS + 1)
-            sign = np.sign(evaluate(cuts))
-            change = np.flatnonzero(sign[:-1] * sign[1:] <= 0.0)
-            if not change.size:
+        for low, high, _ in self._isolated(top, bottom, peaks=True):
+            for s in self._closed(slope, low, high):
+                value, wide = self._value(answer, s), (high - low) / 1000
+                beside = [self._value(answer, s + k * wide) for k in (-1, 1)]
+                if all(abs(value) > abs(other) for other in beside) and not self._is_nothing(bottom, s):
+                    yield s
+
+    def _limits(self) -> Iterator[tuple[Decimal, float | None]]:
+        """Where the links assemble on one side only; with the error, where it is more than the last digit."""
+        if self._follows_groups:
+            yield from ((s, error) for s, error in self._ends_of_groups())
+        for root in self.roots:
+            for node, _ in root.margins:
+                for s in self._zeros(self.record.at(node)):
+                    if self._assembles(s - NEAR) != self._assembles(s + NEAR):
+                        yield s, None
+
+    def _assembles(self, s: Decimal) -> bool:
+        try:
+            margins = self.exact.margins(self.roots, self.along.at(self.name, s))
+        except Unreached:
+            return False
+        return all(m.is_nan() or m >= 0 for m in margins)
+
+    # --- values -----------------------------------------------------------------------------------
+
+    def _value(self, value: Scalar, s: Decimal) -> Decimal:
+        """A value at a position, in decimals."""
+        return self.exact.values([value], self.along.at(self.name, s))[0]
+
+    def _is_nothing(self, value: Scalar, s: Decimal) -> bool:
+        """Whether a value is zero there, beside its terms where the record was made."""
+        size = terms_of(self.record.nodes, value.index) if isinstance(value, Traced) else abs(float(value))
+        return abs(self._value(value, s)) <= NOTHING * Decimal(size or 1.0)
+
+    def _is_pole(self, answer: Scalar, s: Decimal) -> bool:
+        """Whether the answer is without bound beside a place: else both of its powers vanish there."""
+        size = Decimal(abs(float(answer)) or 1.0)
+        return any(abs(self._value(answer, s + k * NEAR)) > LARGE * size for k in (-1, 1))
+
+    def _vanishes(self, value: Scalar) -> bool:
+        """Whether a value is zero in the whole range."""
+        low, high = map(as_written, self.ends)
+        try:
+            return all(self._is_nothing(value, low + Decimal(k) * (high - low)) for k in PROBES)
+        except Unreached:
+            return False
+
+    def _spot(self, s: Decimal, kind: str, load: str | None, error: float | None = None) -> Spot:
+        at = 0.0 if abs(s) < CLOSED else float(s)
+        answer = None
+        if load is not None:
+            numbers = {**self.paths, self.name: s} if self.name in self.paths else self.paths
+            try:
+                scene = self.along.scenes.case(self.along.at(self.name, s), numbers)
+                answer = float(solve(scene).answers[load].value)
+            except (SceneError, Unreached):
+                pass
+        return Spot(at, kind, answer, abs(at) * UNIT if error is None else error)
+
+    # --- zeros ------------------------------------------------------------------------------------
+
+    def _zeros(self, value: Scalar) -> Iterator[Decimal]:
+        """All zeros in the range, each once."""
+        if not isinstance(value, Traced) or not value.row:
+            return
+        if self._vanishes(value):
+            return
+        seen: list[Decimal] = []
+        for low, high, bent in self._isolated(value, None):
+            for s in self._of_cell(value, low, high, bent):
+                if all(abs(s - other) > NEAR * NEAR for other in seen):
+                    seen.append(s)
+                    yield s
+
+    def _of_cell(self, value: Traced, low: Decimal, high: Decimal, bent: bool) -> Iterator[Decimal]:
+        """The zeros of a cell in which the function, or where it is ``bent`` its slope, is monotone."""
+
+        def function(s: Decimal) -> Decimal:
+            return self._value(value, s)
+
+        def slope(s: Decimal) -> Decimal:
+            return function(s + STEP) - function(s - STEP)
+
+        for turn in self._closed(slope, low, high) if bent else ():
+            size = max(abs(function(low)), abs(function(high)))
+            if abs(function(turn)) <= NOTHING * size:
+                yield turn
+            else:
+                yield from self._closed(function, low, turn)
+                yield from self._closed(function, turn, high)
+            return
+        yield from self._closed(function, low, high)
+
+    def _closed(
+        self, function: Callable[[Decimal], Decimal], low: Decimal, high: Decimal
+    ) -> Iterator[Decimal]:
+        """A change of sign between two places, closed in by false position (Illinois)."""
+        try:
+            f, g = function(low), function(high)
+            if not f:
+                yield low
+            if not g:
+                yield high
+            if not f * g < 0:
                 return
-            low, high = float(cuts[change[0]]), float(cuts[change[0] + 1])
-            if high <= math.nextafter(math.nextafter(low, math.inf), math.inf):
-                break
-        ends = np.array([low, high])
-        at = float(ends[np.nanargmin(np.abs(evaluate(ends)))])
-        yield at if abs(at) > least else 0.0
-
-    def _limits(self, evaluate: Callable[[Array], Array]) -> Iterator[float]:
-        """Where rows that assemble border on rows that do not."""
-        good = np.isfinite(evaluate(self.places))
-        for k in np.flatnonzero(good[:-1] != good[1:]):
-            low, high = float(self.places[k]), float(self.places[k + 1])
-            for _ in range(ROUNDS):
-                at = np.linspace(low, high, SECTIONS + 1)
-                here = np.isfinite(evaluate(at))
-                change = np.flatnonzero(here[:-1] != here[1:])
-                if not change.size:
+            side = 0
+            for _ in range(MOST_STEPS):
+                at = high - g * (high - low) / (g - f)
+                here = function(at)
+                if (here > 0) == (g > 0):
+                    moved, (high, g), f, side = high - at, (at, here), f / 2 if side > 0 else f, 1
+                else:
+                    moved, (low, f), g, side = at - low, (at, here), g / 2 if side < 0 else g, -1
+                if not here or min(moved, high - low) <= CLOSED:
                     break
-                low, high = float(at[change[0]]), float(at[change[0] + 1])
-            yield low if good[k] else high
+            yield at
+        except Unreached:
+            return
+
+    # --- cells ------------------------------------------------------------------------------------
+
+    @property
+    def _follows_groups(self) -> bool:
+        return self.part.followed is not None and bool(self.part.followed.track.stretches)
+
+    def _isolated(
+        self, value: Scalar, bottom: Scalar | None, peaks: bool = False
+    ) -> Iterator[tuple[Decimal, Decimal, bool]]:
+        """Cells that may hold a zero: one where the function is monotone, two at most where its slope is (of
+        a quotient's slope, where ``peaks``)."""
+        wanted = [v for v in (value, bottom) if v is not None]
+        by = self._by_places if self._follows_groups else self._by_bounds
+        cuts = [as_written(self.ends[0]), *self.touches, as_written(self.ends[1])]
+        for first, last in pairwise(cuts):
+            beside = Decimal(BESIDE * self.along.widest)
+            low = first + beside if first in self.touches else first
+            high = last - beside if last in self.touches else last
+            if low < high:
+                yield from by(wanted, peaks, float(low), float(high))
+            for touch, away in ((first, 1), (last, -1)):
+                if touch in self.touches:
+                    wide = min(beside, (last - first) / 2)
+                    ring = [touch + away * wide / 2**n for n in range(RINGS)]
+                    yield from ((min(pair), max(pair), False) for pair in pairwise(ring))
+
+    def _by_bounds(
+        self, wanted: Sequence[Scalar], peaks: bool, first: float, last: float
+    ) -> Iterator[tuple[Decimal, Decimal, bool]]:
+        """By bounds of the function over whole cells, cut until each is decided."""
+        given = self.along.at(self.name, as_written((first + last) / 2.0))
+        main = self.sheet.inputs[self.name]
+        radicands = [root.radicand for root in self.roots]
+        nodes = [self.record.lifted(v).index for v in wanted]
+        inputs = {k: float(v) for k, v in given.items()}
+        cells = Cells(self.record, [*nodes, *radicands], main, inputs)
+        edges = np.linspace(first, last, CELLS + 1)
+        mid, half = (edges[:-1] + edges[1:]) / 2.0, np.diff(edges) / 2.0
+        seen, narrow, open_ = 0, (last - first) * NARROW, 0
+        while mid.size:
+            seen += mid.size
+            if seen > MOST_CELLS:
+                open_ += mid.size
+                break
+            whole, points = cells.run(mid, half)
+            there = np.ones(len(mid), dtype=bool)
+            for radicand in whole[len(nodes) :]:
+                there &= ~(radicand.value.mid + radicand.value.rad < 0.0)
+            decide = _decided_peak if peaks else _decided
+            empty, single, bent = decide(whole[: len(nodes)], points[: len(nodes)], half)
+            done = ~there | empty | single | bent
+            for k in np.flatnonzero(there & ~empty & (single | bent)):
+                low, high = as_written(mid[k] - half[k]), as_written(mid[k] + half[k])
+                yield low, high, bool(bent[k] and not single[k])
+            left = np.flatnonzero(~done & (half > narrow))
+            mid, half = (
+                np.concatenate([mid[left] - half[left] / 2.0, mid[left] + half[left] / 2.0]),
+                np.concatenate([half[left], half[left]]) / 2.0,
+            )
+        if open_:
+            self.notes[UNSHOWN.format(count=open_)] = None
+
+    # --- groups -----------------------------------------------------------------------------------
+
+    def _by_places(
+        self, wanted: Sequence[Scalar], peaks: bool, first: float, last: float
+    ) -> Iterator[tuple[Decimal, Decimal, bool]]:
+        """By the function and its slope at many places."""
+        at = np.linspace(first, last, PLACES + 1)
+        self.notes[SEARCHED.format(count=PLACES)] = None
+        values, slopes = zip(*(self._sampled(v, at) for v in wanted), strict=True)
+        if peaks:
+            f = slopes[0] * values[1] - values[0] * slopes[1]
+            turns = np.zeros(PLACES, dtype=bool)
+        else:
+            f = values[0]
+            turns = _may_touch(f, slopes[0], np.diff(at))
+        changes = f[:-1] * f[1:] <= 0.0
+        for k in np.flatnonzero(changes | turns):
+            yield as_written(at[k]), as_written(at[k + 1]), bool(turns[k])
+
+    def _sampled(self, value: Scalar, at: Array) -> tuple[Array, Array]:
+        """A value and its slope at places; not a number where the links do not assemble."""
+        if not isinstance(value, Traced) or not value.row:
+            return np.full(len(at), float(value)), np.zeros(len(at))
+        passes, main = self.part.runner.passes([value.index]), self.sheet.inputs[self.name]
+        found, slope = np.full(len(at), np.nan), np.full(len(at), np.nan)
+        for start in range(0, len(at), passes.rows):
+            here = slice(start, start + passes.rows)
+            given, good = self.along.floats(self.name, at[here])
+            (passed,) = passes.run(given, len(at[here]))
+            found[here] = np.where(good, passes.value(value.index, len(good)), np.nan)
+            slope[here] = np.where(good, passed.by.get(main, np.zeros(len(good))), np.nan)
+        return found, slope
+
+    def _ends_of_groups(self) -> Iterator[tuple[Decimal, float]]:
+        """Where groups are followed no further, halved in to the nearest double."""
+        at = np.linspace(*self.ends, PLACES + 1)
+        good = self.along.floats(self.name, at)[1]
+        for k in np.flatnonzero(good[:-1] != good[1:]):
+            low, high = float(at[k]), float(at[k + 1])
+            while high - low > 4.0 * UNIT * max(abs(low), abs(high), 1.0):
+                middle = np.array([(low + high) / 2.0])
+                if self.along.floats(self.name, middle)[1][0] == good[k]:
+                    low = float(middle[0])
+                else:
+                    high = float(middle[0])
+            yield as_written(low if good[k] else high), ROUGH * max(abs(low), abs(high), 1.0)
 
 
-NEAR = 1e-4
-"""A change point is closed in from this far on both sides."""
-MERGED = 1e-6
-"""A pole that is this near to a change point is that."""
-TINY = 1e-14
-"""A row at which a value is below this fraction of its largest is at its zero."""
+NEAR = Decimal("1e-20")
+"""Places nearer to each other than this are one."""
+LARGE = Decimal("1e12")
+"""So many times larger than elsewhere an answer is so near to its pole."""
+BESIDE = 2.0**-4
+"""This part of the longest step to both sides of a change point, where no bound is tight, is searched in"""
+RINGS = 24
+"""rings, each half as far from it."""
+PROBES = ("0.2137", "0.4311", "0.7919")
+MOST_STEPS = 400
+ROUGH = 1e-12
+"""Relative error of the place at which a group reaches its limit."""
+UNSHOWN = (
+    "{count} parts of the range are left undecided: there the bounds are too wide to show what is there."
+)
+SEARCHED = (
+    "a group of links has to be placed by Newton's method: its range was searched at {count} places, and two "
+    "positions between two of them may be missed."
+)
+
+Mask = npt.NDArray[np.bool_]
+
+
+def _may_touch(f: Array, slope: Array, step: Array) -> Mask:
+    """Between which places a function that turns may reach zero: there its tangents meet beyond it."""
+    (a, b), (p, q) = (f[:-1], f[1:]), (slope[:-1], slope[1:])
+    with np.errstate(all="ignore"):
+        along = (b - a - q * step) / (p - q)
+        meet = a + p * along
+    return np.asarray((p * q <= 0.0) & (a * b > 0.0) & (meet * a <= 0.5 * a * a))
+
+
+def _decided(whole: Sequence[Jet], points: Sequence[Jet], half: Array) -> tuple[Mask, Mask, Mask]:
+    """Cells without a zero; those in which the function is monotone; those in which its slope is."""
+    (cell,), (at,) = whole, points
+    bend = np.abs(cell.second.mid) + cell.second.rad
+    slope = np.abs(at.first.mid) + at.first.rad
+    with np.errstate(all="ignore"):
+        reach = slope * half + bend * half * half / 2.0
+        empty = cell.value.excludes_zero | (np.abs(at.value.mid) - at.value.rad > reach)
+        single = cell.first.excludes_zero | (np.abs(at.first.mid) - at.first.rad > bend * half)
+    return empty, single, cell.second.excludes_zero
+
+
+def _decided_peak(whole: Sequence[Jet], points: Sequence[Jet], half: Array) -> tuple[Mask, Mask, Mask]:
+    """The same for the numerator of a quotient's slope."""
+    wide, narrow = _wronskian(*whole), _wronskian(*points)
+    with np.errstate(all="ignore"):
+        reach = (np.abs(wide[1].mid) + wide[1].rad) * half
+        empty = wide[0].excludes_zero | (np.abs(narrow[0].mid) - narrow[0].rad > reach)
+    single = wide[1].excludes_zero
+    return empty, single, np.zeros_like(single)
+
+
+def _wronskian(top: Jet, bottom: Jet) -> tuple[Ball, Ball]:
+    """``n' d - n d'``, which is zero where n / d has no slope, and its derivative."""
+    first = top.first * bottom.value - top.value * bottom.first
+    return first, top.second * bottom.value - top.value * bottom.second
 
 
 def fraction(record: Record, value: Scalar) -> tuple[Scalar, Scalar]:

@@ -86,11 +86,19 @@ class Parts:
         for alike in self._alike(left, others):
             yield self._followed(sheet, main, others, alike)
 
+    def whole(self) -> Part:
+        """All rows in one part, on their way, where one number varies."""
+        runner = self.start.runner()
+        bearing = [name for name in runner.bearing if name in self.arrays]
+        rows = np.arange(self.columns.rows)
+        if not bearing:
+            return Part(runner, rows)
+        main = max(bearing, key=lambda name: float(np.ptp(self.arrays[name])))
+        return self._followed(runner.sheet, main, [name for name in bearing if name != main], rows)
+
     # --- at once ----------------------------------------------------------------------------------
 
-    def _at_once(
-        self, runner: Runner, rows: Rows, main: str, others: list[str]
-    ) -> tuple[Part | None, Rows]:
+    def _at_once(self, runner: Runner, rows: Rows, main: str, others: list[str]) -> tuple[Part | None, Rows]:
         """What can be run at once, and the rows that are left."""
         if others:
             clear = self._clear(runner.sheet, [main, *others])

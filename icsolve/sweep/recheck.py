@@ -8,13 +8,16 @@ row then has. Nothing here looks at another row.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from decimal import Decimal, localcontext
 
 import numpy as np
+import numpy.typing as npt
 
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.record import Root
+from icsolve.numbers.replay import Array
 from icsolve.sweep.exact import APART, CONTEXT, STEP, ZERO, RowScenes, Unreached, as_written
 from icsolve.sweep.parts import Part, Parts
 
@@ -22,6 +25,8 @@ CLEAR = 2.0**-12
 """A row farther from a change point than this part of the longest step is on the side that floats say."""
 
 
+BESIDE = 2.0**-20
+"""A state is a guess for another that is this part of the longest step away."""
 AROUND = 2.0**-10
 """States are interpolated from some that are this part of the longest step apart."""
 
@@ -35,6 +40,7 @@ class Recheck:
         self.scenes: RowScenes = part.runner.cases
         self.track = part.followed.track if part.followed else None
         self.touches: dict[tuple[str, float], Decimal] = {}
+        self.solved: tuple[Decimal, dict[int, Decimal]] | None = None
         self.last: tuple[int, dict[int, Decimal]] = (-1, {})
 
     def given(self, row: int) -> dict[int, Decimal]:
@@ -72,6 +78,60 @@ class Recheck:
         flat = self.scenes.exact.values([v for parts in outputs.values() for v in parts], self.given(row))
         found = iter(flat)
         return {key: [_rounded(next(found), float(part)) for part in parts] for key, parts in outputs.items()}
+
+    # --- places between rows ------------------------------------------------------------------------
+
+    def at(self, name: str, s: Decimal) -> dict[int, Decimal]:
+        """The inputs where a varied number has a value and the others those of the first row."""
+        row, inputs = int(self.part.rows[0]), self.sheet.inputs
+        arrays = self.parts.arrays
+        given = {k: as_written(arrays[n][row]) for n, k in inputs.items() if n in arrays}
+        if self.track is None:
+            return {**given, inputs[name]: s}
+        (main,) = self.track.way.slope
+        place = s if main == name else as_written(arrays[main][row])
+        along = self._along(place, row) | self._signs(place) | self._near_states(row, place)
+        return {**along, inputs[name]: s}
+
+    def _near_states(self, row: int, s: Decimal) -> dict[int, Decimal]:
+        """States of groups from those that were solved last, where that was near."""
+        assert self.track is not None
+        if not self.track.groups:
+            return {}
+        if self.solved is not None and abs(self.solved[0] - s) < Decimal(BESIDE * self.track.way.widest):
+            return self.solved[1]
+        guess = self._states(row, float(s))
+        columns = [k for group, _ in self.track.groups for k in group.solved]
+        states = self.scenes.exact.states(self._along(s, row) | guess, columns)
+        self.solved = (s, dict(zip(columns, states, strict=True)))
+        return self.solved[1]
+
+    def floats(self, name: str, at: Array) -> tuple[dict[int, Array], npt.NDArray[np.bool_]]:
+        """The same in doubles, at many values; and at which of them groups have a solution."""
+        row, inputs = int(self.part.rows[0]), self.sheet.inputs
+        given = {inputs[n]: np.array(a[row]) for n, a in self.parts.arrays.items() if n in inputs}
+        good = np.ones(len(at), dtype=bool)
+        if self.track is not None:
+            (main,) = self.track.way.slope
+            places = at if main == name else np.full(len(at), self.parts.arrays[main][row])
+            along, good = self.track.given(places)
+            given = {**along, **given}
+        return {**given, inputs[name]: at}, good
+
+    @property
+    def widest(self) -> float:
+        """The longest step of the way."""
+        return self.track.way.widest if self.track is not None else 0.0
+
+    def touching(self, name: str) -> Iterator[Decimal]:
+        """The exact places of change points along a number."""
+        if self.part.followed is None or name not in self.part.followed.track.way.slope:
+            return
+        for branch, passing in self.part.followed.passed.items():
+            for place in passing.touches:
+                yield self._place(branch, place)
+
+    # --- groups -----------------------------------------------------------------------------------
 
     def _states(self, row: int, s: float) -> dict[int, Decimal]:
         """The states of groups near a singular position, by the polynomial through states around it: the way

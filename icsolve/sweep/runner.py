@@ -70,7 +70,7 @@ class Runner:
         self.checks = _living(sheet, alive)
         watched = [*(root.radicand for root in self.roots), *self.divisors, *self.margins, *self.checks]
         self.code = Code(record, [*wanted, *watched])
-        self.typical = [_terms(record.nodes, k) for k in self.divisors]
+        self.typical = [terms_of(record.nodes, k) for k in self.divisors]
         self.deep = [math.prod(record.nodes[size].value for _, size in root.margins) for root in self.roots]
         self.usual = [_usual(record, index) for _, _, index in self.moving]
 
@@ -215,12 +215,12 @@ def column(array: Array, part: int) -> Array:
     return array if array.ndim == 1 else array[:, part]
 
 
-def _terms(nodes: Sequence[Node], k: int) -> float:
+def terms_of(nodes: Sequence[Node], k: int) -> float:
     """The size of the terms that a value is summed from, where the record was made."""
     node = nodes[k]
     if node.op in (Op.ADD, Op.SUB):
-        return _terms(nodes, node.a) + _terms(nodes, node.b)
-    return _terms(nodes, node.a) if node.op == Op.NEG else abs(node.value)
+        return terms_of(nodes, node.a) + terms_of(nodes, node.b)
+    return terms_of(nodes, node.a) if node.op == Op.NEG else abs(node.value)
 
 
 def _usual(record: Record, k: int) -> float:
@@ -228,7 +228,7 @@ def _usual(record: Record, k: int) -> float:
     nodes, top = record.nodes, k
     while nodes[top].op in (Op.DIV, Op.NEG) or (nodes[top].op == Op.MUL and not nodes[nodes[top].b].row):
         top = nodes[top].a
-    return abs(nodes[k].value) if abs(nodes[top].value) > NOTHING * _terms(nodes, top) else 0.0
+    return abs(nodes[k].value) if abs(nodes[top].value) > NOTHING * terms_of(nodes, top) else 0.0
 
 
 def _divisors(nodes: Sequence[Node], alive: Sequence[int]) -> list[int]:

@@ -1,0 +1,202 @@
+"""A record over whole cells of its input: values and two derivatives, each with a radius that holds them.
+
+Taylor arithmetic of order two on balls (midpoint and radius, arrays over cells), after R. E. Moore, Interval
+Analysis (1966). What a radius leaves out, no place in the cell has: so zeros are excluded, and those that are
+there told to be single, without looking between samples.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from icsolve.numbers.record import Node, Op, Record
+from icsolve.numbers.replay import Array, live
+
+ROUNDED = 2.0**-51
+"""Relative rounding of an operation on a midpoint, and of a radius."""
+RADIAN = float(np.pi / 180.0)
+
+
+class Ball(NamedTuple):
+    """Numbers between ``mid - rad`` and ``mid + rad``, (cells,)."""
+
+    mid: Array
+    rad: Array
+
+    def __add__(self, other: Ball) -> Ball:  # type: ignore[override]
+        mid = self.mid + other.mid
+        return Ball(mid, self.rad + other.rad + ROUNDED * np.abs(mid))
+
+    def __sub__(self, other: Ball) -> Ball:
+        mid = self.mid - other.mid
+        return Ball(mid, self.rad + other.rad + ROUNDED * np.abs(mid))
+
+    def __mul__(self, other: Ball) -> Ball:  # type: ignore[override]
+        mid, one, two = self.mid * other.mid, np.abs(self.mid), np.abs(other.mid)
+        rad = one * other.rad + self.rad * (two + other.rad)
+        return Ball(mid, rad * (1.0 + ROUNDED) + ROUNDED * np.abs(mid))
+
+    def __neg__(self) -> Ball:
+        return Ball(-self.mid, self.rad)
+
+    def times(self, factor: float) -> Ball:
+        """A multiple."""
+        mid = self.mid * factor
+        return Ball(mid, self.rad * abs(factor) * (1.0 + ROUNDED) + ROUNDED * np.abs(mid))
+
+    def inverse(self) -> Ball:
+        """Of numbers that have zero among them: all numbers."""
+        size = np.abs(self.mid)
+        low = size - self.rad
+        mid = 1.0 / self.mid
+        rad = self.rad / (size * low)
+        return Ball(mid, np.where(low > 0.0, rad * (1.0 + 4.0 * ROUNDED) + ROUNDED * np.abs(mid), np.inf))
+
+    def root(self) -> Ball:
+        """Square root of those that are not negative."""
+        high = np.sqrt(np.maximum(self.mid + self.rad, 0.0))
+        low = np.sqrt(np.maximum(self.mid - self.rad, 0.0))
+        mid = 0.5 * (high + low)
+        return Ball(mid, 0.5 * (high - low) + 4.0 * ROUNDED * mid)
+
+    def narrower(self, other: Ball) -> Ball:
+        """Of each two that hold the same number, the narrower."""
+        mine = ~(other.rad < self.rad)
+        return Ball(np.where(mine, self.mid, other.mid), np.where(mine, self.rad, other.rad))
+
+    @property
+    def excludes_zero(self) -> np.typing.NDArray[np.bool_]:
+        """Where none of the numbers is zero."""
+        return np.asarray(np.abs(self.mid) > self.rad)
+
+
+class Jet(NamedTuple):
+    """A value and its first two derivatives by the input."""
+
+    value: Ball
+    first: Ball
+    second: Ball
+
+    def __add__(self, other: Jet) -> Jet:  # type: ignore[override]
+        return Jet(*(a + b for a, b in zip(self, other, strict=True)))
+
+    def __sub__(self, other: Jet) -> Jet:
+        return Jet(*(a - b for a, b in zip(self, other, strict=True)))
+
+    def __neg__(self) -> Jet:
+        return Jet(*(-a for a in self))
+
+    def __mul__(self, other: Jet) -> Jet:  # type: ignore[override]
+        (a, a1, a2), (b, b1, b2) = self, other
+        return Jet(a * b, a1 * b + a * b1, a2 * b + (a1 * b1).times(2.0) + a * b2)
+
+    def over(self, other: Jet) -> Jet:
+        """Quotient."""
+        (a, a1, a2), (b, b1, b2) = self, other
+        inverse = b.inverse()
+        q = a * inverse
+        q1 = (a1 - q * b1) * inverse
+        return Jet(q, q1, (a2 - (q1 * b1).times(2.0) - q * b2) * inverse)
+
+    def within(self, middle: Jet, half: Array) -> Jet:
+        """The narrower of these bounds and those about the middles of the cells."""
+        bend = np.abs(self.second.mid) + self.second.rad
+        slope = np.abs(middle.first.mid) + middle.first.rad
+        value = Ball(middle.value.mid, middle.value.rad + slope * half + bend * half * half)
+        first = Ball(middle.first.mid, middle.first.rad + bend * half * (1.0 + ROUNDED))
+        return Jet(self.value.narrower(value), self.first.narrower(first), self.second)
+
+    def root(self) -> Jet:
+        """Square root."""
+        a, a1, a2 = self
+        s = a.root()
+        half = s.inverse().times(0.5)
+        s1 = a1 * half
+        return Jet(s, s1, (a2 - (s1 * s1).times(2.0)) * half)
+
+    def cos_sin(self) -> tuple[Jet, Jet]:
+        """Cosine and sine, of degrees."""
+        x, x1, x2 = (part.times(RADIAN) for part in self)
+        c, s = np.cos(x.mid), np.sin(x.mid)
+        wide = np.minimum(x.rad, 4.0)
+        rad = wide * wide * 0.5 + 4.0 * ROUNDED
+        cos = Ball(c, np.minimum(np.abs(s) * wide + rad, 2.0))
+        sin = Ball(s, np.minimum(np.abs(c) * wide + rad, 2.0))
+        square = x1 * x1
+        return (
+            Jet(cos, -(sin * x1), -(cos * square) - sin * x2),
+            Jet(sin, cos * x1, cos * x2 - sin * square),
+        )
+
+
+class Cells:
+    """A record over cells of one input; ``inputs`` are the numbers of the others (those that vary, too)."""
+
+    def __init__(self, record: Record, wanted: Sequence[int], main: int, inputs: Mapping[int, float]) -> None:
+        self.record, self.wanted, self.main, self.inputs = record, tuple(wanted), main, inputs
+        self.order = live(record, self.wanted, ())
+
+    def run(self, mid: Array, half: Array) -> tuple[list[Jet], list[Jet]]:
+        """The wanted nodes over the cells ``mid - half`` to ``mid + half``, and at their middles.
+
+        What a root is taken of, and what is divided by, has the narrower of its bounds: that of its own
+        terms, or that about the middle.
+        """
+        whole: dict[int, Jet] = {}
+        middle: dict[int, Jet] = {}
+        nothing = Ball(np.zeros_like(mid), np.zeros_like(mid))
+        one = Ball(np.ones_like(mid), np.zeros_like(mid))
+
+        def still(value: float, noise: float) -> Jet:
+            return Jet(Ball(np.full_like(mid, value), np.full_like(mid, noise)), nothing, nothing)
+
+        def of(jets: dict[int, Jet], k: int) -> Jet:
+            if k not in jets:
+                value = self.record.nodes[k].value
+                jets[k] = still(value, STILL * abs(value))
+            return jets[k]
+
+        with np.errstate(all="ignore"):
+            for k in self.order:
+                node = self.record.nodes[k]
+                if node.op == Op.INPUT:
+                    noise = ROUNDED * np.abs(mid)
+                    number = self.inputs.get(k, 0.0)
+                    whole[k] = still(number, ROUNDED * abs(number))
+                    middle[k] = whole[k]
+                    if k == self.main:
+                        whole[k] = Jet(Ball(mid, half + noise), one, nothing)
+                        middle[k] = Jet(Ball(mid, noise), one, nothing)
+                    continue
+                narrow = {Op.SQRT: node.a, Op.DIV: node.b}.get(node.op)
+                if narrow is not None:
+                    whole[narrow] = of(whole, narrow).within(of(middle, narrow), half)
+                for jets in (whole, middle):
+                    jets[k] = _result(node, partial(of, jets))
+            return [of(whole, k) for k in self.wanted], [of(middle, k) for k in self.wanted]
+
+
+def _result(node: Node, of: Callable[[int], Jet]) -> Jet:
+    """The jet of a node from those of what it is made of."""
+    match node.op:
+        case Op.ADD:
+            return of(node.a) + of(node.b)
+        case Op.SUB:
+            return of(node.a) - of(node.b)
+        case Op.MUL:
+            return of(node.a) * of(node.b)
+        case Op.DIV:
+            return of(node.a).over(of(node.b))
+        case Op.NEG:
+            return -of(node.a)
+        case Op.SQRT:
+            return of(node.a).root()
+    return of(node.a).cos_sin()[0 if node.op == Op.COS else 1]
+
+
+STILL = 2.0**-45
+"""Relative error that is allowed for what is the same in every row."""
