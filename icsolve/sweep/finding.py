@@ -160,7 +160,8 @@ class _Search:
         limits = [s for s, _ in self._limits()]
         for s in [*self._zeros(miss), *(s for s in limits if self._is_nothing(miss, s))]:
             if not self._is_nothing(bottom, s):
-                yield self._spot(s, "value", load)
+                spot = self._spot(s, "value", load)
+                yield spot if spot.answer is None else spot._replace(answer=self.query.value)
 
     def _dead(self, answer: Scalar, load: str) -> Iterator[Spot]:
         """Where the unknown does no work, where the links reach their limit, where branches meet. Where the
