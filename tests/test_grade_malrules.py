@@ -191,3 +191,141 @@ def test_a_cam_with_a_profile_gets_its_wrong_answers(a_class: Class) -> None:
     assert [(r["verdict"], r["code"].split(" ")[0]) for r in rows] == [
         ("right", ""), ("wrong", "sign"), ("wrong", "half"),
     ]  # fmt: skip
+
+
+TRAIN = """\
+icsolve: 1
+points: {A: [0, 0], B: [3, 0], C: [8, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [1, 3], at: B}
+  - {pin: [1, 4], at: C}
+  - {gears: [2, 3], teeth: [20, 50]}
+  - {gears: [3, 4], teeth: [18, 63]}
+loads:
+  M4: {torque: 70, link: 4}
+  M3: {torque: 11, link: 3}
+  T2: {torque: unknown, link: 2}
+motion: {link: 2, speed: 120 rpm}
+"""
+"""w3/w2 = -0.4, w4/w3 = -2/7: T2 = -70 (0.8/7) + 11 (0.4) = -8 + 4.4 = -3.6 N*m."""
+CRANKS = """\
+icsolve: 1
+points: {A: [0, 0], B: [0.3, 0.4], C: [0.7, 0.2]}
+joints:
+  - {pin: [1, 2], at: A}
+loads:
+  P: {force: 100, link: 2, at: B, angle: 25}
+  Q: {force: 40, link: 2, at: C, angle: -70}
+  T: {torque: unknown, link: 2}
+"""
+
+
+def codes(a_class: Class, case: str, values: dict[str, float]) -> dict[str, list[str]]:
+    """The codes of the answers of one case, each with the name under which it is listed."""
+    rows = a_class.judge(*(f"{value:.5g}" for value in values.values()), case=case)
+    return {name: row["code"].split() for name, row in zip(values, rows, strict=True)}
+
+
+def test_wrong_steps_of_a_gear_train_are_named(a_class: Class) -> None:
+    a_class.case("train", TRAIN)
+    found = codes(a_class, "train", {
+        "ratio-one": 70.0 + 4.4, "ratio-one ": -8.0 - 11.0,
+        "missed-stage": -70.0 * (-0.4) * (-1.0) + 4.4, "missed-stage ": -20.0 + 4.4,
+        "missed-load": -8.0, "load-sense": -12.4,
+    })  # fmt: skip
+    assert {name for name, given in found.items() if name.strip() not in given} == set()
+
+
+def test_revolutions_a_minute_taken_for_radians_a_second(a_class: Class) -> None:
+    a_class.case("train", TRAIN)
+    found = codes(a_class, "train:w3", {"rpm": -48.0})
+    assert found["rpm"] == ["rpm"]
+
+
+def moments(p: float, q: float, px: float = 1.0, py: float = 1.0) -> float:
+    """T of the two forces at the crank, of P by its components times ``px`` and ``py``."""
+    a, b = math.radians(p), math.radians(q)
+    by_p = 100.0 * (px * -0.4 * math.cos(a) + py * 0.3 * math.sin(a))
+    return -(by_p + 40.0 * (0.7 * math.sin(b) - 0.2 * math.cos(b)))
+
+
+def test_one_angle_or_one_component_taken_wrong_is_named(a_class: Class) -> None:
+    a_class.case("crank", CRANKS)
+    found = codes(a_class, "crank", {
+        "deg-rad": moments(math.degrees(25.0), -70.0), "sin-cos": moments(65.0, -70.0),
+        "angle-sense": moments(-25.0, -70.0), "one-component": moments(25.0, -70.0, px=0.0),
+        "one-component ": moments(25.0, -70.0, py=0.0),
+    })  # fmt: skip
+    assert {name for name, given in found.items() if name.strip() not in given} == set()
+
+
+def test_two_mistakes_at_once_are_named_by_both(a_class: Class) -> None:
+    """A load missed and the sign lost; a component alone, the other load reversed; mm taken for m on top."""
+    a_class.case("crank", CRANKS)
+    by_q = -40.0 * (0.7 * math.sin(math.radians(-70.0)) - 0.2 * math.cos(math.radians(-70.0)))
+    right = moments(25.0, -70.0)
+    rows = a_class.judge(
+        f"{-(right - by_q):.5g}",
+        f"{moments(25.0, -70.0, px=0.0) - 2.0 * by_q:.5g}",
+        f"{1000.0 * by_q:.5g}",
+        case="crank",
+    )
+    named = [set(row["code"].split()) for row in rows]
+    assert named[0] == {"sign", "missed-load"}
+    assert named[1] == {"one-component", "load-sense"}
+    assert named[2] == {"power-of-ten", "missed-load"}
+    assert all(row["feedback"].startswith("Two mistakes at once: ") for row in rows)
+
+
+def test_a_random_number_seldom_gets_a_cause(a_class: Class) -> None:
+    """Of numbers even up to three times the right one at most 8 %."""
+    import random
+
+    rng = random.Random(5)
+    a_class.case("crank", CRANKS)
+    right = moments(25.0, -70.0)
+    factors = [f for f in (rng.uniform(-3.0, 3.0) for _ in range(1500)) if abs(f - 1.0) > 0.04]
+    rows = a_class.judge(*(f"{right * f:.4g}" for f in factors), case="crank")
+    named = [row for row in rows if row["verdict"] == "wrong" and row["code"]]
+    assert len(named) <= 0.08 * len(rows)
+
+
+def test_a_message_fits_the_question(a_class: Class) -> None:
+    """A centre is not told of the signs of loads."""
+    folder = str(CASES / "ch13" / "13_08_four_bar.yaml")
+    table = 'student_id,case,answer\na,13_08_four_bar:I24,"(1.5139, 0)"\nb,13_08_four_bar:w4/w2,-0.34\n'
+    file = a_class.file("steps.csv", table)
+    ran = a_class.run("grade", file, "--cases", folder, "-o", "-", "--quiet")
+    assert "a coordinate has the wrong sign" in ran.row("a", "13_08_four_bar:I24")["feedback"]
+    assert "Do the two links turn the same way?" in ran.row("b", "13_08_four_bar:w4/w2")["feedback"]
+
+
+TWO = """\
+icsolve: 1
+points: {A: [0, 0], B: [3, 0], C: [20, 0], D: [23, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [1, 3], at: B}
+  - {pin: [1, 4], at: C}
+  - {pin: [1, 5], at: D}
+  - {gears: [2, 3], teeth: [20, 50]}
+  - {gears: [4, 5], teeth: [30, 45]}
+loads:
+  M3: {torque: 10, link: 3}
+  M5: {torque: 6, link: 5}
+  T2: {torque: unknown, link: 2}
+  T4: {torque: unknown, link: 4}
+"""
+"""T2 = 0.4 M3 = 4 N*m, T4 = 2/3 M5 = 4 N*m."""
+
+
+def test_errors_are_carried_forward_to_one_of_two_unknowns(a_class: Class) -> None:
+    """w3/w2 = -0.5 for -0.4: T2 = 5 by the right method; T4 hangs on another ratio."""
+    a_class.case("two", TWO)
+    rows = ("a,two:w3/w2,-0.5", "a,two:T2,5", "a,two:T4,4", "b,two:T2,5")
+    ran = a_class.grade("student_id,case,answer\n" + "\n".join(rows) + "\n")
+    found = {(row["student_id"], row["case"]): (row["verdict"], row["code"]) for row in ran.rows()}
+    assert found["a", "two:T2"][1].split()[0] == "carried"
+    assert found["a", "two:T4"][0] == "right"
+    assert "carried" not in found["b", "two:T2"][1]

@@ -12,12 +12,12 @@ from typing import NamedTuple
 
 from icsolve.answer import Answer
 from icsolve.case import CentreIs, DistanceIs, Load, RateIs, RatioIs, SpeedIs, Target
-from icsolve.grade.case_store import CaseStore, Solved
+from icsolve.grade.case_store import CaseStore, Solved, unknowns
 from icsolve.grade.judge import WRONG, feedback, share_of
 from icsolve.grade.keys import Key, PlaceKey, RangeKey
 from icsolve.grade.mistakes import Wrong
 from icsolve.grade.mistakes.changed import Place
-from icsolve.grade.mistakes.engine import centres_of, shares
+from icsolve.grade.mistakes.engine import centres_of, parts_of, shares
 from icsolve.grade.results import Marked
 from icsolve.grade.store import Entry
 from icsolve.grade.tolerance import NoKeyError
@@ -37,7 +37,7 @@ class Intermediate(NamedTuple):
 
 def carried(answer: Answer, unknown: str, wrong: list[Intermediate]) -> list[Wrong]:
     """The values of the unknown that follow from the wrong intermediate answers, alone and together."""
-    parts = shares(answer, unknown)
+    parts = shares(answer, unknown) or parts_of(answer, unknown)
     own = next((load for load in answer.case.loads if load.name == unknown), None)
     if not parts or own is None:
         return []
@@ -146,16 +146,27 @@ class CarriedForward:
         marked = {entry.item: (entry, m) for entry, m in found}
         wrong = [item for item, (_, m) in marked.items() if ":" in item and m.judged.verdict == WRONG]
         for case in dict.fromkeys(item.partition(":")[0] for item in wrong):
-            final = marked.get(case)
-            if final is not None and final[1].judged.verdict == WRONG and final[1].judged.value is not None:
-                own = [marked[item] for item in wrong if item.startswith(f"{case}:")]
-                marked[case] = self._again(final, own)
+            finals = self._finals(case)
+            own = [marked[item] for item in wrong if item.startswith(f"{case}:") and item not in finals]
+            for item in finals if own else ():
+                final = marked.get(item)
+                judged = final[1].judged if final is not None else None
+                if final and judged and judged.verdict == WRONG and judged.value is not None:
+                    marked[item] = self._again(final, own)
         return list(marked.values())
+
+    def _finals(self, case: str) -> list[str]:
+        """The questions for the unknown loads of a case."""
+        try:
+            names = unknowns(self._case_store.read(case))
+        except NoKeyError:
+            return []
+        return [case] if len(names) == 1 else [f"{case}:{name}" for name in names]
 
     def _again(self, final: Found, wrong: list[Found]) -> Found:
         """The final answer with its cause, if it follows from the wrong steps."""
         entry, before = final
-        solved = self._case_store.solved(entry.item, entry.student)
+        solved = self._case_store.solved(entry.item.partition(":")[0], entry.student)
         key, name = solved.key(entry.item), getattr(solved.target(entry.item), "load", "")
         value = before.judged.value
         assert isinstance(key, Key) and value is not None

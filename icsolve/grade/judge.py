@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from icsolve.grade.course import Policy
 from icsolve.grade.keys import AGAINST, NEITHER, AnyKey, Key, PlaceKey, RangeKey, unit_factor
-from icsolve.grade.mistakes import Wrong, message
+from icsolve.grade.mistakes import Wrong, message, together
 from icsolve.grade.tolerance import SLACK
 from icsolve.grade.written import MISSING, NO_NUMBER, UNREAD, Direction, Written, figures
 from icsolve.grade.written.answer import Combined, flagged
@@ -42,6 +42,8 @@ class Judgement(NamedTuple):
     off: float | None = None
     code: str = ""
     mistakes: tuple[Wrong, ...] = ()
+    both: bool = False
+    """whether the two mistakes were made together, and are not two readings of one answer"""
 
 
 _NO_PARTS = (False, False, False)
@@ -87,7 +89,8 @@ def judge(key: Key, written: Written) -> Judgement:
             if abs(value - key.value) <= key.half:
                 return Judgement(RIGHT, 1.0, _ALL_PARTS, value, abs(value - key.value) / abs(key.value))
             if not _has_size(key, value) and (factor == 1.0 or not _has_size(key, number)):
-                return _wrong_size(key, value, True, (value > 0.0) == (key.value > 0.0), way is None)
+                sense = (value > 0.0) == (key.value > 0.0)
+                return _wrong_size(key, value, True, sense, written)
     return _in_full(key, written)
 
 
@@ -95,19 +98,22 @@ def _has_size(key: Key, value: float) -> bool:
     return -key.half <= abs(value) - abs(key.value) <= key.half
 
 
-def _wrong_size(key: Key, value: float, unit: bool, direction: bool, unsigned: bool) -> Judgement:
-    """A wrong number, with the causes that were foreseen; ``unsigned``: it may be meant as a size only."""
-    mistakes = key.wrongs.near(value)
+def _wrong_size(key: Key, value: float, unit: bool, direction: bool, written: Written) -> Judgement:
+    """A wrong number, with the causes that were foreseen; without words it may be meant as a size only."""
+    unsigned, digits = written.direction is None, written.digits
+    mistakes = key.wrongs.near(value, digits)
     size = abs(key.value)
     if not mistakes and unsigned and (value > 0.0 > key.value or key.policy.direction == "ignored"):
-        mistakes = key.wrongs.near(-value)
+        mistakes = key.wrongs.near(-value, digits)
     off = abs(abs(value) - size)
     if off <= _NEAR * key.half * (1.0 + SLACK) and direction and size:
         mistakes = (*mistakes, Wrong("near-miss", value))
+    both = () if mistakes else key.wrongs.two(value, digits)
     parts = (False, unit, direction)
-    code = _codes(mistakes) if mistakes else ""
+    found = mistakes or both
+    code = _codes(found) if found else ""
     share = share_of(key, parts, mistakes)
-    return Judgement(WRONG, share, parts, value, relative(off, size), code, mistakes)
+    return Judgement(WRONG, share, parts, value, relative(off, size), code, found, bool(both))
 
 
 def relative(off: float, size: float) -> float | None:
@@ -135,7 +141,7 @@ def _in_full(key: Key, written: Written) -> Judgement:
     if number and unit and direction:
         return _right(key, written, value, off)
     if not number:
-        return _wrong_size(key, value, unit, direction, written.direction is None)
+        return _wrong_size(key, value, unit, direction, written)
     parts = (number, unit, direction)
     mistakes = _seen(key, written, value, parts, sign)
     return Judgement(WRONG, share_of(key, parts, mistakes), parts, value, off, _codes(mistakes), mistakes)
@@ -247,7 +253,10 @@ def feedback(key: AnyKey, judged: Judgement, reveal: bool = False) -> str:
         return f"Right: {key.accepted} is accepted.{noted}"
     band = f" Accepted is {key.accepted}." if reveal else f" Accepted is an answer {key.rule}."
     if judged.mistakes:
-        said = " Or: ".join(message(m.code, m.where) for m in judged.mistakes)
+        kind = key.kind if isinstance(key, Key) else "place" if isinstance(key, PlaceKey) else "load"
+        said = " Or: ".join(message(m.code, m.where, kind) for m in judged.mistakes)
+        if judged.both:
+            said = together(judged.mistakes[0], judged.mistakes[1], kind)
         return said + (band if reveal or judged.mistakes[0].code == "near-miss" else "")
     if judged.verdict == WRONG:
         return f"Not right.{band}"

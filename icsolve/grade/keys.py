@@ -14,6 +14,7 @@ from icsolve.case import (
     Load,
     LoadIs,
     RateIs,
+    RatioIs,
     ReactionIs,
     SpeedIs,
     Spring,
@@ -147,6 +148,8 @@ class Key(NamedTuple):
     """what words of direction that were met say of the positive sense"""
     fixed: float
     """the tolerance's own width, in the unit"""
+    kind: str
+    """what is asked for: `kind_of`"""
     plain: bool
     """whether nothing is asked but a right size, sense and unit, where one is given"""
 
@@ -230,7 +233,26 @@ def scalar_key(
             "it a tolerance such as 2%"
         )
     expected = _expected(target, answer)
-    return _key(question, value, (unit_name, unit), (half, width), expected, policy, wrongs)
+    kind = kind_of(target)
+    return _key(question, value, (unit_name, unit), (half, width), expected, policy, wrongs, kind)
+
+
+def kind_of(target: Target) -> str:
+    """What a target asks for, for messages: ``load``, ``ratio``, ``rate``, ``reaction``, ``place`` or
+    ``length``.
+    """
+    match target:
+        case LoadIs():
+            return "load"
+        case RatioIs():
+            return "ratio"
+        case RateIs() | SpeedIs():
+            return "rate"
+        case ReactionIs():
+            return "reaction"
+        case CentreIs():
+            return "place"
+    return "length"
 
 
 def simple_key(
@@ -259,6 +281,7 @@ def _key(
     expected: ExpectedDirection,
     policy: Policy,
     wrongs: Callable[[], Iterable[Wrong]],
+    kind: str = "load",
 ) -> Key:
     """A key with what follows from its value, unit, and half and own width."""
     half, width = widths
@@ -266,7 +289,7 @@ def _key(
     plain = _is_plain(policy) and value != 0.0 and expected.any
     foreseen = Wrongs(wrongs, value, half)
     return Key(
-        question, value, *unit, half, expected, foreseen, policy, accepted, rule, {}, {}, width, plain
+        question, value, *unit, half, expected, foreseen, policy, accepted, rule, {}, {}, width, kind, plain
     )
 
 
@@ -307,7 +330,7 @@ def scaled_key(key: Key, factor: float) -> Key:
     half = half_width(tolerance, value, fixed, abs(factor) * key.half)
 
     def wrongs() -> list[Wrong]:
-        return [Wrong(code, wrong * factor, where) for code, wrong, where in key.wrongs.all]
+        return [Wrong(code, wrong * factor, where, load) for code, wrong, where, load in key.wrongs.all]
 
     return key._replace(
         value=value,

@@ -180,6 +180,7 @@ def record(result: Result) -> dict[str, Any]:
         "max_score": marked.points,
         "rel_error": judged.off,
         "code": judged.code,
+        "together": judged.both,
         "mistakes": [{"code": m.code, "where": m.where} for m in judged.mistakes],
         "feedback": marked.text,
     }

@@ -85,7 +85,7 @@ def _with(counts: Counts, marked: list[Marked], band: tuple[float, float] | None
     verdicts, mistakes, bins, unread, score, most, texts, unexplained = counts
     for m in marked:
         judged, n = m.judged, m.count
-        verdict, share, _, value, _, code, causes = judged
+        verdict, share, _, value, _, code, causes, _ = judged
         verdicts[verdict] += n
         if verdict == "wrong":
             mistakes[causes[0].code if causes else ""] += n

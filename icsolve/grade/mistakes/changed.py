@@ -119,9 +119,9 @@ def in_radians(case: Case, figure: bool, loads: bool) -> Case | None:
 def _fed_joint(joint: Joint) -> Joint:
     """A guide's direction or a contact's normal; multiples of 90 degrees need no calculator."""
     if isinstance(joint, Slide | Slot) and joint.guide.angle is not None and joint.guide.angle.value % 90.0:
-        return joint._replace(guide=joint.guide._replace(angle=_as_radians(joint.guide.angle)))
+        return joint._replace(guide=joint.guide._replace(angle=as_radians(joint.guide.angle)))
     if isinstance(joint, Contact) and joint.normal.value % 90.0:
-        return joint._replace(normal=_as_radians(joint.normal))
+        return joint._replace(normal=as_radians(joint.normal))
     return joint
 
 
@@ -139,17 +139,17 @@ def with_other_meshes(case: Case) -> Iterator[Case]:
 
 
 def _fed(angle: Direction | Corner) -> Direction | Corner:
-    return angle._replace(value=_as_radians(angle.value))
+    return angle._replace(value=as_radians(angle.value))
 
 
-def _as_radians(angle: Number) -> Number:
+def as_radians(angle: Number) -> Number:
     """``60`` taken for 60 rad, in degrees again."""
     return angle._replace(value=math.degrees(angle.value) % 360.0)
 
 
 def _fed_load(load: Load) -> Load:
     if isinstance(load, Force) and isinstance(load.heading, Number):
-        return load._replace(heading=_as_radians(load.heading))
+        return load._replace(heading=as_radians(load.heading))
     return load
 
 

@@ -30,6 +30,12 @@ CODES: dict[str, str] = {
     "other-mode": "This belongs to the other way in which the mechanism assembles. Compare with the figure.",
     "no-friction": "Friction is left out.",
     "friction-sense": "Friction acts against the motion; here it acts with it.",
+    "ratio-one": "A velocity ratio is taken as 1{at}.",
+    "missed-stage": "One stage of the chain of ratios is left out{at}.",
+    "one-component": "Only one component of the arm or the force is taken{at}.",
+    "one-arm": "Of the two distances of a ratio one is left out{at}.",
+    "angle-sense": "An angle is measured the other way round{at}.",
+    "rpm": "Revolutions a minute are taken for radians a second, or the other way.",
     "neighbour": "This is the right answer to other numbers than yours{at}.",
     "swapped": "The two coordinates are exchanged.",
     "carried": "The method is right; the error comes from an earlier answer{at}.",
@@ -47,11 +53,45 @@ class Wrong(NamedTuple):
     code: str
     value: float
     where: str = ""
+    load: str = ""
+    """the load whose share it changes, where it changes no other"""
 
 
-def message(code: str, where: str = "") -> str:
-    """The line for a mistake; it names the cause and the load, link or centre, never the answer."""
-    return CODES[code].format(at=f" ({where})" if where else "")
+_OTHERWISE = {
+    ("sign", "ratio"): "Right size, wrong sense. Do the two links turn the same way?",
+    ("sign", "rate"): "Right size, wrong sense. Which way does the link turn?",
+    ("sign", "place"): "The sizes are right; a coordinate has the wrong sign.",
+    ("sign", "reaction"): "Right size, wrong sense. Which link's force on which is asked?",
+    ("sign", "length"): "Right size; a distance has no sign.",
+    ("power-of-ten", "ratio"): "The digits are right, the power of ten is not. A ratio has no unit.",
+    ("power-of-ten", "place"): "The digits are right, the power of ten is not. Check mm and m.",
+    ("power-of-ten", "length"): "The digits are right, the power of ten is not. Check mm and m.",
+    ("unit-factor", "place"): "Off by a unit factor: in and mm, ft and in.",
+    ("unit-factor", "length"): "Off by a unit factor: in and mm, ft and in.",
+    ("unit-factor", "ratio"): "Off by a factor of units; a ratio has none.",
+    ("wrong-ic", "place"): "This is another centre{at}.",
+    ("half", "ratio"): "Half the right size. Is a ratio counted once that stands there twice?",
+}
+"""What is told where a question asks for something else than a load."""
+
+
+def message(code: str, where: str = "", kind: str = "load") -> str:
+    """The line for a mistake in an answer of a ``kind`` (`icsolve.grade.keys.kind_of`).
+
+    It names the cause and the load, link or centre, never the answer.
+    """
+    told = _OTHERWISE.get((code, kind)) or CODES[code]
+    return told.format(at=f" ({where})" if where else "")
+
+
+def together(one: Wrong, two: Wrong, kind: str = "load") -> str:
+    """The line for two mistakes that were made at once."""
+    said = " ".join(message(wrong.code, wrong.where, kind) for wrong in (one, two))
+    return f"Two mistakes at once: {said}"
+
+
+PLAIN = frozenset({"sign", "power-of-ten", "unit-factor", "half", "double", "rpm"})
+"""Mistakes that need nothing but the right answer: a factor on it."""
 
 
 FACTORS = {
@@ -63,7 +103,8 @@ FACTORS = {
     "degrees and radians": 57.29577951308232,
 }
 """Unit factors that are forgotten or applied twice."""
-_RATE = {"rev/min and rad/s": 9.549296585513721, "revolutions and radians": 6.283185307179586}
+_REVOLUTIONS = {"revolutions and radians": 6.283185307179586}
+_RPM = 9.549296585513721
 
 
 def plain_wrongs(value: float, rate: bool = False) -> Iterator[Wrong]:
@@ -72,8 +113,11 @@ def plain_wrongs(value: float, rate: bool = False) -> Iterator[Wrong]:
     for power in (*range(-6, 0), *range(1, 7)):
         yield Wrong("power-of-ten", value * 10.0**power)
         yield Wrong("power-of-ten", -value * 10.0**power)
-    for name, factor in (FACTORS | (_RATE if rate else {})).items():
+    for name, factor in (FACTORS | (_REVOLUTIONS if rate else {})).items():
         yield Wrong("unit-factor", value * factor, name)
         yield Wrong("unit-factor", value / factor, name)
+    if rate:
+        yield Wrong("rpm", value * _RPM)
+        yield Wrong("rpm", value / _RPM)
     yield Wrong("half", value / 2.0)
     yield Wrong("double", value * 2.0)

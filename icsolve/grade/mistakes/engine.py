@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import math
-from bisect import bisect_left, bisect_right
-from collections.abc import Callable, Iterable, Iterator
-from functools import cached_property
+from collections.abc import Iterator
 
 from icsolve.answer import Answer
-from icsolve.case import Case, CentreIs, DistanceIs, Load, RateIs, RatioIs, Target, Torque
+from icsolve.case import Case, CentreIs, DistanceIs, Load, RateIs, RatioIs, SpeedIs, Target, Torque
 from icsolve.case.names import pair_name
 from icsolve.check import value_of
 from icsolve.errors import IcsolveError, SceneError
@@ -28,7 +26,8 @@ from icsolve.grade.mistakes.changed import (
     with_other_meshes,
     without_friction,
 )
-from icsolve.grade.mistakes.codes import FACTORS, ORDER, Wrong, plain_wrongs
+from icsolve.grade.mistakes.codes import FACTORS, Wrong, plain_wrongs
+from icsolve.grade.mistakes.steps import changed_angles, one_arm, one_component, ratio_steps, without_stages
 
 _NOTHING = 1e-9
 """A component below this part of the other is rounding."""
@@ -75,7 +74,7 @@ def _load_over_part(
 
 def _named(code: str, values: dict[str, float], where: str) -> Iterator[tuple[str, Wrong]]:
     for name, value in values.items():
-        yield name, Wrong(code, value, where)
+        yield name, Wrong(code, value, where, where)
 
 
 def _component(
@@ -92,9 +91,14 @@ def _component(
         along, across = value - base[name], quarter[name] - base[name]
         if abs(across) <= _NOTHING * abs(along):
             continue  # along its velocity: nothing to leave out, and sine for cosine leaves the load out
-        yield name, Wrong("no-cos", base[name] + math.copysign(math.hypot(along, across), along), load.name)
-        yield name, Wrong("sin-cos", base[name] + math.copysign(across, along), load.name)
-        yield name, Wrong("sin-cos", base[name] - math.copysign(across, along), load.name)
+        yield (
+            name,
+            Wrong(
+                "no-cos", base[name] + math.copysign(math.hypot(along, across), along), load.name, load.name
+            ),
+        )
+        yield name, Wrong("sin-cos", base[name] + math.copysign(across, along), load.name, load.name)
+        yield name, Wrong("sin-cos", base[name] - math.copysign(across, along), load.name, load.name)
 
 
 def _own_direction(answer: Answer, right: dict[str, float], resolve: Resolve) -> Iterator[tuple[str, Wrong]]:
@@ -126,6 +130,18 @@ def shares(answer: Answer, unknown: str) -> Shares:
     return {term.load: -term.power / own.factor for term in answer.terms if not term.unknown}
 
 
+def parts_of(answer: Answer, unknown: str) -> Shares:
+    """What each known load contributes to one of several unknowns: the answer less that without the load."""
+    right = answer.answers[unknown].value
+    found = {}
+    for load in known_loads(answer.case):
+        without = resolve(with_load(answer.case, scaled(load, 0.0))).get(unknown)
+        if without is None:
+            return {}
+        found[load.name] = right - without
+    return found if abs(sum(found.values()) - right) <= 1e-6 * abs(right) else {}
+
+
 def centre_wrongs(answer: Answer, unknown: str) -> Iterator[Wrong]:
     """Wrong answers for a scene with one unknown; ``answer`` has its centres and rates."""
     parts = shares(answer, unknown)
@@ -138,11 +154,37 @@ def centre_wrongs(answer: Answer, unknown: str) -> Iterator[Wrong]:
         if parts.get(load.name):
             yield from _upside_down(answer, load, own, value, parts[load.name])
             for factor, where in _arms(answer, load):
-                yield Wrong("wrong-ic", value + parts[load.name] * (factor - 1.0), where)
+                yield Wrong("wrong-ic", value + parts[load.name] * (factor - 1.0), where, load.name)
             for factor, where in _ratios(answer, load, own):
-                yield Wrong("wrong-ic", value + parts[load.name] * (factor - 1.0), where)
+                yield Wrong("wrong-ic", value + parts[load.name] * (factor - 1.0), where, load.name)
     for factor, where in _arms(answer, own):
         yield Wrong("wrong-ic", value / factor, where)
+
+
+def step_wrongs(answer: Answer, unknown: str) -> Iterator[Wrong]:
+    """Wrong answers of a single step for a scene with one unknown: ratios, stages, components, arms."""
+    parts, case = shares(answer, unknown), answer.case
+    if not parts:
+        return
+    value = answer.answers[unknown].value
+    own = next(load for load in case.loads if load.name == unknown)
+    factors = {term.load: term.factor for term in answer.terms}
+    mine = centres_of(answer, own.link)
+    for load in known_loads(case):
+        part = parts.get(load.name)
+        if not part:
+            continue
+        its = centres_of(answer, load.link)
+        for code, factor, where in ratio_steps(answer, load, own, (factors[load.name], factors[own.name])):
+            yield Wrong(code, value + part * (factor - 1.0), where, load.name)
+        for factor in one_component(answer, load, its.get(_reacting(case, load))):
+            yield Wrong("one-component", value + part * (factor - 1.0), load.name, load.name)
+        if load.link != own.link:
+            for factor in one_arm(its.get(own.link), mine.get(case.ground), its.get(case.ground)):
+                where = f"links {own.link} and {load.link}"
+                yield Wrong("one-arm", value + part * (factor - 1.0), where, load.name)
+    for factor in one_component(answer, own, mine.get(_reacting(case, own))):
+        yield Wrong("one-component", value / factor, own.name)
 
 
 def _upside_down(answer: Answer, load: Load, own: Load, value: float, part: float) -> Iterator[Wrong]:
@@ -151,11 +193,12 @@ def _upside_down(answer: Answer, load: Load, own: Load, value: float, part: floa
     first, second = rates.get(load.link), rates.get(own.link)
     where = f"links {own.link} and {load.link}"
     if isinstance(first, float) and isinstance(second, float) and first and second and load.link != own.link:
-        yield Wrong("inverse-ratio", value + part * ((second / first) ** 2 - 1.0), where)
+        yield Wrong("inverse-ratio", value + part * ((second / first) ** 2 - 1.0), where, load.name)
     factors = {term.load: term.factor for term in answer.terms}
     ratio = factors.get(load.name, 0.0) / factors[own.name]
     if same_kind(load, own) and ratio:
-        yield Wrong("inverse-ratio", value + part * (ratio**-2 - 1.0), f"{own.name} and {load.name}")
+        both = f"{own.name} and {load.name}"
+        yield Wrong("inverse-ratio", value + part * (ratio**-2 - 1.0), both, load.name)
 
 
 def _arms(answer: Answer, load: Load) -> Iterator[tuple[float, str]]:
@@ -218,10 +261,6 @@ def _arm(at: Place, heading: float, centre: Place) -> float:
     return (at[0] - centre[0]) * math.sin(angle) - (at[1] - centre[1]) * math.cos(angle)
 
 
-MOST = 3
-"""Causes that are named where several fit."""
-
-
 def resolve(case: Case | None) -> dict[str, float]:
     """The answers of a changed case; none where it can't be solved, which is no one's mistake then."""
     from icsolve.solve import solve
@@ -244,6 +283,13 @@ def wrong_answers(answer: Answer) -> dict[str, list[Wrong]]:
     if len(found) == 1:
         (name,) = found
         found[name].extend(centre_wrongs(answer, name))
+        found[name].extend(step_wrongs(answer, name))
+    for code, changed, where in changed_angles(answer.case):
+        for name, value in resolve(changed).items():
+            found[name].append(Wrong(code, value, where))
+    for changed, where in without_stages(answer.case):
+        for name, value in resolve(changed).items():
+            found[name].append(Wrong("missed-stage", value, where))
     for name, wrong in _exchanged(answer):
         found[name].append(wrong)
     return found
@@ -282,50 +328,6 @@ def _resolved(answer: Answer) -> Iterator[tuple[str, Wrong]]:
             yield name, Wrong(code, value)
 
 
-class Wrongs:
-    """Wrong answers sorted by value, made when the first wrong answer asks for them.
-
-    What the band about the ``right`` answer holds is dropped. ``reach`` is the relative half-width within
-    which a wrong answer is recognised: that of the right one, 5 % at most.
-    """
-
-    def __init__(self, make: Callable[[], Iterable[Wrong]], right: float, half: float) -> None:
-        self._make = make
-        self._right = right
-        self._half = half
-        self.reach = min(half / abs(right), 0.05) if right else 0.01
-
-    @cached_property
-    def all(self) -> tuple[Wrong, ...]:
-        """The wrong answers by value."""
-        right, half = self._right, self._half
-        kept = [w for w in self._make() if math.isfinite(w.value) and w.value and abs(w.value - right) > half]
-        return tuple(sorted(kept, key=lambda w: (w.value, ORDER[w.code])))
-
-    @cached_property
-    def _values(self) -> list[float]:
-        return [wrong.value for wrong in self.all]
-
-    def near(self, value: float) -> tuple[Wrong, ...]:
-        """The wrong answers that a value may be, simplest cause first, one of each code."""
-        values, reach = self._values, self.reach
-        width = reach * abs(value) * (1.0 + reach)
-        first = bisect_left(values, value - width)
-        last = bisect_right(values, value + width, first)
-        if first == last or not math.isfinite(value):
-            return ()
-        fitting = [w for w in self.all[first:last] if abs(value - w.value) <= reach * abs(w.value)]
-        return tuple(fitting) if len(fitting) < 2 else _simplest(fitting, value)
-
-
-def _simplest(fitting: list[Wrong], value: float) -> tuple[Wrong, ...]:
-    """The nearest of each code, simplest code first."""
-    nearest: dict[str, Wrong] = {}
-    for wrong in sorted(fitting, key=lambda w: abs(value - w.value)):
-        nearest.setdefault(wrong.code, wrong)
-    return tuple(sorted(nearest.values(), key=lambda w: ORDER[w.code])[:MOST])
-
-
 PlaceWrong = tuple[float, float, Wrong]
 
 
@@ -347,14 +349,31 @@ def target_wrongs(answer: Answer, target: Target) -> list[Wrong]:
         (value,) = value_of(answer, target)
     except LookupError:
         return []
-    found = list(plain_wrongs(value, rate=isinstance(target, RateIs)))
+    found = list(plain_wrongs(value, rate=isinstance(target, RateIs | SpeedIs)))
     if isinstance(target, RatioIs) and value:
         where = f"w{target.over}/w{target.under}"
         found += [Wrong("inverse-ratio", 1.0 / value, where), Wrong("inverse-ratio", -1.0 / value, where)]
+        found += [Wrong("ratio-one", 1.0, where), Wrong("ratio-one", -1.0, where)]
+        found += _stages(answer, target)
     if isinstance(target, DistanceIs):
         found += _other_distances(answer, target)
     for code, changed in changed_cases(answer):
         found += [Wrong(code, other[0]) for other in _values(changed, target)]
+    for code, changed, at in changed_angles(answer.case):
+        found += [Wrong(code, other[0], at) for other in _values(changed, target)]
+    return found
+
+
+def _stages(answer: Answer, target: RatioIs) -> list[Wrong]:
+    """The ratio without one of its stages: w4/w2 is (w4/w3) (w3/w2)."""
+    rates = answer.rates or {}
+    above, below = rates.get(target.over), rates.get(target.under)
+    found: list[Wrong] = []
+    for link, rate in rates.items():
+        if link in (target.over, target.under, answer.case.ground) or not isinstance(rate, float) or not rate:
+            continue
+        if isinstance(above, float) and isinstance(below, float) and below:
+            found += [Wrong("missed-stage", v, f"link {link}") for v in (above / rate, rate / below)]
     return found
 
 
