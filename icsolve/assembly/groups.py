@@ -3,7 +3,7 @@ and the smallest group that only all its data together place."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
 from icsolve.assembly.clusters import Drawing
@@ -369,12 +369,37 @@ class Group(NamedTuple):
         return told(self)
 
     def place(self, workspace: Workspace) -> None:
-        """Put the points, and improve them."""
+        """Put the points, and improve them; in balls the one solution there is enclosed."""
+        if getattr(workspace.arithmetic, "certain", False):
+            self._enclose(workspace)
+            return
         for target, at in zip(self.targets, self.start, strict=True):
             workspace.points[target] = workspace.starts.get(target, at)
         unknown = set(self.unknowns())
         for _ in range(workspace.rounds):
             self.improve(workspace, unknown)
+
+    def _enclose(self, workspace: Workspace) -> None:
+        """Balls that hold the one solution near the start."""
+        from icsolve.numbers.balls import Balls
+        from icsolve.numbers.krawczyk import enclosed_root
+
+        assert isinstance(workspace.arithmetic, Balls)
+        unknowns = self.unknowns()
+        place = {unknown: k for k, unknown in enumerate(unknowns)}
+
+        def put(x: Sequence[Scalar]) -> None:
+            for k, target in enumerate(self.targets):
+                workspace.points[target] = (x[2 * k], x[2 * k + 1])
+
+        def system(x: Sequence[Scalar]) -> tuple[list[Scalar], list[dict[int, Scalar]]]:
+            put(x)
+            rows = [equation.row(workspace) for equation in self.equations]
+            by = [{place[u]: v for u, v in row.by.items() if u in place} for row in rows]
+            return [row.value for row in rows], by
+
+        start = [float(part) for at in self.start for part in at]
+        put(enclosed_root(system, start, workspace.arithmetic))
 
     def improve(self, workspace: Workspace, unknown: set[Unknown]) -> None:
         """One Newton step."""

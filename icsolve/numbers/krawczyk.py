@@ -1,0 +1,163 @@
+"""The root of a system of equations near a start, enclosed: that it is there and the only one is shown.
+
+Krawczyk's operator (R. Krawczyk, Computing 4, 1969; R. E. Moore, SIAM J. Numer. Anal. 14, 1977): with C near
+the inverse of the Jacobian J, and a box X of half-width r about m,
+
+    K(X) = m - C F(m) + (1 - C J(X)) (X - m).
+
+Where K(X) lies inside X there is one root in X, and it lies in K(X). The data of F are balls: it then is so
+for every system that they hold.
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable, Mapping, Sequence
+from decimal import Decimal
+from typing import TypeVar
+
+from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.balls import INEXACT, TINY, UP, Ball, Balls, MoreDigits
+
+System = Callable[[Sequence[Scalar]], tuple[Sequence[Scalar], Sequence[Mapping[int, Scalar]]]]
+"""Values of the equations at a point or box, and their derivatives by the unknowns that bear on each."""
+
+MOST_STEPS = 60
+WIDENINGS = 4
+ROUNDING = 2.0**-51
+WIDEST = 1e-6
+"""A box that is wider says nothing of a root near the start (which lies in a frame of size 1)."""
+
+
+def enclosed_root(system: System, start: Sequence[float], balls: Balls) -> list[Ball]:
+    """Balls that hold the one root near a start.
+
+    Raises MoreDigits where that is not shown.
+    """
+    middle = [Decimal(x) for x in start]
+    rows = system([balls.exactly(x) for x in middle])[1]
+    for inverse in (_in_floats, _in_decimals):
+        near = inverse(rows, balls)
+        found = None if near is None else _enclosed(system, middle, near, balls)
+        if found is not None:
+            return found
+    raise MoreDigits
+
+
+def _enclosed(
+    system: System, middle: list[Decimal], inverse: list[list[Decimal]], balls: Balls
+) -> list[Ball] | None:
+    """The root, with what is near the inverse of the Jacobian; None where it is not shown."""
+    middle, off = _refined(system, middle, inverse, balls)
+    rough = [[float(c) for c in row] for row in inverse]
+    radius = 4.0 * max(off) + 4.0 * balls.unit * (1.0 + max(abs(float(x)) for x in middle))
+    for _ in range(WIDENINGS):
+        box = [_ball(balls, x, radius) for x in middle]
+        left = _left(rough, system(box)[1])
+        reach = [(step + radius * most) * UP + TINY for step, most in zip(off, left, strict=True)]
+        if max(reach) < radius < WIDEST:
+            return [_ball(balls, x, r) for x, r in zip(middle, reach, strict=True)]
+        radius *= 16.0
+    return None
+
+
+def _ball(balls: Balls, value: Decimal, radius: float) -> Ball:
+    return Ball(balls, value, radius, abs(float(value)) * UP + TINY, INEXACT)
+
+
+def _refined(
+    system: System, middle: list[Decimal], inverse: list[list[Decimal]], balls: Balls
+) -> tuple[list[Decimal], list[float]]:
+    """The point after Newton steps with the inverse held, and bounds of the next step, C F."""
+    best: float | None = None
+    off: list[float] = []
+    for _ in range(MOST_STEPS):
+        values = system([balls.exactly(x) for x in middle])[0]
+        step = [_product(row, values, balls) for row in inverse]
+        off = [abs(float(x)) * UP + r for x, r in step]
+        longest = max(off)
+        if best is not None and longest > 0.25 * best:
+            break
+        best = longest
+        middle = [balls.subtract(x, d) for x, (d, _) in zip(middle, step, strict=True)]
+    return middle, off
+
+
+def _product(row: Sequence[Decimal], values: Sequence[Scalar], balls: Balls) -> tuple[Decimal, float]:
+    """Sum of products, and a bound on its error."""
+    total, radius = Decimal(0), TINY
+    for c, value in zip(row, values, strict=True):
+        if type(value) is Ball:
+            total = balls.add(total, balls.multiply(c, value.value))
+            weight = abs(float(c)) * UP
+            radius += weight * (value.radius + 2.0 * len(row) * balls.unit * value.size) * UP + TINY
+        else:
+            assert value == 0.0
+    return total, radius * UP
+
+
+def _left(rough: list[list[float]], rows: Sequence[Mapping[int, Scalar]]) -> list[float]:
+    """Bounds of the row sums of abs(1 - C J)."""
+    n = len(rough)
+    entries = [[(j, float(v), getattr(v, "radius", 0.0)) for j, v in row.items()] for row in rows]
+    sums = []
+    for i, row in enumerate(rough):
+        rest, spread = [0.0] * n, [0.0] * n
+        rest[i], spread[i] = 1.0, ROUNDING
+        for c, entry in zip(row, entries, strict=True):
+            if c:
+                for j, value, radius in entry:
+                    product = c * value
+                    rest[j] -= product
+                    spread[j] += abs(product) * ROUNDING * n + abs(c) * radius * UP
+        sums.append((sum(map(abs, rest)) + 2.0 * sum(spread)) * UP)
+    return sums
+
+
+def _in_floats(rows: Sequence[Mapping[int, Scalar]], balls: Balls) -> list[list[Decimal]] | None:
+    """The inverse of a Jacobian in floats (of no bound); None where it has none."""
+    work = [[0.0] * len(rows) for _ in rows]
+    for line, row in zip(work, rows, strict=True):
+        for j, value in row.items():
+            line[j] = float(value)
+    found = _inverse(work, 1.0, operator.truediv, operator.mul, operator.sub)
+    return None if found is None else [[Decimal(c) for c in row] for row in found]
+
+
+def _in_decimals(rows: Sequence[Mapping[int, Scalar]], balls: Balls) -> list[list[Decimal]] | None:
+    """The same with all digits."""
+    work = [[Decimal(0)] * len(rows) for _ in rows]
+    for line, row in zip(work, rows, strict=True):
+        for j, value in row.items():
+            line[j] = value.value if type(value) is Ball else Decimal(value)
+    return _inverse(work, Decimal(1), balls.divide, balls.multiply, balls.subtract)
+
+
+N = TypeVar("N", float, Decimal)
+
+
+def _inverse(
+    rows: list[list[N]],
+    one: N,
+    divide: Callable[[N, N], N],
+    multiply: Callable[[N, N], N],
+    subtract: Callable[[N, N], N],
+) -> list[list[N]] | None:
+    """By Gauss and Jordan, with row pivots."""
+    n, zero = len(rows), subtract(one, one)
+    work = [row + [one if i == k else zero for k in range(n)] for i, row in enumerate(rows)]
+    for c in range(n):
+        r = max(range(c, n), key=lambda k: abs(work[k][c]))
+        if not work[r][c]:
+            return None
+        work[c], work[r] = work[r], work[c]
+        top, pivot = work[c], work[c][c]
+        used = [k for k in range(c, 2 * n) if top[k]]
+        for k in used:
+            top[k] = divide(top[k], pivot)
+        for i, row in enumerate(work):
+            ratio = row[c]
+            if i != c and ratio:
+                for k in used:
+                    row[k] = subtract(row[k], multiply(ratio, top[k]))
+    return [row[n:] for row in work]

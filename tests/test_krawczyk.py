@@ -1,0 +1,92 @@
+"""Groups of points that only all their data together place: the solution is enclosed, and shown to be one."""
+
+from __future__ import annotations
+
+from decimal import Decimal
+from random import Random
+from typing import Any
+
+import pytest
+from mpmath import mp
+
+import icsolve
+import loading
+import mechanisms
+import transcribe
+from figures import without_order
+from icsolve.numbers.balls import Balls, MoreDigits
+from icsolve.numbers.krawczyk import enclosed_root
+
+many = mp.clone()
+many.dps = 150
+
+
+def circles(offset: str) -> Any:
+    """Where the unit circle meets the line y = offset: x^2 + y^2 - 1 and y - offset."""
+
+    def system(z: Any) -> Any:
+        x, y = z
+        balls = x.arithmetic
+        level = balls.exactly(Decimal(offset))
+        return [x * x + y * y - 1.0, y - level], [{0: x * 2.0, 1: y * 2.0}, {1: balls.ball(1.0)}]
+
+    return system
+
+
+@pytest.mark.parametrize("digits", [30, 60, 120])
+@pytest.mark.parametrize("offset", ["0.3", "-0.75", "0.99", "0.999999999"])
+def test_the_root_lies_in_its_balls(digits: int, offset: str) -> None:
+    y = many.mpf(offset)
+    x = many.sqrt(1 - y * y)
+    found = enclosed_root(circles(offset), [float(x) * (1 + 1e-13), float(y)], Balls(digits))
+    for ball, true in zip(found, (x, y), strict=True):
+        assert abs(many.mpf(str(ball.value)) - true) <= ball.radius < 10.0 ** (10 - digits)
+
+
+@pytest.mark.parametrize("offset", ["1", "1.0000000000000001"])
+def test_a_double_root_and_one_that_is_not_there_are_not_shown(offset: str) -> None:
+    for digits in (30, 120):
+        with pytest.raises((MoreDigits, ZeroDivisionError)):
+            enclosed_root(circles(offset), [1e-9, 1.0], Balls(digits, highest=True))
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_double_butterfly_from_lengths_has_all_digits(seed: int) -> None:
+    """Six points found together: every one rounded once, against Newton in 150 digits."""
+    measured, k = None, seed
+    while measured is None:
+        measured, k = without_order(loading.drawn(k, mechanisms.butterfly), Random(k)), k + 1
+    case = icsolve.load(transcribe.text(measured))
+    answer = icsolve.solve(case, examine=True)
+    places = {p: [many.mpf(c) for c in at] for p, at in answer.points.items()}
+    places |= {p: [many.mpf(c.digits) for c in at] for p, at in case.points.items()}
+    for _ in range(8):
+        _newton(case, places)
+    for p, at in answer.points.items():
+        for shown, true in zip(at, places[p], strict=True):
+            assert abs(shown - true) <= 2.0**-53 * abs(true) * 1.001 + many.mpf(10) ** -60, p
+
+
+def _newton(case: icsolve.Case, places: dict[str, list[Any]]) -> None:
+    """One step on all lengths, for the points that are not given."""
+    free = [p for p in places if p not in case.points]
+    column = {(p, k): 2 * n + k for n, p in enumerate(free) for k in (0, 1)}
+    angles = [(a.a, a.b, a.value.digits) for a in case.angles]
+    rows, right = many.matrix(2 * len(free), 2 * len(free)), many.matrix(2 * len(free), 1)
+    equations = [(one.a, one.b, None, one.value.digits) for one in case.lengths]
+    equations += [(a, b, degrees, None) for a, b, degrees in angles]
+    for i, (a, b, degrees, length) in enumerate(equations):
+        dx, dy = (places[b][k] - places[a][k] for k in (0, 1))
+        if length is not None:
+            value, by = (dx * dx + dy * dy - many.mpf(length) ** 2) / 2, (dx, dy)
+        else:
+            t = many.mpf(degrees) * many.pi / 180
+            value, by = many.cos(t) * dy - many.sin(t) * dx, (-many.sin(t), many.cos(t))
+        right[i] = value
+        for k in (0, 1):
+            for p, sign in ((a, -1), (b, 1)):
+                if (p, k) in column:
+                    rows[i, column[p, k]] += sign * by[k]
+    move = many.lu_solve(rows, right)
+    for (p, k), j in column.items():
+        places[p][k] -= move[j]
