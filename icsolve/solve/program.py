@@ -124,7 +124,9 @@ def _wanted_points(case: Case, top: Topology, bonds: tuple[int, ...], want: Want
     return list(dict.fromkeys(points))
 
 
-def evaluate(program: Program, arithmetic: Arithmetic = FLOATS) -> tuple[Program, Outcome]:
+def evaluate(
+    program: Program, arithmetic: Arithmetic = FLOATS, rounds: int = 1
+) -> tuple[Program, Outcome]:
     """Places, motions and unknown loads; the program that ran (without a plan where a group of it
     is singular in this position).
 
@@ -132,13 +134,13 @@ def evaluate(program: Program, arithmetic: Arithmetic = FLOATS) -> tuple[Program
     """
     figure, case, top = program.figure, program.case, program.top
     # position
-    points = figure.points if arithmetic is FLOATS else place(figure, case, arithmetic).points
+    points = figure.points if arithmetic is FLOATS else place(figure, case, arithmetic, rounds).points
     # centres, which keep their weight: the twists of the links
     motions = None
     if program.plan is not None:
         motions = motion.by_plan(program.plan, top, points, arithmetic)
         if motions is None:
-            return evaluate(without_plan(program), arithmetic)
+            return evaluate(without_plan(program), arithmetic, rounds)
     if motions is None:
         motions = motion.by_loops(case, top, points, arithmetic, figure.frame)
     if case.ropes:
