@@ -190,6 +190,112 @@ loads: {W: {force: 10, link: 2, at: C, angle: 90}, F: {force: unknown, at: B}}
     assert (error.status, "C-P-B" in error.message) == ("slack", True)
 
 
+# --- ropes that slip: capstans, band brakes (Euler and Eytelwein) ---------------------------------------
+
+CAPSTAN = """
+points: {A: [0.5, -2], O: [0, 0], B: [-3, 0.5], D: [0.5, -3]}
+joints:
+  - {slide: [2, 1], at: A, along: 90}
+  - {rope: [A, O, B], on: [2, 1], radii: {O: 0.5}, wraps: {O: ccw}, mu: {O: 0.25}}
+loads:
+  W: {weight: 100, link: 2, at: A}
+  F: {force: unknown, at: B}
+"""
+HAULED = math.exp(0.25 * math.pi / 2)
+
+
+@pytest.mark.parametrize(("angle", "pull"), [(90, 100 * HAULED), (270, 100 / HAULED)])
+def test_a_rope_round_a_post_pulls_with_the_exponential_of_its_wrap(angle: float, pull: float) -> None:
+    answer = solved(CAPSTAN + f"motion: {{point: A, link: 2, speed: 1, angle: {angle}}}\n")
+    assert answer.answers["F"].value == exactly(pull)
+    shown = answer.to_dict()["reactions"]["T A-O-B"]
+    assert shown == {"tension": exactly(100), "tensions": [exactly(100), exactly(pull)]}
+    assert sum(term.power for term in answer.terms) == pytest.approx(0.0, abs=1e-12)
+    assert answer.friction is not None
+    assert answer.friction.losses == exactly(abs(pull - 100))
+
+
+def test_without_a_motion_the_pull_on_a_capstan_holds_over_a_range() -> None:
+    answer = icsolve.solve(icsolve.load("icsolve: 1\n" + CAPSTAN))
+    assert answer.answers["F"].holds == (exactly(100 / HAULED), exactly(100 * HAULED))
+
+
+BAND = """
+points: {O: [0, 0], A: [-0.2, -0.3], C: [0.2, -0.3], L: [0.6, -0.3]}
+joints:
+  - {pin: [1, 2], at: O}
+  - {pin: [1, 3], at: A}
+  - {rope: [A, O, C], on: [1, 2, 3], radii: {O: 0.2}, wraps: {O: cw}, mu: {O: 0.3}}
+loads:
+  M: {torque: 20, link: 2}
+  P: {force: unknown, link: 3, at: L, angle: -90}
+"""
+
+
+@pytest.mark.parametrize(("turns", "torque", "slack_end"), [("ccw", 20, False), ("cw", -20, True)])
+def test_a_band_brake_by_its_two_pulls(turns: str, torque: float, slack_end: bool) -> None:
+    """M = (T2 - T1) r with T2 = T1 e^(mu beta); P balances the end at C about A."""
+    answer = solved(BAND.replace("20", str(torque)) + f"motion: {{link: 2, turns: {turns}}}\n")
+    ratio = math.exp(0.3 * math.pi)
+    loose = 100 / (ratio - 1)
+    assert answer.answers["P"].value == exactly((loose if slack_end else loose * ratio) * 0.4 / 0.8)
+
+
+def test_a_band_brake_at_rest_holds_from_a_pull_upward() -> None:
+    answer = icsolve.solve(icsolve.load("icsolve: 1\n" + BAND))
+    ratio = math.exp(0.3 * math.pi)
+    assert answer.answers["P"].holds == (exactly(100 * ratio / (ratio - 1) / 2), math.inf)
+
+
+def test_a_block_on_a_rough_slope_tied_over_a_pulley() -> None:
+    """Q sin 30 -+ mu Q cos 30 is what the hanging weight may weigh."""
+    text = """
+points: {C: [0, 0], P: [2, 1.1547005383792515], B: [2, 0]}
+joints:
+  - {slide: [2, 1], at: C, along: 30, mu: 0.2}
+  - {rope: [C, P, B], on: [2, 1]}
+loads:
+  Q: {weight: 100, link: 2, at: C}
+  W: {weight: unknown, at: B}
+"""
+    answer = icsolve.solve(icsolve.load("icsolve: 1\n" + text))
+    rough = 20 * math.sqrt(3) / 2
+    assert answer.answers["W"].holds == (pytest.approx(50 - rough), pytest.approx(50 + rough))
+    up = solved(text + "motion: {point: C, link: 2, speed: 1, angle: 30}\n")
+    assert up.answers["W"].value == pytest.approx(50 + rough)
+    assert tension(up, "C-P-B") == pytest.approx(50 + rough)
+
+
+# --- accelerations ---------------------------------------------------------------------------------
+
+
+def test_acceleration_of_what_a_rope_lifts() -> None:
+    """A crank of 0.5 m draws a block up over a point: the second derivative of the part's length."""
+    t, w = math.radians(53.13), 2.0
+    answer = icsolve.solve(
+        icsolve.load("""icsolve: 1
+points: {A: [0, 0], P: [1, 2], C: [1, 0.5]}
+lengths: {AB: 0.5}
+angles: {AB: 53.13}
+links: {3: {mass: 2 kg, centre: C}}
+joints:
+  - {pin: [1, 2], at: A}
+  - {slide: [3, 1], at: C, along: 90}
+  - {rope: [B, P, C], on: [2, 1, 3]}
+loads: {T: {torque: unknown, link: 2}}
+motion: {link: 2, speed: 2}
+"""),
+        dynamic=True,
+    )
+    # l^2 = 5.25 - cos t - 2 sin t, so l l' = (sin t - 2 cos t) / 2, l'^2 + l l'' = (cos t + 2 sin t) / 2
+    length = math.sqrt(5.25 - math.cos(t) - 2 * math.sin(t))
+    first = (math.sin(t) - 2 * math.cos(t)) / 2 / length
+    second = ((math.cos(t) + 2 * math.sin(t)) / 2 - first**2) / length
+    assert answer.accelerations is not None
+    assert answer.accelerations["C", "3"] == (0.0, pytest.approx(second * w * w, rel=1e-13))
+    assert answer.answers["T"].value == pytest.approx(2 * second * w * w * first, rel=1e-12)
+
+
 # --- both routes -----------------------------------------------------------------------------------
 
 

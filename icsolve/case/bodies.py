@@ -39,6 +39,11 @@ class Rope(NamedTuple):
         return "-".join(self.points)
 
     @property
+    def slips(self) -> bool:
+        """Whether it rubs on anything that it goes round."""
+        return any(mu is not None and mu.value > 0.0 for mu in self.mu)
+
+    @property
     def end(self) -> str:
         """What stands for a link where loads pull the last end: no link of the case has such a name."""
         return f"@{self.name}"

@@ -14,12 +14,13 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from icsolve.assembly.workspace import Frame
-from icsolve.case import Belt, Case, Contact, Gears, KnownCentre, Motion, Pin, Roll, Slide, Slot
+from icsolve.case import Belt, Case, Contact, Gears, KnownCentre, Motion, Pin, Roll, Rope, Slide, Slot
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Arithmetic, Scalar
 from icsolve.numbers.sparse import General, Row, eliminate
 from icsolve.screws.joints import Points, freedoms, guide_direction, mesh_weights, transmitted
 from icsolve.screws.plane import Point, Triple, add, blend, cross, pairing, subtract, velocity
+from icsolve.screws.ropes import part_changes, rope_parts
 from icsolve.structure.topology import Bond, Topology
 from icsolve.wording.sentences import listed
 
@@ -76,10 +77,11 @@ def moving(
         message = "the motions given contradict each other: no motion has all of them."
         raise SceneError(Status.INCONSISTENT, message)
     factors = [shares.of(m).get(count, 0.0) for m in range(count)]
-    twists = {link: _combined(factors, ts) for link, ts in motions.items()}
-    idle = {link for link, ts in motions.items() if _is_open(shares, ts, arithmetic)}
-    rates = _rates(case, top, points, twists, conditions, arithmetic, frame)
-    return Moving(twists, {link: rates[0][top.body_of[link]] for link in motions}, frozenset(idle | rates[1]))
+    of_links = {link: ts for link, ts in motions.items() if link in top.body_of}
+    twists = {link: _combined(factors, ts) for link, ts in of_links.items()}
+    idle = {link for link, ts in of_links.items() if _is_open(shares, ts, arithmetic)}
+    rates, loose = _rates(case, top, points, twists, conditions, arithmetic, frame)
+    return Moving(twists, {link: rates[top.body_of[link]] for link in of_links}, frozenset(idle | loose))
 
 
 NO_SPEED = (
@@ -160,6 +162,10 @@ def _rates(
         for w, dw in zip(transmitted(basis), _transmitted_changes(basis, change), strict=True):
             rows.append(_between(top, bond, w, pairing(dw, relative), known))
             sizes.append(sum(abs(a * b) for a, b in zip(dw, relative, strict=True)))
+    for rope in top.ropes:
+        row, change = _roped(top, rope, points, twists, arithmetic, frame)
+        rows.append({**row, known: change})
+        sizes.append(abs(change))
     for _, _, given, along, more in conditions:
         rows.append(_driven(top, given, along, more, twists, points, known))
         sizes.append(abs(more))
@@ -188,6 +194,28 @@ def _between(top: Topology, bond: Bond, w: Triple, change: Scalar, known: int) -
             for n, part in enumerate(w):
                 row[3 * body + n] = sign * part
     return row
+
+
+def _roped(
+    top: Topology,
+    rope: Rope,
+    points: Points,
+    twists: Mapping[str, Triple],
+    arithmetic: Arithmetic,
+    frame: Frame,
+) -> tuple[Row, Scalar]:
+    """The condition that a rope goes on keeping its length, and what its turning parts make of it."""
+    row: Row = {}
+    total: Scalar = 0.0
+    centres = zip(rope.points, rope.points[1:], strict=False)
+    for part, (p, q) in zip(rope_parts(rope, points, frame.scale, arithmetic), centres, strict=True):
+        change = part_changes(part, points[p], twists, points[q])
+        total = total + pairing(change, subtract(twists[part.links[1]], twists[part.links[0]]))
+        for link, sign in zip(part.links, (-1.0, 1.0), strict=True):
+            body = top.body_of[link]
+            for n, a in enumerate(part.wrench if body != top.ground else ()):
+                row[3 * body + n] = row.get(3 * body + n, 0.0) + sign * a
+    return row, total
 
 
 def _driven(

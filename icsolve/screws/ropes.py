@@ -11,7 +11,8 @@ does no work.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 from icsolve.case import Rope
@@ -123,6 +124,31 @@ def wrap_angle(rope: Rope, k: int, parts: tuple[RopePart, ...]) -> float:
     turned = math.atan2(float(ax * by - ay * bx), float(ax * bx + ay * by))
     sense = 1.0 if rope.wraps[k] == "ccw" else -1.0
     return (sense * turned) % (2.0 * math.pi)
+
+
+def slip_rates(parts: tuple[RopePart, ...], twists: Mapping[str, Triple]) -> tuple[Scalar, ...]:
+    """How fast the rope runs on, toward its last end, over what it goes round between its parts."""
+    speed = pairing(parts[0].wrench, twists[parts[0].links[0]])
+    found = []
+    for before, after in pairwise(parts):
+        twist = twists[after.links[0]]
+        found.append(speed - pairing(before.wrench, twist))
+        speed = speed + pairing(after.wrench, twist) - pairing(before.wrench, twist)
+    return tuple(found)
+
+
+def tension_ratios(rope: Rope, parts: tuple[RopePart, ...], senses: Sequence[float]) -> tuple[float, ...]:
+    """The tension of each part over that of the first, where the rope slips in these senses.
+
+    The pull grows in the sense in which the rope runs on by exp(mu beta), with the angle of wrap beta
+    (Euler's and Eytelwein's formula).
+    """
+    ratios = [1.0]
+    for k, sense in enumerate(senses, start=1):
+        mu = rope.mu[k]
+        grown = 0.0 if mu is None else sense * mu.value * wrap_angle(rope, k, parts)
+        ratios.append(ratios[-1] * math.exp(grown))
+    return tuple(ratios)
 
 
 def rope_points(rope: Rope) -> tuple[str, ...]:

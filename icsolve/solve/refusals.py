@@ -73,7 +73,8 @@ def rubs(case: Case) -> bool:
     if not any(power.is_unknown(load) for load in case.loads):
         return False
     frictions = (getattr(joint, "friction", None) for joint in case.joints)
-    return any(friction is not None and friction.mu.value > 0 for friction in frictions)
+    ropes = any(rope.slips for rope in case.ropes)
+    return ropes or any(friction is not None and friction.mu.value > 0 for friction in frictions)
 
 
 def is_workless(motions: Motions, solution: power.Solution) -> bool:

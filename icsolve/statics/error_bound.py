@@ -29,7 +29,7 @@ from icsolve.statics.equilibrium import Rub, Statics, equations_of
 from icsolve.statics.free_bodies import Solved, carrying_flanks
 from icsolve.statics.friction_interface import rates_of, rubs_of
 from icsolve.statics.power import Balance, Wrench, vector_size
-from icsolve.statics.reaction_basis import Force, Position, Tie, ties_of
+from icsolve.statics.reaction_basis import Force, Position, RopeTie, Tie, rope_ties, ties_of
 
 UNBOUND = "no bound was asked for"
 UNSURE = "with friction no bound of the rounding error is proven"
@@ -103,6 +103,8 @@ def _judged(solved: Solved, scaled: list[float] | None, slopes: dict[str, dict[s
 
 def _doubt(position: Position, traced: Bounded) -> str:
     """Why a bound of first order would not do."""
+    if any(rope.slips for rope in position.case.ropes):
+        return f"{UNSURE} with ropes that slip"
     if position.slack:
         return MISSED
     if any(isinstance(joint, Gears) and joint.helix is not None for joint in position.case.joints):
@@ -117,7 +119,8 @@ def _exact(position: Position, solved: Solved, found: Sliding, traced: Bounded) 
     flanks = carrying_flanks(position, solved.statics.ties, solved)
     ties = reaction_basis.with_flanks(placed, ties_of(placed, tape), flanks, tape)
     values = {column: tape.constant(value) for column, value in found.values.items()}
-    return Exact(ties, rubs_of(placed, ties, tape), outcome.balance.wrenches, values, tape)
+    ropes = rope_ties(position.case, placed.points, position.scale, tape)
+    return Exact(ties, rubs_of(placed, ties, tape), outcome.balance.wrenches, values, tape, ropes)
 
 
 def _senses_are_sure(
@@ -166,13 +169,14 @@ class Weights(NamedTuple):
 
 
 class Exact(NamedTuple):
-    """A scene's ties, rubs, loads and values of the columns in one arithmetic."""
+    """A scene's ties, ropes, rubs, loads and values of the columns in one arithmetic."""
 
     ties: Sequence[Tie]
     rubs: Sequence[Rub]
     wrenches: Sequence[Wrench]
     values: Mapping[int, Scalar]
     numbers: Arithmetic
+    ropes: Sequence[RopeTie] = ()
 
 
 Output = dict[int, float]
@@ -250,6 +254,7 @@ def _sum(terms: Iterable[Scalar]) -> Scalar:
 def step(found: Sliding, weights: Weights, exact: Exact) -> Scalar:
     """The weighted sum of all residuals (scaled): the unknown load is too large by so much."""
     links = _sum(_of_tie(found.statics, weights, exact, t) for t in range(len(exact.ties)))
+    links = links + _sum(_of_rope(found.statics, weights, exact, n) for n in range(len(exact.ropes)))
     loads = _sum(_of_load(found.statics, weights, exact, w) for w in exact.wrenches)
     rubs = _sum(_of_rub(found, weights, exact, k) for k in range(len(exact.rubs)))
     return links + loads + rubs
@@ -262,6 +267,17 @@ def _of_tie(statics: Statics, weights: Weights, exact: Exact, t: int) -> Scalar:
     passing = [(statics.first[t] + n, unit) for n, unit in enumerate(tie.units)]
     passing += [(statics.rub(k), rub.unit) for k, rub in enumerate(exact.rubs) if rub.tie == t]
     return _sum(exact.values[c] * _pairing(unit, apart) for c, unit in passing)
+
+
+def _of_rope(statics: Statics, weights: Weights, exact: Exact, n: int) -> Scalar:
+    """The pull of every part of a rope on its first link and back on its second."""
+    tie = exact.ropes[n]
+    total: Scalar = 0.0
+    for k, part in enumerate(tie.parts):
+        at, unit = tie.unit(k)
+        apart = _apart(weights, part.links[0], part.links[1] or tie.rope.end, at)
+        total = total + exact.values[statics.tension(n)] * _pairing(unit, apart)
+    return total
 
 
 def _of_load(statics: Statics, weights: Weights, exact: Exact, w: Wrench) -> Scalar:

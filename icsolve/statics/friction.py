@@ -6,16 +6,17 @@ What rubs, which way, and what it takes: of a scene and of its solution, in case
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
 from icsolve.answer import Answer, Deferred, Found
-from icsolve.answer.bodies import Friction, Rubbing, Witness
+from icsolve.answer.bodies import Friction, Rubbing, Tension, Witness
 from icsolve.assembly import Frame
-from icsolve.case import Belt, Gears
+from icsolve.case import Belt, Gears, Rope
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import STILL, Speed
+from icsolve.screws.ropes import slip_rates, tension_ratios
 from icsolve.solve.bounds import Bounded, Value
 from icsolve.statics import reaction_basis
 from icsolve.statics.equilibrium import (
@@ -27,7 +28,7 @@ from icsolve.statics.equilibrium import (
     terms_of,
     witnesses,
 )
-from icsolve.statics.error_bound import ErrorBounds, error_bounds
+from icsolve.statics.error_bound import UNSURE, ErrorBounds, error_bounds
 from icsolve.statics.free_bodies import (
     FreeBodies,
     Solved,
@@ -40,9 +41,9 @@ from icsolve.statics.friction_equations import forces_of
 from icsolve.statics.friction_interface import kind_of_rub, rates_of, rubs_of, unknowns_by_power
 from icsolve.statics.power import Balance, Solution, is_unknown
 from icsolve.statics.reaction_basis import Position, Tie, ties_of
-from icsolve.statics.reactions import names_by_tie, notes_of, reactions_of
+from icsolve.statics.reactions import names_by_tie, notes_of, reactions_of, tensions_of
 from icsolve.statics.sliding import Slid, slid
-from icsolve.statics.static_range import End, StaticRange, pressed, static_range
+from icsolve.statics.static_range import IMPENDING, End, StaticRange, end_of, pressed, static_range
 from icsolve.wording.sentences import listed, plural
 
 
@@ -52,6 +53,7 @@ def in_motion(scene: Scene) -> tuple[dict[str, float], FreeBodies, ErrorBounds]:
     Raises SceneError where no value does, where several do without one to prefer, and where the sense
     of a rub is open.
     """
+    scene = slipping(scene)
     ties, workless = ties_of(scene.position), _is_workless(scene)
     slides: list[Slid] = []
 
@@ -82,6 +84,8 @@ def at_rest(scene: Scene) -> tuple[StaticRange, float | None, str]:
             "each: without it each unknown load has a range that depends on the others."
         )
         raise SceneError(Status.MOBILITY, message)
+    if any(rope.slips for rope in scene.position.case.ropes):
+        return _range_with_ropes(scene), None, f"{UNSURE} with ropes that slip"
     ties, workless = ties_of(scene.position), _is_workless(scene)
     flanks = _flanks(scene, ties, workless)
     statics = _statics(scene, reaction_basis.with_flanks(scene.position, ties, flanks))
@@ -91,6 +95,96 @@ def at_rest(scene: Scene) -> tuple[StaticRange, float | None, str]:
     bounds = [bound for each in sure for bound in each.bounds.values()]
     why = next((each.why for each in sure if not each.bounds), "" if bounds else PRESSED)
     return found, None if why else max(bounds), why
+
+
+def slipping(scene: Scene, direction: float = 1.0) -> Scene:
+    """The scene with the pulls of its ropes as they slip in the motion that is meant, or in its opposite."""
+    if not any(rope.slips for rope in scene.position.case.ropes):
+        return scene
+    ropes = [
+        tie._replace(ratios=tension_ratios(tie.rope, tie.parts, [direction * s for s in _signs(rates)]))
+        for tie, rates in zip(scene.position.ropes, rope_rates(scene), strict=True)
+    ]
+    return scene._replace(position=scene.position._replace(ropes=tuple(ropes)))
+
+
+def _signs(rates: Sequence[float]) -> list[float]:
+    return [math.copysign(1.0, rate) if rate else 0.0 for rate in rates]
+
+
+def rope_rates(scene: Scene) -> list[tuple[float, ...]]:
+    """How fast each rope runs on over what it goes round, in the motion that is meant (normalised).
+
+    Raises SceneError where a freedom that no motion fixes moves one that slips.
+    """
+    position, found = scene.position, []
+    fastest = max((abs(x) for ts in position.twists.values() for t in ts for x in t), default=0.0)
+    for tie in position.ropes:
+        each = [
+            slip_rates(tie.parts, {link: ts[m] for link, ts in position.twists.items()})
+            for m in range(position.mobility)
+        ]
+        rates = []
+        for k, by_motion in enumerate(zip(*each, strict=True), start=1):
+            rate = scene.speed.of([float(one) for one in by_motion], fastest)
+            if rate is None and tie.rope.mu[k] is not None:
+                raise SceneError(Status.MOBILITY, _open_rope(tie.rope))
+            rate = 0.0 if rate is None else rate
+            rates.append(rate if abs(rate * scene.speed.divisor) > STILL * fastest else 0.0)
+        found.append(tuple(rates))
+    return found
+
+
+def _open_rope(rope: Rope) -> str:
+    return (
+        f"the sense in which the rope {rope.name} slips is open: a freedom that no given motion fixes moves "
+        "it. Give its `motion` too, or weld what does not turn."
+    )
+
+
+def _range_with_ropes(scene: Scene) -> StaticRange:
+    """The range where ropes slip: about to move one way and the other, with the pulls that go with each.
+
+    Where a rope would have to push, the mechanism never moves that way: the range has no end there, on the
+    side on which the unknown load draws the ropes tighter.
+    """
+    ends: list[End] = []
+    senses: tuple[float, ...] = ()
+    for direction in (1.0, -1.0):
+        one = slipping(scene, direction)
+        ties = ties_of(one.position)
+        flanks = _flanks(one, ties, False)
+        statics = _statics(one, reaction_basis.with_flanks(one.position, ties, flanks))
+        senses = tuple(direction * s for s in senses_of(one, statics).signs)
+        end = end_of(statics, senses)
+        if end is None:
+            raise SceneError(Status.NO_VALUE, _nothing_slips(statics))
+        ends.append(_pulling(statics, end))
+    least, most = min(end.value for end in ends), max(end.value for end in ends)
+    locks = math.isinf(least) or math.isinf(most) or (least <= 0.0 <= most and least < most)
+    moving = tuple(end for end in ends if math.isfinite(end.value))
+    return StaticRange(least, most, (least, most), IMPENDING, locks, moving)
+
+
+def _pulling(statics: Statics, end: End) -> End:
+    """An end at which every rope pulls; else none: infinite where the load draws that rope tighter."""
+    (root,) = statics.roots
+    if not math.isfinite(end.value):
+        return end
+    parameters = statics.parameters({root: end.value}, end.friction or (0.0,) * len(statics.rubs))
+    for n in range(len(statics.ropes)):
+        row = statics.general.of(statics.tension(n))
+        if statics.value(statics.tension(n), parameters) < 0.0:
+            tighter = row.get(statics.root(0), 0.0) or 1.0
+            return End(math.copysign(math.inf, tighter), end.senses)
+    return end
+
+
+def _nothing_slips(statics: Statics) -> str:
+    return (
+        f"no value of {statics.roots[0]} balances: it does no work, and no friction does. Put the unknown on "
+        "a link that moves, or give `mu` where links rub."
+    )
 
 
 PRESSED = "no bound is proven of a range whose ends no motion sets"
@@ -116,8 +210,12 @@ def _flanks(scene: Scene, ties: Sequence[Tie], workless: bool) -> Mapping[int, f
 
 
 def _is_workless(scene: Scene) -> bool:
-    """Whether the one unknown load does no work: then only friction can balance the known ones."""
-    return scene.solution.verdict in ("no value", "any value")
+    """Whether the one unknown load does no work: then only friction can balance the known ones.
+
+    What draws a rope that slips is as good as one that works.
+    """
+    slips = any(rope.slips for rope in scene.position.case.ropes)
+    return scene.solution.verdict in ("no value", "any value") and not slips
 
 
 def _statics(scene: Scene, ties: Sequence[Tie]) -> Statics:
@@ -155,25 +253,41 @@ def _bodies(scene: Scene, solved: Solved, found: Slid, workless: bool) -> FreeBo
     terms = terms_of(position, statics, scene.balance, parameters)
     senses = senses_of(scene, statics)
     shown: tuple[Witness, ...] = ()
-    if not workless:
+    if scene.solution.verdict not in ("no value", "any value"):
         bounds = bounds_of(position, statics, scene.balance, terms)
         by_power = {q: (value, 0.0) for q, value in _by_power(scene, solved).items()}
         shown = witnesses(by_power, solved.unknowns, bounds)
         refuse_apart(shown, position.slack)
     reactions = reactions_of(position, scene.frame, statics, parameters)
-    rubbing = rubbing_of(scene, solved, found, senses)
+    pulls = tensions_of(statics, parameters)
+    rubbing = (*rubbing_of(scene, solved, found, senses), *_ropes_rubbing(scene, statics, pulls))
     refuse_power(rubbing)
     error, losses = found.error if math.isfinite(found.error) else None, sum(r.loss for r in rubbing)
     friction = Friction(rubbing, residual(terms), error, found.unique, losses)
     notes = notes_of(statics, reactions, names_by_tie(position.case, statics.ties))
-    return FreeBodies(
-        reactions, shown, residual(terms), (*notes, *notes_in_motion(scene, statics, found, senses)), friction
-    )
+    notes = (*notes, *notes_in_motion(scene, statics, found, senses))
+    return FreeBodies(reactions, shown, residual(terms), notes, friction, pulls)
+
+
+def _ropes_rubbing(scene: Scene, statics: Statics, pulls: Sequence[Tension]) -> Iterator[Rubbing]:
+    """Where ropes slip: the difference of the two pulls, and the power that it takes."""
+    for tie, rates, pull in zip(statics.ropes, rope_rates(scene), pulls, strict=True):
+        for k, rate in enumerate(rates, start=1):
+            if tie.rope.mu[k] is None or not pull.parts:
+                continue
+            speed = rate / scene.frame.scale
+            apart = abs(pull.parts[k] - pull.parts[k - 1])
+            value = -math.copysign(apart, rate) if rate else 0.0
+            loss = apart * abs(speed)
+            yield Rubbing(pull.name, tie.rope.points[k], "rope", value, apart, speed, loss)
 
 
 def _by_power(scene: Scene, solved: Solved) -> Mapping[str, float]:
     """The unknown loads from the sums of power, the losses of friction counted."""
-    return unknowns_by_power(scene.position, scene.balance, solved.statics, solved.friction)
+    statics, parameters = solved.statics, solved.parameters
+    columns = [statics.tension(n) for n in range(len(statics.ropes))]
+    pulls = [statics.value(column, parameters) / statics.scale for column in columns]
+    return unknowns_by_power(scene.position, scene.balance, statics, solved.friction, pulls)
 
 
 def solved(scene: Scene, answer_with: Callable[[Mapping[str, Value]], Answer], reactions: bool) -> Answer:

@@ -15,10 +15,10 @@ from icsolve.answer import Term, bodies
 from icsolve.case import Case, Contact, Friction, Pin, Slide, Slot
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
 from icsolve.numbers.linear import solve_square
-from icsolve.screws.plane import velocity
+from icsolve.screws.plane import pairing, subtract, velocity
 from icsolve.statics.equilibrium import Rub, Statics, independent
 from icsolve.statics.power import Balance, Wrench, known_value
-from icsolve.statics.reaction_basis import COUPLE, Force, Position, Tie
+from icsolve.statics.reaction_basis import COUPLE, Force, Position, RopeTie, Tie
 
 
 def friction_of(joint: object) -> Friction | None:
@@ -28,8 +28,9 @@ def friction_of(joint: object) -> Friction | None:
 
 
 def has_friction(case: Case) -> bool:
-    """Whether any joint rubs."""
-    return any(friction_of(joint) is not None for joint in case.joints)
+    """Whether any joint or rope rubs."""
+    ropes = any(rope.slips for rope in case.ropes)
+    return ropes or any(friction_of(joint) is not None for joint in case.joints)
 
 
 def rubs_of(
@@ -92,9 +93,16 @@ def kind_of_rub(tie: Tie) -> str:
 
 
 def unknowns_by_power(
-    position: Position, balance: Balance, statics: Statics, friction: Sequence[float]
+    position: Position,
+    balance: Balance,
+    statics: Statics,
+    friction: Sequence[float],
+    pulls: Sequence[float] = (),
 ) -> dict[str, float]:
-    """The unknown loads (case units) that leave no power in any motion, with this friction (scaled)."""
+    """The unknown loads (case units) that leave no power in any motion, with this friction (scaled).
+
+    ``pulls`` has the tension of the first part of each rope, in case units.
+    """
     rows = []
     for m, factors in enumerate(balance.factors):
         powers = [_power(w, float(f)) for w, f in zip(balance.wrenches, factors, strict=True)]
@@ -105,10 +113,22 @@ def unknowns_by_power(
         known = sum(p for w, p in zip(balance.wrenches, powers, strict=True) if w.root not in statics.roots)
         rates = rates_of(position, statics.ties, statics.rubs, m)
         lost = sum(f * rate for f, rate in zip(friction, rates, strict=True)) / statics.scale
+        slipping = (_slipping(position, tie, m) for tie in statics.ropes)
+        lost += sum(pull * power for pull, power in zip(pulls, slipping, strict=True))
         rows.append([*row, -known - lost])
     chosen = independent(rows, len(statics.roots))
     values = solve_square([row[:-1] for row in chosen], [row[-1] for row in chosen])
     return dict(zip(statics.roots, values or [float("nan")] * len(statics.roots), strict=True))
+
+
+def _slipping(position: Position, tie: RopeTie, motion: int) -> float:
+    """Power of a rope on its links per unit of its first part's tension; none where it does not slip."""
+    twists = {link: ts[motion] for link, ts in position.twists.items()}
+    total = 0.0
+    for part, ratio in zip(tie.parts, tie.ratios, strict=True):
+        there = twists[part.links[1] or tie.rope.end]
+        total -= ratio * float(pairing(part.wrench, subtract(there, twists[part.links[0]])))
+    return total
 
 
 def _power(w: Wrench, factor: float) -> float:

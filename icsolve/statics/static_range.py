@@ -110,6 +110,11 @@ def _possible(
     return (min(sound), max(sound)), SEARCHED
 
 
+def end_of(statics: Statics, senses: Sequence[float]) -> End | None:
+    """The unknown load at full friction of these senses; None where power does not give it."""
+    return None if reduced(statics, senses) is None else _end(statics, senses)
+
+
 def _end(statics: Statics, senses: Sequence[float], pushing: bool = False) -> End | None:
     """The unknown load at full friction of these senses; infinite where the forces grow without bound.
 
