@@ -9,7 +9,7 @@ hidden name that starts with ``@``.
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
-from icsolve.case.bodies import Inertia, Rope
+from icsolve.case.bodies import Inertia, Rope, Screw
 from icsolve.case.expected import (
     ArmIs,
     CentreIs,
@@ -101,6 +101,7 @@ __all__ = [
     "ReactionIs",
     "Roll",
     "Rope",
+    "Screw",
     "Slide",
     "Slope",
     "Slot",
@@ -153,6 +154,8 @@ class Case:
     dynamic: bool = False
     """whether the inertia forces of the given motion are among the loads"""
     ropes: tuple[Rope, ...] = ()
+    screws: tuple[Screw, ...] = ()
+    """those that a torque turns; their slides are among the joints"""
     tolerance: Tolerance | None = None
     variables: tuple[Variable, ...] = ()
     profiles: "Profiles | None" = None

@@ -1,7 +1,8 @@
-"""What makes a link more than its joints: its mass; and the ropes that run over links."""
+"""What is more than joints between links: their masses, the ropes that run over them, driven screws."""
 
 from typing import NamedTuple
 
+from icsolve.case.figure import Guide
 from icsolve.numbers.given import Number
 
 
@@ -15,6 +16,31 @@ class Inertia(NamedTuple):
     mass: Number | None
     centre: str | None
     moment: Number | None = None
+
+
+class Screw(NamedTuple):
+    """A screw that a torque turns, out of the plane: ``links[1]`` moves on ``links[0]`` along the guide.
+
+    By ``lead`` a turn, right-handed; with ``mu`` its square thread of mean ``radius`` rubs. Among the joints
+    stands its slide.
+    """
+
+    links: tuple[str, str]
+    at: str
+    guide: Guide
+    lead: Number
+    radius: Number | None = None
+    mu: Number | None = None
+
+    @property
+    def rotor(self) -> str:
+        """What stands for a link where a torque turns it: no link of the case has such a name."""
+        return f"@screw {'-'.join(self.links)}"
+
+    @property
+    def rubs(self) -> bool:
+        """Whether its thread does."""
+        return self.mu is not None and self.mu.value > 0.0
 
 
 class Rope(NamedTuple):

@@ -10,8 +10,9 @@ from icsolve.errors import SceneError, Status
 from icsolve.kinematics.loops import ORIGIN, Bases, LoopMotions, all_motions
 from icsolve.kinematics.twists import Closure, is_singular, run
 from icsolve.numbers.arithmetic import Arithmetic, decider
-from icsolve.screws.joints import Points, freedoms, points_of
-from icsolve.screws.plane import Triple, cross, subtract
+from icsolve.numbers.given import Number
+from icsolve.screws.joints import Points, freedoms, guide_direction, points_of
+from icsolve.screws.plane import Triple, cross, subtract, velocity
 from icsolve.screws.ropes import end_twist, rope_parts
 from icsolve.structure.plan import Plan
 from icsolve.structure.topology import Topology
@@ -82,6 +83,24 @@ def by_loops(case: Case, top: Topology, points: Points, arithmetic: Arithmetic, 
     twists = {link: motions.twists[body] for body, links in enumerate(top.members) for link in links}
     slack = 0.0 if exact else motions.found.dropped
     return Motions(twists, bases, mobility, redundant, (), notes, slack)
+
+
+TURN = Number(6.283185307179586, 0.0, "turn", "6.283185307179586", 1.0, (2, 1, 1))
+"""Radians of a turn."""
+
+
+def with_screws(
+    motions: Motions, case: Case, points: Points, scale: float, arithmetic: Arithmetic
+) -> Motions:
+    """The motions with the turning of screws, cw as one looks along their axes, under the names of these."""
+    twists = dict(motions.twists)
+    for screw in case.screws:
+        x, y = guide_direction(screw.guide, points, arithmetic)
+        per = arithmetic.given(TURN) / (arithmetic.given(screw.lead) * scale)
+        by, on = (twists[link] for link in screw.links)
+        both = [velocity(subtract(b, a), points[screw.at]) for a, b in zip(by, on, strict=True)]
+        twists[screw.rotor] = tuple((0.0, 0.0, per * (x * vx + y * vy)) for vx, vy in both)
+    return motions._replace(twists=twists)
 
 
 def with_free_ends(

@@ -116,6 +116,11 @@ def _parts(reading: Reading, root: Mapping) -> _Parts:
     """Joints, loads and points first: their names tell how a key such as AB is read."""
     section = root.items.get("profile")
     reading.profiled = set(section.items) if type(section) is Mapping else set()
+    listed = root.items.get("joints")
+    if type(listed) is Sequence and any("screw" in n.items for n in listed.items if type(n) is Mapping):
+        from icsolve.read.screws import driven
+
+        reading.driven = driven(root.items.get("loads"))
     joints, ropes = _joints(reading, root)
     profiles = _profiles(reading, root) if section is not None else None
     loads = read_loads(reading, section_of(reading, root, "loads"))
@@ -260,6 +265,7 @@ def _case(
         unknowns=tuple(reading.unknowns),
         inertia=parts.inertia,
         ropes=parts.ropes,
+        screws=tuple(reading.screws),
         dynamic=read_dynamic(reading, root.items.get("dynamic")),
         noticed=tuple(reading.noticed),
         marks=reading.marks,

@@ -227,13 +227,13 @@ def _pin(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
 
 def _slide(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
     at = entry.point("at")
-    guide, friction = _guide(entry, at), _friction(entry)
+    guide, friction = read_guide(entry, at), _friction(entry)
     return Slide(_two(links), at, guide, friction) if at and guide and whole else None
 
 
 def _slot(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
     at = entry.point("at")
-    guide, friction = _guide(entry, at), _friction(entry)
+    guide, friction = read_guide(entry, at), _friction(entry)
     return Slot(_two(links), at, guide, friction) if at and guide and whole else None
 
 
@@ -241,7 +241,7 @@ def _two(links: tuple[str, ...]) -> Pair:
     return links[0], links[1]
 
 
-def _guide(entry: Entry, at: str | None) -> Guide | None:
+def read_guide(entry: Entry, at: str | None) -> Guide | None:
     """The guide line; its joint's own point is then given by it."""
     if at:
         entry.reading.given.add(at)
@@ -361,6 +361,12 @@ def _weld(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
     return Weld(_two(links), at) if whole else None
 
 
+def _screw(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
+    from icsolve.read.screws import read_screw
+
+    return read_screw(entry, links, whole)
+
+
 BUILDERS: Builders[Joint] = {
     "pin": _pin,
     "slide": _slide,
@@ -371,4 +377,5 @@ BUILDERS: Builders[Joint] = {
     "contact": _contact,
     "centre": _centre,
     "weld": _weld,
+    "screw": _screw,
 }

@@ -215,6 +215,19 @@ JOINTS = {
         },
         "loads for its pull on each link",
     ),
+    "screw": Kind(
+        "a screw: the second link moves on the first along its axis, as far as a torque load turns it",
+        _LINKS,
+        {
+            "at": _needed(_AT, "the point of the second link"),
+            "along": _ALONG,
+            "through": _THROUGH,
+            "lead": Key("how far it moves in a turn", "quantity", True, "length", "positive"),
+            "radius": _quantity("the thread's mean radius, for its friction", "length", "positive"),
+            "mu": _MU,
+        },
+        "a hinge and a load for its force",
+    ),
 }
 """Joints of the plane."""
 
@@ -301,7 +314,12 @@ LOADS = {
     "torque": Kind(
         "a torque, positive counterclockwise or as it `turns`",
         _size(_TORQUE, "torque"),
-        {"link": _LINK, "turns": _SENSE, "against": _AGAINST},
+        {
+            "link": Key("the link that it acts on", "link"),
+            "turns": _SENSE,
+            "against": _AGAINST,
+            "screw": Key("in place of a link the screw that it turns, by its two links, as in 2-3", "text"),
+        },
     ),
     "weight": Kind("a weight, along -y", _size(_TORQUE, "force"), {"link": _BEARER, "at": _PLACE}),
     "mass": Kind(

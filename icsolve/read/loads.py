@@ -117,7 +117,7 @@ def _explain_keys(entry: Entry, kind: str, forms: Forms[T]) -> None:
             entry.refuse(mark, f"{entry.what} has no '{key}': {forms.elsewhere[key]}")
             told.append(key)
     entry.check(*told)
-    borne = entry.has("link") or word_at(entry, "at") in entry.reading.ends
+    borne = entry.has("link") or entry.has("screw") or word_at(entry, "at") in entry.reading.ends
     if "link" in takes and not takes["link"].needed and not borne:
         entry.need("link", "the link that it acts on")
 
@@ -330,6 +330,10 @@ def _slope(entry: Entry) -> Slope | None:
 
 
 def _torque(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
+    if entry.has("screw"):
+        from icsolve.read.screws import read_turning
+
+        return read_turning(entry, name, kind, likes)
     link, against, good = bearer(entry)
     turns = entry.sense()
     read, value = magnitude(entry, name, kind, likes)

@@ -34,7 +34,7 @@ from icsolve.units import (
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from icsolve.case import Rope
+    from icsolve.case import Rope, Screw
     from icsolve.case.profiles import Touch
 
 
@@ -49,7 +49,7 @@ class Reading:
     those along which a force has components, ``couples`` those about which a couple has. ``profiled`` are the
     links under ``profile``, ``touches`` the contacts whose places the profiles give, ``ends`` the ropes that
     have a free end, by its point, ``noticed`` sentences on what may be a slip, ``unknowns`` the data of the
-    figure that are to find.
+    figure that are to find. ``driven`` are the pairs of links whose screws torques turn, ``screws`` these.
     """
 
     axes = "xy"
@@ -74,6 +74,8 @@ class Reading:
         self.unknowns: list[Unknown] = []
         self.touches: list[tuple[Touch, Mark]] = []
         self.ends: dict[str, Rope] = {}
+        self.driven: set[frozenset[str]] = set()
+        self.screws: list[Screw] = []
 
     def refuse(self, mark: Mark, message: str) -> None:
         """Note a problem."""

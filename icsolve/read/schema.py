@@ -224,6 +224,7 @@ def _definitions() -> Schema:
 
 _TIES: dict[str, Schema] = {
     "pin": {"dependencies": {"mu": ["radius"]}},
+    "screw": {"dependencies": {"mu": ["radius"]}},
     "centre": _either("at", "toward"),
     "gears": {"not": {"required": ["diametral pitch", "module"]}},
 }

@@ -106,7 +106,7 @@ def _wanted_bodies(case: Case, top: Topology, want: Want) -> frozenset[int]:
     """
     if want.everything or not any(map(power.has_number, case.loads)):
         return frozenset(range(len(top.members)))
-    if case.ropes:
+    if case.ropes or case.screws:
         return frozenset(range(len(top.members)))
     links = {link for load in case.loads for link in (load.link, power.reacting(case, load))}
     links |= {given.link for given in case.motion}
@@ -119,6 +119,7 @@ def _wanted_points(case: Case, top: Topology, bonds: tuple[int, ...], want: Want
     points += [p for load in case.loads for p in power.points_of(load)]
     points += [given.point for given in case.motion if given.point is not None]
     points += [p for rope in case.ropes for p in rope.points]
+    points += [p for screw in case.screws for p in (screw.at, *(screw.guide.ends or ()))]
     if want.bodies:
         points += [p for joint in case.joints if (p := getattr(joint, "at", None)) is not None]
     return list(dict.fromkeys(points))
@@ -143,6 +144,8 @@ def evaluate(
             return evaluate(without_plan(program), arithmetic, rounds)
     if motions is None:
         motions = motion.by_loops(case, top, points, arithmetic, figure.frame)
+    if case.screws:
+        motions = motion.with_screws(motions, case, points, figure.frame.scale, arithmetic)
     if case.ropes:
         motions = motion.with_free_ends(motions, case, points, figure.frame.scale, arithmetic)
     # power

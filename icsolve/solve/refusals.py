@@ -73,7 +73,7 @@ def rubs(case: Case) -> bool:
     if not any(power.is_unknown(load) for load in case.loads):
         return False
     frictions = (getattr(joint, "friction", None) for joint in case.joints)
-    ropes = any(rope.slips for rope in case.ropes)
+    ropes = any(rope.slips for rope in case.ropes) or any(screw.rubs for screw in case.screws)
     return ropes or any(friction is not None and friction.mu.value > 0 for friction in frictions)
 
 

@@ -33,6 +33,8 @@ class Rub(NamedTuple):
     unit: Force
     normal: tuple[tuple[float, ...], ...]
     limit: float
+    spin: float = 0.0
+    """of a screw's thread what a unit of friction does on the rotor"""
 
 
 class Statics(NamedTuple):
@@ -89,8 +91,8 @@ def equilibrium(
     column = 0
     for tie in ties:
         first.append(column)
-        for unit in tie.units:
-            rows.between(tie, unit, column)
+        for n in range(len(tie.units)):
+            rows.tie(tie, n, column)
             column += 1
     for tension in position.ropes:
         rows.rope(tension, column)
@@ -100,7 +102,7 @@ def equilibrium(
     for w in balance.wrenches:
         rows.load(w, *_share(w, balance, roots, column, scale))
     for n, rub in enumerate(rubs):
-        rows.between(ties[rub.tie], rub.unit, column + 1 + len(roots) + n)
+        rows.rub(ties[rub.tie], rub, column + 1 + len(roots) + n)
     general = _eliminated(rows.all(), column, position.mobility)
     return Statics(tuple(ties), position.ropes, tuple(first), column, roots, tuple(rubs), scale, general)
 
@@ -150,6 +152,18 @@ class _Rows:
         self.add(tie.on, tie.at, unit, column)
         self.add(tie.by, tie.at, (-unit[0], -unit[1], -unit[2]), column)
 
+    def tie(self, tie: Tie, n: int, column: int) -> None:
+        """A unit of a tie, on the rotor of a screw too."""
+        self.between(tie, tie.units[n], column)
+        if tie.screw is not None and tie.couples[n]:
+            self.add(tie.screw.rotor, tie.at, (0.0, 0.0, tie.couples[n]), column)
+
+    def rub(self, tie: Tie, rub: Rub, column: int) -> None:
+        """A unit of friction."""
+        self.between(tie, rub.unit, column)
+        if tie.screw is not None and rub.spin:
+            self.add(tie.screw.rotor, tie.at, (0.0, 0.0, rub.spin), column)
+
     def rope(self, tie: RopeTie, column: int) -> None:
         """The pull of every part of a rope on both of its links (of the last, on the free end)."""
         for k, part in enumerate(tie.parts):
@@ -195,14 +209,14 @@ def equations_of(position: Position, statics: Statics, balance: Balance) -> Equa
     """The equations of every link, by the columns of the statics."""
     rows = _Rows(position, statics.ties)
     for t, tie in enumerate(statics.ties):
-        for n, unit in enumerate(tie.units):
-            rows.between(tie, unit, statics.first[t] + n)
+        for n in range(len(tie.units)):
+            rows.tie(tie, n, statics.first[t] + n)
     for n, rope in enumerate(statics.ropes):
         rows.rope(rope, statics.tension(n))
     for w in balance.wrenches:
         rows.load(w, *_share(w, balance, statics.roots, statics.known, statics.scale))
     for n, rub in enumerate(statics.rubs):
-        rows.between(statics.ties[rub.tie], rub.unit, statics.rub(n))
+        rows.rub(statics.ties[rub.tie], rub, statics.rub(n))
     return {link: (rows.about[link], three) for link, three in rows.rows.items()}
 
 

@@ -103,6 +103,8 @@ def _judged(solved: Solved, scaled: list[float] | None, slopes: dict[str, dict[s
 
 def _doubt(position: Position, traced: Bounded) -> str:
     """Why a bound of first order would not do."""
+    if position.case.screws:
+        return f"{UNSURE} with screws"
     if any(rope.slips for rope in position.case.ropes):
         return f"{UNSURE} with ropes that slip"
     if position.slack:

@@ -12,13 +12,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from icsolve.answer import Term, bodies
-from icsolve.case import Case, Contact, Friction, Pin, Slide, Slot
+from icsolve.case import Case, Contact, Friction, Pin, Screw, Slide, Slot
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
 from icsolve.numbers.linear import solve_square
+from icsolve.screws.joints import guide_direction
 from icsolve.screws.plane import pairing, subtract, velocity
 from icsolve.statics.equilibrium import Rub, Statics, independent
 from icsolve.statics.power import Balance, Wrench, known_value
-from icsolve.statics.reaction_basis import COUPLE, Force, Position, RopeTie, Tie
+from icsolve.statics.reaction_basis import COUPLE, Force, Position, RopeTie, Tie, thread
 
 
 def friction_of(joint: object) -> Friction | None:
@@ -29,7 +30,7 @@ def friction_of(joint: object) -> Friction | None:
 
 def has_friction(case: Case) -> bool:
     """Whether any joint or rope rubs."""
-    ropes = any(rope.slips for rope in case.ropes)
+    ropes = any(rope.slips for rope in case.ropes) or any(screw.rubs for screw in case.screws)
     return ropes or any(friction_of(joint) is not None for joint in case.joints)
 
 
@@ -40,6 +41,8 @@ def rubs_of(
     found: list[Rub] = []
     for t, tie in enumerate(ties):
         friction = friction_of(tie.joint)
+        if tie.screw is not None and tie.screw.rubs:
+            found.append(_threaded(position, t, tie, tie.screw, arithmetic))
         if friction is None:
             continue
         if isinstance(tie.joint, Pin):
@@ -55,6 +58,19 @@ def _pin(position: Position, t: int, tie: Tie, friction: Friction, arithmetic: A
     radius = arithmetic.given(friction.radius) * position.scale * mu / arithmetic.sqrt(mu * mu + 1.0)
     both = tuple(tuple(unit[part] for unit in tie.units) for part in (0, 1))
     return Rub(t, COUPLE, both, radius)
+
+
+def _threaded(position: Position, t: int, tie: Tie, screw: Screw, arithmetic: Arithmetic) -> Rub:
+    """Friction along a thread: at most mu times the force square to it."""
+    assert screw.radius is not None
+    assert screw.mu is not None
+    along, turned = thread(screw, position.scale, arithmetic)
+    radius = arithmetic.given(screw.radius) * position.scale
+    x, y = guide_direction(screw.guide, position.points, arithmetic)
+    rise = turned / radius
+    unit: Force = (0.0 - rise * x, 0.0 - rise * y, 0.0)
+    normal = (*(0.0 for _ in tie.units[:-1]), 1.0)
+    return Rub(t, unit, (normal,), arithmetic.given(screw.mu), radius * along)
 
 
 def _guided(
@@ -84,12 +100,13 @@ def rates_of(position: Position, ties: Sequence[Tie], rubs: Sequence[Rub], motio
 def _rate(position: Position, tie: Tie, rub: Rub, motion: int) -> Scalar:
     twist = position.relative(tie.by, tie.on, motion)
     vx, vy = velocity(twist, tie.at)
-    return rub.unit[0] * vx + rub.unit[1] * vy + rub.unit[2] * twist[2]
+    rate = rub.unit[0] * vx + rub.unit[1] * vy + rub.unit[2] * twist[2]
+    return rate if tie.screw is None else rate + rub.spin * position.twists[tie.screw.rotor][motion][2]
 
 
 def kind_of_rub(tie: Tie) -> str:
-    """``pin``, ``slide``, ``slot`` or ``contact``."""
-    return type(tie.joint).__name__.lower()
+    """``pin``, ``slide``, ``slot``, ``contact`` or ``screw``."""
+    return "screw" if tie.screw is not None else type(tie.joint).__name__.lower()
 
 
 def unknowns_by_power(

@@ -15,10 +15,25 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from icsolve.assembly.residuals import MISFIT
-from icsolve.case import Belt, Case, Contact, Gears, Guide, Joint, KnownCentre, Pin, Roll, Rope, Slide, Weld
+from icsolve.case import (
+    Belt,
+    Case,
+    Contact,
+    Gears,
+    Guide,
+    Joint,
+    KnownCentre,
+    Pin,
+    Roll,
+    Rope,
+    Screw,
+    Slide,
+    Weld,
+)
 from icsolve.errors import SceneError, Status
+from icsolve.kinematics.motion import TURN
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
-from icsolve.screws.joints import Points, freedoms, pitch_point, transmitted
+from icsolve.screws.joints import Points, freedoms, guide_direction, pitch_point, transmitted
 from icsolve.screws.plane import Point, Triple, shift, subtract
 from icsolve.screws.ropes import RopePart, rope_parts
 from icsolve.structure.topology import Bond, Topology, pairs_of
@@ -44,6 +59,9 @@ class Tie(NamedTuple):
     where: str
     units: tuple[Force, ...]
     pivots: tuple[str, str] = ("", "")
+    screw: Screw | None = None
+    couples: tuple[Scalar, ...] = ()
+    """of a screw what each unit does on its rotor"""
 
 
 class RopeTie(NamedTuple):
@@ -92,7 +110,14 @@ def ties_of(position: Position, arithmetic: Arithmetic = FLOATS) -> tuple[Tie, .
         for by, on in pairs_of(joint):
             bond = Bond(0, 1, 0, joint, (by, on), pivots.get((id(joint), (by, on)), ("", "")))
             found.append(_tie(position, bond, arithmetic))
-    return (*found, *(_end_tie(position, tie) for tie in position.ropes if tie.rope.is_free))
+    ends = [_end_tie(position, tie) for tie in position.ropes if tie.rope.is_free]
+    return (*found, *ends, *(_rotor_tie(position, screw) for screw in position.case.screws))
+
+
+def _rotor_tie(position: Position, screw: Screw) -> Tie:
+    """What keeps the rotor of a screw in its place."""
+    ground, at = position.case.ground, position.points[screw.at]
+    return Tie(Pin((ground, screw.rotor), screw.at), ground, screw.rotor, at, "", (X, Y))
 
 
 def rope_ties(
@@ -124,7 +149,35 @@ def _tie(position: Position, bond: Bond, arithmetic: Arithmetic) -> Tie:
         at = position.points.get(_meeting(position, by, on), (0.0, 0.0))
         return Tie(joint, by, on, at, "", (X, Y, COUPLE))
     where, at = _place(bond, position.points, arithmetic)
-    return Tie(joint, by, on, at, where, _units(position, bond, at, arithmetic), bond.pivots)
+    found = Tie(joint, by, on, at, where, _units(position, bond, at, arithmetic), bond.pivots)
+    for screw in position.case.screws:
+        if isinstance(joint, Slide) and screw.links == (on, by) and screw.guide is joint.guide:
+            return _screwed(position, found, screw, arithmetic)
+    return found
+
+
+def _screwed(position: Position, slide: Tie, screw: Screw, arithmetic: Arithmetic) -> Tie:
+    """The slide of a screw, with the force on its thread: along the axis, and a couple on the rotor.
+
+    A force N square to a thread of radius r that rises by the angle l has N cos l along the axis and the
+    couple N r sin l about it; 2 pi r tan l is the lead. Without friction any radius will do.
+    """
+    x, y = guide_direction(screw.guide, position.points, arithmetic)
+    along, turned = thread(screw, position.scale, arithmetic)
+    # the slide's second link is the one that the screw moves on: the unit acts on it the other way
+    unit: Force = (0.0 - along * x, 0.0 - along * y, 0.0)
+    couples = (*(0.0 for _ in slide.units), 0.0 - turned)
+    return slide._replace(units=(*slide.units, unit), screw=screw, couples=couples)
+
+
+def thread(screw: Screw, scale: float, arithmetic: Arithmetic) -> tuple[Scalar, Scalar]:
+    """Of a unit force square to a screw's thread: its part along the axis, and its couple (normalised)."""
+    rise = arithmetic.given(screw.lead) * scale / arithmetic.given(TURN)
+    if screw.radius is None:
+        return 1.0, rise
+    radius = arithmetic.given(screw.radius) * scale
+    slant = arithmetic.sqrt(radius * radius + rise * rise)
+    return radius / slant, radius * rise / slant
 
 
 def _meeting(position: Position, by: str, on: str) -> str:

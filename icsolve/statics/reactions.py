@@ -157,7 +157,8 @@ def _reaction(position: Position, frame: Frame, tie: Tie, kept: list[float | Non
     moment = None if couple is None else couple / per_torque
     at = case_point(frame, tie.at)
     why, parts = _why(tie, kept), _parts(position, tie, x, y)
-    found = Reaction(tie.by, tie.on, kind_of(tie.joint), tie.where, at, x, y, moment, why, parts)
+    kind = "screw" if tie.screw is not None else kind_of(tie.joint)
+    found = Reaction(tie.by, tie.on, kind, tie.where, at, x, y, moment, why, parts)
     return found if ordered_pair(case, tie.by, tie.on) == (tie.by, tie.on) else found.reversed()
 
 

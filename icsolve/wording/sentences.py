@@ -23,7 +23,9 @@ def plural(count: int, word: str) -> str:
 
 
 def link_words(link: str) -> str:
-    """``link 3``; what stands for a link where loads pull the free end of a rope."""
+    """``link 3``; what stands for a link where loads pull the free end of a rope or turn a screw."""
+    if link.startswith("@screw "):
+        return f"the {link[1:]}"
     return f"the end of the rope {link[1:]}" if link.startswith("@") else f"link {link}"
 
 
