@@ -25,8 +25,11 @@ from icsolve.structure.topology import Bond, Topology
 from icsolve.wording.sentences import listed
 
 STILL: Triple = (0.0, 0.0, 0.0)
-SPENT = 1e-25
-"""Of sixty digits: a row of which no more is left than this fraction says nothing more."""
+def _spent(arithmetic: Arithmetic) -> float:
+    """A row of which no more is left than this fraction says nothing more: two thirds of the digits."""
+    return float(10.0 ** -(getattr(arithmetic, "digits", 18) * 2 / 3))
+
+
 NEAR = 2e-3
 """A wheel's centre may miss its radius by this fraction of it."""
 
@@ -71,7 +74,7 @@ def moving(
     if not conditions:
         raise SceneError(Status.MOBILITY, NO_SPEED)
     count = len(next(iter(motions.values())))
-    shares = eliminate([_row(values, target) for values, target, *_ in conditions], count, SPENT)
+    shares = eliminate([_row(values, target) for values, target, *_ in conditions], count, _spent(arithmetic))
     speeds = sum(abs(target) for _, target, *_ in conditions)
     if any(not arithmetic.vanishes(left.get(count, 0.0), speeds) for left in shares.left):
         message = "the motions given contradict each other: no motion has all of them."
@@ -169,7 +172,7 @@ def _rates(
     for _, _, given, along, more in conditions:
         rows.append(_driven(top, given, along, more, twists, points, known))
         sizes.append(abs(more))
-    general = eliminate(rows, known, SPENT)
+    general = eliminate(rows, known, _spent(arithmetic))
     if not all(arithmetic.vanishes(left.get(known, 0.0), max(sizes)) for left in general.left):
         raise SceneError(
             Status.CHANGE_POINT,

@@ -62,7 +62,7 @@ def solve(
 
     Raises SceneError where the scene has no answer; its ``status`` is a member of `icsolve.errors.Status`.
     """
-    if dynamic or case.dynamic:
+    if (dynamic or case.dynamic) and not any(load.name.startswith("inertia ") for load in case.loads):
         from icsolve.solve.dynamics import solve_dynamic
 
         asked = {"all_centres": all_centres, "rates": True, "examine": examine}

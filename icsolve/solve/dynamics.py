@@ -7,24 +7,27 @@ friction and pictures treat them as they treat all loads.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from icsolve.answer import Answer, Deferred
-from icsolve.case import Case, ForceVector, Inertia, Load, Torque, Units
+from icsolve.assembly.workspace import Frame
+from icsolve.case import Case, ForceVector, Load, Torque
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.accelerations import NO_SPEED, Moving, moving
 from icsolve.kinematics.speeds import OPEN, moving_points
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.arithmetic import Arithmetic, Scalar
 from icsolve.numbers.given import Number
-from icsolve.screws.plane import Point
+from icsolve.screws.plane import Point, Triple, force_wrench
 from icsolve.solve.program import Program, Want, evaluate, prepare
+from icsolve.statics.power import Wrench, known_value, vector_size
+from icsolve.structure.topology import Topology
 from icsolve.units import exact_ratio, parse_unit
 from icsolve.wording.sentences import listed
 
 if TYPE_CHECKING:
-    from icsolve.numbers.balls import Ball, Balls
+    from icsolve.numbers.balls import Balls
 
 FORCE = "inertia force {}"
 COUPLE = "inertia couple {}"
@@ -83,16 +86,61 @@ def with_inertia(case: Case) -> tuple[Case, Accelerations, tuple[str, ...]]:
 def _found(case: Case, program: Program, arithmetic: Balls) -> tuple[Case, Accelerations, tuple[str, ...]]:
     """The same with so many digits; raises MoreDigits where they leave something open."""
     program, outcome = evaluate(program, arithmetic)
-    twists, points = outcome.motions.twists, outcome.points
-    moves = moving(case, program.top, program.figure.frame, points, twists, arithmetic)
+    frame, points = program.figure.frame, outcome.points
+    moves = moving(case, program.top, frame, points, outcome.motions.twists, arithmetic)
     _refuse_open(case, moves)
-    loads = [
-        load
-        for link, inertia in case.inertia.items()
-        for load in _loads(case, program, moves, points, link, inertia, arithmetic)
-    ]
+    size = moves.size
+
+    def number(value: Scalar, path: str) -> Number:
+        near = _rounded(value, arithmetic, abs(value) + size)
+        return Number(near, 0.0, path, repr(near))
+
+    loads: list[Load] = []
+    for link, (centre, force, couple) in _forces(case, frame, moves, points, arithmetic).items():
+        path = f"inertia.{link}"
+        if force is not None and centre is not None:
+            x, y = (number(part, f"{path}.{axis}") for part, axis in zip(force, "xy", strict=True))
+            loads.append(ForceVector(FORCE.format(link), link, centre, x, y))
+        if couple is not None:
+            loads.append(Torque(COUPLE.format(link), link, number(couple, f"{path}.couple")))
     shown = _shown(case, program, moves, points, arithmetic)
-    return replace(case, loads=(*case.loads, *loads), dynamic=False), shown, _notes(case, moves, arithmetic)
+    loaded = replace(case, loads=(*case.loads, *loads), dynamic=bool(loads))
+    return loaded, shown, _notes(case, moves, arithmetic)
+
+
+def is_loaded(case: Case) -> bool:
+    """Whether the inertia forces are among the loads of a case."""
+    return any(load.name.startswith("inertia ") for load in case.loads)
+
+
+def exactly(
+    case: Case,
+    top: Topology,
+    frame: Frame,
+    points: Mapping[str, Point],
+    motions: Mapping[str, Sequence[Triple]],
+    wrenches: Sequence[Wrench],
+    arithmetic: Arithmetic,
+) -> tuple[Wrench, ...]:
+    """The wrenches with those of the inertia forces as this arithmetic has them; the loads are rounded."""
+    moves = moving(case, top, frame, points, motions, arithmetic)
+    forces = _forces(case, frame, moves, points, arithmetic)
+    found = []
+    for w in wrenches:
+        load = w.load
+        if load.name == FORCE.format(load.link) and isinstance(load, ForceVector):
+            _, force, _ = forces[load.link]
+            assert force is not None
+            size = vector_size(load) or 1.0
+            found.append(w._replace(unit=force_wrench((force[0] / size, force[1] / size), points[load.at])))
+        elif load.name == COUPLE.format(load.link) and isinstance(load, Torque):
+            couple = forces[load.link][2]
+            assert couple is not None
+            size = known_value(w) or 1.0
+            found.append(w._replace(unit=(0.0, 0.0, couple / size)))
+        else:
+            found.append(w)
+    return tuple(found)
 
 
 def _no_sensitivities() -> Mapping[str, Mapping[str, float]]:
@@ -109,42 +157,29 @@ def _refuse_open(case: Case, moves: Moving) -> None:
         )
 
 
-def _loads(
-    case: Case,
-    program: Program,
-    moves: Moving,
-    points: Mapping[str, Point],
-    link: str,
-    inertia: Inertia,
-    arithmetic: Balls,
-) -> tuple[Load, ...]:
-    """The inertia force and couple of a link, in case units."""
-    units, scale = case.units, program.figure.frame.scale
-    newton, metre = arithmetic.ratio(units.exact_newton), _metre(units, arithmetic)
-    loads: list[Load] = []
-    size = moves.size
-    if inertia.mass is not None and inertia.centre is not None:
-        per = arithmetic.given(inertia.mass) * newton / (metre * scale)
-        both = zip(moves.acceleration(link, points[inertia.centre]), "xy", strict=True)
-        x, y = (_number(0.0 - per * part, arithmetic, size, f"inertia.{link}.{axis}") for part, axis in both)
-        loads.append(ForceVector(FORCE.format(link), link, inertia.centre, x, y))
-    if inertia.moment is not None:
-        gain = arithmetic.given(inertia.moment) * newton * metre * arithmetic.ratio(units.exact_torque)
-        couple = _number(0.0 - gain * moves.rates[link][2], arithmetic, size, f"inertia.{link}.couple")
-        loads.append(Torque(COUPLE.format(link), link, couple))
-    return tuple(loads)
+InertiaForce = tuple[str | None, Point | None, Scalar | None]
+"""Of a link its centre of mass, the force there and the couple, in case units."""
 
 
-def _metre(units: Units, arithmetic: Balls) -> Ball:
-    """Case lengths in a metre."""
-    return arithmetic.ratio(exact_ratio(parse_unit("m"), parse_unit(units.length)))
-
-
-def _number(value: Scalar, arithmetic: Balls, size: float, path: str) -> Number:
-    """A number with all the digits that it was found with."""
-    value = arithmetic.ball(0.0) + value
-    near, _ = arithmetic.rounded(value, value.size + size)
-    return Number(near, 0.0, path, str(value.value) if near else "0")
+def _forces(
+    case: Case, frame: Frame, moves: Moving, points: Mapping[str, Point], arithmetic: Arithmetic
+) -> dict[str, InertiaForce]:
+    """-m a and -I alpha of every link that has a mass."""
+    newton = arithmetic.ratio(case.units.exact_newton)
+    metre = arithmetic.ratio(exact_ratio(parse_unit("m"), parse_unit(case.units.length)))
+    found: dict[str, InertiaForce] = {}
+    for link, inertia in case.inertia.items():
+        force: Point | None = None
+        couple: Scalar | None = None
+        if inertia.mass is not None and inertia.centre is not None:
+            per = arithmetic.given(inertia.mass) * newton / (metre * frame.scale)
+            x, y = moves.acceleration(link, points[inertia.centre])
+            force = (0.0 - per * x, 0.0 - per * y)
+        if inertia.moment is not None:
+            moment = arithmetic.given(inertia.moment) * newton * metre
+            couple = 0.0 - moment * arithmetic.ratio(case.units.exact_torque) * moves.rates[link][2]
+        found[link] = (inertia.centre, force, couple)
+    return found
 
 
 def _shown(

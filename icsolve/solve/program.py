@@ -150,5 +150,10 @@ def evaluate(
         motions = motion.with_free_ends(motions, case, points, figure.frame.scale, arithmetic)
     # power
     wrenches = power.wrenches(case, figure.frame, points, arithmetic)
+    if case.dynamic and case.inertia:
+        from icsolve.solve.dynamics import exactly, is_loaded
+
+        if is_loaded(case):
+            wrenches = exactly(case, top, figure.frame, points, motions.twists, wrenches, arithmetic)
     balance = power.balance(wrenches, motions.twists, motions.mobility)
     return program, Outcome(points, motions, balance, power.solve_balance(balance, arithmetic))
