@@ -8,10 +8,13 @@ ch. 11).
 
 from __future__ import annotations
 
+import csv
+import json
 import math
 import os
 import random
 from collections.abc import Callable
+from pathlib import Path
 
 import mpmath
 import numpy as np
@@ -19,6 +22,7 @@ import pytest
 
 import icsolve
 from icsolve.answer.equilibrium import Position
+from icsolve.cli import main
 from icsolve.errors import SceneError
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import Record
@@ -120,7 +124,7 @@ def test_an_upright_strut_loses_its_stability_at_the_critical_load(weight: str, 
     so V'' = 40 - 2 W upright, where the derivative of V vanishes threefold at W = 20."""
     spring = "S: {spring: 10 N/m, free: 1, link: 2, at: B, to: D}"
     found = positions(pendulum(spring, "{unknown: [45, 135]}", weight, ", D: [0, 4]"))
-    upright = [one for one in found if one.at["angles.AB"] == pytest.approx(90.0, abs=1e-6)]
+    upright = [one for one in found if one.at["angles.AB"] == pytest.approx(90.0, abs=1e-12)]
     assert [one.stability for one in upright] == [kind]
     stiffness = upright[0].stiffness
     assert stiffness is not None
@@ -333,3 +337,115 @@ def test_an_enclosure_holds_the_values_that_a_record_takes_over_a_range() -> Non
             for wide, narrow in zip(ends, enclose(record, wanted, points), strict=True):
                 assert wide.low.min() <= narrow.low.min() and narrow.high.max() <= wide.high.max()
                 assert narrow.high.max() - narrow.low.min() < 1e-11
+
+
+# --- commands -------------------------------------------------------------------------------------
+
+SLIDER = """icsolve: 1
+points: {{A: [0, 0], G: {{centroid: [A, B]}}}}
+angles: {{AB: {angle}}}
+lengths: {{AB: 0.3, BC: 0.3}}
+near: {{C: [0.5, 0]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{slide: [4, 1], at: C, along: 0, through: A}}
+loads:
+  W: {{mass: 12 kg, link: 2, at: G}}
+  S: {{spring: 800 N/m, free: 0.2 m, link: 3, at: C, to: A}}
+"""
+STRUT = pendulum("S: {spring: 10 N/m, free: 1, link: 2, at: B, to: D}", "90", "10", ", D: [0, 4]")
+
+
+def run(tmp_path: Path, capsys: pytest.CaptureFixture[str], text: str, *words: str) -> str:
+    """What `icsolve` prints on a case; the case's place among the words is ``CASE``."""
+    file = tmp_path / "case.yaml"
+    file.write_text(text)
+    with pytest.raises(SystemExit) as left:
+        main([str(file) if word == "CASE" else word for word in words])
+    assert left.value.code == 0, capsys.readouterr().err
+    return capsys.readouterr().out
+
+
+def test_a_sweep_finds_where_it_rests(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    by_angle = ("sweep", "CASE", "--vary", "angles.AB=20:80:1", "--find", "rest", "--json")
+    (one,) = json.loads(run(tmp_path, capsys, SLIDER.format(angle=40), *by_angle))["found"]
+    assert one["kind"] == "rest" and one["stability"] == "stable"
+    assert one["at"]["angles.AB"] == pytest.approx(69.09944948584229, abs=1e-12)
+    by_link = ("sweep", "CASE", "--drive", "2=0:40:1", "--find", "rest", "--json")
+    (two,) = json.loads(run(tmp_path, capsys, SLIDER.format(angle=40), *by_link))["found"]
+    assert two["at"]["2"] == pytest.approx(29.09944948584229, abs=1e-12)
+    assert two["stiffness"]["value"] == pytest.approx(one["stiffness"]["value"], rel=1e-11)
+
+
+def test_a_sweep_finds_the_critical_load(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ("sweep", "CASE", "--vary", "loads.W=5:40:1", "--find", "neutral", "--json")
+    (one,) = json.loads(run(tmp_path, capsys, STRUT, *words))["found"]
+    assert (one["kind"], one["from"], one["to"]) == ("neutral", "stable", "unstable")
+    assert abs(one["at"]["loads.W"] - 20.0) <= one["error"]["loads.W"] < 1e-11
+
+
+def test_a_sweep_finds_the_friction_that_holds(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The line of the weight touches the friction circle: 2 cos 88 deg = 0.2 sin(atan mu)."""
+    text = pendulum("T: {torque: 0, link: 2}", "88", friction=", mu: 0.1, radius: 0.2")
+    words = ("sweep", "CASE", "--vary", "joints.A.mu=0:1:0.01", "--find", "hold", "--json")
+    (one,) = json.loads(run(tmp_path, capsys, text, *words))["found"]
+    assert (one["from"], one["to"]) == ("slips", "holds")
+    mu = math.tan(math.asin(2.0 * math.cos(math.radians(88.0)) / 0.2))
+    assert one["at"]["joints.A.mu"] == pytest.approx(mu, rel=1e-12)
+
+
+def test_positions_against_a_load_are_a_row_each(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = pendulum("T: {torque: 8, link: 2}")
+    out = run(tmp_path, capsys, text, "sweep", "CASE", "--vary", "loads.T=10:30:10")
+    rows = list(csv.DictReader(out.splitlines()))
+    assert [(row["loads.T"], row["status"], row["stability"]) for row in rows] == [
+        ("10.0", "ok", "unstable"),
+        ("10.0", "ok", "stable"),
+        ("20.0", "ok", "neutral"),
+        ("30.0", "no-value", ""),
+    ]
+
+
+def test_the_stability_of_a_position_as_written(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = pendulum("T: {torque: unknown, link: 2}", "60")
+    for of in ("angles.AB", "2"):
+        found = json.loads(run(tmp_path, capsys, text, "solve", "CASE", "--json", "--stability", of))
+        assert found["stability"] == "unstable"
+        assert found["stiffness"]["value"] == pytest.approx(-20.0 * math.sin(math.pi / 3.0), rel=1e-12)
+
+
+def test_gears_count_from_where_the_figure_is_written(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """V = 20 sin u + 8 sin(90 - 2 u), the pinion turned from 90 degrees by twice as much the other way."""
+    text = """icsolve: 1
+points: {A: [0, 0], D: [1.5, 0]}
+angles: {AB: {unknown: [0, 360], from: 0}, DE: 90}
+lengths: {AB: 2, DE: 1}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [1, 3], at: D}
+  - {gears: [2, 3], teeth: [40, 20]}
+loads:
+  W: {weight: 10, link: 2, at: B}
+  V: {weight: 8, link: 3, at: E}
+"""
+    side = math.degrees(math.asin(0.625))
+    found = json.loads(run(tmp_path, capsys, text, "solve", "CASE", "--json"))["positions"]
+    assert [one["at"]["angles.AB"] for one in found] == pytest.approx(
+        [side, 90.0, 180.0 - side, 270.0], abs=1e-12
+    )
+    assert [one["stability"] for one in found] == ["unstable", "stable", "unstable", "stable"]
+    with pytest.raises(SceneError, match="from: 30"):
+        positions(text.replace("{unknown: [0, 360], from: 0}", "unknown"))
+
+
+def test_a_coordinate_that_nothing_fixes_is_what_is_asked() -> None:
+    text = SLIDER.format(angle=40).replace("angles: {AB: 40}\n", "").replace("near: {C: [0.5, 0]}", "")
+    text = text.replace("G: {centroid: [A, B]}}", "G: {centroid: [A, B]}, C: [unknown, 0]}")
+    values = [one.at["points.C.x"] for one in positions(text)]
+    assert any(
+        value == pytest.approx(0.6 * math.cos(math.radians(69.09944948584229)), abs=1e-13) for value in values
+    )

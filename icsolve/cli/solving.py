@@ -43,6 +43,7 @@ class Options(NamedTuple):
     dynamic: bool
     report: bool
     sensitivity: bool
+    stability: str | None
     tolerance: float | None
     digits: int
 
@@ -55,6 +56,9 @@ class Options(NamedTuple):
 @click.option("--reactions", is_flag=True, help="The force of each link on each other at every joint.")
 @click.option("--dynamic", is_flag=True, help="With the inertia forces of the motion; accelerations too.")
 @click.option("--report", is_flag=True, help="Mobility, Grashof kind, transmission angles, limit positions.")
+@click.option(
+    "--stability", metavar="PATH", help="Whether it is stable as written, by a datum (angles.AB) or a link."
+)
 @click.option("--sensitivity", is_flag=True, help="How the answer depends on every number of the case.")
 @click.option(
     "--tolerance",
@@ -93,7 +97,12 @@ def _solve(case: Case, options: Options) -> Answer:
     from icsolve.solve import solve
 
     asked = {"all_centres": options.all_centres, "rates": options.rates, "reactions": options.reactions}
-    return solve(case, **asked, dynamic=options.dynamic)
+    answer = solve(case, **asked, dynamic=options.dynamic)
+    if options.stability is None:
+        return answer
+    from icsolve.equilibrium.stability import with_stability
+
+    return with_stability(case, answer, options.stability)
 
 
 def _report(case: Case) -> Report:

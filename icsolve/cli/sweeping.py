@@ -132,6 +132,11 @@ def _table(read: Case, path: str, asked: Asked) -> int:
     from icsolve.sweep.table import FORMATS
 
     varied, driven = _columns(asked)
+    if read.unknowns:
+        from icsolve.cli.resting import positions_table
+
+        content, some = positions_table(read, varied, asked.suffix)
+        return _written([content], asked.output, asked) or (DONE if some else NO_ANSWER)
     with Progress(math.prod(len(values) for _, values in (*asked.vary, *asked.drive))) as progress:
         found = sweep(read, varied, asked.want, drive=driven, progress=progress.told)
     for note in found.notes:
@@ -159,8 +164,14 @@ def _written(content: str | Iterable[bytes], path: str | None, asked: Asked) -> 
 
 def _find(read: Case, path: str, asked: Asked) -> int:
     """Positions that are looked for."""
+    from icsolve.cli.resting import WORDS, equilibrium_text
     from icsolve.cli.seeking import as_json, as_text, query_of
     from icsolve.sweep.finding import find
+
+    if asked.find in WORDS:
+        along, values = next(one for one in (*asked.vary, *asked.drive) if one[1].min() < one[1].max())
+        text = equilibrium_text(read, asked.find, along, values, asked.as_json, asked.digits)
+        return _written(text, asked.output, asked)
 
     varied, driven = _columns(asked)
     query = query_of(read, asked.find or "")

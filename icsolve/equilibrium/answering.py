@@ -7,12 +7,15 @@ from dataclasses import replace
 
 from icsolve.answer import Answer
 from icsolve.answer.equilibrium import Position
-from icsolve.case import Case, Unknown
+from icsolve.assembly import solve_figure
+from icsolve.case import Case, Coordinates, Unknown
+from icsolve.equilibrium.load_function import given_at
 from icsolve.equilibrium.positions import Search, find_positions, with_scene
 from icsolve.equilibrium.resting import Range, find_ranges
 from icsolve.errors import SceneError, Status
 from icsolve.solve import solve
 from icsolve.statics.power import is_unknown
+from icsolve.sweep.program import wanted_points
 
 
 def solve_positions(
@@ -23,10 +26,12 @@ def solve_positions(
     Raises SceneError (``any-value``, ``no-value``) where the loads balance everywhere or nowhere, with what
     the JSON object shows besides.
     """
+    case = case if case.unknowns else replace(case, unknowns=(free_coordinate(case) or Unknown(""),))
     unknown = _unknown(case)
     if rubs(case):
         return _resting(case, unknown, all_centres, rates, reactions)
-    search = find_positions(_written(case), unknown.path, span_of(unknown))
+    start = None if unknown.start is None else unknown.start.value
+    search = find_positions(_written(case), unknown.path, span_of(unknown), start)
     _refuse_none(search)
     found = []
     for one in search.positions:
@@ -34,6 +39,31 @@ def solve_positions(
         at, error = {search.path: one.value}, {search.path: one.error}
         found.append(Position(at, error, one.stability, one.stiffness, one.why, scene))
     return Answer(case, positions=tuple(found), mobility=1, notes=(*case.noticed, *search.notes))
+
+
+def free_coordinate(case: Case) -> Unknown | None:
+    """The first unknown coordinate that nothing else fixes, where all loads are known."""
+    if any(map(is_unknown, case.loads)) or not case.loads:
+        return None
+    open_ones = [
+        f"points.{name}.{axis}"
+        for name, at in case.points.items()
+        if isinstance(at, Coordinates)
+        for axis, number in (("x", at.x), ("y", at.y))
+        if number is None
+    ]
+    if not open_ones or _is_placed(case):
+        return None
+    return next((Unknown(path) for path in open_ones if _is_placed(given_at(case, path, 0.5))), None)
+
+
+def _is_placed(case: Case) -> bool:
+    """Whether data enough place every point that is needed."""
+    try:
+        solve_figure(case, wanted_points(case)[1])
+    except SceneError as error:
+        return error.status != Status.UNDERDETERMINED
+    return True
 
 
 def rubs(case: Case) -> bool:

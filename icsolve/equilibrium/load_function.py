@@ -12,10 +12,10 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
-from icsolve.assembly import Figure, place
+from icsolve.assembly import Figure, place, solve_figure
 from icsolve.assembly.groups import Group
 from icsolve.assembly.loci import is_round
-from icsolve.assembly.order import order_of
+from icsolve.assembly.order import Order, order_of
 from icsolve.assembly.steps import Meet, Step
 from icsolve.assembly.workspace import frame_of
 from icsolve.case import Case, Coordinates, Number
@@ -31,7 +31,7 @@ from icsolve.structure.plan import make_plan
 from icsolve.structure.topology import Topology, topology
 from icsolve.sweep.drivers import Drive
 from icsolve.sweep.numbers import with_numbers
-from icsolve.sweep.program import Asked, Setting, Sheet, sheet_of, wanted_points
+from icsolve.sweep.program import Asked, Setting, Sheet, setting_of, sheet_of, wanted_points
 
 Steps = tuple[Step, ...]
 
@@ -79,8 +79,7 @@ def load_functions(case: Case, path: str, low: float, high: float) -> tuple[list
     values = [low + (high - low) * (k + 0.37) / SAMPLES for k in range(SAMPLES)]
     refusal: SceneError | None = None
     found: list[LoadFunction] = []
-    goal = wanted_points(case)[0]
-    order = order_of(given_at(case, path, values[SAMPLES // 2]), goal)
+    order = _order(given_at(case, path, values[SAMPLES // 2]))
     if any(isinstance(step, Group) for step in order.steps):
         raise SceneError(
             Status.UNSUPPORTED,
@@ -110,6 +109,17 @@ def load_functions(case: Case, path: str, low: float, high: float) -> tuple[list
             f"the figure assembles for no value of {path} between {low:g} and {high:g}.",
         )
     return found, True
+
+
+def _order(case: Case) -> Order:
+    """The order of construction of all points, or where some may be anywhere, of those that are needed."""
+    wanted, needed = wanted_points(case)
+    try:
+        return order_of(case, wanted)
+    except SceneError as error:
+        if error.status != Status.UNDERDETERMINED:
+            raise
+        return order_of(case, needed)
 
 
 def given_at(case: Case, path: str, value: float) -> Case:
@@ -150,10 +160,42 @@ def _assembling(case: Case, path: str, steps: Steps, values: list[float]) -> lis
     return [value for _, value in sorted(found)]
 
 
-def _function(case: Case, path: str, top: Topology, figure: Figure) -> LoadFunction:
-    setting = Setting(case, top, figure, (path,), (), Drive((), (), ()))
+def moving_functions(case: Case, path: str = "", link: str = "") -> list[LoadFunction]:
+    """The function of a mechanism that moves from the position as written, by a datum or by turning a link
+    (its input is then in degrees from that position).
+
+    Raises SceneError where it cannot be moved so, or has not one freedom.
+    """
+    setting = setting_of(case, (path,) if path else (), (link,) if link else ())
+    if path and not setting.moves:
+        raise SceneError(Status.UNSUPPORTED, f"{path} does not pose the figure: it moves nothing.")
     sheet = sheet_of(setting, Asked(answers=False))
+    record = sheet.record
+    if sheet.motion is not None and sheet.motion.groups:
+        raise SceneError(
+            Status.UNSUPPORTED, "points of this mechanism can only all together be placed while it moves."
+        )
+    margins = [node for root in record.roots.values() for node, _ in root.margins]
+    function = _on_sheet(sheet, path or link, setting.figure, margins)
+    return [function]
+
+
+def written_function(case: Case, path: str) -> LoadFunction:
+    """The function of a case as it is written, each value read anew, in the mode in which it is."""
+    figure = solve_figure(case, wanted_points(case)[1])
+    return _function(case, path, topology(case), figure)
+
+
+def _function(case: Case, path: str, top: Topology, figure: Figure) -> LoadFunction:
+    sheet = sheet_of(Setting(case, top, figure, (path,), (), Drive((), (), ())), Asked(answers=False))
+    margins = [m for step in place(figure, case, sheet.record).margins.values() for m in step if varies(m)]
+    return _on_sheet(sheet, path, figure, [sheet.record.lifted(m).index for m in margins])
+
+
+def _on_sheet(sheet: Sheet, path: str, figure: Figure, margins: list[int]) -> LoadFunction:
+    """The power of the loads on a record that has the figure, by its one input."""
     record, scene, given = sheet.record, sheet.scene, sheet.inputs[path]
+    case, top = scene.case, scene.top
     plan = make_plan(top, range(len(top.members)))
     motions = None
     if plan is not None and plan.closed:
@@ -171,11 +213,10 @@ def _function(case: Case, path: str, top: Topology, figure: Figure) -> LoadFunct
     total = power.known_power(balance, 0, record)
     rate = _rate(case, scene.points, motions.twists, record, given)
     slope = gradient(record, total, (given,))[given]
-    margins = [m for step in place(figure, case, record).margins.values() for m in step if varies(m)]
     named = {p: scene.points[p] for p in figure.points if not p.startswith("@")}
     places = {p: (record.lifted(x).index, record.lifted(y).index) for p, (x, y) in named.items()}
     return LoadFunction(
-        case,
+        sheet.setting.case,
         path,
         sheet,
         figure,
@@ -183,7 +224,7 @@ def _function(case: Case, path: str, top: Topology, figure: Figure) -> LoadFunct
         record.lifted(total).index,
         record.lifted(slope).index,
         record.lifted(rate).index,
-        tuple(record.lifted(m).index for m in margins),
+        tuple(margins),
         places,
         _turning(motions.twists),
         power.force_scale(balance),

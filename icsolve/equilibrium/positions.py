@@ -3,22 +3,32 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from decimal import Decimal
 from typing import NamedTuple
 
 import numpy as np
 
 from icsolve.answer import Answer
 from icsolve.answer.equilibrium import Stiffness
-from icsolve.case import Case, Coordinates, Torque
+from icsolve.assembly.ways import ways_of
+from icsolve.case import Belt, Case, Contact, Coordinates, Gears, KnownCentre, Roll, Slide, Slot, Torque
 from icsolve.equilibrium.branches import Branches
-from icsolve.equilibrium.load_function import LoadFunction, given_at, load_functions
+from icsolve.equilibrium.load_function import (
+    LoadFunction,
+    given_at,
+    load_functions,
+    moving_functions,
+    written_function,
+)
 from icsolve.equilibrium.search import isolate
-from icsolve.errors import SceneError
+from icsolve.errors import SceneError, Status
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.replay import Code
 from icsolve.solve import solve
+from icsolve.sweep.exact import RowScenes
+from icsolve.sweep.numbers import find_number
 
 PROBE = "@equilibrium"
 """The name of the unknown load by which `icsolve.solve` tells how far a position is from equilibrium."""
@@ -51,18 +61,26 @@ class Search(NamedTuple):
     nearest: float | None
 
 
-def find_positions(case: Case, path: str, span: tuple[float, float] | None) -> Search:
+def find_positions(
+    case: Case, path: str, span: tuple[float, float] | None, start: float | None = None
+) -> Search:
     """All positions of equilibrium of a case whose datum at ``path`` is free.
 
     Parameters
     ----------
     case : all of its loads known, of one freedom
     span : the values that are searched, both included; None: a whole turn, or wherever it assembles
+    start : where the figure is written, from which the mechanism then moves; None: every position is read
+        anew
 
     Raises SceneError where the figure assembles nowhere, or `near` does not tell branches apart.
     """
     low, high = span or whole_range(case, path)
-    functions, complete = load_functions(case, path, low, high)
+    if start is None:
+        functions, complete = load_functions(case, path, low, high)
+        _refuse_history(case, functions[0])
+    else:
+        functions, complete = _moving_from(case, path, start)
     branches = Branches(functions, low, high)
     kept = branches.nearest(case) if case.near else None
     notes: list[str] = []
@@ -91,6 +109,75 @@ def find_positions(case: Case, path: str, span: tuple[float, float] | None) -> S
     found.sort(key=lambda p: p.value)
     nearest = None if found else _nearest(functions, branches, kept)
     return Search(path, tuple(_distinct(found)), tuple(dict.fromkeys(notes)), False, nearest)
+
+
+def find_along(case: Case, along: str, low: float, high: float) -> list[Rest]:
+    """The positions of equilibrium along a sweep of an ordinary case: by a datum that poses it, or by
+    turning a link from the position as written (degrees)."""
+    bare = replace(case, motion=(), expect=())
+    function = moved_by(bare, along)
+    branches = Branches([function], low, high)
+    return [rest for _, rest in search_modes([function], branches, None, low, high, False)]
+
+
+def moved_by(case: Case, along: str) -> LoadFunction:
+    """The mechanism as it moves by a datum, or by a link that is turned.
+
+    Raises CaseError for what is neither, SceneError where it can't be moved so.
+    """
+    if along in case.links:
+        if along == case.ground:
+            raise SceneError(Status.STRUCTURE, f"link {along} is the frame: it does not move.")
+        return moving_functions(case, link=along)[0]
+    path = find_number(case, along).path
+    try:
+        return moving_functions(case, path=path)[0]
+    except SceneError as error:
+        if error.status != Status.UNSUPPORTED:
+            raise
+        return written_function(case, path)
+
+
+def _moving_from(case: Case, path: str, start: float) -> tuple[list[LoadFunction], bool]:
+    """The mechanism moved from each way in which it assembles where it is written."""
+    written = given_at(case, path, start)
+    found = ways_of(written)
+    functions = [f for way in found.ways for f in moving_functions(replace(written, near=way.near), path)]
+    return functions, found.complete
+
+
+def _refuse_history(case: Case, function: LoadFunction) -> None:
+    """Refuse what counts from a position as written, on links that turn, where none is written."""
+    turning = set(function.links)
+    for what, link in _history(case):
+        if link in turning:
+            raise SceneError(
+                Status.UNDERDETERMINED,
+                f"{what} counts from the position as written, and link {link} turns: say at which "
+                f"{function.path} the figure is written, as in {{unknown: [0, 360], from: 30}}.",
+            )
+
+
+def _history(case: Case) -> Iterator[tuple[str, str]]:
+    """What counts from a position as written, with a link on which it does."""
+    for joint in case.joints:
+        pair = "-".join(joint.links[:2])
+        if isinstance(joint, Gears | Belt | Roll | KnownCentre):
+            yield from ((f"the joint of links {pair}", link) for link in joint.links)
+        elif isinstance(joint, Slide | Slot) and joint.guide.angle is not None:
+            yield f"the guide of links {pair} by degrees", joint.links[1]
+        elif isinstance(joint, Contact):
+            yield from ((f"the normal of links {pair}", link) for link in joint.links)
+    for load in case.loads:
+        if getattr(load, "turns_with", None):
+            yield f"load {load.name}, which turns with a link,", str(getattr(load, "turns_with", ""))
+        for at in (getattr(load, "at", ""), getattr(load, "to", "")):
+            if at.startswith("@"):
+                yield f"load {load.name} at coordinates", load.link
+    for name in _given(case):
+        carriers = [link for link, names in case.carries.items() if name in names]
+        if case.ground not in carriers:
+            yield from ((f"point {name} by coordinates", link) for link in carriers)
 
 
 def search_modes(
@@ -122,7 +209,8 @@ def search_modes(
             value = _in_open_cells(function, cluster)
             inside = value is not None and low - slack <= value[0] <= high + slack
             if value is not None and inside and (kept is None or branches.on(n, value[0]) in kept):
-                found.append((n, _described(function, *value)))
+                at = _within_a_turn(*value) if whole and path.startswith("angles.") else value[0]
+                found.append((n, described(function, at, value[1])))
     found += [(-1, position) for position in _at_limits(functions, branches, kept)]
     return found
 
@@ -183,13 +271,19 @@ def _settled(
     value, error = closest
     low, high = span
     if turns and function.path.startswith("angles."):
-        value = value % 360.0
+        value = _within_a_turn(value, error)
     elif not low <= value <= high:
         end = low if abs(value - low) < abs(value - high) else high
         if abs(value - end) > 4.0 * error:
             return None
         value = end
-    return _described(function, value, error)
+    return described(function, value, error)
+
+
+def _within_a_turn(value: float, error: float) -> float:
+    """An angle from 0 up to 360, 0 where it is a whole turn to within its error."""
+    value %= 360.0
+    return 0.0 if 360.0 - value <= 2.0 * error or value <= 2.0 * error else value
 
 
 def _closed_in(function: LoadFunction, low: float, high: float) -> float:
@@ -246,7 +340,13 @@ def _to_the_last_digit(
 
 
 def scene_at(function: LoadFunction, value: float) -> Case:
-    """The case with the free datum at a value, in the mode of the function."""
+    """The case with the free datum at a value, in the mode of the function; of a mechanism that moves, the
+    row of its sweep."""
+    if function.sheet.setting.moves:
+        at = Decimal(value)
+        own = {} if function.path in function.case.links else {function.path: at}
+        row = RowScenes(function.sheet).case({function.input: at}, own)
+        return replace(row, near={}, motion=(), expect=())
     ox, oy, scale = function.sheet.scene.frame
     nodes = [k for pair in function.places.values() for k in pair]
     found = Code(function.record, nodes).run({function.input: np.array(value)}, 1)
@@ -280,7 +380,7 @@ def _probe(function: LoadFunction, value: float, on: str = "") -> tuple[float, s
     raise refusal
 
 
-def _described(function: LoadFunction, value: float, error: float) -> Rest:
+def described(function: LoadFunction, value: float, error: float) -> Rest:
     """A position with its stiffness: enclosed about the value by the record."""
     here = Interval(np.array([value - error]), np.array([value + error]))
     slope, rate = enclose(function.record, [function.slope, function.rate], {function.input: here})
@@ -310,13 +410,9 @@ def _units(function: LoadFunction) -> tuple[float, str]:
     case, frame = function.case, function.sheet.scene.frame
     per_load = 1.0 / (function.force_scale * frame.scale)
     units = case.units
-    if function.path.startswith("angles."):
+    if function.path.startswith("angles.") or function.path in case.links:
         return per_load * DEGREES * DEGREES * units.torque_per_force_length, f"{units.torque}/rad"
     return per_load, f"{units.force}/{units.length}"
-
-
-TOUCHING = 1e-20
-"""Where the power turns round without changing its sign, a load this much smaller than beside is zero."""
 
 
 def _in_open_cells(function: LoadFunction, cluster: tuple[float, float]) -> tuple[float, float] | None:
@@ -330,16 +426,36 @@ def _in_open_cells(function: LoadFunction, cluster: tuple[float, float]) -> tupl
         if (at_low > 0.0) != (at_high > 0.0):
             return _to_the_last_digit(function, 0.5 * (low + high), (low, high))
         beside = max(abs(at_low), abs(at_high))
-        while True:  # where it comes nearest to zero
-            one, two = low + (high - low) / 3.0, high - (high - low) / 3.0
-            if not low < one < two < high:
-                break
-            a, b = abs(_probe(function, one)[0]), abs(_probe(function, two)[0])
-            low, high = (low, two) if a <= b else (one, high)
-        least, value = min((abs(_probe(function, at)[0]), at) for at in (low, one, two, high))
+        turning = _turning_point(function, low, high)
+        if turning is None:
+            return None
+        value, error = turning
+        least = abs(_probe(function, value)[0])
     except SceneError:
         return None
-    return (value, 4.0 * math.ulp(value)) if least <= TOUCHING * beside else None
+    # beside the place the load rises as the square of the distance: so much is left where that is zero
+    return turning if least <= 8.0 * beside * (error / (high - low)) ** 2 else None
+
+
+def _turning_point(function: LoadFunction, low: float, high: float) -> tuple[float, float] | None:
+    """Where the power's derivative changes its sign, as far as its enclosure tells; None where nowhere."""
+
+    def sign(value: float) -> int:
+        here = np.array([value])
+        (slope,) = enclose(function.record, [function.slope], {function.input: Interval(here, here)})
+        return int(float(slope.low.flat[0]) > 0.0) - int(float(slope.high.flat[0]) < 0.0)
+
+    def edge(outside: float, inside: float, word: int) -> float:
+        while (middle := 0.5 * (outside + inside)) not in (outside, inside):
+            outside, inside = (middle, inside) if sign(middle) == word else (outside, middle)
+        return inside
+
+    first, last = sign(low), sign(high)
+    if not first or not last or first == last:
+        return None
+    start, stop = edge(low, high, first), edge(high, low, last)
+    middle = 0.5 * (start + stop)
+    return middle, 0.5 * abs(stop - start) + math.ulp(middle)
 
 
 class _Limit(NamedTuple):
@@ -473,4 +589,13 @@ def _nearest(
     return None if best is None else best[1]
 
 
-__all__ = ["Rest", "Search", "find_positions", "scene_at", "search_modes", "whole_range", "with_scene"]
+__all__ = [
+    "Rest",
+    "Search",
+    "described",
+    "find_positions",
+    "scene_at",
+    "search_modes",
+    "whole_range",
+    "with_scene",
+]

@@ -14,6 +14,7 @@ from icsolve.equilibrium.branches import Branches
 from icsolve.equilibrium.load_function import LoadFunction, load_functions
 from icsolve.equilibrium.positions import PROBE, scene_at, search_modes, whole_range
 from icsolve.errors import SceneError
+from icsolve.kinematics.speeds import joint_order
 from icsolve.solve import solve
 
 SAMPLES = 120
@@ -69,10 +70,16 @@ def _smooth(joint: Any) -> Any:
 
 def _holds(function: LoadFunction, value: float) -> bool:
     """Whether the mechanism holds still: zero lies among the values of a torque at which it does."""
-    case = scene_at(function, value)
-    for link in function.links:
+    return holds_as_written(scene_at(function, value))
+
+
+def holds_as_written(case: Case) -> bool:
+    """Whether a mechanism under known loads holds still as it is written."""
+    links = [link for link in joint_order(case) if link != case.ground]
+    bare = replace(case, motion=(), expect=())
+    for link in links:
         try:
-            found = solve(replace(case, loads=(*case.loads, Torque(PROBE, link, None)))).answers[PROBE]
+            found = solve(replace(bare, loads=(*bare.loads, Torque(PROBE, link, None)))).answers[PROBE]
         except SceneError:
             continue
         low, high = found.holds or (found.value, found.value)

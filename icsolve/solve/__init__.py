@@ -16,7 +16,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from icsolve.answer import Answer
-from icsolve.case import Case
+from icsolve.case import Case, Coordinates, Number
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.balls import is_long
 from icsolve.solve import refusals
@@ -67,7 +67,7 @@ def solve(
 
         asked = {"all_centres": all_centres, "rates": True, "examine": examine}
         return solve_dynamic(case, solve, **asked, bound=bound, reactions=reactions)
-    if case.unknowns:
+    if case.unknowns or (None in _coordinates(case) and _asks_for_a_position(case)):
         from icsolve.equilibrium import solve_positions
 
         return solve_positions(case, all_centres=all_centres, rates=rates, reactions=reactions)
@@ -81,6 +81,18 @@ def solve(
         asked = {"all_centres": all_centres, "rates": rates, "examine": examine}
         return solve_touching(case, **asked, bound=bound, reactions=reactions)
     return _solved(case, _wanted(case, Want(all_centres, rates, examine, reactions)), bound, reactions)
+
+
+def _coordinates(case: Case) -> list[Number | None]:
+    places = (at for at in case.points.values() if isinstance(at, Coordinates))
+    return [number for at in places for number in (at.x, at.y)]
+
+
+def _asks_for_a_position(case: Case) -> bool:
+    """Whether an unknown coordinate is one that nothing else fixes, and the loads are all known."""
+    from icsolve.equilibrium.answering import free_coordinate
+
+    return not any(map(power.is_unknown, case.loads)) and free_coordinate(case) is not None
 
 
 @lru_cache(maxsize=32)

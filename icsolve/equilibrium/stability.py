@@ -1,0 +1,122 @@
+"""Whether a position in equilibrium is stable, and the values of a load at which it ceases to be."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from itertools import pairwise
+from typing import NamedTuple
+
+from icsolve.answer import Answer
+from icsolve.answer.equilibrium import Stiffness
+from icsolve.case import Case, ForceVector, Number
+from icsolve.equilibrium.load_function import moving_functions
+from icsolve.equilibrium.positions import Rest, described, moved_by
+from icsolve.errors import SceneError, Status
+from icsolve.kinematics.speeds import joint_order
+from icsolve.statics.power import is_unknown
+from icsolve.sweep.numbers import find_number, numbers_of, with_numbers
+
+CUTS = 32
+
+
+def with_stability(case: Case, answer: Answer, of: str) -> Answer:
+    """The answer with the stability of the position as written, its found loads held as they are.
+
+    ``of`` is a datum that poses the figure (``angles.AB``) or a link's name. Raises CaseError for what is
+    neither, SceneError where the mechanism can't be moved by it.
+    """
+    held = holding(case, answer)
+    rest = rest_as_written(held, of)
+    return replace(answer, stability=rest.stability, stiffness=rest.stiffness, why_no_stiffness=rest.why)
+
+
+def holding(case: Case, answer: Answer) -> Case:
+    """The case with its unknown loads at the values that were found."""
+    loads = []
+    for load in case.loads:
+        if is_unknown(load) and not isinstance(load, ForceVector):
+            value = answer.answers[load.name].value
+            load = load._replace(value=Number(value, 0.0, f"loads.{load.name}", repr(value)))  # noqa: PLW2901
+        loads.append(load)
+    return replace(case, loads=tuple(loads), expect=(), motion=())
+
+
+def rest_as_written(case: Case, of: str) -> Rest:
+    """The position as written of a case whose loads are all known and balance."""
+    function = moved_by(case, of)
+    value = 0.0 if of in case.links else find_number(case, of).value
+    return described(function, value, 0.0)
+
+
+class Turning(NamedTuple):
+    """A value at which something ceases to be one thing and becomes another."""
+
+    value: float
+    error: float
+    before: str
+    after: str
+
+
+def neutral_values(case: Case, path: str, low: float, high: float) -> list[Turning]:
+    """The values of a load's number at which the position as written changes its stability.
+
+    The case has to be in equilibrium as written for all of them.
+    """
+    link = next(link for link in joint_order(case) if link != case.ground and _turns(case, link))
+
+    def stiffness(value: float) -> Stiffness:
+        found = rest_as_written(with_numbers(case, {path: value}), link).stiffness
+        if found is None:
+            raise SceneError(Status.DEAD_CENTRE, f"link {link} stands still as written.")
+        return found
+
+    values = [low + (high - low) * k / CUTS for k in range(CUTS + 1)]
+    both = zip(values, map(stiffness, values), strict=True)
+    known = [(value, k) for value, k in both if abs(k.value) > (k.error or 0.0)]
+    found = []
+    for (a, at_a), (b, at_b) in pairwise(known):
+        if (at_a.value > 0.0) != (at_b.value > 0.0):  # the stiffness is linear in the number of a load
+            slope = (at_b.value - at_a.value) / (b - a)
+            value = a - at_a.value / slope
+            error = ((at_a.error or 0.0) + (at_b.error or 0.0)) / abs(slope) + 2.0 * math.ulp(value)
+            words = ("stable", "unstable") if at_a.value > 0.0 else ("unstable", "stable")
+            found.append(Turning(value, error, *words))
+    return found
+
+
+def _turns(case: Case, link: str) -> bool:
+    try:
+        return link in moving_functions(replace(case, expect=(), motion=()), link=link)[0].links
+    except SceneError:
+        return False
+
+
+def holding_values(case: Case, path: str, low: float, high: float) -> list[Turning]:
+    """The values of a number at which a mechanism under known loads begins or ceases to hold still."""
+    from icsolve.equilibrium.resting import holds_as_written
+
+    number = numbers_of(case)[path]
+
+    def kind(value: float) -> str:
+        return "holds" if holds_as_written(with_numbers(case, {number.path: value})) else "slips"
+
+    return _turnings(kind, low, high)
+
+
+def _turnings(kind: Callable[[float], str], low: float, high: float) -> list[Turning]:
+    """Where a word changes over a range: between the ends of many parts, then halved to the last digit."""
+    values = [low + (high - low) * k / CUTS for k in range(CUTS + 1)]
+    found = []
+    for (start, before), (stop, after) in pairwise([(value, kind(value)) for value in values]):
+        if before == after:
+            continue
+        a, b = start, stop
+        while (middle := 0.5 * (a + b)) not in (a, b):
+            a, b = (middle, b) if kind(middle) == before else (a, middle)
+        found.append(Turning(b, abs(b - a), before, after))
+    return found
+
+
+__all__ = ["Turning", "holding_values", "neutral_values", "rest_as_written", "with_stability"]
