@@ -30,6 +30,9 @@ DIMENSIONS: dict[str, Dimension] = {
     "acceleration": (1, 0, -2, 0),
     "power": (2, 1, -3, 0),
     "pitch": (-1, 0, 0, 0),
+    "pressure": (-1, 1, -2, 0),
+    "area": (2, 0, 0, 0),
+    "torsional stiffness": (2, 1, -2, -1),
     "moment of inertia": (2, 1, 0, 0),
     "angular acceleration": (0, 0, -2, 1),
 }
@@ -92,9 +95,15 @@ _TABLE: tuple[tuple[str, int, int, int, str], ...] = (
     ("kW kilowatt kilowatts", 1000, 1, 0, "power"),
     ("hp horsepower", 550 * _POUND[0] * 381, _POUND[1] * 1250, 0, "power"),
     ("rpm", 1, 30, 1, "angular speed"),
+    ("Pa pascal pascals", 1, 1, 0, "pressure"),
+    ("kPa kilopascal kilopascals", 1000, 1, 0, "pressure"),
+    ("MPa megapascal megapascals", 10**6, 1, 0, "pressure"),
+    ("bar bars", 10**5, 1, 0, "pressure"),
+    ("psi", _POUND[0] * 5000**2, _POUND[1] * 127**2, 0, "pressure"),
 )
 _EITHER_CASE = frozenset(
-    "in inch inches ft foot feet yd lbf lb lbs lbm kip kips ozf oz kgf tonf slug slugs deg rev rpm hp".split()
+    "in inch inches ft foot feet yd lbf lb lbs lbm kip kips ozf oz kgf tonf slug slugs deg rev rpm hp psi "
+    "bar".split()
 )
 """Names without a prefix that case could change: ``RPM``, ``LBF``, ``In`` are what they seem."""
 

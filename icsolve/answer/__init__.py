@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -33,6 +34,15 @@ class Found(NamedTuple):
     holds: tuple[float, float] | None = None
     """with friction and no motion: the range in which it holds; infinite where no value moves it"""
     self_locking: bool = False
+    components: tuple[float, float] | None = None
+    """of a force of unknown direction, whose ``value`` is its size"""
+
+    @property
+    def direction(self) -> float | None:
+        """Where a force of unknown direction acts, degrees in [0, 360)."""
+        if self.components is None:
+            return None
+        return math.degrees(math.atan2(self.components[1], self.components[0])) % 360.0
 
 
 class Centre(NamedTuple):

@@ -74,7 +74,10 @@ def _found(found: Found) -> dict[str, Any]:
         ends = [_plain(end) if math.isfinite(end) else None for end in found.holds]
         held: dict[str, Any] = {"value": None, "holds": ends, "self_locking": found.self_locking}
         return {**held, "unit": found.unit, "sense": "", **_bound(found)}
-    return {"value": _plain(found.value), "unit": found.unit, "sense": found.sense, **_bound(found)}
+    entry: dict[str, Any] = {"value": _plain(found.value), "unit": found.unit, "sense": found.sense}
+    if found.components is not None:
+        entry |= {"direction": found.direction, **dict(zip("xy", _numbers(found.components), strict=True))}
+    return {**entry, **_bound(found)}
 
 
 def _bound(found: Found) -> dict[str, Any]:

@@ -45,6 +45,10 @@ class AsRead:
         """Square root; of rounding below zero: zero."""
         return self.mp.sqrt(max(self.mp.mpf(value), self.mp.mpf(0)))
 
+    def angle(self, x: Any, y: Any) -> Any:
+        """Direction of a vector in degrees."""
+        return self.mp.degrees(self.mp.atan2(y, x))
+
     def vanishes(self, value: Any, size: float) -> bool:
         """Zero to two thirds of the digits."""
         return bool(abs(value) <= self.mp.mpf(10) ** -40 * size)

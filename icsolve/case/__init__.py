@@ -43,6 +43,7 @@ from icsolve.case.joints import (
 )
 from icsolve.case.loads import (
     AlongRope,
+    Area,
     Force,
     ForceVector,
     Heading,
@@ -52,7 +53,9 @@ from icsolve.case.loads import (
     Motion,
     Slope,
     Spring,
+    Stretch,
     Torque,
+    TorsionSpring,
     Toward,
     Weight,
 )
@@ -64,6 +67,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "AlongRope",
+    "Area",
     "ArmIs",
     "Belt",
     "Case",
@@ -107,9 +111,11 @@ __all__ = [
     "Slot",
     "SpeedIs",
     "Spring",
+    "Stretch",
     "Target",
     "Tolerance",
     "Torque",
+    "TorsionSpring",
     "Toward",
     "Units",
     "Unknown",
@@ -144,6 +150,8 @@ class Case:
     near: dict[str, tuple[float, float]] = field(default_factory=dict)
     joints: tuple[Joint, ...] = ()
     loads: tuple[Load, ...] = ()
+    directed: tuple[str, ...] = ()
+    """forces of unknown direction by name: ``P`` stands among the loads as ``P.x`` and ``P.y``"""
     motion: tuple[Motion, ...] = ()
     expect: tuple[Expected, ...] = ()
     carries: dict[str, tuple[str, ...]] = field(default_factory=dict)

@@ -25,6 +25,15 @@ class Units(NamedTuple):
     exact_newton: ExactRatio = (1, 1, 0)
     """``force_per_newton``, exactly"""
 
+    @property
+    def pressure(self) -> str:
+        """The unit in which a pressure is answered."""
+        if self.force == "N" and self.length in ("m", "mm", "cm"):
+            return "MPa"
+        if self.force == "lbf" and self.length in ("in", "ft"):
+            return "psi"
+        return f"{self.force}/{self.length}^2"
+
 
 class Coordinates(NamedTuple):
     """A point by its coordinates; None stands for ``unknown``."""

@@ -4,6 +4,7 @@ from typing import NamedTuple
 
 from icsolve.case.bodies import Rope
 from icsolve.numbers.given import Number
+from icsolve.units import ExactRatio
 
 
 class Like(NamedTuple):
@@ -41,8 +42,36 @@ Heading = Number | Toward | Slope | AlongRope
 """Direction of a force: degrees ccw from +x, toward or away from a point, run and rise, or along a rope."""
 
 
+class Area(NamedTuple):
+    """The area on which a pressure acts: as given, or a circle's of ``bore`` less that of ``rod``.
+
+    ``per`` is, exactly, the force in case units that a unit of pressure makes on a unit of case length
+    squared, for a bore times pi/4.
+    """
+
+    per: ExactRatio
+    area: Number | None = None
+    bore: Number | None = None
+    rod: Number | None = None
+
+
+class Stretch(NamedTuple):
+    """The line from ``a`` to ``b`` along which a force per length acts.
+
+    Uniform, or linear from the force's own number at ``a`` to ``end`` at ``b``.
+    """
+
+    a: str
+    b: str
+    end: Number | None = None
+
+
 class Force(NamedTuple):
-    """A force on ``link`` at ``at``; the opposite goes on ``against`` (None: the frame)."""
+    """A force on ``link`` at ``at``; the opposite goes on ``against`` (None: the frame).
+
+    With an ``over`` its number is a pressure on that area, or a force per length of that stretch; ``at`` is
+    then the middle of the stretch, a hidden point.
+    """
 
     name: str
     link: str
@@ -52,6 +81,7 @@ class Force(NamedTuple):
     against: str | None = None
     turns_with: str | None = None
     """In a sweep the heading turns with this link; None: it stays absolute."""
+    over: Area | Stretch | None = None
 
 
 class ForceVector(NamedTuple):
@@ -98,7 +128,28 @@ class Spring(NamedTuple):
     against: str | None = None
 
 
-Load = Force | ForceVector | Torque | Weight | Spring
+class TorsionSpring(NamedTuple):
+    """A torsion spring between ``link`` and ``against`` (None: the frame); ``value`` is its stiffness.
+
+    It pushes ``link`` with stiffness times (``free`` - angle), ccw positive. The angle is that of ``corner``:
+    of three points, at the middle one from the arm to the first to the arm to the last; of two points the
+    direction from the first to the second.
+    """
+
+    name: str
+    link: str
+    corner: tuple[str, ...]
+    value: Magnitude
+    free: Number
+    against: str | None = None
+
+    @property
+    def at(self) -> str:
+        """The point about which it turns."""
+        return self.corner[-2]
+
+
+Load = Force | ForceVector | Torque | Weight | Spring | TorsionSpring
 
 
 class Motion(NamedTuple):

@@ -9,14 +9,14 @@ from typing import NamedTuple
 
 from icsolve.answer import Answer, Centre
 from icsolve.assembly import Frame, case_point, solve_figure
-from icsolve.case import Case, Coordinates, ForceVector, Like, Load, Pair, Torque
+from icsolve.case import Case, Coordinates, ForceVector, Like, Load, Pair
 from icsolve.case.names import ordered_pair
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.plane import Point, Triple
 from icsolve.solve import attempt
 from icsolve.solve.parts import Parts
-from icsolve.statics.power import Wrench, known_value, points_of, wrenches
+from icsolve.statics.power import Wrench, known_value, place_of, points_of, wrenches
 from icsolve.wording.senses import unit_of
 
 
@@ -182,8 +182,8 @@ def _acting(known: Known, w: Wrench) -> Acting:
         value: float | None = float(w.ratio) * number
     else:
         value = None if found is None or holds is not None else found.value
-    torque = isinstance(w.load, Torque)
-    at = None if isinstance(w.load, Torque) else known.points[w.load.at]
+    at = place_of(w.load, known.points)
+    torque = at is None
     gain = float(w.gain) * (float(w.unit[2]) if torque else 1.0)
     direction = (0.0, 0.0) if torque else (float(w.unit[1]), -float(w.unit[0]))
     unit = unit_of(w.load, known.case)

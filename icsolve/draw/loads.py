@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 
 import shapely
 
-from icsolve.case import Load, Pin, Spring, Torque, Weight
+from icsolve.case import Load, Pin, Spring, Weight
 from icsolve.derivation import Acting, acting_loads
 from icsolve.draw.marks import (
     Area,
@@ -39,7 +39,7 @@ def load_parts(scene: Scene, links: shapely.Geometry) -> list[Part]:
     parts = []
     turned: dict[Point, int] = {}
     for acting in acting_loads(scene.known):
-        if isinstance(acting.load, Torque):
+        if acting.at is None:
             part = _torque(scene, acting, turned)
         elif isinstance(acting.load, Spring):
             part = _spring(scene, acting, acting.load)
@@ -64,7 +64,7 @@ def load_words(acting: Acting) -> tuple[Run, ...]:
     if acting.value is None:
         return (*name, Run(" = ?"))
     text = f" = {quantity(abs(acting.value), acting.unit)}"
-    if isinstance(acting.load, Torque) and acting.value:
+    if acting.at is None and acting.value:
         text += " ccw" if acting.couple > 0.0 else " cw"
     if isinstance(acting.load, Spring):
         text = f": k{text}"

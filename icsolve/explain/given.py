@@ -8,6 +8,7 @@ from typing import NamedTuple
 from icsolve.answer import Centre
 from icsolve.case import (
     AlongRope,
+    Area,
     Belt,
     Case,
     Contact,
@@ -27,7 +28,9 @@ from icsolve.case import (
     Slope,
     Slot,
     Spring,
+    Stretch,
     Torque,
+    TorsionSpring,
     Toward,
     Units,
     Weight,
@@ -38,7 +41,7 @@ from icsolve.derivation import Known
 from icsolve.explain.document import Block, Inline, Items, Section, Table, words
 from icsolve.explain.formula import Name, Num, Quantity
 from icsolve.statics.power import is_unknown, reacting
-from icsolve.wording.senses import SPELT
+from icsolve.wording.senses import SPELT, unit_of
 from icsolve.wording.sentences import link_words, listed
 
 
@@ -242,18 +245,30 @@ def _kind(case: Case, load: Load) -> str:
     """What a load is, with its number where it has one."""
     if isinstance(load, ForceVector):
         return f"a force ({load.x.digits}, {load.y.digits}) {case.units.force}"
-    unit = {Torque: case.units.torque, Spring: f"{case.units.force}/{case.units.length}"}.get(
-        type(load), case.units.force
-    )
-    kind = {Force: "force", Torque: "torque", Spring: "spring", Weight: "weight"}[type(load)]
+    unit, kind = unit_of(load, case), _KINDS[type(load)]
     if isinstance(load, Weight) and load.mass:
-        kind, unit = "mass", "kg"
+        kind = "mass"
+    if isinstance(load, Force) and load.over is not None:
+        kind = "pressure" if isinstance(load.over, Area) else "force per length"
+        if isinstance(load.over, Stretch) and load.over.end is not None and isinstance(load.value, Number):
+            over = load.over
+            ends = f"{load.value.value:.6g} {unit} at {over.a} to {load.over.end.value:.6g} at {over.b}"
+            return f"a force per length from {ends}"
     if load.value is None:
-        return "the stiffness of a spring" if isinstance(load, Spring) else f"the {kind}"
+        return f"the stiffness of a {kind}" if isinstance(load, Spring | TorsionSpring) else f"the {kind}"
     if isinstance(load.value, Like):
         times = "" if load.value.times is None else f"{load.value.times.digits} times "
         return f"a {kind}, {times}as large as {load.value.load},"
     return f"a {kind} of {load.value.value:.6g} {unit}"
+
+
+_KINDS: dict[type[Load], str] = {
+    Force: "force",
+    Torque: "torque",
+    Spring: "spring",
+    TorsionSpring: "torsion spring",
+    Weight: "weight",
+}
 
 
 def _heading(load: Load) -> str:
@@ -262,6 +277,8 @@ def _heading(load: Load) -> str:
     if isinstance(load, Spring):
         end = "a fixed point" if load.to.startswith("@") else load.to
         return f" to {end}, free length {load.free.value:.6g}"
+    if isinstance(load, TorsionSpring):
+        return f" by the angle {''.join(load.corner)}, free at {load.free.digits} deg"
     if not isinstance(load, Force):
         return ""
     match load.heading:

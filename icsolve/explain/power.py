@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from icsolve.case import ForceVector, Spring, Torque, Weight
+from icsolve.case import Area, Force, ForceVector, Spring, Torque, TorsionSpring, Weight
 from icsolve.derivation import Acting, Known, Ratios
 from icsolve.derivation.ratios import OneMotion, independent_motions, speed_words
 from icsolve.explain.centres import difference, motion_name, place
@@ -105,6 +105,19 @@ def _gain(known: Known, figures: Figures, acting: Acting) -> tuple[tuple[Expr, .
     if isinstance(load, Weight) and load.mass:
         weight = figures.quantity(acting.gain, f"{known.case.units.force}/kg")
         return (Name("g"),), acting.gain, [words("A mass weighs g = ", weight, ".")]
+    if isinstance(load, TorsionSpring):
+        slack = acting.gain * known.case.units.torque_per_force_length
+        name, size = Name("s", load.name), figures.quantity(slack, "rad")
+        angles = (load.free.value, load.free.value - math.degrees(slack))
+        begin, end = (figures.quantity(angle, "deg") for angle in angles)
+        turn = formula(name, Sum(((1, begin), (-1, end))), size)
+        return (name,), slack, [words("By how much ", load_name(load.name), " is turned:"), turn]
+    if isinstance(load, Force) and load.over is not None:
+        over = load.over
+        name = Name("A" if isinstance(over, Area) else "L", load.name)
+        said = "The area of " if isinstance(over, Area) else "The length over which it is the resultant, of "
+        number = figures.number(acting.gain)
+        return (name,), acting.gain, [words(said, load_name(load.name), ":"), formula(name, number)]
     if isinstance(load, Spring):
         a, b = known.points[load.at], known.points[load.to]
         long, free = figures.length(math.dist(a, b)), figures.length(load.free.value)
@@ -372,7 +385,7 @@ def _factor(
 ) -> tuple[float, list[Block]]:
     """Power per unit of a load: the rate of its link, or the part of its point's velocity along it."""
     name = Name("k", acting.load.name + (f",{n}" if n else ""))
-    if isinstance(acting.load, Torque):
+    if acting.at is None:
         return _turned(figures, acting, motion, name)
     assert acting.at is not None
     (ax, ay), (bx, by) = (velocity(motion.twists[link], acting.at) for link in (acting.link, acting.against))

@@ -20,6 +20,7 @@ from icsolve.case import (
     Spring,
     Target,
     Torque,
+    TorsionSpring,
     Toward,
     Weight,
 )
@@ -115,7 +116,7 @@ def expected_direction(load: Load, answer: Answer) -> ExpectedDirection:
     """The senses of a load's positive value."""
     if isinstance(load, Torque):
         return ExpectedDirection(turn=-1.0 if load.turns == "cw" else 1.0)
-    if isinstance(load, Spring) or (isinstance(load, Weight) and load.mass):
+    if isinstance(load, Spring | TorsionSpring) or (isinstance(load, Weight) and load.mass):
         return ExpectedDirection()
     assert isinstance(load, Force | ForceVector | Weight)
     axial = 0.0

@@ -52,6 +52,9 @@ class Arithmetic(Protocol):
     def sqrt(self, value: Scalar) -> Scalar:
         """Square root; the value is never negative by more than rounding."""
 
+    def angle(self, x: Scalar, y: Scalar) -> Scalar:
+        """Direction of a vector, degrees in (-180, 180]."""
+
     def vanishes(self, value: Scalar, size: float) -> bool:
         """Whether a value is zero (in floats: but for rounding); ``size`` is that of the products it is
         summed from. Balls raise MoreDigits where that is open."""
@@ -89,6 +92,10 @@ class Floats:
     def sqrt(self, value: float) -> float:
         """Square root, of rounding noise below zero: zero."""
         return math.sqrt(value) if value > 0.0 else 0.0
+
+    def angle(self, x: float, y: float) -> float:
+        """Direction of a vector, degrees in (-180, 180]."""
+        return math.degrees(math.atan2(y, x))
 
     def vanishes(self, value: float, size: float) -> bool:
         """Zero where it is below a fraction of its products that rounding explains."""

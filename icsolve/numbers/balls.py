@@ -393,6 +393,21 @@ class Balls:
         radius = value.radius / size * UP * UP  # |sqrt x - sqrt v| <= |x - v| / sqrt v
         return Ball(self, root, (radius * self.carried + self.unit * size) * UP + TINY, size, INEXACT)
 
+    def angle(self, x: Scalar, y: Scalar) -> Scalar:
+        """Direction of a vector, degrees in (-180, 180].
+
+        It is turned back by the angle that floats give, which leaves a small one: its tangent's series.
+        """
+        near = math.degrees(math.atan2(float(y), float(x)))
+        c, s = self.cos_sin(self.ball(near))
+        tangent = (y * c - x * s) / (x * c + y * s)
+        square, rest, power, n = tangent * tangent, tangent, tangent, 1
+        size = abs(tangent) + TINY
+        while size**n / n > 10.0 ** -(self.digits + GUARD) * size and n < 99:
+            power, n = -power * square, n + 2
+            rest = rest + power / float(n)
+        return self.ball(near) + rest * 180.0 / self.pi()
+
     def vanishes(self, value: Scalar, size: float) -> bool:
         """Whether a value is zero; ``size`` is that of the products it is summed from.
 

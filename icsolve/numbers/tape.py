@@ -215,6 +215,14 @@ class Tape:
         root = math.sqrt(x)
         return Taped(self, (value.index, 0.5 / root, 0, 0.0, UNIT * root), root, math.sqrt(size))
 
+    def angle(self, x: Operand, y: Operand) -> Taped:
+        """Direction of a vector, degrees in (-180, 180]."""
+        u, v = (value if isinstance(value, Taped) else self.constant(value) for value in (x, y))
+        degrees = math.degrees(math.atan2(v.value, u.value))
+        rate = math.degrees(1.0) / (u.value * u.value + v.value * v.value or 1.0)
+        node = (u.index, -v.value * rate, v.index, u.value * rate, 4.0 * UNIT * abs(degrees))
+        return Taped(self, node, degrees, 180.0)
+
     def vanishes(self, value: Operand, size: float) -> bool:
         """Zero where it lies within its own bound.
 

@@ -110,7 +110,7 @@ def _math(expression: Expr) -> str:
 
 def speed_of(known: Known, acting: Acting) -> Name:
     """The speed that a load works at: the rate of its link, or the speed of its point along it."""
-    if not isinstance(acting.load, Torque):
+    if acting.at is not None:
         return Name("v", acting.load.name)
     low = acting.link if acting.against == known.case.ground else f"{acting.link}/{acting.against}"
     return Name("w", low)

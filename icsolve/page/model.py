@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from icsolve.answer import Centre, Found
-from icsolve.case import Force, Pair, Spring, Toward, Weight
+from icsolve.case import Force, Pair, Spring, TorsionSpring, Toward, Weight
 from icsolve.case.names import pair_name
 from icsolve.derivation import Acting, Known, Step, acting_loads
 from icsolve.draw.loads import axle
@@ -80,7 +80,23 @@ def gain_rows(known: Known, motion: Motion, acting: Acting) -> Array:
         x, y = place_rows(known, motion, acting.link, acting.at)
         a, b = _target(known, motion, acting, load.to)
         return np.asarray(np.hypot(a - x, b - y) - load.free.value)
-    return np.full(len(motion.degrees), acting.gain if isinstance(load, Weight) else 1.0)
+    if isinstance(load, TorsionSpring):
+        return _slack_rows(known, motion, acting, load)
+    counts = isinstance(load, Weight) or (isinstance(load, Force) and load.over is not None)
+    return np.full(len(motion.degrees), acting.gain if counts else 1.0)
+
+
+def _slack_rows(known: Known, motion: Motion, acting: Acting, load: TorsionSpring) -> Array:
+    """By how much a torsion spring is turned in every row, rad; turns count from the position as written."""
+    *arm, at, end = load.corner
+    x, y = place_rows(known, motion, acting.link, known.points[at])
+    u, v = place_rows(known, motion, acting.link, known.points[end])
+    angle = np.unwrap(np.arctan2(v - y, u - x))
+    if arm:
+        u, v = place_rows(known, motion, acting.against, known.points[arm[0]])
+        angle = angle - np.unwrap(np.arctan2(v - y, u - x))
+    written = acting.gain * known.case.units.torque_per_force_length
+    return np.asarray(written - (angle - angle[motion.zero]))
 
 
 def load_data(scene: Scene, motion: Motion | None, acting: Acting) -> dict[str, Any]:

@@ -123,12 +123,12 @@ def _parts(reading: Reading, root: Mapping) -> _Parts:
         reading.driven = driven(root.items.get("loads"))
     joints, ropes = _joints(reading, root)
     profiles = _profiles(reading, root) if section is not None else None
+    points = read_points(reading, section_of(reading, root, "points"))
     loads = read_loads(reading, section_of(reading, root, "loads"))
     if ropes:
         from icsolve.read.ropes import check_ends
 
         check_ends(reading, ropes, loads)
-    points = read_points(reading, section_of(reading, root, "points"))
     links, inertia = read_links(reading, section_of(reading, root, "links"))
     near = read_near(reading, section_of(reading, root, "near"))
     motion = read_motion(reading, root.items["motion"]) if stands(root, "motion") else ()
@@ -138,7 +138,8 @@ def _parts(reading: Reading, root: Mapping) -> _Parts:
     named = reading.given | set(reading.used)
     published = section_of(reading, root, "expect")
     expect = read_expect(reading, published, named) if readable(root, "loads") else ()
-    points = {**points, **reading.hidden}
+    middles = {name: Centroid(ends) for name, ends in reading.middles.items()}
+    points = {**points, **reading.hidden, **middles}
     figure = (joints, loads, points, links, near, motion, lengths, angles)
     return _Parts(*figure, expect, profiles, inertia, ropes)
 
@@ -262,6 +263,7 @@ def _case(
         gravity=_gravity(reading, root) or Case.gravity,
         tolerance=tolerance_of_case(reading, root),
         profiles=parts.profiles,
+        directed=tuple(reading.directed),
         unknowns=tuple(reading.unknowns),
         inertia=parts.inertia,
         ropes=parts.ropes,

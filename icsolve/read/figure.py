@@ -18,6 +18,7 @@ from icsolve.case import (
     Coordinates,
     Corner,
     Direction,
+    Force,
     Inertia,
     Joint,
     KnownCentre,
@@ -31,8 +32,11 @@ from icsolve.case import (
     Slide,
     Slot,
     Spring,
+    Stretch,
     Torque,
+    TorsionSpring,
     Unknown,
+    Weight,
     Weld,
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
@@ -369,8 +373,14 @@ def _on_joint(joint: Joint) -> list[tuple[str, str]]:
 def _on_load(load: Load, ground: str) -> list[tuple[str, str]]:
     if isinstance(load, Torque):
         return []
+    other = load.against or ground if not isinstance(load, Weight) else ground
+    if isinstance(load, TorsionSpring):
+        own, arm = load.corner[-2:], load.corner[:-1] if len(load.corner) > 2 else ()
+        return [*((load.link, point) for point in own), *((other, point) for point in arm)]
     ends = [(load.link, load.at)]
-    return [*ends, (load.against or ground, load.to)] if isinstance(load, Spring) else ends
+    if isinstance(load, Force) and isinstance(load.over, Stretch):
+        ends += [(load.link, load.over.a), (load.link, load.over.b)]
+    return [*ends, (other, load.to)] if isinstance(load, Spring) else ends
 
 
 FRAMES = ("0", "frame", "ground", "base", "fixed", "gnd", "earth")
@@ -457,7 +467,7 @@ def _places(
 ) -> Iterator[tuple[str, str, str, str, tuple[str | int, ...]]]:
     """What is put on which link at which point, the key that says the link, and where that stands."""
     for load in loads:
-        if isinstance(load, Torque) or load.link.startswith("@"):
+        if isinstance(load, Torque | TorsionSpring) or load.link.startswith("@"):
             continue
         way = ("loads", load.name)
         yield f"load {load.name} acts on", load.link, load.at, "link", (*way, "link")

@@ -31,6 +31,8 @@ class Kind(NamedTuple):
     keys: dict[str, Key]
     instead: str = ""
     """of a joint that only the plane has: what stands for it in space"""
+    key: str = ""
+    """its own key, where that is not the kind's name"""
 
 
 def _needed(key: Key, says: str = "", form: str = "") -> Key:
@@ -208,9 +210,7 @@ JOINTS = {
             ),
             "radii": Key("radii of pulleys and drums, as in {P: 0.1}", "sizes", False, "length", "positive"),
             "wraps": Key("the sense in which one goes round each, as in {P: ccw}", "senses"),
-            "mu": Key(
-                "friction where it slips, as in {P: 0.3}", "numbers", False, "number", "not negative"
-            ),
+            "mu": Key("friction where it slips, as in {P: 0.3}", "numbers", False, "number", "not negative"),
             "length": _quantity("its own length, where the figure leaves it open", "length", "positive"),
         },
         "loads for its pull on each link",
@@ -308,7 +308,7 @@ _STIFFNESS = "its force per length, a number, 'unknown' or {like: S}"
 LOADS = {
     "force": Kind(
         "a force",
-        _size("a number, 'unknown', or two components [Fx, Fy]", "force", "load or pair"),
+        _size("a number, 'unknown', or two components [Fx, Fy]", "force", "load or vector"),
         {"link": _BEARER, "at": _PLACE, **DIRECTION, "against": _AGAINST, "turns_with": _TURNS_WITH},
     ),
     "torque": Kind(
@@ -336,6 +336,56 @@ LOADS = {
             "at": _needed(_PLACE, "the point of its link that it is fixed to, or [x, y]"),
             "against": _AGAINST,
             "to": _needed(_PLACE, "the point of its other end, or [x, y]"),
+        },
+    ),
+    "torsion spring": Kind(
+        "a torsion spring: it pushes its link with stiffness times (free - angle)",
+        _size(
+            "its torque per angle, a number, 'unknown' or {like: S}",
+            "torsional stiffness",
+            "load",
+            "not negative",
+        ),
+        {
+            "corner": Key(
+                "the angle that it follows: ABC, at B from BA to BC; or BC, the direction from B to C",
+                "corner",
+                True,
+            ),
+            "free": Key("its angle without load, in degrees", "quantity", True, "angle"),
+            "link": _LINK,
+            "against": _AGAINST,
+        },
+        key="spring",
+    ),
+    "pressure": Kind(
+        "a pressure on an area, along a line as a force",
+        _size(_TORQUE, "pressure"),
+        {
+            "bore": _quantity("the diameter of the cylinder", "length", "positive"),
+            "rod": _quantity("the diameter of the rod, on its side of the piston", "length", "positive"),
+            "area": _quantity("the area, as in 1963 mm^2, in place of a bore", "area", "positive"),
+            "link": _LINK,
+            "at": _PLACE,
+            **DIRECTION,
+            "against": _AGAINST,
+            "turns_with": _TURNS_WITH,
+        },
+    ),
+    "distributed": Kind(
+        "a force per length along a line, uniform or linear",
+        _size(
+            "a number, 'unknown', or those at both ends, as in [0, 200 N/m]",
+            "line load",
+            "load or pair",
+        ),
+        {
+            "link": _LINK,
+            "from": Key("the point where it begins", "name", True),
+            "to": Key("the point where it ends", "name", True),
+            **DIRECTION,
+            "against": _AGAINST,
+            "turns_with": _TURNS_WITH,
         },
     ),
     "power": Kind(

@@ -7,6 +7,7 @@ from collections.abc import Mapping as Table
 from typing import Generic, NamedTuple, TypeVar
 
 from icsolve.case import (
+    Area,
     Force,
     ForceVector,
     Heading,
@@ -18,15 +19,17 @@ from icsolve.case import (
     Number,
     Slope,
     Spring,
+    Stretch,
     Torque,
+    TorsionSpring,
     Toward,
     Weight,
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.keys import DIRECTION, LIKE, LOADS, MOTION, Kind
-from icsolve.read.names import is_name, shown, suggestion, why_no_name
+from icsolve.read.names import is_name, point_key, shown, suggestion, why_no_name
 from icsolve.read.reading import Entry, Reading
-from icsolve.units import exactly, nearest, quotient, split_quantity
+from icsolve.units import exact_ratio, exactly, nearest, quotient, split_quantity, times
 
 VECTORS = {"force": "vector", "torque": "couple"}
 """Kinds that can be given by components, and what they are called then."""
@@ -40,9 +43,13 @@ class Forms(NamedTuple, Generic[T]):
     """The kinds of load and what reads each, an example; and why a key has no place here."""
 
     kinds: Table[str, Kind]
-    build: Table[str, Callable[[Entry, str, str, Likes], T | None]]
+    build: Table[str, Callable[[Entry, str, str, Likes], T | list[T] | None]]
     example: str
     elsewhere: Table[str, str]
+
+    def own_keys(self) -> dict[str, None]:
+        """The keys by which kinds are known, each once."""
+        return dict.fromkeys(kind.key or name for name, kind in self.kinds.items())
 
 
 def dimension_of(kind: str) -> str:
@@ -55,59 +62,70 @@ def read_section(reading: Reading, section: Mapping, forms: Forms[T]) -> tuple[T
     """The loads that could be read."""
     for key, node in section.items.items():
         reading.kinds[key] = _kind_of(node, forms)
-    found, likes = [], Likes()
+    found: list[T] = []
+    likes = Likes()
     for key, node in section.items.items():
         load = _load(reading, key, node, section.keys[key], likes, forms)
-        if load is not None:
-            found.append(load)
+        found.extend(load)
     _check_likes(reading, likes)
     return tuple(found)
 
 
 def _kind_of(node: Node, forms: Forms[T]) -> str:
     """The kind of a load, '' where that is not clear; vectors have their own."""
-    kinds = [key for key in node.items if key in forms.kinds] if type(node) is Mapping else []
+    kinds = [key for key in node.items if key in forms.own_keys()] if type(node) is Mapping else []
     if len(kinds) != 1 or type(node) is not Mapping:
         return ""
     kind = kinds[0]
+    if kind == "spring" and {"corner"} & node.items.keys() and "torsion spring" in forms.kinds:
+        return "torsion spring"
     return VECTORS.get(kind, kind) if type(node.items[kind]) is Sequence else kind
 
 
-def _load(reading: Reading, name: str, node: Node, mark: Mark, likes: Likes, forms: Forms[T]) -> T | None:
+def _load(
+    reading: Reading, name: str, node: Node, mark: Mark, likes: Likes, forms: Forms[T]
+) -> tuple[T, ...]:
+    """The load of an entry, none where it can't be read; of an unknown direction, its two components."""
     if not is_name(name):
         reading.refuse(mark, f"{shown(name)} is not a name of a load: {why_no_name(name)}")
-        return None
+        return ()
     mapping = reading.mapping(node, f"load {name}", forms.example)
     if mapping is None:
-        return None
+        return ()
     reading.marks[f"loads.{name}"] = mark
     entry = Entry(reading, mapping, f"loads.{name}", f"load {name}")
-    kind = _kind(entry, forms)
-    if kind is None:
-        return None
-    entry.keys = {kind: forms.kinds[kind].own, **forms.kinds[kind].keys}
+    key = _own_key(entry, forms)
+    if key is None:
+        return ()
+    kind = "torsion spring" if reading.kinds[name] == "torsion spring" else key
+    entry.keys = {key: forms.kinds[kind].own, **forms.kinds[kind].keys}
     _explain_keys(entry, kind, forms)
-    return forms.build[kind](entry, name, kind, likes)
+    load = forms.build[kind](entry, name, key, likes)
+    if load is None:
+        return ()
+    return tuple(load) if isinstance(load, list) else (load,)
 
 
-def _kind(entry: Entry, forms: Forms[T]) -> str | None:
-    kind = entry.one_of(forms.kinds)
-    if kind is None:
+def _own_key(entry: Entry, forms: Forms[T]) -> str | None:
+    """The key that says of which kind a load is."""
+    own = forms.own_keys()
+    key = entry.one_of(own)
+    if key is None:
         parts = {key for one in forms.kinds.values() for key in one.keys}
         strange = [key for key in entry.node.items if key not in parts]
-        likely = suggestion(strange[0], forms.kinds) if strange else ""
+        likely = suggestion(strange[0], own) if strange else ""
         mark = entry.mark(strange[0]) if strange else entry.node.mark
-        entry.refuse(mark, f"{entry.what} has none of {', '.join(forms.kinds)}{likely}")
-    return kind if kind and entry.reading.kinds[entry.path.removeprefix("loads.")] else None
+        entry.refuse(mark, f"{entry.what} has none of {', '.join(own)}{likely}")
+    return key if key and entry.reading.kinds[entry.path.removeprefix("loads.")] else None
 
 
 def _explain_keys(entry: Entry, kind: str, forms: Forms[T]) -> None:
     """Refuse what this kind has no use for; other kinds' keys are explained."""
     takes = forms.kinds[kind].keys
-    others = {*forms.kinds, *(key for one in forms.kinds.values() for key in one.keys)}
+    others = {*forms.own_keys(), *(key for one in forms.kinds.values() for key in one.keys)}
     told = []
     for key, mark in entry.node.keys.items():
-        if key in takes or key == kind:
+        if key in entry.keys:
             continue
         if key in others:
             said = f"is a {kind}, which has no '{key}'; it takes {', '.join(takes)}"
@@ -270,25 +288,139 @@ def read_loads(reading: Reading, section: Mapping) -> tuple[Load, ...]:
     return read_section(reading, section, PLANE)
 
 
-def _force(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
+def _force(entry: Entry, name: str, kind: str, likes: Likes) -> Load | list[Load] | None:
     if not entry.has("link") and word_at(entry, "at") in entry.reading.ends:
         from icsolve.read.ropes import read_pull
 
         return read_pull(entry, name, kind, likes)
     link, against, good = bearer(entry)
     at, turns_with = entry.place("at", f"@{name}"), entry.link("turns_with")
-    if type(entry.node.items["force"]) is Sequence:
+    node = entry.node.items["force"]
+    if type(node) is Sequence:
+        open_ones = [type(one) is Scalar and one.text == "unknown" for one in node.items]
+        if any(open_ones):
+            pair = _directed(entry, name, node, all(open_ones))
+            whole = pair and good and link and at
+            return [Force(n, link, at, None, h, against) for n, h in pair] if whole and link and at else None
         parts = _components(entry)
-        return (
-            ForceVector(name, link, at, *parts, against, turns_with)
-            if parts and good and link and at
-            else None
-        )
+        if parts is None or not (good and link and at):
+            return None
+        return ForceVector(name, link, at, *parts, against, turns_with)
     heading = _heading(entry)
     read, value = magnitude(entry, name, kind, likes)
     if not (good and read and link and at and heading):
         return None
     return Force(name, link, at, value, heading, against, turns_with)
+
+
+def _directed(entry: Entry, name: str, node: Sequence, both: bool) -> list[tuple[str, Number]]:
+    """Names and directions of the two components of a force of unknown direction."""
+    entry.reading.marks[entry.path] = node.mark
+    if not both or len(node.items) != 2:
+        said = "along a known line it is `force: unknown` with its direction, else [unknown, unknown]"
+        entry.refuse(node.mark, f"'force' of {entry.what}: {said}")
+        return []
+    heading = entry.one_of(DIRECTION)
+    if heading is not None:
+        entry.refuse(entry.mark(heading), f"{entry.what} is given by components, so it takes no '{heading}'")
+        return []
+    entry.reading.directed.append(name)
+    return [
+        (f"{name}.{axis}", Number(degrees, 0.0, f"{entry.path}.{axis}.angle", f"{degrees:.0f}"))
+        for axis, degrees in (("x", 0.0), ("y", 90.0))
+    ]
+
+
+def _pressure(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
+    link, against, good = bearer(entry)
+    at, turns_with, heading = entry.place("at", f"@{name}"), entry.link("turns_with"), _heading(entry)
+    area = _area(entry)
+    read, value = magnitude(entry, name, kind, likes)
+    if not (good and read and link and at and heading and area):
+        return None
+    return Force(name, link, at, value, heading, against, turns_with, area)
+
+
+def _area(entry: Entry) -> Area | None:
+    """The area under a pressure."""
+    key = entry.one_of(("bore", "area"))
+    if key is None:
+        said = "needs its area: 'bore', the cylinder's diameter, or 'area'"
+        entry.refuse(entry.node.mark, f"{entry.what} {said}")
+        return None
+    if entry.has("rod") and key == "area":
+        entry.refuse(entry.mark("rod"), f"'rod' of {entry.what} goes with a 'bore'; an area is the whole one")
+        return None
+    area, bore, rod = entry.number("area"), entry.number("bore"), entry.number("rod")
+    if bore and rod and rod.value >= bore.value:
+        entry.refuse(entry.mark("rod"), f"the rod of {entry.what} should be thinner than its bore")
+        return None
+    if (area is None and bore is None) or (rod is None and entry.has("rod")):
+        return None
+    targets = entry.reading.targets
+    per = times(targets["force"], targets["area"], -1)
+    exact = exact_ratio(targets["pressure"], per)
+    if bore is not None:
+        exact = (exact[0], 4 * exact[1], exact[2] + 1)
+    return Area(exact, area, bore, rod)
+
+
+def _distributed(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
+    link, against, good = bearer(entry)
+    a, b, turns_with = entry.point("from"), entry.point("to"), entry.link("turns_with")
+    heading = _heading(entry)
+    if a is not None and a == b:
+        entry.refuse(entry.mark("to"), f"{entry.what} begins and ends at {a}")
+        return None
+    ends: tuple[Number, Number] | None = None
+    value: Magnitude = None
+    if type(entry.node.items["distributed"]) is Sequence:
+        ends = entry.pair("distributed", "01")
+        read, value = ends is not None, ends[0] if ends else None
+        for n in "01":
+            entry.reading.marks[f"{entry.path}.{n}"] = entry.reading.marks.get(
+                f"{entry.path}.{kind}.{n}", (1, 1)
+            )
+    else:
+        read, value = magnitude(entry, name, kind, likes)
+    if not (good and read and link and a and b and heading):
+        return None
+    over = Stretch(a, b)
+    if ends is not None:
+        first, last = (end._replace(path=f"{entry.path}.{n}") for n, end in enumerate(ends))
+        steep = abs(last.value) > abs(first.value)  # per unit of the larger, which is not zero
+        value, over = (last, Stretch(b, a, first)) if steep else (first, Stretch(a, b, last))
+    entry.reading.middles[f"@{name}"] = (a, b)
+    return Force(name, link, f"@{name}", value, heading, against, turns_with, over)
+
+
+def _torsion(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
+    link, against, good = bearer(entry)
+    corner, free = _corner(entry), entry.number("free")
+    if corner and len(corner) == 2 and against is not None:
+        said = "two points give the angle to the frame; to another link it has three, as in ABC"
+        entry.refuse(entry.mark("against"), f"'corner' of {entry.what}: {said}")
+        return None
+    read, value = magnitude(entry, name, kind, likes)
+    if not (good and read and link and corner and free):
+        return None
+    return TorsionSpring(name, link, corner, value, free, against)
+
+
+def _corner(entry: Entry) -> tuple[str, ...] | None:
+    """The two or three points of an angle."""
+    node = entry.node.items.get("corner")
+    if node is None:
+        return None
+    text = node.text if type(node) is Scalar else ""
+    reading = entry.reading
+    names = point_key(text, (2, 3), reading.given | reading.used.keys())
+    if isinstance(names, str):
+        entry.refuse(node.mark, f"'corner' of {entry.what}: {names}")
+        return None
+    for point in names:
+        reading.used.setdefault(point, node.mark)
+    return names
 
 
 def _components(entry: Entry) -> tuple[Number, Number] | None:
@@ -377,6 +509,9 @@ PLANE: Forms[Load] = Forms(
         "weight": _weight,
         "mass": _weight,
         "spring": _spring,
+        "torsion spring": _torsion,
+        "pressure": _pressure,
+        "distributed": _distributed,
         "power": _power,
     },
     "as in {force: 100, link: 4, at: E, angle: 180}",

@@ -49,7 +49,8 @@ class Reading:
     those along which a force has components, ``couples`` those about which a couple has. ``profiled`` are the
     links under ``profile``, ``touches`` the contacts whose places the profiles give, ``ends`` the ropes that
     have a free end, by its point, ``noticed`` sentences on what may be a slip, ``unknowns`` the data of the
-    figure that are to find. ``driven`` are the pairs of links whose screws torques turn, ``screws`` these.
+    figure that are to find, ``middles`` the hidden points in the middle of two, ``directed`` the forces of
+    unknown direction. ``driven`` are the pairs of links whose screws torques turn, ``screws`` these.
     """
 
     axes = "xy"
@@ -71,6 +72,8 @@ class Reading:
         self.joint_number = 0
         self.profiled: set[str] = set()
         self.noticed: list[str] = []
+        self.middles: dict[str, tuple[str, str]] = {}
+        self.directed: list[str] = []
         self.unknowns: list[Unknown] = []
         self.touches: list[tuple[Touch, Mark]] = []
         self.ends: dict[str, Rope] = {}
@@ -172,6 +175,9 @@ _A = {
     "pitch": "a number per length",
     "angular acceleration": "an angular acceleration",
     "path acceleration": "an acceleration",
+    "area": "an area",
+    "line load": "a force per length",
+    "torsional stiffness": "a stiffness of torsion (torque per angle)",
 }
 
 
@@ -207,6 +213,8 @@ def _valued(
     ``worked`` is what arithmetic gave, of which the numeral has only the first digits.
     """
     numeral, rest = parts
+    if dimension == "pressure":
+        rest = rest or "/".join((reading.shown_units["force"], f"{reading.shown_units['length']}^2"))
     places = float(f"5e{numeral.exponent - 1}")
     if not rest:
         if dimension == "mass":
@@ -265,6 +273,8 @@ def is_through_speed(unit: Unit, text: str, dimension: str) -> bool:
 
 def _wrong(reading: Reading, text: str, unit: Unit, dimension: str) -> str:
     given = kind_of(unit.dims)
+    if given == "torsional stiffness" and dimension == "torque":
+        given = None  # it has the dimension of hp/rpm, which is a torque
     if dimension == "number":
         return f"a bare number is wanted here, without the unit '{text}'"
     said = f"'{text}' is {_a(given)}" if given else f"'{text}' is no unit of {_a(dimension)}"
@@ -343,7 +353,7 @@ def measures(node: Node | None, problems: Problems) -> tuple[Units, dict[str, Un
         exact_ratio(product, torque),
         exact_ratio(parse_unit("N"), force),
     )
-    return units, _targets(length, force, torque), _shown(units)
+    return units, _targets(units, length, force, torque), _shown(units)
 
 
 def _unit_of_case(names: dict[str, str], key: str, node: Node, section: Mapping, problems: Problems) -> None:
@@ -366,7 +376,7 @@ def _product_name(text: str) -> str:
     return "*".join(text.replace("·", " ").replace("*", " ").split())
 
 
-def _targets(length: Unit, force: Unit, torque: Unit) -> dict[str, Unit]:
+def _targets(units: Units, length: Unit, force: Unit, torque: Unit) -> dict[str, Unit]:
     """The unit of each dimension in which a case's numbers are kept."""
     second = parse_unit("s")
     return {
@@ -383,6 +393,10 @@ def _targets(length: Unit, force: Unit, torque: Unit) -> dict[str, Unit]:
         "acceleration": parse_unit("m/s^2"),
         "power": times(torque, second, -1),
         "pitch": times(ONE, length, -1),
+        "line load": times(force, length, -1),
+        "area": times(length, length),
+        "pressure": parse_unit(units.pressure),
+        "torsional stiffness": times(torque, parse_unit("rad"), -1),
         "moment of inertia": parse_unit("kg*m^2"),
         "angular acceleration": parse_unit("rad/s^2"),
         "path acceleration": times(times(length, second, -1), second, -1),
@@ -403,6 +417,10 @@ def _shown(units: Units) -> dict[str, str]:
         "acceleration": "m/s^2",
         "power": "hp",
         "pitch": f"1/{units.length}",
+        "line load": f"{units.force}/{units.length}",
+        "area": f"{units.length}^2",
+        "pressure": units.pressure,
+        "torsional stiffness": f"{units.torque}/rad",
         "moment of inertia": "kg*m^2",
         "angular acceleration": "rad/s^2",
         "path acceleration": f"{units.length}/s^2",

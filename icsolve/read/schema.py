@@ -80,7 +80,7 @@ def _keyed(table: dict[str, Key], *needed: str) -> Schema:
 
 def _of_kind(name: str, kind: Kind) -> Schema:
     """A mapping of one kind of joint, load or profile."""
-    return {**_keyed({name: kind.own, **kind.keys}), "description": kind.says}
+    return {**_keyed({kind.key or name: kind.own, **kind.keys}), "description": kind.says}
 
 
 def _one(table: dict[str, Kind], **more: Schema) -> list[Schema]:
@@ -139,6 +139,8 @@ FORMS: dict[str, Schema] = {
     "centres": _any(_ref("name"), _list(_ref("name"), 1, 2)),
     "load": _any(*_LOAD),
     "load with unit": _any(_ref("with unit"), *_LOAD[1:]),
+    "load or vector": _any(*_LOAD, _ref("pair"), _list(_ref("unknown"), 2, 2)),
+    "corner": _pattern(_points_key("{1,2}")),
     "load or pair": _any(*_LOAD, _ref("pair")),
     "load or triple": _any(*_LOAD, _ref("triple")),
     "corners": _list(_any(_ref("name"), _ref("pair")), 3),
@@ -197,7 +199,14 @@ def _definitions() -> Schema:
         "gravity in space": _keyed(keys.GRAVITY),
         "joint": {"oneOf": _one(keys.JOINTS, **_TIES)},
         "joint in space": _any(*_one(keys.SPACE_JOINTS)),
-        "load": {"oneOf": _one(keys.LOADS, force=_directed("force", keys.DIRECTION))},
+        "load": {
+            "oneOf": _one(
+                keys.LOADS,
+                force=_directed("force", keys.DIRECTION),
+                pressure={**_either(*keys.DIRECTION), "anyOf": _either("bore", "area")["oneOf"]},
+                distributed=_either(*keys.DIRECTION),
+            )
+        },
         "load in space": _any(*_one(keys.SPACE_LOADS, force=_directed("force", keys.SPACE_DIRECTION))),
         "profile": _any(*_one(keys.PROFILES)),
         "arc": _keyed(keys.ARC),

@@ -113,7 +113,7 @@ def _of_load(node: Node, steps: list[str], text: str, path: str) -> str:
     value = node.items[kind]
     if not steps:
         return _put(node, kind, text)
-    if type(value) is Sequence and steps in (["x"], ["y"], ["z"]):
+    if type(value) is Sequence and steps in (["x"], ["y"], ["z"], ["0"], ["1"]):
         return _axis(value, steps, text, path)
     if steps[0] in ("at", "slope", "to", "along") and steps[0] in node.items and len(steps) == 2:
         return _axis(node.items[steps[0]], steps[1:], text, f"{path}.{steps[0]}")

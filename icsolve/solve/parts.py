@@ -89,7 +89,7 @@ class Parts:
             self.scene.ask(_speed)
         return Answer(
             case=self.case,
-            answers=_found(self.case, balance, self.unknowns),
+            answers=_directed(self.case, _found(self.case, balance, self.unknowns)),
             centres=Deferred(self.plain_centres),
             rates=rates,
             velocities=velocities,
@@ -230,6 +230,22 @@ def _found(case: Case, balance: power.Balance, unknowns: Mapping[str, Value]) ->
             value, error, why = unknowns[w.load.name]
             found[w.load.name] = Found(value, unit_of(w.load, case), sense_of(w, value), error, why)
     return found
+
+
+def _directed(case: Case, found: dict[str, Found]) -> dict[str, Found]:
+    """The answers with one for the two components of each force of unknown direction.
+
+    A size is at most as far off as its components are together.
+    """
+    for name in case.directed:
+        x, y = (found.pop(f"{name}.{axis}") for axis in "xy")
+        size = math.hypot(x.value, y.value)
+        direction = math.degrees(math.atan2(y.value, x.value)) % 360.0
+        sense = f"at {round(direction, 6) % 360.0:.6g} deg" if size else ""
+        error = None if x.error is None or y.error is None else math.hypot(x.error, y.error) + 2e-16 * size
+        found[name] = Found(size, x.unit, sense, error, x.why or y.why, components=(x.value, y.value))
+    order = [load.name.removesuffix(".x") for load in case.loads]
+    return {name: found[name] for name in order if name in found}
 
 
 def wanted_pairs(case: Case, want: Want) -> list[Pair]:

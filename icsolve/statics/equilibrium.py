@@ -13,12 +13,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from icsolve.answer.bodies import Witness
-from icsolve.case import Torque
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.linear import inverse, solve_square
 from icsolve.numbers.sparse import General, Row, eliminate
 from icsolve.screws.plane import Point, velocity
-from icsolve.statics.power import Balance, Wrench, force_scale, is_unknown, known_value
+from icsolve.statics.power import Balance, Wrench, force_scale, is_unknown, known_value, place_of
 from icsolve.statics.reaction_basis import Force, Position, RopeTie, Tie
 
 
@@ -175,10 +174,8 @@ class _Rows:
         """A load on its link, the opposite on the link against which it acts."""
         gain = float(w.gain) * w.measure * factor
         x, y, couple = (gain * float(u) for u in (w.unit[1], -w.unit[0], w.unit[2]))
-        if isinstance(w.load, Torque):
-            at, unit = (0.0, 0.0), (0.0, 0.0, couple)
-        else:
-            at, unit = self.position.points[w.load.at], (x, y, 0.0)
+        place = place_of(w.load, self.position.points)
+        at, unit = (place, (x, y, 0.0)) if place else ((0.0, 0.0), (0.0, 0.0, couple))
         self.add(w.load.link, at, unit, column)
         self.add(w.against, at, (-unit[0], -unit[1], -unit[2]), column)
 

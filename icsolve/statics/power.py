@@ -13,6 +13,7 @@ from typing import NamedTuple
 from icsolve.assembly.workspace import Frame
 from icsolve.case import (
     AlongRope,
+    Area,
     Case,
     Force,
     ForceVector,
@@ -21,7 +22,9 @@ from icsolve.case import (
     Number,
     Slope,
     Spring,
+    Stretch,
     Torque,
+    TorsionSpring,
     Toward,
     Weight,
 )
@@ -62,7 +65,7 @@ def wrenches(case: Case, frame: Frame, points: Points, arithmetic: Arithmetic) -
     for load in case.loads:
         source, ratio = _source(load, by_name, arithmetic)
         unit, gain = _unit_wrench(load, case, frame, points, arithmetic)
-        measure = frame.scale if isinstance(load, Torque) else 1.0
+        measure = frame.scale if isinstance(load, Torque | TorsionSpring) else 1.0
         result.append(Wrench(load, reacting(case, load), unit, gain, source.name, ratio, measure, source))
     return tuple(result)
 
@@ -80,9 +83,14 @@ def points_of(load: Load) -> tuple[str, ...]:
         return ()
     if isinstance(load, Spring):
         return (load.at, load.to)
+    if isinstance(load, TorsionSpring):
+        return load.corner
+    toward: tuple[str, ...] = ()
     if isinstance(load, Force) and isinstance(load.heading, Toward):
-        return (load.at, load.heading.point)
-    return (load.at,)
+        toward = (load.heading.point,)
+    if isinstance(load, Force) and isinstance(load.over, Stretch):
+        return (load.at, load.over.a, load.over.b, *toward)
+    return (load.at, *toward)
 
 
 def line_of(load: Load) -> tuple[str, str] | None:
@@ -125,12 +133,93 @@ def _unit_wrench(
             size = vector_size(load) or 1.0
             x, y = arithmetic.given(load.x) / size, arithmetic.given(load.y) / size
             return force_wrench((x, y), points[load.at]), 1.0
+        case TorsionSpring():
+            num, den, pi = case.units.exact_torque
+            slack = arithmetic.given(load.free) - _angle(load, points, arithmetic)
+            return (0.0, 0.0, 1.0), slack * arithmetic.ratio((den, 180 * num, 1 - pi))
+        case Force(over=Area() as area):
+            gain = arithmetic.ratio(area.per) * _size_of(area, arithmetic)
+            return force_wrench(direction(load, points, arithmetic), points[load.at]), gain
+        case Force(over=Stretch() as over):
+            return _spread(load, over, frame, points, arithmetic)
         case Force(heading=AlongRope(rope)):
             along = rope_parts(rope, points, frame.scale, arithmetic)[-1].along
             return force_wrench(along, points[load.at]), 1.0
         case Force():
             return force_wrench(direction(load, points, arithmetic), points[load.at]), 1.0
     raise TypeError(type(load).__name__)
+
+
+def _size_of(area: Area, arithmetic: Arithmetic) -> Scalar:
+    """The area itself, or what pi/4 makes it: the square of the bore less that of the rod."""
+    if area.bore is None:
+        assert area.area is not None
+        return arithmetic.given(area.area)
+    bore = arithmetic.given(area.bore)
+    if area.rod is None:
+        return bore * bore
+    rod = arithmetic.given(area.rod)
+    return (bore - rod) * (bore + rod)
+
+
+def _spread(
+    load: Force, over: Stretch, frame: Frame, points: Points, arithmetic: Arithmetic
+) -> tuple[Triple, Scalar]:
+    """The wrench of a force per length: of two triangles, one for the number at each end.
+
+    A triangle's resultant is half its length times its number, at a third of the length from its high end.
+    """
+    a, b = points[over.a], points[over.b]
+    length = _between(a, b, arithmetic)[1] / frame.scale
+    along, value = direction(load, points, arithmetic), load.value
+    if over.end is None:
+        return force_wrench(along, points[load.at]), length
+    assert isinstance(value, Number)
+    ratio = arithmetic.given(over.end) / arithmetic.given(value) if value.value else 0.0
+    near = force_wrench(along, ((2.0 * a[0] + b[0]) / 3.0, (2.0 * a[1] + b[1]) / 3.0))
+    far = force_wrench(along, ((a[0] + 2.0 * b[0]) / 3.0, (a[1] + 2.0 * b[1]) / 3.0))
+    both, half = 1.0 + ratio, 0.5 * length
+    unit = (near[0] + ratio * far[0], near[1] + ratio * far[1], near[2] + ratio * far[2])
+    if _is_couple(load):
+        return (0.0, 0.0, unit[2]), half
+    return (unit[0] / both, unit[1] / both, unit[2] / both), half * both
+
+
+def _is_couple(load: Load) -> bool:
+    """Whether a load has no resultant force: a torque, a torsion spring, a line load that turns over."""
+    if isinstance(load, Force) and isinstance(load.over, Stretch) and load.over.end is not None:
+        return isinstance(load.value, Number) and load.value.value == -load.over.end.value
+    return isinstance(load, Torque | TorsionSpring)
+
+
+def place_of(load: Load, points: Points) -> Point | None:
+    """Where the resultant of a load acts; None of a couple."""
+    if isinstance(load, Torque | TorsionSpring) or _is_couple(load):
+        return None
+    over = load.over if isinstance(load, Force) else None
+    if not isinstance(over, Stretch) or over.end is None or not isinstance(load, Force):
+        return points[load.at]
+    assert isinstance(load.value, Number)
+    ratio = over.end.value / load.value.value if load.value.value else 0.0
+    share = (1.0 + 2.0 * ratio) / (3.0 * (1.0 + ratio))
+    (x, y), (u, v) = points[over.a], points[over.b]
+    return x + share * (u - x), y + share * (v - y)
+
+
+def _angle(load: TorsionSpring, points: Points, arithmetic: Arithmetic) -> Scalar:
+    """The angle that a torsion spring follows, degrees: so that free - angle lies in (-180, 180] as written.
+
+    In a motion it goes on from there, with whole turns.
+    """
+    *arm, at, end = (points[name] for name in load.corner)
+    x, y = end[0] - at[0], end[1] - at[1]
+    if arm:
+        u, v = arm[0][0] - at[0], arm[0][1] - at[1]
+        x, y = u * x + v * y, u * y - v * x
+    counted = getattr(arithmetic, "turns", None)
+    angle = counted(x, y) if callable(counted) else arithmetic.angle(x, y)
+    whole = math.ceil((load.free.value - float(angle) - 180.0) / 360.0)
+    return angle + 360.0 * whole if whole else angle
 
 
 def direction(load: Force, points: Points, arithmetic: Arithmetic) -> Point:

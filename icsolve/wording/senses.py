@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
-from icsolve.case import Case, Force, Load, Spring, Torque, Toward, Weight
+from icsolve.case import Area, Case, Force, Load, Spring, Stretch, Torque, TorsionSpring, Toward, Weight
 
 if TYPE_CHECKING:
     from icsolve.answer import Found
@@ -30,6 +30,8 @@ def sense_as(load: Load, value: float, gain: float, degrees: float) -> str:
             return "cw" if value > 0 else "ccw"
         case Torque():
             return "ccw" if (value > 0) == (load.turns == "ccw") else "cw"
+        case TorsionSpring():
+            return "ccw" if value * gain > 0 else "cw"
         case Spring():
             return "pull" if value * gain > 0 else "push"
         case Force(link=link) if link.startswith("@"):
@@ -78,6 +80,10 @@ def unit_of(load: Load, case: Case) -> str:
             return case.units.torque
         case Weight(mass=True):
             return "kg"
-        case Spring():
+        case Spring() | Force(over=Stretch()):
             return f"{case.units.force}/{case.units.length}"
+        case TorsionSpring():
+            return f"{case.units.torque}/rad"
+        case Force(over=Area()):
+            return case.units.pressure
     return case.units.force

@@ -28,6 +28,7 @@ from icsolve.case import (
     Slot,
     Spring,
     Torque,
+    TorsionSpring,
     Toward,
     Weight,
 )
@@ -148,6 +149,8 @@ def _load(load: Load, case: Case) -> str:
         case Spring():
             free = f"free length {_shown(load.free)} {case.units.length}"
             return f"stiffness {size}, {free}, {load.at} to {load.to}"
+        case TorsionSpring():
+            return f"stiffness {size}, free angle {_shown(load.free)} deg of {''.join(load.corner)}, {on}"
         case Force(value=None):
             return f"{size}, {where}, {_heading(load)}"
         case Force():

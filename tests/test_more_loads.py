@@ -1,0 +1,273 @@
+"""Torsion springs, pressures, forces per length, forces of unknown direction: against what they come to."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import icsolve
+from icsolve.case import Case
+from icsolve.cli import main
+from icsolve.errors import CaseError
+
+PRESS = """\
+icsolve: 1
+title: Four-bar press
+units: {units}
+points: {{A: [0, 0], D: [4, 0]}}
+lengths: {{AB: 1, BC: 3.5, CD: 2.5, DE: 1.5}}
+angles: {{AB: 60, CDE: 0}}
+near: {{C: [3.5, 2.4]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{pin: [4, 1], at: D}}
+loads:
+  P: {load}
+  T12: {torque}
+"""
+INCHES = "{length: in, force: lbf}"
+DOWN = "{torque: unknown, link: 2}"
+
+
+def press(load: str, torque: str = DOWN, units: str = INCHES) -> Case:
+    """The press with another load on it."""
+    return icsolve.load(PRESS.format(load=load, torque=torque, units=units))
+
+
+def torque(load: str, units: str = INCHES) -> float:
+    """What holds the crank against a load; by power, and by the equilibrium of the links alone."""
+    answer = icsolve.solve(press(load, units=units), reactions=True)
+    return answer.answers["T12"].value
+
+
+ON_E = "link: 4, at: E, angle: 200"
+
+
+@pytest.mark.parametrize(
+    ("pressure", "units", "force"),
+    [
+        ("pressure: 100 psi, area: 2", INCHES, 200.0),
+        ("pressure: 100, area: 2", INCHES, 200.0),
+        ("pressure: 100 psi, bore: 2", INCHES, 100 * math.pi),
+        ("pressure: 100 psi, bore: 2, rod: 1", INCHES, 75 * math.pi),
+        ("pressure: 8 MPa, bore: 50 mm", "{length: m, force: N}", 8e6 * math.pi / 4 * 0.05**2),
+        ("pressure: 8, bore: 50", "{length: mm, force: N}", 8 * math.pi / 4 * 50**2),
+        ("pressure: 80 bar, area: 1963 mm^2", "{length: cm, force: kN}", 8e6 * 1963e-6 / 1e3),
+        ("pressure: 8 N/mm^2, area: 1963 mm^2", "{length: mm, force: N}", 8 * 1963),
+        ("pressure: 30 kPa, area: 2 m^2", "{length: m, force: N}", 60_000.0),
+        ("pressure: 2 lbf/in^2, area: 1 ft^2", "{length: ft, force: lbf}", 288.0),
+    ],
+)
+def test_a_pressure_is_a_force_of_its_area(pressure: str, units: str, force: float) -> None:
+    alike = torque(f"{{force: {force!r}, {ON_E}}}", units)
+    assert torque(f"{{{pressure}, {ON_E}}}", units) == pytest.approx(alike, rel=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("units", "unit"),
+    [
+        ("{length: m, force: N}", "MPa"),
+        ("{length: mm, force: N}", "MPa"),
+        ("{length: in, force: lbf}", "psi"),
+        ("{length: ft, force: lbf}", "psi"),
+        ("{length: mm, force: kN}", "kN/mm^2"),
+    ],
+)
+def test_an_unknown_pressure_is_answered_in_the_unit_of_its_trade(units: str, unit: str) -> None:
+    known = press(f"{{pressure: 3 MPa, bore: 20 mm, {ON_E}}}", units=units)
+    moment = icsolve.solve(known).answers["T12"].value
+    text = PRESS.format(
+        load=f"{{pressure: unknown, bore: 20 mm, {ON_E}}}",
+        torque=f"{{torque: {moment!r}, link: 2}}",
+        units=units,
+    )
+    found = icsolve.solve(icsolve.load(text)).answers["P"]
+    assert found.unit == unit
+    assert found.error is not None
+    assert found.value == pytest.approx({"MPa": 3.0, "psi": 435.1132}.get(unit, 3e-3), rel=1e-6)
+
+
+def spread(first: float, last: float, n: int = 4000) -> float:
+    """The torque against many small forces along CD: a force to the left has the arm y about D."""
+    answer = icsolve.solve(press("{force: 1, link: 4, at: E, angle: 180}"))
+    per_arm = answer.answers["T12"].value / answer.points["E"][1]
+    share = (np.arange(n) + 0.5) / n
+    sizes = (first + share * (last - first)) * 2.5 / n
+    return float(np.sum(sizes * per_arm * answer.points["C"][1] * (1.0 - share)))
+
+
+@pytest.mark.parametrize(("first", "last"), [(100, 100), (0, 100), (100, 0), (100, 40), (-30, 60), (-50, 50)])
+def test_a_force_per_length_is_the_sum_of_small_ones(first: float, last: float) -> None:
+    number = f"{first}" if first == last else f"[{first}, {last}]"
+    found = torque(f"{{distributed: {number}, link: 4, from: C, to: D, angle: 180}}")
+    assert found == pytest.approx(spread(first, last), rel=1e-5, abs=1e-5)
+
+
+def test_an_unknown_force_per_length_and_one_like_it() -> None:
+    text = "{distributed: unknown, link: 4, from: C, to: D, angle: 180}"
+    moment = torque("{distributed: 12 lbf/ft, link: 4, from: C, to: D, angle: 180}")
+    found = icsolve.solve(press(text, f"{{torque: {moment!r}, link: 2}}")).answers["P"]
+    assert (found.value, found.unit) == (pytest.approx(1.0), "lbf/in")
+
+
+BAR = """\
+icsolve: 1
+points: {{A: [0, 0]}}
+lengths: {{AB: 2}}
+angles: {{AB: {angle}}}
+joints: [{{pin: [1, 2], at: A}}]
+loads:
+  S: {{spring: {stiffness}, corner: AB, free: 90, link: 2}}
+  W: {{weight: {weight}, link: 2, at: B}}
+"""
+
+
+@pytest.mark.parametrize("angle", [30.0, 89.0, 95.0, 170.0, 250.0])
+def test_a_torsion_spring_holds_a_bar_up(angle: float) -> None:
+    """W l cos = k (free - angle), the difference taken within half a turn."""
+    case = icsolve.load(BAR.format(angle=angle, stiffness=20, weight="unknown"))
+    found = icsolve.solve(case).answers["W"]
+    turned = math.radians((90.0 - angle + 180.0) % 360.0 - 180.0)
+    assert found.value == pytest.approx(20 * turned / (2 * math.cos(math.radians(angle))), rel=1e-13)
+    assert found.error is not None
+    assert found.error < 1e-12 * abs(found.value)
+
+
+def test_the_stiffness_of_a_torsion_spring_is_found_in_torque_per_rad() -> None:
+    found = icsolve.solve(icsolve.load(BAR.format(angle=30, stiffness="unknown", weight=10))).answers["S"]
+    assert found.unit == "N*m/rad"
+    assert found.value == pytest.approx(20 * math.cos(math.pi / 6) / (math.pi / 3), rel=1e-13)
+    assert found.sense == "ccw"
+
+
+def test_a_torsion_spring_between_two_links_is_a_pair_of_torques() -> None:
+    spring = "{spring: 20 lbf*in/deg, corner: BCD, free: 100, link: 4, against: 3}"
+    points = icsolve.solve(press(spring)).points
+    (bx, by), (cx, cy), (dx, dy) = (points[name] for name in "BCD")
+    angle = math.degrees(math.atan2(dy - cy, dx - cx) - math.atan2(by - cy, bx - cx)) % 360.0
+    pair = f"{{torque: {20 * (100 - angle)!r}, link: 4, against: 3}}"
+    assert torque(spring) == pytest.approx(torque(pair), rel=1e-12)
+
+
+ARM = """\
+icsolve: 1
+points: {A: [0, 0]}
+lengths: {AB: 1, BC: 1}
+angles: {AB: 30, ABC: 130}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}]
+loads:
+  W2: {weight: 10, link: 2, at: B}
+  W3: {weight: 4, link: 3, at: C}
+  M: {torque: 5, link: 2}
+  P: {force: [unknown, unknown], link: 3, at: C}
+"""
+
+
+def test_a_force_of_unknown_direction_has_size_direction_and_components() -> None:
+    answer = icsolve.solve(icsolve.load(ARM))
+    (found,) = answer.answers.values()
+    (bx, by), (cx, cy) = answer.points["B"], answer.points["C"]
+    # moments about B of link 3: P - W3 lies along BC; about A of both
+    rows = [[-(cy - by), cx - bx], [-cy, cx]]
+    px, py = np.linalg.solve(rows, [4 * (cx - bx), 4 * cx + 10 * bx - 5])
+    assert found.components == pytest.approx((px, py), rel=1e-12)
+    shown = answer.to_dict()["answers"]["P"]
+    assert shown.keys() >= {"value", "direction", "x", "y", "unit", "error"}
+    assert (shown["value"], shown["unit"]) == (pytest.approx(math.hypot(px, py)), "N")
+    assert shown["direction"] == pytest.approx(math.degrees(math.atan2(py, px)) % 360.0)
+    assert abs(shown["value"] - math.hypot(px, py)) <= shown["error"] + 1e-15
+
+
+LOADS = {
+    "pressure": f"{{pressure: 100 psi, bore: 2, rod: 1, {ON_E}}}",
+    "per length": "{distributed: 20, link: 4, from: C, to: D, angle: 180}",
+    "linear": "{distributed: [20, -50], link: 4, from: C, to: D, slope: [-1, 2], turns_with: 4}",
+    "couple": "{distributed: [50, -50], link: 4, from: C, to: D, angle: 180}",
+    "torsion spring": "{spring: 20, corner: ADC, free: 45, link: 4}",
+    "torsion spring of two": "{spring: 20, corner: BCD, free: 100, link: 4, against: 3}",
+}
+
+
+@pytest.mark.parametrize("kind", LOADS)
+def test_rows_are_scenes(kind: str) -> None:
+    case = press(LOADS[kind])
+    angles = [40.0, 60.0, 75.0, 130.0]
+    if "turns_with" in LOADS[kind]:
+        angles = [60.0]  # as written: the direction of a scene at another angle is another one
+    rows = icsolve.sweep(case, vary={"angles.AB": angles}).answers["T12"]
+    for angle, row in zip(angles, rows.tolist(), strict=True):
+        text = PRESS.format(load=LOADS[kind], torque=DOWN, units=INCHES).replace("AB: 60", f"AB: {angle!r}")
+        assert row == pytest.approx(icsolve.solve(icsolve.load(text)).answers["T12"].value, rel=1e-12)
+
+
+@pytest.mark.parametrize("kind", [*LOADS, "direction"])
+@pytest.mark.parametrize("verb", ["solve", "explain", "draw", "page", "check", "validate"])
+def test_every_command_knows_it(
+    kind: str, verb: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = ARM if kind == "direction" else PRESS.format(load=LOADS[kind], torque=DOWN, units=INCHES)
+    (tmp_path / "case.yaml").write_text(text)
+    with pytest.raises(SystemExit) as left:
+        main([verb, str(tmp_path / "case.yaml")])
+    assert left.value.code == 0, capsys.readouterr().err
+
+
+SLIPS = {
+    "no area": (f"{{pressure: 8 MPa, {ON_E}}}", "needs its area: 'bore', the cylinder's diameter, or 'area'"),
+    "bore and area": (f"{{pressure: 8 MPa, bore: 2, area: 3, {ON_E}}}", "has 'bore' and 'area'; give one"),
+    "rod without a bore": (f"{{pressure: 8 MPa, area: 3, rod: 1, {ON_E}}}", "goes with a 'bore'"),
+    "a thick rod": (f"{{pressure: 8 MPa, bore: 2, rod: 2, {ON_E}}}", "should be thinner than its bore"),
+    "a pressure in newtons": (
+        f"{{pressure: 8 N, bore: 2, {ON_E}}}",
+        "'N' is a force, but a pressure is wanted",
+    ),
+    "an area in mm": (f"{{pressure: 8 MPa, area: 3 mm, {ON_E}}}", "'mm' is a length, but an area is wanted"),
+    "a force per length at a point": (f"{{distributed: 8, {ON_E}}}", "'at'; it takes link, from, to"),
+    "from a point to itself": (
+        "{distributed: 8, link: 4, from: C, to: C, angle: 0}",
+        "begins and ends at C",
+    ),
+    "a line load in newtons": (
+        "{distributed: 8 N, link: 4, from: C, to: D, angle: 0}",
+        "'N' is a force, but a force per length is wanted",
+    ),
+    "one component unknown": (
+        "{force: [unknown, 5], link: 4, at: E}",
+        "along a known line it is `force: unknown` with its direction, else [unknown, unknown]",
+    ),
+    "unknown components and an angle": (
+        "{force: [unknown, unknown], link: 4, at: E, angle: 3}",
+        "no 'angle'",
+    ),
+    "a torsion spring without its corner": ("{spring: 20 N*m/rad, free: 90, link: 4}", "needs 'at'"),
+    "a torsion stiffness as a torque": (
+        "{spring: 20 N*m, corner: BCD, free: 90, link: 4}",
+        "'N*m' is a torque, but a stiffness of torsion (torque per angle) is wanted here",
+    ),
+    "a corner of one point": (
+        "{spring: 20, corner: D, free: 90, link: 4}",
+        "'D' should name two or three points",
+    ),
+    "a direction against a link": (
+        "{spring: 20, corner: DC, free: 90, link: 4, against: 3}",
+        "to another link it has three, as in ABC",
+    ),
+}
+
+
+@pytest.mark.parametrize("slip", SLIPS)
+def test_a_slip_is_told(slip: str) -> None:
+    load, said = SLIPS[slip]
+    with pytest.raises(CaseError) as refused:
+        press(load)
+    assert said in str(refused.value)
+
+
+def test_a_free_angle_in_radians_is_asked_about() -> None:
+    case = press("{spring: 20, corner: ADC, free: 1.5708, link: 4}")
+    assert "if radians are meant, write 1.5708 rad" in " ".join(icsolve.solve(case).notes)
