@@ -45,6 +45,19 @@ class Found(NamedTuple):
         return math.degrees(math.atan2(self.components[1], self.components[0])) % 360.0
 
 
+def by_load(answers: Mapping[str, Found]) -> dict[str, Found]:
+    """The same by the loads of the case: of a force of unknown direction, ``P.x`` and ``P.y``."""
+    found: dict[str, Found] = {}
+    for name, one in answers.items():
+        if one.components is None:
+            found[name] = one
+            continue
+        for axis, value, degrees in zip("xy", one.components, (0, 90), strict=True):
+            sense = f"at {degrees + (0 if value > 0.0 else 180)} deg" if value else ""
+            found[f"{name}.{axis}"] = one._replace(value=value, sense=sense, components=None)
+    return found
+
+
 class Centre(NamedTuple):
     """A relative instant centre.
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
-from icsolve.answer import Answer, Centre
+from icsolve.answer import Answer, Centre, by_load
 from icsolve.assembly import Frame, case_point, solve_figure
 from icsolve.case import Case, Coordinates, ForceVector, Like, Load, Pair
 from icsolve.case.names import ordered_pair
@@ -176,7 +176,7 @@ def _like(load: Load) -> str | None:
 
 def _acting(known: Known, w: Wrench) -> Acting:
     number = known_value(w)
-    found = None if known.answer is None else known.answer.answers.get(w.load.name)
+    found = None if known.answer is None else by_load(known.answer.answers).get(w.load.name)
     holds = None if found is None else found.holds
     if number is not None:
         value: float | None = float(w.ratio) * number

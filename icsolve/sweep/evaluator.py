@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from icsolve.answer import by_load
 from icsolve.assembly.groups import Group
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
@@ -173,8 +174,8 @@ class Evaluator:
             return
         out.status[row] = answer.status
         for (kind, name), array in out.arrays.items():
-            if kind == "answers" and name in answer.answers:
-                value = answer.answers[name].value
+            if kind == "answers" and name in by_load(answer.answers):
+                value = by_load(answer.answers)[name].value
                 array[row] = np.nan if value is None else value
             elif kind == "points" and name in answer.points:
                 array[row] = answer.points[name]

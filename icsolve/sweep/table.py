@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from icsolve.answer import Answer
+from icsolve.answer import Answer, by_load
 from icsolve.case import Case, Coordinates
 from icsolve.case.names import link_order
 from icsolve.errors import SceneError, Status
@@ -203,7 +203,7 @@ class Table:
     def fill(self, row: int, answer: Answer, missing: bool = False) -> None:
         """All that is asked of a solved row; or only the answers that it does not have yet."""
         asked, case = self.asked, answer.case
-        for name, found in answer.answers.items() if asked.answers else ():
+        for name, found in by_load(answer.answers).items() if asked.answers else ():
             if missing and not np.isnan(self.values["answers", name][row]):
                 continue
             value = float(found.value) if found.holds is None else np.nan
