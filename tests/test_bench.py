@@ -15,21 +15,34 @@ from click.testing import CliRunner
 
 import icsolve
 from icsolve.bench import report
-from icsolve.bench.accuracy import Score, scenes, scored
-from icsolve.bench.axes import spread
-from icsolve.bench.closed import FOUR_BAR, MECHANISMS, Turning, compiled, four_bar, in_c
-from icsolve.bench.effort import Effort, nothing
-from icsolve.bench.families import BOUNDED, FAMILIES, Family
-from icsolve.bench.gates import Gate, gate_table, lawful, ratio
-from icsolve.bench.kernels import componentwise, written_out
-from icsolve.bench.kinds import all_joints
-from icsolve.bench.laws import FORWARD_FAMILIES, Law, bits, bounds, forward, forward_error
-from icsolve.bench.methods import METHODS, Method
+from icsolve.bench.accuracy import (
+    FORWARD_FAMILIES,
+    Law,
+    Score,
+    bits,
+    bounds,
+    forward,
+    forward_error,
+    scenes,
+    scored,
+)
+from icsolve.bench.closed import (
+    FOUR_BAR,
+    MECHANISMS,
+    Turning,
+    compiled,
+    componentwise,
+    four_bar,
+    in_c,
+    written_out,
+)
+from icsolve.bench.families import BOUNDED, FAMILIES, Family, all_joints, linkage
+from icsolve.bench.gates import Effort, Gate, gate_table, lawful, nothing, ratio
 from icsolve.bench.peers import PEERS, TORQUE, Peer, ran
-from icsolve.bench.picture import picture
-from icsolve.bench.pinned import linkage
-from icsolve.bench.sweeps import BOUNDED as BOUNDED_SWEEP
-from icsolve.bench.sweeps import BY_HAND, IN_C, SWEPT
+from icsolve.bench.picture import picture, spread
+from icsolve.bench.rivals import METHODS, Method
+from icsolve.bench.speed import BOUNDED as BOUNDED_SWEEP
+from icsolve.bench.speed import BY_HAND, IN_C, SWEPT
 from icsolve.bench.timing import least
 from icsolve.case import Gears
 from icsolve.cli.commands import icsolve as command
@@ -174,7 +187,7 @@ def test_powers_of_two_change_no_bit() -> None:
 
 def test_a_changed_bit_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
     """Three tenths are no power of two."""
-    from icsolve.bench import laws
+    from icsolve.bench import accuracy as laws
 
     monkeypatch.setattr(laws, "SCALES", (math.log2(0.3), 0))
     assert sum(law.broken for law in laws.held(laws.bits_kept, FORWARD_FAMILIES[:1], 20)) > 0
@@ -186,7 +199,7 @@ def test_the_bound_on_scenes_of_all_joint_kinds() -> None:
 
 
 def test_a_broken_law_is_counted() -> None:
-    from icsolve.bench.laws import held
+    from icsolve.bench.accuracy import held
 
     found = held(lambda case: -5.0, [Family("any", linkage("01 12 23 03"))], 3)
     assert found == [Law("any", 3, 3, 5.0, 5.0)]
@@ -268,7 +281,7 @@ def test_least_gives_seconds_a_call() -> None:
 def test_the_whole_benchmark_in_small(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(report, "USUAL", Effort(2, 4, 4, 4, 0.02, 1))
     monkeypatch.setattr(report, "FAMILIES", FAMILIES[:4])
-    monkeypatch.setattr("icsolve.bench.sweeps.MILLION", 10_000)
+    monkeypatch.setattr("icsolve.bench.speed.MILLION", 10_000)
     ran = CliRunner().invoke(command, ["bench", "-o", str(tmp_path / "plot.svg")], standalone_mode=False)
     assert ran.return_value == 0
     for heading in ("One scene", "A full turn", "Other programs", "Start-up", "Time", "Laws", "Figures"):

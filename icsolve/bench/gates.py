@@ -1,11 +1,23 @@
-"""What the product promises in figures: each as measured, beside the limit that it is held to."""
+"""What the product promises in figures, each as measured beside its limit; how much is measured; tables."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import os
+from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from icsolve.bench.tables import table
+from icsolve.bench.accuracy import Score
+
+
+def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A Markdown table."""
+    lines = [head, ["---"] * len(head), *rows]
+    return "\n".join(table_row(line) for line in lines)
+
+
+def table_row(cells: Sequence[str]) -> str:
+    """One row of it."""
+    return "| " + " | ".join(cells) + " |"
 
 
 class Gate(NamedTuple):
@@ -45,3 +57,37 @@ def gate_table(gates: Iterable[Gate]) -> str:
 def _row(gate: Gate) -> list[str]:
     asked = f"{'at least' if gate.floor else 'at most'} {gate.limit:g}{gate.unit}"
     return [gate.what, f"{gate.found:.3g}{gate.unit}", asked, "yes" if gate.held else "NO"]
+
+
+class Effort(NamedTuple):
+    """Scenes a family of the tables, scenes a family of each law, seconds a timing, processes."""
+
+    scenes: int
+    forward: int
+    bounds: int
+    bits: int
+    seconds: float
+    jobs: int
+
+    @property
+    def rounds(self) -> int:
+        """Runs of what takes a tenth of a second or more."""
+        return max(2, int(4 * self.seconds))
+
+
+USUAL = Effort(80, 1_000, 500, 200, 3.0, 1)
+FULL = Effort(400, 10_000, 12_000, 2_000, 6.0, os.cpu_count() or 1)
+
+
+class Kept(NamedTuple):
+    """What the tables leave: scores of single scenes, of full turns, peers that did not run, figures."""
+
+    scenes: list[Score]
+    turns: list[Score]
+    absent: list[str]
+    gates: list[Gate]
+
+
+def nothing() -> Kept:
+    """Before anything is measured."""
+    return Kept([], [], [], [])

@@ -6,13 +6,194 @@ every method, and the error over (kappa + 1) u, which tells what the method itse
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import cycle
 from typing import NamedTuple
+from xml.sax.saxutils import escape
 
-from icsolve.bench.accuracy import Score
-from icsolve.bench.axes import Names, Panel, around, frame, line, spread, strip_for_failures, text
-from icsolve.bench.laws import FORWARD
-from icsolve.bench.marks import GREY, STYLE, Style, mark, styled
+from icsolve.bench.accuracy import FORWARD, Score
+
+SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+STRIP = 104.0
+"""Width at the right of a panel where scenes without an answer are drawn."""
+
+
+class Log(NamedTuple):
+    """A range of powers of ten; what lies outside is drawn at its edge."""
+
+    low: int
+    high: int
+
+    def share(self, value: float) -> float:
+        """Where a value lies, from 0 to 1."""
+        power = math.log10(value) if value > 0.0 else self.low
+        return min(max((power - self.low) / (self.high - self.low), 0.0), 1.0)
+
+
+def around(values: Iterable[float]) -> Log:
+    """The powers of ten that enclose values; nan and zero do not count."""
+    powers = [math.log10(value) for value in values if 0.0 < value < math.inf]
+    low, high = math.floor(min(powers, default=0.0)), math.ceil(max(powers, default=1.0))
+    return Log(low, max(high, low + 1))
+
+
+class Panel(NamedTuple):
+    """A rectangle with its two axes; with ``strip`` its right end is for scenes without an answer."""
+
+    x: float
+    y: float
+    width: float
+    height: float
+    across: Log
+    up: Log
+    strip: float = STRIP
+
+    def place(self, error: float, micros: float) -> tuple[float, float]:
+        """Where a mark of this error and time goes."""
+        return self.x + self.across.share(error) * (self.width - self.strip), self.level(micros)
+
+    def level(self, micros: float) -> float:
+        """How high a time is."""
+        return self.y + (1.0 - self.up.share(micros)) * self.height
+
+
+class Names(NamedTuple):
+    """Words about a panel: its title, those of its axes, and every how many powers of ten has a label."""
+
+    title: str
+    across: str
+    up: str
+    every: int
+
+
+def frame(panel: Panel, names: Names) -> Iterator[str]:
+    """Border, grid, tick labels, title and the names of the axes."""
+    x, y, w, h = panel.x, panel.y, panel.width, panel.height
+    yield text(x, y - 14, names.title, kind="head")
+    yield f'<rect class="box" x="{x:g}" y="{y:g}" width="{w:g}" height="{h:g}"/>'
+    for power in range(panel.across.low, panel.across.high + 1):
+        if power % names.every == 0:
+            at = panel.place(10.0**power, 1.0)[0]
+            yield line(at, y, at, y + h, "grid")
+            yield text(at, y + h + 18, exponent(power), "middle")
+    for power in range(panel.up.low, panel.up.high + 1):
+        at = panel.level(10.0**power)
+        yield line(x, at, x + w - panel.strip, at, "grid")
+        yield text(x - 7, at + 4, duration(power), "end")
+    yield text(x + (w - panel.strip) / 2.0, y + h + 40, names.across, "middle")
+    upward = f"translate({x - 60:g} {y + h / 2.0:g}) rotate(-90)"
+    yield f'<g transform="{upward}">{text(0, 0, names.up, "middle")}</g>'
+
+
+def strip_for_failures(panel: Panel) -> Iterator[str]:
+    """The right end of a panel, where scenes without an answer are drawn."""
+    edge, bottom = panel.x + panel.width - panel.strip, panel.y + panel.height
+    yield line(edge, panel.y, edge, bottom, "edge")
+    yield text(edge + panel.strip / 2.0, bottom + 18, "no answer", "middle")
+
+
+def exponent(power: int) -> str:
+    """A power of ten."""
+    return "1" if power == 0 else "10" + str(power).translate(SUPERSCRIPT)
+
+
+def duration(power: int) -> str:
+    """A power of ten of microseconds, in the unit that suits it."""
+    units = ("ns", "µs", "ms", "s")
+    return f"{10 ** (power % 3)} {units[power // 3 + 1]}"
+
+
+def text(x: float, y: float, words: str, anchor: str = "start", kind: str = "") -> str:
+    """Words at a place."""
+    named = f' class="{kind}"' if kind else ""
+    return f'<text{named} x="{x:.1f}" y="{y:.1f}" text-anchor="{anchor}">{escape(words)}</text>'
+
+
+def line(x1: float, y1: float, x2: float, y2: float, kind: str) -> str:
+    """A straight line."""
+    return f'<line class="{kind}" x1="{x1:.1f}" y1="{y1:.1f}" x2="{x2:.1f}" y2="{y2:.1f}"/>'
+
+
+def spread(heights: list[float], apart: float, low: float, high: float) -> list[float]:
+    """Heights moved as little as need be to be some distance apart and between two limits.
+
+    They come in rising order and stay in it.
+    """
+    result: list[float] = []
+    for height in heights:
+        result.append(max(height, result[-1] + apart if result else low))
+    over = high
+    for k in reversed(range(len(result))):
+        result[k] = min(result[k], over)
+        over = result[k] - apart
+    return result
+
+
+class Style(NamedTuple):
+    """How a method is drawn; our own are larger."""
+
+    colour: str
+    shape: str
+    size: float
+    width: float
+
+
+PALETTE = ("#d55e00", "#e69f00", "#a0761a", "#cc79a7", "#009e73", "#7f7f7f", "#b04a5a", "#6a8f2f")
+"""Told apart by the colour-blind, and seen on white and on black (after Okabe and Ito)."""
+GREY = ("#838c96",)
+"""Where each curve bears its name."""
+OWN = ("#0072d6", "#4db3f0")
+SHAPES = ("triangle", "square", "diamond", "nabla", "plus", "bar", "star", "square")
+
+STYLE = """\
+<style>
+.paper { fill: #ffffff } text { fill: #24292f } .title { font-size: 18px; font-weight: bold }
+.head { font-size: 15px; font-weight: bold } .note { fill: #57606a }
+.box { fill: none; stroke: #8c959f } .grid { stroke: #8c959f; stroke-opacity: 0.22 }
+.edge { stroke: #8c959f; stroke-dasharray: 4 3 } .limit { stroke: #0072d6; stroke-dasharray: 2 3 }
+.tie { fill: none; stroke-opacity: 0.5 }
+@media (prefers-color-scheme: dark) {
+  .paper { fill: #0d1117 } text { fill: #e6edf3 } .note { fill: #9da7b3 }
+}
+</style>"""
+
+
+def styled(methods: Iterable[str], palette: Sequence[str] = PALETTE) -> dict[str, Style]:
+    """A style for every method; those of icsolve are blue and larger."""
+    result: dict[str, Style] = {}
+    blues, others, shapes = cycle(OWN), cycle(palette), cycle(SHAPES)
+    for method in methods:
+        own = method.startswith("icsolve")
+        ours = Style(next(blues), "disc", 5.0, 2.2) if own else None
+        result[method] = ours or Style(next(others), next(shapes), 4.0, 1.2)
+    return result
+
+
+def mark(style: Style, x: float, y: float, said: str) -> str:
+    """A mark whose words a pointer on it shows."""
+    return f'<g transform="translate({x:.1f} {y:.1f})">{_shape(style)}<title>{escape(said)}</title></g>'
+
+
+def _shape(style: Style) -> str:
+    r = style.size
+    filled, drawn = f'fill="{style.colour}"', f'fill="none" stroke="{style.colour}" stroke-width="2"'
+    paths = {
+        "triangle": (f"M0 {-1.2 * r:g}L{1.1 * r:g} {0.8 * r:g}H{-1.1 * r:g}Z", filled),
+        "nabla": (f"M0 {1.2 * r:g}L{1.1 * r:g} {-0.8 * r:g}H{-1.1 * r:g}Z", filled),
+        "square": (f"M{-0.9 * r:g} {-0.9 * r:g}H{0.9 * r:g}V{0.9 * r:g}H{-0.9 * r:g}Z", filled),
+        "diamond": (f"M0 {-1.3 * r:g}L{1.3 * r:g} 0L0 {1.3 * r:g}L{-1.3 * r:g} 0Z", filled),
+        "plus": (f"M{-r:g} 0H{r:g}M0 {-r:g}V{r:g}", drawn),
+        "bar": (f"M{-r:g} 0H{r:g}", drawn.replace('"2"', '"4"')),
+        "star": (f"M{-r:g} 0H{r:g}M{-0.5 * r:g} {-0.9 * r:g}L{0.5 * r:g} {0.9 * r:g}"
+                 f"M{0.5 * r:g} {-0.9 * r:g}L{-0.5 * r:g} {0.9 * r:g}", drawn),
+        "cross": (f"M{-r:g} {-r:g}L{r:g} {r:g}M{r:g} {-r:g}L{-r:g} {r:g}", drawn),
+    }  # fmt: skip
+    if style.shape in paths:
+        d, how = paths[style.shape]
+        return f'<path d="{d}" {how}/>'
+    return f'<circle r="{r:g}" {drawn if style.shape == "ring" else filled}/>'
+
 
 WIDTH, HEIGHT = 1080.0, 985.0
 LEFT, RIGHT = 92.0, 622.0
@@ -88,9 +269,7 @@ def _scenes(x: float, measure: Measure, scores: Sequence[Score], styles: dict[st
         yield from _lost(panel, (n + 0.5) / len(styles), own, style, measure)
 
 
-def _curve(
-    panel: Panel, measure: Measure, scores: Iterable[Score], style: Style, dashed: str = ""
-) -> str:
+def _curve(panel: Panel, measure: Measure, scores: Iterable[Score], style: Style, dashed: str = "") -> str:
     points = " ".join("{:.1f},{:.1f}".format(*panel.place(measure.of(s), s.micros)) for s in scores)
     return (
         f'<polyline points="{points}" fill="none" stroke="{style.colour}" stroke-width="{style.width:g}" '

@@ -6,14 +6,11 @@ import os
 import platform
 from collections.abc import Callable, Iterator, Sequence
 
-from icsolve.bench.accuracy import Score, scenes, scored
+from icsolve.bench.accuracy import FORWARD, PESSIMISM, Law, Score, bits, bounds, forward, scenes, scored
 from icsolve.bench.closed import compiler_version
-from icsolve.bench.effort import FULL, USUAL, Effort, Kept, nothing
 from icsolve.bench.families import FAMILIES
-from icsolve.bench.gates import gate_table, lawful
-from icsolve.bench.laws import FORWARD, PESSIMISM, Law, bits, bounds, forward
-from icsolve.bench.methods import METHODS, OWN
-from icsolve.bench.tables import table, table_row
+from icsolve.bench.gates import FULL, USUAL, Effort, Kept, gate_table, lawful, nothing, table, table_row
+from icsolve.bench.rivals import METHODS, OWN
 
 ENOUGH = 10
 """Scenes for a median."""

@@ -1,29 +1,126 @@
-"""The sections of the benchmark on speed: one scene, a full turn, other programs, start-up."""
+"""Speed: one scene, fresh and again, a full turn against numpy and C, other programs, start-up."""
 
 from __future__ import annotations
 
+import ctypes
 import math
+import tempfile
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
-from icsolve.bench.accuracy import Score
-from icsolve.bench.closed import FOUR_BAR, FOUR_BAR_CASE
-from icsolve.bench.effort import Effort, Kept
-from icsolve.bench.gates import Gate, lawful, ratio
-from icsolve.bench.laws import FORWARD
-from icsolve.bench.tables import table
-from icsolve.bench.timing import least
+import numpy as np
+
+from icsolve.bench.accuracy import FORWARD, Score, Truth, truth
+from icsolve.bench.closed import FOUR_BAR, FOUR_BAR_CASE, MECHANISMS, Array, Turning, compiled, in_c
+from icsolve.bench.gates import Effort, Gate, Kept, lawful, ratio, table
+from icsolve.bench.peers import POSITIONS
+from icsolve.bench.timing import least, peak_memory
+from icsolve.case import Case
+from icsolve.read import load
+from icsolve.sweep import sweep
 
 if TYPE_CHECKING:
     from icsolve.bench.peers import Ran
-    from icsolve.bench.sweeps import Timed
+
+
+TURN, MILLION = POSITIONS, 1_000_000
+PATH = "angles.AB"
+SWEPT, BOUNDED, BY_HAND, IN_C = "icsolve sweep", "icsolve sweep, bounds", "numpy by hand", "C -O3"
+SAMPLE = 24
+"""Positions of a turn at which the torque is known to sixty digits."""
+
+Torque = Callable[[], Array]
+
+
+class Timed(NamedTuple):
+    """A method on so many positions of a mechanism: its seconds, and its worst error over a sample,
+    relative and over (kappa + 1) u."""
+
+    method: str
+    mechanism: str
+    positions: int
+    seconds: float
+    error: float
+    per_unit: float
+
+
+def full_turns(positions: int, seconds: float) -> dict[str, dict[str, Timed]]:
+    """Every mechanism at so many positions of its crank, by every method; C where it compiles."""
+    with tempfile.TemporaryDirectory() as folder:
+        library = compiled(folder)
+        each = seconds / len(MECHANISMS)
+        return {m.name: _timed(m, positions, each, library) for m in MECHANISMS}
+
+
+def _timed(
+    mechanism: Turning, positions: int, seconds: float, library: ctypes.CDLL | None
+) -> dict[str, Timed]:
+    degrees: Array = np.linspace(60.0, 420.0, positions, endpoint=False)
+    calls = _calls(mechanism, degrees, library)
+    times = least(list(calls.values()), seconds)
+    known = _known(mechanism, degrees)
+    result = {}
+    for (method, call), took in zip(calls.items(), times, strict=True):
+        found = call()
+        errors = [(true.error(float(found[k])), true) for k, true in known.items()]
+        worst = max(true.per_unit(error) for error, true in errors)
+        error = max(error for error, _ in errors)
+        result[method] = Timed(method, mechanism.name, positions, took, error, worst)
+    return result
+
+
+def _calls(mechanism: Turning, degrees: Array, library: ctypes.CDLL | None) -> dict[str, Torque]:
+    case = load(mechanism.case)
+    radians, out = np.asarray(np.radians(degrees), dtype=np.float64), np.empty(len(degrees))
+    calls: dict[str, Torque] = {
+        BY_HAND: lambda: mechanism.by_hand(radians),
+        SWEPT: lambda: swept(case, degrees, ("answers",)),
+        BOUNDED: lambda: swept(case, degrees, ("answers", "error")),
+    }
+    if library is not None:
+        run = in_c(library, mechanism, radians, out)
+
+        def compiled_turn() -> Array:
+            run()
+            return out
+
+        calls[IN_C] = compiled_turn
+    return calls
+
+
+def _known(mechanism: Turning, degrees: Array) -> dict[int, Truth]:
+    """The torque at some positions, on the doubles; but where `near` picks the other way to assemble."""
+    known = {}
+    for k in range(0, len(degrees), max(1, len(degrees) // SAMPLE)):
+        angle = float(degrees[k])
+        by_hand = mechanism.by_hand(np.radians(degrees[k : k + 1]))[0]
+        true = truth(load(mechanism.case.replace("AB: 60", f"AB: {angle!r}")))
+        if true.error(float(by_hand)) < 1e-6:
+            known[k] = true
+    return known
+
+
+def swept(case: Case, degrees: Array, want: tuple[str, ...]) -> Array:
+    """The crank's torque at every angle."""
+    return sweep(case, {PATH: degrees}, want).answers["T2"]
+
+
+def memory() -> float | None:
+    """Largest resident memory in MB of a process that sweeps a million positions."""
+    code = (
+        "import numpy as np, icsolve\nfrom icsolve.sweep import sweep\n"
+        f"case = icsolve.load({FOUR_BAR_CASE!r})\n"
+        f"sweep(case, {{{PATH!r}: np.linspace(60.0, 420.0, {MILLION})}}, ('answers',))"
+    )
+    return peak_memory(code)
+
 
 KERNEL, ALONE, BOUND = "bare float kernel, componentwise", "solve, without bound", "solve, with bound"
 
 
 def one_scene(effort: Effort, kept: Kept) -> str:
     """One scene in process: `solve` of a loaded four-bar against the bare float kernel."""
-    from icsolve.bench.kernels import componentwise, written_out
+    from icsolve.bench.closed import componentwise, written_out
     from icsolve.read import load
     from icsolve.solve import solve
 
@@ -47,7 +144,6 @@ def one_scene(effort: Effort, kept: Kept) -> str:
 
 def full_turn(effort: Effort, kept: Kept) -> str:
     """Sweeps against hand-written numpy and C, at 3600 and a million positions."""
-    from icsolve.bench.sweeps import BOUNDED, BY_HAND, IN_C, MILLION, SWEPT, TURN, full_turns, memory
 
     def row(name: str, by: dict[str, Timed]) -> list[str]:
         times = [f"{1e3 * by[m].seconds:.3g}" if m in by else "-" for m in (BY_HAND, IN_C, SWEPT, BOUNDED)]
@@ -71,7 +167,6 @@ def full_turn(effort: Effort, kept: Kept) -> str:
 
 
 def _turn_gates(name: str, by: dict[str, Timed]) -> list[Gate]:
-    from icsolve.bench.sweeps import BOUNDED, BY_HAND, IN_C, SWEPT, TURN
 
     swept = by[SWEPT]
     what, short = f"{name}, {swept.positions} positions", swept.positions == TURN
@@ -90,7 +185,6 @@ def _as_score(t: Timed) -> Score:
 def other_programs(effort: Effort, kept: Kept) -> str:
     """The full turn of the four-bar by other programs, in the same run as `full_turn`."""
     from icsolve.bench.peers import PEERS, POSITIONS, TORQUE, ran
-    from icsolve.bench.sweeps import SWEPT
 
     own = next(score for score in kept.turns if score.method == SWEPT)
     seconds = 1e-6 * own.micros * POSITIONS
@@ -121,7 +215,7 @@ def _peer_score(peer: Ran, positions: int) -> Score:
 
 def start_up(effort: Effort, kept: Kept) -> str:
     """Whole processes, cold, in CPU time."""
-    from icsolve.bench.startup import COMMAND, IMPORTS, starts
+    from icsolve.bench.timing import COMMAND, IMPORTS, starts
 
     found = {start.name: start.seconds for start in starts(2 * effort.rounds)}
     base = found[IMPORTS[0]]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from icsolve.bench.catalogue import figures, large, pinned, sliding, turning, wheels
+from icsolve.bench.catalogue import joints, linkages
 from icsolve.bench.stress import Stress
 
 
@@ -12,7 +12,7 @@ def _place(stress: Stress) -> tuple[int, str]:
     return int(digits), stress.number[len(digits) :]
 
 
-_ROOMS = (pinned, sliding, wheels, figures, turning, large)
+_ROOMS = (linkages, joints)
 CATALOGUE: tuple[Stress, ...] = tuple(
     sorted((entry for room in _ROOMS for entry in room.ENTRIES), key=_place)
 )

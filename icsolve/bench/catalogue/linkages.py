@@ -1,9 +1,10 @@
-"""Entries 24 to 33: scale and offset, coincident points, and data that do not make a figure."""
+"""The stress catalogue: figures from lengths and angles near their limits, and large ones."""
 
 from __future__ import annotations
 
-from icsolve.bench.catalogue.pinned import GENERIC
-from icsolve.bench.catalogue.scenes import FOUR_PINS, four_bar, known, scene, torques
+from random import Random
+
+from icsolve.bench.catalogue.joints import FOUR_PINS, GENERIC, four_bar, known, scene, torques
 from icsolve.bench.stress import UNREADABLE, Stress, Value, answered, refused
 
 
@@ -76,7 +77,7 @@ OFF_THE_LINE = scene(
     torques(2, 1),
 )
 
-ENTRIES = (
+FIGURES = (
     *(
         Stress(
             f"24{letter}",
@@ -172,3 +173,37 @@ ENTRIES = (
         refused("contradictory-centres", says=["0.279 m", "1-2"]),
     ),
 )
+
+
+LOOPS = 5000
+
+
+def chain(loops: int) -> str:
+    """Four-bars in series: the rocker of one is the crank of the next."""
+    rng = Random(1)
+    places, joints = ["  A0: [0, 0]\n  B0: [0.1, 1.2]\n"], ["  - {pin: [0, 1], at: A0}\n"]
+    for k in range(1, loops + 1):
+        places.append(f"  A{k}: [{3 * k + rng.uniform(-0.4, 0.4):.4f}, {rng.uniform(-0.4, 0.4):.4f}]\n")
+        places.append(f"  B{k}: [{3 * k + rng.uniform(-0.6, 0.6):.4f}, {rng.uniform(1.0, 2.0):.4f}]\n")
+        rod = 2 * k
+        joints.append(f"  - {{pin: [{rod - 1}, {rod}], at: B{k - 1}}}\n")
+        joints.append(f"  - {{pin: [{rod}, {rod + 1}], at: B{k}}}\n  - {{pin: [{rod + 1}, 0], at: A{k}}}\n")
+    loads = f"K: {{torque: 1, link: {2 * loops + 1}}}, U: {{torque: unknown, link: 1}}"
+    return scene(f"points:\n{''.join(places)}joints:\n{''.join(joints)}", loads)
+
+
+def long_chain() -> str:
+    """The entry's own."""
+    return chain(LOOPS)
+
+
+LARGE = (
+    Stress(
+        "34",
+        f"chain of {LOOPS} four-bars",
+        long_chain,
+        answered({"U": Value(-11.522422276394837, 1e-15, 1e-14)}),
+    ),
+)
+
+ENTRIES = (*FIGURES, *LARGE)
