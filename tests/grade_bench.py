@@ -1,14 +1,10 @@
-"""A large class on paper: a file of answers to 25 cases, and the times that grading is measured by."""
+"""A large class on paper: a file of answers to 25 cases of the library."""
 
 from __future__ import annotations
 
-import csv
-import random
-import time
 from pathlib import Path
 
-from icsolve.grade.case_store import CaseStore
-from icsolve.grade.course import Course
+from icsolve.bench import grading
 
 CASES = Path(__file__).parent.parent / "cases"
 CHOSEN = (
@@ -20,44 +16,13 @@ CHOSEN = (
 )
 
 
-def questions(count: int = 25) -> list[tuple[str, float, str]]:
+def questions(count: int = 25) -> list[grading.Asked]:
     """Cases with their answers and units."""
-    case_store = CaseStore(CASES, Course())
-    keys = [case_store.key(name) for name in " ".join(CHOSEN).split()[:count]]
-    assert len(keys) == count
-    return [(key.question, key.value, key.unit_name) for key in keys]  # type: ignore[union-attr]
+    found = grading.asked_of(str(CASES), " ".join(CHOSEN).split()[:count])
+    assert len(found) == count
+    return found
 
 
 def write_class(path: Path, students: int, seed: int = 1) -> int:
-    """A row a student and case; right answers differ in their fourth figure; how many rows."""
-    rng = random.Random(seed)
-    asked = questions()
-    wrong = (-1.0, 0.5, 2.0, 10.0, 0.001, 25.4, 1.02, 1.37, 0.62)
-    with open(path, "w", encoding="utf-8", newline="") as file:
-        rows = csv.writer(file, lineterminator="\n")
-        rows.writerow(["student_id", "case", "answer", "attempt", "submitted_at"])
-        for _ in range(students):
-            student = f"{rng.randrange(10**8):08d}"
-            for case, value, unit in asked:
-                factor = rng.choice(wrong) if rng.random() < 0.35 else 1.0
-                answer = value * factor * (1.0 + rng.uniform(-0.004, 0.004))
-                text = f"{answer:.5g} {unit}" if rng.random() < 0.9 else f"{answer:.4e}"
-                timestamp = (
-                    f"2025-03-{rng.randrange(1, 29):02d}T{rng.randrange(24):02d}:{rng.randrange(60):02d}:00"
-                )
-                rows.writerow([student, case, text, rng.randrange(1, 4), timestamp])
-    return students * len(asked)
-
-
-def floor(path: Path) -> float:
-    """Seconds in which Python's csv reads the file and float its numbers."""
-    best = float("inf")
-    for _ in range(3):
-        start = time.process_time()
-        with open(path, encoding="utf-8", newline="") as file:
-            rows = csv.reader(file)
-            next(rows)
-            for row in rows:
-                float(row[2].partition(" ")[0])
-        best = min(best, time.process_time() - start)
-    return best
+    """A row a student and case; how many rows."""
+    return grading.write_class(path, students, questions(), seed)

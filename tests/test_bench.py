@@ -273,6 +273,18 @@ def test_a_figure_is_held_to_its_limit_from_the_right_side() -> None:
     assert "| slow | 3.5 x | at most 3 x | NO |" in gate_table(gates)
 
 
+def test_a_promise_that_is_not_kept_is_no_success(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for gate, code in ((ratio("slow", 3.5, 3), 1), (ratio("fast", 2.5, 3), 0)):
+        kept = nothing()._replace(gates=[gate], scenes=[])
+        monkeypatch.setattr("icsolve.bench.report.run", lambda full, say, kept=kept: kept)
+        monkeypatch.setattr("icsolve.bench.picture.picture", lambda *what: "<svg/>")
+        ran = CliRunner().invoke(command, ["bench", "-o", str(tmp_path / "plot.svg")], standalone_mode=False)
+        assert ran.return_value == code
+        assert ("not kept: slow" in ran.stderr) == bool(code)
+
+
 def test_least_gives_seconds_a_call() -> None:
     short, long = least([lambda: sum(range(10)), lambda: sum(range(10_000))], 0.1)
     assert 0 < 20 * short < long < 1
@@ -283,8 +295,8 @@ def test_the_whole_benchmark_in_small(tmp_path: Path, monkeypatch: pytest.Monkey
     monkeypatch.setattr(report, "FAMILIES", FAMILIES[:4])
     monkeypatch.setattr("icsolve.bench.speed.MILLION", 10_000)
     ran = CliRunner().invoke(command, ["bench", "-o", str(tmp_path / "plot.svg")], standalone_mode=False)
-    assert ran.return_value == 0
-    for heading in ("One scene", "A full turn", "Other programs", "Start-up", "Time", "Laws", "Figures"):
+    assert ran.return_value == int("| NO |" in ran.stdout)
+    for heading in ("One scene", "A full turn", "Grading", "Start-up", "Time", "Laws", "Figures"):
         assert f"\n## {heading}" in ran.stdout
     assert "| Watt |" in ran.stdout
     assert "| bounds that are less than the error, of " in ran.stdout

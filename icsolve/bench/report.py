@@ -136,6 +136,7 @@ def stress() -> tuple[str, int]:
 
 def run(full: bool, say: Callable[[str], None]) -> Kept:
     """The whole benchmark; every piece of Markdown goes to ``say``. Returns what the picture draws."""
+    from icsolve.bench.grading import drawing, grading
     from icsolve.bench.speed import full_turn, one_scene, other_programs, start_up
 
     effort, kept = FULL if full else USUAL, nothing()
@@ -144,6 +145,8 @@ def run(full: bool, say: Callable[[str], None]) -> Kept:
     say(f"## A full turn\n\n{full_turn(effort, kept)}\n")
     say(f"## Other programs\n\n{other_programs(effort, kept)}\n")
     say(f"## Start-up\n\n{start_up(effort, kept)}\n")
+    say(f"## Grading\n\n{grading(effort, kept)}\n")
+    say(f"## Drawing\n\n{drawing(effort, kept)}\n")
     say("## Error over (kappa + 1) u, the worst of a family\n")
     for line in accuracy(effort, kept):
         say(line)

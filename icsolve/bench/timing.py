@@ -77,14 +77,14 @@ def starts(rounds: int = 7) -> list[Start]:
         runs = (BARE, IMPORTS, command)
         best = dict.fromkeys((name for name, _ in runs), float("inf"))
         for _, arguments in runs:
-            _cpu([sys.executable, *arguments])
+            cpu_seconds([sys.executable, *arguments])
         for _ in range(rounds):
             for name, arguments in runs:
-                best[name] = min(best[name], _cpu([sys.executable, *arguments]))
+                best[name] = min(best[name], cpu_seconds([sys.executable, *arguments]))
     return [Start(name, seconds) for name, seconds in best.items()]
 
 
-def _cpu(command: list[str]) -> float:
+def cpu_seconds(command: list[str]) -> float:
     """User and system seconds of a child process; its wall time where the system does not tell them.
 
     Modules are compiled once, as they are when a package is installed.
