@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -33,8 +34,6 @@ STEPS, STEPS_A_ROW = 2000, 20
 CELLS = 4
 MOST_CELLS = 1_000_000
 """Branches are looked for at so many places in a longest step, and at most at so many at all."""
-MOST_PLACES = 4096
-"""Limits are looked for at so many places."""
 
 Remake = Callable[[Signs], Sheet]
 
@@ -56,11 +55,29 @@ class Followed(NamedTuple):
     passed: dict[str, Passing]
 
 
-class _Radicands:
+class Radicands:
     """The radicands of branches along a track."""
 
-    def __init__(self, sheet: Sheet, track: Track) -> None:
-        self.sheet, self.track = sheet, track
+    def __init__(self, sheet: Sheet, track: Track, grid: Array) -> None:
+        self.sheet, self.track, self.grid = sheet, track, grid
+        self.roots = live_roots(sheet)
+
+    @cached_property
+    def table(self) -> tuple[list[Array], list[Array]]:
+        """Radicands on the grid, and the smaller margin of each over its size; not a number where a branch
+        before it has no place to meet."""
+        nodes = [n for root in self.roots for n in (root.radicand, *root.margins[0], *root.margins[1])]
+        found = self.values(nodes, self.grid) if nodes else []
+        radicands, margins = [], []
+        gone = np.zeros(len(self.grid), dtype=bool)
+        for n in range(len(self.roots)):
+            radicand, a, a_size, b, b_size = found[5 * n : 5 * n + 5]
+            margin = np.minimum(a / a_size, b / b_size)
+            radicand[gone], margin[gone] = np.nan, np.nan
+            gone = gone | ~(margin >= -TOUCH)
+            radicands.append(radicand)
+            margins.append(margin)
+        return radicands, margins
 
     def values(self, nodes: Sequence[int], at: Array) -> list[Array]:
         """Nodes at places of the way; not a number where the links do not assemble."""
@@ -75,9 +92,18 @@ class _Radicands:
             parts.append(found)
         return [np.concatenate(column) for column in zip(*parts, strict=True)]
 
-    def passing(self, root: Root, grid: Array) -> Passing:
-        """Touches and gaps of a branch on a grid of the way."""
-        radicand = self._radicand(root, grid)
+    @property
+    def touching(self) -> bool:
+        """Whether a branch may come to change points, or have no place to meet, somewhere on the grid."""
+        for radicand in self.table[0]:
+            step = np.abs(np.diff(radicand, append=radicand[-1]))
+            if not (radicand > STEEP * np.maximum(step, np.roll(step, 1))).all():
+                return True
+        return False
+
+    def passing(self, n: int) -> Passing:
+        """Touches and gaps of a branch on the grid."""
+        root, grid, radicand = self.roots[n], self.grid, self.table[0][n]
         touches: list[float] = []
         gaps: list[float] = []
         grazes: list[float] = []
@@ -104,22 +130,19 @@ class _Radicands:
         """The radicand of a branch; not a number where those before it have no place to meet."""
         record = self.sheet.record
         behind = set(live(record, [root.radicand], ()))
-        before = [r for r in live_roots(self.sheet) if r.node in behind]
+        before = [r for r in self.roots if r.node in behind]
         nodes = [n for r in before for margin in r.margins for n in margin]
         radicand, *margins = self.values([root.radicand, *nodes], at)
         for margin, size in zip(margins[::2], margins[1::2], strict=True):
             radicand[margin < -TOUCH * size] = np.nan
         return radicand
 
-    def limits(self, grid: Array) -> tuple[float, float]:
+    def limits(self) -> tuple[float, float]:
         """The nearest places to both sides of the start to which no motion leads."""
-        grid = grid[:: max(1, len(grid) // MOST_PLACES)]
-        nodes = [n for r in live_roots(self.sheet) for margin in r.margins for n in margin]
-        gone = np.zeros(len(grid), dtype=bool)
-        found = self.values(nodes, grid) if nodes else []
-        for margin, size in zip(found[::2], found[1::2], strict=True):
-            gone |= ~(margin >= -TOUCH * size)
-        apart, start, (low, high) = grid[gone], self.track.way.start, self.track.ends
+        gone = np.zeros(len(self.grid), dtype=bool)
+        for margin in self.table[1]:
+            gone |= ~(margin >= -TOUCH)
+        apart, start, (low, high) = self.grid[gone], self.track.way.start, self.track.ends
         low = max(low, float(apart[apart < start].max(initial=-math.inf)))
         return low, min(high, float(apart[apart > start].min(initial=math.inf)))
 
@@ -203,16 +226,16 @@ def _next_passing(
     sheet: Sheet, track: Track, grid: Array, found: dict[str, Passing], done: set[str]
 ) -> str | None:
     """The next branch that changes its sign; those that were looked at are noted."""
-    radicands = _Radicands(sheet, track)
+    radicands = Radicands(sheet, track, grid)
     assert sheet.motion is not None
     if track.way.period is not None:
-        track.touches = track.touches._replace(limits=radicands.limits(grid))
-    for root in live_roots(sheet):
+        track.touches = track.touches._replace(limits=radicands.limits())
+    for n, root in enumerate(radicands.roots):
         name = sheet.motion.branches[root.node]
         if name in done:
             continue
         done.add(name)
-        passing = radicands.passing(root, grid)
+        passing = radicands.passing(n)
         if any(passing):
             found[name] = passing
         if passing.touches:
@@ -225,7 +248,7 @@ def _has_limits(sheet: Sheet, track: Track, grid: Array) -> bool:
     turning it the other way round."""
     if track.way.period is None or not live_roots(sheet):
         return False
-    return any(math.isfinite(end) for end in _Radicands(sheet, track).limits(grid))
+    return any(math.isfinite(end) for end in Radicands(sheet, track, grid).limits())
 
 
 def _reach(ends: Iterable[float], way: Way) -> tuple[float, float]:

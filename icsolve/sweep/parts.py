@@ -13,16 +13,14 @@ import numpy as np
 
 from icsolve.numbers.replay import BLOCK, Array, Code
 from icsolve.sweep.ask import Columns
-from icsolve.sweep.branches import Followed, follow, live_roots, signs_of
+from icsolve.sweep.branches import STEEP, Followed, Radicands, follow, grid_of, live_roots, signs_of
 from icsolve.sweep.numbers import numbers_of
 from icsolve.sweep.program import Sheet, Signs
-from icsolve.sweep.runner import STEEP, Found, Progress, Rows, Runner
+from icsolve.sweep.runner import Rows, Runner
 from icsolve.sweep.start import Start
-from icsolve.sweep.track import Mask
-from icsolve.sweep.way import State, Way, written_state
+from icsolve.sweep.track import Mask, Track
+from icsolve.sweep.way import State, Touches, Way, written_state
 
-FEW = 64
-"""So few rows are always followed from the position as written."""
 WIDEST = 4.0
 """Longest step of a way along an angle, degrees."""
 PART = 2.0**-7
@@ -38,8 +36,6 @@ class Part(NamedTuple):
     rows: Rows
     followed: Followed | None = None
     places: Array = np.empty(0)
-    found: Found | None = None
-    """what was found already"""
     ordered: bool = False
     """whether these are all rows in their order"""
 
@@ -48,7 +44,6 @@ class Part(NamedTuple):
         return self._replace(
             rows=self.rows[which],
             places=self.places[which] if self.followed else self.places,
-            found=None,
             ordered=False,
         )
 
@@ -56,14 +51,15 @@ class Part(NamedTuple):
 class Parts:
     """The rows of a sweep in parts."""
 
-    def __init__(self, start: Start, columns: Columns, progress: Progress | None = None) -> None:
-        self.start, self.columns, self.progress = start, columns, progress
+    def __init__(self, start: Start, columns: Columns) -> None:
+        self.start, self.columns = start, columns
         self.arrays = columns.arrays
 
     def given(self, part: Part) -> tuple[dict[int, Array], Mask]:
         """The inputs of a part's rows, and which of the rows are reached."""
         inputs = part.runner.sheet.inputs
-        given = {inputs[name]: a[part.rows] for name, a in self.arrays.items() if name in inputs}
+        every = slice(None) if part.ordered else part.rows
+        given = {inputs[name]: a[every] for name, a in self.arrays.items() if name in inputs}
         if part.followed is None:
             return given, np.ones(len(part.rows), dtype=bool)
         along, good = part.followed.track.given(part.places)
@@ -75,7 +71,7 @@ class Parts:
         sheet, rows = runner.sheet, np.arange(self.columns.rows)
         bearing = [name for name in runner.bearing if name in self.arrays]
         if not bearing:
-            yield Part(runner, rows)
+            yield Part(runner, rows, ordered=True)
             return
         moving = (*self.start.links, *self.start.setting.drive.moving)
         main = next(name for name in (*moving, *bearing) if name in bearing)
@@ -103,16 +99,17 @@ class Parts:
         if others:
             clear = self._clear(runner.sheet, [main, *others])
             return (Part(runner, rows[clear]) if clear.any() else None), rows[~clear]
-        at = self.arrays[main]
-        order = rows if bool(np.all(at[1:] >= at[:-1])) else np.argsort(at, kind="stable")
-        if len(at) < FEW or not at[order[0]] <= self._written(main) <= at[order[-1]]:
-            return None, rows
-        inputs = runner.sheet.inputs
-        given = {inputs[name]: a if order is rows else a[order] for name, a in self.arrays.items()}
-        found = runner.run(given, len(at), self.progress)
-        if found.touching:
-            return None, rows
-        return Part(runner, order, found=found, ordered=order is rows), rows[:0]
+        if self._meets_nothing(runner.sheet, main):
+            return Part(runner, rows, ordered=True), rows[:0]
+        return None, rows
+
+    def _meets_nothing(self, sheet: Sheet, main: str) -> bool:
+        """Whether no branch comes near a change point or a limit between the position as written and the
+        rows, all of which can then be run at once."""
+        at, way = self.arrays[main], self._way(sheet, main, {})
+        grid = grid_of([float(at.min()), float(at.max())], way)
+        track = Track(sheet, way, written_state(sheet), Touches({}), (way.start, way.start))
+        return not Radicands(sheet, track, grid).touching
 
     def _clear(self, sheet: Sheet, names: list[str]) -> Mask:
         """Rows on whose straight way from the position as written no branch comes near a change point."""
@@ -162,12 +159,17 @@ class Parts:
         if any(slope.values()):
             first = follow(self.start.sheet, sheet, Way(base, slope, 0.0, 2.0**-6), state, np.array([1.0]))
             state = first.track.end(1.0)
-        places, angle = self.arrays[main][rows], self._is_angle(main)
-        widest = WIDEST if angle else PART / self.start.setting.figure.frame.scale
-        others_here = {**base, **here, main: 0.0}
-        way = Way(others_here, {main: 1.0}, self._written(main), widest, 360.0 if angle else None)
+        places, way = self.arrays[main][rows], self._way(sheet, main, here)
         followed = follow(self.start.sheet, self.start.sheet(_changed(sheet, state)), way, state, places)
         return Part(self.start.runner(signs_of(followed.sheet)), rows, followed, places)
+
+    def _way(self, sheet: Sheet, main: str, here: dict[str, float]) -> Way:
+        """The way of the main input, the others being at some values, or as written."""
+        angle = self._is_angle(main)
+        widest = WIDEST if angle else PART / self.start.setting.figure.frame.scale
+        base = {name: self._written(name) for name in sheet.inputs if name in self.arrays}
+        base = {**base, **here, main: 0.0}
+        return Way(base, {main: 1.0}, self._written(main), widest, 360.0 if angle else None)
 
 
 def _changed(sheet: Sheet, state: State) -> Signs:

@@ -19,6 +19,7 @@ from icsolve.numbers.backward import Backward
 from icsolve.numbers.noise import noise_of
 from icsolve.numbers.record import Node, Op, Record, varies
 from icsolve.numbers.replay import BLOCK, Array, Code, live
+from icsolve.sweep.branches import live_roots
 from icsolve.sweep.exact import RowScenes
 from icsolve.sweep.program import Sheet
 
@@ -35,21 +36,19 @@ NOTHING = 1e-13
 """An answer below this fraction of its terms where the record was made is nothing in every row."""
 BATCH = 8
 """So many outputs are bounded at once: each takes a few megabytes."""
-STEEP = 2.0
-"""A radicand that may vanish between rows is smaller than so many of its steps from row to row."""
 
 Key = tuple[str, str]
 Rows = npt.NDArray[np.int64]
+Mask = npt.NDArray[np.bool_]
 Progress = Callable[[int], None]
 """Called with a number of rows that were done."""
 
 
 class Found(NamedTuple):
-    """Arrays by output; rows to look at again; whether a branch may change between rows."""
+    """Arrays by output; rows to look at again."""
 
     values: dict[Key, Array]
     doubtful: Rows
-    touching: bool
 
 
 class Runner:
@@ -117,6 +116,19 @@ class Runner:
             yield [(key, part) for key, part, _ in some], self.passes([index for *_, index in some])
 
     @cached_property
+    def reaching(self) -> Code:
+        """The margins of the branches, each with its size."""
+        return Code(self.sheet.record, [n for r in live_roots(self.sheet) for m in r.margins for n in m])
+
+    def apart(self, given: Mapping[int, Array], rows: int) -> Mask:
+        """Rows whose links clearly do not reach one another."""
+        found = self.reaching.run(given, rows)
+        out = np.zeros(rows, dtype=bool)
+        for margin, size in zip(found[::2], found[1::2], strict=True):
+            out |= margin < -SHALLOW * size
+        return out
+
+    @cached_property
     def cases(self) -> RowScenes:
         """Rows as cases of their own."""
         return RowScenes(self.sheet)
@@ -146,34 +158,31 @@ class Runner:
 
     def run(self, given: Mapping[int, Array], rows: int, progress: Progress | None = None) -> Found:
         """All rows; ``given`` has an array or one number for every input."""
-        values, doubtful, touching = self.empty(rows), [], False
-        last: list[float] = []
+        values, doubtful = self.empty(rows), []
         for start in range(0, rows, BLOCK):
             stop = min(start + BLOCK, rows)
             here = {k: v[start:stop] if v.ndim else v for k, v in given.items()}
             found = self.code.run(here, stop - start)
             for (key, part, _), array in zip(self.moving, found, strict=False):
                 column(values[key], part)[start:stop] = array
-            again, steep, last = self._watch(found, last)
-            touching = touching or steep
+            again = self._watch(found)
             if again.size:
                 doubtful.append(again + start)
             if progress is not None:
                 progress(stop - start)
-        return Found(values, np.concatenate(doubtful) if doubtful else np.empty(0, np.int64), touching)
+        return Found(values, np.concatenate(doubtful) if doubtful else np.empty(0, np.int64))
 
-    def _watch(self, found: list[Array], last: list[float]) -> tuple[Rows, bool, list[float]]:
-        """Rows of a block to look at again; whether a radicand may vanish between its rows."""
+    def _watch(self, found: list[Array]) -> Rows:
+        """Rows of a block to look at again."""
         ends = (len(self.moving), len(self.roots), len(self.divisors), len(self.margins), len(self.checks))
         cuts = np.cumsum(ends)
         radicands, divisors = found[cuts[0] : cuts[1]], found[cuts[1] : cuts[2]]
         rows = max((array.size for array in found), default=1)
-        scratch, steep = self.code.bound(rows)[1][-1][:rows], False
+        scratch = self.code.bound(rows)[1][-1][:rows]
         bad: list[Rows] = []
         with np.errstate(all="ignore"):
             for n, radicand in enumerate(radicands):
-                low = self._below(radicand, SHALLOW * self.deep[n], bad)
-                steep = steep or low <= STEEP * _step(radicand, last[n] if last else None, scratch)
+                self._below(radicand, SHALLOW * self.deep[n], bad)
             for n, divisor in enumerate(divisors):
                 self._below(np.abs(divisor, scratch), SMALL * self.typical[n], bad)
             for margin in found[cuts[2] : cuts[3]]:
@@ -185,22 +194,12 @@ class Runner:
                     size = np.abs(found[n], scratch)
                     self._below(size, SMALL * self.usual[n], bad)
                     self._below(np.negative(size, scratch), -self.usual[n] / SMALL, bad)
-        again = np.unique(np.concatenate(bad)) if bad else np.empty(0, np.int64)
-        return again, steep, [float(radicand[-1]) for radicand in radicands]
+        return np.unique(np.concatenate(bad)) if bad else np.empty(0, np.int64)
 
-    def _below(self, values: Array, limit: float, bad: list[Rows]) -> float:
-        """The least value; rows that are not above a limit are noted."""
-        low = float(np.minimum.reduce(values))
-        if not low > limit:
+    def _below(self, values: Array, limit: float, bad: list[Rows]) -> None:
+        """Note the rows that are not above a limit."""
+        if not float(np.minimum.reduce(values)) > limit:
             bad.append(np.flatnonzero(~(values > limit)))
-        return low
-
-
-def _step(radicand: Array, before: float | None, scratch: Array) -> float:
-    """The largest step from row to row, that from the last block too."""
-    step = np.subtract(radicand[1:], radicand[:-1], scratch[1:])
-    largest = float(np.maximum.reduce(np.abs(step, step))) if len(step) else 0.0
-    return largest if before is None else max(largest, abs(float(radicand[0]) - before))
 
 
 def _living(sheet: Sheet, alive: Sequence[int]) -> list[int]:

@@ -31,7 +31,7 @@ class Work:
         self.start, self.columns, self.error = start, columns, error
         self.running = None if error else progress
         self.bounding = progress if error else None
-        self.parts = Parts(start, columns, self.running)
+        self.parts = Parts(start, columns)
         self.notes: list[str] = [start.note] if start.note else []
         self.table = Table(columns.rows, start.asked)
         self.done: list[Part] = []
@@ -53,11 +53,13 @@ class Work:
             self._refused(refusal)
             return
         for part in self.parts.all():
-            self.done.append(part._replace(found=None))
-            if part.found is not None and part.ordered:
-                self.table.values = part.found.values
+            self.done.append(part)
+            if part.ordered:
+                given, _ = self.parts.given(part)
+                found = part.runner.run(given, len(part.rows), self.running)
+                self.table.values = found.values
                 self._bounds(part)
-                self._settle(part, part.found.doubtful)
+                self._settle(part, found.doubtful)
             else:
                 self._run(part)
         self._silence()
@@ -74,27 +76,25 @@ class Work:
         """Run the rows of a part in chunks, and put what is found into the table."""
         self.table.values = self.values or part.runner.empty(self.columns.rows)
         for start in range(0, len(part.rows), CHUNK):
-            chunk = part if part.found else part.some(np.arange(start, min(start + CHUNK, len(part.rows))))
-            found = part.found
-            if found is None:
-                given, good = self.parts.given(chunk)
-                found = part.runner.run(given, len(chunk.rows), self.running)
-                self.codes[chunk.rows[~good]] = CODE[Status.CANNOT_ASSEMBLE]
-                found = _with_singular(chunk, found)
+            chunk = part.some(np.arange(start, min(start + CHUNK, len(part.rows))))
+            given, good = self.parts.given(chunk)
+            found = part.runner.run(given, len(chunk.rows), self.running)
+            self.codes[chunk.rows[~good]] = CODE[Status.CANNOT_ASSEMBLE]
+            found = _with_singular(chunk, found)
             for key, array in found.values.items():
                 self.values[key][chunk.rows] = array
             self._bounds(chunk)
             self._settle(chunk, found.doubtful)
-            if part.found is not None:
-                break
         self._passed(part)
 
     def _settle(self, part: Part, doubtful: Rows) -> None:
         """Solve doubtful rows as scenes."""
-        rows = part.rows[doubtful]
-        rows = rows[self.codes[rows] == 0].tolist()
-        if not rows:
+        doubtful = doubtful[self.codes[part.rows[doubtful]] == 0]
+        if not doubtful.size:
             return
+        apart = part.runner.apart(self.parts.given(part.some(doubtful))[0], len(doubtful))
+        self.codes[part.rows[doubtful[apart]]] = CODE[Status.CANNOT_ASSEMBLE]
+        rows = part.rows[doubtful[~apart]].tolist()
         recheck = Recheck(self.parts, part)
         for row in rows:
             self._place(recheck, row)
