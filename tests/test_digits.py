@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Iterator
+from pathlib import Path
 from random import Random
 from typing import Any
 
@@ -22,6 +23,7 @@ import mechanisms
 import transcribe
 from figures import from_lengths, without_order
 from icsolve.answer import Answer
+from icsolve.errors import SceneError
 from icsolve.kinematics import speeds
 from icsolve.screws.plane import subtract
 from icsolve.solve.program import Outcome, Program, Want, evaluate, prepare
@@ -43,7 +45,12 @@ def near(shown: float, true: Any, size: Any, what: object, error: float | None =
 
 
 def check(text: str) -> Answer:
-    """All numbers of a scene against sixty digits."""
+    """All numbers of a scene against sixty digits, of which the nearest singular position leaves enough."""
+    with mp.workdps(140):
+        return _check(text)
+
+
+def _check(text: str) -> Answer:
     case = icsolve.load(text)
     answer = icsolve.solve(case, all_centres=True, rates=True)
     arithmetic: Any = SixtyDigits()
@@ -92,7 +99,7 @@ def _rates(answer: Answer, program: Program, exact: Outcome, arithmetic: Any) ->
     speed = speeds.speed_of(case, twists, frame, exact.points, arithmetic)
     assert answer.rates is not None
     assert answer.velocities is not None
-    largest = abs(speeds.fastest(twists) * speed.particular[0] / speed.divisor)
+    largest = max(speeds.fastest(twists) * sum(map(abs, speed.particular)) / abs(speed.divisor), 1.0)
     for link, rate in speeds.link_rates(case, twists, speed).items():
         if isinstance(rate, str):
             assert isinstance(answer.rates[link], str)
@@ -173,3 +180,102 @@ loads: {{K: {{torque: {rng.uniform(1, 90):.2f}, link: {on[0]}}}, T: {{torque: un
 @pytest.mark.parametrize("seed", range(100 if FULL else 12))
 def test_every_number_beside_a_dead_centre(seed: int) -> None:
     check(beside_a_dead_centre(Random(f"beside {seed}")))
+
+
+def notes(text: str) -> list[str]:
+    return [note for note in icsolve.solve(icsolve.load(text)).notes if "half a unit" in note]
+
+
+TOGGLE = """
+icsolve: 1
+points: {A0: [0, 0], A: [%s, 0], B: [%s, 2], B0: [3, 4]}
+joints:
+  - {pin: [1, 2], at: A0}
+  - {pin: [2, 3], at: A}
+  - {pin: [3, 4], at: B}
+  - {pin: [4, 1], at: B0}
+loads: {M4: {torque: 1, link: 4}, M2: {torque: unknown, link: 2}}
+"""
+
+
+@pytest.mark.parametrize("gap", ["2.00001", "2.0000000000000001", "2.0000000000000000000000001"])
+def test_what_half_a_unit_of_a_last_decimal_could_do_is_told(gap: str) -> None:
+    """A measured 1.0 leaves open on which side of the dead centre it is; a whole 1 is exact."""
+    (note,) = notes(TOGGLE % ("1.0", gap))
+    assert "points.A.x (1.0) could move M2" in note
+    assert notes(TOGGLE % ("1", gap)) == []
+    assert notes(TOGGLE % ("1.0", "2.4")) == []
+
+
+def turned_parallelogram(angle: float, off: float = 0.0) -> str:
+    """Three parallel cranks, turned by a program: one constraint repeats the others to 1e-16."""
+    c, s = math.cos(angle), math.sin(angle)
+    spots = {"A": (0, 0), "B": (2, 0), "C": (5, 0), "D": (1, 2), "E": (3, 2), "F": (6 + off, 2)}
+    points = ", ".join(f"{p}: [{x * c - y * s!r}, {x * s + y * c!r}]" for p, (x, y) in spots.items())
+    return f"""
+icsolve: 1
+ground: 0
+points: {{{points}}}
+joints:
+  - {{pin: [0, 1], at: A}}
+  - {{pin: [0, 2], at: B}}
+  - {{pin: [0, 3], at: C}}
+  - {{pin: [1, 4], at: D}}
+  - {{pin: [2, 4], at: E}}
+  - {{pin: [3, 4], at: F}}
+loads: {{K: {{torque: 1, link: 2}}, M1: {{torque: unknown, link: 1}}}}
+"""
+
+
+@pytest.mark.parametrize("angle", [0.3, 1.1, 2.7, -0.8])
+def test_a_constraint_that_a_program_rounded_counts_as_exact_and_that_is_said(angle: float) -> None:
+    answer = icsolve.solve(icsolve.load(turned_parallelogram(angle)))
+    found = answer.answers["M1"]
+    assert found.error is not None
+    assert abs(found.value + 1.0) <= found.error < 1e-11
+    assert any("half a unit of the last digit" in note for note in answer.notes)
+    with pytest.raises(SceneError):
+        icsolve.solve(icsolve.load(turned_parallelogram(angle, off=1e-9)))
+
+
+HAIRS = ["179.999", "179.999999", "179.999999999", "179.9999999999999999", "180.000001"]
+
+
+@pytest.mark.parametrize("degrees", HAIRS)
+def test_a_change_point_is_a_hair_beside_and_no_dead_centre(degrees: str) -> None:
+    """Lengths 4, 1, 3, 2 fold flat at 180 degrees: beside it there is an answer, with all its digits."""
+    check(f"""
+icsolve: 1
+points: {{A: [0, 0], D: [4, 0]}}
+lengths: {{AB: 1, BC: 3, CD: 2}}
+angles: {{AB: {degrees}}}
+near: {{C: [2.13, {0.7 if float(degrees) < 180 else -0.7}]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{pin: [4, 1], at: D}}
+loads: {{T4: {{torque: 10, link: 4}}, T: {{torque: unknown, link: 2}}}}
+""")
+
+
+def test_a_train_of_gears_keeps_the_digits_of_its_last_wheel() -> None:
+    """Fourteen meshes of 11 to 253: the last wheel turns at 23^-14, and no threshold calls that nothing."""
+    count = 15
+    points = ", ".join(f"P{k}: [{3 * k}, 0]" for k in range(count))
+    joints = [f"  - {{pin: [1, {k + 2}], at: P{k}}}" for k in range(count)]
+    joints += [f"  - {{gears: [{k + 2}, {k + 3}], teeth: [11, 253]}}" for k in range(count - 1)]
+    text = f"icsolve: 1\npoints: {{{points}}}\njoints:\n" + "\n".join(joints)
+    text += f"\nloads: {{K: {{torque: 7.5, link: {count + 1}}}, U: {{torque: unknown, link: 2}}}}\n"
+    answer = check(text)
+    assert answer.rates is not None
+    assert answer.rates[str(count + 1)] == pytest.approx(23.0**-14, rel=1e-15)
+    assert answer.answers["U"].value == pytest.approx(-7.5 * 23.0**-14, rel=1e-15)
+
+
+ONCE_WRONG = sorted((Path(__file__).parent / "data" / "digits").glob("*.yaml"))
+
+
+@pytest.mark.parametrize("file", ONCE_WRONG, ids=lambda file: file.stem)
+def test_scenes_that_were_once_wrong(file: Path) -> None:
+    check(file.read_text())

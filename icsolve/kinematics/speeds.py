@@ -98,7 +98,7 @@ Row = tuple[tuple[Scalar, ...], Scalar]
 
 def _combined(rows: list[Row], motions: int, a: Arithmetic) -> Speed:
     matrix = [[*values, -target] for values, target in rows]
-    sizes = [max(map(abs, row)) or 1.0 for row in matrix]
+    sizes = [math.ldexp(1.0, math.frexp(max(map(abs, row)))[1]) for row in matrix]  # rounds nothing
     scaled = [[v / s for v in row] for row, s in zip(matrix, sizes, strict=True)]
     found = null_space(scaled, motions + 1, 1e-12, vanishes=decider(a))
     with_target = [vector for vector in found.basis if not a.vanishes(vector[-1], LOOSE)]

@@ -491,6 +491,18 @@ class HalfUnits(Balls):
         return near + 0.0, (value.radius + math.ulp(near)) * UP
 
 
+class Moved(Balls):
+    """The numbers of a case, one of them larger or smaller (``sign``) by half a unit of its last decimal."""
+
+    def __init__(self, number: Number, sign: int, digits: int) -> None:
+        super().__init__(digits, highest=True)
+        self.number, self.sign = number, sign
+
+    def _read(self, number: Number) -> Ball:
+        found = super()._read(number)
+        return found + self.sign * number.half if number.path == self.number.path else found
+
+
 COARSE = 1e-9
 """Half units that put a zero in doubt by more than this fraction of its terms explain nothing."""
 LONG = 15

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import replace
 from functools import cached_property
 
 from icsolve.answer import Answer, Centre, Deferred, Found, Later, Term
-from icsolve.case import Case, Pair
+from icsolve.case import Case, Number, Pair
 from icsolve.case.names import link_order
 from icsolve.errors import SceneError
 from icsolve.kinematics import speeds
 from icsolve.kinematics.centres import CentreFinder
 from icsolve.kinematics.motion import Motions
 from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.balls import PRECISIONS, BelowZero, MoreDigits, Moved
 from icsolve.screws.plane import Triple
 from icsolve.solve.bounds import (
     Bounded,
@@ -27,7 +29,8 @@ from icsolve.solve.bounds import (
     slopes,
     unknown_values,
 )
-from icsolve.solve.program import Outcome, Program, Want
+from icsolve.solve.program import Outcome, Program, Want, evaluate
+from icsolve.solve.sensitivity import unsettled
 from icsolve.solve.terms import advantage, power_terms
 from icsolve.statics import power
 from icsolve.wording import sentences
@@ -87,9 +90,10 @@ class Parts:
         rates, errors, velocities = self.scene.ask(_moving) if self.program.want.rates else (None, {}, None)
         if self.case.motion and rates is None:
             self.scene.ask(_speed)
+        answers = _directed(self.case, _found(self.case, balance, self.unknowns))
         return Answer(
             case=self.case,
-            answers=_directed(self.case, _found(self.case, balance, self.unknowns)),
+            answers=answers,
             centres=Deferred(self.plain_centres),
             rates=rates,
             velocities=velocities,
@@ -97,10 +101,10 @@ class Parts:
             terms=Later(lambda: self.scene.ask(self._terms)),
             advantage=self.scene.ask(lambda found: advantage(found, self._values(found))),
             mobility=motions.mobility,
-            notes=(*self.figure.notes, *motions.notes, *self._explained(), *self._notes()),
+            notes=(*self.figure.notes, *motions.notes, *self._notes(answers)),
             skipped=Later(lambda: _skipped(self.program, self.first.outcome)),
             steps=Later(lambda: _steps(self.program)),
-            sensitivities=Deferred(lambda: slopes(self.traced) if self.traced else {}),
+            sensitivities=Deferred(lambda: self.slopes),
             errors={"rates": errors} if errors else {},
             scene=self,
         )
@@ -145,11 +149,44 @@ class Parts:
         cleaned = {link: _without_rounding(t, least) for link, t in known.items()}
         return {link: frame.twist_shown(t, speed.divisor) for link, t in cleaned.items()}
 
-    def _explained(self) -> tuple[str, ...]:
-        return (sentences.EXPLAINED,) if self.scene.explained else ()
+    def _notes(self, answers: Mapping[str, Found]) -> list[str]:
+        notes = [sentences.EXPLAINED] if self.scene.explained else []
+        notes += _notes(self.program, self.first.outcome)
+        if self.scene.certain and self.given is None:
+            notes += unsettled(self.case, answers, self._change(answers))
+        return notes
 
-    def _notes(self) -> list[str]:
-        return _notes(self.program, self.first.outcome)
+    @cached_property
+    def slopes(self) -> dict[str, dict[str, float]]:
+        """Derivative of every unknown load by every number of the case."""
+        return slopes(self.traced) if self.traced else {}
+
+    def _change(self, answers: Mapping[str, Found]) -> Callable[[Number], Mapping[str, float]]:
+        """By how much half a unit of a number moves each answer: by the derivatives of the tape, and so near
+        a singular position that a tape says nothing, by what the number so moved gives."""
+        by_tape: Mapping[str, Mapping[str, float]] = {}
+        with suppress(SceneError, ZeroDivisionError):
+            by_tape = self.slopes
+        if by_tape and self._tape_tells():
+            return lambda n: {load: abs(by.get(n.path, 0.0)) * n.half for load, by in by_tape.items()}
+        return lambda n: self._moved(n, answers)
+
+    def _tape_tells(self) -> bool:
+        assert self.traced is not None
+        found, true = self.traced.outcome.solution.values, self.first.outcome.solution.values
+        pairs = [(float(found[root]), float(true[root])) for root in true]
+        return all(abs(near - exact) <= 0.01 * abs(exact) for near, exact in pairs)
+
+    def _moved(self, number: Number, answers: Mapping[str, Found]) -> dict[str, float]:
+        reach: dict[str, float] = {}
+        for sign in (1, -1):
+            with suppress(SceneError, ZeroDivisionError, BelowZero, MoreDigits):
+                arithmetic = Moved(number, sign, PRECISIONS[1])
+                values = evaluate(self.program, arithmetic)[1].solution.values
+                for load in answers.keys() & values.keys():
+                    change = abs(float(values[load]) - answers[load].value)
+                    reach[load] = max(reach.get(load, 0.0), change)
+        return reach
 
     def _terms(self, found: Evaluation) -> tuple[Term, ...]:
         return tuple(power_terms(found, self._values(found), _speed(found)))

@@ -6,9 +6,10 @@ The derivatives come from the backward pass that bounds the rounding error (see 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Mapping
 from typing import Any, NamedTuple
 
-from icsolve.answer import Answer
+from icsolve.answer import Answer, Found
 from icsolve.case import Case, Coordinates, Corner, Direction, Number
 
 
@@ -92,6 +93,30 @@ def _rows(found: list[Influence], digits: int) -> list[str]:
         f"{format(i.per_unit, f'.{places}g'):>10}"
         for i in found
     ]
+
+
+def unsettled(
+    case: Case, answers: Mapping[str, Found], change: Callable[[Number], Mapping[str, float]]
+) -> list[str]:
+    """Notes on answers that half a unit of a last decimal could move by more than themselves; ``change`` has
+    the change of each answer by half a unit of a number."""
+    worst: dict[str, tuple[float, Number]] = {}
+    for number in numbers_of(case).values():
+        if _has_decimals(number):
+            for load, reach in change(number).items():
+                if load not in worst or reach > worst[load][0]:
+                    worst[load] = reach, number
+    return [
+        f"half a unit of the last decimal of {number.path} ({number.digits}) could move {load} by "
+        f"{reach:.2g} {answers[load].unit}, more than itself: give it with more digits."
+        for load, (reach, number) in worst.items()
+        if load in answers and reach > abs(answers[load].value) > 0.0
+    ]
+
+
+def _has_decimals(number: Number) -> bool:
+    """Whether a number was measured: a whole one is exact."""
+    return "." in number.digits and (number.exact is None or number.factor != 1.0)
 
 
 def numbers_of(case: Case) -> dict[str, Number]:
