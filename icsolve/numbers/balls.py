@@ -500,7 +500,10 @@ class Moved(Balls):
 
     def _read(self, number: Number) -> Ball:
         found = super()._read(number)
-        return found + self.sign * number.half if number.path == self.number.path else found
+        if number.path != self.number.path:
+            return found
+        half = self.exactly(Decimal(repr(number.half)))  # 5e-26 as it is written
+        return found + half if self.sign > 0 else found - half
 
 
 COARSE = 1e-9

@@ -169,7 +169,7 @@ class Parts:
             by_tape = self.slopes
         if by_tape and self._tape_tells():
             return lambda n: {load: abs(by.get(n.path, 0.0)) * n.half for load, by in by_tape.items()}
-        return lambda n: self._moved(n, answers)
+        return self._moved
 
     def _tape_tells(self) -> bool:
         assert self.traced is not None
@@ -177,15 +177,18 @@ class Parts:
         pairs = [(float(found[root]), float(true[root])) for root in true]
         return all(abs(near - exact) <= 0.01 * abs(exact) for near, exact in pairs)
 
-    def _moved(self, number: Number, answers: Mapping[str, Found]) -> dict[str, float]:
+    def _moved(self, number: Number) -> dict[str, float]:
         reach: dict[str, float] = {}
         for sign in (1, -1):
-            with suppress(SceneError, ZeroDivisionError, BelowZero, MoreDigits):
+            with suppress(SceneError, ZeroDivisionError, BelowZero, MoreDigits, KeyError):
                 arithmetic = Moved(number, sign, PRECISIONS[1])
                 values = evaluate(self.program, arithmetic)[1].solution.values
-                for load in answers.keys() & values.keys():
-                    change = abs(float(values[load]) - answers[load].value)
-                    reach[load] = max(reach.get(load, 0.0), change)
+                for load, value in self.first.outcome.solution.values.items():
+                    change, own = (x if float(x) > 0.0 else -x for x in (values[load] - value, value))
+                    size = float(own)  # doubles may not tell a change from the value itself
+                    far = max(float(change), math.nextafter(size, math.inf))
+                    near = min(float(change), size)
+                    reach[load] = max(reach.get(load, 0.0), far if change > own else near)
         return reach
 
     def _terms(self, found: Evaluation) -> tuple[Term, ...]:

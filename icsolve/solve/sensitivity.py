@@ -110,7 +110,7 @@ def unsettled(
         f"half a unit of the last decimal of {number.path} ({number.digits}) could move {load} by "
         f"{reach:.2g} {answers[load].unit}, more than itself: give it with more digits."
         for load, (reach, number) in worst.items()
-        if load in answers and reach >= abs(answers[load].value) > 0.0
+        if load in answers and reach > abs(answers[load].value) > 0.0
     ]
 
 
