@@ -234,7 +234,7 @@ def test_the_summary_counts_marks_and_mistakes(a_class: Class) -> None:
     assert "lever: 5 right, 4 wrong, 1 invalid; mean 56%" in ran.out
     assert "3 of 4 wrong answers: sign" in ran.out
     html = page.read_text(encoding="utf-8")
-    assert '<td><code>sign</code></td><td class="n">3</td>' in html
+    assert '<th scope="row"><code>sign</code></th><td class="n">3</td>' in html
     assert html.count("<rect") == 3
     assert "http" not in html.replace("http://www.w3.org", "")
 
@@ -338,3 +338,23 @@ def test_each_student_is_judged_by_the_key_of_their_own_variant(a_class: Class) 
         f"{k['student_id']},press,{float(k['value']) / 2}\n" for k in keys
     )
     assert {r["code"].split()[0] for r in a_class.grade(halves).rows()} == {"half"}
+
+
+@pytest.mark.parametrize(
+    ("course", "message"),
+    [
+        ("unit: required\ncases: {levr: {}}\n", ":2:9: there is no case 'levr'; did you mean 'lever'?"),
+        ("cases:\n  lever: {}\n  pusher:w9/w2: {}\n", "course.yaml:3:3: pusher: "),
+    ],
+)
+def test_a_question_of_the_course_that_is_none_is_refused(a_class: Class, course: str, message: str) -> None:
+    """Everyone would miss it."""
+    a_class.course(course)
+    ran = a_class.grade("student_id,case,answer\na,lever,200\n")
+    assert (ran.code, message in ran.err) == (2, True), ran.err
+
+
+def test_the_course_may_name_a_question_by_its_load(a_class: Class) -> None:
+    a_class.course("cases: {'lever:T': {points: 3}}\n")
+    ran = a_class.grade("student_id,case,answer\na,lever,200\n")
+    assert [(row["case"], row["score"]) for row in ran.rows()] == [("lever", "3")]

@@ -45,6 +45,7 @@ def export_command(kind: str, cases: str, output: str, **options: Any) -> int:
     try:
         course = course_of(options["course"], cases, False, {"seed": options["seed"]})
         case_store = CaseStore(existing(cases), course)
+        case_store.check_course()
         if kind != "prairielearn":
             check_free(output, options["force"])
         own = options["course"] or course_file(cases)

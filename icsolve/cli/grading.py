@@ -28,6 +28,7 @@ COURSE = "course.yaml"
 @click.option("-o", "--output", metavar="FILE", help="Results as CSV; - for standard output.")
 @click.option("--jsonl", metavar="FILE", help="Results as JSON Lines, with every cause that fits.")
 @click.option("--html", metavar="FILE", help="The class summary as one HTML page.")
+@click.option("--students", metavar="DIR", help="A page for each student, without right answers.")
 @click.option(
     "--write",
     "writes",
@@ -215,8 +216,8 @@ def _graded(job: Job, options: dict[str, Any]) -> int:
             csv.flush()
             changed = _regraded(results, options)
             _further(graded, job, results, options)
-    if options["html"]:
-        _page(graded, job, options)
+            if options["html"] or options["students"]:
+                _pages(graded, job, results, options)
     if not quiet:
         _summary(graded, changed, options["output"] == "-")
     return NO_ANSWER if graded.serious else DONE
@@ -228,7 +229,7 @@ def _results(options: dict[str, Any], force: bool) -> Iterator[tuple[IO[str] | N
     from icsolve.files import folder_of, scratch, whole_file
 
     output = options["output"]
-    again = any(options[name] for name in ("writes", "against", "review"))
+    again = any(options[name] for name in ("writes", "against", "review", "html", "students"))
     with ExitStack() as stack:
         target: IO[str] | None = sys.stdout if output == "-" else None
         if output not in (None, "-"):
@@ -294,11 +295,24 @@ def _regraded(results: str, options: dict[str, Any]) -> str:
     return changes_text(changes, options["against"])
 
 
-def _page(graded: Graded, job: Job, options: dict[str, Any]) -> None:
+def _pages(graded: Graded, job: Job, results: str, options: dict[str, Any]) -> None:
+    """The page for the teacher, and one for each student."""
     from icsolve.files import write_whole
-    from icsolve.grade.page import page
+    from icsolve.grade.page import page, student_page
+    from icsolve.grade.results import by_student
+    from icsolve.grade.roster import read_roster
+    from icsolve.grade.statistics import statistics
+    from icsolve.grade.variants.sheets import file_name
 
-    write_whole(options["html"], page(graded, job.course.title), options["force"])
+    if options["html"]:
+        people = read_roster(job.roster, lambda line, why: None).people if job.roster else {}
+        found = statistics(results, people)
+        write_whole(options["html"], page(graded, job.course.title, found), options["force"])
+    if options["students"]:
+        for student, rows in by_student(results):
+            if student:
+                path = os.path.join(options["students"], f"{file_name(student)}.html")
+                write_whole(path, student_page(student, rows, job.course.title), options["force"])
 
 
 def _summary(graded: Graded, changed: str, on_stderr: bool) -> None:

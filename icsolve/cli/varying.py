@@ -58,6 +58,7 @@ def variants_command(
 
     try:
         case_store = CaseStore(existing(cases), course_of(course, cases, quiet, {"seed": seed}))
+        case_store.check_course()
         people = read_roster(roster, lambda line, why: complain(f"{roster}:{line}: {why}"))
         return _all(case_store, list(people.people.values()), output, figures, force, quiet)
     except CaseError as error:

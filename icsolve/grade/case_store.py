@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Iterator
 from copy import copy
 from typing import TYPE_CHECKING
 
@@ -79,12 +79,23 @@ class Solved:
     def __init__(self, case: Case, course: Course, bound: bool = False) -> None:
         self.case = case
         self.course = course
-        self.answer = solved(case, bound)
+        self._bound = bound
+        self.plain = solved_plainly(case)
+        """the answers alone: enough for the key of a load"""
         self.scale = 1.0
         """by what the loads, and so the answers, are larger than in ``answer``"""
+        self._answer: Answer | None = None
         self._base: Solved | None = None
         self._keys: dict[str, AnyKey] = {}
         self._wrongs: dict[str, list[Wrong]] | None = None
+
+    @property
+    def answer(self) -> Answer:
+        """The answers with all centres and rates; solved when it is first asked for."""
+        origin = self._base or self
+        if origin._answer is None:
+            origin._answer = solved(self.case, self._bound)
+        return origin._answer
 
     def scaled(self, factor: float) -> Solved:
         """The same with all loads ``factor`` times as large; it shares what was solved."""
@@ -117,12 +128,12 @@ class Solved:
             key = self._base.key(question)
             return self._with_scale(key, target)
         policy = self.course.policy_of(question, self.case.tolerance)
-        answer = self.answer
         if isinstance(target, CentreIs):
-            return place_key(question, target, answer, policy, place_wrongs(answer, target))
+            return place_key(question, target, self.answer, policy, place_wrongs(self.answer, target))
         if isinstance(target, LoadIs):
-            ranged = range_key(question, target, answer, policy)
-            return ranged or scalar_key(question, target, answer, policy, lambda: self._of_load(target.load))
+            ranged = range_key(question, target, self.plain, policy)
+            name = target.load
+            return ranged or scalar_key(question, target, self.plain, policy, lambda: self._of_load(name))
         own = solved_for(self.case, target)
         return scalar_key(question, target, own, policy, lambda: target_wrongs(own, target))
 
@@ -138,6 +149,13 @@ class Solved:
         return self._wrongs.get(name, [])
 
 
+def solved_plainly(case: Case, bound: bool = False) -> Answer:
+    """The answers alone. Raises SceneError."""
+    from icsolve.solve import solve
+
+    return solve(case, bound=bound)
+
+
 def solved(case: Case, bound: bool = False) -> Answer:
     """The answer with all centres and rates; the bare answer where those can't be had.
 
@@ -146,9 +164,7 @@ def solved(case: Case, bound: bool = False) -> Answer:
     try:
         return solved_for(case, bound=bound)
     except SceneError:
-        from icsolve.solve import solve
-
-        return solve(case, bound=bound)
+        return solved_plainly(case, bound)
 
 
 class CaseStore:
@@ -183,6 +199,42 @@ class CaseStore:
         if name is None:
             return None
         return f"{name}:{what.strip()}" if colon and what.strip() else name
+
+    def check_course(self) -> None:
+        """Take the questions of the course by their one names.
+
+        Raises ValueError, with the place in the course, for one that no case can answer: all would miss it.
+        """
+        if os.path.isfile(self.folder):
+            return
+        own = []
+        for text, fields in self.course.own:
+            question = self.find(text)
+            why = f"there is no case '{text}'"
+            if question is not None:
+                name, _, what = question.partition(":")
+                question = self.canonical(question)
+                why = self._why_not_asked(name, what)
+            elif near := self.near(text):
+                why += f"; did you mean '{near}'?"
+            if why:
+                raise ValueError(f"{dict(self.course.places).get(text, 'course')}: {why}")
+            own.append((question or text, fields))
+        self.course = self.course._replace(own=tuple(own))
+
+    def _why_not_asked(self, name: str, what: str) -> str:
+        """Why a course can't ask this of a case; '' where it can, or the case itself can't be read."""
+        try:
+            case = self.read(name)
+        except NoKeyError:
+            return ""
+        if not what and len(unknowns(case)) != 1:
+            return ""
+        try:
+            asked_of(case, what)
+        except NoKeyError as error:
+            return str(error)
+        return ""
 
     def near(self, text: str) -> str:
         """The case whose name a text that names none is most like; '' for none."""
@@ -232,13 +284,6 @@ class CaseStore:
             varied = self.variation(name)
             if varied is not None:
                 varied.record = record
-
-    def foresee(self, questions: Iterable[str], students: Collection[str]) -> None:
-        """Draw for all students at once what the questions' cases leave to be drawn."""
-        for name in dict.fromkeys(question.partition(":")[0] for question in questions):
-            varied = self.variation(name) if name in self.paths else None
-            if varied is not None:
-                varied.foresee(students)
 
     def read(self, name: str) -> Case:
         """The case of that name.

@@ -61,6 +61,8 @@ class Course(NamedTuple):
     columns: tuple[tuple[str, str], ...] = ()
     reveal: bool = False
     """Whether the accepted range is told with a wrong answer too."""
+    places: tuple[tuple[str, str], ...] = ()
+    """where each question is named: ``course.yaml:7:9``"""
 
     @property
     def questions(self) -> tuple[str, ...]:
@@ -110,7 +112,10 @@ def _course(root: Mapping, problems: Problems) -> Course:
     policy = Policy(**_fields(root, _POLICY, problems))
     own = _questions(root.items.get("cases"), problems)
     columns = _columns(root.items.get("map"), problems)
-    return Course(**whole, policy=policy, own=own, columns=columns)
+    cases = root.items.get("cases")
+    keys = cases.keys if type(cases) is Mapping else {}
+    places = tuple((name, f"{problems.path}:{line}:{column}") for name, (line, column) in keys.items())
+    return Course(**whole, policy=policy, own=own, columns=columns, places=places)
 
 
 def _only(node: Mapping, known: tuple[str, ...], what: str, problems: Problems) -> None:

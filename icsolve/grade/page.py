@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import re
+from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 
 from icsolve.grade.mistakes import CODES
+from icsolve.grade.results import Row
 from icsolve.grade.run import Graded
-from icsolve.grade.summary import by_count, ordered_verdicts
+from icsolve.grade.statistics import Statistics
+from icsolve.grade.summary import by_count, mostly_unread, ordered_verdicts
 from icsolve.grade.tally import BINS, Counts
 
 _WIDTH, _HEIGHT, _HEAD, _FOOT = 720.0, 160.0, 16.0, 20.0
@@ -15,7 +18,7 @@ _ROW = 13.0
 _LETTER = 6.4
 """Width of a letter of a label, at most."""
 _MOST_MARKS = 12
-_BINS = [*range(-BINS - 1, 0), *range(1, BINS + 2)]
+_BINS = [*range(-BINS - 1, BINS + 2)]
 _STEP = _WIDTH / len(_BINS)
 
 Marks = tuple[tuple[str, float], ...]
@@ -41,8 +44,8 @@ def histogram(counts: Counts, marks: Marks) -> str:
 def _in_words(counts: Counts) -> str:
     total = sum(counts.bins.values())
     beyond = counts.bins.get(BINS + 1, 0) + counts.bins.get(-BINS - 1, 0)
-    about = sum(n for k, n in counts.bins.items() if k in (BINS // 2, BINS // 2 + 1))
-    near = f"{about} within 10 % of the right one"
+    about = counts.bins.get(BINS // 2, 0)
+    near = f"{about} within 5 % of the right one"
     return f"Histogram of {total} answers: {near}, {beyond} beyond twice its size"
 
 
@@ -58,8 +61,8 @@ def _bar(k: int, x: float, count: int, most: int) -> str:
 
 
 def _x(ratio: float) -> float:
-    """Where a ratio stands: one bin for what lies beyond at each end."""
-    return (BINS + 1) * _STEP + max(-2.05, min(2.05, ratio)) / 2.0 * BINS * _STEP
+    """Where a ratio stands: in the middle of its bin; one bin for what lies beyond at each end."""
+    return (BINS + 1.5) * _STEP + max(-2.1, min(2.1, ratio)) / 2.0 * BINS * _STEP
 
 
 def _labels(marks: Marks) -> tuple[str, int]:
@@ -70,7 +73,7 @@ def _labels(marks: Marks) -> tuple[str, int]:
         x, width = _x(ratio), _LETTER * len(code)
         start = min(max(x - width / 2.0, 0.0), _WIDTH - width)
         row = next((n for n, end in enumerate(ends) if end < start), len(ends))
-        ends[row:row + 1] = [start + width + _LETTER]
+        ends[row : row + 1] = [start + width + _LETTER]
         parts += _label(code, x, start + width / 2.0, _HEAD + _HEIGHT + _FOOT + _ROW * (row + 1))
     return "".join(parts), len(ends)
 
@@ -90,68 +93,142 @@ def _axis() -> str:
 
 
 _STYLE = """
-body{font-family:system-ui,sans-serif;max-width:60em;margin:2em auto;padding:0 1em}
+body{font-family:system-ui,sans-serif;max-width:60em;margin:2em auto;padding:0 1em;line-height:1.4}
 body{color:#1b1f24;background:#fff}a{color:#0b57d0}
-table{border-collapse:collapse;margin:.5em 0;display:block;overflow-x:auto}
-td,th{padding:.2em .8em;text-align:left;border-bottom:1px solid #d0d7de}
-td.n,th.n{text-align:right}td:first-child,td.n,th{white-space:nowrap}svg{max-width:100%;height:auto;margin-top:.5em}
+.wide{overflow-x:auto;margin:.5em 0}
+table{border-collapse:collapse}
+td,th{padding:.2em .8em;text-align:left;border-bottom:1px solid #d0d7de;vertical-align:top}
+td.n,th.n{text-align:right;white-space:nowrap}th{white-space:nowrap}tbody th{font-weight:normal}
+svg{width:100%;min-width:40em;height:auto;margin-top:.5em}
 .bar{fill:#5b7fa6}.far{fill:#6b7580}
 .mark{stroke:#b3261e;stroke-dasharray:3 2}.good{stroke:#2e7d32;stroke-width:2}.axis{stroke:currentColor}
 text{font-size:11px;fill:currentColor}h2{margin-top:2em;overflow-wrap:anywhere}
+code,.text{overflow-wrap:anywhere;white-space:pre-wrap}.warn{border-left:4px solid #b3261e;padding-left:.6em}
+@media (max-width:30em){body{margin:1em auto;padding:0 .6em}td,th{padding:.2em .4em}}
 @media (prefers-color-scheme:dark){
 body{color:#e6e9ed;background:#14181d}a{color:#8ab4f8}td,th{border-color:#3d444d}
 .bar{fill:#7fa3cc}.far{fill:#8d97a3}.mark{stroke:#f2b8b5}.good{stroke:#81c995}}
 @media print{h2{break-after:avoid}svg,table{break-inside:avoid}}
 """
 _HEADS = ("right", "wrong", "invalid", "review", "missing")
+_SHOWN = 10
+"""Texts of a question that are shown: the commonest."""
 
 
-def page(graded: Graded, title: str = "") -> str:
-    """The whole page."""
-    name = escape(title or "Class summary")
+def page(graded: Graded, title: str = "", found: Statistics | None = None) -> str:
+    """The whole page; ``found`` adds what the results tell of students and questions."""
+    name = title or "Class summary"
     sections = enumerate(graded.counts.items())
     body = "".join(_section(graded, n, item, counts) for n, (item, counts) in sections)
     notes = "".join(f"<li>{escape(str(note))}</li>" for note in graded.notes)
     listed = f"<h2>Noted</h2><ul>{notes}</ul>" if notes else ""
+    unread = [told for item, counts in graded.counts.items() if (told := mostly_unread(item, counts))]
+    warned = "".join(f'<p class="warn">{escape(told)}</p>' for told in unread)
+    people = _people(found) if found is not None else ""
+    return _document(
+        name,
+        f"<p>{graded.rows} answers from {graded.students} students</p>"
+        f"{warned}{_overview(graded, found)}{_queue(graded)}{body}{people}{listed}",
+    )
+
+
+def _document(title: str, body: str) -> str:
+    name = escape(title)
     return (
         f'<!doctype html>\n<html lang="en"><head><meta charset="utf-8"><title>{name}</title>'
-        f'<meta name="viewport" content="width=device-width"><style>{_STYLE}</style></head><body>'
-        f"<h1>{name}</h1><p>{graded.rows} answers from {graded.students} students</p>"
-        f"{_table(graded)}{body}{listed}</body></html>\n"
+        f'<meta name="viewport" content="width=device-width, initial-scale=1"><style>{_STYLE}</style></head>'
+        f"<body><main><h1>{name}</h1>{body}</main></body></html>\n"
     )
 
 
-def _table(graded: Graded) -> str:
-    """Marks by question, and of all."""
-    top = "".join(f'<th class="n">{head}</th>' for head in _HEADS)
-    rows = "".join(
-        _row(f'<a href="#q{n}">{escape(item)}</a>', [counts])
-        for n, (item, counts) in enumerate(graded.counts.items())
+def _table(name: str, heads: Sequence[str], rows: Iterable[Sequence[str]], numbers: range) -> str:
+    """A table that can be scrolled with the keyboard; its cells are HTML, those of ``numbers``
+    right-aligned.
+    """
+
+    def kind(column: int) -> str:
+        return ' class="n"' if column in numbers else ""
+
+    top = "".join(f'<th scope="col"{kind(i)}>{head}</th>' for i, head in enumerate(heads))
+    body = "".join(
+        f'<tr><th scope="row">{first}</th>'
+        + "".join(f"<td{kind(i)}>{cell}</td>" for i, cell in enumerate(rest, 1))
+        + "</tr>"
+        for first, *rest in rows
     )
-    whole = _row("all questions", list(graded.counts.values())) if len(graded.counts) > 1 else ""
-    return f'<table><tr><th>question</th>{top}<th class="n">mean mark</th></tr>{rows}{whole}</table>'
+    return (
+        f'<div class="wide" role="region" aria-label="{escape(name)}" tabindex="0"><table>'
+        f"<thead><tr>{top}</tr></thead><tbody>{body}</tbody></table></div>"
+    )
 
 
-def _row(name: str, counts: list[Counts]) -> str:
-    cells = "".join(f'<td class="n">{sum(c.verdicts[head] for c in counts)}</td>' for head in _HEADS)
+def _share(value: float | None) -> str:
+    return f"{value:.0%}" if value is not None else ""
+
+
+def _overview(graded: Graded, found: Statistics | None) -> str:
+    """Marks by question, and of all; how telling each question is."""
+    items = found.items if found is not None else {}
+    rows = []
+    for n, (item, counts) in enumerate(graded.counts.items()):
+        one = items.get(item)
+        told = one.discrimination if one is not None else None
+        extra = [f"{told:.2f}" if told is not None else ""] if found is not None else []
+        rows.append([f'<a href="#q{n}">{escape(item)}</a>', *_cells([counts]), *extra])
+    if len(graded.counts) > 1:
+        rows.append(["all questions", *_cells(list(graded.counts.values())), *([""] if found else [])])
+    heads = ["question", *_HEADS, "mean mark", *(["discrimination"] if found is not None else [])]
+    return _table("Marks by question", heads, rows, range(1, len(heads)))
+
+
+def _cells(counts: list[Counts]) -> list[str]:
+    cells = [str(sum(c.verdicts[head] for c in counts)) for head in _HEADS]
     score, most = sum(c.score for c in counts), sum(c.max_score for c in counts)
-    return f'<tr><td>{name}</td>{cells}<td class="n">{f"{score / most:.0%}" if most else ""}</td></tr>'
+    return [*cells, _share(score / most if most else None)]
+
+
+def _queue(graded: Graded) -> str:
+    """What waits for a person, the commonest first."""
+    waiting = [(n, item, text) for item, counts in graded.counts.items() for text, n in counts.texts.items()]
+    if not waiting:
+        return ""
+    shown = sorted(waiting, key=lambda one: (-one[0], one[1:]))
+    rows = [[escape(item), _text(text), str(n)] for n, item, text in shown[: 2 * _SHOWN]]
+    more = len(shown) - len(rows)
+    rest = f"<p>And {more} other texts; <code>--review FILE</code> has all of them.</p>" if more > 0 else ""
+    table = _table("Answers that wait for a person", ("question", "answer", "students"), rows, range(2, 3))
+    return f"<h2>Waiting for a person</h2>{table}{rest}"
+
+
+def _text(text: str) -> str:
+    return f'<span class="text">{escape(text)}</span>' if text else "(nothing)"
 
 
 def _section(graded: Graded, n: int, item: str, counts: Counts) -> str:
     said = ", ".join(f"{number} {verdict}" for verdict, number in ordered_verdicts(counts))
     accepted = f"<p>Accepted: {escape(graded.accepted[item])}.</p>" if item in graded.accepted else ""
     wrong = counts.verdicts["wrong"]
-    rows = "".join(_mistake(code, number, wrong) for code, number in by_count(counts.mistakes))
-    heads = '<tr><th>mistake</th><th class="n">answers</th><th class="n">of the wrong</th><th></th></tr>'
-    table = f"<table>{heads}{rows}</table>" if rows else ""
-    unread = ", ".join(f"{number} {escape(code)}" for code, number in counts.unread.most_common())
-    other = f"<p>Not judged: {unread}</p>" if unread else ""
-    picture = histogram(counts, graded.marks.get(item, ())) if counts.bins else ""
+    rows = [_mistake(code, number, wrong) for code, number in by_count(counts.mistakes)]
+    heads = ("mistake", "answers", "of the wrong", "meaning")
+    table = _table(f"Mistakes in {item}", heads, rows, range(1, 3)) if rows else ""
+    picture = ""
+    if counts.bins:
+        drawn = histogram(counts, graded.marks.get(item, ()))
+        about = f'role="region" aria-label="Histogram of {escape(item)}" tabindex="0"'
+        picture = f'<div class="wide" {about}>{drawn}</div>'
     return (
-        f'<h2 id="q{n}">{escape(item)}</h2><p>{said}</p>{accepted}{table}{other}{picture}'
+        f'<h2 id="q{n}">{escape(item)}</h2><p>{said}</p>{accepted}{table}{_unexplained(counts)}{picture}'
         f"{_owing(graded.owing.get(item, ()), counts)}"
     )
+
+
+def _unexplained(counts: Counts) -> str:
+    """The commonest wrong values whose cause is not known: many alike have one."""
+    common = [(value, n) for value, n in counts.unexplained.most_common(_SHOWN) if n > 1]
+    if not common:
+        return ""
+    said = ", ".join(f"{escape(value)} ({n} times)" for value, n in common)
+    return f"<p>The commonest wrong answers of no known cause: {said}</p>"
 
 
 def _owing(students: tuple[str, ...], counts: Counts) -> str:
@@ -163,9 +240,53 @@ def _owing(students: tuple[str, ...], counts: Counts) -> str:
     return f"<p>No answer: {escape(', '.join(students))}{rest}</p>"
 
 
-def _mistake(code: str, number: int, wrong: int) -> str:
+def _mistake(code: str, number: int, wrong: int) -> list[str]:
     told = CODES.get(code, "").format(at="")
     shown = f"<code>{escape(code)}</code>" if code else "no known cause"
-    share = f"{number / wrong:.0%}" if wrong else ""
-    cells = f'<td class="n">{number}</td><td class="n">{share}</td><td>{escape(told)}</td>'
-    return f"<tr><td>{shown}</td>{cells}</tr>"
+    return [shown, str(number), f"{number / wrong:.0%}" if wrong else "", escape(told)]
+
+
+def _people(found: Statistics) -> str:
+    """Sections, and the totals of all students."""
+    parts = ""
+    if found.sections:
+        rows = [[escape(name), str(n), _share(mean)] for name, (n, mean) in found.sections.items()]
+        parts += "<h2>Sections</h2>" + _table("Sections", ("section", "students", "mean"), rows, range(1, 3))
+    if found.totals:
+        rows = [
+            [escape(t.student), escape(t.section), f"{t.score:.10g}", f"{t.most:.10g}", str(t.waiting or "")]
+            for t in found.totals
+        ]
+        heads = ("student", "section", "marks", "of", "waiting")
+        parts += "<h2>Students</h2>" + _table("Totals of students", heads, rows, range(2, 5))
+    return parts
+
+
+# --- for a student ----------------------------------------------------------------------------------
+
+_ACCEPTED = re.compile(r"^Right: .* is accepted\.")
+
+
+def student_page(student: str, rows: Sequence[Row], title: str = "") -> str:
+    """What one student may see: the own answers, marks and feedback, and no right answers."""
+    cells = [
+        [
+            escape(row.case),
+            _text(row.raw_answer),
+            row.verdict,
+            _marks(row),
+            escape(_ACCEPTED.sub("Right.", row.feedback)),
+        ]
+        for row in rows
+    ]
+    judged = [row for row in rows if row.score is not None]
+    score, most = sum(row.score or 0.0 for row in judged), sum(row.max_score for row in judged)
+    waiting = len(rows) - len(judged)
+    rest = f" {waiting} not judged yet." if waiting else ""
+    heads = ("question", "your answer", "verdict", "marks", "feedback")
+    body = f"<p>{escape(student)}: {score:.10g} of {most:.10g} marks.{rest}</p>"
+    return _document(title or "Marks", body + _table("Your answers", heads, cells, range(3, 4)))
+
+
+def _marks(row: Row) -> str:
+    return f"{row.score:.10g} of {row.max_score:.10g}" if row.score is not None else "waiting"

@@ -230,6 +230,8 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
     case_store = CaseStore(job.cases, job.course)
     if not case_store.paths:
         raise ValueError(f"there is no case in {job.cases}")
+    case_store.check_course()
+    job = job._replace(course=case_store.course)
     roster = read_roster(job.roster, lambda at, why: issues.note(job.roster, at, why)) if job.roster else None
     if job.variants:
         _keep_to_record(job, case_store, roster, issues)
@@ -241,8 +243,6 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
         _take_in(imported, paths, job)
         questions = tuple(sorted(set(job.course.questions) or _asked(imported)))
         students = sorted(set(imported.students) | set(_expected(job, roster)))
-        progress("drawing variants", 0.0)
-        case_store.foresee(imported.questions, students)
         if not imported.count:
             raise ValueError(f"there is no table of answers in {', '.join(job.submissions)}")
         parts = divided(questions, students, imported.count, job.jobs)
@@ -334,7 +334,6 @@ def _keep_to_record(job: Job, case_store: CaseStore, roster: Roster | None, issu
     for name, record in case_store.records.items():
         varied = case_store.variation(name)
         if varied is not None:
-            varied.foresee(record.handed)
             for told in changes(varied, record):
                 issues.note(record.path, 0, told)
 

@@ -50,6 +50,9 @@ def _question(item: str, counts: Counts) -> Iterator[str]:
         yield f"  {sum(n for _, n in named[_SHOWN:])} of {wrong} wrong answers: other causes"
     if counts.mistakes[""]:
         yield f"  {counts.mistakes['']} of {wrong} wrong answers: no known cause"
+    common = [(value, n) for value, n in counts.unexplained.most_common(3) if n > 1]
+    if common:
+        yield "  the commonest of them: " + ", ".join(f"{value} ({n} times)" for value, n in common)
     if counts.unread:
         yield "  not judged: " + ", ".join(f"{n} {code}" for code, n in counts.unread.most_common(_SHOWN))
     yield from histogram(counts)
@@ -75,9 +78,9 @@ def histogram(counts: Counts) -> Iterator[str]:
         return
     bars = "▁▂▃▄▅▆▇█"
     most = max(counts.bins.values())
-    cells = [counts.bins.get(k, 0) for k in (*range(-BINS - 1, 0), *range(1, BINS + 2))]
+    cells = [counts.bins.get(k, 0) for k in range(-BINS - 1, BINS + 2)]
     drawn = "".join(" " if not n else bars[max(0, -(-n * len(bars) // most) - 1)] for n in cells)
-    place = BINS + 1 + BINS // 2 - 1
+    place = BINS + 1 + BINS // 2
     yield f"  |{drawn}|"
     yield "   " + " " * place + "^ right; left and right of it -2 to 2 times, and beyond"
 

@@ -10,15 +10,18 @@ from typing import NamedTuple
 from icsolve.grade.results import Marked
 
 BINS = 20
-"""Bins of the histogram to each side of zero, up to twice the right answer; one more for what lies beyond."""
+"""Bins of the histogram to each side of zero, up to twice the right answer; one more for what lies beyond.
+
+The right answer, its half and its double lie in the middle of bins, so that rounding does not divide them."""
 _SPAN = 2.0
 
 
 OTHERS = "(other names that are no case)"
 _MOST_STRANGE = 200
-_MOST_TEXTS = 4000
-_LONGEST = 80
 """Names that are no case which are counted one by one."""
+_MOST_TEXTS = 4000
+"""Texts of a question that are counted one by one; of more the commonest half is kept."""
+_LONGEST = 80
 
 
 class Counts(NamedTuple):
@@ -48,9 +51,9 @@ def empty() -> Counts:
 def bin_of(value: float, right: float, half: float) -> int:
     """The bin of an answer: of its ratio to the right one, of a zero by half-widths."""
     ratio = value / right if right else (value / half if half else 0.0)
-    if not math.isfinite(ratio) or abs(ratio) > _SPAN:
+    if not math.isfinite(ratio) or abs(ratio) > _SPAN * (1.0 + 0.5 / BINS):
         return (BINS + 1) * (1 if ratio > 0 else -1)
-    return math.ceil(ratio / _SPAN * BINS) if ratio > 0 else math.floor(ratio / _SPAN * BINS)
+    return round(ratio / _SPAN * BINS)
 
 
 class Tally:

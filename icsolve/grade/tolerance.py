@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from icsolve.answer import Answer
 from icsolve.case import (
+    Case,
     ForceVector,
     Load,
     LoadIs,
@@ -254,8 +255,6 @@ def _exact(target: Target, answer: Answer) -> dict[str, float]:
 
 def _differences(target: Target, answer: Answer) -> dict[str, float]:
     """Derivatives by every number of the figure; of a place, how far it goes."""
-    from icsolve.grade.variants.family import as_written
-
     numbers = as_written(replace(answer.case, loads=()))
     return {path: _slope(target, answer, path, number.value) for path, number in numbers.items()}
 
@@ -282,3 +281,18 @@ def _changed(target: Target, answer: Answer, path: str, value: float) -> tuple[f
         return value_of(solved_for(case, target), target)
     except (IcsolveError, ArithmeticError, LookupError):
         return None
+
+
+def as_written(case: Case) -> dict[str, Number]:
+    """The numbers of a case's figure and of its loads, by path."""
+    found: dict[str, Number] = {}
+    stack: list[object] = [case.points, case.lengths, case.angles, case.loads]
+    while stack:
+        item = stack.pop()
+        if isinstance(item, Number):
+            found[item.path] = item
+        elif isinstance(item, dict):
+            stack.extend(item.values())
+        elif isinstance(item, tuple):
+            stack.extend(item)
+    return found

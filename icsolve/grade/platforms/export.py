@@ -150,7 +150,6 @@ def questions(order: Order, complain: Complain) -> Iterator[Question]:
                 solved = order.case_store.solved(name)
                 yield from _of_case(solved, solved.case, name, order, solved.case.title)
                 continue
-            varied.foresee(str(n) for n in range(1, order.variants + 1))
             for n in range(1, order.variants + 1):
                 case = varied.read(varied.draw(str(n)).values)
                 yield from _of_case(varied.solved(str(n)), case, f"{name} v{n}", order, varied.title)

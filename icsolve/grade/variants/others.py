@@ -19,8 +19,8 @@ _FIGURES = 3
 """Written figures from which an answer can be told from a neighbour's."""
 _CHANCE = 0.05
 """Part of the range of a class's answers that they may cover, so that hitting one is no accident."""
-_FEW = 200
-"""Variants that are solved one by one to know their answers."""
+_FEW = 500
+"""Figures that are solved to know the answers of others; more would take too long."""
 _ANSWERS = 3
 """Answers by which a wrong seed is told."""
 
@@ -54,12 +54,15 @@ class Neighbours:
         """The right answers in order, each with its label; none where they would all have to be solved."""
         varied = self._store.variation(question.partition(":")[0])
         found: dict[str, float] = {}
+        figures: set[tuple[str, ...]] = set()
         for student in self._students if varied is not None else ():
             assert varied is not None
             try:
                 draw = varied.draw(student)
-                if draw.label in found or (varied.value(draw) is None and len(found) >= _FEW):
+                figure = varied.figure(draw)
+                if draw.label in found or (figure not in figures and len(figures) >= _FEW):
                     continue
+                figures.add(figure)
                 key = varied.key(question, student)
             except NoKeyError:
                 continue

@@ -29,7 +29,6 @@ class Task(NamedTuple):
 def tasks(varied: Varied, people: Iterable[Person]) -> Iterator[Task | NoKeyError]:
     """Every student's variant; the error of one for whom none suits."""
     found = list(people)
-    varied.foresee(person.student_id for person in found)
     for person in found:
         try:
             yield Task(person, varied.draw(person.student_id))

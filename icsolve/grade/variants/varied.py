@@ -5,22 +5,17 @@ from __future__ import annotations
 import hashlib
 import re
 from collections import OrderedDict
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from icsolve.answer import Answer
-from icsolve.case import Case, Force, Load, Mark, Number, Torque, Variable
+from icsolve.case import Case, Load, Mark, Number, Variable
 from icsolve.errors import CaseError, IcsolveError, SceneError
-from icsolve.grade.case_store import Solved, unknowns
+from icsolve.grade.case_store import Solved
 from icsolve.grade.course import Course
 from icsolve.grade.keys import (
     AnyKey,
-    ExpectedDirection,
-    Key,
-    Places,
-    expected_direction,
-    simple_key,
 )
 from icsolve.grade.mistakes import Wrong
 from icsolve.grade.mistakes.changed import without_friction
@@ -37,7 +32,6 @@ from icsolve.wording.senses import unit_of
 
 if TYPE_CHECKING:
     from icsolve.grade.variants.record import Handed, Record
-    from icsolve.grade.variants.together import Together
 
 TRIALS = 60
 """Draws of one student, until one suits."""
@@ -150,12 +144,10 @@ Mistake = tuple[str, str, str]
 
 
 class Seen(NamedTuple):
-    """A variant looked at: whether it is far from dead centres, and the mistakes that it would not show;
-    its answer, if it was looked at in a sweep."""
+    """A variant looked at: whether it is far from dead centres, and the mistakes that it would not show."""
 
     far: bool
     swallowed: frozenset[Mistake]
-    value: float | None = None
 
 
 def looked_at(answer: Answer) -> Seen:
@@ -221,10 +213,6 @@ _KEPT = 1000
 """Figures that are kept solved."""
 _KNOWN = 100_000
 """Students whose draw is kept, and variants of which it is known whether they suit."""
-_TOGETHER = 4096
-"""Students whose variants are looked at in one sweep."""
-_FEW = 16
-"""So few are looked at one by one."""
 _UNFIT = Seen(False, frozenset())
 
 
@@ -289,7 +277,6 @@ class Varied:
     def drawn_otherwise(self, handed: Mapping[str, Handed]) -> list[str]:
         """Students who would now be given other numbers than those that were handed out."""
         fresh = Varied(self.name, self.text, self.path, self.course)
-        fresh.foresee(handed)
         found = []
         for student, given in handed.items():
             try:
@@ -300,17 +287,6 @@ class Varied:
                 found.append(student)
         return found
 
-    def foresee(self, students: Iterable[str]) -> None:
-        """Draw for many students, whose variants are looked at in one sweep where that can be."""
-        if self.record is not None:
-            known = [given.values for s in students if (given := self.record.handed.get(s)) is not None]
-            for start in range(0, len(known), _TOGETHER):
-                self._see_all(known[start : start + _TOGETHER])
-            return
-        waiting = [student for student in students if student not in self._draws]
-        for start in range(0, len(waiting), _TOGETHER):
-            self._foresee(waiting[start : start + _TOGETHER])
-
     def solved(self, student: str) -> Solved:
         """The student's own task, solved.
 
@@ -319,12 +295,12 @@ class Varied:
         return self.task(self.draw(student))
 
     def key(self, question: str, student: str) -> AnyKey:
-        """The key of a student's own task; as far as a sweep tells it, nothing more is solved.
+        """The key of a student's own task.
 
         Raises NoKeyError.
         """
         draw = self.draw(student)
-        return swept_key(self, draw, question) or self.task(draw).key(question)
+        return self.task(draw).key(question)
 
     def task(self, draw: Draw) -> Solved:
         """A variant, solved.
@@ -338,19 +314,9 @@ class Varied:
             _keep(self._tasks, values, found, _KEPT)
         return found
 
-    def value(self, draw: Draw) -> float | None:
-        """The answer of a variant that was looked at in a sweep; None where it was not."""
-        base = self._figure(draw.values)
-        factor = self.magnitudes.factor(base, draw.values)
-        if factor is not None and factor > 0.0:
-            seen = self._seen.get(tuple(base.values()))
-            return seen.value * factor if seen is not None and seen.value is not None else None
-        seen = self._seen.get(tuple(draw.values.values()))
-        return seen.value if seen is not None else None
-
-    def is_fixed(self, path: str) -> bool:
-        """Whether the number at a path is the same in all variants that a sweep gave."""
-        return self._together is not None and all(n.path != path for n in self._together.numbers)
+    def figure(self, draw: Draw) -> tuple[str, ...]:
+        """The values of a draw that its figure hangs on; draws of one figure are solved once."""
+        return tuple(self._figure(draw.values).values())
 
     def read(self, values: Texts) -> Case:
         """The case with these values, its figure and all."""
@@ -441,50 +407,6 @@ class Varied:
         draws = (drawn(self.name, self.case.variables, "", "", trial) for trial in range(_REFERENCES))
         return [(figure, self._looked_at(figure)) for figure in map(self._figure, draws)]
 
-    # --- many at once -----------------------------------------------------------------------------
-
-    def _foresee(self, waiting: list[str]) -> None:
-        for trial in range(TRIALS):
-            if len(waiting) < _FEW or self._together is None:
-                return
-            draws = {student: self._values(student, trial) for student in waiting}
-            self._see_all(list(draws.values()))
-            for student, values in draws.items():
-                if self._suits(values):
-                    _keep(self._draws, student, Draw(label(self.name, values), values), _KNOWN)
-            waiting = [student for student in waiting if student not in self._draws]
-
-    def _see_all(self, draws: Sequence[Texts]) -> None:
-        """Look at variants by their figures; where their loads do not grow alike, at all of them."""
-        if len(draws) < _FEW or self._together is None:
-            return
-        figures = [self._figure(values) for values in draws]
-        self._see(figures)
-        self._see([v for f, v in zip(figures, draws, strict=True) if not self._scales(f, v)])
-
-    def _see(self, draws: Sequence[Texts]) -> None:
-        """Look at the variants that were not looked at yet, in one sweep."""
-        new = {key: values for values in draws if (key := tuple(values.values())) not in self._seen}
-        if new and self._together is not None:
-            for key, seen in zip(new, self._together.seen(list(new.values())), strict=True):
-                if seen is not None:
-                    _keep(self._seen, key, seen, _KNOWN)
-
-    @cached_property
-    def _together(self) -> Together | None:
-        """The sweep of this case, from a variant that suits; None where it can't be made."""
-        base = next((values for values, seen in self._references if seen.far), None)
-        solved = self._exactly(base) if base is not None else None
-        if solved is None:
-            return None
-        from icsolve.grade.variants.family import UnsuitedError
-        from icsolve.grade.variants.together import Together
-
-        try:
-            return Together(self.text, solved.case, solved.answer)
-        except (UnsuitedError, SceneError):
-            return None
-
 
 K = TypeVar("K")
 V = TypeVar("V")
@@ -495,37 +417,3 @@ def _keep(store: OrderedDict[K, V], key: K, value: V, most: int) -> None:
     if len(store) >= most:
         store.popitem(last=False)
     store[key] = value
-
-
-def swept_key(varied: Varied, draw: Draw, question: str) -> Key | None:
-    """The key of the only unknown; None where more than its size has to be known."""
-    names = unknowns(varied.case)
-    value = varied.value(draw) if question == varied.name and len(names) == 1 else None
-    load = next((load for load in varied.case.loads if load.name in names), None)
-    policy = varied.course.policy_of(question, varied.case.tolerance)
-    if value is None or load is None or not _same_sense(varied, load) or policy.tolerance.drawing:
-        return None
-
-    def wrongs() -> tuple[Wrong, ...]:
-        found = varied.task(draw).key(question)
-        assert isinstance(found, Key)
-        return found.wrongs.all
-
-    expected = _expected(varied, draw, load)
-    return simple_key(question, value, unit_of(load, varied.case), policy, expected, wrongs)
-
-
-def _same_sense(varied: Varied, load: Load) -> bool:
-    """Whether its direction is the same in all variants: a torque, or a force at a number of degrees."""
-    if isinstance(load, Force) and isinstance(load.heading, Number):
-        return varied.is_fixed(load.heading.path)
-    return isinstance(load, Torque)
-
-
-def _expected(varied: Varied, draw: Draw, load: Load) -> ExpectedDirection:
-    """Its senses; the variant is solved when words ask where its points are."""
-
-    def places() -> Places:
-        return expected_direction(load, varied.task(draw).answer).places()
-
-    return expected_direction(load, Answer(varied.case))._replace(places=places)
