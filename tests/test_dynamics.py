@@ -286,3 +286,43 @@ joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}]
 motion: {link: 2, speed: 3}
 """)
     assert caught.value.status == "mobility"
+
+
+# --- sweeps ----------------------------------------------------------------------------------------
+
+FOUR_BAR = """
+points: {A: [0, 0], D: [4, 0], G: {centroid: [B, C]}}
+lengths: {AB: 1, BC: 3.5, CD: 2.5}
+angles: {AB: 60}
+near: {C: [3.5, 2.4]}
+links: {3: {mass: 2 kg, centre: G, inertia: 0.4 kg*m^2}, 4: {inertia: 0.3 kg*m^2}}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {pin: [4, 1], at: D}
+motion: {link: 2, speed: 10}
+loads: {T: {torque: unknown, link: 2}}
+"""
+
+
+def test_rows_of_a_dynamic_sweep_are_the_scenes() -> None:
+    degrees = np.array([10.0, 60.0, 200.0])
+    case = icsolve.load("icsolve: 1\n" + FOUR_BAR)
+    want = ("answers", "status", "velocities", "accelerations")
+    rows = icsolve.sweep(case, {"angles.AB": degrees}, want, dynamic=True)
+    assert list(rows.status) == ["ok"] * 3
+    for n, angle in enumerate(degrees):
+        scene = icsolve.load("icsolve: 1\n" + FOUR_BAR.replace("AB: 60", f"AB: {angle}"))
+        answer = icsolve.solve(scene, dynamic=True)
+        assert rows.answers["T"][n] == pytest.approx(answer.answers["T"].value, rel=1e-12)
+        assert answer.accelerations is not None
+        assert answer.velocities is not None
+        assert answer.angular_accelerations is not None
+        assert tuple(rows.accelerations["G on 3"][n]) == pytest.approx(answer.accelerations["G", "3"])
+        assert tuple(rows.velocities["C on 4"][n]) == pytest.approx(answer.velocities["C", "4"])
+        assert rows.angular_accelerations["4"][n] == pytest.approx(answer.angular_accelerations["4"])
+    again = icsolve.sweep(replace(case, dynamic=True), {"angles.AB": degrees})
+    assert again.answers["T"] == pytest.approx(rows.answers["T"])
+    with pytest.raises(ValueError, match="dynamic"):
+        icsolve.sweep(case, {"angles.AB": degrees}, ("accelerations",))

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 Ranges = tuple[tuple[str, "Values"], ...]
 WRITTEN = (".csv", ".jsonl", ".npz")
-MORE = ("error", "points", "centres", "rates")
+MORE = ("error", "points", "centres", "rates", "velocities", "accelerations")
 
 
 class Asked(NamedTuple):
@@ -38,6 +38,7 @@ class Asked(NamedTuple):
     as_json: bool
     digits: int
     want: tuple[str, ...]
+    dynamic: bool
 
     @property
     def suffix(self) -> str:
@@ -54,6 +55,9 @@ class Asked(NamedTuple):
 @click.option("--points", is_flag=True, help="The places of the points too.")
 @click.option("--centres", is_flag=True, help="All instant centres too, homogeneous.")
 @click.option("--rates", is_flag=True, help="The angular velocities of the links too.")
+@click.option("--velocities", is_flag=True, help="The velocities of the points too.")
+@click.option("--accelerations", is_flag=True, help="With --dynamic: those of the links and points too.")
+@click.option("--dynamic", is_flag=True, help="With the inertia forces of the motion.")
 @click.option("--plot", metavar="SVG", help="The answers over the range, as a picture, into this file.")
 @click.option("--find", metavar="WHAT", help="Instead of rows, where: dead, max, or NAME=VALUE (T12=0).")
 @click.option("--json", "as_json", is_flag=True, help="With --find: one JSON object.")
@@ -138,7 +142,7 @@ def _table(read: Case, path: str, asked: Asked) -> int:
         content, some = positions_table(read, varied, asked.suffix)
         return _written([content], asked.output, asked) or (DONE if some else NO_ANSWER)
     with Progress(math.prod(len(values) for _, values in (*asked.vary, *asked.drive))) as progress:
-        found = sweep(read, varied, asked.want, drive=driven, progress=progress.told)
+        found = sweep(read, varied, asked.want, drive=driven, dynamic=asked.dynamic, progress=progress.told)
     for note in found.notes:
         complain(f"{path}: {note}")
     code = _pictured(found, asked) if asked.plot is not None else DONE

@@ -17,7 +17,7 @@ from icsolve.sweep.numbers import find_number
 from icsolve.sweep.program import Asked
 from icsolve.sweep.scene import pairs as all_pairs
 
-WORDS = ("answers", "status", "error", "points", "centres", "rates")
+WORDS = ("answers", "status", "error", "points", "centres", "rates", "velocities", "accelerations")
 
 
 class AskError(ValueError):

@@ -15,6 +15,7 @@ from icsolve.numbers.replay import Array
 from icsolve.solve.refusals import rubs
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.ask import Columns, Wanted, columns_of, refuse_size, shown_points, wanted_of
+from icsolve.sweep.inertia import refuse_profiles, refuse_still, sweep_moving
 from icsolve.sweep.numbers import with_numbers
 from icsolve.sweep.program import Asked
 from icsolve.sweep.runner import Progress
@@ -36,6 +37,7 @@ def sweep(
     want: Sequence[str] = ("answers", "status"),
     *,
     drive: Mapping[str, npt.ArrayLike] | None = None,
+    dynamic: bool = False,
     progress: Progress | None = None,
 ) -> Sweep:
     """Solve a case for many values of some of its numbers.
@@ -47,9 +49,10 @@ def sweep(
     ----------
     case : as `icsolve.load` returns it
     vary : arrays of values by path (``angles.AB``, ``loads.P``), zipped; case units, degrees
-    want : ``answers``, ``status``, ``error``, ``points``, ``centres``, ``rates``; or single ones,
-        ``points.C``, ``centres.2-4``
+    want : ``answers``, ``status``, ``error``, ``points``, ``centres``, ``rates``, ``velocities``,
+        ``accelerations`` (with inertia forces); or single ones, ``points.C``, ``centres.2-4``
     drive : arrays of degrees by which links are turned from the position as written, by link
+    dynamic : with the inertia forces of the given motion, as in `icsolve.solve`
     progress : called with the number of rows that were done, time and again
 
     Raises
@@ -67,9 +70,14 @@ def sweep(
     wanted = wanted_of(case, tuple(want) if not isinstance(want, str) else (want,))
     refuse_size(columns, wanted.asked, wanted.error)
     if case.profiles is not None and case.profiles.touches:
+        refuse_profiles(dynamic or case.dynamic)
         from icsolve.cams.sweeping import sweep_touching
 
         return sweep_touching(case, columns, wanted, progress)
+    dynamic = dynamic or case.dynamic
+    refuse_still(case, wanted, dynamic)
+    if dynamic or "velocities" in wanted.words:
+        return sweep_moving(replace(case, dynamic=False), columns, wanted, dynamic, progress)
     start = start_of(case, columns, _told(case, wanted.asked))
     if start.one_by_one:
         return _family(start, columns, wanted, progress)

@@ -74,6 +74,9 @@ class Sweep:
     rates : angular velocities of the links, (n,) [rad/s, or scaled as in one scene]
     touching : with profiles and where points were wanted, the places of the contacts by their two links
         (``2-3``), (n, 2) [case length]; not a number where the status is another than ok
+    velocities : of points on links, by ``C on 3``, (n, 2) [case length/s]; where wanted
+    accelerations : the same, (n, 2) [case length/s^2], with inertia forces
+    angular_accelerations : of links, (n,) [rad/s^2], with inertia forces
     holds : with friction and no motion, the ranges in which unknown loads hold, (n, 2)
     notes : sentences about the sweep
     """
@@ -87,6 +90,9 @@ class Sweep:
     errors: dict[str, dict[str, Array]] = field(default_factory=dict)
     holds: dict[str, Array] = field(default_factory=dict)
     touching: dict[str, Array] = field(default_factory=dict)
+    velocities: dict[str, Array] = field(default_factory=dict)
+    accelerations: dict[str, Array] = field(default_factory=dict)
+    angular_accelerations: dict[str, Array] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     codes: Codes = field(default_factory=lambda: np.empty(0, np.int8))
     _case_of: Callable[[int], Case] | None = None
@@ -295,7 +301,10 @@ def columns(sweep: Sweep) -> dict[str, Array]:
                 table |= {f"error {n}": bound for n, bound in _parted(kind, name, bounds[name]).items()}
     for name, array in sweep.holds.items():
         table |= {f"{name} from": array[:, 0], f"{name} to": array[:, 1]}
-    return table
+    for letter, vectors in (("v", sweep.velocities), ("a", sweep.accelerations)):
+        for name, array in vectors.items():
+            table |= {f"{letter} {name}.x": array[:, 0], f"{letter} {name}.y": array[:, 1]}
+    return table | {f"a{link}": array for link, array in sweep.angular_accelerations.items()}
 
 
 def _parted(kind: str, name: str, array: Array) -> dict[str, Array]:
