@@ -142,6 +142,34 @@ def test_with_a_rubbing_pin_a_crank_holds_over_a_range(mu: float) -> None:
     assert [one.stability for one in found] == [None, None]
 
 
+def test_a_double_pendulum_with_a_torque_rests_in_four_positions() -> None:
+    """V = 30 sin a + 5 sin b - 2 b: cos a = 0 and cos b = 0.4; one of the four is stable."""
+    text = """icsolve: 1
+points: {A: [0, 0]}
+angles: {AB: unknown, BC: {unknown: [-180, 180]}}
+lengths: {AB: 2, BC: 1}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+loads:
+  W: {weight: 10, link: 2, at: B}
+  V: {weight: 5, link: 3, at: C}
+  T: {torque: 2, link: 3}
+"""
+    found = positions(text)
+    b = math.degrees(math.acos(0.4))
+    expected = [(90.0, -b), (90.0, b), (270.0, -b), (270.0, b)]
+    for one, place in zip(found, expected, strict=True):
+        assert (one.at["angles.AB"], one.at["angles.BC"]) == pytest.approx(place, abs=1e-12)
+        assert one.stiffness is not None
+        (aa, ab), (ba, bb) = one.stiffness.value
+        signs = (-math.sin(math.radians(place[0])), -math.sin(math.radians(place[1])))
+        assert (aa, bb) == pytest.approx((30.0 * signs[0], 5.0 * signs[1]), rel=1e-12)
+        assert (ab, ba) == pytest.approx((0.0, 0.0), abs=1e-12)
+        assert one.stiffness.unit == [["N*m/rad", "N*m/rad"], ["N*m/rad", "N*m/rad"]]
+    assert [one.stability for one in found] == ["unstable", "unstable", "stable", "unstable"]
+
+
 # --- random mechanisms against forty digits -------------------------------------------------------
 
 Potential = Callable[[mpmath.mpf], mpmath.mpf]

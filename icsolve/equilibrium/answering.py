@@ -12,6 +12,7 @@ from icsolve.case import Case, Coordinates, Unknown
 from icsolve.equilibrium.load_function import given_at
 from icsolve.equilibrium.positions import Search, find_positions, with_scene
 from icsolve.equilibrium.resting import Range, find_ranges
+from icsolve.equilibrium.two_data import find_pairs
 from icsolve.errors import SceneError, Status
 from icsolve.solve import solve
 from icsolve.statics.power import is_unknown
@@ -27,6 +28,8 @@ def solve_positions(
     the JSON object shows besides.
     """
     case = case if case.unknowns else replace(case, unknowns=(free_coordinate(case) or Unknown(""),))
+    if len(case.unknowns) == 2:
+        return _two(case, all_centres, rates, reactions)
     unknown = _unknown(case)
     if rubs(case):
         return _resting(case, unknown, all_centres, rates, reactions)
@@ -39,6 +42,21 @@ def solve_positions(
         at, error = {search.path: one.value}, {search.path: one.error}
         found.append(Position(at, error, one.stability, one.stiffness, one.why, scene))
     return Answer(case, positions=tuple(found), mobility=1, notes=(*case.noticed, *search.notes))
+
+
+def _two(case: Case, all_centres: bool, rates: bool, reactions: bool) -> Answer:
+    """Two unknown data, of a mechanism with two freedoms."""
+    _unknown(replace(case, unknowns=case.unknowns[:1]))
+    for one in case.unknowns:
+        if one.start is not None or rubs(case):
+            words = "with friction" if rubs(case) else "moved from a position as written"
+            raise SceneError(Status.UNSUPPORTED, f"two unknown data {words} are not searched.")
+    spans = [span_of(one) for one in case.unknowns]
+    search = find_pairs(_written(case), [one.path for one in case.unknowns], spans)
+    if not search.positions:
+        raise no_value(" and ".join(one.path for one in case.unknowns), None, search.notes)
+    notes = (*case.noticed, *search.notes)
+    return Answer(case, positions=search.positions, mobility=2, notes=notes)
 
 
 def free_coordinate(case: Case) -> Unknown | None:

@@ -79,7 +79,7 @@ def load_functions(case: Case, path: str, low: float, high: float) -> tuple[list
     values = [low + (high - low) * (k + 0.37) / SAMPLES for k in range(SAMPLES)]
     refusal: SceneError | None = None
     found: list[LoadFunction] = []
-    order = _order(given_at(case, path, values[SAMPLES // 2]))
+    order = order_of_all(given_at(case, path, values[SAMPLES // 2]))
     if any(isinstance(step, Group) for step in order.steps):
         raise SceneError(
             Status.UNSUPPORTED,
@@ -87,7 +87,7 @@ def load_functions(case: Case, path: str, low: float, high: float) -> tuple[list
             "search over such a group is complete. Take a datum as the unknown that places them one by one.",
         )
     count = 0
-    for steps in _modes(order.steps):
+    for steps in modes_of(order.steps):
         count += 1
         if count > MOST_MODES:
             return found, False
@@ -111,7 +111,7 @@ def load_functions(case: Case, path: str, low: float, high: float) -> tuple[list
     return found, True
 
 
-def _order(case: Case) -> Order:
+def order_of_all(case: Case) -> Order:
     """The order of construction of all points, or where some may be anywhere, of those that are needed."""
     wanted, needed = wanted_points(case)
     try:
@@ -133,7 +133,7 @@ def given_at(case: Case, path: str, value: float) -> Case:
     return replace(case, points={**case.points, name: placed})
 
 
-def _modes(steps: Steps) -> Iterator[Steps]:
+def modes_of(steps: Steps) -> Iterator[Steps]:
     """The steps with every choice of the places where two loci meet."""
     forks = [k for k, step in enumerate(steps) if isinstance(step, Meet) and is_round(step.second)]
     for signs in itertools.product((1, -1), repeat=len(forks)):

@@ -1,0 +1,302 @@
+"""Positions of equilibrium of a mechanism with two freedoms: two data of its figure are what is asked.
+
+The powers of the loads in both motions vanish together. Newton's method runs from a grid over both ranges,
+all starts at once; what was searched is said, since no enclosure shows that nothing was missed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from icsolve.answer.equilibrium import Position, Stiffness
+from icsolve.assembly import Figure, place
+from icsolve.assembly.workspace import frame_of
+from icsolve.case import Case
+from icsolve.equilibrium.load_function import given_at, modes_of, order_of_all
+from icsolve.equilibrium.positions import DEGREES, whole_range
+from icsolve.errors import SceneError, Status
+from icsolve.kinematics import motion
+from icsolve.numbers.adjoint import gradient
+from icsolve.numbers.intervals import Interval, enclose
+from icsolve.numbers.record import varies
+from icsolve.numbers.replay import Array, Code
+from icsolve.screws.plane import velocity
+from icsolve.solve import solve
+from icsolve.statics import power
+from icsolve.structure.plan import make_plan
+from icsolve.structure.topology import topology
+from icsolve.sweep.drivers import Drive
+from icsolve.sweep.program import Asked, Setting, Sheet, sheet_of
+
+GRID = 48
+STEPS = 40
+SAME = 1e-7
+
+Span = tuple[float, float]
+
+
+class Surface(NamedTuple):
+    """One mode on a record with two inputs: nodes of the powers (2), of their derivatives by the inputs
+    (2, 2), of each coordinate's derivatives by the inputs (2) and speeds in the motions (2), of the margins,
+    and of the points."""
+
+    sheet: Sheet
+    inputs: tuple[int, int]
+    powers: list[int]
+    slopes: list[int]
+    velocities: list[int]
+    margins: list[int]
+    places: dict[str, tuple[int, int]]
+    force_scale: float
+
+
+class Found(NamedTuple):
+    """Positions by rising values of the first datum, and what was searched."""
+
+    positions: tuple[Position, ...]
+    notes: tuple[str, ...]
+
+
+def find_pairs(case: Case, paths: Sequence[str], spans: Sequence[Span | None]) -> Found:
+    """Every combination of two data at which the loads balance, as far as Newton's method finds them.
+
+    Raises SceneError where the mechanism has not two freedoms, or the figure assembles for no start.
+    """
+    limits = [span or whole_range(case, path) for path, span in zip(paths, spans, strict=True)]
+    found: list[Position] = []
+    surfaces = _surfaces(case, paths, limits)
+    if case.near:
+        surfaces = [min(surfaces, key=lambda surface: _distance(surface, case, limits))]
+    for surface in surfaces:
+        for values in _zeros(surface, limits, [span is None for span in spans], paths):
+            position = _described(surface, paths, values)
+            if not any(_same(position, other) for other in found):
+                found.append(position)
+    found.sort(key=lambda one: [float(one.at[path]) for path in paths])  # type: ignore[arg-type]
+    where = " and ".join(f"{p} from {a:g} to {b:g}" for p, (a, b) in zip(paths, limits, strict=True))
+    note = f"{where} were searched by Newton's method from {GRID} x {GRID} starts in each way of assembling."
+    return Found(tuple(found), (note,))
+
+
+def _surfaces(case: Case, paths: Sequence[str], limits: Sequence[Span]) -> list[Surface]:
+    middle = _at(case, paths, [a + 0.37 * (b - a) for a, b in limits])
+    order = order_of_all(middle)
+    surfaces: list[Surface] = []
+    refusal: SceneError | None = None
+    draw = np.random.default_rng(11)
+    starts = [[float(draw.uniform(a, b)) for a, b in limits] for _ in range(200)]
+    for steps in modes_of(order.steps):
+        for start in starts:
+            written = _at(case, paths, start)
+            frame = frame_of(written)
+            try:
+                placed = place(Figure(frame, {}, steps), written)
+                least = min((float(m) for step in placed.margins.values() for m in step), default=1.0)
+                if not least > 0.0:
+                    continue
+                figure = Figure(frame, {p: placed.points[p] for p in order.points}, steps)
+                surfaces.append(_surface(written, paths, figure))
+            except (SceneError, ZeroDivisionError, ValueError) as error:
+                refusal = error if isinstance(error, SceneError) else refusal
+                if refusal is not None and refusal.status == Status.MOBILITY:
+                    raise refusal from None
+                continue
+            break
+    if not surfaces:
+        names = " and ".join(paths)
+        raise refusal or SceneError(Status.CANNOT_ASSEMBLE, f"the figure assembles for no {names} searched.")
+    return surfaces
+
+
+def _at(case: Case, paths: Sequence[str], values: Sequence[float]) -> Case:
+    for path, value in zip(paths, values, strict=True):
+        case = given_at(case, path, value)
+    return case
+
+
+def _surface(case: Case, paths: Sequence[str], figure: Figure) -> Surface:
+    top = topology(case)
+    setting = Setting(case, top, figure, tuple(paths), (), Drive((), (), ()))
+    sheet = sheet_of(setting, Asked(answers=False))
+    record, scene = sheet.record, sheet.scene
+    plan = make_plan(top, range(len(top.members)))
+    motions = None
+    if plan is not None and plan.closed:
+        motions = motion.by_plan(plan, top, scene.points, record)
+    if motions is None:
+        motions = motion.by_loops(case, top, scene.points, record, scene.frame)
+    if motions.mobility != 2:
+        raise SceneError(
+            Status.MOBILITY,
+            f"two data of the figure are unknown, and the mechanism has {motions.mobility} degrees of "
+            "freedom.",
+        )
+    inputs = (sheet.inputs[paths[0]], sheet.inputs[paths[1]])
+    balance = power.balance(
+        power.wrenches(case, scene.frame, scene.points, record), motions.twists, motions.mobility
+    )
+    totals = [power.known_power(balance, m, record) for m in (0, 1)]
+    slopes = [v for total in totals for v in gradient(record, total, inputs).values()]
+    velocities = []
+    for link, names in case.carries.items():
+        for name in names if link != case.ground else ():
+            if name in scene.points and not name.startswith("@"):
+                for axis in (0, 1):
+                    velocities += list(gradient(record, scene.points[name][axis], inputs).values())
+                    velocities += [
+                        velocity(motions.twists[link][m], scene.points[name])[axis] for m in (0, 1)
+                    ]
+    margins = [m for step in place(figure, case, record).margins.values() for m in step if varies(m)]
+    named = {p: scene.points[p] for p in figure.points if not p.startswith("@")}
+    nodes = [[record.lifted(v).index for v in some] for some in (totals, slopes, velocities, margins)]
+    places = {p: (record.lifted(x).index, record.lifted(y).index) for p, (x, y) in named.items()}
+    return Surface(sheet, inputs, nodes[0], nodes[1], nodes[2], nodes[3], places, power.force_scale(balance))
+
+
+def _distance(surface: Surface, case: Case, limits: Sequence[Span]) -> float:
+    """How near a mode passes to `near` over the grid."""
+    x, y = _grid(limits)
+    names = [name for name in case.near if name in surface.places]
+    nodes = [k for name in names for k in surface.places[name]]
+    ox, oy, scale = surface.sheet.scene.frame
+    found = Code(surface.sheet.record, [*nodes, *surface.margins]).run(
+        dict(zip(surface.inputs, (x, y), strict=True)), x.size
+    )
+    off = np.zeros(x.size)
+    for n, name in enumerate(names):
+        px, py = found[2 * n] / scale + ox, found[2 * n + 1] / scale + oy
+        off = off + (px - case.near[name][0]) ** 2 + (py - case.near[name][1]) ** 2
+    for margin in found[len(nodes) :]:
+        off = np.where(margin > 0.0, off, np.inf)
+    return float(off.min())
+
+
+def _grid(limits: Sequence[Span]) -> tuple[Array, Array]:
+    axes = [np.linspace(a, b, GRID) + (b - a) / GRID * 0.013 for a, b in limits]
+    x, y = np.meshgrid(*axes, indexing="ij")
+    return x.ravel(), y.ravel()
+
+
+def _zeros(
+    surface: Surface, limits: Sequence[Span], whole: Sequence[bool], paths: Sequence[str]
+) -> list[tuple[float, float]]:
+    """Newton's method from every start of the grid at once."""
+    code = Code(surface.sheet.record, [*surface.powers, *surface.slopes, *surface.margins])
+    x, y = _grid(limits)
+    size = np.array([b - a for a, b in limits])
+    with np.errstate(all="ignore"):
+        for _ in range(STEPS):
+            f, g, fx, fy, gx, gy, *_ = code.run(dict(zip(surface.inputs, (x, y), strict=True)), x.size)
+            det = fx * gy - fy * gx
+            dx, dy = (f * gy - g * fy) / det, (g * fx - f * gx) / det
+            short = np.minimum(1.0, 0.1 / np.maximum(np.abs(dx) / size[0], np.abs(dy) / size[1]))
+            step = np.nan_to_num(np.stack([dx * short, dy * short]))
+            x, y = x - step[0], y - step[1]
+        f, g, fx, fy, gx, gy, *margins = (
+            np.array(np.broadcast_to(v, x.size))
+            for v in code.run(dict(zip(surface.inputs, (x, y), strict=True)), x.size)
+        )
+        fine = (np.abs(step[0]) <= 1e-11 * size[0]) & (np.abs(step[1]) <= 1e-11 * size[1])
+        fine &= np.isfinite(f + g) & (np.abs(fx * gy - fy * gx) > 0.0)
+        for margin in margins:
+            fine &= margin > 0.0
+    found: list[tuple[float, float]] = []
+    for pair in zip(x[fine].tolist(), y[fine].tolist(), strict=True):
+        values = [
+            v % 360.0 if turns and path.startswith("angles.") else v
+            for v, turns, path in zip(pair, whole, paths, strict=True)
+        ]
+        inside = all(
+            a - 1e-9 * s <= v <= b + 1e-9 * s for v, (a, b), s in zip(values, limits, size, strict=True)
+        )
+        if inside and not any(
+            max(abs(p - q) for p, q in zip(values, other, strict=True)) <= SAME for other in found
+        ):
+            found.append((values[0], values[1]))
+    return found
+
+
+def _described(surface: Surface, paths: Sequence[str], values: tuple[float, float]) -> Position:
+    """A position to the last digits, with its stiffness matrix and stability."""
+    values, off = _polished(surface, values)
+    slopes, rates = _derivatives(surface, values)
+    case, frame = surface.sheet.setting.case, surface.sheet.scene.frame
+    loads = np.linalg.solve(rates, slopes) / (surface.force_scale * frame.scale)
+    turns = [path.startswith("angles.") for path in paths]
+    matrix = [
+        [
+            -float(loads[i, j])
+            * (DEGREES * case.units.torque_per_force_length if turns[i] else 1.0)
+            * (DEGREES if turns[j] else 1.0)
+            for j in (0, 1)
+        ]
+        for i in (0, 1)
+    ]
+    units = case.units
+    names = [
+        [f"{units.torque if turns[i] else units.force}/{'rad' if turns[j] else units.length}" for j in (0, 1)]
+        for i in (0, 1)
+    ]
+    (a, b), (c, d) = matrix
+    eigenvalues = np.linalg.eigvalsh(np.array([[a, 0.5 * (b + c)], [0.5 * (b + c), d]]))
+    error = 1e-11 * float(np.abs(np.array(matrix)).max())
+    kind = "unstable" if eigenvalues[0] < -error else "stable" if eigenvalues[0] > error else "neutral"
+    stiffness = Stiffness(matrix, names, error)
+    scene = solve(_scene(surface, paths, values), rates=False)
+    shown = replace(scene, centres={}, rates=None, velocities=None)
+    at, errors = dict(zip(paths, values, strict=True)), dict(zip(paths, off, strict=True))
+    return Position(at, errors, kind, stiffness, "", shown)
+
+
+def _derivatives(surface: Surface, values: Sequence[float]) -> tuple[Any, Any]:
+    """Derivatives of the powers by the data (motion, datum), and the rates of the data (motion, datum)."""
+    given = {k: np.array(v) for k, v in zip(surface.inputs, values, strict=True)}
+    found = Code(surface.sheet.record, [*surface.slopes, *surface.velocities]).run(given, 1)
+    flat = [float(np.ravel(v)[0]) for v in found]
+    rows = np.array(flat[4:]).reshape(-1, 4)  # the derivative by both data, the speed in both motions
+    rates, *_ = np.linalg.lstsq(rows[:, :2], rows[:, 2:], rcond=None)
+    return np.array(flat[:4]).reshape(2, 2), rates.T
+
+
+def _scene(surface: Surface, paths: Sequence[str], values: Sequence[float]) -> Case:
+    case = surface.sheet.setting.case
+    ox, oy, scale = surface.sheet.scene.frame
+    given = {k: np.array(v) for k, v in zip(surface.inputs, values, strict=True)}
+    nodes = [k for pair in surface.places.values() for k in pair]
+    flat = [float(np.ravel(v)[0]) for v in Code(surface.sheet.record, nodes).run(given, 1)]
+    places = zip(surface.places, zip(flat[::2], flat[1::2], strict=True), strict=True)
+    near = {name: (x / scale + ox, y / scale + oy) for name, (x, y) in places if name not in case.points}
+    return replace(_at(case, paths, values), near=near, motion=(), expect=())
+
+
+def _polished(
+    surface: Surface, values: tuple[float, float]
+) -> tuple[tuple[float, float], tuple[float, float]]:
+    """A last step of Newton's method, and how far off the enclosures of the powers leave the place."""
+    x, y = values
+    off = np.zeros(2)
+    for _ in range(2):
+        here = {
+            k: Interval(np.array([v]), np.array([v])) for k, v in zip(surface.inputs, (x, y), strict=True)
+        }
+        ends = enclose(surface.sheet.record, surface.powers, here)
+        slopes, _ = _derivatives(surface, (x, y))
+        inverse = np.linalg.inv(slopes)
+        middle = np.array([0.5 * float(e.low.flat[0] + e.high.flat[0]) for e in ends])
+        widest = np.array([max(abs(float(e.low.flat[0])), abs(float(e.high.flat[0]))) for e in ends])
+        off = np.abs(inverse) @ widest
+        dx, dy = (inverse @ middle).tolist()
+        x, y = x - dx, y - dy
+    return (x, y), (float(off[0]) + 2.0 * math.ulp(x), float(off[1]) + 2.0 * math.ulp(y))
+
+
+def _same(one: Position, other: Position) -> bool:
+    """Whether two modes share a position."""
+    near = all(abs(float(one.at[p]) - float(other.at[p])) <= SAME for p in one.at)  # type: ignore[arg-type]
+    theirs = other.answer.points
+    return near and all(math.dist(at, theirs[name]) <= SAME for name, at in one.answer.points.items())
