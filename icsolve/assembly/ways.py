@@ -50,6 +50,10 @@ def ways_of(case: Case) -> Ways:
     """
     if case.space is not None:
         raise SceneError(Status.UNSUPPORTED, "the ways of assembling are found for planar figures")
+    if case.unknowns:
+        path = case.unknowns[0].path
+        said = f"{path} is unknown: the ways of assembling are those at a value of it, --set {path}=..."
+        raise SceneError(Status.UNSUPPORTED, said)
     case = replace(case, near={})
     frame = frame_of(case)
     goal, loose = _placed(case)
@@ -77,6 +81,9 @@ def _placed(case: Case) -> tuple[list[str], list[str]]:
         needed = {getattr(joint, "at", None) for joint in case.joints}
         loose = [name for name in names if not _can_be_placed(case, name)]
         if needed & set(loose):
+            if case.profiles is not None:
+                said = "the ways of a figure that rests on profiles are not listed: "
+                raise SceneError(Status.UNSUPPORTED, f"{said}{error.message}") from None
             raise
         return [name for name in names if name not in loose], loose
     return names, []
