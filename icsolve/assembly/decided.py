@@ -1,41 +1,83 @@
 """Questions that floats leave in doubt, put to the decimals as written.
 
-The steps that lead to a doubtful one run again on balls of 30, 60 and 120 digits, until its signs are
+The steps that lead to a doubtful one run again on balls of more and more digits, until its signs are
 certain.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import NamedTuple, TypeVar
+from collections.abc import Callable, Iterable, Mapping
+from typing import NamedTuple, Protocol, TypeVar
 
 from icsolve.assembly.loci import gaps_of_circles, gaps_of_line_and_circle, is_round, sine_between
-from icsolve.assembly.steps import Meet, Step, aims, leading_to
+from icsolve.assembly.steps import Meet, Step, aims
 from icsolve.assembly.workspace import Key, Point, Workspace
 from icsolve.numbers.arithmetic import Scalar
 
 T = TypeVar("T")
 
 
-def decided(
-    workspace: Workspace, steps: tuple[Step, ...], step: Step, question: Callable[[Workspace], T]
-) -> T | None:
-    """The answer to a question about a step, after those before it; None where 120 digits leave it open."""
-    from icsolve.assembly.groups import Group
-    from icsolve.numbers.balls import PRECISIONS, Balls, BelowZero, MoreDigits
+LONG_CHAINS = 300
+"""Digits where bounds have grown along some hundred steps."""
 
-    cone = leading_to(step.needs(), steps)
-    if any(isinstance(each, Group) for each in cone):
+
+class Placed(Protocol):
+    """A step as it was settled; the same object as long as all before it are the same."""
+
+    @property
+    def step(self) -> Step | None:
+        """The step."""
+
+
+class Decimals:
+    """A construction run again on balls, as far as doubtful steps need it.
+
+    ``placed`` has for each point the step that put it. What was run stays as long as that is the same one,
+    so that a chain of doubtful steps runs once.
+    """
+
+    def __init__(self, workspace: Workspace, placed: Mapping[Key, Placed]) -> None:
+        self.workspace, self.placed = workspace, placed
+        self.runs: dict[int, tuple[Workspace, dict[Key, Placed]]] = {}
+
+    def decided(self, step: Step, question: Callable[[Workspace], T]) -> T | None:
+        """The answer to a question about a step; None where the digits leave it open."""
+        from icsolve.numbers.balls import PRECISIONS, Balls, BelowZero, MoreDigits
+
+        for digits in (*PRECISIONS, LONG_CHAINS):
+            if digits not in self.runs:
+                balls = Balls(digits, highest=digits >= PRECISIONS[-1])
+                self.runs[digits] = Workspace(self.workspace.case, self.workspace.frame, balls), {}
+            exact, made = self.runs[digits]
+            try:
+                if not self._place(step.needs(), exact, made):
+                    return None
+                for target in step.targets:
+                    made.pop(target, None)
+                return question(exact)
+            except (MoreDigits, BelowZero, ZeroDivisionError):
+                continue
         return None
-    for digits in PRECISIONS:
-        exact = Workspace(workspace.case, workspace.frame, Balls(digits, highest=digits == PRECISIONS[-1]))
-        try:
-            for each in cone:
-                each.place(exact)
-            return question(exact)
-        except (MoreDigits, BelowZero, ZeroDivisionError):
-            continue
-    return None
+
+    def _place(self, keys: Iterable[Key], exact: Workspace, made: dict[Key, Placed]) -> bool:
+        """Put points and all that they need; False where Newton's method placed one of them."""
+        from icsolve.assembly.groups import Group
+
+        stack = [key for key in keys if made.get(key) is not self.placed[key]]
+        while stack:
+            settled = self.placed[stack[-1]]
+            step = settled.step
+            if step is None or isinstance(step, Group):
+                return False
+            ahead = [key for key in step.needs() if made.get(key) is not self.placed[key]]
+            if ahead:
+                stack += ahead
+                continue
+            if made.get(stack[-1]) is not settled:
+                step.place(exact)
+                made.update(dict.fromkeys(step.targets, settled))
+            stack.pop()
+        return True
 
 
 class Gap(NamedTuple):

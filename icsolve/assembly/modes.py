@@ -14,8 +14,8 @@ from typing import NamedTuple
 
 from icsolve.assembly.data import Datum, listed, plain
 from icsolve.assembly.decided import (
+    Decimals,
     Gap,
-    decided,
     gaps_ahead,
     gaps_ahead_of,
     gaps_of,
@@ -132,6 +132,8 @@ class Walk:
         self.checks = _due(order)
         self.budget = (10 if every else 1) * (20_000 + 20 * len(order.steps))
         self.most = MOST_WAYS if every else MOST_MODES
+        self.placed: dict[Key, Path] = {}
+        self.decimals = Decimals(workspace, self.placed)
         self.modes: list[Mode] = []
         self.dead_ends: list[DeadEnd] = []
         self.gave_up = False
@@ -182,7 +184,7 @@ class Walk:
         options.sort(key=lambda option: option.off)
         if len(options) > 1:
             forks.append(Fork(depth, options[1:]))
-        self.workspace.points.update(options[0].places)
+        self._take(options[0])
         return options[0]
 
     def _back(self, forks: list[Fork]) -> tuple[Path | None, int]:
@@ -194,9 +196,14 @@ class Walk:
                 continue
             if len(fork.options) > 1:
                 forks.append(Fork(fork.depth, fork.options[1:]))
-            self.workspace.points.update(option.places)
+            self._take(option)
             return option, fork.depth + 1
         return None, 0
+
+    def _take(self, path: Path) -> None:
+        """Put a path's last step on the workspace."""
+        self.workspace.points.update(path.places)
+        self.placed.update(dict.fromkeys(path.places, path))
 
     def _options(self, depth: int, path: Path, step: Step) -> Iterator[Path]:
         """The step as it can be settled here."""
@@ -233,7 +240,7 @@ class Walk:
         for branch in branches:
             doubtful = in_doubt or (isinstance(branch, Meet) and self._doubtful(branch))
             question = partial(places_of, branch)
-            places = decided(self.workspace, path.steps(), branch, question) if doubtful else None
+            places = self.decimals.decided(branch, question) if doubtful else None
             if places is None:
                 branch.place(self.workspace)
             else:
@@ -246,7 +253,7 @@ class Walk:
         apart = {(a, b): math.dist(points[a], points[b]) for a, b in aims(step)}
         if min(apart.values(), default=1.0) > DOUBT:
             return None
-        found = decided(self.workspace, path.steps(), step, partial(merged_pairs, step))
+        found = self.decimals.decided(step, partial(merged_pairs, step))
         return [pair for pair, d in apart.items() if d <= TOO_CLOSE] if found is None else found
 
     def _branches(self, depth: int, path: Path, step: Step) -> Iterable[Step]:
@@ -276,7 +283,7 @@ class Walk:
         """The places where two loci meet, the one nearer to `near` first."""
         gaps = gaps_of(step, self.workspace)
         if self._doubtful(step):
-            gaps = decided(self.workspace, path.steps(), step, partial(gaps_of, step)) or _rounded(step, gaps)
+            gaps = self.decimals.decided(step, partial(gaps_of, step)) or _rounded(step, gaps)
         signs = [gap.sign for gap in gaps]
         if not is_round(step.second):
             if signs[0] != 0:
@@ -309,7 +316,7 @@ class Walk:
             return None
         gaps = gaps_ahead(step, self.workspace)
         if min(abs(gap.value) for gap in gaps) <= DOUBT:
-            exact = decided(self.workspace, path.steps(), step, partial(gaps_ahead_of, step))
+            exact = self.decimals.decided(step, partial(gaps_ahead_of, step))
             gaps = exact or [gap._replace(sign=int(gap.value > TOO_CLOSE)) for gap in gaps]
         worst = min(gaps, key=lambda gap: (gap.sign, gap.value))
         return None if worst.sign > 0 else behind(step, self.workspace, worst.value)
