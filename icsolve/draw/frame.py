@@ -212,7 +212,11 @@ def _symbol(scene: Scene, joint: Joint) -> list[Mark]:
     p = scene.at[at]
     match joint:
         case Pin() | Slot():
-            return [Disc(p, PIN, "pin"), *([Disc(p, PIN + 3.0, "faint")] if len(joint.links) > 2 else [])]
+            return [
+                *_friction_circle(scene, joint, p),
+                Disc(p, PIN, "pin"),
+                *([Disc(p, PIN + 3.0, "faint")] if len(joint.links) > 2 else []),
+            ]
         case Slide():
             return [Disc(p, 1.6, "dot")]
         case Roll() | Contact():
@@ -222,6 +226,15 @@ def _symbol(scene: Scene, joint: Joint) -> list[Mark]:
         case KnownCentre():
             return [Disc(p, 4.0, "primary")]
     return []
+
+
+def _friction_circle(scene: Scene, joint: Joint, p: Point) -> list[Mark]:
+    """The circle of radius r sin phi to which the force in a rubbing pin is tangent, where it can be seen."""
+    friction = joint.friction if isinstance(joint, Pin) else None
+    if friction is None or friction.radius is None:
+        return []
+    radius = friction.radius.value * math.sin(math.atan(friction.mu.value)) * scene.view.scale
+    return [Disc(p, radius, "box")] if radius > 1.0 else []
 
 
 def _square(p: Point) -> Mark:

@@ -153,7 +153,7 @@ def step_sentence(known: Known, steps: Sequence[Step], number: int) -> str:
         return "The centres by inspection." if number == 0 else f"All {count} steps."
     name = f"I{pair_name(known.case, last.centre.pair)}"
     if not last.centre.lines:
-        return f"Step {number}: {name} from the loop equations; no two lines of centres give it."
+        return f"Step {number}: {name} from the loop equations of the whole mechanism."
     lines = " meets ".join(line_words(known, line) for line in last.centre.lines)
     return f"Step {number}: {name} is where {lines}."
 

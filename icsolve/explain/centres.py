@@ -10,8 +10,9 @@ from icsolve.answer import Centre
 from icsolve.case import Belt, Contact, Gears, Joint, KnownCentre, Pair, Pin, Roll, Slide, Slot
 from icsolve.case.names import pair_name
 from icsolve.derivation import Known, Ratio, Ratios, Step
+from icsolve.derivation.ratios import ratios_of
 from icsolve.explain.document import Block, Inline, Items, Section, formula, words
-from icsolve.explain.formula import Expr, Name, Num, Quotient, Root, Span, Square, Sum, Trig, minus
+from icsolve.explain.formula import Expr, Name, Num, Quotient, Root, Span, Square, Sum, Trig, minus, product
 from icsolve.explain.given import Figures, centre_name, place_words, rate_name, speed_name
 
 
@@ -86,7 +87,7 @@ def _constructed(known: Known, figures: Figures, centre: Centre) -> Iterable[Inl
     yield centre_name(known, centre.pair)
     yield f" {_is_at(figures, centre)}"
     if not centre.lines:
-        yield ", from the loop equations: no two lines of known centres meet there"
+        yield ", from the loop equations of the whole mechanism"
         return
     for n, line in enumerate(ordered_lines(known, centre)):
         yield ": on " if n == 0 else ", and on "
@@ -251,3 +252,72 @@ def _carried(figures: Figures, ratios: Ratios) -> Iterable[Block]:
             f"{figures.number(ratios.rates[ratio.of]).digits} x {figures.number(ratio.value).digits} = "
             f"{figures.number(ratios.rates[ratio.link]).digits}."
         )
+
+
+def worked_speeds(known: Known, figures: Figures) -> Iterable[Section]:
+    """The speeds from centre to centre where the case gives one: ratios, rates, v = w r of every point."""
+    whole, case = known.whole, known.case
+    given = next((motion.link for motion in case.motion if motion.speed is not None), None)
+    if whole is None or whole.rates is None or whole.mobility != 1 or given is None:
+        return
+    moving = [link for link in case.links if link != case.ground and not known.rests(link)]
+    ratios = ratios_of(known, sorted(moving, key=lambda link: link != given))
+    if ratios is None:
+        return
+    section = ratio_section(known, figures, ratios)
+    yield from () if section is None else (section,)
+    reference = ratios.reference
+    x, y, w = known.twists[reference]
+    speed = w if known.turns(reference) else math.hypot(x, y)
+    own = motion_name(known, reference)
+    blocks: list[Block] = [words("So with ", own, " = ", _speed(known, figures, reference, speed), ":")]
+    for ratio in ratios.ratios:
+        before = ratios.rates[ratio.of] * speed
+        numbers = product(figures.number(before), figures.number(ratio.value))
+        result = _speed(known, figures, ratio.link, ratio.value * before)
+        symbols = product(motion_name(known, ratio.of), _by_distances(known, ratio))
+        blocks.append(formula(motion_name(known, ratio.link), symbols, numbers, result))
+    blocks += _of_points(known, figures)
+    yield Section("Speeds by centres", tuple(blocks))
+
+
+def _by_distances(known: Known, ratio: Ratio) -> Expr:
+    """A ratio of speeds by the distances of its centres."""
+    own, other, common = (centre_name(known, pair) for pair in ratio.pairs)
+    match ratio.kind:
+        case "turns":
+            return _signed(Quotient(Span(own, common), Span(other, common)), ratio)
+        case "slides":
+            return _signed(Span(own, common), ratio)
+        case "drives":
+            return _signed(Quotient(Num("1"), Span(other, common)), ratio)
+    return (
+        Num("1")
+        if ratio.value == 1.0
+        else Quotient(motion_name(known, ratio.link), motion_name(known, ratio.of))
+    )
+
+
+def _speed(known: Known, figures: Figures, link: str, value: float) -> Expr:
+    unit = "rad/s" if known.turns(link) else f"{known.case.units.length}/s"
+    return figures.quantity(value, unit)
+
+
+def _of_points(known: Known, figures: Figures) -> Iterable[Block]:
+    """The speed of every point of a link that turns: its rate times the distance from its centre."""
+    said: set[str] = set()
+    for link in known.case.links:
+        pair = known.pair(link, known.case.ground)
+        centre = known.centre(*pair) if link in known.twists and known.turns(link) else None
+        if centre is None or centre.kind != "at":
+            continue
+        own, rate = place(known, pair), abs(known.twists[link][2])
+        for point in known.case.carries.get(link, ()):
+            gap = math.dist(known.points[point], own) if point in known.points else 0.0
+            if point.startswith("@") or point in said or gap <= 1e-9 * known.size:
+                continue
+            said.add(point)
+            arm = Span(centre_name(known, pair), Name(point))
+            numbers = product(figures.number(rate), figures.number(gap))
+            speed = figures.quantity(rate * gap, f"{known.case.units.length}/s")
+            yield formula(Name("v", point), product(rate_name(link), arm), numbers, speed)

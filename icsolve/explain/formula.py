@@ -256,7 +256,7 @@ class Plain(Notation):
         return f"({inner})"
 
     def trig(self, function: str, angle: str, wide: bool, degrees: bool) -> str:
-        return f"{function}({angle} deg)"
+        return f"{function}({angle}{' deg' if degrees else ''})"
 
     def root(self, inner: str) -> str:
         return f"sqrt({inner})"
@@ -268,7 +268,7 @@ class Plain(Notation):
 class Latex(Notation):
     """LaTeX, as Markdown has it between dollars."""
 
-    greek: ClassVar = {"w": r"\omega"}
+    greek: ClassVar = {"w": r"\omega", "phi": r"\varphi"}
 
     def number(self, digits: str) -> str:
         mantissa, _, exponent = digits.partition("e")
@@ -327,7 +327,7 @@ class MathML(Notation):
     """MathML, which browsers set without a library or a network."""
 
     equals = "<mo>=</mo>"
-    greek: ClassVar = {"w": "\N{GREEK SMALL LETTER OMEGA}"}
+    greek: ClassVar = {"w": "\N{GREEK SMALL LETTER OMEGA}", "phi": "\N{GREEK SMALL LETTER PHI}"}
     times, minus = "\N{DOT OPERATOR}", "\N{MINUS SIGN}"
 
     def side(self, expression: Expr) -> str:

@@ -36,7 +36,9 @@ from icsolve.case import (
     Weight,
     Weld,
 )
+from icsolve.case.joints import Friction
 from icsolve.case.names import pair_name
+from icsolve.case.profiles import Circle, Flat, Follower, Knife, Roller, Shape
 from icsolve.derivation import Known
 from icsolve.explain.document import Block, Inline, Items, Section, Table, words
 from icsolve.explain.formula import Name, Num, Quantity
@@ -133,7 +135,11 @@ def given_section(known: Known, figures: Figures) -> Section:
     blocks: list[Block] = [
         words(f"The frame is link {case.ground}; link{_s(others)} {listed(others)} move{_verb(others)}.")
     ]
-    blocks.append(Items(tuple((joint_words(joint),) for joint in case.joints)))
+    blocks.append(Items(tuple((joint_words(joint) + _rubbing(figures, joint),) for joint in case.joints)))
+    profiles = case.profiles.shapes if case.profiles is not None else {}
+    if profiles:
+        blocks.append(words("Profiles:"))
+        blocks.append(Items(tuple((profile_words(figures, *one),) for one in profiles.items())))
     blocks += _points(known, figures)
     known_loads = [load for load in case.loads if not is_unknown(load)]
     if known_loads:
@@ -196,6 +202,33 @@ def joint_words(joint: Joint) -> str:
             return f"the centre of links {links} is known"
         case Weld():
             return f"links {links} are welded together{where}"
+
+
+def _rubbing(figures: Figures, joint: Joint) -> str:
+    """What a joint says of its friction."""
+    friction: Friction | None = getattr(joint, "friction", None)
+    if friction is None:
+        return ""
+    parts = [f"mu = {figures.number(friction.mu.value).digits}"]
+    for name, number in (("pin radius", friction.radius), ("block length", friction.length)):
+        if number is not None:
+            parts.append(f"{name} {figures.number(number.value).digits} {figures.units.length}")
+    return f" ({', '.join(parts)})"
+
+
+def profile_words(figures: Figures, link: str, shape: Shape | Follower) -> str:
+    """The profile of a link."""
+    match shape:
+        case Circle(centre, radius) | Roller(centre, radius):
+            kind = "circle" if isinstance(shape, Circle) else "roller"
+            size = f"{figures.number(radius.value).digits} {figures.units.length}"
+            return f"link {link}: a {kind} of radius {size} about {centre}"
+        case Flat(at):
+            return f"link {link}: a flat face through {at}"
+        case Knife(at):
+            return f"link {link}: a knife edge at {at}"
+    names = {"Polygon": "a polygon", "Arcs": "arcs and lines", "Radii": "a table of radii"}
+    return f"link {link}: {names.get(type(shape).__name__, 'a profile')}"
 
 
 def _along(joint: Slide | Slot) -> str:

@@ -7,14 +7,17 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from icsolve.case import Area, Force, ForceVector, Spring, Torque, TorsionSpring, Weight
+from icsolve.answer.bodies import Rubbing
+from icsolve.case import Area, Force, ForceVector, Joint, Pin, Spring, Torque, TorsionSpring, Weight
+from icsolve.case.joints import Friction
 from icsolve.derivation import Acting, Known, Ratios
 from icsolve.derivation.ratios import OneMotion, independent_motions, speed_words
 from icsolve.explain.centres import difference, motion_name, place
-from icsolve.explain.document import Block, Section, formula, words
+from icsolve.explain.document import Block, Items, Section, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Quotient, Sum, Trig, product
 from icsolve.explain.given import Figures, centre_name, load_name
 from icsolve.screws.plane import velocity
+from icsolve.wording.sentences import listed
 
 
 class End(NamedTuple):
@@ -179,7 +182,7 @@ AGREE = 1e-8
 """The terms of the equation add up to zero, but for this fraction of the largest."""
 SLIDING = (
     "In equilibrium the powers of all loads add up to zero, with those of the friction L at each joint "
-    "(found with the reactions, below), which acts against the given motion:"
+    "(worked out below), which acts against the given motion:"
 )
 
 
@@ -213,6 +216,64 @@ def rubbed(known: Known, ratios: Ratios) -> list[Rubbed]:
         name = Name("L", term.load.split()[1].removeprefix("F"))
         found.append(Rubbed(name, term.words, term.value, term.unit, rate, power))
     return found
+
+
+def friction_section(known: Known, figures: Figures) -> Section | None:
+    """The rule at each joint that rubs: friction circles of pins, friction angles of guides; then what they
+    come to in this position."""
+    rules = [block for joint in known.case.joints for block in _rule(figures, joint)]
+    if not rules:
+        return None
+    blocks: list[Block] = [words(RULE), *rules]
+    friction = None if known.answer is None else known.answer.friction
+    if friction is not None and friction.rubbing:
+        blocks += [words("With the equations of equilibrium of all links (below) these give:")]
+        blocks += [Items(tuple((_rubs(known, figures, one),) for one in friction.rubbing))]
+    return Section("Friction", tuple(blocks))
+
+
+RULE = (
+    "Where a joint rubs, its force leans against the motion by the angle phi, with tan phi = mu. In a pin of "
+    "radius r it is so tangent to the friction circle, of radius r sin phi about the pin; on a guide, in a "
+    "slot or at a contact it makes phi with the normal."
+)
+
+
+def _rule(figures: Figures, joint: Joint) -> Iterable[Block]:
+    """The angle of friction at a joint, and the friction circle of a pin."""
+    friction: Friction | None = getattr(joint, "friction", None)
+    if friction is None or not friction.mu.value:
+        return
+    at = getattr(joint, "at", "")
+    mu = figures.number(friction.mu.value)
+    phi = math.degrees(math.atan(friction.mu.value))
+    links = listed(joint.links)
+    yield words(
+        f"Links {links} at {at}: tan ", Name("phi"), " = ", mu, ", ", Name("phi"), f" = {phi:.6g} deg."
+    )
+    if isinstance(joint, Pin) and friction.radius is not None:
+        radius = friction.radius.value
+        circle = figures.distance(radius * math.sin(math.radians(phi)))
+        numbers = product(figures.number(radius), Trig("sin", figures.number(phi)))
+        yield formula(product(Name("r", at), Trig("sin", Name("phi"))), numbers, circle)
+
+
+def _rubs(known: Known, figures: Figures, one: Rubbing) -> str:
+    """What friction does at one place."""
+    units = known.case.units
+    unit = units.torque if one.kind == "pin" else units.force
+    what = "moment about the pin" if one.kind == "pin" else "friction along the guide"
+    size = figures.number(abs(one.value)).digits
+    force = known.answer.reactions.get(one.joint) if known.answer and known.answer.reactions else None
+    of = (
+        ""
+        if force is None or force.magnitude is None
+        else f" = {figures.number(force.magnitude).digits} {units.force}"
+    )
+    arm = ""
+    if one.radius is not None:
+        arm = f", tangent to the circle of radius {figures.number(one.radius).digits} {units.length}"
+    return f"{one.joint}{of} at {one.where}{arm}: {what} {size} {unit}"
 
 
 def power_section(known: Known, figures: Figures, ratios: Ratios, loads: Sequence[Acting]) -> Section | None:

@@ -9,7 +9,7 @@ from icsolve.answer import Answer, Found
 from icsolve.case import Torque
 from icsolve.derivation import Known, Step, acting_loads, all_steps, answer_ratios, needed_steps
 from icsolve.errors import SceneError
-from icsolve.explain.centres import centre_sections, ratio_section
+from icsolve.explain.centres import centre_sections, ratio_section, worked_speeds
 from icsolve.explain.document import Block, Document, Inline, Items, Section, Table, words
 from icsolve.explain.formula import Num, Quantity, Quotient
 from icsolve.explain.given import (
@@ -21,7 +21,7 @@ from icsolve.explain.given import (
     load_name,
     rate_name,
 )
-from icsolve.explain.power import motions_section, power_section
+from icsolve.explain.power import friction_section, motions_section, power_section
 from icsolve.statics.power import is_unknown
 from icsolve.wording.senses import holding, spelt
 
@@ -79,6 +79,7 @@ def rates_section(known: Known, figures: Figures) -> Iterable[Section]:
     for link, rate in whole.rates.items():
         value = f"left open: {rate}" if isinstance(rate, str) else figures.number(rate)
         rows.append(((rate_name(link),), (value,)))
+    yield from worked_speeds(known, figures)
     blocks: list[Block] = [
         Table(("link", f"angular velocity, {unit}, counterclockwise positive"), tuple(rows))
     ]
@@ -201,10 +202,12 @@ def _sections(known: Known, figures: Figures, bodies: bool) -> Iterable[Section]
         yield _refused(known.refusal)
         return
     yield from _by_power(known, figures)
+    rubbed = friction_section(known, figures)
+    yield from () if rubbed is None else (rubbed,)
     yield from answer_section(known, figures)
     yield from left_out(known, steps, bodies=bodies)
     yield from check_section(known, figures)
-    if bodies or known.structure:
+    if bodies or known.structure or (known.answer is not None and known.answer.friction is not None):
         from icsolve.explain.bodies import bodies_sections
 
         yield from bodies_sections(known, figures)
