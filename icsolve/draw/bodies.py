@@ -106,14 +106,20 @@ def _reaction(scene: Scene, name: str, reaction: Reaction) -> Push:
     at = scene.view.at(reaction.at)
     runs = force_runs(name, reaction.by, reaction.on, reaction.where)
     words = f"reaction-{name}-on-{reaction.on}"
-    if reaction.x is None or reaction.y is None or reaction.moment is None:
-        return Push(words, (*runs, Run(" = ?")), "reaction", at, (0.0, 0.0), 0.0)
+    if reaction.x is None or reaction.y is None:
+        axis, part = ("y", reaction.y) if reaction.x is None else ("x", reaction.x)
+        if part is None:
+            return Push(words, (*runs, Run(" = ?")), "reaction", at, (0.0, 0.0), 0.0)
+        low = runs[1]._replace(text=runs[1].text + axis)
+        known = Run(f" = {quantity(abs(part), scene.case.units.force)}")
+        force = (0.0, -part) if axis == "y" else (part, 0.0)
+        return Push(words, (runs[0], low, known), "reaction", at, force, 0.0)
     size = math.hypot(reaction.x, reaction.y)
     text: tuple[Run, ...] = (*runs, Run(f" = {quantity(size, scene.case.units.force)}"))
     if reaction.moment and abs(reaction.moment) > NOTHING * size * scene.known.size:
         couple = (Run(", M"), runs[1], Run(f" = {quantity(abs(reaction.moment), scene.case.units.torque)}"))
         text = (*text, *couple)
-    return Push(words, text, "reaction", at, (reaction.x, -reaction.y), reaction.moment)
+    return Push(words, text, "reaction", at, (reaction.x, -reaction.y), reaction.moment or 0.0)
 
 
 def _load(scene: Scene, acting: Acting, sign: float) -> Push:

@@ -24,7 +24,7 @@ from icsolve.draw.marks import (
     turning,
     unit,
 )
-from icsolve.draw.place import Label, Soft
+from icsolve.draw.place import Label, Soft, joined
 from icsolve.draw.scene import Part, Scene
 from icsolve.draw.words import figure_number, name_runs, quantity, unit_word
 
@@ -47,6 +47,7 @@ def load_parts(scene: Scene, links: shapely.Geometry) -> list[Part]:
             part = _force(scene, acting, links)
         if part is not None:
             parts.append(part)
+            links = joined([links, *(soft.geometry for soft in part.soft)])  # arrows keep off each other
     return parts
 
 

@@ -153,7 +153,10 @@ def _wheel(
         return None
     pins = [j.at for j in case.joints if isinstance(j, Pin) and link in j.links and j.at in points]
     if radius is None:
-        found = [points[p] for p in pins if math.dist(points[p], at) > 0.0]
+        rolls = any(isinstance(j, Roll) and {link, case.ground} == {*j.links} for j in case.joints)
+        own = [p for p in case.carries.get(link, ()) if p in points and points[p] != at] if rolls else []
+        own.sort(key=lambda p: abs(points[p][0] - at[0]) / math.dist(points[p], at))  # most upright ground
+        found = [points[p] for p in (*pins, *own) if math.dist(points[p], at) > 0.0]
         return Wheel(link, found[0], math.dist(found[0], at), "roll") if found else None
     size = abs(radius)
     near = [*pins, *case.carries.get(link, ()), *points]
