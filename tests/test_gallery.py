@@ -14,7 +14,10 @@ import pytest
 
 import icsolve
 from icsolve.cli import main
-from icsolve.page.gallery import ENDINGS, exhibit, index_html
+from icsolve.derivation import known_of
+from icsolve.draw.words import answer_sentences
+from icsolve.page.gallery import ENDINGS, KINDS, exhibit, index_html
+from pictures import parsed
 from test_draw import DEAD_CENTRE, FOUR_BAR, HOSTILE
 
 ROOT = Path(__file__).parent.parent
@@ -204,7 +207,7 @@ def test_text_stays_text(title: str, tmp_path: Path) -> None:
     assert (body.findtext(".//h3") or "").split() == case.title.split()
     assert addresses(body)[0].startswith("a'b\"<c>&/d")
     assert {e.tag for e in body.iter()} <= {
-        "body", "main", "h1", "h2", "h3", "p", "section", "div", "article", "a", "img",
+        "body", "main", "h1", "h2", "h3", "p", "section", "div", "article", "a", "img", "iframe", "nav",
     }  # fmt: skip
     assert not [a for e in body.iter() for a in e.attrib if a.startswith("on")]
 
@@ -217,6 +220,21 @@ def test_file_names_of_any_bytes(tmp_path: Path) -> None:
     out = tmp_path / "out"
     assert made(os.fsdecode(path), "-o", str(out)) == 0
     assert (out / "index.html").exists()
+
+
+def test_exercises_give_no_answer_away(tmp_path: Path) -> None:
+    """Figures ask, cards say what for, and there is no page; kinds stand in place of folders."""
+    out = tmp_path / "out"
+    assert made(str(LIBRARY / "sliders"), "-o", str(out), "--exercises") == 0
+    assert not [path for path in out.rglob("*.html") if path.name != "index.html"]
+    body = page(out / "index.html")
+    assert {e.text for e in body.iter("h2")} <= set(KINDS)
+    for path in (LIBRARY / "sliders").glob("*.yaml"):
+        figure = parsed((out / path.with_suffix(".svg").name).read_text(encoding="utf-8"))
+        asked = figure.texts("t-unknown")
+        assert all(text.endswith("= ?") for text in asked)
+        for sentence in answer_sentences(known_of(icsolve.load(path))):
+            assert asked and sentence not in (out / "index.html").read_text(encoding="utf-8")
 
 
 # --- the README's pictures ---------------------------------------------------------------------------

@@ -32,9 +32,12 @@ class Item(NamedTuple):
 @click.command("gallery")
 @click.argument("cases", metavar="CASE...", nargs=-1, required=True)
 @click.option("-o", "--output", metavar="DIR", required=True, help="The folder to write into.")
+@click.option("--exercises", is_flag=True, help="Cards and figures without answers, and no pages.")
 @click.option("--title", metavar="TEXT", help="The heading of the index.")
 @click.option("--force", is_flag=True, help="Write over files that are there.")
-def gallery_command(cases: tuple[str, ...], output: str, title: str | None, force: bool) -> int:
+def gallery_command(
+    cases: tuple[str, ...], output: str, exercises: bool, title: str | None, force: bool
+) -> int:
     """Write an index page with the figure, the answer and the page of every case.
 
     \b
@@ -53,7 +56,7 @@ def gallery_command(cases: tuple[str, ...], output: str, title: str | None, forc
         more = f" (and {len(taken) - 1} more)" if len(taken) > 1 else ""
         complain(f"icsolve gallery: {taken[0]}{more} is there already; --force writes over what is there")
         return UNREADABLE
-    return _write(items, output, title or _title(cases), cases)
+    return _write(items, output, title or _title(cases), cases, exercises)
 
 
 def _items(arguments: Iterable[str]) -> Iterator[Item]:
@@ -94,7 +97,7 @@ def _taken(items: Iterable[Item], output: str) -> list[str]:
     return [path for path in paths if os.path.lexists(path)]
 
 
-def _write(items: list[Item], output: str, title: str, inputs: Iterable[str]) -> int:
+def _write(items: list[Item], output: str, title: str, inputs: Iterable[str], exercises: bool) -> int:
     """Show each case and write its files, then the index; returns the exit status."""
     from icsolve.page.gallery import index_html
 
@@ -102,7 +105,7 @@ def _write(items: list[Item], output: str, title: str, inputs: Iterable[str]) ->
     worst = DONE
     with watched(items, len(items), "gallery") as bar:
         for item in bar:
-            one, code = _shown(item)
+            one, code = _shown(item, exercises)
             if one is None:
                 continue
             if not all(_put(output, item.name + ending, text, inputs) for ending, text in one.files.items()):
@@ -113,14 +116,14 @@ def _write(items: list[Item], output: str, title: str, inputs: Iterable[str]) ->
     return worst if done else UNREADABLE
 
 
-def _shown(item: Item) -> tuple[Exhibit | None, int]:
+def _shown(item: Item, exercises: bool) -> tuple[Exhibit | None, int]:
     """A file as it is shown, and the exit status that it calls for; None for a file of a folder that is no
     case."""
     from icsolve.page.gallery import exhibit, unreadable
 
     path = item.source.path
     try:
-        one = exhibit(item.source.read(None), item.name, path)
+        one = exhibit(item.source.read(None), item.name, path, exercise=exercises)
     except CaseError as error:
         if isinstance(error, NotACase) and item.source.folder is not None:
             return None, DONE

@@ -5,23 +5,40 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from itertools import groupby
 from types import MappingProxyType
 from typing import NamedTuple
 from urllib.parse import quote
 
-from icsolve.case import Case
+from icsolve.case import Case, Spring
 from icsolve.derivation import Known, known_of
 from icsolve.draw import Drawing, draw
 from icsolve.draw.svg import escaped
 from icsolve.draw.words import answer_sentences, description
 from icsolve.page import page_html
+from icsolve.statics.power import is_unknown
+from icsolve.wording.sentences import listed
 
 FIGURE, PAGE = ".svg", ".html"
 ENDINGS = (FIGURE, PAGE)
 """What the files of one case end in."""
 BARE = Drawing(captions=False)
 """Title and answer stand on the card around a figure."""
+ASKED = Drawing(centres="none", captions=False)
+"""An exercise shows neither answer nor centres."""
+KINDS = (
+    "Four-bar linkages",
+    "Linkages of more bars",
+    "Sliders and slots",
+    "Gears, belts and rolling wheels",
+    "Cams",
+    "Friction",
+    "Springs",
+    "Given centres",
+    "Structures",
+    "In space",
+    "Others",
+)
+"""What cases are told by, in the order of the index."""
 
 
 class Exhibit(NamedTuple):
@@ -41,15 +58,67 @@ class Exhibit(NamedTuple):
     alt: str = ""
     files: Mapping[str, str] = MappingProxyType({})
     """content by ending"""
+    kind: str = KINDS[-1]
+    moves: bool = False
+    paged: bool = True
+    """whether there is a page with the answer"""
 
 
-def exhibit(case: Case, name: str, source: str) -> Exhibit:
-    """A case with its files; one without an answer is shown as far as it is known, with the reason."""
+def exhibit(case: Case, name: str, source: str, *, exercise: bool = False) -> Exhibit:
+    """A case with its files; one without an answer is shown as far as it is known, with the reason.
+
+    As an ``exercise`` its figure asks for the unknown, and there is no page that would tell it.
+    """
     known = known_of(case, reactions=True)
-    files = {FIGURE: draw(case, BARE, known), PAGE: page_html(known)}
     refusal = known.refusal
     status, reason = ("ok", "") if refusal is None else (refusal.status, refusal.message)
-    return Exhibit(name, source, known.title, status, _answers(known), reason, description(known), files)
+    kind = kind_of(known)
+    if exercise:
+        bare = known._replace(answer=None, refusal=None)
+        files = {FIGURE: draw(case, ASKED, bare)}
+        return Exhibit(
+            name,
+            source,
+            known.title,
+            status,
+            asked(known),
+            reason,
+            description(bare),
+            files,
+            kind,
+            paged=False,
+        )
+    page = page_html(known)
+    files = {FIGURE: draw(case, BARE, known), PAGE: page}
+    moves = 'id="turn"' in page
+    told = _answers(known)
+    return Exhibit(name, source, known.title, status, told, reason, description(known), files, kind, moves)
+
+
+def kind_of(known: Known) -> str:
+    """What a mechanism is in the first place."""
+    case = known.case
+    has = {type(joint).__name__ for joint in case.joints}
+    rubs = any(getattr(joint, "friction", None) is not None for joint in case.joints)
+    tests = (
+        ("In space", case.space is not None),
+        ("Structures", known.structure),
+        ("Given centres", "KnownCentre" in has),
+        ("Cams", bool(case.profiles) or "Contact" in has),
+        ("Friction", rubs),
+        ("Springs", any(isinstance(load, Spring) for load in case.loads)),
+        ("Gears, belts and rolling wheels", bool(has & {"Gears", "Belt", "Roll"})),
+        ("Sliders and slots", bool(has & {"Slide", "Slot"})),
+        ("Four-bar linkages", has == {"Pin"} and len(case.links) == 4),
+        ("Linkages of more bars", has <= {"Pin", "Weld"} and len(case.links) > 4),
+    )
+    return next((kind for kind, is_so in tests if is_so), KINDS[-1])
+
+
+def asked(known: Known) -> tuple[str, ...]:
+    """What an exercise asks for."""
+    names = [load.name for load in known.case.loads if is_unknown(load)]
+    return (f"Find {listed(names)}.",) if names else _answers(known._replace(answer=None, refusal=None))
 
 
 def unreadable(name: str, source: str, reason: str) -> Exhibit:
@@ -77,9 +146,11 @@ body{font:1rem/1.5 'Helvetica Neue',Helvetica,Arial,'Liberation Sans',sans-serif
 background:var(--paper);max-width:84rem;margin:2rem auto;padding:0 1rem;overflow-wrap:anywhere}
 h1{font-size:1.6rem;line-height:1.25;margin-bottom:.2em}h2{font-size:1.2rem;margin:2em 0 .8em}
 h3{font-size:1rem;line-height:1.3;margin:0}a{color:var(--link)}p{margin:.35em 0}
-.cards{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(20rem,100%),1fr));gap:1rem;padding:0}
+.cards{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(16rem,100%),1fr));gap:1rem;padding:0}
 .card{border:1px solid var(--line);border-radius:6px;padding:.9rem;display:flex;flex-direction:column}
-.card img{width:100%;height:15rem;object-fit:contain;margin:.5rem 0}
+.card img{width:100%;height:11rem;object-fit:contain;margin:.5rem 0}
+.kinds{display:flex;flex-wrap:wrap;gap:.4em 1.2em;padding:0;list-style:none}
+iframe{width:100%;height:34rem;border:1px solid var(--line);border-radius:6px}
 .answer{font-weight:600}.bad{color:var(--bad);font-weight:600}.soft{color:var(--soft);font-size:.9rem}
 .links{margin-top:auto;padding-top:.4em}.problem{white-space:pre-wrap}
 @media print{.card{break-inside:avoid}}
@@ -87,10 +158,10 @@ h3{font-size:1rem;line-height:1.3;margin:0}a{color:var(--link)}p{margin:.35em 0}
 
 
 def index_html(exhibits: Sequence[Exhibit], title: str) -> str:
-    """The page of a gallery, as one HTML file that loads its pictures and nothing else."""
+    """The page of a gallery, as one HTML file that loads its pictures and a page that moves, no more."""
     shown = [one for one in exhibits if one.status != "unreadable"]
     broken = [one for one in exhibits if one.status != "ok"]
-    body = "".join((*_contents(broken), *_folders(shown)))
+    body = "".join((*_landing(shown), *_contents(broken), *_kinds(shown)))
     return (
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width,initial-scale=1">\n'
@@ -121,24 +192,50 @@ def _contents(broken: Sequence[Exhibit]) -> Iterable[str]:
     yield "</ul></section>\n"
 
 
-def _folders(shown: Sequence[Exhibit]) -> Iterable[str]:
-    """Cards by the folder that the cases stand in."""
-    for folder, some in groupby(shown, key=lambda one: one.name.rpartition("/")[0]):
-        yield f"<section><h2>{escaped(folder)}</h2>\n" if folder else "<section>\n"
-        yield '<div class="cards">\n'
-        yield from map(_card, some)
-        yield "</div></section>\n"
+def _landing(shown: Sequence[Exhibit]) -> Iterable[str]:
+    """What this is, one figure that moves, and the kinds to choose from."""
+    yield f"<p>{INTRODUCTION}</p>\n"
+    moving = next((one for one in shown if one.moves), None)
+    if moving is not None:
+        title = escaped(moving.title)
+        yield f'<iframe src="{_address(moving.name + PAGE)}" title="{title}, which can be moved"></iframe>\n'
+    kinds = [kind for kind in KINDS if any(one.kind == kind for one in shown)]
+    if len(kinds) > 1:
+        links = "".join(f'<a href="#{_slug(kind)}">{kind}</a>\n' for kind in kinds)
+        yield f'<nav class="kinds" aria-label="Kinds">\n{links}</nav>\n'
+
+
+INTRODUCTION = (
+    "Mechanisms with the force or torque that holds each in equilibrium, found by instant centres and the "
+    "sum of power."
+)
+
+
+def _kinds(shown: Sequence[Exhibit]) -> Iterable[str]:
+    """Cards by kinds of mechanisms."""
+    for kind in KINDS:
+        some = [one for one in shown if one.kind == kind]
+        if some:
+            yield f'<section id="{_slug(kind)}"><h2>{kind}</h2>\n<div class="cards">\n'
+            yield from map(_card, some)
+            yield "</div></section>\n"
+
+
+def _slug(kind: str) -> str:
+    return "kind-" + "-".join(kind.lower().replace(",", "").split())
 
 
 def _card(one: Exhibit) -> str:
-    figure, page = (_address(one.name + ending) for ending in (FIGURE, PAGE))
+    figure = _address(one.name + FIGURE)
+    page = _address(one.name + PAGE) if one.paged else figure
+    links = f'<a href="{page}">Page and solution</a> · ' if one.paged else ""
     answers = "".join(f'<p class="answer">{escaped(sentence)}</p>\n' for sentence in one.answers)
     reason = f'<p class="bad">No answer ({one.status}): {escaped(one.reason)}</p>\n' if one.reason else ""
     return (
         f'<article class="card" id="{_anchor(one)}"><h3>{escaped(one.title)}</h3>\n'
         f'<a href="{page}"><img src="{figure}" alt="{escaped(one.alt)}" loading="lazy"/></a>\n'
         f"{answers}{reason}"
-        f'<p class="links"><a href="{page}">Page and solution</a> · <a href="{figure}">figure</a></p>\n'
+        f'<p class="links">{links}<a href="{figure}">figure</a></p>\n'
         f'<p class="soft">{escaped(one.source)}</p></article>\n'
     )
 
