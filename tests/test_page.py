@@ -247,7 +247,8 @@ def test_the_terms_add_up_to_zero_in_every_position() -> None:
     """The equation of power: known loads times their ratios of speeds, and the unknown (virtual work)."""
     for name in ("ch13/13_02_four_bar_free_bodies.yaml", "springs/balanced_arm.yaml", SLIDER):
         model = model_of(page_of(name))
-        unknown = column(model["answers"][0]["values"])
+        root = model["root"]
+        unknown = column(model["answers"][0]["values"]) * column(root["gain"]) * root["sign"]
         terms = [t["sign"] * column(t["ratio"]) * column(t["size"]) for t in model["terms"]]
         size = np.maximum.reduce([np.abs(unknown), *(np.abs(t) for t in terms)])
         known = np.isfinite(unknown)

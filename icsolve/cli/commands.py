@@ -24,6 +24,7 @@ VERBS = {
     "draw": "picturing",
     "gallery": "showing",
     "page": "picturing",
+    "sheet": "picturing",
     "sweep": "sweeping",
     "bench": "benching",
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import os
 from collections.abc import Callable, Mapping
 from pathlib import PurePath
@@ -11,7 +12,7 @@ import click
 
 from icsolve.cli.options import DIGITS, SET
 from icsolve.cli.output import OUTPUT, one_source, write_output
-from icsolve.cli.run import NO_ANSWER, UNREADABLE, complain, for_each, on_stderr
+from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, for_each, on_stderr
 
 if TYPE_CHECKING:
     from icsolve.case import Case
@@ -26,6 +27,7 @@ EXPLAINED = {
     ".htm": "html",
     ".tex": "tex",
 }
+SHEETS = {".tex": "tex"}
 PAGED = {".html": "html", ".htm": "html"}
 
 
@@ -124,6 +126,76 @@ def page_command(case: str, output: str | None, settings: dict[str, str]) -> int
 
     known_ending = form_of("page", case, output, PAGED)
     return laid_out("page", case, output, settings, made) if known_ending else UNREADABLE
+
+
+@click.command("sheet")
+@click.argument("cases", metavar="CASE...", nargs=-1, required=True)
+@OUTPUT
+@click.option("--variants", metavar="FILE", help="values.csv of `icsolve variants`: a sheet a student.")
+@click.option("--student", metavar="ID", help="The sheet of this student alone.")
+@click.option("--title", metavar="TEXT", default="Exercises", show_default=True, help="The heading.")
+def sheet_command(
+    cases: tuple[str, ...], output: str | None, variants: str | None, student: str | None, title: str
+) -> int:
+    """Write an exercise sheet for LaTeX: figures and questions, and the key behind them.
+
+    \b
+    icsolve sheet cases/linkages -o exam.tex
+    icsolve sheet press.yaml --variants sheets/press/values.csv --student 1234 -o exam.tex
+
+    A case without an answer is asked as it is, and the key says why; exit status 1.
+    """
+    if form_of("sheet", cases[0], output, SHEETS) is None:
+        return UNREADABLE
+    try:
+        students = _students(variants, student)
+    except (OSError, ValueError) as error:
+        complain(f"icsolve sheet: {variants or '--student'}: {error}")
+        return UNREADABLE
+    from icsolve.explain.sheet import Exercise, exercise, sheet_tex
+
+    sheets: list[tuple[str, list[Exercise]]] = []
+    worst = DONE
+    for who, values in students:
+        found: list[Exercise] = []
+
+        def work(case: Case, path: str, given: Values = values, to: list[Exercise] = found) -> int:
+            from icsolve.derivation import known_of
+            from icsolve.read import load
+
+            own = {f"variables.{v.name}": given[v.name] for v in case.variables if v.name in given}
+            known = known_of(load(path, own) if own else case)
+            to.append(exercise(known))
+            if known.refusal is not None:
+                on_stderr(case, path, known.refusal)
+            return DONE if known.refusal is None else NO_ANSWER
+
+        worst = max(worst, for_each(cases, work))
+        sheets.append((who, found))
+    if not any(some for _, some in sheets):
+        return max(worst, UNREADABLE)
+    return max(worst, write_output("sheet", sheet_tex(title, sheets), output, cases))
+
+
+Values = Mapping[str, str]
+"""A student's numbers by variable."""
+
+
+def _students(variants: str | None, student: str | None) -> list[tuple[str, Values]]:
+    """Students with their numbers by variable; one without a name where no numbers are given."""
+    if variants is None:
+        if student is not None:
+            raise ValueError("it needs --variants, the numbers that students have")
+        return [("", {})]
+    with open(variants, encoding="utf-8-sig", newline="") as file:
+        table = csv.DictReader(file)
+        rows = [{key: (cell or "").lstrip("'") for key, cell in row.items() if key} for row in table]
+    if not rows or "student_id" not in rows[0]:
+        raise ValueError("it has no column student_id, or no student; `icsolve variants` writes values.csv")
+    chosen = [row for row in rows if student in (None, row["student_id"])]
+    if not chosen:
+        raise ValueError(f"there is no student {student}")
+    return [(row["student_id"], row) for row in chosen]
 
 
 def form_of(verb: str, case: str, output: str | None, endings: Mapping[str, str]) -> str | None:

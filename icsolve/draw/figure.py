@@ -12,7 +12,6 @@ import shapely
 
 from icsolve.case import Case, Pin
 from icsolve.derivation import Known, Step, all_steps, known_of, needed_steps
-from icsolve.draw.bodies import body_panels, support_parts
 from icsolve.draw.centres import centre_parts, circle_marks
 from icsolve.draw.frame import belts, frame_parts, joint_parts, point_parts, rims
 from icsolve.draw.links import Body, bars, body_of, inside_plate, link_part, outline, wheel_parts
@@ -84,11 +83,20 @@ def figure_marks(scene: Scene, steps: Sequence[Step] = (), *, velocities: bool =
         *joint_parts(scene),
         *centre_parts(scene, steps),
         *load_parts(scene, _filled(links, speeds)),
-        *support_parts(scene, links),
+        *_supports(scene, links),
         *speeds,
         *point_parts(scene),
     ]
     return with_labels(together(parts), scene.view.window)
+
+
+def _supports(scene: Scene, links: shapely.Geometry) -> list[Part]:
+    """The forces of the frame on a structure."""
+    if not scene.known.structure:
+        return []
+    from icsolve.draw.bodies import support_parts
+
+    return support_parts(scene, links)
 
 
 def _hides_its_foot(scene: Scene, body: Body) -> bool:
@@ -204,5 +212,7 @@ def _under(scene: Scene, drawing: Drawing, marks: Sequence[Mark]) -> list[Mark]:
         found += [scale] if scale is not None else []
         bottom = max(bottom, bounds(found)[3]) if found else bottom
     if drawing.bodies:
+        from icsolve.draw.bodies import body_panels
+
         found += body_panels(scene, left, bottom + 30.0, max(right - left, 760.0))
     return found

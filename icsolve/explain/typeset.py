@@ -102,11 +102,12 @@ class AsTex(Layout):
     def sections(self, document: Document) -> str:
         """The sections alone, to stand in another document."""
         return "".join(
-            f"\\subsection*{{{self.text(section.title)}}}\n{''.join(map(self._block, section.blocks))}"
+            f"\\subsection*{{{self.text(section.title)}}}\n{''.join(map(self.block, section.blocks))}"
             for section in document.sections
         )
 
-    def _block(self, block: Block) -> str:
+    def block(self, block: Block) -> str:
+        """One block of a section."""
         match block:
             case Words():
                 return f"\\noindent {self.inline(block.parts)}\\par\n"

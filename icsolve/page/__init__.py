@@ -47,7 +47,7 @@ def _in_plane(known: Known) -> Parts:
     equation = equation_of(known, motion)
     model = model_of(known, steps, figure, motion)
     model["terms"] = None if equation is None else equation.data
-    model["sign"] = 1 if equation is None else equation.sign
+    model["root"] = None if equation is None else {"sign": equation.sign, "gain": equation.gain}
     model["plots"] = [plot_data(plot) for plot in plots]
     circle, chords = circle_svg(known, steps) if steps else ("", ())
     used = kinds_of((*figure.marks, *chords, *(mark for plot in plots for mark in plot.marks)))

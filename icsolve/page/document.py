@@ -32,7 +32,7 @@ class Equation(NamedTuple):
     ``rows``: for each known load what it exerts, its ratio of speeds (MathML both), the unit of that and of
     what it exerts; ``root`` is what the unknown load exerts, with its unit. Each of ``data`` has the force
     or torque that a load exerts, the ratio of its speed to that of the unknown, and the ``sign`` in front of
-    it, in every position.
+    it, in every position; ``gain`` is what a unit of the unknown exerts.
     """
 
     symbols: str
@@ -41,6 +41,7 @@ class Equation(NamedTuple):
     root: tuple[str, str]
     data: list[dict[str, Any]]
     sign: int
+    gain: dict[str, Any]
 
 
 def equation_of(known: Known, motion: Motion | None) -> Equation | None:
@@ -67,7 +68,8 @@ def equation_of(known: Known, motion: Motion | None) -> Equation | None:
         for a, q in zip(others, over, strict=True)
     )
     own = (_math(exerted(root)), unit_exerted(known, root))
-    return Equation(symbols, ratio, shown, own, data, turn_of(root))
+    exerts = exact((turn_of(root) * gain).tolist())
+    return Equation(symbols, ratio, shown, own, data, turn_of(root), exerts)
 
 
 def _term(known: Known, motion: Motion, acting: Acting, rows: slice, root: Array) -> dict[str, Any]:

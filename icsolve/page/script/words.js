@@ -39,6 +39,6 @@ function tell(r) {
     byId(`ratio-${n}`).textContent = ratio === null ? "none" : number(ratio, 6);
     byId(`product-${n}`).textContent = product === null ? "none" : number(product, 6);
   });
-  const value = -data.sign * sum;
+  const value = -data.root.sign * sum;
   byId("root-product").textContent = answers[0].values[r] === null || Number.isNaN(value) ? "none" : number(value, 6);
 }

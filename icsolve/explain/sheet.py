@@ -1,0 +1,68 @@
+"""An exercise sheet as a LaTeX document: figures and questions, and the key behind them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from icsolve.derivation import Known
+from icsolve.draw import tikz
+from icsolve.draw.figure import Drawing, drawn
+from icsolve.draw.marks import Mark
+from icsolve.draw.words import answer_sentences
+from icsolve.explain.document import Block
+from icsolve.explain.given import asked_section, figures_of, given_section
+from icsolve.explain.typeset import AsTex, picture_tex
+
+ASKED = Drawing(centres="none", captions=False)
+DIGITS = 6
+
+
+class Exercise(NamedTuple):
+    """A case as it is asked: its title, figure and text, and what the key says."""
+
+    title: str
+    figure: tuple[Mark, ...]
+    blocks: tuple[Block, ...]
+    key: tuple[str, ...]
+
+
+def exercise(known: Known) -> Exercise:
+    """A case as an exercise: its figure has neither answer nor centres."""
+    asked = known._replace(answer=None, refusal=None)
+    figures = figures_of(known, DIGITS)
+    if known.case.space is not None:
+        from icsolve.explain.space import asked_in_space, given_in_space
+
+        sections = (given_in_space(asked, figures), asked_in_space(asked, figures))
+    else:
+        sections = (given_section(asked, figures), asked_section(known, figures))
+    key = tuple(f"{sentence}." for sentence in answer_sentences(known))
+    if known.refusal is not None:
+        key = (f"No answer ({known.refusal.status}): {known.refusal.message}",)
+    blocks = tuple(block for section in sections for block in section.blocks)
+    return Exercise(known.title, tuple(drawn(asked, ASKED)), blocks, key or ("See the worked solution.",))
+
+
+def sheet_tex(title: str, sheets: Sequence[tuple[str, Sequence[Exercise]]]) -> str:
+    """A document with the exercises of every student, each on pages of their own, and all keys behind."""
+    layout = AsTex()
+    used = tikz.kinds_of(mark for _, some in sheets for one in some for mark in one.figure)
+    questions, keys = [], []
+    for who, some in sheets:
+        heading = layout.text(title) + (f" \\hfill {layout.text(who)}" if who else "")
+        questions.append(f"\\section*{{{heading}}}\n")
+        questions += [_question(layout, n, one) for n, one in enumerate(some, 1)]
+        questions.append("\\clearpage\n")
+        name = f"Key {layout.text(who)}".rstrip()
+        items = "".join(f"\\item {layout.text(' '.join(one.key))}\n" for one in some)
+        keys.append(f"\\section*{{{name}}}\n\\begin{{enumerate}}\n{items}\\end{{enumerate}}\n")
+    return (
+        f"\\documentclass[11pt]{{article}}\n{tikz.PREAMBLE}{layout.packages}{layout.page}"
+        f"{tikz.styles(used)}\\begin{{document}}\n{''.join((*questions, *keys))}\\end{{document}}\n"
+    )
+
+
+def _question(layout: AsTex, n: int, one: Exercise) -> str:
+    body = "".join(map(layout.block, one.blocks))
+    return f"\\subsection*{{{n}. {layout.text(one.title)}}}\n{picture_tex(one.figure)}{body}"
