@@ -12,7 +12,10 @@ from pathlib import Path
 
 import pytest
 
+import icsolve
 from icsolve.cli import main
+from icsolve.derivation import known_of
+from icsolve.draw.words import answer_sentences
 from pictures import parsed
 from test_draw import DEAD_CENTRE, FOUR_BAR
 
@@ -168,3 +171,26 @@ def test_latex_is_written_by_its_ending(verb: str, tmp_path: Path) -> None:
     assert r"50 \% \& more: \#1 \$x\_2\$" in text
     if shutil.which("pdflatex"):
         subprocess.run(["pdflatex", "-interaction=batchmode", out.name], cwd=tmp_path, check=True)
+
+
+VARIED = FOUR_BAR.format(title="Press", crank=1).replace("force: 100", "force: $P")
+VARIED += "variables: {P: {choices: [40, 80]}}\n"
+NUMBERS = "student_id,email,variant,P\n7,a@b.c,v1,40\n8,d@e.f,v2,80\n"
+
+
+def test_a_sheet_has_the_numbers_of_each_student_and_the_key_behind(tmp_path: Path) -> None:
+    case, values, out = (tmp_path / name for name in ("press.yaml", "values.csv", "exam.tex"))
+    case.write_text(VARIED)
+    values.write_text(NUMBERS)
+    assert ran("sheet", str(case), "--variants", str(values), "-o", str(out)) == 0
+    questions, _, keys = out.read_text(encoding="utf-8").partition("\\section*{Key 7}")
+    for force in (40, 80):
+        known = known_of(icsolve.load(case, {"variables.P": str(force)}))
+        (sentence,) = answer_sentences(known)
+        number = sentence.split()[2]
+        assert f"= {force} " in questions or f"of {force} " in questions
+        assert number in keys and f"= {number} " not in questions
+    assert ran("sheet", str(case), "--variants", str(values), "--student", "8", "-o", str(out)) == 0
+    assert "Key 7" not in out.read_text(encoding="utf-8")
+    assert ran("sheet", str(case), "--variants", str(values), "--student", "9", "-o", str(out)) == 2
+    assert ran("sheet", str(case), "-o", str(tmp_path / "exam.pdf")) == 2
