@@ -7,6 +7,9 @@ sweep in sixty digits.
 
 from __future__ import annotations
 
+import contextlib
+from dataclasses import replace
+from pathlib import Path
 from random import Random
 from typing import Any
 
@@ -17,6 +20,8 @@ from mpmath import mp, mpf
 import full_turns
 import icsolve
 import transcribe
+from icsolve.sweep.finding import Query, find
+from icsolve.sweep.numbers import numbers_of, with_numbers
 from recorded import truths
 from test_sweep_status import FOUR_BAR, PARALLELOGRAM, SLIDER_CRANK
 
@@ -167,6 +172,62 @@ def test_beside_the_dead_centres_of_a_slider_crank(offset: str, unknown: str) ->
             error = abs(mpf(float(sweep.answers[unknown][n])) - truth)
             assert error <= sweep.error[unknown][n], (float(value) - place, float(error))
             assert sweep.error[unknown][n] <= 1e-6 * abs(truth) or unknown == "T"
+
+
+# --- as `solve` has it ------------------------------------------------------------------------------
+
+CASES = Path(__file__).parent.parent / "cases"
+
+
+def as_solved(case: icsolve.Case, path: str, value: float, sweep: icsolve.Sweep) -> tuple[str, Any]:
+    """Status and answers of `solve` with the value set, near the branch that the sweep followed."""
+    near = {name: (float(at[0, 0]), float(at[0, 1])) for name, at in sweep.points.items()}
+    near = {name: at for name, at in near.items() if np.isfinite(at).all()}
+    try:
+        found = icsolve.solve(replace(with_numbers(case, {path: value}), near=near or case.near))
+    except icsolve.SceneError as refusal:
+        return refusal.status, {}
+    return "ok", found.answers
+
+
+def posing(case: icsolve.Case) -> list[str]:
+    """The numbers that move the mechanism to what `solve` has with the number set, too."""
+    paths = []
+    for path, number in numbers_of(case).items():
+        if path.split(".")[0] in ("angles", "lengths"):
+            value = number.value + (1.7 if path.startswith("angles") else 0.01 * number.value)
+            with contextlib.suppress(icsolve.SceneError):
+                probe = icsolve.sweep(case, {path: [value]}, WANT)
+                status, answers = as_solved(case, path, value, probe)
+                same = (answers[k].value == pytest.approx(probe.answers[k][0], rel=1e-9) for k in answers)
+                if status == probe.status[0] == "ok" and all(same):
+                    paths.append(path)
+    return paths
+
+
+@pytest.mark.parametrize("file", sorted(CASES.rglob("*.yaml"))[::4], ids=lambda file: file.stem)
+def test_rows_have_the_status_and_the_value_that_solve_has(file: Path) -> None:
+    """Beside every dead centre, limit and change point of cases of the library."""
+    try:
+        case = icsolve.load(str(file))
+    except icsolve.CaseError:
+        pytest.skip("a case that is told what it lacks")
+    for path in posing(case)[:1]:
+        value = numbers_of(case)[path].value
+        wide = 180.0 if path.startswith("angles") else 0.4 * value
+        try:
+            spots = find(case, {path: [value - wide, value + wide]}, Query("dead"))
+        except (icsolve.SceneError, ValueError):
+            continue
+        for spot in spots[:2]:
+            for off in OFFS[::5]:
+                row = spot.at + off * wide / 180.0
+                sweep = icsolve.sweep(case, {path: [row]}, WANT)
+                status, answers = as_solved(case, path, row, sweep)
+                assert sweep.status[0] == status, (path, spot, off)
+                for name, found in answers.items() if status == "ok" else ():
+                    room = sweep.error[name][0] + (found.error or 0.0)
+                    assert abs(sweep.answers[name][0] - found.value) <= room, (path, spot, off)
 
 
 # --- every row by itself ----------------------------------------------------------------------------
