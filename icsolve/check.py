@@ -18,6 +18,7 @@ from icsolve.case import (
     LoadIs,
     Number,
     Pair,
+    PositionIs,
     RateIs,
     RatioIs,
     ReactionIs,
@@ -98,11 +99,15 @@ def value_of(answer: Answer, target: Target) -> tuple[float, ...]:
 def _row(answer: Answer, expected: Expected) -> Row:
     published = _published(expected)
     try:
+        if expected.holds is not None:
+            return _verdict(expected, published, *_range(answer, expected, expected.holds))
         values = _found(answer, expected)
     except _MissingError as missing:
         return Row(expected.key, published, "", missing.verdict, str(missing))
-    found = _shown(values, expected)
-    agrees = _agrees(values, expected)
+    return _verdict(expected, published, _shown(values, expected), _agrees(values, expected))
+
+
+def _verdict(expected: Expected, published: str, found: str, agrees: bool) -> Row:
     if expected.erratum is None:
         return Row(expected.key, published, found, AGREES if agrees else DISAGREES)
     if agrees:
@@ -110,7 +115,56 @@ def _row(answer: Answer, expected: Expected) -> Row:
     return Row(expected.key, published, found, ERRATUM, expected.erratum)
 
 
+def _range(answer: Answer, expected: Expected, ends: tuple[Number | None, Number | None]) -> tuple[str, bool]:
+    """The range in which a load holds, and whether it is the published one: both ends, open where that is."""
+    assert isinstance(expected.target, LoadIs)
+    found = answer.answers.get(expected.target.load)
+    if found is None or found.holds is None:
+        raise _MissingError(f"{expected.target.load} holds over no range: it has one value, or is given")
+    agrees = all(
+        math.isinf(end)
+        if number is None
+        else abs(end - number.value) <= _width(expected, number, abs(number.value))
+        for number, end in zip(ends, found.holds, strict=True)
+    )
+    return _ends(*(None if math.isinf(end) else _digits(end) for end in found.holds)), agrees
+
+
+def _ends(low: str | None, high: str | None) -> str:
+    if low is None or high is None:
+        return f"up to {high}" if high is not None else f"{low} and more" if low is not None else "all"
+    return f"{low} to {high}"
+
+
+def _resting(answer: Answer, path: str, expected: Expected) -> float:
+    """Of the positions of equilibrium (those of the kind that is meant) the nearest to the published one."""
+    if answer.positions is None:
+        raise _MissingError("positions of equilibrium were not asked for", NOT_EXAMINED)
+    near = expected.value[0].value if expected.value else 0.0
+    turn = 360.0 if path.startswith("angles.") else math.inf
+    found = []
+    for position in answer.positions:
+        held = position.at.get(path)
+        if held is None or expected.stability not in (None, position.stability):
+            continue
+        low, high = (held, held) if isinstance(held, float) else held
+        found.append(near + _off(near, low, high, turn))
+    if not found:
+        kind = f" {expected.stability}" if expected.stability else ""
+        raise _MissingError(f"there is no{kind} position of equilibrium with {path}")
+    return min(found, key=lambda value: abs(value - near))
+
+
+def _off(near: float, low: float, high: float, turn: float) -> float:
+    """How far a value lies from a range, 0 within it; whole turns do not count."""
+    if turn < math.inf:
+        low, high = (near + math.remainder(low - near, turn) + width for width in (0.0, high - low))
+    return low - near if near < low else high - near if near > high else 0.0
+
+
 def _published(expected: Expected) -> str:
+    if expected.holds is not None:
+        return _ends(*(None if end is None else _written(end) for end in expected.holds))
     if expected.toward is not None:
         return f"toward {_written(expected.toward)}"
     numbers = ", ".join(_written(number) for number in expected.value)
@@ -169,6 +223,8 @@ def _found(answer: Answer, expected: Expected) -> tuple[float, ...]:
     match expected.target:
         case LoadIs(load):
             return (_load(answer, load, expected.sense),)
+        case PositionIs(path):
+            return (_resting(answer, path, expected),)
         case CentreIs(pair):
             return _place(answer, pair, "at" if expected.toward is None else "toward")
         case DistanceIs(a, b):

@@ -7,6 +7,7 @@ import math
 import pytest
 
 import icsolve
+from icsolve.check import compare
 from icsolve.errors import CaseError
 
 ARM = """\
@@ -105,3 +106,73 @@ def test_a_slip_of_an_unknown_datum_is_refused(slip: str) -> None:
         icsolve.load(text)
     assert len(refused.value.problems) == 1
     assert said in refused.value.problems[0].message
+
+
+SLOPE = """\
+icsolve: 1
+points: {A: [0, 0]}
+joints:
+  - {slide: [2, 1], at: A, along: 20, mu: 0.5}
+loads:
+  W: {weight: 100, link: 2, at: A}
+  P: {force: unknown, link: 2, at: A, angle: 20}
+expect:
+"""
+
+
+def verdicts(text: str) -> list[str]:
+    """What the comparison with the published values says, one word a value."""
+    case = icsolve.load(text)
+    return [row.verdict for row in compare(icsolve.solve(case))]
+
+
+@pytest.mark.parametrize(
+    ("range_", "verdict"),
+    [
+        ("[-12.8, 81.2]", "agrees"),
+        ("[-13, 81]", "agrees"),
+        ("[-12.8, 82]", "disagrees"),
+        ("[null, 81.2]", "disagrees"),
+        ("[-12.7, 81.3], within: 1%", "agrees"),
+    ],
+)
+def test_a_published_range_in_which_friction_holds_is_compared_at_both_ends(
+    range_: str, verdict: str
+) -> None:
+    """W (sin 20 -+ mu cos 20) on a slope of 20 degrees."""
+    assert verdicts(f"{SLOPE}  P: {{holds: {range_}}}\n") == [verdict]
+
+
+@pytest.mark.parametrize(
+    ("published", "verdict"),
+    [
+        ("angles.AB: 90", "agrees"),
+        ("angles.AB: 270.0", "agrees"),
+        ("angles.AB: -90", "agrees"),
+        ("angles.A-B: {value: 90, stability: unstable}", "agrees"),
+        ("angles.AB: {value: 270, stability: unstable}", "disagrees"),
+        ("angles.AB: 45", "disagrees"),
+    ],
+)
+def test_a_published_position_agrees_with_any_of_its_kind(published: str, verdict: str) -> None:
+    """A bar that its weight pulls down rests hanging, and upright."""
+    text = arm("unknown").replace("  P: {force: 20, link: 2, at: B, angle: 90}\n", "")
+    assert verdicts(f"{text}expect:\n  {published}\n") == [verdict]
+
+
+PUBLISHED = {
+    "a range of a centre": ("I12: {holds: [1, 2]}", "only a load holds over a range"),
+    "one end": ("P: {holds: [1]}", "the two ends of the range, as in [113, 287]"),
+    "the wrong way round": ("P: {holds: [2, 1]}", "from the lower to the higher end"),
+    "no end at all": ("P: {holds: [null, null]}", "the two ends of the range"),
+    "a stable load": ("P: {value: 3, stability: stable}", "not a position, which alone can be stable"),
+    "an angle that is given": ("angles.AB: 3", "no datum of the figure that is to find"),
+}
+
+
+@pytest.mark.parametrize("slip", PUBLISHED)
+def test_a_slip_of_a_published_value_is_told(slip: str) -> None:
+    published, said = PUBLISHED[slip]
+    with pytest.raises(CaseError) as refused:
+        icsolve.load(f"{SLOPE}  {published}\n")
+    assert said in str(refused.value)

@@ -73,8 +73,23 @@ class FrictionRadiusIs(NamedTuple):
     point: str
 
 
+class PositionIs(NamedTuple):
+    """Expected: a datum of the figure in a position of equilibrium, by its path: ``angles.AB``."""
+
+    path: str
+
+
 Target = (
-    LoadIs | CentreIs | DistanceIs | RatioIs | RateIs | SpeedIs | ReactionIs | ArmIs | FrictionRadiusIs
+    LoadIs
+    | PositionIs
+    | CentreIs
+    | DistanceIs
+    | RatioIs
+    | RateIs
+    | SpeedIs
+    | ReactionIs
+    | ArmIs
+    | FrictionRadiusIs
 )
 
 
@@ -84,7 +99,8 @@ class Expected(NamedTuple):
     ``value`` holds one number, or two for a centre's place; ``toward`` a direction in degrees;
     ``sense`` a published sense in words (``ccw``, ``cw``). ``within`` is an absolute width or,
     with ``relative``, a fraction; None: to the digits given. ``erratum`` says what is wrong
-    with the published value.
+    with the published value. ``holds`` is the range in which a load holds still by friction (None: no end),
+    ``stability`` the kind of position that is meant.
     """
 
     key: str
@@ -95,6 +111,8 @@ class Expected(NamedTuple):
     within: float | None = None
     relative: bool = False
     erratum: str | None = None
+    holds: tuple[Number | None, Number | None] | None = None
+    stability: str | None = None
 
 
 class Tolerance(NamedTuple):

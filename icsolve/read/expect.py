@@ -15,6 +15,7 @@ from icsolve.case import (
     LoadIs,
     Number,
     Pair,
+    PositionIs,
     RateIs,
     RatioIs,
     ReactionIs,
@@ -22,10 +23,10 @@ from icsolve.case import (
     Target,
     Tolerance,
 )
-from icsolve.read.document import Mapping, Node, Scalar, Sequence
+from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
 from icsolve.read.keys import EXPECTED
 from icsolve.read.loads import dimension_of
-from icsolve.read.names import LONGEST_KEY, is_name, pairs, shown, suggestion
+from icsolve.read.names import LONGEST_KEY, atoms, is_name, pairs, shown, suggestion
 from icsolve.read.reading import Entry, Reading, number, quantity
 from icsolve.units import DIMENSIONS, UnitError, parse_unit, split_quantity
 
@@ -42,6 +43,8 @@ def target_of(reading: Reading, key: str, points: set[str]) -> Target | str:
         return LoadIs(key)
     if len(key) > LONGEST_KEY:
         return "this key is too long"
+    if key.partition(".")[0] in ("angles", "lengths", "points"):
+        return _position(reading, key)
     found = list(dict.fromkeys(_readings(reading, key, points))) or _between_points(key, points)
     if reading.axes == "xyz":
         found = [target for target in found if _is_of_space(target)]
@@ -50,6 +53,24 @@ def target_of(reading: Reading, key: str, points: set[str]) -> Target | str:
     if found:
         return f"{shown(key)} can be read in {len(found)} ways; write the links with hyphens, as in I3-14"
     return _unknown(reading, key)
+
+
+def _position(reading: Reading, key: str) -> Target | str:
+    """A datum of the figure that is to find, however its points are joined in the key."""
+    section, _, rest = key.partition(".")
+    for path in (unknown.path for unknown in reading.unknowns):
+        if path == key or (path.startswith(f"{section}.") and _names_of(path) == _names_of(key)):
+            return PositionIs(path)
+    if section == "points" and rest.partition(".")[0] in reading.given:
+        return PositionIs(key)
+    likely = suggestion(key, [unknown.path for unknown in reading.unknowns])
+    return f"{shown(key)} is no datum of the figure that is to find{likely}"
+
+
+def _names_of(path: str) -> tuple[str, ...]:
+    name = path.partition(".")[2]
+    names = tuple(name.split("-")) if "-" in name else atoms(name)
+    return tuple(sorted(names)) if path.startswith("lengths.") else names
 
 
 def _is_of_space(target: Target) -> bool:
@@ -226,12 +247,21 @@ def _expected(reading: Reading, key: str, target: Target, node: Node) -> Expecte
         return Expected(key, target, *bare) if bare is not None else None
     entry = Entry(reading, node, f"expect.{key}", f"the expected {key}", EXPECTED)
     entry.check()
-    which = entry.one_of(("value", "toward"))
+    which = entry.one_of(("value", "toward", "holds"))
     if which is None:
         entry.need("value")
         return None
     toward = which == "toward"
-    value = _toward(entry, target) if toward else _value(reading, node.items["value"], target, entry.path)
+    holds, value = None, None
+    if which == "holds":
+        holds = _holds(entry, target)
+        value = _Value() if holds is not None else None
+    else:
+        value = _toward(entry, target) if toward else _value(reading, node.items["value"], target, entry.path)
+    stability = entry.word("stability", ("stable", "unstable", "neutral"))
+    if stability is not None and not isinstance(target, PositionIs):
+        said = f"{entry.what} is not a position, which alone can be {stability}"
+        entry.refuse(entry.mark("stability"), said)
     within = _within(entry, "angle" if toward else _dimension(reading, target))
     erratum = reading.text(node.items["erratum"], f"the erratum of {key}") if entry.has("erratum") else None
     if erratum == "":
@@ -239,7 +269,31 @@ def _expected(reading: Reading, key: str, target: Target, node: Node) -> Expecte
     if value is None or within is None:
         return None
     width, relative = within
-    return Expected(key, target, *value, within=width, relative=relative, erratum=erratum)
+    return Expected(key, target, *value, width, relative, erratum, holds, stability)
+
+
+def _holds(entry: Entry, target: Target) -> tuple[Number | None, Number | None] | None:
+    """The two ends of a range in which a load holds; null for no end."""
+    node = entry.node.items["holds"]
+    if not isinstance(target, LoadIs):
+        entry.refuse(entry.mark("holds"), f"{entry.what} is not a load; only a load holds over a range")
+        return None
+    if type(node) is not Sequence or len(node.items) != 2 or all(is_null(item) for item in node.items):
+        form = "the two ends of the range, as in [113, 287], null for one that it has not"
+        entry.refuse(node.mark, f"'holds' of {entry.what} should be {form}")
+        return None
+    dimension = _dimension(entry.reading, target)
+    low, high = (
+        None if is_null(item) else number(entry.reading, item, dimension, f"{entry.path}.holds.{n}")
+        for n, item in enumerate(node.items)
+    )
+    whole = [is_null(item) == (end is None) for item, end in zip(node.items, (low, high), strict=True)]
+    if not all(whole):
+        return None
+    if low is not None and high is not None and low.value > high.value:
+        entry.refuse(node.mark, f"'holds' of {entry.what} goes from the lower to the higher end")
+        return None
+    return low, high
 
 
 def _toward(entry: Entry, target: Target) -> _Value | None:
@@ -358,6 +412,8 @@ def _dimension(reading: Reading, target: Target) -> str:
         return "angular speed"
     if isinstance(target, SpeedIs):
         return "speed"
+    if isinstance(target, PositionIs):
+        return "angle" if target.path.startswith("angles.") else "length"
     if isinstance(target, CentreIs | DistanceIs | ArmIs | FrictionRadiusIs):
         return "length"
     assert isinstance(target, RatioIs)

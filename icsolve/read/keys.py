@@ -524,6 +524,8 @@ MASSES = {
 EXPECTED = {
     "value": Key("the published one", "published"),
     "toward": _quantity("the direction in which a centre at infinity lies", "angle"),
+    "holds": Key("the range in which it holds still, as in [113, 287]; null where it has no end", "ends"),
+    "stability": Key("of which kind the position is: stable, unstable or neutral", "stability"),
     "within": Key("how near is near enough, as in 1% or 0.02", "width"),
     "erratum": Key("what is wrong with the published value: it is then expected not to agree", "text"),
 }

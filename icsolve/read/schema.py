@@ -151,6 +151,8 @@ FORMS: dict[str, Schema] = {
         "propertyNames": {"pattern": _QUANTITY},
     },
     "published": _PUBLISHED,
+    "ends": _list(_any({"type": "number"}, _pattern(_QUANTITY), {"type": "null"}), 2, 2),
+    "stability": {"enum": ["stable", "unstable", "neutral"]},
     "units": _ref("units"),
     "gravity": _any(_ref("quantity"), _ref("triple"), _ref("gravity in space")),
     "points": _section(_any(_COORDINATES, _ref("triple"), _ref("centroid"))),
@@ -220,7 +222,7 @@ def _definitions() -> Schema:
                 {**motion, "properties": of_point, "required": ["point", "link", "speed", "angle"]},
             ]
         },
-        "published": {**_keyed(keys.EXPECTED), **_either("value", "toward")},
+        "published": {**_keyed(keys.EXPECTED), **_either("value", "toward", "holds")},
         "tolerance": {**_keyed(keys.TOLERANCE), "minProperties": 1},
         "variable": {
             "oneOf": [

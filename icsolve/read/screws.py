@@ -65,4 +65,3 @@ def read_turning(entry: Entry, name: str, kind: str, likes: Likes) -> Load | Non
         return None
     read, value = magnitude(entry, name, kind, likes)
     return Torque(name, screw.rotor, value) if read else None
-
