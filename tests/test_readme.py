@@ -135,7 +135,7 @@ def test_every_form_of_a_joint_is_read(form: str) -> None:
 def test_every_form_of_a_load_is_read(form: str) -> None:
     load = f"{{torque: {form}, link: 2}}" if "like" in form else form
     case = icsolve.load(f"{SCAFFOLD}loads:\n  M2: {{torque: 5, link: 3}}\n  Q: {load}\n")
-    assert case.loads[1].name == "Q"
+    assert case.loads[1].name.removesuffix(".x") == "Q"
 
 
 @pytest.mark.parametrize("form", forms("Motion"))
