@@ -76,15 +76,16 @@ def _points(case: Case) -> set[str]:
 class Solved:
     """One case with its answer, and the keys that were asked of it."""
 
-    def __init__(self, case: Case, course: Course, bound: bool = False) -> None:
+    def __init__(self, case: Case, course: Course, bound: bool = False, full: bool = False) -> None:
+        """Solved plainly, or at once in ``full``. Raises SceneError."""
         self.case = case
         self.course = course
         self._bound = bound
-        self.plain = solved_plainly(case)
-        """the answers alone: enough for the key of a load"""
         self.scale = 1.0
         """by what the loads, and so the answers, are larger than in ``answer``"""
-        self._answer: Answer | None = None
+        self._answer = solved(case, bound) if full else None
+        self.plain = self._answer or solved_plainly(case)
+        """the answers alone: enough for the key of a load"""
         self._base: Solved | None = None
         self._keys: dict[str, AnyKey] = {}
         self._wrongs: dict[str, list[Wrong]] | None = None

@@ -23,7 +23,7 @@ VALUES, KEYS = "values.csv", "key.csv"
 _SAME = 1e-9
 """Relative difference of two keys that is none: the file has twelve digits."""
 _ASKED = 40
-"""Students by whom it is told whether their numbers were drawn with a seed."""
+"""Students by whom it is told whether the numbers were drawn with this seed, and would be drawn again."""
 Texts = dict[str, str]
 
 
@@ -166,10 +166,11 @@ def changes(varied: Varied, record: Record) -> Iterator[str]:
             "now; they count as they were handed out"
         )
     else:
-        other = varied.drawn_otherwise(record.handed)
+        other = varied.drawn_otherwise({student: record.handed[student] for student in asked})
         if other:
             yield (
-                f"{varied.name} has changed: {len(other)} of {len(record.handed)} students would now be "
+                f"{varied.name} has changed: of {len(asked)} students who were looked at {len(other)} "
+                f"would now be "
                 f"given other numbers ({_some(other)}); those that were handed out count"
             )
     yield from _changed_keys(varied, record)

@@ -275,7 +275,7 @@ class Varied:
         return any(self._values(student, trial) == values for trial in range(TRIALS))
 
     def drawn_otherwise(self, handed: Mapping[str, Handed]) -> list[str]:
-        """Students who would now be given other numbers than those that were handed out."""
+        """Of some students those who would now be given other numbers than were handed out."""
         fresh = Varied(self.name, self.text, self.path, self.course)
         found = []
         for student, given in handed.items():
@@ -343,16 +343,16 @@ class Varied:
         """These values, and the first ones of variables that only scale loads."""
         return {n: self._first[n] if n in self.magnitudes.names else v for n, v in values.items()}
 
-    def _exactly(self, values: Texts) -> Solved | None:
+    def _exactly(self, values: Texts, full: bool = False) -> Solved | None:
         """The case with these values; None where it has no answer."""
         key = tuple(values.values())
         if key not in self._solved:
-            _keep(self._solved, key, self._made(values), _KEPT)
+            _keep(self._solved, key, self._made(values, full), _KEPT)
         return self._solved[key]
 
-    def _made(self, values: Texts) -> Solved | None:
+    def _made(self, values: Texts, full: bool) -> Solved | None:
         try:
-            return Solved(self.read(values), self.course, bound=True)
+            return Solved(self.read(values), self.course, bound=True, full=full)
         except (CaseError, SceneError, IcsolveError, ArithmeticError):
             return None
 
@@ -388,7 +388,7 @@ class Varied:
         key = tuple(values.values())
         seen = self._seen.get(key)
         if seen is None:
-            solved = self._exactly(values)
+            solved = self._exactly(values, full=True)
             seen = looked_at(solved.answer) if solved is not None else _UNFIT
             _keep(self._seen, key, seen, _KNOWN)
         return seen
