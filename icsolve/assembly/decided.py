@@ -29,6 +29,14 @@ class Placed(Protocol):
         """The step."""
 
 
+class _Run(NamedTuple):
+    """A construction on balls of some digits: what put each point, and the points that these digits lose."""
+
+    workspace: Workspace
+    made: dict[Key, Placed]
+    lost: dict[Key, Placed]
+
+
 class Decimals:
     """A construction run again on balls, as far as doubtful steps need it.
 
@@ -38,7 +46,7 @@ class Decimals:
 
     def __init__(self, workspace: Workspace, placed: Mapping[Key, Placed]) -> None:
         self.workspace, self.placed = workspace, placed
-        self.runs: dict[int, tuple[Workspace, dict[Key, Placed]]] = {}
+        self.runs: dict[int, _Run] = {}
 
     def decided(self, step: Step, question: Callable[[Workspace], T]) -> T | None:
         """The answer to a question about a step; None where the digits leave it open."""
@@ -47,37 +55,50 @@ class Decimals:
         for digits in (*PRECISIONS, LONG_CHAINS):
             if digits not in self.runs:
                 balls = Balls(digits, highest=digits >= PRECISIONS[-1])
-                self.runs[digits] = Workspace(self.workspace.case, self.workspace.frame, balls), {}
-            exact, made = self.runs[digits]
+                exact = Workspace(self.workspace.case, self.workspace.frame, balls)
+                self.runs[digits] = _Run(exact, {}, {})
+            run = self.runs[digits]
             try:
-                if not self._place(step.needs(), exact, made):
+                if not self._place(step.needs(), run):
                     return None
                 for target in step.targets:
-                    made.pop(target, None)
-                return question(exact)
+                    run.made.pop(target, None)
+                return question(run.workspace)
             except (MoreDigits, BelowZero, ZeroDivisionError):
                 continue
         return None
 
-    def _place(self, keys: Iterable[Key], exact: Workspace, made: dict[Key, Placed]) -> bool:
+    def _place(self, keys: Iterable[Key], run: _Run) -> bool:
         """Put points and all that they need; False where Newton's method placed one of them."""
         from icsolve.assembly.groups import Group
+        from icsolve.numbers.balls import BelowZero, MoreDigits
 
-        stack = [key for key in keys if made.get(key) is not self.placed[key]]
+        stack = [key for key in keys if run.made.get(key) is not self.placed[key]]
         while stack:
             settled = self.placed[stack[-1]]
             step = settled.step
             if step is None or isinstance(step, Group):
                 return False
-            ahead = [key for key in step.needs() if made.get(key) is not self.placed[key]]
-            if ahead:
-                stack += ahead
-                continue
-            if made.get(stack[-1]) is not settled:
-                step.place(exact)
-                made.update(dict.fromkeys(step.targets, settled))
+            ahead = [key for key in step.needs() if run.made.get(key) is not self.placed[key]]
+            try:
+                if any(run.lost.get(key) is self.placed[key] for key in (stack[-1], *ahead)):
+                    raise MoreDigits
+                if ahead:
+                    stack += ahead
+                    continue
+                if run.made.get(stack[-1]) is not settled:
+                    step.place(run.workspace)
+                    run.made.update(dict.fromkeys(step.targets, settled))
+            except (MoreDigits, BelowZero, ZeroDivisionError):
+                run.lost.update({key: self.placed[key] for key in stack if self._leads(key, stack[-1])})
+                raise
             stack.pop()
         return True
+
+    def _leads(self, key: Key, lost: Key) -> bool:
+        """Whether a point is the one that was lost, or needs it directly."""
+        step = self.placed[key].step
+        return key == lost or (step is not None and lost in step.needs())
 
 
 class Gap(NamedTuple):
