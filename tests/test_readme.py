@@ -68,7 +68,7 @@ def test_every_session_prints_what_the_readme_shows(
     assert doctest.OutputChecker().check_output(session.output, shown.out + shown.err, flags), shown.out
 
 
-@pytest.mark.parametrize("topic", ["README", "library"])
+@pytest.mark.parametrize("topic", ["README", "library", "inside"])
 def test_the_python_session_says_what_the_page_shows(topic: str, files: Path) -> None:
     shown = [text for kind, text in blocks(PAGES[topic]) if kind == "python"]
     test = doctest.DocTestParser().get_doctest("\n".join(shown), {}, topic, topic, 0)
@@ -249,3 +249,12 @@ def test_a_page_that_is_not_there_is_refused_with_the_nearest(capsys: pytest.Cap
         main(["manual", "swep"])
     assert left.value.code == 2
     assert "did you mean sweeps?" in capsys.readouterr().err
+
+
+def test_the_page_for_contributors_names_modules_that_there_are() -> None:
+    table = PAGES["inside"].partition("## Where each kind of change goes")[2]
+    named = set(re.findall(r"`((?:[a-z_]+/)+[a-z_]+\.(?:py|md)|[a-z]+\.py)`", table))
+    assert len(named) > 15
+    for name in named:
+        place = ROOT if name.startswith("tests/") else ROOT / "icsolve"
+        assert (place / name).exists() or (ROOT / "icsolve" / "assembly" / "driven" / name).exists(), name
