@@ -83,14 +83,15 @@ def judge(key: Key, written: Written) -> Judgement:
     if flag:
         return _unjudged(flag)
     if key.plain and not note:
-        factor, sign = key.factor(unit), key.sign(way)
+        factor = 1.0 if unit is None else key.factor(unit)
+        sign = 1 if way is None else key.sign(way)
         if factor and sign:
-            value = number * factor * sign
-            if abs(value - key.value) <= key.half:
-                return Judgement(RIGHT, 1.0, _ALL_PARTS, value, abs(value - key.value) / abs(key.value))
-            if not _has_size(key, value) and (factor == 1.0 or not _has_size(key, number)):
-                sense = (value > 0.0) == (key.value > 0.0)
-                return _wrong_size(key, value, True, sense, written)
+            value, right, half = number * factor * sign, key.value, key.half
+            off = abs(value - right)
+            if off <= half:
+                return Judgement(RIGHT, 1.0, _ALL_PARTS, value, off / abs(right))
+            if abs(abs(value) - abs(right)) > half and (factor == 1.0 or not _has_size(key, number)):
+                return _wrong_size(key, value, True, (value > 0.0) == (right > 0.0), written)
     return _in_full(key, written)
 
 
@@ -100,20 +101,23 @@ def _has_size(key: Key, value: float) -> bool:
 
 def _wrong_size(key: Key, value: float, unit: bool, direction: bool, written: Written) -> Judgement:
     """A wrong number, with the causes that were foreseen; without words it may be meant as a size only."""
-    unsigned, digits = written.direction is None, written.digits
-    mistakes = key.wrongs.near(value, digits)
+    wrongs, digits, policy = key.wrongs, written.digits, key.policy
+    mistakes = wrongs.near(value, digits)
     size = abs(key.value)
-    if not mistakes and unsigned and (value > 0.0 > key.value or key.policy.direction == "ignored"):
-        mistakes = key.wrongs.near(-value, digits)
+    may_be_size = value > 0.0 > key.value or policy.direction == "ignored"
+    if not mistakes and may_be_size and written.direction is None:
+        mistakes = wrongs.near(-value, digits)
     off = abs(abs(value) - size)
-    if off <= _NEAR * key.half * (1.0 + SLACK) and direction and size:
+    if direction and off <= _NEAR * key.half * (1.0 + SLACK) and size:
         mistakes = (*mistakes, Wrong("near-miss", value))
-    both = () if mistakes else key.wrongs.two(value, digits)
     parts = (False, unit, direction)
-    found = mistakes or both
-    code = _codes(found) if found else ""
-    share = share_of(key, parts, mistakes)
-    return Judgement(WRONG, share, parts, value, relative(off, size), code, found, bool(both))
+    earned = policy.credit is not None or policy.mistakes
+    share = share_of(key, parts, mistakes) if earned else 0.0
+    if mistakes:
+        return Judgement(WRONG, share, parts, value, relative(off, size), _codes(mistakes), mistakes)
+    both = wrongs.two(value, digits)
+    code = _codes(both) if both else ""
+    return Judgement(WRONG, share, parts, value, relative(off, size), code, both, bool(both))
 
 
 def relative(off: float, size: float) -> float | None:

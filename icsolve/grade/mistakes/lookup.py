@@ -100,10 +100,13 @@ class Wrongs:
         values, reach = self._values, self.reach
         width = reach * abs(value) * (1.0 + reach)
         first = bisect_left(values, value - width)
-        last = bisect_right(values, value + width, first)
-        if first == last or not math.isfinite(value):
+        if first == len(values) or not values[first] <= value + width < math.inf:
             return ()
-        some, last_figure = self.all[first:last], _last_figure(digits)
+        last = bisect_right(values, value + width, first)
+        some = self.all[first:last]
+        if last - first == 1 and some[0].code in PLAIN:
+            return some if abs(value - some[0].value) <= reach * abs(some[0].value) else ()
+        last_figure = _last_figure(digits)
         fitting = [w for w in some if abs(value - w.value) <= self._width(w.code, last_figure) * abs(w.value)]
         return tuple(fitting) if len(fitting) < 2 else _simplest(fitting, value)
 
@@ -147,13 +150,13 @@ class Wrongs:
         """The two mistakes that give a value together; none where it is no such value, or of several
         pairs.
         """
-        if not self._right or not math.isfinite(value):
+        if not self._right:
             return ()
         values, width = self._pair_values, min(self.reach, _DIGITS + _ROUNDING) * abs(value)
         first = bisect_left(values, value - width)
-        last = bisect_right(values, value + width, first)
-        if first == last:
+        if first == len(values) or not values[first] <= value + width < math.inf:
             return ()
+        last = bisect_right(values, value + width, first)
         nearest = min(self._pairs[first:last], key=lambda p: abs(p.value - value))
         last_figure = _last_figure(digits)
         if last_figure > _DIGITS or abs(nearest.value - value) > (last_figure + _ROUNDING) * abs(value):
