@@ -367,6 +367,31 @@ def test_a_closed_pipe_is_quiet(icsolve: Shell) -> None:
     assert process.wait() == 141
 
 
+@pytest.mark.parametrize(
+    "call",
+    [
+        "grade answers.csv --cases lever.yaml -o -",
+        "grade answers.csv --cases lever.yaml -o /dev/stdout",
+        "sweep press.yaml --vary angles.AB=0:360:0.01",
+        "page press.yaml",
+        "schema",
+    ],
+)
+def test_the_reader_of_any_command_may_go_away(icsolve: Shell, call: str) -> None:
+    rows = "".join(f"{n},lever,{n} N*m\n" for n in range(2000))
+    Path("answers.csv").write_text(f"student_id,case,answer\n{rows}")
+    process = subprocess.Popen(
+        ["sh", "-c", '"$@" 2>err; echo $? >code', "sh", sys.executable, "-m", "icsolve", *call.split()],
+        env={**os.environ, "PYTHONPATH": ROOT},
+        stdout=subprocess.PIPE,
+    )
+    assert process.stdout is not None
+    process.stdout.close()
+    process.wait()
+    assert Path("code").read_text() == "141\n"
+    assert "icsolve" not in Path("err").read_text()
+
+
 @pytest.mark.parametrize("call", ["lever.yaml", "lever.yaml --json", "check lever.yaml"])
 def test_results_that_a_closed_output_does_not_take_are_no_success(icsolve: Shell, call: str) -> None:
     ran = _closed(*call.split())
