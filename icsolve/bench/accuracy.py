@@ -68,14 +68,17 @@ class AsWritten(AsRead):
 
 
 class Truth(NamedTuple):
-    """The unknown load of a scene on the doubles as read, and its condition number."""
+    """The unknown load of a scene on the doubles as read, its condition number, and the load on the decimals
+    as written."""
 
     value: Any
     kappa: float
+    written: Any
 
-    def error(self, value: float) -> float:
+    def error(self, value: float, as_written: bool = False) -> float:
         """Relative error of a value."""
-        return float(abs(value - self.value) / abs(self.value)) if self.value else abs(value)
+        true = self.written if as_written else self.value
+        return float(abs(value - true) / abs(true)) if true else abs(value)
 
     def per_unit(self, error: float) -> float:
         """A relative error over (kappa + 1) u: about 1 is as good as any method can promise."""
@@ -90,7 +93,9 @@ def truth(case: Case) -> Truth:
     program = prepare(case, Want())
     _, outcome = evaluate(program, AsRead())
     refusals.refuse_unbalanced(case, program.top, outcome.motions, outcome.balance, outcome.solution)
-    return Truth(next(iter(outcome.solution.values.values())), condition(program))
+    _, written = evaluate(program, AsWritten(), rounds=5)
+    values = [next(iter(one.solution.values.values())) for one in (outcome, written)]
+    return Truth(values[0], condition(program), values[1])
 
 
 def condition(program: Program) -> float:
@@ -187,7 +192,7 @@ def scored(method: Method, family: Family, known: Iterable[Known]) -> Score:
             tried = _tried(method, scene)
         except OtherData:
             continue
-        error = true.error(tried.value) if math.isfinite(tried.value) else math.inf
+        error = true.error(tried.value, method.as_written) if math.isfinite(tried.value) else math.inf
         if error > WRONG:
             refused += tried.refused
             lost.append(tried.seconds)
@@ -266,7 +271,7 @@ def bound_over_error(case: Case) -> float:
     """Error bound over the true error (half a unit of the value at least) against the file's decimals."""
     found = solve(case).answers["U"]
     program = prepare(case, Want())
-    _, exact = evaluate(program, AsWritten())
+    _, exact = evaluate(program, AsWritten(), rounds=5)
     true = abs(found.value - next(iter(exact.solution.values.values())))
     assert found.error is not None
     ratio = found.error / max(float(true), abs(found.value) * 2.0**-53, math.ulp(0.0))

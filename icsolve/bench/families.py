@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable
 from dataclasses import replace
-from decimal import Decimal
+from decimal import Context, Decimal
 from itertools import combinations
 from random import Random
 from typing import NamedTuple
@@ -81,7 +81,8 @@ def scaled(case: Case, lengths: int, loads: int) -> Case:
 
 def _times(number: Number, factor: float) -> Number:
     value = number.value * factor
-    return number._replace(value=value, half=number.half * factor, digits=repr(value))
+    digits = str(Context(prec=400).multiply(Decimal(number.digits), Decimal(factor)))  # all of them
+    return number._replace(value=value, half=number.half * factor, digits=digits)
 
 
 def _place(place: Coordinates | Centroid, size: float) -> Coordinates | Centroid:

@@ -385,6 +385,8 @@ class Method(NamedTuple):
 
     name: str
     run: Callable[[Drawn], float]
+    as_written: bool = False
+    """whether it answers for the decimals of the file; the others for the doubles nearest to them"""
 
 
 def _icsolve(scene: Drawn) -> float:
@@ -400,7 +402,7 @@ OWN = ("icsolve", "icsolve with bound")
 
 METHODS: tuple[Method, ...] = (
     Method(OWN[0], _icsolve),
-    Method(OWN[1], _bounded),
+    Method(OWN[1], _bounded, as_written=True),
     Method("slope and intercept", lambda scene: closed(scene, Cartesian(), False)),
     Method("homogeneous, raw", lambda scene: closed(scene, Homogeneous(), False)),
     Method("homogeneous, normalised", lambda scene: closed(scene, Homogeneous(), True)),

@@ -11,7 +11,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from contextlib import suppress
 from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -167,8 +166,11 @@ def _solved(case: Case, want: Want, bound: bool, reactions: bool) -> Answer:
         return _judged(Parts(Scene(program, bound)), reactions)
     except SceneError as refusal:
         if bound and refusal.status in INEXACT and _has_long_numbers(case):
-            with suppress(SceneError):
+            try:
                 return _judged(Parts(Scene(program, bound, explained=True)), reactions)
+            except SceneError as other:
+                if other.status not in INEXACT or refusals.rubs(case):
+                    raise
         if refusal.status == Status.STRUCTURE and (reactions or not _asks(case)):
             return _structure(prepare(case, want._replace(bodies=True)), refusal)
         raise
