@@ -260,3 +260,65 @@ def test_an_undetermined_point_that_nothing_needs_stops_no_command(verb: str, tm
     with pytest.raises(SystemExit) as done:
         main([*verb.split()[:1], str(path), *verb.split()[1:], *VERBS[verb]])
     assert done.value.code == 0
+
+
+FOUR_PINS = """
+icsolve: 1
+units: {length: m, force: N}
+points: {A: [0, 0], B: [1, 1], C: [4, 2], D: [4, 0]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {pin: [4, 1], at: D}]
+loads:
+"""
+OTHERS = {
+    "torsion spring, pressure, load along a line": FOUR_PINS
+    + """  S: {spring: 20 N*m/rad, corner: ABC, free: 90, link: 3, against: 2}
+  Q: {pressure: 8 kPa, bore: 50 mm, link: 4, at: C, angle: 180}
+  W: {distributed: 200 N/m, link: 3, from: B, to: C, angle: -90}
+  T: {torque: unknown, link: 2}
+""",
+    "rope, structure": """
+icsolve: 1
+points: {A: [0, 0], B: [2, 0], P: [2, 3]}
+links: {2: [B]}
+joints: [{pin: [1, 2], at: A}, {rope: [B, P], on: [2, 1]}]
+loads: {W: {weight: 100, link: 2, at: B}}
+""",
+    "one point": """
+icsolve: 1
+points: {A: [0, 0]}
+joints: [{pin: [1, 2], at: A}]
+loads: {M: {torque: 10, link: 2}, T: {torque: unknown, link: 2}}
+""",
+    "unknown direction": """
+icsolve: 1
+points: {A: [0, 0], B: [1, 0], C: [2, 0.5]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}]
+loads:
+  P: {force: 10, link: 3, at: C, angle: -90}
+  T: {torque: 4, link: 2}
+  F: {force: [unknown, unknown], link: 3, at: C}
+""",
+    "position of equilibrium": """
+icsolve: 1
+points: {A: [0, 0]}
+lengths: {AG: 1}
+angles: {AG: unknown}
+links: {2: [G]}
+joints: [{pin: [1, 2], at: A}]
+loads: {W: {weight: 10, link: 2, at: G}, M: {torque: 5, link: 2}}
+""",
+}
+
+
+@pytest.mark.parametrize("kind", OTHERS)
+def test_every_kind_of_case_is_explained_drawn_and_paged(kind: str) -> None:
+    """What has an answer has one in every command, and what rests is told where."""
+    case = icsolve.load(OTHERS[kind])
+    answer = icsolve.solve(case)
+    found = known_of(case, reactions=True)
+    assert found.refusal is None
+    text = explain(case, "html", bodies=True, known=found)
+    assert "<svg" in text and page_html(found)
+    for position in answer.positions or ():
+        value = position.at["angles.AG"]
+        assert isinstance(value, float) and f"angles.AG = {value:.6g} deg" in plain(text)

@@ -10,6 +10,7 @@ from typing import NamedTuple
 from icsolve.answer import Answer, Centre, by_load
 from icsolve.assembly import Frame, case_point, solve_figure
 from icsolve.case import Case, Coordinates, ForceVector, Like, Load, Pair
+from icsolve.case.figure import Unknown
 from icsolve.case.names import ordered_pair
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS
@@ -75,6 +76,8 @@ class Known(NamedTuple):
 def known_of(case: Case, *, reactions: bool = False) -> Known:
     """Solve a case as far as it goes; never raises `SceneError`."""
     found = attempt(case, reactions=reactions)
+    if case.unknowns or (found.answer is not None and found.answer.positions):
+        return _at_rest(case, found.answer, found.refusal)
     if case.space is not None:
         return Known(case, found.answer, found.refusal, None, {}, {}, 0.0)
     scene = found.scene
@@ -83,6 +86,34 @@ def known_of(case: Case, *, reactions: bool = False) -> Known:
     points = _points(own, found.answer, scene)
     twists = {} if whole is None or whole.scene is None else whole.scene.twists
     return Known(own, found.answer, found.refusal, whole, points, twists, _size(points))
+
+
+def _at_rest(case: Case, answer: Answer | None, refusal: SceneError | None) -> Known:
+    """A case that asks for a position, in the first one that is stable (else the first; where there is none,
+    in the middle of what was searched)."""
+    from icsolve.equilibrium.load_function import given_at
+
+    positions = [] if answer is None else list(answer.positions or ())
+    positions.sort(key=lambda one: one.stability != "stable")
+    if positions:
+        at = {path: held if isinstance(held, float) else held[0] for path, held in positions[0].at.items()}
+    else:
+        at = {unknown.path: _somewhere(unknown) for unknown in case.unknowns}
+    own = replace(case, unknowns=(), expect=())
+    for path, value in at.items():
+        own = given_at(own, path, value)
+    known = known_of(own)
+    if answer is None or known.answer is None:
+        return known._replace(answer=None, refusal=refusal or known.refusal)
+    return known._replace(answer=replace(known.answer, positions=answer.positions, notes=answer.notes))
+
+
+def _somewhere(unknown: Unknown) -> float:
+    """A value of a datum that is asked for."""
+    if unknown.start is not None:
+        return unknown.start.value
+    ends = [end.value for end in (unknown.low, unknown.high) if end is not None]
+    return sum(ends) / len(ends) if ends else 1.0
 
 
 def _points(case: Case, answer: Answer | None, scene: Parts | None) -> dict[str, Point]:

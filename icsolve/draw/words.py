@@ -10,6 +10,7 @@ from icsolve.case.names import pair_name
 from icsolve.derivation import Known, Step
 from icsolve.draw.marks import Group, Mark, Run, Text, bounds, text_width
 from icsolve.draw.svg import runs_of
+from icsolve.report.text import positions_text
 from icsolve.wording.senses import holding, spelt
 
 DIGITS = 4
@@ -123,7 +124,7 @@ def captioned(known: Known, marks: Sequence[Mark], steps: Sequence[Step], step: 
 def _below(known: Known, steps: Sequence[Step], step: int | None) -> Iterable[tuple[str, str]]:
     if step is not None:
         yield "t-axis", step_sentence(known, steps, step)
-    for sentence in answer_sentences(known):
+    for sentence in (*answer_sentences(known), *position_sentences(known)):
         yield "t-unknown", sentence
     if known.refusal is not None:
         yield "t-reason", f"No answer ({known.refusal.status}): {known.refusal.message}"
@@ -143,6 +144,11 @@ def answer_sentences(known: Known) -> list[str]:
         sense = spelt(value.sense, figure_number)
         found.append(f"{name} = {quantity(abs(value.value), value.unit)}" + (f", {sense}" if sense else ""))
     return found
+
+
+def position_sentences(known: Known) -> list[str]:
+    """Where the mechanism rests, of a case that asks for it."""
+    return [] if known.answer is None else positions_text(known.answer, DIGITS)
 
 
 def step_sentence(known: Known, steps: Sequence[Step], number: int) -> str:

@@ -156,6 +156,8 @@ def asked_section(known: Known, figures: Figures) -> Section:
     if not unknown:
         what = "instant centres, and how fast the links move"
         what = "forces and couples in the joints" if known.structure else what
+        if known.answer is not None and known.answer.positions:
+            what = "positions in which the loads balance"
         return Section("Asked", (words(f"The {what}."),))
     entries = tuple(_load(known, figures, load) for load in unknown)
     count = "is the load that holds" if len(unknown) == 1 else "are the loads that hold"

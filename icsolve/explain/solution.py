@@ -22,8 +22,14 @@ from icsolve.explain.given import (
     rate_name,
 )
 from icsolve.explain.power import friction_section, motions_section, power_section
+from icsolve.report.text import positions_text
 from icsolve.statics.power import is_unknown
 from icsolve.wording.senses import holding, spelt
+
+SEARCHED = (
+    "The loads balance where the power of all of them vanishes for the motion that the mechanism has. The "
+    "whole range was searched; the figure shows the first position that is stable, where there is one:"
+)
 
 
 def answer_section(known: Known, figures: Figures) -> Iterable[Section]:
@@ -31,6 +37,9 @@ def answer_section(known: Known, figures: Figures) -> Iterable[Section]:
     answer = known.answer
     if answer is None:
         return
+    if answer.positions:
+        rests = tuple((line,) for line in positions_text(answer, figures.digits))
+        yield Section("Positions of equilibrium", (words(SEARCHED), Items(rests)))
     if answer.answers:
         entries = tuple(_found(known, figures, name, found) for name, found in answer.answers.items())
         blocks: list[Block] = [Items(entries)]

@@ -24,7 +24,7 @@ def answer_text(answer: Answer, digits: int = 6) -> str:
     sections = [
         _title(case),
         _unknowns(answer, digits),
-        _positions(answer, digits),
+        positions_text(answer, digits),
         _points(answer, show),
         _centres(answer, digits),
         _power(answer, digits),
@@ -63,7 +63,7 @@ def _unknowns(answer: Answer, digits: int) -> list[str]:
     return [*lines, _advantage(answer, answer.advantage, _formatter(least))]
 
 
-def _positions(answer: Answer, digits: int) -> list[str]:
+def positions_text(answer: Answer, digits: int) -> list[str]:
     """Where it rests: a line a position with what becomes of a small push."""
     lines = []
     for position in answer.positions or ():

@@ -118,7 +118,7 @@ class Attempt(NamedTuple):
 
 def attempt(case: Case, *, reactions: bool = False) -> Attempt:
     """Solve all of a case once, and keep what was found: never raises `SceneError`."""
-    if case.space is not None or case.dynamic:
+    if case.space is not None or case.dynamic or case.unknowns:
         return _tried(case, reactions)
     if case.profiles is not None and case.profiles.touches:
         return _touching(case, reactions)
