@@ -195,3 +195,22 @@ def test_a_platform_on_three_legs_has_as_many_ways_as_its_plates_turned_over() -
         assert found.complete
         assert all(face % 2 == 0 and face <= 6 for face in faces)
         assert_picked(case, found)
+
+
+def test_a_plate_on_three_guides_has_all_its_ways() -> None:
+    """No length leads to the frame: two guides that cross hold the plate between them."""
+    feet = [(-2.0, 0.0, 80.0), (2.0, 0.0, 110.0), (0.0, 3.0, 15.0)]
+    at = [(x + 0.8 * math.cos(math.radians(t)), y + 0.8 * math.sin(math.radians(t))) for x, y, t in feet]
+    ground = ", ".join(f"{p}: [{x}, {y}]" for p, (x, y, _) in zip("ABC", feet, strict=True))
+    plate = dict(zip("DEF", at, strict=True))
+    sides = ", ".join(f"{p}{q}: {math.dist(plate[p], plate[q])!r}" for p, q in ("DE", "EF", "DF"))
+    guides = "".join(
+        f"  - {{slot: [2, 1], at: {p}, along: {t}, through: {q}}}\n"
+        for p, q, (_, _, t) in zip("DEF", "ABC", feet, strict=True)
+    )
+    case = load(f"icsolve: 1\npoints: {{{ground}}}\nlengths: {{{sides}}}\njoints:\n{guides}")
+    found = ways_of(case)
+    assert found.complete
+    assert min(max(math.dist(way.points[p], plate[p]) for p in plate) for way in found.ways) < 1e-9
+    assert len(found.ways) % 2 == 0
+    assert_picked(case, found)

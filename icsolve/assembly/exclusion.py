@@ -13,14 +13,15 @@ and where 2 s < r there is at most one in the box. Roundings are covered by `SLA
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
-from icsolve.assembly.data import LENGTH
+from icsolve.assembly.data import GUIDE, LENGTH, RAY, X, Y
 from icsolve.assembly.groups import Group, Unknown
+from icsolve.assembly.loci import Axis, Values, meet_lines, sine_between
 from icsolve.assembly.workspace import Point, Workspace
 
 Array = npt.NDArray[np.float64]
@@ -34,6 +35,8 @@ FINEST = 1e-8
 """Radius, over the group's size, at which a box that is neither empty nor sure holds a double solution."""
 FINE_ENOUGH = 0.3
 """Radius, over the group's size, from which the derivatives' inverse is tried."""
+SHALLOW = 1e-3
+"""Sine of the smallest angle of two guides that bound the points on them."""
 UNBOUNDED = 50.0
 """Half the width, over the group's size, of the search for points that no lengths hold."""
 
@@ -129,17 +132,46 @@ def _bounds(group: Group, workspace: Workspace) -> tuple[Array, Array, bool]:
     own = set(group.targets)
     low = {t: [-UNBOUNDED * size] * 2 for t in own}
     high = {t: [UNBOUNDED * size] * 2 for t in own}
-    anchors = {p for pair in reach for p in pair if p not in own}
     held: set[str] = set()
-    for anchor in anchors:
-        for t, d in _distances(anchor, reach, own).items():
+    for at, centre, radius in _anchors(group, workspace, reach):
+        for t, d in _distances(at, reach, own).items():
             held.add(t)
             for axis in (0, 1):
-                centre = workspace.points[anchor][axis]
-                low[t][axis] = max(low[t][axis], centre - d)
-                high[t][axis] = min(high[t][axis], centre + d)
+                low[t][axis] = max(low[t][axis], centre[axis] - radius - d)
+                high[t][axis] = min(high[t][axis], centre[axis] + radius + d)
     bounds = [np.array([side[t][axis] for t in group.targets for axis in (0, 1)]) for side in (low, high)]
     return bounds[0] - SLACK, bounds[1] + SLACK, held == own
+
+
+def _anchors(
+    group: Group, workspace: Workspace, reach: Mapping[tuple[str, ...], float]
+) -> Iterator[tuple[str, Point, float]]:
+    """Points of which it is known where they are, to within a radius.
+
+    Those in place; and two on known lines that cross under an angle phi, no farther apart than d, of which
+    each is within d / sin(phi) of the crossing (the law of sines).
+    """
+    own = set(group.targets)
+    for anchor in {p for pair in reach for p in pair if p not in own}:
+        yield anchor, workspace.points[anchor], 0.0
+    lines = list(_lines(group, workspace))
+    for k, (a, one) in enumerate(lines):
+        apart = _distances(a, reach, own)
+        for b, two in lines[:k]:
+            sine = sine_between(one, two)
+            if b in apart and abs(sine) > SHALLOW:
+                yield a, meet_lines(one, two).middle, apart[b] / abs(sine) * (1.0 + SLACK)
+
+
+def _lines(group: Group, workspace: Workspace) -> Iterator[tuple[str, Values]]:
+    """The points of a group on lines of known place and direction: a point of the line and its direction."""
+    own = set(group.targets)
+    for datum in group.data():
+        if datum.kind in (GUIDE, RAY) and len(own & {*datum.points}) == 1:
+            a, b = datum.points if datum.points[0] in own else datum.points[::-1]
+            yield a, (*workspace.points[b], *workspace.turn(datum))
+        elif datum.kind in (X, Y):
+            yield datum.points[0], Axis(datum).values(workspace)
 
 
 def _distances(anchor: str, reach: Mapping[tuple[str, ...], float], own: set[str]) -> dict[str, float]:
@@ -153,7 +185,8 @@ def _distances(anchor: str, reach: Mapping[tuple[str, ...], float], own: set[str
                 if p in far and q in own and far[p] + length < far.get(q, math.inf):
                     far[q] = far[p] + length
                     changed = True
-    del far[anchor]
+    if anchor not in own:
+        del far[anchor]
     return far
 
 
