@@ -352,3 +352,24 @@ def test_two_spellings_of_one_double_are_one_place() -> None:
     exact = place(figure, load(text + joints), Balls(30)).points
     assert figure.points["B"] == figure.points["G"]
     assert [float(a - b) for a, b in zip(exact["B"], exact["G"], strict=True)] == [0.0, 0.0]
+
+
+def test_scissors_whose_straight_bars_say_all_their_lengths() -> None:
+    """Each bar's three lengths make a flat triangle, so that every step is in doubt: none runs twice."""
+    stages, turn = 60, math.radians(40)
+    width, height = 2 * math.cos(turn), 2 * math.sin(turn)
+    lengths, near = [], {"R0": (width, 0.0)}
+    for k in range(stages):
+        for foot, head in (("L", "R"), ("R", "L")):
+            lengths += [f"{foot}{k}-C{k}: 1", f"C{k}-{head}{k + 1}: 1", f"{foot}{k}-{head}{k + 1}: 2"]
+        near[f"C{k}"] = (width / 2, (k + 0.5) * height)
+        near |= {f"L{k + 1}": (0.0, (k + 1) * height), f"R{k + 1}": (width, (k + 1) * height)}
+    where = ", ".join(f"{p}: [{x:.4f}, {y:.4f}]" for p, (x, y) in near.items())
+    text = (
+        f"points: {{L0: [0, 0]}}\nlengths: {{{', '.join(lengths)}}}\nangles: {{L0-C0: 40}}\n"
+        f"near: {{{where}}}\n"
+        "joints:\n  - {pin: [1, 2], at: L0}\n  - {slot: [3, 1], at: R0, along: 0, through: L0}\n"
+    )
+    figure = solve_figure(case(text), list(near))
+    x, y = case_points(figure)[f"L{stages}"]
+    assert (x, y) == pytest.approx((0.0, stages * height), abs=1e-9 * stages)
