@@ -280,6 +280,7 @@ def tail(text: str, read: Written) -> Written:
     text = text if "(" in text else text.strip(") ")
     if not text:
         return read
+    text = re.sub(r"(?<=\w) (?:min|max)\.?$", "", text)
     inside = text.strip("[](){} ")
     whole = _unit(inside) or _unit(text)
     if whole is not None and not inside.endswith(_LETTERS):

@@ -83,7 +83,7 @@ _FILLER = re.compile(
 _LETTERS = {"T": PULL, "C": PUSH, "cw": CW, "ccw": CCW}
 _NUMBER = r"([-+]?(?:\d+(?:[.,]\d*)?|[.,]\d+))"
 _UNIT = r" ?(deg|degs|degrees?|°|rad|radians?|grad)?"
-_LEAD = r"(?:(?:at|@|angle|angle of|at an angle of|unter|theta ?=|direction|dir)[ :=]*)"
+_LEAD = r"(?:(?:at|@|angle|angle of|at angle|at an angle of|unter|theta ?=|direction|dir)[ :=]*)"
 _ANGLE = re.compile(rf"({_LEAD}?) ?{_NUMBER}{_UNIT}(?: (.+))?$")
 _AXES = {
     "x": 0.0, "+x": 0.0, "positive x": 0.0, "-x": 180.0, "negative x": 180.0,
@@ -104,7 +104,7 @@ _TO = (
 _FROM = r"away from|away|weg von|à l'opposé d[eu']|alejándose de|via da"
 _TOWARD = re.compile(
     rf"(?:(?:and |is |it is )?(?:directed|acting|acts|pointing|points|going|pulling|along [A-Z]{{2}}) )?"
-    rf"({_FROM}|{_TO}|from \S+ (?:to|towards?)) (?:the )?(?:point )?([^\W_][\w']{{0,7}})$",
+    rf"({_FROM}|{_TO}|from \S+ (?:to|towards?)) (?:the )?(?:point )?([^\W\d_][\w']{{0,7}})$",
     re.IGNORECASE,
 )
 
