@@ -193,6 +193,27 @@ def test_places_to_the_last_digit(seed: int) -> None:
     assert limits == sorted(float(end) for end in ends if 60 < end < 180)
 
 
+def test_with_friction_each_position_is_a_scene_of_its_own() -> None:
+    """A block on a floor, pulled at an angle: the pull is P mu / (cos + mu sin), least where tan is mu and
+    largest at the ends; it takes a value on both sides."""
+    text = """icsolve: 1
+points: {A: [0, 0], B: [3, 0]}
+joints: [{slide: [2, 1], at: A, along: 0, mu: 0.4}]
+links: {2: [B]}
+loads:
+  W: {weight: 100, link: 2, at: A}
+  P: {force: unknown, link: 2, at: A, angle: 5}
+motion: {point: A, link: 2, speed: 1, angle: 0}
+"""
+    case = icsolve.load(text)
+    spots = find(case, {"loads.P.angle": [0.0, 60.0]}, Query("value", "P", 38.0))
+    for spot in spots:
+        a = np.radians(spot.at)
+        assert 40.0 / (np.cos(a) + 0.4 * np.sin(a)) == pytest.approx(38.0, rel=1e-9)
+    assert len(spots) == 2
+    assert "scene of its own" in spots.notes[0]
+
+
 def test_what_cannot_be_looked_for() -> None:
     case = icsolve.load(UNKNOWN_TORQUE)
     with pytest.raises(ValueError, match="one varied number"):

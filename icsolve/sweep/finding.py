@@ -11,7 +11,7 @@ and a note says so.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from decimal import Decimal, localcontext
+from decimal import Decimal, InvalidOperation, localcontext
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -19,7 +19,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.case import Case
-from icsolve.errors import SceneError, Status
+from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.jets import Ball, Cells, Jet
 from icsolve.numbers.record import Op, Record, Traced
@@ -27,6 +27,7 @@ from icsolve.numbers.replay import Array
 from icsolve.numbers.tape import UNIT
 from icsolve.solve import solve
 from icsolve.solve.refusals import rubs
+from icsolve.statics.power import is_unknown
 from icsolve.sweep.ask import AskError, columns_of
 from icsolve.sweep.exact import CONTEXT, STEP, Unreached, as_written
 from icsolve.sweep.parts import Part, Parts
@@ -92,7 +93,7 @@ def find(
     CaseError
         For a path that the case does not have.
     SceneError
-        Where the case cannot be moved so, or rows can only be solved one by one.
+        Where the case cannot be moved so.
     ValueError
         Where several numbers vary, or the load is not an unknown one.
     """
@@ -100,16 +101,19 @@ def find(
     names = [name for name, array in columns.arrays.items() if np.ptp(array) > 0.0]
     if len(names) != 1:
         raise AskError("positions are found along one varied number")
-    why = "positions cannot be found where each row has to be solved as a scene of its own."
-    if case.profiles is not None and case.profiles.touches:
-        raise SceneError(Status.UNSUPPORTED, why)
-    start = start_of(case, columns, Asked())
-    if start.one_by_one or rubs(case):
-        raise SceneError(Status.UNSUPPORTED, why)
+    if query.load not in {"", *(load.name for load in case.loads if is_unknown(load))}:
+        raise AskError(f"{query.load} is no unknown load of this case")
+    by_itself = rubs(case) or (case.profiles is not None and bool(case.profiles.touches))
+    start = None if by_itself else start_of(case, columns, Asked())
+    if start is None or start.one_by_one:
+        from icsolve.sweep.seeking import Scenes
+
+        return Scenes(case, columns, names[0], query).spots()
     spots = Spots()
     if start.sheet().refusal is None:
         parts = Parts(start, columns)
-        with localcontext(CONTEXT):
+        with localcontext(CONTEXT) as context:
+            context.traps[InvalidOperation] = False  # what is not a number compares with nothing
             search = _Search(parts, parts.whole(), names[0], query)
             spots.extend(sorted(search.spots(), key=lambda spot: (spot.at, spot.kind)))
         spots.notes = tuple(search.notes)
@@ -212,8 +216,11 @@ class _Search:
     # --- values -----------------------------------------------------------------------------------
 
     def _value(self, value: Scalar, s: Decimal) -> Decimal:
-        """A value at a position, in decimals."""
-        return self.exact.values([value], self.along.at(self.name, s))[0]
+        """A value at a position, in decimals; not a number where the links do not assemble."""
+        try:
+            return self.exact.values([value], self.along.at(self.name, s))[0]
+        except Unreached:
+            return Decimal("NaN")
 
     def _is_nothing(self, value: Scalar, s: Decimal) -> bool:
         """Whether a value is zero there, beside its terms where the record was made."""
@@ -228,10 +235,7 @@ class _Search:
     def _vanishes(self, value: Scalar) -> bool:
         """Whether a value is zero in the whole range."""
         low, high = map(as_written, self.ends)
-        try:
-            return all(self._is_nothing(value, low + Decimal(k) * (high - low)) for k in PROBES)
-        except Unreached:
-            return False
+        return all(self._is_nothing(value, low + Decimal(k) * (high - low)) for k in PROBES)
 
     def _spot(self, s: Decimal, kind: str, load: str | None, error: float | None = None) -> Spot:
         at = 0.0 if abs(s) < CLOSED else float(s)
@@ -283,27 +287,26 @@ class _Search:
         self, function: Callable[[Decimal], Decimal], low: Decimal, high: Decimal
     ) -> Iterator[Decimal]:
         """A change of sign between two places, closed in by false position (Illinois)."""
-        try:
-            f, g = function(low), function(high)
-            if not f:
-                yield low
-            if not g:
-                yield high
-            if not f * g < 0:
-                return
-            side = 0
-            for _ in range(MOST_STEPS):
-                at = high - g * (high - low) / (g - f)
-                here = function(at)
-                if (here > 0) == (g > 0):
-                    moved, (high, g), f, side = high - at, (at, here), f / 2 if side > 0 else f, 1
-                else:
-                    moved, (low, f), g, side = at - low, (at, here), g / 2 if side < 0 else g, -1
-                if not here or min(moved, high - low) <= CLOSED:
-                    break
-            yield at
-        except Unreached:
+        f, g = function(low), function(high)
+        if not f:
+            yield low
+        if not g:
+            yield high
+        if not f * g < 0:
             return
+        side = 0
+        for _ in range(MOST_STEPS):
+            at = high - g * (high - low) / (g - f)
+            here = function(at)
+            if here.is_nan():
+                return
+            if (here > 0) == (g > 0):
+                moved, (high, g), f, side = high - at, (at, here), f / 2 if side > 0 else f, 1
+            else:
+                moved, (low, f), g, side = at - low, (at, here), g / 2 if side < 0 else g, -1
+            if not here or min(moved, high - low) <= CLOSED:
+                break
+        yield at
 
     # --- cells ------------------------------------------------------------------------------------
 

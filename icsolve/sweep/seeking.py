@@ -1,0 +1,131 @@
+"""Positions where each row is a scene of its own: with friction, on cam profiles, in families one by one.
+
+There is no record to bound over whole cells: the range is searched at many places, each change between two of
+them is closed in scene by scene, and a note says so.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+
+import numpy as np
+
+from icsolve.case import Case
+from icsolve.errors import Status
+from icsolve.numbers.replay import Array
+from icsolve.statics.power import is_unknown
+from icsolve.sweep.ask import Columns
+from icsolve.sweep.finding import Query, Spot, Spots
+from icsolve.sweep.sweeping import sweep
+from icsolve.sweep.table import CODE, Codes
+
+PLACES = 360
+"""Places at which the range is searched."""
+CLOSED = 1e-12
+"""Places are closed in to this part of the range."""
+FLAT = 1e-7
+"""A peak, to which an answer is flat, to this."""
+GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
+SAID = (
+    "each position is a scene of its own: the range was searched at {count} places, and two positions "
+    "between two of them may be missed."
+)
+LOCKED = [CODE[word] for word in (Status.DEAD_CENTRE, Status.NO_VALUE, Status.JAM)]
+
+
+class Scenes:
+    """Positions along one number, scene by scene."""
+
+    def __init__(self, case: Case, columns: Columns, name: str, query: Query) -> None:
+        self.case, self.columns, self.name, self.query = case, columns, name, query
+        self.load = query.load or next(load.name for load in case.loads if is_unknown(load))
+        values = columns.arrays[name]
+        self.places = np.linspace(values.min(), values.max(), PLACES + 1)
+        self.width = CLOSED * float(np.ptp(values))
+
+    def spots(self) -> Spots:
+        """All positions that are found, in order."""
+        found, codes = self._swept(self.places)
+        finder = {"value": self._values, "max": self._peaks, "dead": self._dead}[self.query.kind]
+        spots = Spots(sorted(finder(found, codes), key=lambda spot: spot.at))
+        spots.notes = (SAID.format(count=PLACES),)
+        return spots
+
+    def _swept(self, at: Array) -> tuple[Array, Codes]:
+        """The answer and the status (its code) at places."""
+        rows = {own: np.full(len(at), float(a[0])) for own, a in self.columns.arrays.items()}
+        rows[self.name] = at
+        vary = {own: rows[own] for own in self.columns.paths}
+        found = sweep(self.case, vary, drive={own: rows[own] for own in self.columns.links})
+        return found.answers.get(self.load, np.full(len(at), np.nan)), found.codes
+
+    def _answer(self, at: float) -> float:
+        return float(self._swept(np.array([at]))[0][0])
+
+    # --- kinds ------------------------------------------------------------------------------------
+
+    def _values(self, found: Array, codes: Codes) -> Iterator[Spot]:
+        """Changes of sign of the answer less the value, but for those through infinity."""
+        miss = found - self.query.value
+        for k in np.flatnonzero(miss[:-1] * miss[1:] <= 0.0).tolist():
+            at, wide = self._closed(lambda s: self._answer(s) - self.query.value, k)
+            answer = self._answer(at)
+            if abs(answer - self.query.value) <= min(abs(miss[k]), abs(miss[k + 1])) + abs(self.width):
+                yield Spot(at, "value", answer, wide)
+
+    def _dead(self, found: Array, codes: Codes) -> Iterator[Spot]:
+        """Changes of sign through infinity, and where the mechanism begins to lock or reaches its limit."""
+        for k in np.flatnonzero(found[:-1] * found[1:] < 0.0).tolist():
+            at, wide = self._closed(self._answer, k)
+            if not abs(self._answer(at)) <= max(abs(found[k]), abs(found[k + 1])):
+                yield Spot(at, "dead", None, wide)
+        locked, apart = np.isin(codes, LOCKED), codes == CODE[Status.CANNOT_ASSEMBLE]
+        for kind, state in (("dead", locked), ("limit", apart)):
+            wanted = LOCKED if kind == "dead" else [CODE[Status.CANNOT_ASSEMBLE]]
+            for k in np.flatnonzero(state[:-1] != state[1:]).tolist():
+                at, wide = self._ends(wanted, bool(state[k]), k)
+                answer = self._answer(at) if kind == "limit" else math.nan
+                yield Spot(at, kind, None if math.isnan(answer) else answer, wide)
+
+    def _peaks(self, found: Array, codes: Codes) -> Iterator[Spot]:
+        """Where the size of the answer is larger than on both sides, by golden sections."""
+        size = np.abs(found)
+        for k in range(len(size)):
+            around = size[max(k - 1, 0) : k + 2]
+            inside = 0 < k < len(size) - 1 and np.isfinite(around).all()
+            if inside and size[k] > around[0] and size[k] >= around[-1]:
+                low, high = float(self.places[k - 1]), float(self.places[k + 1])
+                while high - low > FLAT * self.width / CLOSED:
+                    one, two = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
+                    if abs(self._answer(one)) < abs(self._answer(two)):
+                        low = one
+                    else:
+                        high = two
+                at = (low + high) / 2.0
+                answer = self._answer(at)
+                if abs(answer) <= 10.0 * size[k] and answer * found[k] > 0.0:
+                    yield Spot(at, "max", answer, high - low)
+
+    # --- closing in -------------------------------------------------------------------------------
+
+    def _closed(self, function: Callable[[float], float], k: int) -> tuple[float, float]:
+        """A change of sign between two places, halved in, and how wide it is open still."""
+        low, high = float(self.places[k]), float(self.places[k + 1])
+        first = function(low)
+        while high - low > self.width:
+            middle = (low + high) / 2.0
+            here = function(middle)
+            if here == 0.0:
+                return middle, self.width
+            low, high = (middle, high) if (here > 0.0) == (first > 0.0) else (low, middle)
+        return (low + high) / 2.0, high - low
+
+    def _ends(self, wanted: list[int], before: bool, k: int) -> tuple[float, float]:
+        """Where a status begins or ends between two places: the last that has none of it."""
+        low, high = float(self.places[k]), float(self.places[k + 1])
+        while high - low > self.width:
+            middle = (low + high) / 2.0
+            there = bool(np.isin(self._swept(np.array([middle]))[1], wanted)[0])
+            low, high = (middle, high) if there == before else (low, middle)
+        return (high if before else low), high - low
