@@ -161,6 +161,11 @@ class Later(Sequence[V]):
     def __len__(self) -> int:
         return len(self._made)
 
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Sequence) and tuple(self) == tuple(other)
+
+    __hash__ = None  # type: ignore[assignment]
+
     def __repr__(self) -> str:
         return repr(self._made)
 
@@ -193,7 +198,7 @@ class Answer:
     advantage: float | None = None
     """unknown / known where there is one of each: the mechanical advantage (or its like)"""
     mobility: int | None = None
-    notes: tuple[str, ...] = ()
+    notes: Sequence[str] = ()
     skipped: Sequence[str] = ()
     steps: Sequence[str] = ()
     errors: Mapping[str, Mapping[str, float]] = field(default_factory=dict)

@@ -8,6 +8,7 @@ rounding did, and the radius of its ball.
 
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple, TypeVar
 
 from icsolve.errors import SceneError
@@ -39,9 +40,9 @@ class Scene:
 
     def __init__(self, program: Program, certain: bool, explained: bool = False) -> None:
         self.program, self.certain, self.explained = program, certain, explained
-        self._arithmetics: list[Showing] = _arithmetics(program) if certain else [FLOATS]
-        if explained:
-            self._arithmetics = [HalfUnits(PRECISIONS[0])]
+        self._arithmetics: list[Callable[[], Showing]] = [lambda: FLOATS]
+        if certain:
+            self._arithmetics = [lambda: HalfUnits(PRECISIONS[0])] if explained else _arithmetics(program)
         self._found: list[Evaluation | None] = []
 
     def ask(self, question: Callable[[Evaluation], T]) -> T:
@@ -61,7 +62,7 @@ class Scene:
     def _evaluated(self, k: int) -> Evaluation | None:
         """The program in one of the arithmetics; None where its digits do not suffice."""
         if k == len(self._found):
-            self._found.append(self._evaluate(self._arithmetics[k]))
+            self._found.append(self._evaluate(self._arithmetics[k]()))
         return self._found[k]
 
     def _evaluate(self, arithmetic: Showing) -> Evaluation | None:
@@ -83,7 +84,7 @@ MOST = 160
 """Digits that a chain may cost: with more, radii go beyond what floats hold."""
 
 
-def _arithmetics(program: Program) -> list[Showing]:
+def _arithmetics(program: Program) -> list[Callable[[], Showing]]:
     """Balls of more and more digits, by as many more as a chain costs.
 
     Measured: a step that places a point costs some 1.1 digits, a group of the plan 0.1.
@@ -91,9 +92,9 @@ def _arithmetics(program: Program) -> list[Showing]:
     spent = 1.2 * len(program.figure.steps) + (0.15 * len(program.plan.groups) if program.plan else 0.0)
     extra = max(round(spent) - 12, 0)
     if extra > MOST:
-        return [Balls(PRECISIONS[1], highest=True, carried=0.0)]
+        return [partial(Balls, PRECISIONS[1], highest=True, carried=0.0)]
     last = PRECISIONS[-1]
-    return [Balls(p + extra, highest=p == last) for p in PRECISIONS]
+    return [partial(Balls, p + extra, highest=p == last) for p in PRECISIONS]
 
 
 class Value(NamedTuple):

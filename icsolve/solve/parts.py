@@ -101,7 +101,7 @@ class Parts:
             terms=Later(lambda: self.scene.ask(self._terms)),
             advantage=self.scene.ask(lambda found: advantage(found, self._values(found))),
             mobility=motions.mobility,
-            notes=(*self.figure.notes, *motions.notes, *self._notes(answers)),
+            notes=Later(lambda: (*self.figure.notes, *motions.notes, *self._notes(answers))),
             skipped=Later(lambda: _skipped(self.program, self.first.outcome)),
             steps=Later(lambda: _steps(self.program)),
             sensitivities=Deferred(lambda: self.slopes),
