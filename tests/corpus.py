@@ -229,7 +229,45 @@ expect:
   A-B: 5
 """
 
+MORE_LOADS = """\
+icsolve: 1
+units: {length: mm, force: N}
+points: {A: [0, 0], B: [10, 0], C: [{unknown: [0, 30]}, 5], D: [3, 8]}
+lengths: {BD: {unknown: [5, 20], from: 10.6}}
+angles: {AB: {unknown: [-20, 200 deg], from: 0}, ABD: unknown}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {slide: [3, 1], at: C, along: 0}
+loads:
+  S: {spring: 20 N*mm/rad, corner: ABD, free: 90, link: 3, against: 2}
+  R: {spring: {like: S, times: 2}, corner: A-B, free: 1.2 rad, link: 2}
+  P: {pressure: 8 MPa, bore: 50 mm, rod: 20, link: 3, at: C, angle: 0, against: 2}
+  Q: {pressure: 80 bar, area: 19 cm^2, link: 3, at: [1, 2], toward: A, turns_with: 2}
+  L: {distributed: 200 N/m, link: 2, from: A, to: B, angle: -90}
+  M: {distributed: [0, 200 N/m], link: 2, from: A, to: B, slope: [1, 2], turns_with: 2}
+expect:
+  angles.AB: {value: 46.4, stability: stable, within: 1%}
+  lengths.DB: 7
+"""
+
+DIRECTED = """\
+icsolve: 1
+points: {A: [0, 0], B: [10, 0], C: [10, 5]}
+joints:
+  - {pin: [1, 2], at: A, mu: 0.1, radius: 2}
+  - {pin: [2, 3], at: B}
+loads:
+  P: {force: [unknown, unknown], link: 3, at: C, against: 2}
+  W: {weight: 3, link: 2, at: B}
+expect:
+  P: {holds: [113, 287 N], within: 2}
+  W: {holds: [null, 3]}
+"""
+
 ALL = {
+    "more loads": MORE_LOADS,
+    "directed": DIRECTED,
     "four bar": FOUR_BAR,
     "slider-crank": SLIDER_CRANK,
     "slot and words": SLOT_AND_WORDS,

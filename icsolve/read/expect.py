@@ -247,6 +247,8 @@ def _expected(reading: Reading, key: str, target: Target, node: Node) -> Expecte
         return Expected(key, target, *bare) if bare is not None else None
     entry = Entry(reading, node, f"expect.{key}", f"the expected {key}", EXPECTED)
     entry.check()
+    if isinstance(target, LoadIs) and not _dimension(reading, target):
+        return None  # the load can't be read, and that is told
     which = entry.one_of(("value", "toward", "holds"))
     if which is None:
         entry.need("value")

@@ -174,7 +174,7 @@ def _unknown(reading: Reading, node: Node, dimension: str, path: str) -> Unknown
         start = entry.number("from", dimension)
         span = node.items.get("unknown")
         if type(span) is not Sequence or len(span.items) != 2:
-            if span is not None and not _is_unknown(span):
+            if span is not None:
                 form = "[0, 90]" if dimension == "angle" else "[0.2, 0.35]"
                 entry.refuse(span.mark, f"an unknown has a range of two numbers, {{unknown: {form}}}")
                 return None
