@@ -258,7 +258,7 @@ def ways(known: Known) -> Array:
     The guides have no ends in a case, so that no range is the whole one.
     """
     size = max((math.dist(p, q) for p in known.points.values() for q in known.points.values()), default=0.0)
-    size = size or known.size
+    size = size or known.size or 1.0
     power = 10.0 ** math.floor(math.log10(0.5 * size))
     half = max(m for m in (1.0, 2.0, 5.0) if m * power <= 0.5 * size * (1.0 + 1e-9)) * power
     return np.arange(-ROWS, ROWS + 1) * (half / ROWS)
@@ -465,7 +465,7 @@ def inputs(known: Known) -> list[str]:
         if isinstance(load, Torque)
     ]
     ranked = [*first, *torques, *pinned, *loaded_links(case), *case.links]
-    quick = [link for link in dict.fromkeys(ranked) if rates.get(link, 0.0) > least]
+    quick = [q for q in dict.fromkeys(ranked) if rates.get(q, 0.0) > least and not q.startswith("@")]
     return sorted(quick, key=lambda link: link not in pinned)
 
 

@@ -236,8 +236,10 @@ def _position(parts: Parts) -> Position:
 
     case, figure, moves = parts.case, parts.figure, parts.outcome.motions
     scale, slack = figure.frame.scale, float(moves.slack)
-    ropes = rope_ties(case, figure.points, scale)
-    return Position(case, parts.program.top, figure.points, scale, moves.twists, slack, ropes)
+    found = parts.first.outcome.points
+    points = {name: (float(x), float(y)) for name, (x, y) in found.items()}  # the exact places, rounded once
+    ropes = rope_ties(case, points, scale)
+    return Position(case, parts.program.top, points, scale, moves.twists, slack, ropes)
 
 
 def _structure(program: Program, refusal: SceneError) -> Answer:

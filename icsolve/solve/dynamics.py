@@ -58,6 +58,7 @@ def solve_dynamic(case: Case, solve: Callable[..., Answer], **options: bool) -> 
     answer = solve(loaded, **options)
     return replace(
         answer,
+        advantage=None,
         accelerations=found.points,
         angular_accelerations=found.links,
         notes=(*answer.notes, *notes),
