@@ -115,11 +115,12 @@ def test_every_kind_of_joint_and_load_has_a_case() -> None:
 def test_errors_are_bounded_far_below_the_digits(case: Case) -> None:
     """Every answer carries a bound of its rounding error, a billionth of it at most; with friction too.
 
-    Contacts that profiles give have none that is proven, and that is said.
+    Contacts that profiles give have none that is proven, nor ropes and screws that rub, and that is said.
     """
+    rubbing = any(rope.slips for rope in case.ropes) or any(screw.rubs for screw in case.screws)
     for name, found in solve(case).answers.items():
-        if case.profiles is not None:
-            assert found.error is None and "no bound is proven" in found.why
+        if case.profiles is not None or rubbing:
+            assert found.error is None and "no bound" in found.why
             continue
         assert found.error is not None, name
         assert math.isfinite(found.error)
