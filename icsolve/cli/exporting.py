@@ -39,7 +39,7 @@ def export_command(kind: str, cases: str, output: str, **options: Any) -> int:
     from icsolve.cli.varying import existing
     from icsolve.files import KeptError, check_free
     from icsolve.grade.case_store import CaseStore
-    from icsolve.grade.platforms.export import Order, export
+    from icsolve.grade.platforms.export import ExportOrder, export
 
     problems: list[str] = []
     try:
@@ -50,7 +50,7 @@ def export_command(kind: str, cases: str, output: str, **options: Any) -> int:
             check_free(output, options["force"])
         own = options["course"] or course_file(cases)
         drawn = (options["force"], options["figures"], options["count"])
-        order = Order(case_store, output, *drawn, own, options["roster"] or "")
+        order = ExportOrder(case_store, output, *drawn, own, options["roster"] or "")
         made = export(kind, order._replace(records=tuple(options["variants"])), problems.append)
     except CaseError as error:
         complain(str(error))

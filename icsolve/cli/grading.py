@@ -268,14 +268,15 @@ def _further(graded: Graded, job: Job, results: str, options: dict[str, Any]) ->
     """The files for platforms, made from the results."""
     if not options["writes"]:
         return
-    from icsolve.grade.platforms.write import Order, write
+    from icsolve.grade.platforms.write import PlatformFile, write
     from icsolve.grade.roster import read_roster
 
     wanted = _pairs(options["writes"])
     people = read_roster(job.roster, lambda line, why: None).people if job.roster and wanted else {}
     template = options["template"] or ""
     for kind, path in wanted.items():
-        told = write(kind, Order(results, path, people, template, options["force"], options["total"] or ""))
+        file = PlatformFile(results, path, people, template, options["force"], options["total"] or "")
+        told = write(kind, file)
         if told and not options["quiet"]:
             complain(told)
 

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from icsolve.grade.case_store import CaseStore
     from icsolve.grade.roster import Person
     from icsolve.grade.variants import Varied
-    from icsolve.grade.variants.sheets import Task
+    from icsolve.grade.variants.sheets import VariantTask
 
 T = TypeVar("T")
 
@@ -124,7 +124,7 @@ def _one(varied: Varied, people: list[Person], folder: str, figures: bool, force
     for path in paths:
         check_free(path, force)
     start = time.perf_counter()
-    found: list[Task] = []
+    found: list[VariantTask] = []
     code = DONE
     with watched(zip(people, tasks(varied, people), strict=True), len(people), "variants", quiet) as bar:
         for person, task in bar:
@@ -143,14 +143,14 @@ def _one(varied: Varied, people: list[Person], folder: str, figures: bool, force
     return code
 
 
-def _figures(varied: Varied, found: list[Task], folder: str, force: bool, quiet: bool) -> None:
+def _figures(varied: Varied, found: list[VariantTask], folder: str, force: bool, quiet: bool) -> None:
     """A figure for each variant, and a sheet for each student; by two processes where that pays."""
     from icsolve.files import check_free
     from icsolve.grade.run import processes
     from icsolve.sweep.forked import can_fork, started
 
     start = time.perf_counter()
-    by_label: dict[str, list[Task]] = {}
+    by_label: dict[str, list[VariantTask]] = {}
     for task in found:
         by_label.setdefault(task.draw.label, []).append(task)
         check_free(_sheet_path(folder, task), force)
@@ -171,7 +171,7 @@ _WORTH_TWO = 50
 """Figures from which another process pays."""
 
 
-def _draw(varied: Varied, groups: list[list[Task]], folder: str, force: bool, quiet: bool) -> None:
+def _draw(varied: Varied, groups: list[list[VariantTask]], folder: str, force: bool, quiet: bool) -> None:
     """The figure of each group of students with the same variant, and their sheets."""
     from icsolve.files import write_whole
     from icsolve.grade.variants.sheets import figure, sheet
@@ -188,7 +188,7 @@ def _figure_path(folder: str, label: str) -> str:
     return os.path.join(folder, "figures", f"{label}.svg")
 
 
-def _sheet_path(folder: str, task: Task) -> str:
+def _sheet_path(folder: str, task: VariantTask) -> str:
     from icsolve.grade.variants.sheets import file_name
 
     return os.path.join(folder, "sheets", f"{file_name(task.person.student_id)}.html")

@@ -19,7 +19,7 @@ from icsolve.grade.mistakes import Wrong
 from icsolve.grade.mistakes.changed import Place
 from icsolve.grade.mistakes.engine import centres_of, parts_of, shares
 from icsolve.grade.results import Marked
-from icsolve.grade.store import Entry
+from icsolve.grade.store import StoredAnswer
 from icsolve.grade.tolerance import NoKeyError
 
 Scales = Mapping[str, float]
@@ -130,7 +130,7 @@ def _rates(place: Place, mine: Place | None, its: Place | None) -> float:
     return above / below if below else 0.0
 
 
-Found = tuple[Entry, Marked]
+Found = tuple[StoredAnswer, Marked]
 
 
 class CarriedForward:

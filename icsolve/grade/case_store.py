@@ -23,7 +23,7 @@ from icsolve.read.reading import Reading
 from icsolve.statics.power import is_unknown
 
 if TYPE_CHECKING:
-    from icsolve.grade.variants.record import Record
+    from icsolve.grade.variants.record import VariantRecord
     from icsolve.grade.variants.varied import Varied
 
 def unknowns(case: Case) -> tuple[str, ...]:
@@ -183,7 +183,7 @@ class CaseStore:
         self._lower = {name.lower(): name for name in self.paths}
         self._solved: dict[str, Solved | Varied | NoKeyError] = {}
         self._cases: dict[str, Case] = {}
-        self.records: dict[str, Record] = {}
+        self.records: dict[str, VariantRecord] = {}
         """the numbers that were handed out, by case"""
 
     def _add(self, path: str) -> None:
@@ -278,7 +278,7 @@ class CaseStore:
             found = self._solved[name] = self._made(name)
         return found if not isinstance(found, Solved | NoKeyError) else None
 
-    def keep_to(self, records: dict[str, Record]) -> None:
+    def keep_to(self, records: dict[str, VariantRecord]) -> None:
         """Take the numbers that were handed out for those of the students."""
         self.records = records
         for name, record in records.items():

@@ -14,8 +14,8 @@ from icsolve.grade.case_store import CaseStore
 from icsolve.grade.issues import Issues
 from icsolve.grade.results import HEADER
 from icsolve.grade.roster import Roster
-from icsolve.grade.store import Entry, Store
-from icsolve.grade.tables import Columns, HeaderError, Layout, Submission, Table, recognise
+from icsolve.grade.store import Store, StoredAnswer
+from icsolve.grade.tables import Columns, HeaderError, Submission, Table, TableLayout, recognise
 from icsolve.grade.tables.columns import is_spoilt
 from icsolve.grade.tables.hand_ins import METADATA, exported, submissions
 from icsolve.grade.timestamps import order_of, year_first
@@ -78,7 +78,7 @@ class Import:
             near = self.case_store.near
             columns = Columns(table.header, mapping, self.case_store.find, lambda text: bool(near(text)))
             self._order = self._date_order(path, table.header)
-            entries: Iterator[Entry]
+            entries: Iterator[StoredAnswer]
             if student:
                 entries = map(self._entry, submissions(table, columns, student))
             else:
@@ -96,9 +96,9 @@ class Import:
         """Note a file without a readable answer; it has a line in the results, for a person."""
         self.issues.note(path, 0, why, serious=True)
         whose = self._matched((student,)) if student else ""
-        self.store.add([Entry(whose, "", 0, trouble=f"{os.path.basename(path)}: {why}")])
+        self.store.add([StoredAnswer(whose, "", 0, trouble=f"{os.path.basename(path)}: {why}")])
 
-    def _told(self, entries: Iterator[Entry], file: IO[bytes], path: str) -> Iterator[Entry]:
+    def _told(self, entries: Iterator[StoredAnswer], file: IO[bytes], path: str) -> Iterator[StoredAnswer]:
         """The entries, with a report of how much of the file is read."""
         try:
             size = os.fstat(file.fileno()).st_size
@@ -106,12 +106,14 @@ class Import:
             return entries
         return self._counted(entries, file, path, size or 1)
 
-    def _counted(self, entries: Iterator[Entry], file: IO[bytes], path: str, size: int) -> Iterator[Entry]:
+    def _counted(
+        self, entries: Iterator[StoredAnswer], file: IO[bytes], path: str, size: int
+    ) -> Iterator[StoredAnswer]:
         while some := list(islice(entries, _STEP)):
             yield from some
             self._progress(f"reading {path}", file.tell() / size)
 
-    def _entries(self, table: Table, layout: Layout) -> Iterator[Entry]:
+    def _entries(self, table: Table, layout: TableLayout) -> Iterator[StoredAnswer]:
         if layout.cells_of is not None:
             yield from self._long_entries(table, layout, layout.cells_of)
             return
@@ -120,8 +122,8 @@ class Import:
                 yield self._entry(submission)
 
     def _long_entries(
-        self, table: Table, layout: Layout, cells_of: Callable[[list[str]], tuple[str, ...]]
-    ) -> Iterator[Entry]:
+        self, table: Table, layout: TableLayout, cells_of: Callable[[list[str]], tuple[str, ...]]
+    ) -> Iterator[StoredAnswer]:
         """Of a long table: quickly where student and question were met before and the row is whole."""
         people, items, width = self._people, self._items, len(table.header)
         for row in table.rows():
@@ -133,13 +135,13 @@ class Import:
                 if known and found is not None and not found[1] and len(answer) < _LONGEST:
                     if self._order:
                         time = year_first(time, self._order)
-                    yield Entry(known, found[0], line, answer, unit, direction, attempt, variant, time)
+                    yield StoredAnswer(known, found[0], line, answer, unit, direction, attempt, variant, time)
                     continue
                 cells.pop()
             for submission in layout.read(row):
                 yield self._entry(submission)
 
-    def _entry(self, s: Submission) -> Entry:
+    def _entry(self, s: Submission) -> StoredAnswer:
         """Of a student or question that is met for the first time, or of a row that is in trouble."""
         student = self._people.get(s.student) or self._matched(s.student)
         item, why = self._items.get(s.question) or self._item(s.question)
@@ -152,7 +154,7 @@ class Import:
         answer = s.answer if len(s.answer) <= _LONGEST else s.answer[:_LONGEST] + "..."
         time = year_first(s.time, self._order) if self._order else s.time
         texts = [text[:_LONGEST] for text in (s.unit, s.direction, s.attempt, s.variant, time)]
-        return Entry._make((student, item, s.line, answer, *texts, trouble))
+        return StoredAnswer._make((student, item, s.line, answer, *texts, trouble))
 
     def _matched(self, ids: tuple[str, ...]) -> str:
         """The student whose ids these are: by the roster, else the first id as it is written."""

@@ -17,7 +17,7 @@ OTHERS = "these rows were not graded either, each for the reason that stands in 
 OTHER_NOTES = "a note like those above, which were the first"
 
 
-class Entry(NamedTuple):
+class Issue(NamedTuple):
     """One reason with its lines; ``serious`` where an answer was not graded for it."""
 
     path: str
@@ -44,16 +44,16 @@ class Issues:
             key = (path, OTHERS if serious else OTHER_NOTES, serious)
         self._lines.setdefault(key, array("q")).append(line)
 
-    def extend(self, entries: list[Entry]) -> None:
+    def extend(self, entries: list[Issue]) -> None:
         """Take over what another process has noted."""
         for entry in entries:
             for line in entry.lines:
                 self.note(entry.path, line, entry.reason, entry.serious)
 
-    def entries(self) -> Iterator[Entry]:
+    def entries(self) -> Iterator[Issue]:
         """Every reason, those of the earliest lines first."""
         found = [
-            Entry(path, reason, tuple(sorted(set(at))), s) for (path, reason, s), at in self._lines.items()
+            Issue(path, reason, tuple(sorted(set(at))), s) for (path, reason, s), at in self._lines.items()
         ]
         yield from sorted(found, key=lambda entry: (entry.path, entry.lines[:1], entry.reason))
 

@@ -13,7 +13,7 @@ from icsolve.grade.judge import IN_REVIEW, RIGHT, WRONG, Judgement, feedback, ju
 from icsolve.grade.keys import AnyKey, Key, PlaceKey, unit_factor
 from icsolve.grade.mistakes import Wrong
 from icsolve.grade.results import OVERRIDE, Marked, Result
-from icsolve.grade.store import Entry
+from icsolve.grade.store import StoredAnswer
 from icsolve.grade.tally import Counts, Tally
 from icsolve.grade.timestamps import NEVER, attempt_number, readings
 from icsolve.grade.tolerance import NoKeyError
@@ -22,7 +22,7 @@ from icsolve.grade.written.answer import Combined
 from icsolve.grade.written.two_numbers import WrittenPlace
 
 if TYPE_CHECKING:
-    from icsolve.grade.run import Work
+    from icsolve.grade.run import MarkingWork
 
 _MEMORY = 40_000
 """Different answers that are remembered with their verdicts; a class repeats itself."""
@@ -34,7 +34,7 @@ _AT_ONCE = 5000
 """Answers of one student that are looked at together."""
 
 
-class Given(NamedTuple):
+class GivenValue(NamedTuple):
     """A value that a student gave to a question with variables, and whether it was right."""
 
     student: str
@@ -46,12 +46,12 @@ class Given(NamedTuple):
 class Marker:
     """Judges entries; ``case_store`` has the keys."""
 
-    def __init__(self, work: Work, issues: Issues, questions: Iterable[str]) -> None:
+    def __init__(self, work: MarkingWork, issues: Issues, questions: Iterable[str]) -> None:
         course, self.case_store = work.course, work.case_store
         self.course = course
         self.issues = issues
         self.path = work.path
-        self.given: list[Given] = []
+        self.given: list[GivenValue] = []
         """values given to questions with variables, of the first students"""
         self._neighbours = work.neighbours
         self._overrides = work.overrides
@@ -68,7 +68,7 @@ class Marker:
         self.tally = Tally(self._band)
         self._carried_forward = CarriedForward(self.case_store, course.reveal, self._once)
 
-    def results(self, entries: Iterable[Entry], students: Iterable[str] = ()) -> Iterator[Result]:
+    def results(self, entries: Iterable[StoredAnswer], students: Iterable[str] = ()) -> Iterator[Result]:
         """The results of sorted entries, and of sorted ``students`` who may have given none."""
         waiting = iter(students)
         owed = next(waiting, None)
@@ -83,7 +83,7 @@ class Marker:
             yield from self._student(owed, [])
             owed = next(waiting, None)
 
-    def _of_student(self, student: str, entries: Iterator[Entry]) -> Iterator[Result]:
+    def _of_student(self, student: str, entries: Iterator[StoredAnswer]) -> Iterator[Result]:
         """In pieces, should one id have an endless number of rows; rows without an id one by one."""
         if not student:
             return (self._result(entry, self._troubled(entry, entry.trouble)) for entry in entries)
@@ -95,20 +95,20 @@ class Marker:
             chosen = [self._chosen(list(attempts)) for _, attempts in groups]
         return self._student(student, chosen)
 
-    def _endless(self, student: str, entries: Iterator[Entry]) -> Iterator[Result]:
+    def _endless(self, student: str, entries: Iterator[StoredAnswer]) -> Iterator[Result]:
         """Question by question, without what looks at all of them together."""
         for _, attempts in groupby(entries, key=itemgetter(1)):
             entry = self._last_of(attempts)
             yield self._result(entry, self._marked(entry))
 
-    def _last_of(self, attempts: Iterator[Entry]) -> Entry:
+    def _last_of(self, attempts: Iterator[StoredAnswer]) -> StoredAnswer:
         """The attempt that counts of any number of them."""
         chosen = next(attempts)
         for entry in attempts:
             chosen = self._chosen([chosen, entry])
         return chosen
 
-    def _student(self, student: str, chosen: list[Entry]) -> Iterator[Result]:
+    def _student(self, student: str, chosen: list[StoredAnswer]) -> Iterator[Result]:
         """One student's results, with what is missing, in order of the questions."""
         found = [(entry, self._marked(entry)) for entry in chosen]
         if any(":" in entry.item for entry in chosen):
@@ -121,13 +121,13 @@ class Marker:
             variant = (self._variant(entry) if self.case_store.varied else "") or entry.variant
             yield Result(student, entry.item, variant, entry.attempt, entry.line, marked)
 
-    def _add_missing(self, student: str, found: list[tuple[Entry, Marked]]) -> None:
+    def _add_missing(self, student: str, found: list[tuple[StoredAnswer, Marked]]) -> None:
         """What the student owes and did not answer."""
         missing = self.questions.difference([entry.item for entry, _ in found])
         if missing:
             for item in missing:
                 self._owes(student, item)
-            found += [(Entry(student, item, 0), self._absent(item)) for item in missing]
+            found += [(StoredAnswer(student, item, 0), self._absent(item)) for item in missing]
             found.sort(key=lambda pair: pair[0].item)
 
     def _owes(self, student: str, item: str) -> None:
@@ -135,7 +135,7 @@ class Marker:
         if len(names) < NAMED:
             names.append(student)
 
-    def _final(self, entry: Entry, marked: Marked) -> Marked:
+    def _final(self, entry: StoredAnswer, marked: Marked) -> Marked:
         """An answer as it was judged, or with the mark that was given by hand."""
         override = self._overrides.get((entry.student, entry.item)) if self._overrides else None
         if override is None:
@@ -152,12 +152,12 @@ class Marker:
         self._once(found)
         return found
 
-    def _result(self, entry: Entry, marked: Marked) -> Result:
+    def _result(self, entry: StoredAnswer, marked: Marked) -> Result:
         marked = self._final(entry, marked)
         marked.count += 1
         return Result(entry.student, entry.item, entry.variant, entry.attempt, entry.line, marked)
 
-    def _chosen(self, attempts: list[Entry]) -> Entry:
+    def _chosen(self, attempts: list[StoredAnswer]) -> StoredAnswer:
         """The attempt that counts, of several in order of their lines; what nothing tells apart is listed."""
         good = [entry for entry in attempts if not entry.trouble] or attempts[-1:]
         ranked = sorted(good, key=self._rank)
@@ -175,7 +175,7 @@ class Marker:
             return max(reversed(ranked), key=lambda entry: self._marked(entry).judged.share)
         return ranked[-1]
 
-    def _two_orders(self, entry: Entry, other: Entry) -> Entry:
+    def _two_orders(self, entry: StoredAnswer, other: StoredAnswer) -> StoredAnswer:
         """Two attempts of which either may be the one that counts, as their dates are read."""
         why = (
             f"{entry.time!r} and {other.time!r} can be read month first or day first, and another "
@@ -185,7 +185,7 @@ class Marker:
         self.issues.note(self.path, entry.line, why, serious=True)
         return entry._replace(trouble=why)
 
-    def _rank(self, entry: Entry, reading: int = 0) -> tuple[int, float]:
+    def _rank(self, entry: StoredAnswer, reading: int = 0) -> tuple[int, float]:
         """By the number of the attempt, then by its time, its date read month first or (1) day first."""
         time = readings(entry.time)[reading]
         if time is None:
@@ -193,12 +193,12 @@ class Marker:
             self.issues.note(self.path, entry.line, why)
         return attempt_number(entry.attempt), NEVER if time is None else time
 
-    def _duplicate(self, before: Entry, entry: Entry) -> None:
+    def _duplicate(self, before: StoredAnswer, entry: StoredAnswer) -> None:
         line = entry.line if self.course.attempt == "first" else before.line
         reason = f"the same student answers the same question again; the {self.course.attempt} row counts"
         self.issues.note(self.path, line, reason)
 
-    def _marked(self, entry: Entry) -> Marked:
+    def _marked(self, entry: StoredAnswer) -> Marked:
         if entry.trouble:
             return self._troubled(entry, entry.trouble)
         variant = ""
@@ -212,11 +212,11 @@ class Marker:
             found = self._memory[key] = self._judged(entry)
         return found
 
-    def _variant(self, entry: Entry) -> str:
+    def _variant(self, entry: StoredAnswer) -> str:
         """The label of the student's own values; '' where the case has no variables."""
         return self.case_store.variant_of(entry.item, entry.student)
 
-    def _is_others(self, entry: Entry) -> bool:
+    def _is_others(self, entry: StoredAnswer) -> bool:
         """Whether the answer says that it is to another variant than the student's."""
         given = entry.variant.strip()
         return bool(given) and self._variant(entry) not in ("", given)
@@ -242,7 +242,7 @@ class Marker:
         key = self._keys.get(item)
         return (key.value, key.half) if isinstance(key, Key) else None
 
-    def _judged(self, entry: Entry) -> Marked:
+    def _judged(self, entry: StoredAnswer) -> Marked:
         try:
             key = self._key(entry)
         except NoKeyError as error:
@@ -264,13 +264,13 @@ class Marker:
             marked.place_unit = read.unit
         return marked
 
-    def _beside_others(self, entry: Entry, judged: Judgement, written: Written) -> Judgement:
+    def _beside_others(self, entry: StoredAnswer, judged: Judgement, written: Written) -> Judgement:
         """The verdict on an answer to a question with variables: it may be right for another's numbers."""
         if judged.value is None or not self.case_store.variant_of(entry.item, entry.student):
             return judged
         if len(self.given) < _SAMPLE:
             right = judged.verdict == RIGHT
-            self.given.append(Given(entry.student, entry.item, judged.value, right))
+            self.given.append(GivenValue(entry.student, entry.item, judged.value, right))
         if judged.verdict != WRONG or any(m.code != "near-miss" for m in judged.mistakes):
             return judged
         assert self._neighbours is not None
@@ -278,7 +278,7 @@ class Marker:
         found = (Wrong("neighbour", judged.value, label),) if label else ()
         return judged._replace(code="neighbour", mistakes=found) if found else judged
 
-    def _key(self, entry: Entry) -> AnyKey:
+    def _key(self, entry: StoredAnswer) -> AnyKey:
         """The key of a question: the student's own, where the case has variables."""
         found = self._keys.get(entry.item)
         if found is None:
@@ -287,14 +287,14 @@ class Marker:
                 self._keys[entry.item] = found
         return found
 
-    def _troubled(self, entry: Entry, why: str) -> Marked:
+    def _troubled(self, entry: StoredAnswer, why: str) -> Marked:
         """A row that can't be graded: for a person to look at."""
         judged = Judgement(IN_REVIEW, 0.0, (False, False, False), code="not-graded")
         marked = Marked(entry.item, entry.answer, judged, self._points(entry.item), f"Not graded: {why}")
         self._once(marked)
         return marked
 
-    def _of_another(self, entry: Entry) -> Marked:
+    def _of_another(self, entry: StoredAnswer) -> Marked:
         """An answer to numbers that are not the student's: a person must say whose it is."""
         judged = Judgement(IN_REVIEW, 0.0, (False, False, False), code="other-variant")
         told = "this answer names another variant than the student's; --variants values.csv takes the numbers"

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 
 from icsolve.grade.mistakes import CODES
-from icsolve.grade.results import Row
+from icsolve.grade.results import ResultRow
 from icsolve.grade.run import Graded
 from icsolve.grade.statistics import Statistics
 from icsolve.grade.summary import by_count, mostly_unread, ordered_verdicts
@@ -267,7 +267,7 @@ def _people(found: Statistics) -> str:
 _ACCEPTED = re.compile(r"^Right: .* is accepted\.")
 
 
-def student_page(student: str, rows: Sequence[Row], title: str = "") -> str:
+def student_page(student: str, rows: Sequence[ResultRow], title: str = "") -> str:
     """What one student may see: the own answers, marks and feedback, and no right answers."""
     cells = [
         [
@@ -288,5 +288,5 @@ def student_page(student: str, rows: Sequence[Row], title: str = "") -> str:
     return _document(title or "Marks", body + _table("Your answers", heads, cells, range(3, 4)))
 
 
-def _marks(row: Row) -> str:
+def _marks(row: ResultRow) -> str:
     return f"{row.score:.10g} of {row.max_score:.10g}" if row.score is not None else "waiting"

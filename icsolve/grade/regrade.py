@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from icsolve.files import reading
 from icsolve.grade.case_store import CaseStore
-from icsolve.grade.results import OVERRIDE, Row, read_results, safe, shown
+from icsolve.grade.results import OVERRIDE, ResultRow, read_results, safe, shown
 from icsolve.grade.roster import Roster
 from icsolve.grade.tables import Columns, Table
 from icsolve.grade.tables.columns import identifier
@@ -101,7 +101,7 @@ def _plain(text: str) -> str:
 def review_queue(results: str) -> str:
     """The answers that wait for a person, each text of a question once, the commonest first; to be filled in
     and handed back as overrides."""
-    groups: dict[tuple[str, str, str], list[Row]] = {}
+    groups: dict[tuple[str, str, str], list[ResultRow]] = {}
     for row in read_results(results):
         if row.score is None and row.student_id:
             groups.setdefault((row.case, row.variant, " ".join(row.raw_answer.split())), []).append(row)
@@ -124,8 +124,8 @@ class Change(NamedTuple):
 
     student: str
     case: str
-    before: Row | None
-    now: Row | None
+    before: ResultRow | None
+    now: ResultRow | None
     why: str
 
     @property
@@ -150,14 +150,14 @@ def compared(old: str, new: str) -> Iterator[Change]:
         yield Change(was.student_id, was.case, was, None, "the row is gone")
 
 
-def _old(path: str) -> Iterator[Row]:
+def _old(path: str) -> Iterator[ResultRow]:
     try:
         yield from read_results(path)
     except (ValueError, IndexError, TypeError, StopIteration, RuntimeError):
         raise ValueError(f"{path} is no file of results: icsolve grade writes one with -o") from None
 
 
-def _why(was: Row, row: Row) -> str:
+def _why(was: ResultRow, row: ResultRow) -> str:
     """Why a mark is another one: what differs between the rows, the plainest first."""
     by_hand = OVERRIDE in row.code.split()
     if by_hand:
@@ -177,7 +177,7 @@ def _why(was: Row, row: Row) -> str:
     return "the points or the credit have changed"
 
 
-def _said(row: Row | None) -> str:
+def _said(row: ResultRow | None) -> str:
     if row is None:
         return "nothing"
     said = f"{row.verdict} ({row.code})" if row.code and row.code != row.verdict else row.verdict
@@ -197,7 +197,7 @@ def changes_csv(changes: Iterable[Change]) -> str:
     return out.getvalue()
 
 
-def _fields(row: Row | None) -> tuple[str, str, str]:
+def _fields(row: ResultRow | None) -> tuple[str, str, str]:
     if row is None:
         return "", "", ""
     return row.verdict, shown(row.score) if row.score is not None else "", row.raw_answer
@@ -217,5 +217,5 @@ def changes_text(changes: list[Change], old: str) -> str:
     return "\n".join([*lines, *([f"  and {more} more; --changes FILE lists all"] if more > 0 else [])])
 
 
-def _marks(row: Row | None) -> float:
+def _marks(row: ResultRow | None) -> float:
     return row.score or 0.0 if row is not None else 0.0

@@ -200,7 +200,7 @@ NO_CASE = ("there is no case", "this row names no case")
 """How the reason of a row begins that names no question."""
 
 
-class Row(NamedTuple):
+class ResultRow(NamedTuple):
     """One line of ``results.csv``."""
 
     student_id: str
@@ -220,7 +220,7 @@ class Row(NamedTuple):
     feedback: str
 
 
-def read_results(path: str) -> Iterator[Row]:
+def read_results(path: str) -> Iterator[ResultRow]:
     """The lines of a results file, in its order; the apostrophes against formulas are taken off again."""
     csv.field_size_limit(max(csv.field_size_limit(), 2_000_000))
     with open(path, encoding="utf-8", newline="") as file:
@@ -229,20 +229,20 @@ def read_results(path: str) -> Iterator[Row]:
         for cells in lines:
             plain = [_unsafe(cell) for cell in cells]
             score = float(plain[9]) if plain[9] else None
-            yield Row._make((*plain[:9], score, float(plain[10]), *plain[11:]))
+            yield ResultRow._make((*plain[:9], score, float(plain[10]), *plain[11:]))
 
 
 def _unsafe(cell: str) -> str:
     return cell[1:] if cell[:1] == "'" and cell[1:2] in tuple("=+-@\t\r\n") else cell
 
 
-def by_student(path: str, graded: bool = True) -> Iterator[tuple[str, list[Row]]]:
+def by_student(path: str, graded: bool = True) -> Iterator[tuple[str, list[ResultRow]]]:
     """Each student's lines together; with ``graded`` without those that are of no question."""
     for student, rows in groupby(read_results(path), key=lambda row: row.student_id):
         yield student, [row for row in rows if not graded or not _is_strange(row)]
 
 
-def _is_strange(row: Row) -> bool:
+def _is_strange(row: ResultRow) -> bool:
     return row.code == NOT_GRADED and row.feedback.removeprefix("Not graded: ").startswith(NO_CASE)
 
 

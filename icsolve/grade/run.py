@@ -11,13 +11,12 @@ from icsolve.files import scratch
 from icsolve.grade.case_store import CaseStore, unknowns
 from icsolve.grade.course import Course
 from icsolve.grade.importing import Import, expand
-from icsolve.grade.issues import Entry as Noted
-from icsolve.grade.issues import Issues
+from icsolve.grade.issues import Issue, Issues
 from icsolve.grade.keys import Key
-from icsolve.grade.marking import NAMED, Given, Marker
+from icsolve.grade.marking import NAMED, GivenValue, Marker
 from icsolve.grade.results import HEADER, json_line, line
 from icsolve.grade.roster import Roster, read_roster
-from icsolve.grade.store import Disk, Entry, Store
+from icsolve.grade.store import Disk, Store, StoredAnswer
 from icsolve.grade.tables import HeaderError
 from icsolve.grade.tally import Counts, added
 from icsolve.grade.tolerance import NoKeyError
@@ -40,7 +39,7 @@ class Sinks(NamedTuple):
     jsonl: IO[str] | None = None
 
 
-class Part(NamedTuple):
+class ClassPart(NamedTuple):
     """The students from ``since`` on, before ``until``; all ``students`` owe answers to ``questions``."""
 
     questions: tuple[str, ...]
@@ -49,7 +48,7 @@ class Part(NamedTuple):
     until: str | None
 
 
-class Work(NamedTuple):
+class MarkingWork(NamedTuple):
     """What all parts share; ``path`` is the file of answers, for what is noted."""
 
     course: Course
@@ -62,13 +61,13 @@ class Work(NamedTuple):
     """marks given by hand"""
 
 
-class Outcome(NamedTuple):
+class PartOutcome(NamedTuple):
     """What a part found: counts by question, what is noted, and who gave no answer."""
 
     counts: dict[str, Counts]
-    notes: list[Noted]
+    notes: list[Issue]
     owing: dict[str, list[str]]
-    given: list[Given]
+    given: list[GivenValue]
     """values that were given to questions with variables"""
     overruled: set[tuple[str, str]]
     """students and questions whose marks were given by hand"""
@@ -77,18 +76,18 @@ class Outcome(NamedTuple):
 Report = Callable[[int], None]
 
 
-def divided(questions: tuple[str, ...], students: list[str], answers: int, jobs: int) -> list[Part]:
+def divided(questions: tuple[str, ...], students: list[str], answers: int, jobs: int) -> list[ClassPart]:
     """The students in as many ranges as there are processes."""
     count = jobs if can_fork() and answers >= _WORTH_TWO and len(students) >= 2 * jobs else 1
     cuts = [len(students) * k // count for k in range(count + 1)]
     bounds = [None, *(students[cut] for cut in cuts[1:-1]), None]
     return [
-        Part(questions, tuple(students[cuts[k] : cuts[k + 1]]), bounds[k], bounds[k + 1])
+        ClassPart(questions, tuple(students[cuts[k] : cuts[k + 1]]), bounds[k], bounds[k + 1])
         for k in range(count)
     ]
 
 
-def judged(parts: list[Part], work: Work, sinks: Sinks, report: Report) -> list[Outcome]:
+def judged(parts: list[ClassPart], work: MarkingWork, sinks: Sinks, report: Report) -> list[PartOutcome]:
     """Judge all parts; their results go to the sinks one after the other.
 
     Raises RuntimeError where a process failed.
@@ -134,7 +133,7 @@ def _append(sink: IO[str] | None, name: str) -> None:
                 sink.write(block)
 
 
-def _apart(part: Part, work: Work, names: tuple[str, ...]) -> Outcome:
+def _apart(part: ClassPart, work: MarkingWork, names: tuple[str, ...]) -> PartOutcome:
     """Judge a part in a process of its own, which must not use its parent's database."""
     disk = Disk(work.store.path) if work.store.path else None
     entries = (disk or work.store).sorted(part.since, part.until)
@@ -149,7 +148,9 @@ def _opened(name: str) -> AbstractContextManager[IO[str] | None]:
     return open(name, "w", encoding="utf-8", newline="") if name else nullcontext()
 
 
-def _judge(part: Part, work: Work, entries: Iterator[Entry], sinks: Sinks, report: Report) -> Outcome:
+def _judge(
+    part: ClassPart, work: MarkingWork, entries: Iterator[StoredAnswer], sinks: Sinks, report: Report
+) -> PartOutcome:
     """Judge sorted entries."""
     issues = Issues()
     marker = Marker(work, issues, part.questions)
@@ -161,7 +162,7 @@ def _judge(part: Part, work: Work, entries: Iterator[Entry], sinks: Sinks, repor
             csv.write(line(result))
         if jsonl is not None:
             jsonl.write(json_line(result))
-    return Outcome(marker.counted(), list(issues.entries()), marker.owing, marker.given, marker.overruled)
+    return PartOutcome(marker.counted(), list(issues.entries()), marker.owing, marker.given, marker.overruled)
 
 
 class Job(NamedTuple):
@@ -188,7 +189,7 @@ class Graded(NamedTuple):
     """What grading found: the counts by question, what was noted, how many rows and students."""
 
     counts: dict[str, Counts]
-    notes: tuple[Noted, ...]
+    notes: tuple[Issue, ...]
     serious: bool
     rows: int
     students: int
@@ -249,7 +250,7 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
         if sinks.csv is not None:
             sinks.csv.write(HEADER + "\n")
         neighbours = _neighbours(case_store, students)
-        work = Work(job.course, case_store, store, _shown(paths), neighbours, overrides)
+        work = MarkingWork(job.course, case_store, store, _shown(paths), neighbours, overrides)
         found = judged(parts, work, sinks, lambda n: progress("judging", n / imported.count))
     finally:
         store.close()
@@ -271,7 +272,7 @@ def _overrides(job: Job, case_store: CaseStore, roster: Roster | None) -> dict[t
     return found
 
 
-def _note_unmet(overrides: Overrides, found: list[Outcome], job: Job, issues: Issues) -> None:
+def _note_unmet(overrides: Overrides, found: list[PartOutcome], job: Job, issues: Issues) -> None:
     """Say which marks given by hand meet no line of the results."""
     met = set().union(*(outcome.overruled for outcome in found))
     for (student, item), override in overrides.items():
@@ -308,7 +309,7 @@ def _neighbours(case_store: CaseStore, students: Iterable[str]) -> Neighbours | 
     return Neighbours(case_store, students)
 
 
-def _note_other_seeds(job: Job, case_store: CaseStore, given: list[Given], issues: Issues) -> None:
+def _note_other_seeds(job: Job, case_store: CaseStore, given: list[GivenValue], issues: Issues) -> None:
     """Say of a case most of whose answers are to the numbers of another seed which one that is."""
     from icsolve.grade.variants.others import other_seed
 
@@ -349,7 +350,9 @@ def _shown(paths: list[tuple[str, str]]) -> str:
     return ", ".join(names) if len(names) < 4 else f"{names[0]} and {len(names) - 1} other files"
 
 
-def _graded(found: list[Outcome], issues: Issues, case_store: CaseStore, rows: int, students: int) -> Graded:
+def _graded(
+    found: list[PartOutcome], issues: Issues, case_store: CaseStore, rows: int, students: int
+) -> Graded:
     """The outcomes of all parts together."""
     counts = added(outcome.counts for outcome in found)
     marks = {item: tuple(_marks(case_store, item, c)) for item, c in counts.items()}

@@ -6,14 +6,14 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from icsolve.grade.results import Row, by_student
+from icsolve.grade.results import ResultRow, by_student
 from icsolve.grade.roster import Person
 
 _LEAST = 10
 """Students from whom it is told how telling a question is."""
 
 
-class Item(NamedTuple):
+class ItemStatistics(NamedTuple):
     """Of one question: the mean share of its points among those who were judged (its difficulty, 1 the
     easiest), and the correlation of that share with the share of all other points (its discrimination, None
     where students are too few or all alike)."""
@@ -36,7 +36,7 @@ class Total(NamedTuple):
 class Statistics(NamedTuple):
     """Of a class: its questions by name, its students in order, and the mean share of each section."""
 
-    items: dict[str, Item]
+    items: dict[str, ItemStatistics]
     totals: list[Total]
     sections: dict[str, tuple[int, float]]
 
@@ -61,15 +61,15 @@ class _Sums:
             self.yy += y * y
             self.xy += x * y
 
-    def item(self) -> Item:
+    def item(self) -> ItemStatistics:
         """What follows from the sums."""
         mean = self.all / self.n if self.n else None
         n = self.pairs
         if n < _LEAST:
-            return Item(self.n, mean, None)
+            return ItemStatistics(self.n, mean, None)
         spread = (n * self.xx - self.x**2) * (n * self.yy - self.y**2)
         found = (n * self.xy - self.x * self.y) / math.sqrt(spread) if spread > 1e-9 * n**4 else None
-        return Item(self.n, mean, found)
+        return ItemStatistics(self.n, mean, found)
 
 
 def statistics(results: str, people: Mapping[str, Person]) -> Statistics:
@@ -83,14 +83,14 @@ def statistics(results: str, people: Mapping[str, Person]) -> Statistics:
     return Statistics({name: sums[name].item() for name in sorted(sums)}, totals, _sections(totals))
 
 
-def _total(student: str, rows: Sequence[Row], people: Mapping[str, Person]) -> Total:
+def _total(student: str, rows: Sequence[ResultRow], people: Mapping[str, Person]) -> Total:
     judged = [row for row in rows if row.score is not None]
     section = people[student].section if student in people else ""
     score, most = sum(row.score or 0.0 for row in judged), sum(row.max_score for row in judged)
     return Total(student, section, score, most, len(rows) - len(judged))
 
 
-def _count(sums: dict[str, _Sums], rows: Sequence[Row]) -> None:
+def _count(sums: dict[str, _Sums], rows: Sequence[ResultRow]) -> None:
     score, most = sum(row.score or 0.0 for row in rows), sum(row.max_score for row in rows)
     for row in rows:
         others = most - row.max_score

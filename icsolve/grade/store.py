@@ -22,7 +22,7 @@ IN_MEMORY = 110_000
 """Submissions that are sorted in memory; more go to disk."""
 
 
-class Entry(NamedTuple):
+class StoredAnswer(NamedTuple):
     """A submission as stored; ``item`` is the question. Order by the first three is the order of results."""
 
     student: str
@@ -41,11 +41,11 @@ class Store:
     """Entries; those on disk are in a temporary file, gone when closed."""
 
     def __init__(self, most: int = IN_MEMORY) -> None:
-        self._few: list[Entry] = []
+        self._few: list[StoredAnswer] = []
         self._most = most
         self._disk: Disk | None = None
 
-    def add(self, entries: Iterable[Entry]) -> int:
+    def add(self, entries: Iterable[StoredAnswer]) -> int:
         """Store entries; how many there were."""
         count = 0
         source = iter(entries)
@@ -66,7 +66,7 @@ class Store:
         """The file on disk that another process can read; '' while all is in memory."""
         return self._disk.path if self._disk is not None else ""
 
-    def sorted(self, since: str | None = None, until: str | None = None) -> Iterator[Entry]:
+    def sorted(self, since: str | None = None, until: str | None = None) -> Iterator[StoredAnswer]:
         """Entries by student, question and line, of the students from ``since`` on, before ``until``."""
         if self._disk is not None:
             return self._disk.sorted(since, until)
@@ -95,21 +95,21 @@ class Disk:
         if not path:
             self._database.execute(_CREATE)
 
-    def add(self, entries: list[Entry]) -> None:
+    def add(self, entries: list[StoredAnswer]) -> None:
         """Store entries."""
         cursor = self._database.cursor()
         cursor.execute("begin")
         cursor.executemany(_INSERT, entries)
         cursor.execute("commit")
 
-    def sorted(self, since: str | None = None, until: str | None = None) -> Iterator[Entry]:
+    def sorted(self, since: str | None = None, until: str | None = None) -> Iterator[StoredAnswer]:
         """Entries in order, of the students from ``since`` on, before ``until``."""
         clauses = [c for c, bound in (("student >= ?", since), ("student < ?", until)) if bound is not None]
         where = f"where {' and '.join(clauses)}" if clauses else ""
         bounds = [bound for bound in (since, until) if bound is not None]
         cursor = self._database.execute(_SELECT.format(where=where), bounds)
         while batch := cursor.fetchmany(_BATCH):
-            yield from map(Entry._make, batch)
+            yield from map(StoredAnswer._make, batch)
 
     def close(self) -> None:
         """Close, and delete what is one's own."""

@@ -15,7 +15,7 @@ from icsolve.grade.case_store import CaseStore, Solved, unknowns
 from icsolve.grade.course import Course
 from icsolve.grade.keys import Key
 from icsolve.grade.platforms.given import given
-from icsolve.grade.platforms.gradescope import Source, autograder_zip, pinned
+from icsolve.grade.platforms.gradescope import AutograderSource, autograder_zip, pinned
 from icsolve.grade.platforms.qti import SMALLEST, qti_zip
 from icsolve.grade.platforms.questions import Question, asked, figure, gift, moodle_xml
 from icsolve.grade.roster import read_roster
@@ -124,7 +124,7 @@ def element(question: Question, made: Made) -> dict[str, str]:
 Complain = Callable[[str], None]
 
 
-class Order(NamedTuple):
+class ExportOrder(NamedTuple):
     """What to write: the cases, where, with figures or not, how many variants of a case with variables; the
     files of the course and of the roster, for what goes on grading by itself."""
 
@@ -141,7 +141,7 @@ class Order(NamedTuple):
     """files of the numbers that were handed out"""
 
 
-def questions(order: Order, complain: Complain) -> Iterator[Question]:
+def questions(order: ExportOrder, complain: Complain) -> Iterator[Question]:
     """A question for every unknown load of every case; what can't be one is told."""
     for name in sorted(order.case_store.paths):
         try:
@@ -157,7 +157,7 @@ def questions(order: Order, complain: Complain) -> Iterator[Question]:
             complain(f"{order.case_store.paths.get(name, name)}: {error}")
 
 
-def _of_case(solved: Solved, case: Case, name: str, order: Order, title: str) -> Iterator[Question]:
+def _of_case(solved: Solved, case: Case, name: str, order: ExportOrder, title: str) -> Iterator[Question]:
     names = unknowns(case)
     if not names:
         raise NoKeyError("no unknown load, so no question")
@@ -174,7 +174,7 @@ def _of_case(solved: Solved, case: Case, name: str, order: Order, title: str) ->
         yield Question(shown, tuple(given(case)), text, key, picture, title)
 
 
-def export(kind: str, order: Order, complain: Complain) -> int:
+def export(kind: str, order: ExportOrder, complain: Complain) -> int:
     """Write all cases as ``kind``; how many questions there are.
 
     Raises KeptError or OSError.
@@ -198,7 +198,7 @@ def export(kind: str, order: Order, complain: Complain) -> int:
     return len(found)
 
 
-def _elements(order: Order, complain: Complain) -> int:
+def _elements(order: ExportOrder, complain: Complain) -> int:
     """A folder a question."""
     found = list(questions(order, complain))
     course = _text(order.course) if order.course else ""
@@ -212,7 +212,7 @@ def _elements(order: Order, complain: Complain) -> int:
     return len(found)
 
 
-def _zip(order: Order) -> int:
+def _zip(order: ExportOrder) -> int:
     """All cases with the course, the roster and icsolve itself."""
     case_store = order.case_store
     cases = {os.path.basename(at): case_store.text(name) for name, at in case_store.paths.items()}
@@ -223,7 +223,7 @@ def _zip(order: Order) -> int:
         for path in (record.path, os.path.join(os.path.dirname(record.path), KEYS)):
             if os.path.isfile(path):
                 records[f"{name}/{os.path.basename(path) if path != record.path else VALUES}"] = _text(path)
-    source = Source(cases, course, roster, seed, records)
+    source = AutograderSource(cases, course, roster, seed, records)
     write_whole(order.path, autograder_zip(source), order.force)
     return len(cases)
 

@@ -12,10 +12,10 @@ import re
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from icsolve.grade.results import Row, safe, shown
+from icsolve.grade.results import ResultRow, safe, shown
 from icsolve.grade.roster import Person
 
-Students = Iterable[tuple[str, list[Row]]]
+Students = Iterable[tuple[str, list[ResultRow]]]
 
 
 class Filled(NamedTuple):
@@ -77,7 +77,7 @@ class Template:
         return self.start + out.getvalue()
 
 
-def aliases(marks: dict[str, list[Row]], people: dict[str, Person]) -> dict[str, str]:
+def aliases(marks: dict[str, list[ResultRow]], people: dict[str, Person]) -> dict[str, str]:
     """Students by every name, in small letters, that a platform may know them by; a name of two is none's."""
     known: dict[str, set[str]] = {}
     for student in marks:
@@ -92,19 +92,19 @@ def aliases(marks: dict[str, list[Row]], people: dict[str, Person]) -> dict[str,
     return {name: min(students) for name, students in known.items() if len(students) == 1}
 
 
-def total_of(rows: Sequence[Row]) -> tuple[float | None, float]:
+def total_of(rows: Sequence[ResultRow]) -> tuple[float | None, float]:
     """The marks of all questions together, None while one of them waits for a person; and the most."""
     most = sum(row.max_score for row in rows)
     scores = [row.score for row in rows if row.score is not None]
     return (sum(scores) if len(scores) == len(rows) else None), most
 
 
-def _questions(all_rows: Iterable[Sequence[Row]]) -> dict[str, float]:
+def _questions(all_rows: Iterable[Sequence[ResultRow]]) -> dict[str, float]:
     """The questions with their points, by name."""
     return dict(sorted({row.case: row.max_score for rows in all_rows for row in rows}.items()))
 
 
-def _marks(rows: Sequence[Row], total: str) -> dict[str, tuple[float | None, float]]:
+def _marks(rows: Sequence[ResultRow], total: str) -> dict[str, tuple[float | None, float]]:
     """A student's marks by column: a question each, or all together in the column ``total``."""
     return {total: total_of(rows)} if total else {row.case: (row.score, row.max_score) for row in rows}
 
@@ -236,7 +236,7 @@ _MOODLE_IDS = re.compile(
 )
 
 
-def comment(rows: Iterable[Row]) -> str:
+def comment(rows: Iterable[ResultRow]) -> str:
     """What a student is told of all questions."""
     return " | ".join(f"{row.case}: {row.verdict}. {row.feedback}" for row in rows)
 

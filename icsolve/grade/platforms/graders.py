@@ -12,19 +12,19 @@ from collections.abc import Iterable
 from html import escape
 from typing import Any
 
-from icsolve.grade.results import Row
+from icsolve.grade.results import ResultRow
 
 _STATUS = {"right": "passed"}
 
 
-def _told(rows: list[Row]) -> str:
+def _told(rows: list[ResultRow]) -> str:
     judged = [row for row in rows if row.score is not None]
     waiting = len(rows) - len(judged)
     said = f"{sum(row.verdict == 'right' for row in judged)} of {len(judged)} answers are right."
     return said if not waiting else f"{said} {waiting} not judged yet."
 
 
-def gradescope_results(rows: Iterable[Row]) -> dict[str, Any]:
+def gradescope_results(rows: Iterable[ResultRow]) -> dict[str, Any]:
     """The object of ``results.json`` for one student's rows."""
     rows = list(rows)
     return {
@@ -38,7 +38,7 @@ def gradescope_results(rows: Iterable[Row]) -> dict[str, Any]:
     }
 
 
-def _test(row: Row, number: int) -> dict[str, Any]:
+def _test(row: ResultRow, number: int) -> dict[str, Any]:
     answer = f"Your answer: {row.raw_answer}\n" if row.raw_answer else ""
     return {
         "score": row.score or 0.0,
@@ -55,7 +55,7 @@ def _test(row: Row, number: int) -> dict[str, Any]:
     }
 
 
-def prairielearn_results(rows: Iterable[Row]) -> dict[str, Any]:
+def prairielearn_results(rows: Iterable[ResultRow]) -> dict[str, Any]:
     """The object of ``/grade/results/results.json`` for one student; what was not judged costs no attempt."""
     rows = list(rows)
     judged = [row for row in rows if row.score is not None]
@@ -71,7 +71,7 @@ def prairielearn_results(rows: Iterable[Row]) -> dict[str, Any]:
     return entry
 
 
-def _points(row: Row) -> dict[str, Any]:
+def _points(row: ResultRow) -> dict[str, Any]:
     return {
         "name": row.case,
         "description": f"Your answer: {row.raw_answer[:200]}" if row.raw_answer else "No answer",
@@ -82,7 +82,7 @@ def _points(row: Row) -> dict[str, Any]:
     }
 
 
-def prairielearn_scores(students: Iterable[tuple[str, list[Row]]]) -> str:
+def prairielearn_scores(students: Iterable[tuple[str, list[ResultRow]]]) -> str:
     """``uid,instance,qid,score_perc,feedback``, to be uploaded as manual grades; only what was judged."""
     out = io.StringIO()
     table = csv.writer(out, lineterminator="\n")
@@ -100,9 +100,9 @@ def prairielearn_scores(students: Iterable[tuple[str, list[Row]]]) -> str:
 _WRONG, _UNREAD, _OPEN = ("wrong",), ("invalid",), ("review", "missing")
 
 
-def junit_report(rows: Iterable[Row]) -> str:
+def junit_report(rows: Iterable[ResultRow]) -> str:
     """The report of all results: a suite a question, a test a student."""
-    suites: dict[str, list[Row]] = {}
+    suites: dict[str, list[ResultRow]] = {}
     for row in rows:
         suites.setdefault(row.case, []).append(row)
     body = "".join(_suite(case, own) for case, own in sorted(suites.items()))
@@ -111,7 +111,7 @@ def junit_report(rows: Iterable[Row]) -> str:
     return f'{head}\n<testsuites name="icsolve grade" {counts}>\n{body}</testsuites>\n'
 
 
-def _counts(rows: list[Row]) -> str:
+def _counts(rows: list[ResultRow]) -> str:
     def count(verdicts: tuple[str, ...]) -> int:
         return sum(row.verdict in verdicts for row in rows)
 
@@ -119,12 +119,12 @@ def _counts(rows: list[Row]) -> str:
     return f'tests="{len(rows)}" {bad} time="0"'
 
 
-def _suite(case: str, rows: list[Row]) -> str:
+def _suite(case: str, rows: list[ResultRow]) -> str:
     tests = "".join(_testcase(row) for row in rows)
     return f"<testsuite name={_attribute(case)} {_counts(rows)}>\n{tests}</testsuite>\n"
 
 
-def _testcase(row: Row) -> str:
+def _testcase(row: ResultRow) -> str:
     head = (
         f'<testcase classname={_attribute(row.case)} name={_attribute(row.student_id or "(no id)")} time="0"'
     )

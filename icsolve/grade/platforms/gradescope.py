@@ -53,7 +53,7 @@ def pinned() -> list[str]:
     return found
 
 
-class Source(NamedTuple):
+class AutograderSource(NamedTuple):
     """What goes into an autograder: the texts of cases by file name, of the course and of the roster ('' for
     none), and the seed of the variants."""
 
@@ -65,7 +65,7 @@ class Source(NamedTuple):
     """the numbers that were handed out, by file"""
 
 
-def autograder_zip(source: Source) -> bytes:
+def autograder_zip(source: AutograderSource) -> bytes:
     """The zip to upload: ``setup.sh`` and ``run_autograder`` at its root, the cases and icsolve beside them.
 
     The same input gives the same bytes.

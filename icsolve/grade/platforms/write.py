@@ -21,13 +21,13 @@ from icsolve.grade.platforms.graders import (
     prairielearn_results,
     prairielearn_scores,
 )
-from icsolve.grade.results import Row, by_student, read_results
+from icsolve.grade.results import ResultRow, by_student, read_results
 from icsolve.grade.roster import Person
 from icsolve.grade.tables.text import encoding_of
 from icsolve.grade.variants.sheets import file_name
 
 
-class Order(NamedTuple):
+class PlatformFile(NamedTuple):
     """What to write: the results, the file to write, who is who, the platform's own file to fill."""
 
     results: str
@@ -43,7 +43,7 @@ _NAMED = 20
 """Students without a row who are named."""
 
 
-def write(kind: str, order: Order) -> str:
+def write(kind: str, order: PlatformFile) -> str:
     """Write the results as ``kind``; what to tell the user, '' for nothing.
 
     Raises ValueError for a kind or a template that can't be used, KeptError, OSError.
@@ -60,7 +60,7 @@ def check_kind(kind: str) -> None:
         raise ValueError(f"--write {kind}: there is no such kind; it is one of {', '.join(KINDS)}")
 
 
-def _gradebook(order: Order) -> str:
+def _gradebook(order: PlatformFile) -> str:
     """Canvas, new or the teacher's own; of other platforms the teacher's own."""
     students = by_student(order.results)
     if order.template:
@@ -69,13 +69,13 @@ def _gradebook(order: Order) -> str:
     return ""
 
 
-def _own_gradebook(order: Order) -> str:
+def _own_gradebook(order: PlatformFile) -> str:
     if not order.template:
         raise ValueError("fill the platform's own export: name it with --template")
     return _gradebook(order)
 
 
-def _moodle(order: Order) -> str:
+def _moodle(order: PlatformFile) -> str:
     students = by_student(order.results)
     if not order.template:
         write_whole(order.path, moodle_worksheet(students, order.people), order.force)
@@ -83,7 +83,7 @@ def _moodle(order: Order) -> str:
     return _filled(order, moodle_filled(_text(order.template), students, order.people))
 
 
-def _filled(order: Order, made: Filled) -> str:
+def _filled(order: PlatformFile, made: Filled) -> str:
     """Write a template that was filled; who has no row in it is named."""
     write_whole(order.path, made.text, order.force)
     left = [student for student, _ in by_student(order.results) if student and student not in made.placed]
@@ -100,7 +100,7 @@ def _text(path: str) -> str:
     return data.decode(encoding, "icsolve-windows" if encoding.startswith("utf-8") else "replace")
 
 
-def _single(order: Order, make: Callable[[list[Row]], dict[str, object]]) -> str:
+def _single(order: PlatformFile, make: Callable[[list[ResultRow]], dict[str, object]]) -> str:
     """One student's file; of several students a folder with a file for each."""
     students = [(student, rows) for student, rows in by_student(order.results, False) if student]
     if len(students) == 1:
@@ -118,17 +118,17 @@ def _json(entry: dict[str, object]) -> str:
     return json.dumps(entry, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def _prairielearn_csv(order: Order) -> str:
+def _prairielearn_csv(order: PlatformFile) -> str:
     write_whole(order.path, prairielearn_scores(by_student(order.results)), order.force)
     return ""
 
 
-def _junit(order: Order) -> str:
+def _junit(order: PlatformFile) -> str:
     write_whole(order.path, junit_report(read_results(order.results)), order.force)
     return ""
 
 
-KINDS: dict[str, Callable[[Order], str]] = {
+KINDS: dict[str, Callable[[PlatformFile], str]] = {
     "canvas": _gradebook,
     "brightspace": _own_gradebook,
     "blackboard": _own_gradebook,

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
-from icsolve.grade.tables.text import Row
+from icsolve.grade.tables.text import TableRow
 
 
 class Submission(NamedTuple):
@@ -28,14 +28,14 @@ class Submission(NamedTuple):
     trouble: str = ""
 
 
-class Layout(NamedTuple):
+class TableLayout(NamedTuple):
     """How a table is read: the ``kind`` that its header shows, and what each row gives.
 
     ``questions`` are those that have a column of their own (none in a long table).
     """
 
     kind: str
-    read: Callable[[Row], Sequence[Submission]]
+    read: Callable[[TableRow], Sequence[Submission]]
     questions: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     cells_of: Callable[[list[str]], tuple[str, ...]] | None = None

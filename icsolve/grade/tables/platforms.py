@@ -11,13 +11,13 @@ from icsolve.grade.tables.columns import (
     FIELDS,
     Columns,
     HeaderError,
-    Layout,
     Submission,
+    TableLayout,
     candidates,
     identifier,
     is_aside,
 )
-from icsolve.grade.tables.text import Row
+from icsolve.grade.tables.text import TableRow
 
 _RESPONSE = re.compile(r"(?:response|antwort|réponse|respuesta|risposta) \d+$")
 _MOODLE_STATE = (
@@ -51,7 +51,7 @@ _META = re.compile(
 """Columns that platforms add and that are no question."""
 
 
-def recognise(columns: Columns) -> Layout:
+def recognise(columns: Columns) -> TableLayout:
     """The layout of a table.
 
     Raises HeaderError where no student's id, or no question, can be told from the columns.
@@ -77,17 +77,17 @@ def fields_of(columns: Columns) -> Callable[[list[str]], tuple[str, ...]]:
     return itemgetter(*(len(columns.header) if i is None else i for i in at))
 
 
-def _long(columns: Columns, kind: str) -> Layout:
+def _long(columns: Columns, kind: str) -> TableLayout:
     """One answer a row."""
     cells_of, width = fields_of(columns), len(columns.header)
 
-    def read(row: Row) -> Sequence[Submission]:
+    def read(row: TableRow) -> Sequence[Submission]:
         line, cells, unclosed = row
         trouble = unclosed or _wrong_width(cells, width)
         student, *texts = cells_of(padded(cells, width))
         return (Submission._make((line, (identifier(student),), *texts, trouble)),)
 
-    return Layout(kind, read, cells_of=cells_of)
+    return TableLayout(kind, read, cells_of=cells_of)
 
 
 def padded(cells: list[str], width: int) -> list[str]:
@@ -106,7 +106,7 @@ def _wrong_width(cells: Sequence[str], width: int) -> str:
     return f"this row has {len(cells)} cells under {width} columns: is it cut short?"
 
 
-def _wide(columns: Columns, kind: str) -> Layout:
+def _wide(columns: Columns, kind: str) -> TableLayout:
     """A column a question."""
     ids = [i for name in _IDS.get(kind, _ANY_ID) if (i := _id_column(columns, name)) is not None]
     if not ids:
@@ -127,16 +127,16 @@ def _wide(columns: Columns, kind: str) -> Layout:
         strange = [i for i in strange if i not in meant]
     read = _wide_reader(ids, dict(sorted(asked.items())), (attempt, time), len(columns.header), kind)
     notes = tuple(f"the column '{columns.header[i][:60]}' names no case and is passed over" for i in strange)
-    return Layout(kind, read, tuple(dict.fromkeys(asked.values())), notes)
+    return TableLayout(kind, read, tuple(dict.fromkeys(asked.values())), notes)
 
 
 def _wide_reader(
     ids: list[int], asked: dict[int, str], tried_at: tuple[int | None, int | None], width: int, kind: str
-) -> Callable[[Row], Sequence[Submission]]:
+) -> Callable[[TableRow], Sequence[Submission]]:
     attempt, time = tried_at
     skipped = _SKIPPED.get(kind, _no_row)
 
-    def read(row: Row) -> Sequence[Submission]:
+    def read(row: TableRow) -> Sequence[Submission]:
         cells = row.cells
         if skipped(cells):
             return ()
@@ -225,13 +225,13 @@ _IDS = {
 """Columns by which a platform's students are known, best first."""
 
 
-def _prairielearn(columns: Columns, kind: str) -> Layout:
+def _prairielearn(columns: Columns, kind: str) -> TableLayout:
     """A question a row; its answers are JSON."""
     uid, qid, answers = (columns.names.index(name) for name in ("uid", "qid", "submitted_answer"))
     number = _index(columns, "submission_id")
     width = len(columns.header)
 
-    def read(row: Row) -> Sequence[Submission]:
+    def read(row: TableRow) -> Sequence[Submission]:
         cells = row.cells
         trouble = row.trouble or _wrong_width(cells, width)
         cells = cells + [""] * (width - len(cells))
@@ -245,7 +245,7 @@ def _prairielearn(columns: Columns, kind: str) -> Layout:
             found.append(Submission(row.line, student, question, answer, attempt=attempt, trouble=why))
         return found
 
-    return Layout(kind, read)
+    return TableLayout(kind, read)
 
 
 def _json_answers(text: str) -> Iterator[tuple[str, str, str]]:
@@ -282,17 +282,17 @@ def _by_text(columns: Columns, text: str) -> str:
     return next((q for c in candidates(text) if (q := columns.find(c)) is not None), text)
 
 
-def _long_by_text(columns: Columns, kind: str) -> Layout:
+def _long_by_text(columns: Columns, kind: str) -> TableLayout:
     """One answer a row, whose question stands there in its own words (Blackboard, Brightspace)."""
     plain = _long(columns, kind)
 
-    def read(row: Row) -> Sequence[Submission]:
+    def read(row: TableRow) -> Sequence[Submission]:
         return [s._replace(question=_by_text(columns, s.question)) for s in plain.read(row)]
 
-    return Layout(kind, read)
+    return TableLayout(kind, read)
 
 
-def _blackboard(columns: Columns, kind: str) -> Layout:
+def _blackboard(columns: Columns, kind: str) -> TableLayout:
     """A row a student, with the words of each question beside its answer."""
     pairs = [
         (columns.names.index(f"question {name.removeprefix('answer ')}"), index)
@@ -301,7 +301,7 @@ def _blackboard(columns: Columns, kind: str) -> Layout:
     ]
     who, width = columns.field("student_id") or columns.field("email") or 0, len(columns.header)
 
-    def read(row: Row) -> Sequence[Submission]:
+    def read(row: TableRow) -> Sequence[Submission]:
         trouble = row.trouble or _wrong_width(row.cells, width)
         cells = padded(row.cells, width)
         student = (identifier(cells[who]),)
@@ -312,7 +312,7 @@ def _blackboard(columns: Columns, kind: str) -> Layout:
             if cells[question].strip()
         ]  # fmt: skip
 
-    return Layout(kind, read)
+    return TableLayout(kind, read)
 
 
 _STAMPS = ("timestamp", "zeitstempel", "horodateur", "marca temporal", "informazioni cronologiche")
@@ -336,7 +336,7 @@ def _is_gradebook(columns: Columns) -> bool:
     return named and columns.has("id", "section") and columns.names[0] in ("student", "lastname")
 
 
-_KINDS: tuple[tuple[str, Callable[[Columns], bool], Callable[[Columns, str], Layout]], ...] = (
+_KINDS: tuple[tuple[str, Callable[[Columns], bool], Callable[[Columns, str], TableLayout]], ...] = (
     ("prairielearn", lambda c: c.has("uid", "qid", "submitted_answer"), _prairielearn),
     ("brightspace", lambda c: c.has("q title", "answer"), _long_by_text),
     ("blackboard", lambda c: c.has("question 1", "answer 1"), _blackboard),

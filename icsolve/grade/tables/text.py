@@ -29,7 +29,7 @@ Report = Callable[[int, str], None]
 """Told of a line number and what is wrong there."""
 
 
-class Row(NamedTuple):
+class TableRow(NamedTuple):
     """The cells of a record, and the line on which it starts; ``trouble`` says what is wrong with it."""
 
     line: int
@@ -104,7 +104,7 @@ class Table:
                 return [" ".join(cell.replace("\ufeff", "").split()) for cell in row.cells]
         raise ValueError("there is nothing in it but empty lines")
 
-    def rows(self) -> Iterator[Row]:
+    def rows(self) -> Iterator[TableRow]:
         """The rows that follow, each with the number of its first line; empty ones are passed over."""
         csv.field_size_limit(max(csv.field_size_limit(), LARGEST + 1))
         while not self._lines.done:
@@ -114,9 +114,9 @@ class Table:
             except (_RunawayError, csv.Error):
                 line, text = self._lines.give_up_first()
                 cells = next(csv.reader([text.replace('"', "")], delimiter=self.delimiter), [])
-                yield Row(line, cells, UNCLOSED)
+                yield TableRow(line, cells, UNCLOSED)
 
-    def _records(self, reader: Iterator[list[str]]) -> Iterator[Row]:
+    def _records(self, reader: Iterator[list[str]]) -> Iterator[TableRow]:
         lines = self._lines
         pending = lines.pending
         for cells in reader:
@@ -127,7 +127,7 @@ class Table:
                 line -= len(pending) - 1
             pending.clear()
             if cells:
-                yield Row(line, cells, TOO_LONG if lines.cut and line in lines.cut else "")
+                yield TableRow(line, cells, TOO_LONG if lines.cut and line in lines.cut else "")
 
     def _swallows(self, lines: list[str]) -> bool:
         """Whether a record of several lines has taken in rows: a quote in it stands where none may, or a

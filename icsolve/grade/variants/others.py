@@ -13,7 +13,7 @@ from icsolve.grade.written import figures
 
 if TYPE_CHECKING:
     from icsolve.grade.case_store import CaseStore
-    from icsolve.grade.marking import Given
+    from icsolve.grade.marking import GivenValue
 
 _FIGURES = 3
 """Written figures from which an answer can be told from a neighbour's."""
@@ -72,7 +72,7 @@ class Neighbours:
         return [value for value, _ in ordered], [label for _, label in ordered]
 
 
-def other_seed(varied: Varied, given: list[Given], seeds: Iterable[str]) -> str | None:
+def other_seed(varied: Varied, given: list[GivenValue], seeds: Iterable[str]) -> str | None:
     """The seed by which most answers are right, where by the present one most are wrong; None for none."""
     if len(given) < _ANSWERS or 2 * sum(one.right for one in given) >= len(given):
         return None
@@ -85,7 +85,7 @@ def other_seed(varied: Varied, given: list[Given], seeds: Iterable[str]) -> str 
     return None
 
 
-def _is_right(varied: Varied, one: Given) -> bool:
+def _is_right(varied: Varied, one: GivenValue) -> bool:
     try:
         key = varied.key(one.question, one.student)
     except NoKeyError:

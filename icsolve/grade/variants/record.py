@@ -34,7 +34,7 @@ class Handed(NamedTuple):
     values: Texts
 
 
-class Record(NamedTuple):
+class VariantRecord(NamedTuple):
     """The numbers of one case by student, and the keys of that time by question and student."""
 
     path: str
@@ -42,12 +42,12 @@ class Record(NamedTuple):
     keys: dict[tuple[str, str], tuple[float, str]]
 
 
-def read_records(paths: Iterable[str], store: CaseStore, roster: Roster | None) -> dict[str, Record]:
+def read_records(paths: Iterable[str], store: CaseStore, roster: Roster | None) -> dict[str, VariantRecord]:
     """The records of files, and of the ``values.csv`` in folders, by case.
 
     Raises ValueError, with the file's name and a sentence, where one can't be used; OSError.
     """
-    found: dict[str, Record] = {}
+    found: dict[str, VariantRecord] = {}
     for path in _files(paths):
         try:
             name, record = _read(path, store, roster)
@@ -70,7 +70,7 @@ def _files(paths: Iterable[str]) -> Iterator[str]:
         yield from filter(is_plain, own)
 
 
-def _read(path: str, store: CaseStore, roster: Roster | None) -> tuple[str, Record]:
+def _read(path: str, store: CaseStore, roster: Roster | None) -> tuple[str, VariantRecord]:
     columns, rows = _table(path)
     at = columns.field("student_id")
     if at is None:
@@ -92,7 +92,7 @@ def _read(path: str, store: CaseStore, roster: Roster | None) -> tuple[str, Reco
         if student in handed and handed[student].values != values:
             raise ValueError(f"the student {student} stands in it twice, with other numbers")
         handed[student] = Handed(_plain(cells[label]) if label is not None else "", values)
-    return name, Record(path, handed, dict(_keys(os.path.join(os.path.dirname(path), KEYS), roster)))
+    return name, VariantRecord(path, handed, dict(_keys(os.path.join(os.path.dirname(path), KEYS), roster)))
 
 
 def _case_of(path: str, columns: Columns, store: CaseStore) -> str:
@@ -155,7 +155,7 @@ def _plain(cell: str) -> str:
 # --- what has changed since -------------------------------------------------------------------------
 
 
-def changes(varied: Varied, record: Record) -> Iterator[str]:
+def changes(varied: Varied, record: VariantRecord) -> Iterator[str]:
     """What is otherwise than when the numbers were handed out: the seed, the filter, the keys."""
     seed = varied.course.seed
     asked = sorted(record.handed)[:_ASKED]
@@ -176,7 +176,7 @@ def changes(varied: Varied, record: Record) -> Iterator[str]:
     yield from _changed_keys(varied, record)
 
 
-def _changed_keys(varied: Varied, record: Record) -> Iterator[str]:
+def _changed_keys(varied: Varied, record: VariantRecord) -> Iterator[str]:
     """The keys that are others now, by question."""
     moved: dict[str, list[str]] = {}
     counts: dict[str, int] = {}

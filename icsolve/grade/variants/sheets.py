@@ -19,24 +19,24 @@ from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.varied import Draw, Varied
 
 
-class Task(NamedTuple):
+class VariantTask(NamedTuple):
     """One student's variant."""
 
     person: Person
     draw: Draw
 
 
-def tasks(varied: Varied, people: Iterable[Person]) -> Iterator[Task | NoKeyError]:
+def tasks(varied: Varied, people: Iterable[Person]) -> Iterator[VariantTask | NoKeyError]:
     """Every student's variant; the error of one for whom none suits."""
     found = list(people)
     for person in found:
         try:
-            yield Task(person, varied.draw(person.student_id))
+            yield VariantTask(person, varied.draw(person.student_id))
         except NoKeyError as error:
             yield error
 
 
-def values_csv(varied: Varied, found: Iterable[Task]) -> str:
+def values_csv(varied: Varied, found: Iterable[VariantTask]) -> str:
     """``student_id,email,variant`` and a column for each variable: for a mail merge."""
     out = io.StringIO()
     table = csv.writer(out, lineterminator="\n")
@@ -48,7 +48,7 @@ def values_csv(varied: Varied, found: Iterable[Task]) -> str:
     return out.getvalue()
 
 
-def key_csv(varied: Varied, found: Iterable[Task]) -> str:
+def key_csv(varied: Varied, found: Iterable[VariantTask]) -> str:
     """The right answers: ``student_id,variant,case,value,unit,sense,from,to``."""
     out = io.StringIO()
     table = csv.writer(out, lineterminator="\n")
@@ -87,7 +87,7 @@ def figure(varied: Varied, draw: Draw) -> str:
     return drawn(varied.read(draw.values))
 
 
-def sheet(varied: Varied, task: Task, picture: str) -> str:
+def sheet(varied: Varied, task: VariantTask, picture: str) -> str:
     """One student's page: name, figure, values, and what is asked."""
     case = varied.read(task.draw.values)
     solved = varied.solved(task.person.student_id)

@@ -31,7 +31,7 @@ from icsolve.units import converted, parse_unit, split_quantity
 from icsolve.wording.senses import unit_of
 
 if TYPE_CHECKING:
-    from icsolve.grade.variants.record import Handed, Record
+    from icsolve.grade.variants.record import Handed, VariantRecord
 
 TRIALS = 60
 """Draws of one student, until one suits."""
@@ -233,7 +233,7 @@ class Varied:
         self.course = course
         self.case = self.read({})
         self.magnitudes = Magnitudes(text, self.case)
-        self.record: Record | None = None
+        self.record: VariantRecord | None = None
         self._first = first_values(self.case.variables)
         self._solved: OrderedDict[tuple[str, ...], Solved | None] = OrderedDict()
         self._tasks: OrderedDict[tuple[str, ...], Solved] = OrderedDict()
@@ -252,7 +252,7 @@ class Varied:
             _keep(self._draws, student, found, _KNOWN)
         return found
 
-    def _handed(self, student: str, record: Record) -> Draw:
+    def _handed(self, student: str, record: VariantRecord) -> Draw:
         """What was handed out to a student."""
         handed = record.handed.get(student)
         if handed is None:
