@@ -271,3 +271,11 @@ def test_a_slip_is_told(slip: str) -> None:
 def test_a_free_angle_in_radians_is_asked_about() -> None:
     case = press("{spring: 20, corner: ADC, free: 1.5708, link: 4}")
     assert "if radians are meant, write 1.5708 rad" in " ".join(icsolve.solve(case).notes)
+
+
+def test_an_end_of_a_linear_load_is_set_by_its_number() -> None:
+    text = PRESS.format(load=LOADS["linear"], torque=DOWN, units=INCHES)
+    set_to = icsolve.load(text, settings={"loads.P.1": 20.0})
+    uniform = press(LOADS["linear"].replace("[20, -50]", "20"))
+    there, here = (icsolve.solve(case).answers["T12"].value for case in (set_to, uniform))
+    assert there == pytest.approx(here, rel=1e-13)

@@ -113,7 +113,9 @@ def _of_load(node: Node, steps: list[str], text: str, path: str) -> str:
     value = node.items[kind]
     if not steps:
         return _put(node, kind, text)
-    if type(value) is Sequence and steps in (["x"], ["y"], ["z"], ["0"], ["1"]):
+    if type(value) is Sequence and steps in (["0"], ["1"]):  # the two ends of a load per length
+        steps = ["xy"[int(steps[0])]]
+    if type(value) is Sequence and steps in (["x"], ["y"], ["z"]):
         return _axis(value, steps, text, path)
     if steps[0] in ("at", "slope", "to", "along") and steps[0] in node.items and len(steps) == 2:
         return _axis(node.items[steps[0]], steps[1:], text, f"{path}.{steps[0]}")
