@@ -226,7 +226,7 @@ def link_rates(case: Case, twists: Twists, speed: Speed) -> dict[str, Scalar | s
     rates: dict[str, Scalar | str] = {}
     largest = fastest(twists)
     for link in case.links:
-        value = speed.of([t[2] for t in twists[link]], largest)
+        value = speed.of([t[2] for t in twists[link]], largest) if link in twists else None
         rates[link] = f"the speed of link {link} is left open: {OPEN}" if value is None else value + 0.0
     return rates
 
@@ -241,7 +241,7 @@ def point_velocities(
         for name in moving_points(case, link):
             if name.startswith("@") or name not in points:
                 continue
-            both = _velocity(twists[link], speed, largest, points[name])
+            both = _velocity(twists[link], speed, largest, points[name]) if link in twists else None
             words = f"the velocity of {name} on link {link} is left open: {OPEN}"
             result[(name, link)] = words if both is None else (both[0] / frame.scale, both[1] / frame.scale)
     return result

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 
 from icsolve.answer import Answer, Found
 from icsolve.case import Case, Coordinates, Corner, Direction, Number
+from icsolve.errors import SceneError, Status
 
 
 class Influence(NamedTuple):
@@ -26,6 +27,17 @@ class Influence(NamedTuple):
     percent: float | None
 
 
+def _slopes(answer: Answer, load: str) -> Mapping[str, float]:
+    """Derivatives by the numbers of the case; raises SceneError where the scene has none."""
+    if load not in answer.sensitivities:
+        raise SceneError(
+            Status.NEAR_SINGULAR,
+            f"how {load} depends on the numbers of the case can't be told: the position is too close to a "
+            "singular one.",
+        )
+    return answer.sensitivities[load]
+
+
 def influences(answer: Answer, load: str) -> list[Influence]:
     """Every number of the case that the answer depends on, the strongest first.
 
@@ -34,7 +46,7 @@ def influences(answer: Answer, load: str) -> list[Influence]:
     found = answer.answers[load].value
     numbers = numbers_of(answer.case)
     result = []
-    for path, slope in answer.sensitivities[load].items():
+    for path, slope in _slopes(answer, load).items():
         if slope != 0.0 and path in numbers:
             value = numbers[path].value
             percent = slope * value / found if found != 0.0 and value != 0.0 else None
@@ -50,7 +62,7 @@ def band(answer: Answer, load: str, tolerance: float) -> float:
     """
     lengths, arms = _lengths(answer.case), _arms(answer)
     total = 0.0
-    for path, slope in answer.sensitivities[load].items():
+    for path, slope in _slopes(answer, load).items():
         if path in lengths:
             total += abs(slope) * tolerance
         elif path in arms:
