@@ -77,3 +77,20 @@ def test_the_text_and_the_json_say_the_same_numbers() -> None:
     lines = text(answer, True, 0.01, 6).splitlines()
     assert lines[0].startswith(f"T12 within {shown['band']['T12']:.2g} N*m")
     assert lines[2].split() == [first["path"], f"{first['percent']:.4g}", f"{first['per_unit']:.4g}"]
+
+
+def test_beside_a_dead_centre_the_slopes_come_from_more_digits() -> None:
+    """A tape of doubles says nothing there; in closed form M2 is -1/2 over the gap of B and A."""
+    text = """
+icsolve: 1
+points: {A0: [0, 0], A: [1, 0], B: [2.00000000000000001, 2], B0: [3, 4]}
+joints:
+  - {pin: [1, 2], at: A0}
+  - {pin: [2, 3], at: A}
+  - {pin: [3, 4], at: B}
+  - {pin: [4, 1], at: B0}
+loads: {M4: {torque: 1, link: 4}, M2: {torque: unknown, link: 2}}
+"""
+    slopes = icsolve.solve(icsolve.load(text)).sensitivities["M2"]
+    assert slopes["points.B.x"] == pytest.approx(0.5e34, rel=1e-9)
+    assert slopes["loads.M4"] == pytest.approx(-0.5e17, rel=1e-9)

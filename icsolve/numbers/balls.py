@@ -492,18 +492,15 @@ class HalfUnits(Balls):
 
 
 class Moved(Balls):
-    """The numbers of a case, one of them larger or smaller (``sign``) by half a unit of its last decimal."""
+    """The numbers of a case, one of them moved by a step."""
 
-    def __init__(self, number: Number, sign: int, digits: int) -> None:
+    def __init__(self, path: str, step: Decimal, digits: int) -> None:
         super().__init__(digits, highest=True)
-        self.number, self.sign = number, sign
+        self.path, self.step = path, step
 
     def _read(self, number: Number) -> Ball:
         found = super()._read(number)
-        if number.path != self.number.path:
-            return found
-        half = self.exactly(Decimal(repr(number.half)))  # 5e-26 as it is written
-        return found + half if self.sign > 0 else found - half
+        return found + self.exactly(self.step) if number.path == self.path else found
 
 
 COARSE = 1e-9

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import replace
+from decimal import Decimal
 from functools import cached_property
 
 from icsolve.answer import Answer, Centre, Deferred, Found, Later, Term
@@ -30,7 +31,7 @@ from icsolve.solve.bounds import (
     unknown_values,
 )
 from icsolve.solve.program import Outcome, Program, Want, evaluate
-from icsolve.solve.sensitivity import unsettled
+from icsolve.solve.sensitivity import numbers_of, unsettled
 from icsolve.solve.terms import advantage, power_terms
 from icsolve.statics import power
 from icsolve.wording import sentences
@@ -158,22 +159,43 @@ class Parts:
 
     @cached_property
     def slopes(self) -> dict[str, dict[str, float]]:
-        """Derivative of every unknown load by every number of the case."""
-        return slopes(self.traced) if self.traced else {}
+        """Derivative of every unknown load by every number of the case: by the tape, and so near a singular
+        position that a tape says nothing, by differences of many digits."""
+        with suppress(SceneError, ZeroDivisionError):
+            found = slopes(self.traced) if self.traced else {}
+            if not self.scene.certain or (found and self._tape_tells()):
+                return found
+        by_load: dict[str, dict[str, float]] = {load: {} for load in self.unknowns}
+        for number in numbers_of(self.case).values():
+            step = Decimal(repr(1e-40 * (abs(number.value) or 1.0)))
+            with suppress(SceneError, ZeroDivisionError, BelowZero, MoreDigits, KeyError):
+                more, less = self._with(number, step), self._with(number, -step)
+                for load, slope in by_load.items():
+                    change = float(more[load] - less[load]) / (2.0 * float(step))
+                    tiny = NOTHING * abs(float(more[load])) / abs(float(step))
+                    slope[number.path] = change if abs(change) > tiny else 0.0
+        return by_load
+
+    def _with(self, number: Number, step: Decimal) -> dict[str, Scalar]:
+        """The unknown loads with a number moved by a step."""
+        outcome = evaluate(self.program, Moved(number.path, step, PRECISIONS[-1]))[1]
+        values = outcome.solution.values
+        return {w.load.name: w.ratio * values[w.root] for w in outcome.balance.wrenches if w.root in values}
 
     def _change(self, answers: Mapping[str, Found]) -> Callable[[Number], Mapping[str, float]]:
         """By how much half a unit of a number moves each answer: by the derivatives of the tape, and so near
         a singular position that a tape says nothing, by what the number so moved gives."""
-        by_tape: Mapping[str, Mapping[str, float]] = {}
         with suppress(SceneError, ZeroDivisionError):
-            by_tape = self.slopes
-        if by_tape and self._tape_tells():
-            return lambda n: {load: abs(by.get(n.path, 0.0)) * n.half for load, by in by_tape.items()}
+            if self.traced and self._tape_tells():
+                by = self.slopes
+                return lambda n: {load: abs(slope.get(n.path, 0.0)) * n.half for load, slope in by.items()}
         return self._moved
 
     def _tape_tells(self) -> bool:
         assert self.traced is not None
         found, true = self.traced.outcome.solution.values, self.first.outcome.solution.values
+        if found.keys() != true.keys():
+            return False
         pairs = [(float(found[root]), float(true[root])) for root in true]
         return all(abs(near - exact) <= 0.01 * abs(exact) for near, exact in pairs)
 
@@ -181,8 +203,8 @@ class Parts:
         reach: dict[str, float] = {}
         for sign in (1, -1):
             with suppress(SceneError, ZeroDivisionError, BelowZero, MoreDigits, KeyError):
-                arithmetic = Moved(number, sign, PRECISIONS[1])
-                values = evaluate(self.program, arithmetic)[1].solution.values
+                half = Decimal(repr(sign * number.half))  # 5e-26 as it is written
+                values = evaluate(self.program, Moved(number.path, half, PRECISIONS[1]))[1].solution.values
                 for load, value in self.first.outcome.solution.values.items():
                     change, own = (x if float(x) > 0.0 else -x for x in (values[load] - value, value))
                     size = float(own)  # doubles may not tell a change from the value itself
@@ -247,6 +269,8 @@ def _points(found: Evaluation) -> dict[str, tuple[float, float]]:
     return shown
 
 
+NOTHING = 1e-60
+"""A change by less than this fraction of the value is what a difference of second order leaves."""
 STILL = 1e-12
 """A velocity below this fraction of the fastest is shown as none (rounding)."""
 
