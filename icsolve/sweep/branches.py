@@ -29,8 +29,9 @@ POINTS = 33
 ZOOMS = 10
 PAST = 0.125
 """A way is followed beyond its last place by this part of its longest step."""
-STEPS, STEPS_A_ROW = 2000, 20
-"""Steps of a way that may lie between rows, in all and for each row."""
+STEPS, STEPS_A_ROW, CLOSED = 2000, 20, 4
+"""Steps of a way that may lie between rows, in all and for each row; so many times as many where every
+point is found by a closed form."""
 CELLS = 4
 MOST_CELLS = 1_000_000
 """Branches are looked for at so many places in a longest step, and at most at so many at all."""
@@ -191,7 +192,8 @@ def _refuse_long(sheet: Sheet, way: Way, ends: Sequence[float], rows: int) -> No
     """Raise AskError where far more steps than rows would have to be followed one by one."""
     assert sheet.motion is not None
     steps = (max(way.start, *ends) - min(way.start, *ends)) / way.widest
-    if (sheet.motion.groups or sheet.record.counted) and steps > STEPS + STEPS_A_ROW * rows:
+    cheap = 1 if sheet.motion.groups or sheet.record.counted else CLOSED
+    if steps > cheap * (STEPS + STEPS_A_ROW * rows):
         raise AskError(
             f"the motion is followed step by step, and {steps:.3g} steps lie between these {rows} rows: "
             "take whole turns off, or ask for rows nearer to each other"
