@@ -134,9 +134,8 @@ def _condition(
         sign = -1.0 if given.turns == "cw" else 1.0
         return [t[2] for t in link], sign * speed, given, None, sign * forth * more
     velocities = [velocity(t, points[given.point]) for t in link]
-    assert given.angle is not None
-    along: Point = arithmetic.turn(given.angle)
-    if len(link) == 1:
+    along: Point = (1.0, 1e-9) if given.angle is None else arithmetic.turn(given.angle)
+    if len(link) == 1:  # in a sweep, whose rows leave the direction out: along the path, toward positive x
         x, y = velocities[0]
         size = arithmetic.sqrt(x * x + y * y)
         size = size if float(x * along[0] + y * along[1]) > 0.0 else -size
