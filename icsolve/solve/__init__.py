@@ -89,9 +89,11 @@ def _coordinates(case: Case) -> list[Number | None]:
 
 def _asks_for_a_position(case: Case) -> bool:
     """Whether an unknown coordinate is one that nothing else fixes, and the loads are all known."""
+    if not case.loads or any(map(power.is_unknown, case.loads)):
+        return False
     from icsolve.equilibrium.answering import free_coordinate
 
-    return not any(map(power.is_unknown, case.loads)) and free_coordinate(case) is not None
+    return free_coordinate(case) is not None
 
 
 @lru_cache(maxsize=32)
