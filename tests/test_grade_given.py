@@ -15,7 +15,7 @@ from icsolve.sweep.numbers import numbers_of
 
 
 def rows(name: str) -> dict[str, str]:
-    (path,) = CASES.rglob(f"{name}.yaml")
+    (path,) = CASES.glob(f"**/{name}.yaml")
     return dict(given(icsolve.load(path)))
 
 
@@ -30,7 +30,7 @@ def rows(name: str) -> dict[str, str]:
         ("flat_follower", "contact 2-3 at K", "normal at 90 deg"),
         ("given_centres", "centre 1-3", "at infinity at 90 deg"),
         ("given_centres", "centre 2-6", "(2, 3) m"),
-        ("rolling_disk", "links 2 and 1", "roll without slip at K, radii 300 and 0 mm"),
+        ("rolling/rolling_disk", "links 2 and 1", "roll without slip at K, radii 300 and 0 mm"),
         ("wedge", "block of link 3 at C", "slides in link 2 at 15 deg"),
         ("geneva", "pin of link 2 at B", "slides in link 3 along D-B"),
         ("13_23_spur_gears", "gears 2-3", "31 and 57 teeth, pressure angle 20 deg, diametral pitch 16 a in"),

@@ -32,6 +32,7 @@ from icsolve.case import (
     Toward,
     Weight,
 )
+from icsolve.case.bodies import Inertia, Rope
 from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Knife, Polygon, Radii, Roller, Shape
 
 
@@ -99,6 +100,8 @@ def given(case: Case) -> list[tuple[str, str]]:
         from icsolve.grade.platforms.given import outlines
 
         rows += outlines(case)
+    rows += [row for rope in case.ropes for row in _rope(rope, case)]
+    rows += [_inertia(link, inertia) for link, inertia in case.inertia.items()]
     rows += [(load.name, _load(load, case)) for load in case.loads]
     rows += [_motion(given, case) for given in case.motion]
     if any(isinstance(load, Weight) and load.mass for load in case.loads):
@@ -239,13 +242,36 @@ def _friction(joint: Joint, case: Case, where: str) -> Iterator[tuple[str, str]]
     yield f"friction {where}", ", ".join(parts)
 
 
+def _rope(rope: Rope, case: Case) -> Iterator[tuple[str, str]]:
+    """Where a rope goes, and what it goes round."""
+    length = f", length {_shown(rope.length)} {case.units.length}" if rope.length is not None else ""
+    yield f"rope {rope.name}", f"on links {', '.join(rope.links)}{length}"
+    for point, radius, wraps, mu in zip(rope.points, rope.radii, rope.wraps, rope.mu, strict=False):
+        parts = [f"radius {_shown(radius)} {case.units.length}"] if radius is not None else []
+        parts += [f"wrapped {wraps}"] if wraps is not None else []
+        parts += [f"mu = {_shown(mu)}"] if mu is not None else []
+        if parts:
+            yield f"rope {rope.name} at {point}", ", ".join(parts)
+
+
+def _inertia(link: str, inertia: Inertia) -> tuple[str, str]:
+    """A link's mass, its centre of mass and its moment of inertia."""
+    parts = [f"mass {_shown(inertia.mass)} kg"] if inertia.mass is not None else []
+    parts += [f"centre of mass {inertia.centre}"] if inertia.centre else []
+    parts += [f"moment of inertia {_shown(inertia.moment)} kg*m^2"] if inertia.moment is not None else []
+    return f"link {link}", ", ".join(parts)
+
+
 def _motion(given: Motion, case: Case) -> tuple[str, str]:
     """Which way, and how fast."""
     turns = {"ccw": "counterclockwise", "cw": "clockwise"}.get(given.turns or "", "")
     speed = _shown(given.speed) if given.speed is not None else ""
     if given.point is None:
-        parts = (f"{speed} rad/s" if speed else "", turns)
+        gains = _shown(given.acceleration) if given.acceleration is not None else ""
+        parts = (f"{speed} rad/s" if speed else "", turns, f"{gains} rad/s^2" if gains else "")
         return f"link {given.link} turns", ", ".join(part for part in parts if part)
     heading = f"at {_shown(given.angle)} deg" if given.angle is not None else ""
-    parts = (f"{speed} {case.units.length}/s" if speed else "", heading)
+    gains = _shown(given.acceleration) if given.acceleration is not None else ""
+    length = case.units.length
+    parts = (f"{speed} {length}/s" if speed else "", heading, f"{gains} {length}/s^2" if gains else "")
     return f"{given.point} on link {given.link} moves", ", ".join(part for part in parts if part)
