@@ -137,6 +137,9 @@ def _condition(
     along: Point = (1.0, 1e-9) if given.angle is None else arithmetic.turn(given.angle)
     if len(link) == 1:  # in a sweep, whose rows leave the direction out: along the path, toward positive x
         x, y = velocities[0]
+        if all(arithmetic.vanishes(v, max(abs(a) for a in link[0])) for v in (x, y)):
+            said = f"point {given.point} of link {given.link} is at rest in this position when the mechanism"
+            raise SceneError(Status.DEAD_CENTRE, f"{said} moves: give the motion of another point or link.")
         size = arithmetic.sqrt(x * x + y * y)
         size = size if float(x * along[0] + y * along[1]) > 0.0 else -size
         along = (x / size, y / size)
