@@ -21,6 +21,7 @@ import numpy as np
 import pytest
 
 import icsolve
+from equilibrium_cases import POTENTIALS
 from icsolve.answer.equilibrium import Position
 from icsolve.cli import main
 from icsolve.errors import SceneError
@@ -477,3 +478,33 @@ def test_a_coordinate_that_nothing_fixes_is_what_is_asked() -> None:
     assert any(
         value == pytest.approx(0.6 * math.cos(math.radians(69.09944948584229)), abs=1e-13) for value in values
     )
+
+
+# --- the cases of the library ---------------------------------------------------------------------
+
+LIBRARY = Path(__file__).parent.parent / "cases" / "equilibrium"
+
+
+@pytest.mark.parametrize("name", sorted(POTENTIALS))
+def test_cases_of_the_library_rest_where_their_potentials_say(name: str) -> None:
+    """All zeros of the derivative over the range that the case gives, and the sign of the second."""
+    case = icsolve.load(LIBRARY / f"{name}.yaml")
+    (unknown,) = case.unknowns
+    low, high = (0.0, 360.0) if unknown.low is None else (unknown.low.value, unknown.high.value)  # type: ignore[union-attr]
+    potential, h = POTENTIALS[name], 1e-5 * (high - low)
+
+    def slope(u: float) -> float:
+        return (potential(u + h) - potential(u - h)) / (2.0 * h)
+
+    at = [low + 2.0 * h + (high - low - 4.0 * h) * (n + 0.29) / 2000 for n in range(2000)]
+    signs = [slope(u) > 0.0 for u in at]
+    expected = [
+        (0.5 * (u + v), "stable" if rises else "unstable")
+        for u, v, fell, rises in zip(at, at[1:], signs, signs[1:], strict=False)
+        if fell != rises
+    ]
+    found = icsolve.solve(case).positions
+    assert found is not None
+    assert [one.stability for one in found] == [kind for _, kind in expected]
+    values = [one.at[unknown.path] for one in found]
+    assert values == pytest.approx([u for u, _ in expected], abs=(high - low) / 2000)

@@ -31,14 +31,14 @@ class Branches:
 
     def _places(self, function: LoadFunction) -> Array:
         nodes = [k for name in self.names for k in function.places[name]]
-        found = Code(function.record, nodes).run({function.input: self.values}, len(self.values))
+        found = Code(function.record, nodes).run(function.given(self.values), len(self.values))
         columns = [np.array(np.broadcast_to(v, len(self.values))) for v in found]
         ox, oy, scale = function.sheet.scene.frame
         origin = np.tile([ox, oy], len(self.names))
         return np.array(np.stack(columns, axis=1) / scale + origin)
 
     def _assembles(self, function: LoadFunction) -> npt.NDArray[np.bool_]:
-        found = Code(function.record, function.margins).run({function.input: self.values}, len(self.values))
+        found = Code(function.record, function.margins).run(function.given(self.values), len(self.values))
         whole = np.ones(len(self.values), dtype=bool)
         for margin in found:
             whole &= np.broadcast_to(margin >= 0.0, len(self.values))

@@ -12,18 +12,21 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
+import numpy as np
+
 from icsolve.assembly import Figure, place, solve_figure
 from icsolve.assembly.groups import Group
 from icsolve.assembly.loci import is_round
 from icsolve.assembly.order import Order, order_of
 from icsolve.assembly.steps import Meet, Step
 from icsolve.assembly.workspace import frame_of
-from icsolve.case import Case, Coordinates, Number
+from icsolve.case import Case, Coordinates, Number, TorsionSpring
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics import motion
 from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record, varies
+from icsolve.numbers.replay import Array
 from icsolve.screws.plane import velocity
 from icsolve.solve import refusals
 from icsolve.statics import power
@@ -62,6 +65,11 @@ class LoadFunction(NamedTuple):
     force_scale: float
     """by what the loads were multiplied"""
 
+    def given(self, values: Array) -> dict[int, Array]:
+        """The inputs for some values of the free datum; what counts turns does so from the record's own."""
+        guesses = {guess.index: np.array(guess.value) for guess, _ in self.record.counted.values()}
+        return {**guesses, self.input: values}
+
     @property
     def record(self) -> Record:
         """The record of the mode."""
@@ -87,11 +95,15 @@ def load_functions(case: Case, path: str, low: float, high: float) -> tuple[list
             "search over such a group is complete. Take a datum as the unknown that places them one by one.",
         )
     count = 0
+    counts = any(isinstance(load, TorsionSpring) for load in case.loads)
+    middle = 0.5 * (low + high)
     for steps in modes_of(order.steps):
         count += 1
         if count > MOST_MODES:
             return found, False
         samples = _assembling(case, path, steps, values)
+        if counts:  # a torsion spring's angle is counted from the middle of the range
+            samples.sort(key=lambda value: abs(value - middle))
         for value in samples[:3]:
             written = given_at(case, path, value)
             frame = frame_of(written)

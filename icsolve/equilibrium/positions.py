@@ -13,7 +13,22 @@ import numpy as np
 from icsolve.answer import Answer
 from icsolve.answer.equilibrium import Stiffness
 from icsolve.assembly.ways import ways_of
-from icsolve.case import Belt, Case, Contact, Coordinates, Gears, KnownCentre, Roll, Slide, Slot, Torque
+from icsolve.case import (
+    Belt,
+    Case,
+    Contact,
+    Coordinates,
+    Force,
+    Gears,
+    KnownCentre,
+    Load,
+    Number,
+    Roll,
+    Slide,
+    Slot,
+    Torque,
+    TorsionSpring,
+)
 from icsolve.equilibrium.branches import Branches
 from icsolve.equilibrium.load_function import (
     LoadFunction,
@@ -79,6 +94,8 @@ def find_positions(
     if start is None:
         functions, complete = load_functions(case, path, low, high)
         _refuse_history(case, functions[0])
+        if span is None:
+            _refuse_uncounted(case, functions[0])
     else:
         functions, complete = _moving_from(case, path, start)
     branches = Branches(functions, low, high)
@@ -158,6 +175,17 @@ def _refuse_history(case: Case, function: LoadFunction) -> None:
             )
 
 
+def _refuse_uncounted(case: Case, function: LoadFunction) -> None:
+    """Refuse a torsion spring whose turns nothing counts from."""
+    for load in case.loads:
+        if isinstance(load, TorsionSpring) and {load.link, load.against} & set(function.links):
+            raise SceneError(
+                Status.UNDERDETERMINED,
+                f"the torsion spring {load.name} turns with {function.path}, and nothing says from where its "
+                f"angle counts: give a range or a start, as in {{unknown: [0, 180], from: 30}}.",
+            )
+
+
 def _history(case: Case) -> Iterator[tuple[str, str]]:
     """What counts from a position as written, with a link on which it does."""
     for joint in case.joints:
@@ -172,7 +200,7 @@ def _history(case: Case) -> Iterator[tuple[str, str]]:
         if getattr(load, "turns_with", None):
             yield f"load {load.name}, which turns with a link,", str(getattr(load, "turns_with", ""))
         for at in (getattr(load, "at", ""), getattr(load, "to", "")):
-            if at.startswith("@"):
+            if at.startswith("@") and getattr(load, "over", None) is None:
                 yield f"load {load.name} at coordinates", load.link
     for name in _given(case):
         carriers = [link for link, names in case.carries.items() if name in names]
@@ -221,7 +249,8 @@ def with_scene(rest: Rest, *, all_centres: bool, rates: bool, reactions: bool) -
         return replace(rest.answer, rates=None, velocities=None, centres={})
     case = scene_at(rest.function, rest.value)
     if reactions:
-        case = replace(case, loads=(*case.loads, Torque(PROBE, rest.function.links[0], None)))
+        _, probe = next(probes(rest.function))
+        case = replace(case, loads=(*case.loads, probe))
     found = solve(case, all_centres=all_centres, rates=rates, reactions=reactions)
     return replace(found, case=rest.answer.case, answers={}, centres=found.centres if all_centres else {})
 
@@ -291,7 +320,7 @@ def _closed_in(function: LoadFunction, low: float, high: float) -> float:
     code = Code(function.record, [function.power])
     for _ in range(12):
         at = np.linspace(low, high, STEPS + 1)
-        (values,) = code.run({function.input: at}, len(at))
+        (values,) = code.run(function.given(at), len(at))
         signs = np.signbit(values)
         change = np.flatnonzero(signs[1:] != signs[:-1])
         if not change.size:
@@ -349,7 +378,7 @@ def scene_at(function: LoadFunction, value: float) -> Case:
         return replace(row, near={}, motion=(), expect=())
     ox, oy, scale = function.sheet.scene.frame
     nodes = [k for pair in function.places.values() for k in pair]
-    found = Code(function.record, nodes).run({function.input: np.array(value)}, 1)
+    found = Code(function.record, nodes).run(function.given(np.array(value)), 1)
     flat = [float(np.ravel(v)[0]) for v in found]
     pairs = zip(function.places, zip(flat[::2], flat[1::2], strict=True), strict=True)
     near = {name: (x / scale + ox, y / scale + oy) for name, (x, y) in pairs if math.isfinite(x + y)}
@@ -366,8 +395,7 @@ def _probe(function: LoadFunction, value: float, on: str = "") -> tuple[float, s
     """The torque on a link that would balance the loads, as `icsolve.solve` finds it, and that link."""
     case = scene_at(function, value)
     refusal: SceneError | None = None
-    for link in [on] if on else function.links:
-        probe = Torque(PROBE, link, None)
+    for link, probe in probes(function, on):
         try:
             found = solve(replace(case, loads=(*case.loads, probe)))
         except SceneError as error:
@@ -378,6 +406,20 @@ def _probe(function: LoadFunction, value: float, on: str = "") -> tuple[float, s
         return answer, link
     assert refusal is not None
     raise refusal
+
+
+def probes(function: LoadFunction, on: str = "") -> Iterator[tuple[str, Load]]:
+    """Unknown loads, one after the other, each of which might hold the mechanism: torques on the links that
+    turn, the fastest first; where none turns, forces on points."""
+    for link in [on] if on else function.links:
+        yield link, Torque(PROBE, link, None)
+    if function.links:
+        return
+    for link, names in function.case.carries.items():
+        for name in names if link != function.case.ground else ():
+            for degrees in ("0", "90"):
+                along = Number(float(degrees), 0.0, f"loads.{PROBE}.angle", degrees)
+                yield link, Force(PROBE, link, name, None, along)
 
 
 def described(function: LoadFunction, value: float, error: float) -> Rest:
@@ -485,7 +527,7 @@ def _last(function: LoadFunction, inside: float, outside: float) -> float:
         middle = 0.5 * (inside + outside)
         if middle in (inside, outside):
             return inside
-        whole = all(float(np.ravel(m)[0]) > 0.0 for m in code.run({function.input: np.array(middle)}, 1))
+        whole = all(float(np.ravel(m)[0]) > 0.0 for m in code.run(function.given(np.array(middle)), 1))
         inside, outside = (middle, outside) if whole else (inside, middle)
 
 
@@ -577,7 +619,7 @@ def _nearest(
             continue
         step = float(values[1] - values[0]) if values.size > 1 else 0.0
         for _ in range(14):
-            power, rate = code.run({function.input: values}, len(values))
+            power, rate = code.run(function.given(values), len(values))
             with np.errstate(all="ignore"):
                 load = np.abs(power / rate) / (function.force_scale * function.sheet.scene.frame.scale)
             k = int(np.nanargmin(load))

@@ -38,6 +38,9 @@ def enclose(record: Record, wanted: Sequence[int], given: Mapping[int, Interval]
             if k in found:
                 continue
             node = nodes[k]
+            if node.op == Op.INPUT:
+                found[k] = Interval(np.array(node.value), np.array(node.value))
+                continue
             if node.op in (Op.COS, Op.SIN):
                 cosine = k if node.op == Op.COS else node.b
                 found[cosine], found[cosine + 1] = _turned(_of(record, node.a, found))
