@@ -326,6 +326,8 @@ def _contact_velocity(place: _Place, joint: Roll) -> Point:
         omega = place.twists[a][2]
         return vd[0] + s * omega * n[1], vd[1] - s * omega * n[0]
     whole = r + s
+    if joint.radii[0].value + joint.radii[1].value == 0.0:
+        raise _unknown(joint, "one fills the other, and touches it everywhere. Correct the `radii`")
     return (s * vc[0] + r * vd[0]) / whole, (s * vc[1] + r * vd[1]) / whole
 
 
