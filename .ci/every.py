@@ -1,6 +1,7 @@
-"""Every command on every case, warnings as errors: `python .ci/every.py CASES`; status 1 where one fails.
+"""Every command on cases, warnings as errors: `python .ci/every.py CASES`; status 1 where one fails.
 
-For interpreters and versions of packages beside those with which the tests are run.
+For interpreters and versions of packages beside those with which the tests are run. Every tenth case is
+taken; with ICSOLVE_FULL=1 all of them are.
 """
 
 import contextlib
@@ -56,15 +57,17 @@ def failed(line: str) -> str:
 def run(cases: Path) -> int:
     """Run everything in a folder of its own; how many commands failed."""
     paths = sorted(cases.rglob("*.yaml"))
+    if os.environ.get("ICSOLVE_FULL") != "1":
+        paths = paths[3::10]
     with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
         Path("answers.csv").write_text("student_id,case,answer\n" + "".join(f"1,{p.stem},3\n" for p in paths))
         Path("roster.csv").write_text("student_id\n1\n2\n")
         Path("chosen").mkdir()
-        for path in paths[::12]:
+        for path in paths[::5]:
             Path("chosen", path.name).write_text(path.read_text(encoding="utf-8"), encoding="utf-8")
         lines = [f"new {kind} -o new-{kind}.yaml" for kind in kinds()]
         lines += [line.format(path) for path in paths for line in EACH]
-        lines += [line.format(cases) for line in ONCE]
+        lines += [line.format("chosen") for line in ONCE]
         text = "variables: {P: {range: [100, 300], step: 10}}\nlengths:"
         faults = []
         for line in lines:
