@@ -28,7 +28,8 @@ def planar(path: Path) -> Case | None:
     case = placed(icsolve.load(path))
     rubs = any(getattr(joint, "friction", None) is not None for joint in case.joints)
     given = any(isinstance(joint, KnownCentre) for joint in case.joints)
-    return None if rubs or given or case.unknowns or not case.joints else case
+    apart = case.unknowns or case.ropes or case.screws or case.dynamic  # these have laws of their own
+    return None if rubs or given or apart or not case.joints else case
 
 
 CASES = {path.stem: case for path in FILES if (case := planar(path)) is not None}

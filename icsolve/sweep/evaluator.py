@@ -196,7 +196,9 @@ def _homogeneous(centre: Any) -> tuple[float, float, float]:
 
 
 def _one_by_one(case: Case) -> bool:
-    return rubs(case) or (case.profiles is not None and bool(case.profiles.touches))
+    """Whether more is in the case than the record of a figure and its loads tells."""
+    bound = bool(case.ropes or case.screws or case.dynamic)
+    return bound or rubs(case) or (case.profiles is not None and bool(case.profiles.touches))
 
 
 def _columns(names: Sequence[str], columns: Sequence[npt.ArrayLike]) -> tuple[list[Array], int]:
