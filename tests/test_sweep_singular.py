@@ -212,6 +212,8 @@ def test_rows_have_the_status_and_the_value_that_solve_has(file: Path) -> None:
         case = icsolve.load(str(file))
     except icsolve.CaseError:
         pytest.skip("a case that is told what it lacks")
+    if case.unknowns:
+        pytest.skip("it asks for a dimension or a position: no row of a sweep")
     for path in posing(case)[:1]:
         value = numbers_of(case)[path].value
         wide = 180.0 if path.startswith("angles") else 0.4 * value

@@ -175,7 +175,8 @@ def _four_bars(answer: Answer) -> Iterator[Loop]:
     seen: set[frozenset[str]] = set()
     for base in sorted(pivots, key=lambda link: link != ground):
         for bodies, points in _chains(pivots, base, 4):
-            if bodies[-1] == base and frozenset(points) not in seen:
+            placed = all(point in answer.points for point in points)
+            if placed and bodies[-1] == base and frozenset(points) not in seen:
                 seen.add(frozenset(points))
                 yield _four_bar(answer, bodies[:4], points, base == ground)
 
@@ -255,9 +256,9 @@ def _slider_crank(answer: Answer, slide: Slide, links: tuple[str, ...], points: 
 
 
 def _has_extent(answer: Answer, points: tuple[str, ...]) -> bool:
-    """Whether the crank and the rod have a length."""
-    a, b, c = (answer.points[point] for point in points)
-    return a != b != c
+    """Whether the crank and the rod have a length, with all their ends placed."""
+    a, b, c = (answer.points.get(point) for point in points)
+    return None not in (a, b, c) and a != b != c
 
 
 def _path(answer: Answer, slide: Slide) -> float:
