@@ -204,7 +204,7 @@ def _definitions() -> Schema:
         "load": {
             "oneOf": _one(
                 keys.LOADS,
-                force=_directed("force", keys.DIRECTION),
+                force=_any(_FREE_END, {"required": ["link"], **_directed("force", keys.DIRECTION)}),
                 pressure={**_either(*keys.DIRECTION), "anyOf": _either("bore", "area")["oneOf"]},
                 distributed=_either(*keys.DIRECTION),
             )
@@ -233,6 +233,12 @@ def _definitions() -> Schema:
     }
 
 
+_FREE_END: Schema = {
+    "required": ["force", "at"],
+    "properties": {"force": {"not": {"type": "array"}}},
+    "not": {"anyOf": [{"required": [key]} for key in ("link", *keys.DIRECTION)]},
+}
+"""A force that pulls the free end of a rope: the rope gives it its direction."""
 _TIES: dict[str, Schema] = {
     "pin": {"dependencies": {"mu": ["radius"]}},
     "screw": {"dependencies": {"mu": ["radius"]}},
