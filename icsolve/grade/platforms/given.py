@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from icsolve.case import (
     AlongRope,
+    Area,
     Belt,
     Case,
     Contact,
@@ -155,9 +156,20 @@ def _load(load: Load, case: Case) -> str:
         case TorsionSpring():
             return f"stiffness {size}, free angle {_shown(load.free)} deg of {''.join(load.corner)}, {on}"
         case Force(value=None):
-            return f"{size}, {where}, {_heading(load)}"
+            return f"{size},{_area(load, case)} {where}, {_heading(load)}"
         case Force():
-            return f"{size} {where}, {_heading(load)}"
+            return f"{size}{_area(load, case)} {where}, {_heading(load)}"
+
+
+def _area(load: Force, case: Case) -> str:
+    """Of a pressure what it acts on: `` on an area of 0.05 m^2``."""
+    area, unit = load.over, case.units.length
+    if not isinstance(area, Area):
+        return ""
+    if area.area is not None:
+        return f" on an area of {_shown(area.area)} {unit}^2"
+    bore = f" on a bore of {_shown(area.bore)} {unit}" if area.bore is not None else ""
+    return bore + (f" less a rod of {_shown(area.rod)} {unit}" if area.rod is not None else "")
 
 
 def _heading(load: Force) -> str:
