@@ -622,6 +622,7 @@ def _nearest(
             power, rate = code.run(function.given(values), len(values))
             with np.errstate(all="ignore"):
                 load = np.abs(power / rate) / (function.force_scale * function.sheet.scene.frame.scale)
+            load = np.broadcast_to(load, values.shape)  # one number where the position does not matter
             k = int(np.nanargmin(load))
             if best is None or float(load[k]) < best[0]:
                 best = (float(load[k]), float(values[k]))
