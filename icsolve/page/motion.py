@@ -318,7 +318,7 @@ def motion_of(known: Known, pairs: Sequence[Pair]) -> Motion | None:
 
     Of the links that may drive it is the first that turns fully, else that with the longest range.
     """
-    if known.answer is None or known.case.space is not None:
+    if known.answer is None or known.case.space is not None or known.case.dynamic:
         return None
     case = known.answer.case
     want = ["answers", "status", "points", "rates"]
@@ -365,6 +365,8 @@ def why_still(known: Known) -> str:
         return "This case is in space: it is shown as it stands."
     if not any(t != (0.0, 0.0, 0.0) for t in known.twists.values()):
         return "Nothing moves here: the links hold each other."
+    if case.dynamic:
+        return "The inertia forces are those of the position as written, so nothing is moved from it."
     if any(isinstance(joint, KnownCentre) for joint in case.joints):
         return "A given centre holds in the position as written only, so nothing can be moved from it."
     drivers = inputs(known)
