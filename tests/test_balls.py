@@ -169,8 +169,9 @@ def test_at_the_highest_precision_what_lies_within_1e_40_of_its_terms_is_zero_an
     value, error = balls.rounded(nothing, 1.0)
     assert value == 0.0
     assert 0.0 < error < 1e-115
+    assert balls.vanishes(nothing, 1e-90)  # within what a frame of size 1 spends of the digits
     with pytest.raises(MoreDigits):
-        balls.vanishes(nothing, 1e-90)
+        balls.vanishes(nothing * 1e35, 1e-90)
 
 
 def test_the_context_of_the_program_that_calls_does_not_matter() -> None:
