@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from icsolve.case import Case
-from icsolve.errors import Status
+from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.ask import Columns
@@ -31,6 +31,10 @@ SAID = (
     "each position is a scene of its own: the range was searched at {count} places, and two positions "
     "between two of them may be missed."
 )
+HOLDS = (
+    "with friction and no motion {load} holds over a range, not at one value, so no position is looked for. "
+    "Give a `motion`, or leave out the friction."
+)
 LOCKED = [CODE[word] for word in (Status.DEAD_CENTRE, Status.NO_VALUE, Status.JAM)]
 
 
@@ -47,6 +51,8 @@ class Scenes:
     def spots(self) -> Spots:
         """All positions that are found, in order."""
         found, codes = self._swept(self.places)
+        if (codes == CODE["holds"]).any():
+            raise SceneError(Status.UNSUPPORTED, HOLDS.format(load=self.load))
         finder = {"value": self._values, "max": self._peaks, "dead": self._dead}[self.query.kind]
         spots = Spots(sorted(finder(found, codes), key=lambda spot: spot.at))
         spots.notes = (SAID.format(count=PLACES),)
