@@ -149,8 +149,14 @@ def test_every_printed_equation_recomputes(name: str) -> None:
     size = known_of(case).size or 1.0
     counts = {check(text_equations(said["text"]), size), check(latex_equations(said["md"]), size)}
     assert len(counts) == 1, "text and LaTeX have the same equations"
-    assert counts.pop() >= 1 or not case.loads or case.unknowns
+    assert counts.pop() >= 1 or not case.loads or case.unknowns or power_refused(case, said["text"])
     well_formed(said["html"])
+
+
+def power_refused(case: Case, text: str) -> bool:
+    """Whether the sum of power is refused by name, of ropes that slip and screws whose thread rubs alone."""
+    rubs = any(rope.slips for rope in case.ropes) or any(screw.rubs for screw in case.screws)
+    return rubs and "is not written out as power (status unsupported)." in " ".join(text.split())
 
 
 def well_formed(html: str) -> None:

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from icsolve.answer import Answer, Found
 from icsolve.case import Torque
 from icsolve.derivation import Known, Step, acting_loads, all_steps, answer_ratios, needed_steps
-from icsolve.errors import SceneError
+from icsolve.errors import SceneError, Status
 from icsolve.explain.centres import centre_sections, ratio_section, worked_speeds
 from icsolve.explain.document import Block, Document, Inline, Items, Section, Table, words
 from icsolve.explain.formula import Num, Quantity, Quotient
@@ -25,6 +25,7 @@ from icsolve.explain.power import friction_section, motions_section, power_secti
 from icsolve.report.text import positions_text
 from icsolve.statics.power import is_unknown
 from icsolve.wording.senses import holding, spelt
+from icsolve.wording.sentences import listed
 
 SEARCHED = (
     "The loads balance where the power of all of them vanishes for the motion that the mechanism has. The "
@@ -250,6 +251,14 @@ def _steps(known: Known) -> tuple[Step, ...]:
     return needed_steps(known) if asked else all_steps(known)
 
 
+def _rubbing(known: Known) -> str:
+    """The ropes that slip and the screws whose thread rubs; '' for none."""
+    ropes = [f"rope {rope.name}" for rope in known.case.ropes if rope.slips]
+    screws = [f"the screw of links {listed(s.links)}" for s in known.case.screws if s.rubs]
+    found = [*ropes, *screws]
+    return listed(found) if found else ""
+
+
 def _by_power(known: Known, figures: Figures) -> Iterable[Section]:
     """Ratios of speeds and the equation of power; by motions where the centres do not give them."""
     loads = acting_loads(known)
@@ -257,6 +266,11 @@ def _by_power(known: Known, figures: Figures) -> Iterable[Section]:
         return
     if any(load.holds is not None for load in loads):
         yield Section("Power", (words(AT_REST),))
+        return
+    rubbing = _rubbing(known)
+    if rubbing:
+        said = f"The friction of {rubbing} is not written out as power (status {Status.UNSUPPORTED})."
+        yield Section("Power", (words(said),))
         return
     ratios = answer_ratios(known)
     several = known.answer is not None and (known.answer.mobility or 0) > 1
