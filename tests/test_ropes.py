@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from pathlib import Path
 from random import Random
 from typing import Any
 
@@ -394,3 +395,10 @@ def test_parts_without_a_length_are_refused() -> None:
     rope = "{rope: [C, P, D, B], on: [2, 1, 1], radii: {P: 1.5, D: 1.5}, wraps: {P: cw, D: ccw}}"
     error = refused(ROPED % (rope, PULL))
     assert (error.status, "no straight part from P to D" in error.message) == ("inconsistent", True)
+
+
+def test_a_lever_pushed_through_its_pivot_draws_no_band() -> None:
+    text = (Path(__file__).parent.parent / "cases" / "ropes" / "band_brake.yaml").read_text(encoding="utf-8")
+    with pytest.raises(icsolve.SceneError, match="draws no rope that slips") as refused:
+        icsolve.solve(icsolve.load(text.replace("angle: -90", "angle: 180")))
+    assert refused.value.status == "no-value"

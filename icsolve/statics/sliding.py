@@ -35,10 +35,11 @@ def slid(statics: Statics, senses: Sequence[float], workless: bool) -> Slid:
 
     Raises SceneError where no value of the unknown load keeps up the motion.
     """
-    if workless:
+    equations = None if workless else reduced(statics, senses)
+    if equations is None:
+        if not statics.rubs:  # what could draw a rope that slips does not
+            raise SceneError(Status.NO_VALUE, _draws_nothing(statics))
         return _workless(statics, senses)
-    equations = reduced(statics, senses)
-    assert equations is not None
     found = solutions(equations.equations)
     if found.main is None:
         return _unconnected(statics, equations, found)
@@ -98,6 +99,13 @@ def _workless(statics: Statics, senses: Sequence[float]) -> Slid:
     if len(found) > 1:
         found.sort(key=lambda y: abs(equations.load(y)[0]))
     return _of(statics, equations, found[0], found[1:], COUNTED)
+
+
+def _draws_nothing(statics: Statics) -> str:
+    return (
+        f"no value of {statics.roots[0]} balances: it does no work, and draws no rope that slips. Put the "
+        "unknown where it moves its link or draws the rope."
+    )
 
 
 def _nothing_rubs(statics: Statics) -> str:
