@@ -252,10 +252,13 @@ def _steps(known: Known) -> tuple[Step, ...]:
 
 
 def _rubbing(known: Known) -> str:
-    """The ropes that slip and the screws whose thread rubs; '' for none."""
+    """The ropes that slip, the screws whose thread rubs, the joints that rub beside ropes; '' for none."""
     ropes = [f"rope {rope.name}" for rope in known.case.ropes if rope.slips]
     screws = [f"the screw of links {listed(s.links)}" for s in known.case.screws if s.rubs]
-    found = [*ropes, *screws]
+    friction = None if known.answer is None else known.answer.friction
+    sliding = friction.rubbing if friction is not None and (known.case.ropes or known.case.screws) else ()
+    joints = [one.joint for one in sliding if one.value and not (ropes or screws)]
+    found = [*ropes, *screws, *joints]
     return listed(found) if found else ""
 
 
