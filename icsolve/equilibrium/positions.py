@@ -248,11 +248,23 @@ def with_scene(rest: Rest, *, all_centres: bool, rates: bool, reactions: bool) -
     if not (all_centres or rates or reactions):
         return replace(rest.answer, rates=None, velocities=None, centres={})
     case = scene_at(rest.function, rest.value)
-    if reactions:
-        _, probe = next(probes(rest.function))
-        case = replace(case, loads=(*case.loads, probe))
-    found = solve(case, all_centres=all_centres, rates=rates, reactions=reactions)
+    found = _with_reactions(rest, case, all_centres, rates) if reactions else None
+    found = found or solve(case, all_centres=all_centres, rates=rates)
     return replace(found, case=rest.answer.case, answers={}, centres=found.centres if all_centres else {})
+
+
+def _with_reactions(rest: Rest, case: Case, all_centres: bool, rates: bool) -> Answer | None:
+    """The scene with its reactions, by the first unknown load that does work in its motion."""
+    refusal: SceneError | None = None
+    for _, probe in probes(rest.function):
+        loaded = replace(case, loads=(*case.loads, probe))
+        try:
+            return solve(loaded, all_centres=all_centres, rates=rates, reactions=True)
+        except SceneError as error:
+            refusal = error
+    if refusal is not None:
+        raise refusal
+    return None
 
 
 def whole_range(case: Case, path: str) -> tuple[float, float]:

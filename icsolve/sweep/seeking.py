@@ -35,6 +35,8 @@ HOLDS = (
     "with friction and no motion {load} holds over a range, not at one value, so no position is looked for. "
     "Give a `motion`, or leave out the friction."
 )
+BESIDE, GROWN = 1000.0, 10.0
+"""What runs off to infinity is at least ``GROWN`` times as large there as ``BESIDE`` widths away."""
 LOCKED = [CODE[word] for word in (Status.DEAD_CENTRE, Status.NO_VALUE, Status.JAM)]
 
 
@@ -84,7 +86,8 @@ class Scenes:
         """Changes of sign through infinity, and where the mechanism begins to lock or reaches its limit."""
         for k in np.flatnonzero(found[:-1] * found[1:] < 0.0).tolist():
             at, wide = self._closed(self._answer, k)
-            if not abs(self._answer(at)) <= max(abs(found[k]), abs(found[k + 1])):
+            beside = max(abs(self._answer(at + side * BESIDE * self.width)) for side in (-1.0, 1.0))
+            if not abs(self._answer(at)) <= GROWN * beside:  # a jump stays finite, and grows no more
                 yield Spot(at, "dead", None, wide)
         locked, apart = np.isin(codes, LOCKED), codes == CODE[Status.CANNOT_ASSEMBLE]
         for kind, state in (("dead", locked), ("limit", apart)):
