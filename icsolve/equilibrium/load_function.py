@@ -22,7 +22,6 @@ from icsolve.assembly.steps import Meet, Step
 from icsolve.assembly.workspace import frame_of
 from icsolve.case import Case, Coordinates, Number, TorsionSpring
 from icsolve.errors import SceneError, Status
-from icsolve.kinematics import motion
 from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record, varies
@@ -30,11 +29,11 @@ from icsolve.numbers.replay import Array
 from icsolve.screws.plane import velocity
 from icsolve.solve import refusals
 from icsolve.statics import power
-from icsolve.structure.plan import make_plan
 from icsolve.structure.topology import Topology, topology
 from icsolve.sweep.drivers import Drive
 from icsolve.sweep.numbers import with_numbers
 from icsolve.sweep.program import Asked, Setting, Sheet, setting_of, sheet_of, wanted_points
+from icsolve.sweep.scene import motions_of
 
 Steps = tuple[Step, ...]
 
@@ -207,13 +206,8 @@ def _function(case: Case, path: str, top: Topology, figure: Figure) -> LoadFunct
 def _on_sheet(sheet: Sheet, path: str, figure: Figure, margins: list[int]) -> LoadFunction:
     """The power of the loads on a record that has the figure, by its one input."""
     record, scene, given = sheet.record, sheet.scene, sheet.inputs[path]
-    case, top = scene.case, scene.top
-    plan = make_plan(top, range(len(top.members)))
-    motions = None
-    if plan is not None and plan.closed:
-        motions = motion.by_plan(plan, top, scene.points, record)
-    if motions is None:
-        motions = motion.by_loops(case, top, scene.points, record, scene.frame)
+    case = scene.case
+    motions = motions_of(scene)
     if motions.mobility != 1:
         raise SceneError(
             Status.MOBILITY,

@@ -20,7 +20,6 @@ from icsolve.case import Case
 from icsolve.equilibrium.load_function import given_at, modes_of, order_of_all
 from icsolve.equilibrium.positions import DEGREES, whole_range
 from icsolve.errors import SceneError, Status
-from icsolve.kinematics import motion
 from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import varies
@@ -28,10 +27,10 @@ from icsolve.numbers.replay import Array, Code
 from icsolve.screws.plane import velocity
 from icsolve.solve import solve
 from icsolve.statics import power
-from icsolve.structure.plan import make_plan
 from icsolve.structure.topology import topology
 from icsolve.sweep.drivers import Drive
 from icsolve.sweep.program import Asked, Setting, Sheet, sheet_of
+from icsolve.sweep.scene import motions_of
 
 GRID = 48
 STEPS = 40
@@ -120,16 +119,10 @@ def _at(case: Case, paths: Sequence[str], values: Sequence[float]) -> Case:
 
 
 def _surface(case: Case, paths: Sequence[str], figure: Figure) -> Surface:
-    top = topology(case)
-    setting = Setting(case, top, figure, tuple(paths), (), Drive((), (), ()))
+    setting = Setting(case, topology(case), figure, tuple(paths), (), Drive((), (), ()))
     sheet = sheet_of(setting, Asked(answers=False))
     record, scene = sheet.record, sheet.scene
-    plan = make_plan(top, range(len(top.members)))
-    motions = None
-    if plan is not None and plan.closed:
-        motions = motion.by_plan(plan, top, scene.points, record)
-    if motions is None:
-        motions = motion.by_loops(case, top, scene.points, record, scene.frame)
+    motions = motions_of(scene)
     if motions.mobility != 2:
         raise SceneError(
             Status.MOBILITY,

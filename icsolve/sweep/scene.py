@@ -151,7 +151,7 @@ def statics(scene: Scene, everything: bool) -> Statics:
     links = {link for load in case.loads for link in (load.link, power.reacting(case, load))}
     unknown = any(power.is_unknown(load) for load in case.loads)
     wanted = frozenset(top.body_of[link] for link in links) if unknown and not everything else None
-    motions = _motions(scene, wanted)
+    motions = motions_of(scene, wanted)
     wrenches = power.wrenches(case, scene.frame, scene.points, scene.record)
     balance = power.balance(wrenches, motions.twists, motions.mobility)
     solution = power.solve_balance(balance, scene.record)
@@ -163,7 +163,8 @@ def statics(scene: Scene, everything: bool) -> Statics:
     return Statics(answers, motions, None)
 
 
-def _motions(scene: Scene, wanted: Collection[int] | None) -> motion.Motions:
+def motions_of(scene: Scene, wanted: Collection[int] | None = None) -> motion.Motions:
+    """The motions of the wanted bodies (None: of all), by the plan or by all loop equations at once."""
     top = scene.top
     plan = make_plan(top, wanted if wanted is not None else range(len(top.members)))
     if plan is not None and plan.closed:
