@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from icsolve.answer import Answer, Centre, Found, Term
 from icsolve.answer.equilibrium import position_dict, stiffness_dict
 from icsolve.case import Case
 from icsolve.case.names import pair_name
 from icsolve.errors import SceneError
+
+if TYPE_CHECKING:
+    from icsolve.answer import Answer, Centre, Found, Term, space
+    from icsolve.answer.bodies import Friction, Reaction, Rubbing, Tension, Witness
 
 SCHEMA = "icsolve/solve/1"
 
@@ -146,16 +149,13 @@ def _places(answer: Answer) -> Mapping[str, tuple[float, ...]]:
 
 
 def _bodies(answer: Answer) -> dict[str, Any]:
-    """Reactions and friction, where there are some; free bodies are not even imported before."""
+    """Reactions and friction, where there are some."""
     if answer.spatial is not None:
-        from icsolve.statics.space.report import space_dict
-
-        return space_dict(answer.spatial)
+        return _space_dict(answer.spatial)
     if answer.reactions is None and answer.friction is None:
         return {}
-    from icsolve.statics.report import bodies_dict
 
-    return bodies_dict(answer)
+    return _bodies_dict(answer)
 
 
 def _equilibrium(answer: Answer) -> dict[str, Any]:
@@ -186,3 +186,88 @@ def _errors(answer: Answer) -> dict[str, Any]:
 def _term(term: Term) -> dict[str, Any]:
     numbers = {"value": term.value, "factor": term.factor, "power": term.power}
     return {**term._asdict(), **{key: _plain(number) for key, number in numbers.items()}}
+
+
+def _bodies_dict(answer: Answer) -> dict[str, Any]:
+    """``reactions`` and ``free_bodies`` where they were asked for, ``friction`` where there is some."""
+    shown: dict[str, Any] = {}
+    if answer.reactions is not None:
+        shown["reactions"] = {name: _reaction(reaction) for name, reaction in answer.reactions.items()}
+        shown["reactions"] |= {tension.name: _tension(tension) for tension in answer.tensions}
+    if answer.witnesses:
+        shown["free_bodies"] = {w.load: _witness_dict(w) for w in answer.witnesses}
+    if answer.friction is not None:
+        shown["efficiency"] = answer.friction.efficiency
+        shown["friction"] = _friction(answer.friction)
+    return shown
+
+
+def _witness_dict(w: Witness) -> dict[str, float | None]:
+    """An unknown load both ways; the bound of their difference is null where nothing bounds it."""
+    bound = w.bound if math.isfinite(w.bound) else None
+    return {"power": w.power, "bodies": w.bodies, "difference": w.difference, "bound": bound}
+
+
+def _reaction(reaction: Reaction) -> dict[str, Any]:
+    entry: dict[str, Any] = {
+        "x": reaction.x,
+        "y": reaction.y,
+        "at": [reaction.at[0] + 0.0, reaction.at[1] + 0.0],
+        "moment": reaction.moment,
+        "magnitude": reaction.magnitude,
+        "direction": reaction.direction,
+        "joint": reaction.kind,
+        **{name.replace(" ", "_"): value for name, value in reaction.parts},
+    }
+    if None in (reaction.x, reaction.y, reaction.moment):
+        entry["undetermined"] = reaction.why
+    return entry
+
+
+def _tension(tension: Tension) -> dict[str, Any]:
+    entry: dict[str, Any] = {"tension": tension.tension}
+    if tension.parts:
+        entry["tensions"] = list(tension.parts)
+    return entry if tension.tension is not None else {**entry, "undetermined": tension.why}
+
+
+def _friction(friction: Friction) -> dict[str, Any]:
+    if friction.possible is not None:
+        ends = [end if math.isfinite(end) else None for end in friction.possible]
+        return {"possible": ends, "how": friction.unique}
+    return {
+        "losses": friction.losses,
+        "residual": friction.residual,
+        "error": friction.error,
+        "unique": friction.unique,
+        "joints": [_rubbing(rubbing) for rubbing in friction.rubbing],
+    }
+
+
+def _rubbing(rubbing: Rubbing) -> dict[str, Any]:
+    return {key: value for key, value in rubbing._asdict().items() if value is not None}
+
+
+def _space_dict(spatial: space.Spatial) -> dict[str, Any]:
+    """``reactions`` and ``free_bodies`` of the JSON object."""
+    shown: dict[str, Any] = {
+        "reactions": {name: _reaction_in_space(r) for name, r in spatial.reactions.items()}
+    }
+    if spatial.witnesses:
+        shown["free_bodies"] = {w.load: _witness_dict(w) for w in spatial.witnesses}
+    return shown
+
+
+def _reaction_in_space(reaction: space.Reaction) -> dict[str, Any]:
+    x, y, z = reaction.force
+    entry: dict[str, Any] = {
+        "x": x,
+        "y": y,
+        "z": z,
+        "at": list(reaction.at),
+        "moment": list(reaction.couple),
+        "magnitude": reaction.magnitude,
+        "joint": reaction.kind,
+        **dict(reaction.parts),
+    }
+    return {**entry, "undetermined": reaction.why} if reaction.why else entry

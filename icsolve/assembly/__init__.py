@@ -6,7 +6,8 @@ construction again with another arithmetic (arrays, numbers on a tape, more digi
 
 from __future__ import annotations
 
-from icsolve.assembly.figure import Figure, Placement, place, placed_figure, solve_figure
+from icsolve.assembly.figure import placed_figure, solve_figure
+from icsolve.assembly.steps import Figure, Placement, place
 from icsolve.assembly.workspace import Frame, Key, Point, case_point
 
 __all__ = [

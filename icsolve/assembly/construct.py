@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from icsolve.assembly.data import Datum
-from icsolve.assembly.figure import Figure
 from icsolve.assembly.modes import Mode, Walk, choose, far_from_near, nearest, overridden, refusal
 from icsolve.assembly.order import Order, order_of
 from icsolve.assembly.refusals import Miss, mirrored
 from icsolve.assembly.residuals import agrees, size_of
-from icsolve.assembly.steps import Given, leading_to, points_of
+from icsolve.assembly.steps import Figure, Given, leading_to, points_of
 from icsolve.assembly.workspace import Frame, Workspace
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status

@@ -2,70 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Collection
 
 from icsolve.assembly.data import GUIDE, LINE, Datum, data_of, names_of
 from icsolve.assembly.residuals import agrees, size_of
-from icsolve.assembly.steps import Given
-from icsolve.assembly.workspace import Frame, Key, Point, Workspace, frame_of
+from icsolve.assembly.steps import Figure, Given, Step
+from icsolve.assembly.workspace import Frame, Workspace, frame_of
 from icsolve.case import Case, Coordinates
 from icsolve.errors import SceneError
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
-
-if TYPE_CHECKING:
-    from icsolve.assembly.steps import Step
-
-
-class Figure(NamedTuple):
-    """The points of one position, and the construction that found them.
-
-    ``points`` are in the normalised frame; ``steps`` ran in this order, with the branches that
-    they settled on; ``notes`` are sentences for the reader; ``skipped`` names the points that
-    nothing asked for.
-    """
-
-    frame: Frame
-    points: dict[str, Point]
-    steps: tuple[Step, ...]
-    notes: tuple[str, ...] = ()
-    skipped: tuple[str, ...] = ()
-
-
-class Placement(NamedTuple):
-    """Points of the same construction in another arithmetic.
-
-    ``margins`` has, for each point where two loci meet, what must not be negative (normalised):
-    gaps of circles, distances along rays. Callers with arrays test them outside. (Points on the
-    cluster of a loose shape have keys of the cluster's number and the name.)
-    """
-
-    points: dict[str, Point]
-    margins: dict[Key, tuple[Scalar, ...]]
-
-
-def place(
-    figure: Figure,
-    case: Case,
-    arithmetic: Arithmetic = FLOATS,
-    rounds: int = 1,
-    starts: Mapping[str, Point] | None = None,
-) -> Placement:
-    """Run a figure's construction again, on the numbers of a case of the same shape.
-
-    The same steps with the same branches, without a test on any value.
-
-    Parameters
-    ----------
-    rounds : Newton steps for groups without an order of construction; 1 is enough at the
-        figure's own numbers, where that step carries the derivatives by all data
-    starts : where such groups start (normalised); left out, at the figure's own points
-    """
-    workspace = Workspace(case, figure.frame, arithmetic)
-    workspace.rounds, workspace.starts = rounds, starts or {}
-    for step in figure.steps:
-        step.place(workspace)
-    return Placement({p: at for p, at in workspace.points.items() if isinstance(p, str)}, workspace.margins)
+from icsolve.numbers.arithmetic import FLOATS
 
 
 def solve_figure(case: Case, wanted: Collection[str] | None = None) -> Figure:

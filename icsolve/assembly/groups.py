@@ -7,12 +7,14 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import NamedTuple
 
 from icsolve.assembly.clusters import Drawing
-from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, X, Y, listed, plain
+from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, X, Y
 from icsolve.assembly.steps import told
+from icsolve.assembly.words import plain
 from icsolve.assembly.workspace import Key, Workspace
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
+from icsolve.wording.sentences import listed
 
 Unknown = tuple[str, int]
 """A coordinate: the point and 0 for x, 1 for y."""

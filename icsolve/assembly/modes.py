@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
 from typing import NamedTuple
 
-from icsolve.assembly.data import Datum, listed, plain
+from icsolve.assembly.data import Datum
 from icsolve.assembly.decided import (
     Decimals,
     Gap,
@@ -37,8 +37,10 @@ from icsolve.assembly.refusals import (
 )
 from icsolve.assembly.residuals import TOO_CLOSE, residual, size_of
 from icsolve.assembly.steps import CLOSED_FORMS, Meet, Step, aims
+from icsolve.assembly.words import plain
 from icsolve.assembly.workspace import Key, Point, Workspace, case_point, normalised
 from icsolve.errors import SceneError, Status
+from icsolve.wording.sentences import listed
 
 U = 2.0**-53
 TOUCHING = 8.0 * U

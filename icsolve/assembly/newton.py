@@ -13,14 +13,16 @@ from itertools import islice, product
 from typing import NamedTuple
 
 from icsolve.assembly.clusters import Drawing
-from icsolve.assembly.data import CORNER, LENGTH, LINE, datum_words, facts_of, listed, plain
+from icsolve.assembly.data import CORNER, LENGTH, LINE, facts_of
 from icsolve.assembly.groups import Group, Unknown, pivots, solved
 from icsolve.assembly.order import grow
 from icsolve.assembly.refusals import Miss, measure
 from icsolve.assembly.steps import Given, Meet, Step
+from icsolve.assembly.words import datum_words, plain
 from icsolve.assembly.workspace import Workspace
 from icsolve.errors import Status
 from icsolve.numbers.linear import inverse, solve_square
+from icsolve.wording.sentences import listed
 
 Spot = tuple[float, float]
 Start = dict[str, Spot]

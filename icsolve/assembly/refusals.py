@@ -4,24 +4,10 @@ import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from icsolve.assembly.data import (
-    CORNER,
-    LENGTH,
-    LINE,
-    MEAN,
-    RAY,
-    Datum,
-    X,
-    Y,
-    datum_words,
-    joined,
-    locus_words,
-    number_of,
-    plain,
-    span_words,
-)
+from icsolve.assembly.data import CORNER, LENGTH, LINE, MEAN, RAY, Datum, X, Y, number_of
 from icsolve.assembly.loci import Circle, is_round
 from icsolve.assembly.steps import Meet, Polar, Step, Turned
+from icsolve.assembly.words import datum_words, joined, locus_words, plain, span_words
 from icsolve.assembly.workspace import Workspace, case_point
 from icsolve.case import Coordinates, Number
 from icsolve.errors import Status

@@ -6,29 +6,17 @@ import math
 from collections.abc import Callable, Collection
 from typing import TYPE_CHECKING
 
-from icsolve.assembly.data import (
-    CORNER,
-    GUIDE,
-    LENGTH,
-    LINE,
-    MEAN,
-    RAY,
-    Datum,
-    X,
-    Y,
-    datum_words,
-    joined,
-    listed,
-    number_of,
-)
+from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, X, Y, number_of
 from icsolve.assembly.refusals import Miss, clash, measure
 from icsolve.assembly.steps import Given, leading_to
+from icsolve.assembly.words import datum_words, joined
 from icsolve.assembly.workspace import Workspace
 from icsolve.case import Case, Coordinates, Gears, Number
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Floats, turn_of
 from icsolve.screws.joints import Points
 from icsolve.structure.topology import Bond, Topology
+from icsolve.wording.sentences import listed
 
 if TYPE_CHECKING:
     from icsolve.assembly.steps import Step

@@ -6,12 +6,24 @@ and its ``name``, a sentence.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, NamedTuple, Union
 
 from icsolve.assembly.data import Datum
 from icsolve.assembly.loci import Crossing, Locus, crossing, directions_of, is_ray
-from icsolve.assembly.workspace import Apart, Key, LineDirection, Span, Workspace, data_in, ends_of
+from icsolve.assembly.workspace import (
+    Apart,
+    Frame,
+    Key,
+    LineDirection,
+    Point,
+    Span,
+    Workspace,
+    data_in,
+    ends_of,
+)
+from icsolve.case import Case
+from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
 
 if TYPE_CHECKING:
     from icsolve.assembly.groups import Group
@@ -19,7 +31,7 @@ if TYPE_CHECKING:
 
 def told(step: Step) -> str:
     """A step as a sentence."""
-    from icsolve.assembly.data import step_words
+    from icsolve.assembly.words import step_words
 
     return step_words(step)
 
@@ -343,3 +355,54 @@ def leading_to(goal: Collection[Key], steps: Sequence[Step]) -> tuple[Step, ...]
 def points_of(steps: Sequence[Step]) -> tuple[str, ...]:
     """The points that steps place on the ground."""
     return tuple(key for step in steps for key in step.targets if isinstance(key, str))
+
+
+class Figure(NamedTuple):
+    """The points of one position, and the construction that found them.
+
+    ``points`` are in the normalised frame; ``steps`` ran in this order, with the branches that
+    they settled on; ``notes`` are sentences for the reader; ``skipped`` names the points that
+    nothing asked for.
+    """
+
+    frame: Frame
+    points: dict[str, Point]
+    steps: tuple[Step, ...]
+    notes: tuple[str, ...] = ()
+    skipped: tuple[str, ...] = ()
+
+
+class Placement(NamedTuple):
+    """Points of the same construction in another arithmetic.
+
+    ``margins`` has, for each point where two loci meet, what must not be negative (normalised):
+    gaps of circles, distances along rays. Callers with arrays test them outside. (Points on the
+    cluster of a loose shape have keys of the cluster's number and the name.)
+    """
+
+    points: dict[str, Point]
+    margins: dict[Key, tuple[Scalar, ...]]
+
+
+def place(
+    figure: Figure,
+    case: Case,
+    arithmetic: Arithmetic = FLOATS,
+    rounds: int = 1,
+    starts: Mapping[str, Point] | None = None,
+) -> Placement:
+    """Run a figure's construction again, on the numbers of a case of the same shape.
+
+    The same steps with the same branches, without a test on any value.
+
+    Parameters
+    ----------
+    rounds : Newton steps for groups without an order of construction; 1 is enough at the
+        figure's own numbers, where that step carries the derivatives by all data
+    starts : where such groups start (normalised); left out, at the figure's own points
+    """
+    workspace = Workspace(case, figure.frame, arithmetic)
+    workspace.rounds, workspace.starts = rounds, starts or {}
+    for step in figure.steps:
+        step.place(workspace)
+    return Placement({p: at for p, at in workspace.points.items() if isinstance(p, str)}, workspace.margins)

@@ -7,16 +7,18 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from icsolve.assembly.construct import compared
-from icsolve.assembly.data import listed, names_of, plain
+from icsolve.assembly.data import names_of
 from icsolve.assembly.groups import Group
 from icsolve.assembly.modes import Mode, Walk, differing, distinct, refusal
 from icsolve.assembly.order import Order, order_of
 from icsolve.assembly.refusals import Miss
 from icsolve.assembly.steps import Meet
+from icsolve.assembly.words import plain
 from icsolve.assembly.workspace import Frame, Workspace, case_point, frame_of
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS
+from icsolve.wording.sentences import listed
 
 Place = tuple[float, float]
 

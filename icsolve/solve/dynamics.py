@@ -7,31 +7,24 @@ friction and pictures treat them as they treat all loads.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from icsolve.answer import Answer, Deferred
-from icsolve.assembly.workspace import Frame
 from icsolve.case import Case, ForceVector, Load, Torque
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.accelerations import NO_SPEED, Moving, moving
 from icsolve.kinematics.speeds import OPEN, moving_points
-from icsolve.numbers.arithmetic import Arithmetic, Scalar
+from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.given import Number
-from icsolve.screws.plane import Point, Triple, force_wrench
+from icsolve.screws.plane import Point
 from icsolve.solve.program import Program, Want, evaluate, prepare
-from icsolve.statics.power import Wrench, known_value, vector_size
-from icsolve.structure.topology import Topology
-from icsolve.units import exact_ratio, parse_unit
+from icsolve.statics.inertia import COUPLE, FORCE, _forces
 from icsolve.wording.sentences import listed
 
 if TYPE_CHECKING:
     from icsolve.numbers.balls import Balls
-
-FORCE = "inertia force {}"
-COUPLE = "inertia couple {}"
-"""Names of the loads, by link; a load of the file has no blank in its name."""
 
 
 DIGITS = (60, 120)
@@ -109,41 +102,6 @@ def _found(case: Case, program: Program, arithmetic: Balls) -> tuple[Case, Accel
     return loaded, shown, _notes(case, moves, arithmetic)
 
 
-def is_loaded(case: Case) -> bool:
-    """Whether the inertia forces are among the loads of a case."""
-    return any(load.name.startswith("inertia ") for load in case.loads)
-
-
-def exactly(
-    case: Case,
-    top: Topology,
-    frame: Frame,
-    points: Mapping[str, Point],
-    motions: Mapping[str, Sequence[Triple]],
-    wrenches: Sequence[Wrench],
-    arithmetic: Arithmetic,
-) -> tuple[Wrench, ...]:
-    """The wrenches with those of the inertia forces as this arithmetic has them; the loads are rounded."""
-    moves = moving(case, top, frame, points, motions, arithmetic)
-    forces = _forces(case, frame, moves, points, arithmetic)
-    found = []
-    for w in wrenches:
-        load = w.load
-        if load.name == FORCE.format(load.link) and isinstance(load, ForceVector):
-            _, force, _ = forces[load.link]
-            assert force is not None
-            size = vector_size(load) or 1.0
-            found.append(w._replace(unit=force_wrench((force[0] / size, force[1] / size), points[load.at])))
-        elif load.name == COUPLE.format(load.link) and isinstance(load, Torque):
-            couple = forces[load.link][2]
-            assert couple is not None
-            size = known_value(w) or 1.0
-            found.append(w._replace(unit=(0.0, 0.0, couple / size)))
-        else:
-            found.append(w)
-    return tuple(found)
-
-
 def _no_sensitivities() -> Mapping[str, Mapping[str, float]]:
     message = "sensitivities and tolerance bands are not worked out where inertia forces are among the loads."
     raise SceneError(Status.UNSUPPORTED, message)
@@ -156,31 +114,6 @@ def _refuse_open(case: Case, moves: Moving) -> None:
             Status.MOBILITY,
             f"the motion of link {listed(heavy)}, which has a mass, is open: {OPEN} Give its motion too.",
         )
-
-
-InertiaForce = tuple[str | None, Point | None, Scalar | None]
-"""Of a link its centre of mass, the force there and the couple, in case units."""
-
-
-def _forces(
-    case: Case, frame: Frame, moves: Moving, points: Mapping[str, Point], arithmetic: Arithmetic
-) -> dict[str, InertiaForce]:
-    """-m a and -I alpha of every link that has a mass."""
-    newton = arithmetic.ratio(case.units.exact_newton)
-    metre = arithmetic.ratio(exact_ratio(parse_unit("m"), parse_unit(case.units.length)))
-    found: dict[str, InertiaForce] = {}
-    for link, inertia in case.inertia.items():
-        force: Point | None = None
-        couple: Scalar | None = None
-        if inertia.mass is not None and inertia.centre is not None:
-            per = arithmetic.given(inertia.mass) * newton / (metre * frame.scale)
-            x, y = moves.acceleration(link, points[inertia.centre])
-            force = (0.0 - per * x, 0.0 - per * y)
-        if inertia.moment is not None:
-            moment = arithmetic.given(inertia.moment) * newton * metre
-            couple = 0.0 - moment * arithmetic.ratio(case.units.exact_torque) * moves.rates[link][2]
-        found[link] = (inertia.centre, force, couple)
-    return found
 
 
 def _shown(

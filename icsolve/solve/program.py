@@ -125,9 +125,7 @@ def _wanted_points(case: Case, top: Topology, bonds: tuple[int, ...], want: Want
     return list(dict.fromkeys(points))
 
 
-def evaluate(
-    program: Program, arithmetic: Arithmetic = FLOATS, rounds: int = 1
-) -> tuple[Program, Outcome]:
+def evaluate(program: Program, arithmetic: Arithmetic = FLOATS, rounds: int = 1) -> tuple[Program, Outcome]:
     """Places, motions and unknown loads; the program that ran (without a plan where a group of it
     is singular in this position).
 
@@ -151,7 +149,7 @@ def evaluate(
     # power
     wrenches = power.wrenches(case, figure.frame, points, arithmetic)
     if case.dynamic and case.inertia:
-        from icsolve.solve.dynamics import exactly, is_loaded
+        from icsolve.statics.inertia import exactly, is_loaded
 
         if is_loaded(case):
             wrenches = exactly(case, top, figure.frame, points, motions.twists, wrenches, arithmetic)

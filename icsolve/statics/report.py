@@ -1,79 +1,16 @@
-"""Reactions, their witness and friction, as the JSON object of the format and as lines of text."""
+"""Reactions, their witness and friction as lines of text."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, Any
 
-from icsolve.answer.bodies import Friction, Reaction, Rubbing, Tension, Witness
+from icsolve.answer import Answer
+from icsolve.answer.bodies import Friction, Reaction, Rubbing, Witness
 from icsolve.case import Units
-
-if TYPE_CHECKING:
-    from icsolve.answer import Answer
 
 Format = Callable[[float], str]
 Table = Callable[..., list[str]]
-
-
-def bodies_dict(answer: Answer) -> dict[str, Any]:
-    """``reactions`` and ``free_bodies`` where they were asked for, ``friction`` where there is some."""
-    shown: dict[str, Any] = {}
-    if answer.reactions is not None:
-        shown["reactions"] = {name: _reaction(reaction) for name, reaction in answer.reactions.items()}
-        shown["reactions"] |= {tension.name: _tension(tension) for tension in answer.tensions}
-    if answer.witnesses:
-        shown["free_bodies"] = {w.load: witness_dict(w) for w in answer.witnesses}
-    if answer.friction is not None:
-        shown["efficiency"] = answer.friction.efficiency
-        shown["friction"] = _friction(answer.friction)
-    return shown
-
-
-def witness_dict(w: Witness) -> dict[str, float | None]:
-    """An unknown load both ways; the bound of their difference is null where nothing bounds it."""
-    bound = w.bound if math.isfinite(w.bound) else None
-    return {"power": w.power, "bodies": w.bodies, "difference": w.difference, "bound": bound}
-
-
-def _reaction(reaction: Reaction) -> dict[str, Any]:
-    entry: dict[str, Any] = {
-        "x": reaction.x,
-        "y": reaction.y,
-        "at": [reaction.at[0] + 0.0, reaction.at[1] + 0.0],
-        "moment": reaction.moment,
-        "magnitude": reaction.magnitude,
-        "direction": reaction.direction,
-        "joint": reaction.kind,
-        **{name.replace(" ", "_"): value for name, value in reaction.parts},
-    }
-    if None in (reaction.x, reaction.y, reaction.moment):
-        entry["undetermined"] = reaction.why
-    return entry
-
-
-def _tension(tension: Tension) -> dict[str, Any]:
-    entry: dict[str, Any] = {"tension": tension.tension}
-    if tension.parts:
-        entry["tensions"] = list(tension.parts)
-    return entry if tension.tension is not None else {**entry, "undetermined": tension.why}
-
-
-def _friction(friction: Friction) -> dict[str, Any]:
-    if friction.possible is not None:
-        ends = [end if math.isfinite(end) else None for end in friction.possible]
-        return {"possible": ends, "how": friction.unique}
-    return {
-        "losses": friction.losses,
-        "residual": friction.residual,
-        "error": friction.error,
-        "unique": friction.unique,
-        "joints": [_rubbing(rubbing) for rubbing in friction.rubbing],
-    }
-
-
-def _rubbing(rubbing: Rubbing) -> dict[str, Any]:
-    return {key: value for key, value in rubbing._asdict().items() if value is not None}
 
 
 def bodies_lines(answer: Answer, show: Format, table: Table) -> list[str]:

@@ -13,7 +13,6 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from decimal import Decimal, InvalidOperation, localcontext
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -34,7 +33,10 @@ from icsolve.sweep.parts import Part, Parts
 from icsolve.sweep.program import Asked
 from icsolve.sweep.recheck import Recheck
 from icsolve.sweep.runner import terms_of
+from icsolve.sweep.seeking import Query, Scenes, Spot, Spots
 from icsolve.sweep.start import start_of
+
+__all__ = ["Query", "Spot", "Spots", "find"]
 
 CELLS = 256
 """Cells at first."""
@@ -48,30 +50,6 @@ NOTHING = Decimal("1e-35")
 """Below this fraction of its size elsewhere a value is zero."""
 CLOSED = Decimal("1e-45")
 """Zeros are closed in to this."""
-
-
-class Spot(NamedTuple):
-    """A position that was found: the varied number there with the bound of its error, what it is (``dead``,
-    ``limit``, ``change-point``, ``max``, ``value``), and the answer (None where there is none)."""
-
-    at: float
-    kind: str
-    answer: float | None
-    error: float = 0.0
-
-
-class Query(NamedTuple):
-    """What to look for: ``dead``, ``max``, or ``value`` (of an unknown load)."""
-
-    kind: str
-    load: str = ""
-    value: float = 0.0
-
-
-class Spots(list[Spot]):
-    """Positions in order; ``notes`` say what was searched where nothing shows that none is missing."""
-
-    notes: tuple[str, ...] = ()
 
 
 def find(
@@ -106,8 +84,6 @@ def find(
     by_itself = rubs(case) or (case.profiles is not None and bool(case.profiles.touches))
     start = None if by_itself else start_of(case, columns, Asked())
     if start is None or start.one_by_one:
-        from icsolve.sweep.seeking import Scenes
-
         return Scenes(case, columns, names[0], query).spots()
     spots = Spots()
     if start.sheet().refusal is None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from typing import NamedTuple
 
 import numpy as np
 
@@ -16,7 +17,6 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.ask import Columns
-from icsolve.sweep.finding import Query, Spot, Spots
 from icsolve.sweep.sweeping import sweep
 from icsolve.sweep.table import CODE, Codes
 
@@ -38,6 +38,30 @@ HOLDS = (
 BESIDE, GROWN = 1000.0, 10.0
 """What runs off to infinity is at least ``GROWN`` times as large there as ``BESIDE`` widths away."""
 LOCKED = [CODE[word] for word in (Status.DEAD_CENTRE, Status.NO_VALUE, Status.JAM)]
+
+
+class Spot(NamedTuple):
+    """A position that was found: the varied number there with the bound of its error, what it is (``dead``,
+    ``limit``, ``change-point``, ``max``, ``value``), and the answer (None where there is none)."""
+
+    at: float
+    kind: str
+    answer: float | None
+    error: float = 0.0
+
+
+class Query(NamedTuple):
+    """What to look for: ``dead``, ``max``, or ``value`` (of an unknown load)."""
+
+    kind: str
+    load: str = ""
+    value: float = 0.0
+
+
+class Spots(list[Spot]):
+    """Positions in order; ``notes`` say what was searched where nothing shows that none is missing."""
+
+    notes: tuple[str, ...] = ()
 
 
 class Scenes:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 def listed(names: Iterable[str]) -> str:
     """a, b and c."""
-    *head, last = list(names)
+    *head, last = list(names) or [""]
     return f"{', '.join(head)} and {last}" if head else last
 
 

@@ -1,4 +1,4 @@
-"""An answer in space: senses, terms of the power equation, JSON, and lines of text.
+"""An answer in space: senses, terms of the power equation, and lines of text.
 
 Motions and directions in space in words.
 
@@ -9,13 +9,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any
 
 from icsolve.answer import Answer, Term
 from icsolve.answer.space import Parts, Reaction, Spatial
 from icsolve.case import ArmIs, Case, DistanceIs, Like, LoadIs, ReactionIs, Spring, Target, Toward, Weight
 from icsolve.case.space import Along, Force, ForceVector, Line, Load, Torque, TorqueVector, Vector
-from icsolve.statics.report import witness_dict, witness_table
+from icsolve.statics.report import witness_table
 from icsolve.statics.space.figure import (
     AXES,
     Figure,
@@ -115,29 +114,6 @@ def advantage_of(loads: Sequence[Wrenched], values: Mapping[str, float]) -> floa
     if len(found) != 1 or len(known) != 1 or values[known[0]] == 0.0:
         return None
     return values[found[0]] / values[known[0]]
-
-
-def space_dict(spatial: Spatial) -> dict[str, Any]:
-    """``reactions`` and ``free_bodies`` of the JSON object."""
-    shown: dict[str, Any] = {"reactions": {name: _reaction(r) for name, r in spatial.reactions.items()}}
-    if spatial.witnesses:
-        shown["free_bodies"] = {w.load: witness_dict(w) for w in spatial.witnesses}
-    return shown
-
-
-def _reaction(reaction: Reaction) -> dict[str, Any]:
-    x, y, z = reaction.force
-    entry: dict[str, Any] = {
-        "x": x,
-        "y": y,
-        "z": z,
-        "at": list(reaction.at),
-        "moment": list(reaction.couple),
-        "magnitude": reaction.magnitude,
-        "joint": reaction.kind,
-        **dict(reaction.parts),
-    }
-    return {**entry, "undetermined": reaction.why} if reaction.why else entry
 
 
 def space_lines(answer: Answer, spatial: Spatial, show: Format, table: Table) -> list[str]:

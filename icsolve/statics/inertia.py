@@ -1,0 +1,79 @@
+"""Inertia forces as loads: the wrenches -m a and -I alpha in any arithmetic."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from icsolve.assembly.workspace import Frame
+from icsolve.case import Case, ForceVector, Torque
+from icsolve.kinematics.accelerations import Moving, moving
+from icsolve.numbers.arithmetic import Arithmetic, Scalar
+from icsolve.screws.plane import Point, Triple, force_wrench
+from icsolve.statics.power import Wrench, known_value, vector_size
+from icsolve.structure.topology import Topology
+from icsolve.units import exact_ratio, parse_unit
+
+FORCE = "inertia force {}"
+
+COUPLE = "inertia couple {}"
+"""Names of the loads, by link; a load of the file has no blank in its name."""
+
+
+def is_loaded(case: Case) -> bool:
+    """Whether the inertia forces are among the loads of a case."""
+    return any(load.name.startswith("inertia ") for load in case.loads)
+
+
+def exactly(
+    case: Case,
+    top: Topology,
+    frame: Frame,
+    points: Mapping[str, Point],
+    motions: Mapping[str, Sequence[Triple]],
+    wrenches: Sequence[Wrench],
+    arithmetic: Arithmetic,
+) -> tuple[Wrench, ...]:
+    """The wrenches with those of the inertia forces as this arithmetic has them; the loads are rounded."""
+    moves = moving(case, top, frame, points, motions, arithmetic)
+    forces = _forces(case, frame, moves, points, arithmetic)
+    found = []
+    for w in wrenches:
+        load = w.load
+        if load.name == FORCE.format(load.link) and isinstance(load, ForceVector):
+            _, force, _ = forces[load.link]
+            assert force is not None
+            size = vector_size(load) or 1.0
+            found.append(w._replace(unit=force_wrench((force[0] / size, force[1] / size), points[load.at])))
+        elif load.name == COUPLE.format(load.link) and isinstance(load, Torque):
+            couple = forces[load.link][2]
+            assert couple is not None
+            size = known_value(w) or 1.0
+            found.append(w._replace(unit=(0.0, 0.0, couple / size)))
+        else:
+            found.append(w)
+    return tuple(found)
+
+
+InertiaForce = tuple[str | None, Point | None, Scalar | None]
+"""Of a link its centre of mass, the force there and the couple, in case units."""
+
+
+def _forces(
+    case: Case, frame: Frame, moves: Moving, points: Mapping[str, Point], arithmetic: Arithmetic
+) -> dict[str, InertiaForce]:
+    """-m a and -I alpha of every link that has a mass."""
+    newton = arithmetic.ratio(case.units.exact_newton)
+    metre = arithmetic.ratio(exact_ratio(parse_unit("m"), parse_unit(case.units.length)))
+    found: dict[str, InertiaForce] = {}
+    for link, inertia in case.inertia.items():
+        force: Point | None = None
+        couple: Scalar | None = None
+        if inertia.mass is not None and inertia.centre is not None:
+            per = arithmetic.given(inertia.mass) * newton / (metre * frame.scale)
+            x, y = moves.acceleration(link, points[inertia.centre])
+            force = (0.0 - per * x, 0.0 - per * y)
+        if inertia.moment is not None:
+            moment = arithmetic.given(inertia.moment) * newton * metre
+            couple = 0.0 - moment * arithmetic.ratio(case.units.exact_torque) * moves.rates[link][2]
+        found[link] = (inertia.centre, force, couple)
+    return found
