@@ -18,7 +18,6 @@ ROOMS = (
 ).split()
 """In the order in which they may lean on one another: each only on those before it."""
 STILL_BACK = {
-    ("answer", "statics"),
     ("statics", "solve"),
     ("cams", "solve"),
     ("solve", "equilibrium"),
