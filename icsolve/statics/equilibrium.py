@@ -13,7 +13,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from icsolve.answer.bodies import Witness
+from icsolve.case import Number
 from icsolve.errors import SceneError, Status
+from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
 from icsolve.numbers.linear import inverse, solve_square
 from icsolve.numbers.sparse import General, Row, eliminate
 from icsolve.screws.plane import Point, velocity
@@ -82,10 +84,14 @@ class Statics(NamedTuple):
 
 
 def equilibrium(
-    position: Position, ties: Sequence[Tie], balance: Balance, rubs: Sequence[Rub] = ()
+    position: Position,
+    ties: Sequence[Tie],
+    balance: Balance,
+    rubs: Sequence[Rub] = (),
+    arithmetic: Arithmetic = FLOATS,
 ) -> Statics:
     """Solve the equilibrium of every link but the frame for what the joints transmit."""
-    rows = _Rows(position, ties)
+    rows = _Rows(position, ties, arithmetic)
     first = []
     column = 0
     for tie in ties:
@@ -99,7 +105,7 @@ def equilibrium(
     scale = force_scale(balance)
     roots = tuple(w.load.name for w in balance.wrenches if is_unknown(w.load))
     for w in balance.wrenches:
-        rows.load(w, *_share(w, balance, roots, column, scale))
+        rows.load(w, *_share(w, roots, column, scale, arithmetic))
     for n, rub in enumerate(rubs):
         rows.rub(ties[rub.tie], rub, column + 1 + len(roots) + n)
     general = _eliminated(rows.all(), column, position.mobility)
@@ -122,19 +128,29 @@ def _eliminated(rows: list[Row], columns: int, mobility: int) -> General:
 SPENT_TRIES = (1e-12, 1e-11, 1e-10, 1e-14, 1e-15)
 
 
-def _share(w: Wrench, balance: Balance, roots: Sequence[str], known: int, scale: float) -> tuple[int, float]:
+def _share(
+    w: Wrench, roots: Sequence[str], known: int, scale: float, arithmetic: Arithmetic = FLOATS
+) -> tuple[int, Scalar]:
     """The parameter that a load's number belongs to, and its factor."""
-    value = known_value(w)
+    value: Scalar | None = known_value(w)
     if value is None:
-        return known + 1 + roots.index(w.root), float(w.ratio)
-    return known, value * scale * float(w.ratio)
+        return known + 1 + roots.index(w.root), _plain(w.ratio, arithmetic)
+    number = getattr(w.source, "value", None)
+    if arithmetic is not FLOATS and isinstance(number, Number):
+        value = arithmetic.given(number)
+    return known, value * scale * _plain(w.ratio, arithmetic)
+
+
+def _plain(value: Scalar, arithmetic: Arithmetic) -> Scalar:
+    """A number of a scene (it has more digits where bounds are asked for) in the arithmetic of the rows."""
+    return float(value) if arithmetic is FLOATS else value
 
 
 class _Rows:
     """Three equations a link: forces along x and y, moments about the link's first point."""
 
-    def __init__(self, position: Position, ties: Iterable[Tie]) -> None:
-        self.position = position
+    def __init__(self, position: Position, ties: Iterable[Tie], arithmetic: Arithmetic = FLOATS) -> None:
+        self.position, self.arithmetic = position, arithmetic
         self.about: dict[str, Point] = {}
         for tie in ties:
             self.about.setdefault(tie.by, tie.at)
@@ -170,10 +186,11 @@ class _Rows:
             self.add(part.links[0], at, (x, y, couple), column)
             self.add(part.links[1] or tie.rope.end, at, (-x, -y, -couple), column)
 
-    def load(self, w: Wrench, column: int, factor: float) -> None:
+    def load(self, w: Wrench, column: int, factor: Scalar) -> None:
         """A load on its link, the opposite on the link against which it acts."""
-        gain = float(w.gain) * w.measure * factor
-        x, y, couple = (gain * float(u) for u in (w.unit[1], -w.unit[0], w.unit[2]))
+        gain = _plain(w.gain, self.arithmetic) * w.measure * factor
+        units = (w.unit[1], -w.unit[0], w.unit[2])
+        x, y, couple = (gain * _plain(u, self.arithmetic) for u in units)
         place = place_of(w.load, self.position.points)
         at, unit = (place, (x, y, 0.0)) if place else ((0.0, 0.0), (0.0, 0.0, couple))
         self.add(w.load.link, at, unit, column)
@@ -211,7 +228,7 @@ def equations_of(position: Position, statics: Statics, balance: Balance) -> Equa
     for n, rope in enumerate(statics.ropes):
         rows.rope(rope, statics.tension(n))
     for w in balance.wrenches:
-        rows.load(w, *_share(w, balance, statics.roots, statics.known, statics.scale))
+        rows.load(w, *_share(w, statics.roots, statics.known, statics.scale))
     for n, rub in enumerate(statics.rubs):
         rows.rub(statics.ties[rub.tie], rub, statics.rub(n))
     return {link: (rows.about[link], three) for link, three in rows.rows.items()}

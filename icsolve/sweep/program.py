@@ -25,7 +25,8 @@ from icsolve.statics.power import points_of
 from icsolve.structure.topology import Topology, topology
 from icsolve.sweep.drivers import Drive, condition, drive_of, pose_of, turning, turns_a_wheel
 from icsolve.sweep.numbers import find_number, numbers_of
-from icsolve.sweep.scene import Scene, centre, moved_scene, rates, statics
+from icsolve.sweep.rubbing import Rubbing, rubbing
+from icsolve.sweep.scene import Scene, Statics, centre, moved_scene, rates, statics
 from icsolve.wording.sentences import listed
 
 Signs = tuple[tuple[str, float], ...]
@@ -76,6 +77,8 @@ class Sheet(NamedTuple):
     """of the figure as written, where it is another in each row: none may be negative"""
     delicate: bool = False
     """whether the mechanism moves only because its data are exact, or nearly so"""
+    rubbing: Rubbing | None = None
+    """of a case with friction whose unknown loads can be had in all rows at once"""
 
 
 def setting_of(case: Case, paths: Sequence[str], links: Sequence[str]) -> Setting:
@@ -171,8 +174,14 @@ def _sheet(setting: Setting, asked: Asked, nudge: float, signs: Signs) -> Sheet:
         scene = moved_scene(motion.mechanism, motion.moved)
     else:
         motion, scene = None, Scene(case, setting.top, frame, record, names)
-    outputs, refusal, delicate = _outputs(scene, asked)
-    return Sheet(setting, record, inputs, outputs, motion, scene, refusal, margins, delicate)
+    outputs, found = _outputs(scene, asked)
+    sheet = Sheet(setting, record, inputs, outputs, motion, scene, None, margins)
+    if found is None:
+        return sheet
+    sheet = sheet._replace(delicate=found.delicate)
+    if not (asked.answers and refusals.rubs(case)):
+        return sheet._replace(refusal=found.refusal)
+    return sheet if found.refusal else sheet._replace(rubbing=rubbing(scene, found.motions, found.balance))
 
 
 def _motion(
@@ -214,10 +223,8 @@ def _not_together(path: str, paths: Sequence[str]) -> SceneError:
     return SceneError(Status.UNSUPPORTED, f"{only}: vary one at a time.")
 
 
-def _outputs(
-    scene: Scene, asked: Asked
-) -> tuple[dict[tuple[str, str], tuple[Scalar, ...]], SceneError | None, bool]:
-    """Expressions of all that is asked, in case units; a refusal of every row; whether it is delicate."""
+def _outputs(scene: Scene, asked: Asked) -> tuple[dict[tuple[str, str], tuple[Scalar, ...]], Statics | None]:
+    """Expressions of all that is asked, in case units; the statics by which they were found."""
     ox, oy, scale = scene.frame
     out: dict[tuple[str, str], tuple[Scalar, ...]] = {}
     for name in asked.points:
@@ -225,10 +232,11 @@ def _outputs(
             x, y = scene.points[name]
             out["points", name] = (x / scale + ox, y / scale + oy)
     if not (asked.answers or asked.rates or asked.centres):
-        return out, None, False
-    found = statics(scene, asked.rates or bool(asked.centres))
+        return out, None
+    rubs = asked.answers and refusals.rubs(scene.case)
+    found = statics(scene, asked.rates or bool(asked.centres) or rubs)
     for name, value in found.answers.items():
-        if asked.answers:
+        if asked.answers and not rubs:
             out["answers", name] = (value,)
     if asked.rates:
         out |= {("rates", link): (rate,) for link, rate in rates(scene, found.motions).items()}
@@ -236,4 +244,4 @@ def _outputs(
         triple = centre(scene, found.motions, pair)
         if triple is not None:
             out["centres", f"{pair[0]}-{pair[1]}"] = triple
-    return out, found.refusal, found.delicate
+    return out, found

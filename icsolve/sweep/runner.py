@@ -22,6 +22,7 @@ from icsolve.numbers.replay import BLOCK, Array, Code, live
 from icsolve.sweep.branches import live_roots
 from icsolve.sweep.exact import RowScenes
 from icsolve.sweep.program import Sheet
+from icsolve.sweep.rubbing import Rubbing
 
 SHALLOW = 1e-9
 """A radicand below this fraction of its terms makes its row doubtful."""
@@ -61,14 +62,15 @@ class Runner:
         self.still = [(key, part, float(v)) for key, part, v in flat if not varies(v)]
         self.moving = [(key, part, v.index) for key, part, v in flat if varies(v)]
         wanted = [index for _, _, index in self.moving]
-        alive = Code(record, wanted).order
+        self.rubs = sheet.rubbing.nodes if sheet.rubbing is not None else []
+        alive = Code(record, [*wanted, *self.rubs]).order
         self.roots = [record.roots[k] for k in alive if k in record.roots]
         self.divisors = _divisors(record.nodes, alive)
         self.loose = [n for n, (key, _, _) in enumerate(self.moving) if key[0] == "answers"]
         self.margins = sheet.margins
         self.checks = _living(sheet, alive)
         watched = [*(root.radicand for root in self.roots), *self.divisors, *self.margins, *self.checks]
-        self.code = Code(record, [*wanted, *watched])
+        self.code = Code(record, [*wanted, *watched, *self.rubs])
         self.typical = [terms_of(record.nodes, k) for k in self.divisors]
         self.deep = [math.prod(record.nodes[size].value for _, size in root.margins) for root in self.roots]
         self.usual = [_usual(record, index) for _, _, index in self.moving]
@@ -144,10 +146,16 @@ class Runner:
 
     def blank(self, rows: int) -> dict[Key, Array]:
         """Arrays for the outputs."""
-        return {
-            key: np.empty(rows) if len(parts) == 1 else np.empty((rows, len(parts)))
-            for key, parts in self.sheet.outputs.items()
-        }
+        widths = {key: len(parts) for key, parts in self.sheet.outputs.items()} | self.rubbed
+        return {key: np.empty(rows if width == 1 else (rows, width)) for key, width in widths.items()}
+
+    @cached_property
+    def rubbed(self) -> dict[Key, int]:
+        """What friction gives, and how many numbers a row."""
+        found = self.sheet.rubbing
+        names = found.ratios if found is not None else ()
+        ranges = {("holds", name): 2 for name in names if found is not None and found.drive is None}
+        return {("answers", name): 1 for name in names} | ranges
 
     def empty(self, rows: int) -> dict[Key, Array]:
         """Arrays for the outputs; those that are the same in every row are filled."""
@@ -166,11 +174,28 @@ class Runner:
             for (key, part, _), array in zip(self.moving, found, strict=False):
                 column(values[key], part)[start:stop] = array
             again = self._watch(found)
+            if self.sheet.rubbing is not None:
+                again = self._rub(self.sheet.rubbing, found, slice(start, stop), values, again)
             if again.size:
                 doubtful.append(again + start)
             if progress is not None:
                 progress(stop - start)
         return Found(values, np.concatenate(doubtful) if doubtful else np.empty(0, np.int64))
+
+    def _rub(
+        self, by: Rubbing, found: list[Array], rows: slice, values: dict[Key, Array], again: Rows
+    ) -> Rows:
+        """Fill in what friction gives; the rows of a block that are to be looked at again."""
+        count = rows.stop - rows.start
+        nodes = dict(zip(self.rubs, found[len(found) - len(self.rubs) :], strict=True))
+        with np.errstate(all="ignore"):
+            balanced = by.run(nodes, count)
+        again = np.union1d(again, np.flatnonzero(~balanced.sure))
+        for (kind, name), array in ((key, values[key]) for key in self.rubbed):
+            given = balanced.answers if kind == "answers" else balanced.holds
+            array[rows] = given.get(name, np.nan)
+            array[rows][again] = np.nan
+        return again
 
     def _watch(self, found: list[Array]) -> Rows:
         """Rows of a block to look at again."""
@@ -187,7 +212,7 @@ class Runner:
                 self._below(np.abs(divisor, scratch), SMALL * self.typical[n], bad)
             for margin in found[cuts[2] : cuts[3]]:
                 self._below(margin, CLOSE, bad)
-            for check in found[cuts[3] :]:
+            for check in found[cuts[3] : cuts[4]]:
                 self._below(np.negative(np.abs(check, scratch), scratch), -AGREED, bad)
             for n in self.loose:
                 if self.usual[n]:

@@ -58,6 +58,7 @@ class Statics(NamedTuple):
     answers: dict[str, Scalar]
     motions: motion.Motions
     refusal: SceneError | None
+    balance: power.Balance
 
     @property
     def delicate(self) -> bool:
@@ -158,9 +159,9 @@ def statics(scene: Scene, everything: bool) -> Statics:
     try:
         refusals.refuse_unbalanced(case, top, motions, balance, solution)
     except SceneError as error:
-        return Statics({}, motions, error)
+        return Statics({}, motions, error, balance)
     answers = {w.load.name: w.ratio * solution.values[w.root] for w in wrenches if w.root in solution.values}
-    return Statics(answers, motions, None)
+    return Statics(answers, motions, None, balance)
 
 
 def motions_of(scene: Scene, wanted: Collection[int] | None = None) -> motion.Motions:

@@ -100,7 +100,10 @@ def _rubs(case: Case) -> bool:
 
 
 def _rubbing(start: Start, columns: Columns, wanted: Wanted, progress: Progress | None) -> Sweep:
-    """A sweep with friction: positions at once, each row then a scene of its own."""
+    """A sweep with friction: all rows at once; where that can't be, or bounds are asked for, positions at
+    once and each row then a scene of its own."""
+    if start.sheet().rubbing is not None and not wanted.error:
+        return _together(start, columns, wanted, progress)
     placed = start._replace(asked=Asked(answers=False, points=tuple(shown_points(start.case))))
     work = Work(placed, columns, False)
     work.run()

@@ -62,7 +62,17 @@ class Work:
                 self._settle(part, found.doubtful)
             else:
                 self._run(part)
+        self._hold()
         self._silence()
+
+    def _hold(self) -> None:
+        """Rows with friction and no motion: the ranges over which they hold."""
+        for key in [key for key in self.values if key[0] == "holds"]:
+            found = self.values.pop(key)
+            held = (self.codes == 0) & ~np.isnan(found[:, 0])
+            own = self.table.holds.setdefault(key[1], np.full(found.shape, np.nan))
+            own[held] = found[held]
+            self.codes[held] = CODE["holds"]
 
     def _refused(self, refusal: SceneError) -> None:
         """Every row is refused for the same reason."""
