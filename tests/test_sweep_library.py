@@ -5,17 +5,14 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import icsolve
 from icsolve.sweep.numbers import numbers_of
+from library import FILES, sample
 
-CASES = Path(__file__).parent.parent / "cases"
-FILES = [path for path in sorted(CASES.rglob("*.yaml")) if not icsolve.load(str(path)).unknowns]
-"""All cases but those that ask for a dimension or a position: these are no rows of a sweep."""
 ALL = ("answers", "status", "error", "points", "centres", "rates")
 FEW = ("answers", "status", "error", "points")
 PLAIN = ("answers", "status", "points", "rates")
@@ -63,8 +60,11 @@ def left_open(sweep: icsolve.Sweep, name: str, row: int) -> bool:
     return rates is None or isinstance(rates[link], str)
 
 
-@pytest.mark.parametrize("path", FILES, ids=[str(path.relative_to(CASES).with_suffix("")) for path in FILES])
-def test_every_row_has_its_numbers_or_its_status(path: Path) -> None:
-    for sweep in sweeps(icsolve.load(str(path))):
+@pytest.mark.parametrize("name", sample(FILES, 3, "rows"))
+def test_every_row_has_its_numbers_or_its_status(name: str) -> None:
+    case = icsolve.load(FILES[name])
+    if case.unknowns:
+        return  # a case that asks for a dimension or a position is no row of a sweep
+    for sweep in sweeps(case):
         assert holes(sweep) == [], (list(sweep.vary), sweep.status.tolist())
         assert len(sweep) == len(sweep.status)
