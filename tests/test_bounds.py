@@ -21,8 +21,8 @@ import transcribe
 from figures import from_lengths, without_order
 from icsolve.errors import SceneError
 from icsolve.report.text import answer_text
-from icsolve.solve.bounds import Scene, unknown_values
-from icsolve.solve.program import Want, evaluate, prepare
+from icsolve.scene.bounds import Scene, unknown_values
+from icsolve.scene.program import Want, evaluate, prepare
 from more_digits import SixtyDigits
 
 Measure = Callable[[mechanisms.Scene, Random], mechanisms.Scene | None]

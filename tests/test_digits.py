@@ -25,8 +25,9 @@ from figures import from_lengths, without_order
 from icsolve.answer import Answer
 from icsolve.errors import SceneError
 from icsolve.kinematics import speeds
+from icsolve.scene.program import Program, Want, evaluate, prepare
 from icsolve.screws.plane import subtract
-from icsolve.solve.program import Outcome, Program, Want, evaluate, prepare
+from icsolve.statics.power import Outcome
 from more_digits import SixtyDigits
 
 FULL = os.environ.get("ICSOLVE_FULL") == "1"

@@ -21,8 +21,8 @@ import transcribe
 from growth import random_mechanism
 from icsolve.answer.bodies import Witness
 from icsolve.report.text import answer_text
-from icsolve.solve.program import Want, evaluate, prepare
-from icsolve.solve.sensitivity import influences
+from icsolve.scene.program import Want, evaluate, prepare
+from icsolve.scene.sensitivity import influences
 from icsolve.statics import error_bound
 from icsolve.statics.equilibrium import refuse_apart
 from icsolve.statics.error_bound import Exact, Sliding, Weights, step

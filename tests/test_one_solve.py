@@ -20,7 +20,7 @@ from icsolve.case import Case
 from icsolve.draw import Drawing, draw
 from icsolve.explain import explain
 from icsolve.page import page_html
-from icsolve.solve.program import evaluate
+from icsolve.scene.program import evaluate
 from icsolve.structure.topology import topology
 
 CASES = Path(__file__).parent.parent / "cases"

@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 
 from cams import HEAD, sliding, swinging, table
-from icsolve.cams.sweeping import SAID
 from icsolve.case import Case, Motion
 from icsolve.errors import SceneError, Status
 from icsolve.read import load
 from icsolve.solve import solve
 from icsolve.sweep import sweep
+from icsolve.sweep.cam_sweep import SAID
 from icsolve.sweep.numbers import with_numbers
 
 E, R, ROLLER = 20.0, 40.0, 10.0
@@ -210,9 +210,7 @@ def test_numbers_of_a_profile_and_loads_are_varied_with_the_motion() -> None:
 def test_family_of_cams_without_motion() -> None:
     radii = np.array([25.0, 30.0, 60.0])
     found = sweep(CAMS["flat on a circle"], {"profile.2.radius": radii}, ("points", "answers"))
-    np.testing.assert_allclose(
-        found.points["B"][:, 1], radii + E * math.sin(math.radians(40.0)), atol=1e-11
-    )
+    np.testing.assert_allclose(found.points["B"][:, 1], radii + E * math.sin(math.radians(40.0)), atol=1e-11)
 
 
 def test_rows_in_which_the_follower_never_meets_the_cam_have_their_status() -> None:

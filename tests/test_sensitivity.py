@@ -7,8 +7,8 @@ from mpmath import mpf
 
 import icsolve
 from icsolve.case import Number
-from icsolve.solve.program import Want, evaluate, prepare
-from icsolve.solve.sensitivity import band, entries, influences, text
+from icsolve.scene.program import Want, evaluate, prepare
+from icsolve.scene.sensitivity import band, entries, influences, text
 from more_digits import SixtyDigits
 
 PRESS = """

@@ -17,7 +17,7 @@ import reference
 import witness
 from icsolve.cams.solving import placed
 from icsolve.case import Case, KnownCentre
-from icsolve.solve.program import Want, evaluate, prepare
+from icsolve.scene.program import Want, evaluate, prepare
 
 FILES = sorted((Path(__file__).parent.parent / "cases").rglob("*.yaml"))
 AGREE = 1e-9

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from icsolve.answer.contacts import Touching
     from icsolve.answer.equilibrium import Position, Stiffness
     from icsolve.answer.space import Spatial
-    from icsolve.solve.parts import Parts
+    from icsolve.scene.parts import Parts
 
 
 class Found(NamedTuple):

@@ -14,9 +14,10 @@ from icsolve.bench.rivals import Drawn, Failed, Method, OtherData, drawn
 from icsolve.case import Case, Contact, Coordinates, Force, KnownCentre, Number
 from icsolve.errors import SceneError
 from icsolve.read import load
-from icsolve.solve import refusals, solve
-from icsolve.solve.bounds import evaluate_bounded
-from icsolve.solve.program import Program, Want, evaluate, prepare
+from icsolve.scene import refusals
+from icsolve.scene.bounds import evaluate_bounded
+from icsolve.scene.program import Program, Want, evaluate, prepare
+from icsolve.solve import solve
 from icsolve.units import ExactRatio
 
 DIGITS = 60

@@ -14,10 +14,10 @@ from icsolve.assembly import Frame
 from icsolve.case import Case, Coordinates
 from icsolve.kinematics.loops import Bases
 from icsolve.numbers.arithmetic import FLOATS
+from icsolve.scene.program import Program, Want, prepare
 from icsolve.screws.joints import freedoms, transmitted
 from icsolve.screws.plane import Point, Triple, cross, pairing, times
 from icsolve.solve import solve
-from icsolve.solve.program import Program, Want, prepare
 from icsolve.statics import power
 from icsolve.structure.topology import Topology
 

@@ -1,34 +1,30 @@
-"""Solve a case with profiles: its contacts are found, and then it is a case like any other.
-
-The pressure angles of a cam for `solve --report`: now, and over a turn.
-"""
+"""Solve a case with profiles: its contacts are found, and then it is a case like any other."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any
 
 from icsolve.answer import Answer, Deferred
 from icsolve.answer.bodies import Reactions, names_of
 from icsolve.answer.contacts import Touching
 from icsolve.cams.contact_search import found
 from icsolve.cams.words import contact_said, lost_said
-from icsolve.case import Case, Contact, Pin
+from icsolve.case import Case, Contact
 from icsolve.errors import SceneError, Status
 from icsolve.statics.power import is_unknown
-from icsolve.wording.sentences import listed
 
 WHY = "its contacts are found on profiles, of which no bound is proven"
 
 
-def solve_touching(case: Case, **options: Any) -> Answer:
-    """The answer of a case with profiles; ``options`` are those of `icsolve.solve`.
+def solve_touching(case: Case, solve: Callable[..., Answer], **options: Any) -> Answer:
+    """The answer of a case with profiles: ``solve``, with these options, finds that of given contacts.
 
     Raises SceneError as `icsolve.solve`, and where no contact can be found.
     """
     known = found(case)
-    answer, reactions = _solved(known.case, {**options, "bound": False})
+    answer, reactions = _solved(known.case, solve, {**options, "bound": False})
     touching = tuple(pressed(one, known.case, reactions) for one in known.touching)
     return replace(
         answer,
@@ -55,10 +51,10 @@ def placed(case: Case) -> Case:
         return case
 
 
-def _solved(case: Case, options: Mapping[str, Any]) -> tuple[Answer, Reactions | None]:
+def _solved(
+    case: Case, solve: Callable[..., Answer], options: Mapping[str, Any]
+) -> tuple[Answer, Reactions | None]:
     """The answer, and the reactions, which tell whether a contact pulls, where there is a load to find."""
-    from icsolve.solve import solve
-
     if options.get("reactions") or not any(map(is_unknown, case.loads)):
         answer = solve(case, **options)
         return answer, answer.reactions
@@ -112,72 +108,3 @@ def _no_sensitivities() -> dict[str, dict[str, float]]:
         "sensitivities and tolerance bands are not worked out where contacts come from profiles: give the "
         "contact its `at` and `normal`.",
     )
-
-
-STEP = 2.0
-"""Degrees between the positions of a turn that are looked at."""
-
-
-class Pressure(NamedTuple):
-    """The pressure angle of a contact, degrees: now, and its least and greatest over a turn of ``cam``.
-
-    ``over`` is None where the cam does not turn fully with its follower on it.
-    """
-
-    links: tuple[str, str]
-    on: str
-    now: float | None
-    cam: str
-    over: tuple[float, float] | None = None
-
-    def text(self, digits: int) -> str:
-        """A line for people."""
-        if self.now is None:
-            return f"  contact of links {listed(self.links)}: its follower has no guide on the frame"
-        said = f"  contact of links {listed(self.links)}: pressure angle {self.now + 0.0:.{digits}g} deg"
-        if self.over is None:
-            return said
-        least, greatest = self.over
-        return f"{said}, from {least:.4g} to {greatest:.4g} over a turn of link {self.cam} by {STEP:g} deg"
-
-
-def pressures(answer: Answer) -> tuple[Pressure, ...]:
-    """The pressure angles of an answer, in the order of the contacts."""
-    case, found = answer.case, []
-    for one in answer.touching:
-        cam = _cam(case, one.links)
-        over = _over_a_turn(case, cam) if one.pressure_angle is not None else {}
-        found.append(Pressure(one.links, one.on, one.pressure_angle, cam, over.get(one.links)))
-    return tuple(found)
-
-
-def _cam(case: Case, links: tuple[str, str]) -> str:
-    """The link of a contact that has the profile."""
-    from icsolve.case.profiles import Flat, Knife, Roller
-
-    assert case.profiles is not None
-    a, b = links
-    return b if isinstance(case.profiles.shapes[a], Flat | Roller | Knife) else a
-
-
-def _over_a_turn(case: Case, cam: str) -> Mapping[tuple[str, str], tuple[float, float]]:
-    """Least and greatest pressure angle of every contact that the whole turn of a cam keeps."""
-    if not any(isinstance(j, Pin) and {cam, case.ground} <= {*j.links} for j in case.joints):
-        return {}
-    import numpy as np
-
-    from icsolve.cams.cam_motion import CamMotion, Rows
-    from icsolve.sweep.ask import Columns
-
-    try:
-        rows = Rows(CamMotion(case), Columns({}, {cam: np.arange(0.0, 360.0, STEP)}, {cam: cam}))
-        if rows.codes.any():
-            return {}
-        seen: dict[tuple[str, str], list[float]] = {}
-        for row in range(rows.columns.rows):
-            for one in rows.touching(row):
-                if one.pressure_angle is not None:
-                    seen.setdefault(one.links, []).append(one.pressure_angle)
-    except SceneError:
-        return {}
-    return {links: (min(angles), max(angles)) for links, angles in seen.items()}

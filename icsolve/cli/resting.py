@@ -50,7 +50,7 @@ def equilibrium_text(case: Case, word: str, along: str, values: Values, as_json:
 
 def _rest(case: Case, along: str, low: float, high: float) -> list[dict[str, Any]]:
     from icsolve.answer.equilibrium import stiffness_dict
-    from icsolve.equilibrium.positions import find_along
+    from icsolve.solve.positions import find_along
 
     return [
         {
@@ -65,7 +65,7 @@ def _rest(case: Case, along: str, low: float, high: float) -> list[dict[str, Any
 
 
 def _neutral(case: Case, along: str, low: float, high: float) -> list[dict[str, Any]]:
-    from icsolve.equilibrium.stability import neutral_values
+    from icsolve.solve.stability import neutral_values
     from icsolve.sweep.ask import AskError
 
     if not along.startswith("loads."):
@@ -74,7 +74,7 @@ def _neutral(case: Case, along: str, low: float, high: float) -> list[dict[str, 
 
 
 def _hold(case: Case, along: str, low: float, high: float) -> list[dict[str, Any]]:
-    from icsolve.equilibrium.stability import holding_values
+    from icsolve.solve.stability import holding_values
 
     return _turnings("hold", along, holding_values(case, along, low, high))
 

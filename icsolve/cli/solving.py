@@ -100,7 +100,7 @@ def _solve(case: Case, options: Options) -> Answer:
     answer = solve(case, **asked, dynamic=options.dynamic)
     if options.stability is None:
         return answer
-    from icsolve.equilibrium.stability import with_stability
+    from icsolve.solve.stability import with_stability
 
     return with_stability(case, answer, options.stability)
 
@@ -120,7 +120,7 @@ def _as_json(options: Options) -> Work:
         if options.report:
             entry["report"] = _report(case).to_dict()
         if options.sensitivity or options.tolerance:
-            from icsolve.solve.sensitivity import entries
+            from icsolve.scene.sensitivity import entries
 
             entry |= entries(answer, options.sensitivity, options.tolerance)
         print_json(entry)
@@ -146,7 +146,7 @@ def _as_text(options: Options, several: bool) -> Work:
         if options.report:
             sections.append(_report(case).text(options.digits))
         if options.sensitivity or options.tolerance:
-            from icsolve.solve.sensitivity import text
+            from icsolve.scene.sensitivity import text
 
             sections.append(text(answer, options.sensitivity, options.tolerance, options.digits))
         above = ("\n" if shown else "") + (f"=== {path}\n" if several else "")

@@ -14,9 +14,9 @@ from icsolve.case.figure import Unknown
 from icsolve.case.names import ordered_pair
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS
+from icsolve.scene.parts import Parts
 from icsolve.screws.plane import Point, Triple
 from icsolve.solve import attempt
-from icsolve.solve.parts import Parts
 from icsolve.statics.power import Wrench, known_value, place_of, points_of, wrenches
 from icsolve.wording.senses import unit_of
 
@@ -91,7 +91,7 @@ def known_of(case: Case, *, reactions: bool = False) -> Known:
 def _at_rest(case: Case, answer: Answer | None, refusal: SceneError | None) -> Known:
     """A case that asks for a position, in the first one that is stable (else the first; where there is none,
     in the middle of what was searched)."""
-    from icsolve.equilibrium.load_function import given_at
+    from icsolve.solve.load_function import given_at
 
     positions = [] if answer is None else list(answer.positions or ())
     positions.sort(key=lambda one: one.stability != "stable")

@@ -18,9 +18,9 @@ from icsolve.answer import Centre
 from icsolve.case import Case, Pair
 from icsolve.case.names import link_order
 from icsolve.derivation.known import Known
+from icsolve.scene.parts import wanted_pairs
+from icsolve.scene.program import Want
 from icsolve.screws.plane import Triple
-from icsolve.solve.parts import wanted_pairs
-from icsolve.solve.program import Want
 from icsolve.statics.power import is_unknown, reacting
 
 

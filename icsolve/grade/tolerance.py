@@ -27,7 +27,7 @@ from icsolve.errors import IcsolveError
 from icsolve.grade.mistakes.engine import solved_for
 from icsolve.grade.written import factors_between
 from icsolve.grade.written.units import unit_word
-from icsolve.solve.sensitivity import band
+from icsolve.scene.sensitivity import band
 from icsolve.units import DIMENSIONS, Unit, parse_unit, split_quantity
 
 SLACK = 1e-9

@@ -23,6 +23,9 @@ TURN_NOISE = 3.0 * UNIT
 CANCELLED = 1e-6
 """A divisor or radicand this much smaller than its terms is looked at before it is trusted."""
 
+SMALL = 1e-3
+"""A first-order bound is trusted below this fraction of its value."""
+
 LARGE = 1e-3
 """A sum above this fraction of its terms is not zero by rounding alone."""
 

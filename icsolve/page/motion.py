@@ -32,8 +32,8 @@ from icsolve.derivation import Known, loaded_links
 from icsolve.draw.plot import asymptotes, dead_centres
 from icsolve.draw.words import figure_number, unit_word
 from icsolve.errors import SceneError, Status
+from icsolve.scene.refusals import rubs
 from icsolve.screws.plane import Point
-from icsolve.solve.refusals import rubs
 from icsolve.statics.power import is_unknown
 from icsolve.sweep import Sweep, sweep
 

@@ -21,7 +21,7 @@ from icsolve.structure.grashof import (
 )
 
 if TYPE_CHECKING:
-    from icsolve.cams.solving import Pressure
+    from icsolve.sweep.cam_sweep import Pressure
 
 Place = tuple[float, float]
 
@@ -93,7 +93,7 @@ def _contacts(answer: Answer) -> tuple[Pressure, ...]:
     """The pressure angles of contacts that profiles gave."""
     if not answer.touching:
         return ()
-    from icsolve.cams.solving import pressures
+    from icsolve.sweep.cam_sweep import pressures
 
     return pressures(answer)
 

@@ -22,13 +22,13 @@ from icsolve.case import ForceVector, Gears, Number
 from icsolve.kinematics.speeds import Speed
 from icsolve.numbers.arithmetic import Arithmetic, Scalar
 from icsolve.numbers.sparse import Row, eliminate
+from icsolve.numbers.tape import SMALL
 from icsolve.screws.plane import Point
-from icsolve.solve.bounds import SMALL, Bounded
 from icsolve.statics import reaction_basis
 from icsolve.statics.equilibrium import Rub, Statics, equations_of
 from icsolve.statics.free_bodies import Solved, carrying_flanks
 from icsolve.statics.friction_interface import rates_of, rubs_of
-from icsolve.statics.power import Balance, Wrench, vector_size
+from icsolve.statics.power import Balance, Bounded, Wrench, vector_size
 from icsolve.statics.reaction_basis import Force, Position, RopeTie, Tie, rope_ties, ties_of
 
 UNBOUND = "no bound was asked for"

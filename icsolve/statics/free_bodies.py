@@ -12,14 +12,12 @@ from typing import NamedTuple
 
 from icsolve.answer import Answer
 from icsolve.answer.bodies import Friction, Reactions, Tension, Witness
-from icsolve.assembly import Frame, case_point
+from icsolve.assembly import Frame
 from icsolve.case import ForceVector, Number
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
-from icsolve.numbers.arithmetic import FLOATS
 from icsolve.numbers.sparse import Row
-from icsolve.screws.plane import Triple, velocity
-from icsolve.solve.program import Program
+from icsolve.screws.plane import velocity
 from icsolve.statics import reaction_basis
 from icsolve.statics.equilibrium import (
     Statics,
@@ -32,8 +30,8 @@ from icsolve.statics.equilibrium import (
     witnesses,
 )
 from icsolve.statics.friction_interface import efficiency, friction_terms, has_friction
-from icsolve.statics.power import Balance, Wrench, is_unknown, known_value, wrenches
-from icsolve.statics.reaction_basis import Position, Tie, rope_ties, ties_of
+from icsolve.statics.power import Balance, Wrench, is_unknown, known_value
+from icsolve.statics.reaction_basis import Position, Tie, ties_of
 from icsolve.statics.reactions import is_unique, names_by_tie, notes_of, reactions_of, tensions_of
 from icsolve.wording.sentences import listed, plural
 
@@ -63,28 +61,6 @@ class FreeBodies(NamedTuple):
             friction=friction,
             notes=(*answer.notes, *self.notes),
         )
-
-
-def structure(program: Program, refusal: SceneError) -> Answer:
-    """A structure by statics alone: its reactions.
-
-    Raises the refusal of power where there is an unknown load: nothing would determine it.
-    """
-    case, top, figure = program.case, program.top, program.figure
-    if any(is_unknown(load) for load in case.loads):
-        said = str(refusal).partition(" Take out")[0]
-        remedy = "Any value of the unknown load is carried: give it a number, or take out a joint or a link."
-        raise SceneError(refusal.status, f"{said} {remedy}")
-    still: dict[str, tuple[Triple, ...]] = dict.fromkeys((*case.links, case.ground), ())
-    scale = figure.frame.scale
-    place = Position(case, top, figure.points, scale, still, 0.0, rope_ties(case, figure.points, scale))
-    balance = Balance(wrenches(case, figure.frame, figure.points, FLOATS), (), ())
-    points = {n: case_point(figure.frame, p) for n, p in figure.points.items() if not n.startswith("@")}
-    said = "the links form a structure: nothing moves, and statics alone gives the reactions."
-    if has_friction(case):
-        said += " Friction is left out: a structure needs none."
-    answer = Answer(case, points=points, mobility=0, notes=(*figure.notes, said), skipped=figure.skipped)
-    return free_bodies(place, figure.frame, balance, {}).added_to(answer)
 
 
 def free_bodies(

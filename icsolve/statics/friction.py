@@ -17,7 +17,6 @@ from icsolve.case import Belt, Gears, Rope
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import STILL, Speed
 from icsolve.screws.ropes import slip_rates, tension_ratios
-from icsolve.solve.bounds import Bounded, Value
 from icsolve.statics import reaction_basis
 from icsolve.statics.equilibrium import (
     Statics,
@@ -39,7 +38,7 @@ from icsolve.statics.free_bodies import (
 )
 from icsolve.statics.friction_equations import forces_of
 from icsolve.statics.friction_interface import kind_of_rub, rates_of, rubs_of, unknowns_by_power
-from icsolve.statics.power import Balance, Solution, is_unknown
+from icsolve.statics.power import Balance, Bounded, Solution, Value, is_unknown
 from icsolve.statics.reaction_basis import Position, Tie, ties_of
 from icsolve.statics.reactions import names_by_tie, notes_of, reactions_of, tensions_of
 from icsolve.statics.sliding import Slid, slid
@@ -337,9 +336,7 @@ def _held(scene: Scene, name: str, found: StaticRange, shown: Found) -> Found:
     """The range of a load that is the unknown, or a multiple of it; ``shown`` has its bound."""
     ratio = next(float(w.ratio) for w in scene.balance.wrenches if w.load.name == name)
     ends = sorted((ratio * found.least, ratio * found.most))
-    return shown._replace(
-        value=math.nan, sense="", holds=(ends[0], ends[1]), self_locking=found.self_locking
-    )
+    return shown._replace(value=math.nan, sense="", holds=(ends[0], ends[1]), self_locking=found.self_locking)
 
 
 class Scene(NamedTuple):

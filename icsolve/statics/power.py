@@ -29,8 +29,10 @@ from icsolve.case import (
     Weight,
 )
 from icsolve.errors import SceneError, Status
+from icsolve.kinematics.motion import Motions
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider, magnitude
 from icsolve.numbers.null_space import null_space
+from icsolve.numbers.tape import Tape
 from icsolve.screws.plane import Point, Triple, force_wrench, pairing
 from icsolve.screws.ropes import rope_parts
 
@@ -452,3 +454,31 @@ def known_power(b: Balance, m: int, arithmetic: Arithmetic) -> Scalar:
         if not is_unknown(w.source):
             total = total + _share(w, (), {}, scale, arithmetic)[1] * factor
     return total
+
+
+class Outcome(NamedTuple):
+    """A scene in one arithmetic: places (normalised), motions, the sum of power and what it gives."""
+
+    points: Points
+    motions: Motions
+    balance: Balance
+    solution: Solution
+
+
+class Value(NamedTuple):
+    """An unknown load and the bound on its error; None with the reason where none is proven."""
+
+    value: float
+    error: float | None
+    why: str = ""
+
+
+class Bounded(NamedTuple):
+    """A scene evaluated on a tape: its values carry their derivatives, and bounds of first order."""
+
+    outcome: Outcome
+    tape: Tape
+
+    def of(self, value: Scalar) -> float:
+        """Bound on the absolute error of a value on the tape."""
+        return self.tape.bound(value)

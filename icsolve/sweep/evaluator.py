@@ -24,8 +24,8 @@ from icsolve.numbers.arithmetic import turn_of
 from icsolve.numbers.record import Op, varies
 from icsolve.numbers.replay import BLOCK, Array, Code
 from icsolve.numbers.source import PYTHON, straight_line
-from icsolve.solve import solve
-from icsolve.solve.refusals import rubs
+from icsolve.scene import solve_scene
+from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.ask import AskError, Wanted, wanted_of
 from icsolve.sweep.drivers import Drive
@@ -168,7 +168,9 @@ class Evaluator:
             case = self.compiled.on_its_branch(case, given, row)
         rates = any(kind in ("rates", "centres") for kind, _ in out.arrays)
         try:
-            answer = solve(case, rates=rates, all_centres=any(kind == "centres" for kind, _ in out.arrays))
+            answer = solve_scene(
+                case, rates=rates, all_centres=any(kind == "centres" for kind, _ in out.arrays)
+            )
         except SceneError as refusal:
             out.status[row] = refusal.status
             return

@@ -24,8 +24,8 @@ from icsolve.numbers.jets import Ball, Cells, Jet
 from icsolve.numbers.record import Op, Record, Traced
 from icsolve.numbers.replay import Array
 from icsolve.numbers.tape import UNIT
-from icsolve.solve import solve
-from icsolve.solve.refusals import rubs
+from icsolve.scene import solve_scene
+from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.ask import AskError, columns_of
 from icsolve.sweep.exact import CONTEXT, STEP, Unreached, as_written
@@ -220,7 +220,7 @@ class _Search:
             numbers = {**self.paths, self.name: s} if self.name in self.paths else self.paths
             try:
                 scene = self.along.scenes.case(self.along.at(self.name, s), numbers)
-                answer = float(solve(scene).answers[load].value)
+                answer = float(solve_scene(scene).answers[load].value)
             except (SceneError, Unreached):
                 pass
         return Spot(at, kind, answer, abs(at) * UNIT if error is None else error)

@@ -14,7 +14,7 @@ from icsolve.answer import Answer
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
-from icsolve.solve import solve
+from icsolve.scene import solve_scene
 from icsolve.sweep.ask import AskError, Columns, Wanted, shown_points
 from icsolve.sweep.program import Asked
 from icsolve.sweep.runner import Progress
@@ -61,7 +61,7 @@ def sweep_moving(
     options = {"rates": True, "all_centres": bool(wanted.asked.centres), "examine": bool(wanted.asked.points)}
     for row in np.flatnonzero(table.codes == 0).tolist():
         try:
-            answer = solve(work.case_of(row), **options, dynamic=dynamic)
+            answer = solve_scene(work.case_of(row), **options, dynamic=dynamic)
             table.fill(row, answer)
             seen.take(row, answer)
         except SceneError as error:

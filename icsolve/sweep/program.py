@@ -19,8 +19,8 @@ from icsolve.case import Case, Pair
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record, varies
+from icsolve.scene import refusals
 from icsolve.screws.plane import Point
-from icsolve.solve import refusals
 from icsolve.statics.power import points_of
 from icsolve.structure.topology import Topology, topology
 from icsolve.sweep.drivers import Drive, condition, drive_of, pose_of, turning, turns_a_wheel

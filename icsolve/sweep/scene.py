@@ -32,9 +32,9 @@ from icsolve.errors import SceneError
 from icsolve.kinematics import motion, speeds
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record
+from icsolve.scene import refusals
 from icsolve.screws.joints import freedoms, pitch_point
 from icsolve.screws.plane import Point, Triple, subtract
-from icsolve.solve import refusals
 from icsolve.statics import power
 from icsolve.structure.plan import make_plan
 from icsolve.structure.topology import Topology, topology

@@ -15,7 +15,7 @@ from icsolve.assembly import case_point, placed_figure
 from icsolve.case import Case
 from icsolve.errors import SceneError
 from icsolve.numbers.replay import Array
-from icsolve.solve import solve
+from icsolve.scene import solve_scene
 from icsolve.sweep.ask import Columns
 from icsolve.sweep.forked import can_fork, started
 from icsolve.sweep.numbers import numbers_of, with_numbers
@@ -57,9 +57,9 @@ def _one(table: Table, row: int, case_of: Callable[[int], Case], missing: bool) 
     try:
         case = case_of(row)
         if missing:
-            answer = solve(case, rates=table.lacks_rates(row))
+            answer = solve_scene(case, rates=table.lacks_rates(row))
         else:
-            answer = solve(
+            answer = solve_scene(
                 case, rates=asked.rates, all_centres=bool(asked.centres), examine=bool(asked.points)
             )
         table.fill(row, answer, missing)

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
-from icsolve.solve.refusals import rubs
+from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.ask import Columns, Wanted, columns_of, refuse_size, shown_points, wanted_of
 from icsolve.sweep.inertia import refuse_profiles, refuse_still, sweep_moving
@@ -71,7 +71,7 @@ def sweep(
     refuse_size(columns, wanted.asked, wanted.error)
     if case.profiles is not None and case.profiles.touches:
         refuse_profiles(dynamic or case.dynamic)
-        from icsolve.cams.sweeping import sweep_touching
+        from icsolve.sweep.cam_sweep import sweep_touching
 
         return sweep_touching(case, columns, wanted, progress)
     dynamic = dynamic or case.dynamic

@@ -26,7 +26,7 @@ from icsolve.read.document import Node, Scalar, parse
 from icsolve.read.document import Sequence as Items
 from icsolve.read.names import Problems
 from icsolve.read.variables import count, first_values, names_in, replaced, value_at
-from icsolve.solve.sensitivity import band
+from icsolve.scene.sensitivity import band
 from icsolve.units import converted, parse_unit, split_quantity
 from icsolve.wording.senses import unit_of
 

@@ -26,8 +26,8 @@ from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record, varies
 from icsolve.numbers.replay import Array
+from icsolve.scene import refusals
 from icsolve.screws.plane import velocity
-from icsolve.solve import refusals
 from icsolve.statics import power
 from icsolve.structure.topology import Topology, topology
 from icsolve.sweep.drivers import Drive

@@ -9,12 +9,12 @@ from icsolve.answer import Answer
 from icsolve.answer.equilibrium import Position
 from icsolve.assembly import solve_figure
 from icsolve.case import Case, Coordinates, Unknown
-from icsolve.equilibrium.load_function import given_at
-from icsolve.equilibrium.positions import Search, find_positions, with_scene
-from icsolve.equilibrium.resting import Range, find_ranges
-from icsolve.equilibrium.two_data import find_pairs
 from icsolve.errors import SceneError, Status
-from icsolve.solve import solve
+from icsolve.scene import solve_scene
+from icsolve.solve.load_function import given_at
+from icsolve.solve.positions import Search, find_positions, with_scene
+from icsolve.solve.resting import Range, find_ranges
+from icsolve.solve.two_data import find_pairs
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.program import wanted_points
 
@@ -149,7 +149,7 @@ def _resting(case: Case, unknown: Unknown, all_centres: bool, rates: bool, react
         raise no_value(unknown.path, search.nearest, search.notes)
 
     def scene_of(one: Range) -> Answer:
-        scene = solve(one.case, all_centres=all_centres, rates=rates, reactions=reactions)
+        scene = solve_scene(one.case, all_centres=all_centres, rates=rates, reactions=reactions)
         return replace(
             scene,
             centres=scene.centres if all_centres else {},

@@ -13,9 +13,9 @@ from icsolve.case import Case, Gears
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics import motion, speeds
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic
-from icsolve.screws.joints import Points
-from icsolve.solve import refusals
+from icsolve.scene import refusals
 from icsolve.statics import power
+from icsolve.statics.power import Outcome
 from icsolve.structure.plan import Plan, make_plan
 from icsolve.structure.topology import Topology, topology
 
@@ -43,15 +43,6 @@ class Program(NamedTuple):
     top: Topology
     plan: Plan | None
     figure: Figure
-
-
-class Outcome(NamedTuple):
-    """A program's values in one arithmetic: places (normalised), motions, the sum of power."""
-
-    points: Points
-    motions: motion.Motions
-    balance: power.Balance
-    solution: power.Solution
 
 
 @lru_cache(maxsize=32)

@@ -18,22 +18,13 @@ from icsolve.kinematics.centres import CentreFinder
 from icsolve.kinematics.motion import Motions
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.balls import PRECISIONS, BelowZero, MoreDigits, Moved
+from icsolve.scene.bounds import Evaluation, Scene, evaluate_bounded, floats, plain, slopes, unknown_values
+from icsolve.scene.program import Program, Want, evaluate
+from icsolve.scene.sensitivity import numbers_of, unsettled
+from icsolve.scene.terms import advantage, power_terms
 from icsolve.screws.plane import Triple
-from icsolve.solve.bounds import (
-    Bounded,
-    Evaluation,
-    Scene,
-    Value,
-    evaluate_bounded,
-    floats,
-    plain,
-    slopes,
-    unknown_values,
-)
-from icsolve.solve.program import Outcome, Program, Want, evaluate
-from icsolve.solve.sensitivity import numbers_of, unsettled
-from icsolve.solve.terms import advantage, power_terms
 from icsolve.statics import power
+from icsolve.statics.power import Bounded, Outcome, Value
 from icsolve.wording import sentences
 from icsolve.wording.senses import sense_of, unit_of
 

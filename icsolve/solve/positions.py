@@ -29,19 +29,18 @@ from icsolve.case import (
     Torque,
     TorsionSpring,
 )
-from icsolve.equilibrium.branches import Branches
-from icsolve.equilibrium.load_function import (
+from icsolve.errors import SceneError, Status
+from icsolve.numbers.intervals import Interval, enclose
+from icsolve.numbers.replay import Code
+from icsolve.scene import solve_scene
+from icsolve.solve.branches import Branches, isolate
+from icsolve.solve.load_function import (
     LoadFunction,
     given_at,
     load_functions,
     moving_functions,
     written_function,
 )
-from icsolve.equilibrium.search import isolate
-from icsolve.errors import SceneError, Status
-from icsolve.numbers.intervals import Interval, enclose
-from icsolve.numbers.replay import Code
-from icsolve.solve import solve
 from icsolve.sweep.exact import RowScenes
 from icsolve.sweep.numbers import find_number
 
@@ -249,7 +248,7 @@ def with_scene(rest: Rest, *, all_centres: bool, rates: bool, reactions: bool) -
         return replace(rest.answer, rates=None, velocities=None, centres={})
     case = scene_at(rest.function, rest.value)
     found = _with_reactions(rest, case, all_centres, rates) if reactions else None
-    found = found or solve(case, all_centres=all_centres, rates=rates)
+    found = found or solve_scene(case, all_centres=all_centres, rates=rates)
     return replace(found, case=rest.answer.case, answers={}, centres=found.centres if all_centres else {})
 
 
@@ -259,7 +258,7 @@ def _with_reactions(rest: Rest, case: Case, all_centres: bool, rates: bool) -> A
     for _, probe in probes(rest.function):
         loaded = replace(case, loads=(*case.loads, probe))
         try:
-            return solve(loaded, all_centres=all_centres, rates=rates, reactions=True)
+            return solve_scene(loaded, all_centres=all_centres, rates=rates, reactions=True)
         except SceneError as error:
             refusal = error
     if refusal is not None:
@@ -409,7 +408,7 @@ def _probe(function: LoadFunction, value: float, on: str = "") -> tuple[float, s
     refusal: SceneError | None = None
     for link, probe in probes(function, on):
         try:
-            found = solve(replace(case, loads=(*case.loads, probe)))
+            found = solve_scene(replace(case, loads=(*case.loads, probe)))
         except SceneError as error:
             refusal = error
             continue
@@ -451,7 +450,7 @@ def described(function: LoadFunction, value: float, error: float) -> Rest:
         stability = "stable" if low > 0.0 else "unstable" if high < 0.0 else "neutral"
     else:
         why = AT_LIMIT
-    answer = solve(scene_at(function, value), rates=True)
+    answer = solve_scene(scene_at(function, value), rates=True)
     return Rest(value, error, stability, stiffness, why, answer, function)
 
 
@@ -566,7 +565,7 @@ def _between(one: LoadFunction, two: LoadFunction, limit: _Limit) -> list[Rest]:
     step = 1e-7 * max(1.0, abs(limit.value))
     here = limit.value - limit.side * step
     try:
-        a, b = solve(scene_at(one, here), rates=True), solve(scene_at(two, here), rates=True)
+        a, b = solve_scene(scene_at(one, here), rates=True), solve_scene(scene_at(two, here), rates=True)
         size = max((abs(c) for at in a.points.values() for c in at), default=1.0)
         if any(math.dist(at, b.points[name]) > 0.02 * size for name, at in a.points.items()):
             return []
@@ -582,14 +581,14 @@ def _between(one: LoadFunction, two: LoadFunction, limit: _Limit) -> list[Rest]:
     rises = (away - far) * way
     stability = "stable" if rises > 0.0 else "unstable" if rises < 0.0 else "neutral"
     error = 4.0 * math.ulp(limit.value)
-    scene = solve(scene_at(one, last), rates=True)
+    scene = solve_scene(scene_at(one, last), rates=True)
     return [Rest(limit.value, error, stability, None, AT_LIMIT, scene, one)]
 
 
 def _swing(one: LoadFunction, two: LoadFunction, link: str, value: float) -> float:
     """The sense in which a link turns from one mode to the other through the limit."""
     carried = [p for p in one.case.carries[link] if p in one.places]
-    first, second = solve(scene_at(one, value)).points, solve(scene_at(two, value)).points
+    first, second = solve_scene(scene_at(one, value)).points, solve_scene(scene_at(two, value)).points
     a, b = max(
         ((p, q) for p in carried for q in carried if p != q),
         key=lambda pair: math.dist(first[pair[0]], first[pair[1]]),

@@ -1,4 +1,7 @@
-"""Sweeps of cases with profiles: each row is posed by its course and solved as a scene of its own."""
+"""Sweeps of cases with profiles: each row is posed by its course and solved as a scene of its own.
+
+The pressure angles of a cam for `solve --report`: now, and over a turn.
+"""
 
 from __future__ import annotations
 
@@ -10,22 +13,24 @@ import numpy as np
 
 from icsolve.answer import Answer
 from icsolve.answer.contacts import Touching
-from icsolve.cams.cam_motion import CamMotion, Rows
 from icsolve.cams.contact_candidates import Turn
 from icsolve.cams.solving import pressed
 from icsolve.cams.words import follower_driven, lost_rows, widest_pressure
-from icsolve.case import Case
+from icsolve.case import Case, Pin
+from icsolve.case.profiles import Flat, Knife, Roller
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
+from icsolve.scene import solve_scene
 from icsolve.screws.plane import Point
-from icsolve.solve import solve
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.ask import Columns, Wanted
+from icsolve.sweep.cam_motion import CamMotion, Rows
 from icsolve.sweep.numbers import with_numbers
 from icsolve.sweep.program import Asked, setting_of
 from icsolve.sweep.runner import Progress
 from icsolve.sweep.runner import Rows as Which
 from icsolve.sweep.table import Sweep, Table
+from icsolve.wording.sentences import listed
 
 SAID = "each row is solved as a scene of its own, with its contacts found on the profiles."
 SHAPING = ("points", "lengths", "angles", "profile", "joints")
@@ -165,7 +170,7 @@ def _fill(table: Table, part: Part, n: int, row: int, columns: Columns, seen: _S
         return
     try:
         if part.run is None:
-            answer = solve(_written(part.case, columns, row), **_options(asked))
+            answer = solve_scene(_written(part.case, columns, row), **_options(asked))
             touching: Iterable[Touching] = answer.touching
         else:
             plain, found = part.run.plain(n)
@@ -187,7 +192,69 @@ def _solved(case: Case, asked: Asked) -> Answer:
     """A row's answer, with the reactions that tell whether a contact pulls."""
     if any(map(is_unknown, case.loads)):
         try:
-            return solve(case, **_options(asked), reactions=True)
+            return solve_scene(case, **_options(asked), reactions=True)
         except SceneError:
             pass
-    return solve(case, **_options(asked))
+    return solve_scene(case, **_options(asked))
+
+
+STEP = 2.0
+"""Degrees between the positions of a turn that are looked at."""
+
+
+class Pressure(NamedTuple):
+    """The pressure angle of a contact, degrees: now, and its least and greatest over a turn of ``cam``.
+
+    ``over`` is None where the cam does not turn fully with its follower on it.
+    """
+
+    links: tuple[str, str]
+    on: str
+    now: float | None
+    cam: str
+    over: tuple[float, float] | None = None
+
+    def text(self, digits: int) -> str:
+        """A line for people."""
+        if self.now is None:
+            return f"  contact of links {listed(self.links)}: its follower has no guide on the frame"
+        said = f"  contact of links {listed(self.links)}: pressure angle {self.now + 0.0:.{digits}g} deg"
+        if self.over is None:
+            return said
+        least, greatest = self.over
+        return f"{said}, from {least:.4g} to {greatest:.4g} over a turn of link {self.cam} by {STEP:g} deg"
+
+
+def pressures(answer: Answer) -> tuple[Pressure, ...]:
+    """The pressure angles of an answer, in the order of the contacts."""
+    case, found = answer.case, []
+    for one in answer.touching:
+        cam = _cam(case, one.links)
+        over = _over_a_turn(case, cam) if one.pressure_angle is not None else {}
+        found.append(Pressure(one.links, one.on, one.pressure_angle, cam, over.get(one.links)))
+    return tuple(found)
+
+
+def _cam(case: Case, links: tuple[str, str]) -> str:
+    """The link of a contact that has the profile."""
+    assert case.profiles is not None
+    a, b = links
+    return b if isinstance(case.profiles.shapes[a], Flat | Roller | Knife) else a
+
+
+def _over_a_turn(case: Case, cam: str) -> Mapping[tuple[str, str], tuple[float, float]]:
+    """Least and greatest pressure angle of every contact that the whole turn of a cam keeps."""
+    if not any(isinstance(j, Pin) and {cam, case.ground} <= {*j.links} for j in case.joints):
+        return {}
+    try:
+        rows = Rows(CamMotion(case), Columns({}, {cam: np.arange(0.0, 360.0, STEP)}, {cam: cam}))
+        if rows.codes.any():
+            return {}
+        seen: dict[tuple[str, str], list[float]] = {}
+        for row in range(rows.columns.rows):
+            for one in rows.touching(row):
+                if one.pressure_angle is not None:
+                    seen.setdefault(one.links, []).append(one.pressure_angle)
+    except SceneError:
+        return {}
+    return {links: (min(angles), max(angles)) for links, angles in seen.items()}

@@ -18,8 +18,8 @@ from icsolve.kinematics.accelerations import NO_SPEED, Moving, moving
 from icsolve.kinematics.speeds import OPEN, moving_points
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.given import Number
+from icsolve.scene.program import Program, Want, evaluate, prepare
 from icsolve.screws.plane import Point
-from icsolve.solve.program import Program, Want, evaluate, prepare
 from icsolve.statics.inertia import COUPLE, FORCE, _forces
 from icsolve.wording.sentences import listed
 

@@ -10,12 +10,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from icsolve.case import Case, Torque
-from icsolve.equilibrium.branches import Branches
-from icsolve.equilibrium.load_function import LoadFunction, load_functions
-from icsolve.equilibrium.positions import PROBE, scene_at, search_modes, whole_range
 from icsolve.errors import SceneError
 from icsolve.kinematics.speeds import joint_order
-from icsolve.solve import solve
+from icsolve.scene import solve_scene
+from icsolve.solve.branches import Branches
+from icsolve.solve.load_function import LoadFunction, load_functions
+from icsolve.solve.positions import PROBE, scene_at, search_modes, whole_range
 
 SAMPLES = 120
 
@@ -79,7 +79,7 @@ def holds_as_written(case: Case) -> bool:
     bare = replace(case, motion=(), expect=())
     for link in links:
         try:
-            found = solve(replace(bare, loads=(*bare.loads, Torque(PROBE, link, None)))).answers[PROBE]
+            found = solve_scene(replace(bare, loads=(*bare.loads, Torque(PROBE, link, None)))).answers[PROBE]
         except SceneError:
             continue
         low, high = found.holds or (found.value, found.value)

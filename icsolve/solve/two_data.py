@@ -17,15 +17,15 @@ from icsolve.answer.equilibrium import Position, Stiffness
 from icsolve.assembly import Figure, place
 from icsolve.assembly.workspace import frame_of
 from icsolve.case import Case
-from icsolve.equilibrium.load_function import given_at, modes_of, order_of_all
-from icsolve.equilibrium.positions import DEGREES, whole_range
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import varies
 from icsolve.numbers.replay import Array, Code
+from icsolve.scene import solve_scene
 from icsolve.screws.plane import velocity
-from icsolve.solve import solve
+from icsolve.solve.load_function import given_at, modes_of, order_of_all
+from icsolve.solve.positions import DEGREES, whole_range
 from icsolve.statics import power
 from icsolve.structure.topology import topology
 from icsolve.sweep.drivers import Drive
@@ -240,7 +240,7 @@ def _described(surface: Surface, paths: Sequence[str], values: tuple[float, floa
     error = 1e-11 * float(np.abs(np.array(matrix)).max())
     kind = "unstable" if eigenvalues[0] < -error else "stable" if eigenvalues[0] > error else "neutral"
     stiffness = Stiffness(matrix, names, error)
-    scene = solve(_scene(surface, paths, values), rates=False)
+    scene = solve_scene(_scene(surface, paths, values), rates=False)
     shown = replace(scene, centres={}, rates=None, velocities=None)
     at, errors = dict(zip(paths, values, strict=True)), dict(zip(paths, off, strict=True))
     return Position(at, errors, kind, stiffness, "", shown)

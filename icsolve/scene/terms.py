@@ -8,7 +8,7 @@ from icsolve.answer import Term
 from icsolve.case import Case, ForceVector, Number
 from icsolve.kinematics.speeds import Speed
 from icsolve.numbers.arithmetic import Arithmetic, Scalar
-from icsolve.solve.bounds import Evaluation
+from icsolve.scene.bounds import Evaluation
 from icsolve.statics.power import Wrench, known_value, vector_size
 from icsolve.wording.senses import unit_of
 from icsolve.wording.sentences import link_words

@@ -12,15 +12,14 @@ from functools import partial
 from typing import NamedTuple, TypeVar
 
 from icsolve.errors import SceneError
-from icsolve.numbers.arithmetic import FLOATS, Scalar, Showing
+from icsolve.numbers.arithmetic import FLOATS, Showing
 from icsolve.numbers.balls import PRECISIONS, Balls, BelowZero, HalfUnits, MoreDigits
 from icsolve.numbers.tape import Tape
+from icsolve.scene import refusals
+from icsolve.scene.program import Program, evaluate
 from icsolve.screws.plane import Triple
-from icsolve.solve import refusals
-from icsolve.solve.program import Outcome, Program, evaluate
+from icsolve.statics.power import Bounded, Outcome, Value
 
-SMALL = 1e-3
-"""A first-order bound is trusted below this fraction of its value."""
 T = TypeVar("T")
 
 
@@ -97,14 +96,6 @@ def _arithmetics(program: Program) -> list[Callable[[], Showing]]:
     return [partial(Balls, p + extra, highest=p == last) for p in PRECISIONS]
 
 
-class Value(NamedTuple):
-    """An unknown load and the bound on its error; None with the reason where none is proven."""
-
-    value: float
-    error: float | None
-    why: str = ""
-
-
 def unknown_values(found: Evaluation) -> dict[str, Value]:
     """The unknown loads by name, and those that are like them."""
     solution, values = found.outcome.solution, {}
@@ -123,23 +114,10 @@ def unknown_values(found: Evaluation) -> dict[str, Value]:
 UNASKED = "no bound was asked for"
 
 
-class Bounded(NamedTuple):
-    """A scene evaluated on a tape: its values carry their derivatives, and bounds of first order."""
-
-    program: Program
-    outcome: Outcome
-    tape: Tape
-
-    def of(self, value: Scalar) -> float:
-        """Bound on the absolute error of a value on the tape."""
-        return self.tape.bound(value)
-
-
 def evaluate_bounded(program: Program) -> Bounded:
     """Evaluate a program on a tape."""
     tape = Tape()
-    ran, outcome = evaluate(program, tape)
-    return Bounded(ran, outcome, tape)
+    return Bounded(evaluate(program, tape)[1], tape)
 
 
 def slopes(scene: Bounded) -> dict[str, dict[str, float]]:

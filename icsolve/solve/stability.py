@@ -11,10 +11,10 @@ from typing import NamedTuple
 from icsolve.answer import Answer
 from icsolve.answer.equilibrium import Stiffness
 from icsolve.case import Case, ForceVector, Number
-from icsolve.equilibrium.load_function import moving_functions
-from icsolve.equilibrium.positions import Rest, described, moved_by
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
+from icsolve.solve.load_function import moving_functions
+from icsolve.solve.positions import Rest, described, moved_by
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.numbers import find_number, numbers_of, with_numbers
 
@@ -95,7 +95,7 @@ def _turns(case: Case, link: str) -> bool:
 
 def holding_values(case: Case, path: str, low: float, high: float) -> list[Turning]:
     """The values of a number at which a mechanism under known loads begins or ceases to hold still."""
-    from icsolve.equilibrium.resting import holds_as_written
+    from icsolve.solve.resting import holds_as_written
 
     number = numbers_of(case)[path]
 

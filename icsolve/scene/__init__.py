@@ -1,0 +1,130 @@
+"""A mechanism in one position: its figure, the motions that its joints allow, the sum of power, the answer.
+
+1. topology: which links move as one, and the joints between them
+2. plan: the groups of links that the wanted twists need, and no others
+3. figure: the points that those groups and the loads need
+4. motions: the twist of every planned link (a centre that keeps its weight)
+5. power: the loads' wrenches on the twists give the unknown loads
+6. centres and rates, as far as they are asked for
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from icsolve.answer import Answer
+from icsolve.case import Case
+from icsolve.errors import SceneError, Status
+from icsolve.numbers.balls import is_long
+from icsolve.scene import refusals
+from icsolve.scene.bounds import Evaluation, Scene
+from icsolve.scene.parts import Parts
+from icsolve.scene.program import Want, prepare
+from icsolve.statics.power import is_unknown
+
+
+def solve_scene(
+    case: Case,
+    *,
+    all_centres: bool = False,
+    rates: bool = False,
+    examine: bool = False,
+    bound: bool = True,
+    reactions: bool = False,
+    dynamic: bool = False,
+) -> Answer:
+    """Solve a case whose figure is given; the options are those of `icsolve.solve`.
+
+    Inertia forces and contacts of profiles are worked out first: with them it is a case like any other.
+    Raises SceneError where the scene has no answer.
+    """
+    if without_inertia(case, dynamic):
+        from icsolve.scene.dynamics import solve_dynamic
+
+        asked = {"all_centres": all_centres, "rates": True, "examine": examine}
+        return solve_dynamic(case, solve_scene, **asked, bound=bound, reactions=reactions)
+    if case.space is not None:
+        from icsolve.statics.space.solve import solve_space
+
+        return solve_space(case)
+    if case.profiles is not None and case.profiles.touches:
+        from icsolve.cams.solving import solve_touching
+
+        asked = {"all_centres": all_centres, "rates": rates, "examine": examine}
+        return solve_touching(case, solve_scene, **asked, bound=bound, reactions=reactions)
+    return _solved(case, wanted(case, Want(all_centres, rates, examine, reactions)), bound, reactions)
+
+
+def without_inertia(case: Case, dynamic: bool) -> bool:
+    """Whether inertia forces are asked for and are not yet among the loads."""
+    return (dynamic or case.dynamic) and not any(load.name.startswith("inertia ") for load in case.loads)
+
+
+@lru_cache(maxsize=32)
+def wanted(case: Case, asked: Want) -> Want:
+    """What is to be found for what was asked: without an unknown, what moves; with friction, all forces."""
+    if not _asks(case):
+        return asked._replace(centres=True, rates=True)
+    return asked._replace(bodies=asked.bodies or refusals.rubs(case))
+
+
+def _asks(case: Case) -> bool:
+    """Whether a load is unknown."""
+    return any(map(is_unknown, case.loads))
+
+
+def _solved(case: Case, want: Want, bound: bool, reactions: bool) -> Answer:
+    """Position, centres, power: the answer of a planar case whose contacts are given."""
+    program = prepare(case, want)  # the steps that are needed, and the figure in its position
+    try:  # the twist of every link, and the power of the loads on them
+        return judged(Parts(Scene(program, bound)), reactions)
+    except SceneError as refusal:
+        if bound and refusal.status in INEXACT and _has_long_numbers(case):
+            try:
+                return judged(Parts(Scene(program, bound, explained=True)), reactions)
+            except SceneError as other:
+                if other.status not in INEXACT or refusals.rubs(case):
+                    raise
+        if refusal.status == Status.STRUCTURE and (reactions or not _asks(case)):
+            from icsolve.scene.free_bodies import structure
+
+            return structure(prepare(case, want._replace(bodies=True)), refusal)
+        raise
+
+
+INEXACT = (Status.STRUCTURE, Status.MOBILITY, Status.NEAR_SINGULAR, Status.CONTRADICTORY)
+"""What a case may seem whose numbers a program has rounded."""
+
+
+def _has_long_numbers(case: Case) -> bool:
+    """Whether a program wrote numbers of a case."""
+    from icsolve.scene.sensitivity import numbers_of
+
+    return any(map(is_long, numbers_of(case).values()))
+
+
+def judged(parts: Parts, reactions: bool) -> Answer:
+    """The answer of an evaluated scene; refused where power does not determine it."""
+    rubs = parts.program.want.bodies and refusals.rubs(parts.case)
+    if not (rubs and refusals.is_workless(parts.outcome.motions, parts.outcome.solution)):
+        _refuse_unbalanced(parts)
+    if rubs:
+        from icsolve.scene.free_bodies import with_friction
+
+        return with_friction(parts, reactions)
+    slack = parts.case.ropes and _asks(parts.case)  # whether a rope would have to push, its tension tells
+    if reactions or slack:
+        from icsolve.scene.free_bodies import with_bodies
+
+        return with_bodies(parts, reactions)
+    return parts.answer()
+
+
+def _refuse_unbalanced(parts: Parts) -> None:
+    """Refuse unknown loads that power does not determine."""
+
+    def refuse(found: Evaluation) -> None:
+        top, (_, motions, balance, solution) = found.program.top, found.outcome
+        refusals.refuse_unbalanced(parts.case, top, motions, balance, solution, found.arithmetic)
+
+    parts.scene.ask(refuse)
