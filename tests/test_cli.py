@@ -164,6 +164,14 @@ def test_a_folder_is_searched_and_other_yaml_is_passed_over_and_counted(icsolve:
     assert ran.err == "cases: 3 YAML files without `icsolve:` passed over\n"
 
 
+@pytest.mark.parametrize("command", [("solve",), ("solve", "--json"), ("check",), ("check", "--table")])
+def test_several_processes_print_what_one_does(icsolve: Shell, command: tuple[str, ...]) -> None:
+    """In order, refusals and files that can't be read among the answers."""
+    for n, text in enumerate([PRESS, DEAD, LEVER, "icsolve: 1\n", "a: 1\n"] * 3):
+        Path(f"c{n:02d}.yaml").write_text(text)
+    assert icsolve(*command, ".", "--jobs", "3") == icsolve(*command, ".", "--jobs", "1")
+
+
 def test_a_folder_without_any_yaml_says_so(icsolve: Shell) -> None:
     Path("empty").mkdir()
     ran = icsolve("empty")

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import icsolve
+from icsolve.forked import can_fork
 from icsolve.solve import attempt
 from icsolve.sweep import scenes
-from icsolve.sweep.forked import can_fork
 
 CASES = Path(__file__).parent.parent / "cases" / "ch13"
 WANT = ("answers", "status", "error", "points", "centres", "rates")

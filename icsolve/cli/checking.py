@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING
 import click
 
 from icsolve.check import AGREES, DISAGREES, ERRATUM, HEADER, NOT_EXAMINED, Row, compare, table_row, wanted
-from icsolve.cli.options import CASES, JSON, SET
+from icsolve.cli.options import CASES, JOBS, JSON, SET
 from icsolve.cli.run import DONE, NO_ANSWER, complain, for_each, on_stderr
-from icsolve.cli.solving import print_json
 from icsolve.wording.sentences import plural
 
 if TYPE_CHECKING:
@@ -24,7 +23,10 @@ if TYPE_CHECKING:
 @JSON
 @click.option("--table", "as_table", is_flag=True, help="A Markdown table, a row a case.")
 @SET
-def check_command(cases: tuple[str, ...], as_json: bool, as_table: bool, settings: dict[str, str]) -> int:
+@JOBS
+def check_command(
+    cases: tuple[str, ...], as_json: bool, as_table: bool, settings: dict[str, str], jobs: int | None
+) -> int:
     """Solve cases and compare with the values under `expect`, a line a value.
 
     \b
@@ -32,7 +34,8 @@ def check_command(cases: tuple[str, ...], as_json: bool, as_table: bool, setting
 
     Exit status: 1 where a value disagrees or a case has no answer; an erratum must not agree.
     """
-    return check_cases(cases, _print_json if as_json else _print_row if as_table else _print_lines, settings)
+    show = _json if as_json else _table_row if as_table else _lines
+    return check_cases(cases, show, settings, jobs)
 
 
 @click.command("validate")
@@ -43,29 +46,37 @@ def validate_command(cases: tuple[str, ...], settings: dict[str, str]) -> int:
     return for_each(cases, _validate, settings=settings)
 
 
-Printer = Callable[["Case", str, list[Row]], None]
+Shown = Callable[["Case", str, list[Row]], str]
 
 
-def check_cases(cases: tuple[str, ...], show: Printer, settings: Mapping[str, str]) -> int:
+def check_cases(
+    cases: tuple[str, ...], shown: Shown, settings: Mapping[str, str], jobs: int | None = 1
+) -> int:
     """Compare the published values of every case; returns the exit status."""
     tally: Counter[str] = Counter()
-    if show is _print_row:
+    if shown is _table_row:
         click.echo(HEADER)
     files = 0
 
-    def work(case: Case, path: str) -> int:
+    def work(case: Case, path: str) -> tuple[str, list[str]]:
+        rows = _rows(case)
+        return shown(case, path, rows), [row.verdict for row in rows]
+
+    def show(found: tuple[str, list[str]]) -> int:
         nonlocal files
         files += 1
-        rows = _rows(case)
-        tally.update(row.verdict for row in rows)
-        show(case, path, rows)
-        return NO_ANSWER if any(row.verdict == DISAGREES for row in rows) else DONE
+        text, verdicts = found
+        tally.update(verdicts)
+        click.echo(text)
+        return NO_ANSWER if DISAGREES in verdicts else DONE
 
     def refuse(case: Case, path: str, error: SceneError) -> None:
+        nonlocal files
+        files += 1
         tally["without an answer"] += 1
         on_stderr(case, path, error)
 
-    code = for_each(cases, work, refuse, settings)
+    code = for_each(cases, work, refuse, settings, show=show, jobs=jobs)
     complain(_summary(files, tally))
     return code
 
@@ -77,20 +88,20 @@ def _rows(case: Case) -> list[Row]:
     return compare(solve(case, all_centres=centres, rates=rates, examine=True, reactions=reactions))
 
 
-def _print_json(case: Case, path: str, rows: list[Row]) -> None:
+def _json(case: Case, path: str, rows: list[Row]) -> str:
+    import json
+
     values = [row._asdict() for row in rows]
-    print_json({"schema": "icsolve/check/1", "case": case.name, "values": values})
+    return json.dumps({"schema": "icsolve/check/1", "case": case.name, "values": values}, allow_nan=False)
 
 
-def _print_row(case: Case, path: str, rows: list[Row]) -> None:
-    click.echo(table_row(case, rows))
+def _table_row(case: Case, path: str, rows: list[Row]) -> str:
+    return table_row(case, rows)
 
 
-def _print_lines(case: Case, path: str, rows: list[Row]) -> None:
-    for row in rows:
-        click.echo(f"{path}: {_line(row)}")
-    if not rows:
-        click.echo(f"{path}: solved; no published value to compare")
+def _lines(case: Case, path: str, rows: list[Row]) -> str:
+    lines = [f"{path}: {_line(row)}" for row in rows]
+    return "\n".join(lines) or f"{path}: solved; no published value to compare"
 
 
 def _line(row: Row) -> str:

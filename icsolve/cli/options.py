@@ -17,6 +17,11 @@ JSON = click.option("--json", "as_json", is_flag=True, help="One JSON object a f
 DIGITS = click.option(
     "--digits", type=click.IntRange(1, 17), default=6, show_default=True, help="Significant digits in text."
 )
+JOBS = click.option(
+    "--jobs",
+    type=click.IntRange(1, 256),
+    help="Processes [default: one; for 64 files or more as many as there are cores].",
+)
 
 
 def parse_settings(pairs: tuple[str, ...]) -> dict[str, str]:

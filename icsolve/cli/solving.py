@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from icsolve.cli.options import CASES, DIGITS, JSON, SET
-from icsolve.cli.run import DONE, Work, for_each, on_stderr
+from icsolve.cli.options import CASES, DIGITS, JOBS, JSON, SET
+from icsolve.cli.run import DONE, Work, for_each
 
 if TYPE_CHECKING:
     from icsolve.answer import Answer
@@ -67,7 +67,8 @@ class Options(NamedTuple):
 )
 @SET
 @DIGITS
-def solve_command(cases: tuple[str, ...], settings: dict[str, str], **asked: Any) -> int:
+@JOBS
+def solve_command(cases: tuple[str, ...], settings: dict[str, str], jobs: int | None, **asked: Any) -> int:
     """Solve cases: files, folders, globs, or - for standard input.
 
     \b
@@ -77,13 +78,16 @@ def solve_command(cases: tuple[str, ...], settings: dict[str, str], **asked: Any
 
     Exit status: 0 solved, 1 a case has no answer, 2 a file can't be read; of several the largest.
     """
-    return solve_cases(cases, Options(**asked), settings)
+    return solve_cases(cases, Options(**asked), settings, jobs)
 
 
-def solve_cases(cases: tuple[str, ...], options: Options, settings: Mapping[str, str]) -> int:
+def solve_cases(
+    cases: tuple[str, ...], options: Options, settings: Mapping[str, str], jobs: int | None
+) -> int:
     """Solve and print every case; returns the exit status."""
-    work = _as_json(options) if options.as_json else _as_text(options, several=_several(cases))
-    return for_each(cases, work, _refuse_json if options.as_json else on_stderr, settings)
+    if options.as_json:
+        return for_each(cases, _as_json(options), _refuse_json, settings, show=_print_entry, jobs=jobs)
+    return for_each(cases, _as_text(options), settings=settings, show=_printer(_several(cases)), jobs=jobs)
 
 
 def print_json(entry: Mapping[str, Any]) -> None:
@@ -113,8 +117,13 @@ def _report(case: Case) -> Report:
     return report(solve(case, examine=True))
 
 
-def _as_json(options: Options) -> Work:
-    def work(case: Case, path: str) -> int:
+def _print_entry(entry: Mapping[str, Any]) -> int:
+    print_json(entry)
+    return DONE
+
+
+def _as_json(options: Options) -> Work[dict[str, Any]]:
+    def work(case: Case, path: str) -> dict[str, Any]:
         answer = _solve(case, options)
         entry = answer.to_dict()
         if options.report:
@@ -123,8 +132,7 @@ def _as_json(options: Options) -> Work:
             from icsolve.scene.sensitivity import entries
 
             entry |= entries(answer, options.sensitivity, options.tolerance)
-        print_json(entry)
-        return DONE
+        return entry
 
     return work
 
@@ -134,13 +142,24 @@ def _several(cases: tuple[str, ...]) -> bool:
     return len(cases) > 1 or not (cases[0] == "-" or os.path.isfile(cases[0]))
 
 
-def _as_text(options: Options, several: bool) -> Work:
+def _printer(several: bool) -> Callable[[tuple[str, str]], int]:
+    """Prints answers one below the other, of several files under their paths."""
     shown = 0
 
-    def work(case: Case, path: str) -> int:
+    def show(found: tuple[str, str]) -> int:
+        nonlocal shown
+        path, text = found
+        click.echo(("\n" if shown else "") + (f"=== {path}\n" if several else "") + text)
+        shown += 1
+        return DONE
+
+    return show
+
+
+def _as_text(options: Options) -> Work[tuple[str, str]]:
+    def work(case: Case, path: str) -> tuple[str, str]:
         from icsolve.report.text import answer_text
 
-        nonlocal shown
         answer = _solve(case, options)
         sections = [answer_text(answer, options.digits)]
         if options.report:
@@ -149,10 +168,7 @@ def _as_text(options: Options, several: bool) -> Work:
             from icsolve.scene.sensitivity import text
 
             sections.append(text(answer, options.sensitivity, options.tolerance, options.digits))
-        above = ("\n" if shown else "") + (f"=== {path}\n" if several else "")
-        click.echo(above + "\n\n".join(sections))
-        shown += 1
-        return DONE
+        return path, "\n\n".join(sections)
 
     return work
 

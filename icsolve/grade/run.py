@@ -8,6 +8,7 @@ from contextlib import AbstractContextManager, ExitStack, nullcontext
 from typing import IO, TYPE_CHECKING, NamedTuple
 
 from icsolve.files import scratch
+from icsolve.forked import can_fork, started
 from icsolve.grade.case_store import CaseStore, unknowns
 from icsolve.grade.course import Course
 from icsolve.grade.importing import Import, expand
@@ -20,7 +21,6 @@ from icsolve.grade.store import Disk, Store, StoredAnswer
 from icsolve.grade.tables import HeaderError
 from icsolve.grade.tally import Counts, added
 from icsolve.grade.tolerance import NoKeyError
-from icsolve.sweep.forked import can_fork, started
 
 if TYPE_CHECKING:
     from icsolve.grade.regrade import Override, Overrides

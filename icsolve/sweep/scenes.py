@@ -14,10 +14,10 @@ import numpy as np
 from icsolve.assembly import case_point, placed_figure
 from icsolve.case import Case
 from icsolve.errors import SceneError
+from icsolve.forked import can_fork, started
 from icsolve.numbers.replay import Array
 from icsolve.scene import solve_scene
 from icsolve.sweep.ask import Columns
-from icsolve.sweep.forked import can_fork, started
 from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.sweep.program import wanted_points
 from icsolve.sweep.runner import Progress, Rows
