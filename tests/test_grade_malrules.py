@@ -9,11 +9,12 @@ import pytest
 
 import icsolve
 from grade_shell import CASES, Class
-from icsolve.grade.case_store import CaseStore, solved
+from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.keys import Key
 from icsolve.grade.mistakes import CODES, Wrong, Wrongs, message, wrong_answers
 from icsolve.grade.mistakes.engine import shares
+from icsolve.grade.solved import solved
 
 CAM = """\
 icsolve: 1

@@ -69,6 +69,16 @@ def test_every_room_has_its_place_in_the_order() -> None:
     assert rooms == set(ROOMS)
 
 
+def test_no_module_comes_back_to_itself() -> None:
+    """Within a room, too: of modules of which each imports only ordered ones, all can be ordered."""
+    known = modules()
+    leans = {name: set(imported(ast.parse(file.read_text()), known)) - {name} for name, file in known.items()}
+    left = {name: others & known.keys() for name, others in leans.items()}
+    while ordered := {name for name, others in left.items() if not others & left.keys()}:
+        left = {name: others for name, others in left.items() if name not in ordered}
+    assert not left, f"a circle of imports: {sorted(left)}"
+
+
 @pytest.mark.parametrize("room", ["case", "answer"])
 def test_values_know_nothing_of_how_they_are_shown(room: str) -> None:
     assert not {b for a, b in arrows() if a == room} & {"draw", "explain", "page", "report"}

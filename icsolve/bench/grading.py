@@ -12,10 +12,11 @@ from shutil import rmtree
 from icsolve.bench.gates import Effort, Gate, Kept, ratio, table
 from icsolve.bench.timing import cpu_seconds, once
 from icsolve.files import scratch
-from icsolve.grade.case_store import CaseStore, unknowns
+from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.judge import judge
 from icsolve.grade.keys import Key
+from icsolve.grade.solved import unknowns
 from icsolve.grade.written import Reader
 from icsolve.manual import kinds, template
 from icsolve.read import load

@@ -9,7 +9,7 @@ from typing import IO, TYPE_CHECKING, NamedTuple
 
 from icsolve.files import scratch
 from icsolve.forked import can_fork, started
-from icsolve.grade.case_store import CaseStore, unknowns
+from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.importing import Import, expand
 from icsolve.grade.issues import Issue, Issues
@@ -17,6 +17,7 @@ from icsolve.grade.keys import Key
 from icsolve.grade.marking import NAMED, GivenValue, Marker
 from icsolve.grade.results import HEADER, json_line, line
 from icsolve.grade.roster import Roster, read_roster
+from icsolve.grade.solved import unknowns
 from icsolve.grade.store import Disk, Store, StoredAnswer
 from icsolve.grade.tables import HeaderError
 from icsolve.grade.tally import Counts, added

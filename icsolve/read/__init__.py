@@ -7,9 +7,10 @@ from collections.abc import Mapping as Named
 
 from icsolve.case import Case
 from icsolve.errors import CaseError, NotACase
-from icsolve.read.build import build, check_version
+from icsolve.read.build import build, check_version, is_in_space
 from icsolve.read.document import Mapping, Node, checked, parse, text_of
 from icsolve.read.names import Problems, Stop
+from icsolve.read.reading import measures
 from icsolve.read.settings import apply
 
 Settings = Named[str, str | float]
@@ -74,7 +75,7 @@ def _case(root: Mapping, settings: Settings, problems: Problems, name: str) -> C
     """The case of a tree with its settings, and with values for its variables."""
     if "variables" not in root.items:
         apply(root, settings, problems)
-        return build(root, problems, name)
+        return _built(root, problems, name)
     from dataclasses import replace
 
     from icsolve.read.variables import read_variables, substitute
@@ -83,7 +84,18 @@ def _case(root: Mapping, settings: Settings, problems: Problems, name: str) -> C
     given = {path[10:]: str(value) for path, value in settings.items() if path.startswith("variables.")}
     substitute(root, variables, given, problems)
     apply(root, {p: v for p, v in settings.items() if not p.startswith("variables.")}, problems)
-    return replace(build(root, problems, name), variables=variables)
+    return replace(_built(root, problems, name), variables=variables)
+
+
+def _built(root: Mapping, problems: Problems, name: str) -> Case:
+    """The case of a tree, planar or in space; whether it may be used, the problems tell."""
+    check_version(root, problems)
+    measured = measures(root.items.get("units"), problems)
+    if not is_in_space(root):
+        return build(root, problems, name, measured)
+    from icsolve.read.space import build_space
+
+    return build_space(root, problems, name, measured)
 
 
 def _root(node: Node | None, problems: Problems) -> Mapping:

@@ -43,7 +43,7 @@ from icsolve.read.joints import mention_links, read_joints
 from icsolve.read.keys import JOINTS, SECTIONS, SPACE_JOINTS
 from icsolve.read.loads import read_loads, read_motion
 from icsolve.read.names import Problems, shown
-from icsolve.read.reading import Reading, measures, number
+from icsolve.read.reading import Measures, Reading, number
 
 if TYPE_CHECKING:
     from icsolve.case.profiles import Profiles
@@ -68,14 +68,9 @@ class _Parts(NamedTuple):
     ropes: tuple[Rope, ...]
 
 
-def build(root: Mapping, problems: Problems, name: str) -> Case:
-    """The case of a tree; whether it may be used, the problems tell."""
-    check_version(root, problems)
-    units, targets, shown_units = measures(root.items.get("units"), problems)
-    if _is_in_space(root):
-        from icsolve.read.space import build_space
-
-        return build_space(root, problems, name, (units, targets, shown_units))
+def build(root: Mapping, problems: Problems, name: str, measured: Measures) -> Case:
+    """The case of a planar tree; whether it may be used, the problems tell."""
+    units, targets, shown_units = measured
     reading = Reading(problems, targets, shown_units)
     reading.marks.update(root.keys)
     reading.check_keys(root, SECTIONS, "a case")
@@ -94,7 +89,7 @@ def build(root: Mapping, problems: Problems, name: str) -> Case:
     return _case(name, problems.path, units, ground, reading, parts, texts, root)
 
 
-def _is_in_space(root: Mapping) -> bool:
+def is_in_space(root: Mapping) -> bool:
     """Whether points have three coordinates; one alone among planar joints is a slip, and read as planar."""
     points = root.items.get("points")
     if type(points) is not Mapping:

@@ -19,6 +19,7 @@ from icsolve.case import (
     Number,
     Pin,
     Roll,
+    Screw,
     Slide,
     Slot,
     Weld,
@@ -362,9 +363,19 @@ def _weld(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
 
 
 def _screw(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
-    from icsolve.read.screws import read_screw
-
-    return read_screw(entry, links, whole)
+    """The slide of a screw that a torque turns; the weld of one that is locked."""
+    at = entry.point("at")
+    guide = read_guide(entry, at)
+    lead, radius, mu = entry.number("lead"), entry.number("radius"), entry.number("mu")
+    if entry.has("mu") and not entry.has("radius"):
+        entry.refuse(entry.mark("mu"), f"friction of {entry.what} needs 'radius', the mean one of its thread")
+    if not (at and guide and lead and whole) or (entry.has("mu") and radius is None):
+        return None
+    pair = (links[0], links[1])
+    if frozenset(pair) not in entry.reading.driven:
+        return Weld(pair, at)
+    entry.reading.screws.append(Screw(pair, at, guide, lead, radius, mu))
+    return Slide((pair[1], pair[0]), at, guide)
 
 
 BUILDERS: Builders[Joint] = {

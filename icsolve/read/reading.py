@@ -331,7 +331,11 @@ def _no_number(node: Scalar, text: str, dimension: str) -> str:
     return f"{wanted} should stand here, but {shown(text)} does not start with a number{likely}"
 
 
-def measures(node: Node | None, problems: Problems) -> tuple[Units, dict[str, Unit], dict[str, str]]:
+Measures = tuple[Units, dict[str, Unit], dict[str, str]]
+"""The units of a case, the unit of each dimension, and the name of each for messages."""
+
+
+def measures(node: Node | None, problems: Problems) -> Measures:
     """The ``units`` section: unit names, the unit of each dimension, and the name of each for messages."""
     names = {"length": "m", "force": "N"}
     if type(node) is Mapping:

@@ -8,7 +8,7 @@ from typing import TypeVar
 from icsolve.case import AlongRope, Force, Load, Number, Rope, Toward, Weight
 from icsolve.read.document import Mapping, Node, Sequence
 from icsolve.read.keys import JOINTS
-from icsolve.read.loads import Likes, magnitude, word_at
+from icsolve.read.load_forms import Likes, magnitude, word_at
 from icsolve.read.names import shown, suggestion
 from icsolve.read.reading import Entry, Reading
 

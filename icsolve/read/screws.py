@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from icsolve.case import Joint, Load, Screw, Slide, Torque, Weld
+from icsolve.case import Load, Torque
 from icsolve.read.document import Mapping, Node, Scalar
-from icsolve.read.joints import read_guide
-from icsolve.read.loads import Likes, magnitude
+from icsolve.read.load_forms import Likes, magnitude
 from icsolve.read.names import shown
 from icsolve.read.reading import Entry
 
@@ -30,22 +29,6 @@ def _pair(node: Node) -> tuple[str, str] | None:
     text = node.text.strip() if type(node) is Scalar else ""
     parts = [part.strip() for part in text.split("-")] if "-" in text else list(text)
     return (parts[0], parts[1]) if len(parts) == 2 and all(parts) else None
-
-
-def read_screw(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
-    """The slide of a screw that a torque turns; the weld of one that is locked."""
-    at = entry.point("at")
-    guide = read_guide(entry, at)
-    lead, radius, mu = entry.number("lead"), entry.number("radius"), entry.number("mu")
-    if entry.has("mu") and not entry.has("radius"):
-        entry.refuse(entry.mark("mu"), f"friction of {entry.what} needs 'radius', the mean one of its thread")
-    if not (at and guide and lead and whole) or (entry.has("mu") and radius is None):
-        return None
-    pair = (links[0], links[1])
-    if frozenset(pair) not in entry.reading.driven:
-        return Weld(pair, at)
-    entry.reading.screws.append(Screw(pair, at, guide, lead, radius, mu))
-    return Slide((pair[1], pair[0]), at, guide)
 
 
 def read_turning(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:

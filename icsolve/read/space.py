@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from icsolve.case import Case, Centroid, Expected, Number, Spring, Toward, Units, Weight
+from icsolve.case import Case, Centroid, Expected, Number, Spring, Toward, Weight
 from icsolve.case.space import (
     Along,
     Axis,
@@ -32,11 +32,10 @@ from icsolve.read.expect import read_expect
 from icsolve.read.figure import centroid_of
 from icsolve.read.joints import Builder, Builders, mention_links, read_list, whole_teeth
 from icsolve.read.keys import GRAVITY, SECTIONS, SPACE_DIRECTION, SPACE_JOINTS, SPACE_LOADS
-from icsolve.read.loads import Forms, Likes, bearer, magnitude, read_section, torque_number, word_at
+from icsolve.read.load_forms import Forms, Likes, bearer, magnitude, read_section, torque_number, word_at
 from icsolve.read.names import Problems, shown, suggestion
-from icsolve.read.reading import Entry, Reading, number
+from icsolve.read.reading import Entry, Measures, Reading, number
 from icsolve.read.teeth import read_teeth
-from icsolve.units import Unit
 
 WORDS = ("x", "y", "z", "-x", "-y", "-z")
 _FORM = "x, y, z, -z, components such as [0, 3, 4], or two points [A, B]"
@@ -325,9 +324,7 @@ _FORMS = {
 }
 
 
-def build_space(
-    root: Mapping, problems: Problems, name: str, measures: tuple[Units, dict[str, Unit], dict[str, str]]
-) -> Case:
+def build_space(root: Mapping, problems: Problems, name: str, measures: Measures) -> Case:
     """The case of a tree; whether it may be used, the problems tell."""
     units, targets, shown_units = measures
     reading = SpaceReading(problems, targets, shown_units)

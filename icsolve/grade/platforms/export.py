@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 from icsolve.case import Case
 from icsolve.files import reading_text, write_whole
-from icsolve.grade.case_store import CaseStore, Solved, unknowns
+from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.keys import Key
 from icsolve.grade.platforms.given import given
@@ -19,6 +19,7 @@ from icsolve.grade.platforms.gradescope import AutograderSource, autograder_zip,
 from icsolve.grade.platforms.qti import SMALLEST, qti_zip
 from icsolve.grade.platforms.questions import Question, asked, figure, gift, moodle_xml
 from icsolve.grade.roster import read_roster
+from icsolve.grade.solved import Solved, unknowns
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.record import KEYS, VALUES, read_records
 

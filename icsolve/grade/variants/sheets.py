@@ -8,13 +8,13 @@ from collections.abc import Iterable, Iterator
 from html import escape
 from typing import NamedTuple
 
-from icsolve.grade.case_store import Solved, unknowns
 from icsolve.grade.keys import AnyKey, Key
 from icsolve.grade.platforms.given import given
 from icsolve.grade.platforms.questions import asked
 from icsolve.grade.platforms.questions import figure as drawn
 from icsolve.grade.results import safe
 from icsolve.grade.roster import Person
+from icsolve.grade.solved import Solved, unknowns
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.varied import Draw, Varied
 

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, NamedTuple, TypeVar
 from icsolve.answer import Answer
 from icsolve.case import Case, Load, Mark, Number, Variable
 from icsolve.errors import CaseError, IcsolveError, SceneError
-from icsolve.grade.case_store import Solved
 from icsolve.grade.course import Course
 from icsolve.grade.keys import (
     AnyKey,
@@ -20,6 +19,7 @@ from icsolve.grade.keys import (
 from icsolve.grade.mistakes import Wrong
 from icsolve.grade.mistakes.changed import without_friction
 from icsolve.grade.mistakes.engine import centre_wrongs, load_wrongs, resolve
+from icsolve.grade.solved import Solved
 from icsolve.grade.tolerance import NoKeyError, size_of
 from icsolve.read.document import Mapping as Tree
 from icsolve.read.document import Node, Scalar, parse
