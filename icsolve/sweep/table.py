@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import io
 import json
-import math
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
@@ -319,20 +318,21 @@ def _parted(kind: str, name: str, array: Array) -> dict[str, Array]:
 def as_csv(sweep: Sweep) -> Iterator[bytes]:
     """A header and a line a row; what is not a number stands empty beside its status."""
     out = io.StringIO()
-    writer = csv.writer(out, lineterminator="\n")
-    writer.writerow([*columns(sweep), "status"])
-    for part in _parts(sweep, lambda value: "" if math.isnan(value) else repr(value + 0.0)):
-        writer.writerows(zip(*part.values(), strict=True))
-        yield out.getvalue().encode("utf-8")
-        out.seek(0)
-        out.truncate()
+    csv.writer(out, lineterminator="\n").writerow([*columns(sweep), "status"])
+    yield out.getvalue().encode("utf-8")
+    for part in _parts(sweep, {"nan": ""}):
+        yield ("\n".join(map(",".join, zip(*part, strict=True))) + "\n").encode("utf-8")
+
+
+IN_JSON = {"nan": "null", "inf": "Infinity", "-inf": "-Infinity"}
 
 
 def as_jsonl(sweep: Sweep) -> Iterator[bytes]:
     """An object a row; what is not a number is null."""
-    for part in _parts(sweep, lambda value: None if math.isnan(value) else value + 0.0):
-        rows = zip(*part.values(), strict=True)
-        yield "".join(json.dumps(dict(zip(part, row, strict=True))) + "\n" for row in rows).encode("utf-8")
+    names = [json.dumps(name).replace("%", "%%") for name in columns(sweep)]
+    form = "{" + "".join(f"{name}: %s, " for name in names) + '"status": "%s"}\n'
+    for part in _parts(sweep, IN_JSON):
+        yield "".join(map(form.__mod__, zip(*part, strict=True))).encode("utf-8")
 
 
 def as_npz(sweep: Sweep) -> Iterator[bytes]:
@@ -350,10 +350,18 @@ FORMATS: dict[str, Callable[[Sweep], Iterator[bytes]]] = {
 }
 
 
-def _parts(sweep: Sweep, shown: Callable[[float], object]) -> Iterator[dict[str, list[Any]]]:
-    """The columns of so many rows after another, as lists; the status in words last."""
+def _parts(sweep: Sweep, words: Mapping[str, str]) -> Iterator[list[list[str]]]:
+    """The columns of so many rows after another, as texts; the status in words last."""
     table = columns(sweep)
     for start in range(0, len(sweep), PART):
         rows = slice(start, start + PART)
-        part = {name: [shown(value) for value in column[rows].tolist()] for name, column in table.items()}
-        yield {**part, "status": [WORDS[code] for code in sweep.codes[rows].tolist()]}
+        statuses = [WORDS[code] for code in sweep.codes[rows].tolist()]
+        yield [*(_texts(column[rows], words) for column in table.values()), statuses]
+
+
+def _texts(column: Array, words: Mapping[str, str]) -> list[str]:
+    """Numbers in the fewest digits that give the same double again; ``words`` for what is none."""
+    texts = list(map(repr, (column + 0.0).tolist()))
+    for k in np.flatnonzero(~np.isfinite(column)).tolist():
+        texts[k] = words.get(texts[k], texts[k])
+    return texts
