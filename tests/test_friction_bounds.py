@@ -59,10 +59,10 @@ def many_digits(case: icsolve.Case, found: Sliding) -> Exact:
     program = prepare(case, Want(bodies=True))
     digits = SixtyDigits()
     _, outcome = evaluate(program, digits)
-    position = Position(case, program.top, outcome.points, program.figure.frame.scale, {})
-    ties = ties_of(position, digits)
+    position = Position(case, program.top, outcome.points, program.figure.frame.scale, {}, arithmetic=digits)
+    ties = ties_of(position)
     values = {column: mpf(value) for column, value in found.values.items()}
-    return Exact(ties, rubs_of(position, ties, digits), outcome.balance.wrenches, values, digits)
+    return Exact(ties, rubs_of(position, ties), outcome.balance.wrenches, values, digits)
 
 
 def units(case: icsolve.Case, found: Sliding, exact: Exact) -> list[Weights]:

@@ -219,6 +219,8 @@ def _reaction(reaction: Reaction) -> dict[str, Any]:
         "joint": reaction.kind,
         **{name.replace(" ", "_"): value for name, value in reaction.parts},
     }
+    if reaction.errors:
+        entry["errors"] = dict(reaction.errors)
     if None in (reaction.x, reaction.y, reaction.moment):
         entry["undetermined"] = reaction.why
     return entry
@@ -226,6 +228,8 @@ def _reaction(reaction: Reaction) -> dict[str, Any]:
 
 def _tension(tension: Tension) -> dict[str, Any]:
     entry: dict[str, Any] = {"tension": tension.tension}
+    if tension.error is not None:
+        entry["error"] = tension.error
     if tension.parts:
         entry["tensions"] = list(tension.parts)
     return entry if tension.tension is not None else {**entry, "undetermined": tension.why}

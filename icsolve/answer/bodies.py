@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import math
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import NamedTuple
 
 
@@ -11,7 +12,9 @@ class Reaction(NamedTuple):
 
     A part that the joints leave open is None, and ``why`` says so. ``kind`` is the joint's;
     ``where`` the name of its point, '' where it has none. ``parts`` are shares by name:
-    ``normal`` and ``friction``, ``tangential`` and ``separating``.
+    ``normal`` and ``friction``, ``tangential`` and ``separating``. ``magnitude`` is the size of the force,
+    ``direction`` where it acts (degrees in [0, 360); None for no force), ``opposite`` that of its opposite.
+    ``errors`` bounds the errors of these numbers by their names; empty where none is proven.
     """
 
     by: str
@@ -24,23 +27,16 @@ class Reaction(NamedTuple):
     moment: float | None
     why: str = ""
     parts: tuple[tuple[str, float], ...] = ()
-
-    @property
-    def magnitude(self) -> float | None:
-        """Size of the force."""
-        return None if self.x is None or self.y is None else math.hypot(self.x, self.y)
-
-    @property
-    def direction(self) -> float | None:
-        """Direction of the force, degrees in [0, 360); None for no force."""
-        if self.x is None or self.y is None or self.x == self.y == 0.0:
-            return None
-        return math.degrees(math.atan2(self.y, self.x)) % 360.0
+    magnitude: float | None = None
+    direction: float | None = None
+    opposite: float | None = None
+    errors: Mapping[str, float] = MappingProxyType({})
 
     def reversed(self) -> Reaction:
         """The force of ``on`` on ``by``: equal and opposite."""
         x, y, moment = (None if v is None else 0.0 - v for v in (self.x, self.y, self.moment))
-        return self._replace(by=self.on, on=self.by, x=x, y=y, moment=moment)
+        turned = self._replace(by=self.on, on=self.by, x=x, y=y, moment=moment)
+        return turned._replace(direction=self.opposite, opposite=self.direction)
 
 
 class Reactions(dict[str, Reaction]):
@@ -57,13 +53,15 @@ class Tension(NamedTuple):
     """The pull of a rope (case units), by the points that it runs through: ``T A-P-B``.
 
     ``tension`` is that of the first part; where the rope slips on a link, ``parts`` has that of every part,
-    in order. It is None where equilibrium leaves it open, and ``why`` says so.
+    in order. It is None where equilibrium leaves it open, and ``why`` says so. ``error`` bounds its error;
+    None where no bound is proven.
     """
 
     rope: str
     tension: float | None
     parts: tuple[float, ...] = ()
     why: str = ""
+    error: float | None = None
 
     @property
     def name(self) -> str:

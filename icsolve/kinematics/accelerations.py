@@ -16,7 +16,7 @@ from typing import NamedTuple
 from icsolve.assembly.workspace import Frame
 from icsolve.case import Belt, Case, Contact, Gears, KnownCentre, Motion, Pin, Roll, Rope, Slide, Slot
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Arithmetic, Scalar
+from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider
 from icsolve.numbers.sparse import General, Row, eliminate
 from icsolve.screws.joints import Points, freedoms, guide_direction, mesh_weights, transmitted
 from icsolve.screws.plane import Point, Triple, add, blend, cross, pairing, subtract, velocity
@@ -25,11 +25,6 @@ from icsolve.structure.topology import Bond, Topology
 from icsolve.wording.sentences import listed
 
 STILL: Triple = (0.0, 0.0, 0.0)
-def _spent(arithmetic: Arithmetic) -> float:
-    """A row of which no more is left than this fraction says nothing more: two thirds of the digits."""
-    return float(10.0 ** -(getattr(arithmetic, "digits", 18) * 2 / 3))
-
-
 NEAR = 2e-3
 """A wheel's centre may miss its radius by this fraction of it."""
 
@@ -74,7 +69,9 @@ def moving(
     if not conditions:
         raise SceneError(Status.MOBILITY, NO_SPEED)
     count = len(next(iter(motions.values())))
-    shares = eliminate([_row(values, target) for values, target, *_ in conditions], count, _spent(arithmetic))
+    shares = eliminate(
+        [_row(values, target) for values, target, *_ in conditions], count, vanishes=decider(arithmetic)
+    )
     speeds = sum(abs(target) for _, target, *_ in conditions)
     if any(not arithmetic.vanishes(left.get(count, 0.0), speeds) for left in shares.left):
         message = "the motions given contradict each other: no motion has all of them."
@@ -174,7 +171,7 @@ def _rates(
     for _, _, given, along, more in conditions:
         rows.append(_driven(top, given, along, more, twists, points, known))
         sizes.append(abs(more))
-    general = eliminate(rows, known, _spent(arithmetic))
+    general = eliminate(rows, known, vanishes=decider(arithmetic))
     if not all(arithmetic.vanishes(left.get(known, 0.0), max(sizes)) for left in general.left):
         raise SceneError(
             Status.CHANGE_POINT,
@@ -188,7 +185,7 @@ def _rates(
         found.append(tuple(row.get(known, 0.0) for row in columns))
         loose = any(not arithmetic.vanishes(a, 1.0) for row in columns for c, a in row.items() if c < known)
         idle |= {*links} if loose and 3 * body != ground else set()
-    return found, idle  # type: ignore[return-value]
+    return found, idle
 
 
 def _between(top: Topology, bond: Bond, w: Triple, change: Scalar, known: int) -> Row:
@@ -346,5 +343,3 @@ def _normal(place: _Place, joint: Roll) -> Point:
                 sign = sense if radius.value > 0.0 else -sense
                 return sign * x / size, sign * y / size
     raise _unknown(joint, "no point of its round link lies at its radius. Name its centre, under `links`")
-
-

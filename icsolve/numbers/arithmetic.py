@@ -118,6 +118,11 @@ def decider(a: Arithmetic) -> Callable[[Scalar, float], bool] | None:
     return a.vanishes if getattr(a, "certain", False) else None
 
 
+def size_of(value: Scalar) -> Scalar:
+    """The absolute value, as a number of its arithmetic."""
+    return value if float(value) >= 0.0 else 0.0 - value
+
+
 def zero_of(value: Scalar) -> Scalar:
     """The zero that a value was found to be; a ball keeps how far it may lie from it."""
     return value.as_zero() if hasattr(value, "as_zero") else 0.0

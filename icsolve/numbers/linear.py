@@ -1,23 +1,27 @@
-"""Small dense systems on floats, real or complex: Gaussian elimination with partial pivoting."""
+"""Small dense systems on floats, real or complex, and balls: Gaussian elimination with partial pivoting."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.null_space import Vanishes
 
 SINGULAR = 1e-14
 """A pivot below this fraction of the largest entry of its column counts as none."""
 
 
-def solve_square(matrix: Sequence[Sequence[Scalar]], right: Sequence[Scalar]) -> list[Scalar] | None:
-    """x with ``matrix @ x = right``; None where the matrix is singular."""
+def solve_square(
+    matrix: Sequence[Sequence[Scalar]], right: Sequence[Scalar], vanishes: Vanishes | None = None
+) -> list[Scalar] | None:
+    """x with ``matrix @ x = right``; None where the matrix is singular, of balls where it ``vanishes``."""
     n = len(matrix)
     work = [[*row, b] for row, b in zip(matrix, right, strict=True)]
     sizes = [max((abs(entries[c]) for entries in matrix), default=0.0) for c in range(n)]
     for c in range(n):
         r = _largest(work, c)
-        if abs(work[r][c]) <= SINGULAR * sizes[c]:
+        pivot = work[r][c]
+        if vanishes(pivot, sizes[c]) if vanishes else abs(pivot) <= SINGULAR * sizes[c]:
             return None
         work[c], work[r] = work[r], work[c]
         for below in work[c + 1 :]:

@@ -12,7 +12,10 @@ import heapq
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-Row = dict[int, float]
+from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.null_space import Vanishes
+
+Row = dict[int, Scalar]
 
 THRESHOLD = 0.1
 SPENT = 1e-13
@@ -35,12 +38,15 @@ class General(NamedTuple):
         return self.solved.get(column, {column: 1.0})
 
 
-def eliminate(rows: Sequence[Mapping[int, float]], columns: int, spent: float = SPENT) -> General:
+def eliminate(
+    rows: Sequence[Mapping[int, Scalar]], columns: int, spent: float = SPENT, vanishes: Vanishes | None = None
+) -> General:
     """Solve ``sum of row[c] x[c] = 0`` for the columns below ``columns``; the others are parameters.
 
-    ``spent`` is the fraction of a row's size below which its largest entry counts as rounding.
+    ``spent`` is the fraction of a row's size below which its largest entry counts as rounding. With
+    ``vanishes`` (of balls) that decides: a pivot is certainly not zero.
     """
-    work = _Work(rows, columns, spent)
+    work = _Work(rows, columns, spent, vanishes)
     pivots: list[tuple[int, Row]] = []
     left = []
     while (found := work.next_row()) is not None:
@@ -58,9 +64,11 @@ def eliminate(rows: Sequence[Mapping[int, float]], columns: int, spent: float = 
 class _Work:
     """The rows that are still active, and which of them each column touches."""
 
-    def __init__(self, rows: Sequence[Mapping[int, float]], columns: int, spent: float) -> None:
+    def __init__(
+        self, rows: Sequence[Mapping[int, Scalar]], columns: int, spent: float, vanishes: Vanishes | None
+    ) -> None:
         self.columns = columns
-        self.spent = spent
+        self.spent, self.vanishes = spent, vanishes
         self.rows: dict[int, Row] = {n: {c: a for c, a in row.items() if a} for n, row in enumerate(rows)}
         self.holders: list[set[int]] = [set() for _ in range(columns)]
         self.sizes: dict[int, float] = {}
@@ -95,8 +103,15 @@ class _Work:
 
     def pivot(self, row: Row, inner: list[int], size: float) -> int | None:
         """The column of a row that the fewest others share, among those that are large enough."""
+        if self.vanishes is not None:
+            certain = [c for c in inner if getattr(row[c], "is_certain", True)]
+            if not certain:
+                for c in inner:
+                    self.vanishes(row[c], size)  # raises where that is open
+                return None
+            inner = certain
         largest = max((abs(row[c]) for c in inner), default=0.0)
-        if largest <= self.spent * size:
+        if self.vanishes is None and largest <= self.spent * size:
             return None
         fit = [c for c in inner if abs(row[c]) >= THRESHOLD * largest]
         return min(fit, key=lambda c: (len(self.holders[c]), -abs(row[c]), c))
@@ -112,7 +127,7 @@ class _Work:
             heapq.heappush(self.heap, (len(self.inner(row)), n))
         self.holders[column] = set()
 
-    def subtract(self, n: int, row: Row, c: int, amount: float) -> None:
+    def subtract(self, n: int, row: Row, c: int, amount: Scalar) -> None:
         """Subtract from one entry, and keep the books."""
         old = row.get(c, 0.0)
         new = old - amount
@@ -132,7 +147,8 @@ def _back_substituted(pivots: list[tuple[int, Row]], columns: int) -> dict[int, 
         for c, a in row.items():
             if c == column:
                 continue
+            share = a / row[column]
             for p, b in solved[c].items() if c in solved else ((c, 1.0),):
-                total[p] = total.get(p, 0.0) - a / row[column] * b
+                total[p] = total.get(p, 0.0) - share * b
         solved[column] = total
     return solved

@@ -88,7 +88,7 @@ def _solved(case: Case, want: Want, bound: bool, reactions: bool) -> Answer:
         if refusal.status == Status.STRUCTURE and (reactions or not _asks(case)):
             from icsolve.scene.free_bodies import structure
 
-            return structure(prepare(case, want._replace(bodies=True)), refusal)
+            return structure(prepare(case, want._replace(bodies=True)), bound, refusal)
         raise
 
 

@@ -21,6 +21,8 @@ from icsolve.screws.plane import Triple
 from icsolve.statics.power import Bounded, Outcome, Value
 
 T = TypeVar("T")
+Run = Callable[[Program, Showing], tuple[Program, Outcome]]
+"""What evaluates a program: all of it, or its places alone."""
 
 
 class Evaluation(NamedTuple):
@@ -37,8 +39,8 @@ class Scene:
     With ``explained`` what half a unit of the last digits of long numbers may make zero is zero.
     """
 
-    def __init__(self, program: Program, certain: bool, explained: bool = False) -> None:
-        self.program, self.certain, self.explained = program, certain, explained
+    def __init__(self, program: Program, certain: bool, explained: bool = False, run: Run = evaluate) -> None:
+        self.program, self.certain, self.explained, self.run = program, certain, explained, run
         self._arithmetics: list[Callable[[], Showing]] = [lambda: FLOATS]
         if certain:
             self._arithmetics = [lambda: HalfUnits(PRECISIONS[0])] if explained else _arithmetics(program)
@@ -66,7 +68,7 @@ class Scene:
 
     def _evaluate(self, arithmetic: Showing) -> Evaluation | None:
         try:
-            return Evaluation(*evaluate(self.program, arithmetic), arithmetic)
+            return Evaluation(*self.run(self.program, arithmetic), arithmetic)
         except MoreDigits:
             return None
         except (BelowZero, ZeroDivisionError):
@@ -74,7 +76,7 @@ class Scene:
 
     def too_close(self) -> SceneError:
         """The refusal of what the highest precision leaves open."""
-        program, outcome = evaluate(self.program)
+        program, outcome = self.run(self.program, FLOATS)
         unknown = next(iter(outcome.solution.values), "the answer")
         return refusals.too_close(program.top, outcome.motions, unknown, None)
 
@@ -94,6 +96,18 @@ def _arithmetics(program: Program) -> list[Callable[[], Showing]]:
         return [partial(Balls, PRECISIONS[1], highest=True, carried=0.0)]
     last = PRECISIONS[-1]
     return [partial(Balls, p + extra, highest=p == last) for p in PRECISIONS]
+
+
+def points_shown(found: Evaluation) -> dict[str, tuple[float, float]]:
+    """The points that have a name in the case, in case units."""
+    a, (ox, oy, scale) = found.arithmetic, found.program.figure.frame
+    shown = {}
+    for name, (x, y) in found.outcome.points.items():
+        if not name.startswith("@"):
+            px, _ = a.rounded(x / scale + ox, 1.0 / scale + abs(ox))
+            py, _ = a.rounded(y / scale + oy, 1.0 / scale + abs(oy))
+            shown[name] = (px, py)
+    return shown
 
 
 def unknown_values(found: Evaluation) -> dict[str, Value]:
@@ -132,7 +146,7 @@ def slopes(scene: Bounded) -> dict[str, dict[str, float]]:
 
 
 def plain(outcome: Outcome) -> Outcome:
-    """The outcome in floats, as if no tape had run."""
+    """The outcome in floats, each number rounded once."""
     motions, balance = outcome.motions, outcome.balance
     twists = {link: tuple(map(floats, ts)) for link, ts in motions.twists.items()}
     wrenches = tuple(
@@ -140,6 +154,7 @@ def plain(outcome: Outcome) -> Outcome:
     )
     factors = tuple(tuple(map(float, row)) for row in balance.factors)
     return outcome._replace(
+        points={name: (float(x), float(y)) for name, (x, y) in outcome.points.items()},
         motions=motions._replace(twists=twists),
         balance=balance._replace(wrenches=wrenches, factors=factors),
     )

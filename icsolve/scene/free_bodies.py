@@ -5,24 +5,31 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from icsolve.answer import Answer
-from icsolve.assembly import case_point
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS
+from icsolve.scene.bounds import Evaluation, Scene, plain, points_shown
 from icsolve.scene.parts import Parts
-from icsolve.scene.program import Program
-from icsolve.screws.plane import Triple
-from icsolve.statics.free_bodies import free_bodies
-from icsolve.statics.friction import Scene, solved
+from icsolve.scene.program import Program, evaluate_still
+from icsolve.statics.free_bodies import FreeBodies, free_bodies
+from icsolve.statics.friction import Scene as Rubbing
+from icsolve.statics.friction import solved
 from icsolve.statics.friction_interface import has_friction
-from icsolve.statics.power import Balance, Value, is_unknown, wrenches
+from icsolve.statics.power import Value, is_unknown
 from icsolve.statics.reaction_basis import Position, rope_ties
 
 
 def with_bodies(parts: Parts, reactions: bool) -> Answer:
     """The answer with the reactions, and with the unknown loads as free bodies give them."""
     by_power = {root: (value.value, value.error or 0.0) for root, value in parts.unknowns.items()}
-    found = free_bodies(_position(parts), parts.figure.frame, parts.outcome.balance, by_power)
+    found = parts.scene.ask(lambda evaluated: _bodies(evaluated, by_power))
     return found.added_to(parts.answer(), reactions)
+
+
+def _bodies(found: Evaluation, power: Mapping[str, tuple[float, float]]) -> FreeBodies:
+    if found.outcome.motions.slack:  # the given centres miss the motion: no digits would be right
+        found = found._replace(outcome=plain(found.outcome), arithmetic=FLOATS)
+    frame, balance = found.program.figure.frame, found.outcome.balance
+    return free_bodies(_position(found), frame, balance, power, found.arithmetic)
 
 
 def with_friction(parts: Parts, reactions: bool) -> Answer:
@@ -33,37 +40,33 @@ def with_friction(parts: Parts, reactions: bool) -> Answer:
         return parts.answer()
 
     outcome = parts.outcome
-    scene = Scene(_position(parts), parts.figure.frame, outcome.balance, outcome.solution, parts.speed)
+    position = _position(parts.first._replace(outcome=outcome, arithmetic=FLOATS))
+    scene = Rubbing(position, parts.figure.frame, outcome.balance, outcome.solution, parts.speed)
     return solved(scene._replace(traced=parts.traced), answer_with, reactions)
 
 
-def _position(parts: Parts) -> Position:
-    """The scene as free bodies take it."""
-    case, figure, moves = parts.case, parts.figure, parts.outcome.motions
-    scale, slack = figure.frame.scale, float(moves.slack)
-    found = parts.first.outcome.points
-    points = {name: (float(x), float(y)) for name, (x, y) in found.items()}  # the exact places, rounded once
-    ropes = rope_ties(case, points, scale)
-    return Position(case, parts.program.top, points, scale, moves.twists, slack, ropes)
+def _position(found: Evaluation) -> Position:
+    """An evaluated scene as free bodies take it."""
+    case, figure, (points, moves, *_) = found.program.case, found.program.figure, found.outcome
+    scale, a = figure.frame.scale, found.arithmetic
+    ropes = rope_ties(case, points, scale, a)
+    return Position(case, found.program.top, points, scale, moves.twists, float(moves.slack), ropes, a)
 
 
-def structure(program: Program, refusal: SceneError) -> Answer:
+def structure(program: Program, bound: bool, refusal: SceneError) -> Answer:
     """A structure by statics alone: its reactions.
 
     Raises the refusal of power where there is an unknown load: nothing would determine it.
     """
-    case, top, figure = program.case, program.top, program.figure
+    case, figure = program.case, program.figure
     if any(is_unknown(load) for load in case.loads):
         said = str(refusal).partition(" Take out")[0]
         remedy = "Any value of the unknown load is carried: give it a number, or take out a joint or a link."
         raise SceneError(refusal.status, f"{said} {remedy}")
-    still: dict[str, tuple[Triple, ...]] = dict.fromkeys((*case.links, case.ground), ())
-    scale = figure.frame.scale
-    place = Position(case, top, figure.points, scale, still, 0.0, rope_ties(case, figure.points, scale))
-    balance = Balance(wrenches(case, figure.frame, figure.points, FLOATS), (), ())
-    points = {n: case_point(figure.frame, p) for n, p in figure.points.items() if not n.startswith("@")}
+    scene = Scene(program, bound, run=evaluate_still)
+    points = scene.ask(points_shown)
     said = "the links form a structure: nothing moves, and statics alone gives the reactions."
     if has_friction(case):
         said += " Friction is left out: a structure needs none."
     answer = Answer(case, points=points, mobility=0, notes=(*figure.notes, said), skipped=figure.skipped)
-    return free_bodies(place, figure.frame, balance, {}).added_to(answer)
+    return scene.ask(lambda found: _bodies(found, {})).added_to(answer)

@@ -18,7 +18,16 @@ from icsolve.kinematics.centres import CentreFinder
 from icsolve.kinematics.motion import Motions
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.balls import PRECISIONS, BelowZero, MoreDigits, Moved
-from icsolve.scene.bounds import Evaluation, Scene, evaluate_bounded, floats, plain, slopes, unknown_values
+from icsolve.scene.bounds import (
+    Evaluation,
+    Scene,
+    evaluate_bounded,
+    floats,
+    plain,
+    points_shown,
+    slopes,
+    unknown_values,
+)
 from icsolve.scene.program import Program, Want, evaluate
 from icsolve.scene.sensitivity import numbers_of, unsettled
 from icsolve.scene.terms import advantage, power_terms
@@ -89,7 +98,7 @@ class Parts:
             centres=Deferred(self.plain_centres),
             rates=rates,
             velocities=velocities,
-            points=Deferred(lambda: self.scene.ask(_points)),
+            points=Deferred(lambda: self.scene.ask(points_shown)),
             terms=Later(lambda: self.scene.ask(self._terms)),
             advantage=self.scene.ask(lambda found: advantage(found, self._values(found))),
             mobility=motions.mobility,
@@ -118,7 +127,7 @@ class Parts:
             centres=Deferred(self.plain_centres),
             rates=rates,
             velocities=velocities,
-            points=Deferred(lambda: self.scene.ask(_points)),
+            points=Deferred(lambda: self.scene.ask(points_shown)),
             mobility=self.first.outcome.motions.mobility,
             scene=self,
         )
@@ -246,18 +255,6 @@ def _centres(found: Evaluation) -> dict[Pair, Centre]:
     )
     pairs = [pair for pair in wanted_pairs(case, program.want) if {*pair} <= twists.keys()]
     return finder.find(pairs, motions.slack)
-
-
-def _points(found: Evaluation) -> dict[str, tuple[float, float]]:
-    """The points that have a name in the case, in case units."""
-    a, (ox, oy, scale) = found.arithmetic, found.program.figure.frame
-    shown = {}
-    for name, (x, y) in found.outcome.points.items():
-        if not name.startswith("@"):
-            px, _ = a.rounded(x / scale + ox, 1.0 / scale + abs(ox))
-            py, _ = a.rounded(y / scale + oy, 1.0 / scale + abs(oy))
-            shown[name] = (px, py)
-    return shown
 
 
 NOTHING = 1e-60

@@ -146,3 +146,12 @@ def evaluate(program: Program, arithmetic: Arithmetic = FLOATS, rounds: int = 1)
             wrenches = exactly(case, top, figure.frame, points, motions.twists, wrenches, arithmetic)
     balance = power.balance(wrenches, motions.twists, motions.mobility)
     return program, Outcome(points, motions, balance, power.solve_balance(balance, arithmetic))
+
+
+def evaluate_still(program: Program, arithmetic: Arithmetic = FLOATS) -> tuple[Program, Outcome]:
+    """The same of a structure: its places, and the loads on it; nothing moves."""
+    figure, case = program.figure, program.case
+    points = figure.points if arithmetic is FLOATS else place(figure, case, arithmetic).points
+    still = motion.Motions(dict.fromkeys((*case.links, case.ground), ()), {}, 0, 0, (), ())
+    loads = power.wrenches(case, figure.frame, points, arithmetic)
+    return program, Outcome(points, still, power.Balance(loads, (), ()), power.Solution("balanced", {}))

@@ -13,13 +13,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
 from icsolve.answer.bodies import Witness
-from icsolve.case import Number
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
+from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider
 from icsolve.numbers.linear import inverse, solve_square
 from icsolve.numbers.sparse import General, Row, eliminate
 from icsolve.screws.plane import Point, velocity
-from icsolve.statics.power import Balance, Wrench, force_scale, is_unknown, known_value, place_of
+from icsolve.statics.power import Balance, Wrench, force_scale, is_unknown, number_of, place_of
 from icsolve.statics.reaction_basis import Force, Position, RopeTie, Tie
 
 
@@ -54,6 +53,12 @@ class Statics(NamedTuple):
     rubs: tuple[Rub, ...]
     scale: float
     general: General
+    arithmetic: Arithmetic
+
+    def is_none(self, value: Scalar, size: float) -> bool:
+        """Whether a share in what the joints leave open, of this largest one, is none."""
+        vanishes = decider(self.arithmetic)
+        return vanishes(value, size) if vanishes else abs(value) <= UNIQUE * size
 
     def tension(self, n: int) -> int:
         """Column of the tension of a rope."""
@@ -67,18 +72,18 @@ class Statics(NamedTuple):
         """Column of the friction at a rub."""
         return self.known + 1 + len(self.roots) + n
 
-    def parameters(self, unknowns: Mapping[str, float], friction: Sequence[float] = ()) -> Row:
+    def parameters(self, unknowns: Mapping[str, Scalar], friction: Sequence[Scalar] = ()) -> Row:
         """Values of all parameters, from numbers in case units (friction scaled)."""
         row = {self.known: 1.0}
         row.update({self.root(n): unknowns[name] * self.scale for n, name in enumerate(self.roots)})
         row.update({self.rub(n): f for n, f in enumerate(friction)})
         return row
 
-    def value(self, column: int, parameters: Mapping[int, float]) -> float:
+    def value(self, column: int, parameters: Mapping[int, Scalar]) -> Scalar:
         """A joint's unknown, scaled, where the free columns are zero."""
-        return sum(a * parameters.get(c, 0.0) for c, a in self.general.of(column).items())
+        return sum((a * parameters.get(c, 0.0) for c, a in self.general.of(column).items()), 0.0)
 
-    def filled(self, parameters: Mapping[int, float]) -> Row:
+    def filled(self, parameters: Mapping[int, Scalar]) -> Row:
         """Values of all columns, scaled."""
         return {c: self.value(c, parameters) for c in range(self.known)} | dict(parameters)
 
@@ -88,10 +93,9 @@ def equilibrium(
     ties: Sequence[Tie],
     balance: Balance,
     rubs: Sequence[Rub] = (),
-    arithmetic: Arithmetic = FLOATS,
 ) -> Statics:
     """Solve the equilibrium of every link but the frame for what the joints transmit."""
-    rows = _Rows(position, ties, arithmetic)
+    rows = _Rows(position, ties)
     first = []
     column = 0
     for tie in ties:
@@ -105,19 +109,32 @@ def equilibrium(
     scale = force_scale(balance)
     roots = tuple(w.load.name for w in balance.wrenches if is_unknown(w.load))
     for w in balance.wrenches:
-        rows.load(w, *_share(w, roots, column, scale, arithmetic))
+        rows.load(w, *_share(w, position.arithmetic, roots, column, scale))
     for n, rub in enumerate(rubs):
         rows.rub(ties[rub.tie], rub, column + 1 + len(roots) + n)
-    general = _eliminated(rows.all(), column, position.mobility)
-    return Statics(tuple(ties), position.ropes, tuple(first), column, roots, tuple(rubs), scale, general)
+    general = _eliminated(rows.all(), column, position)
+    return Statics(
+        tuple(ties),
+        position.ropes,
+        tuple(first),
+        column,
+        roots,
+        tuple(rubs),
+        scale,
+        general,
+        position.arithmetic,
+    )
 
 
-def _eliminated(rows: list[Row], columns: int, mobility: int) -> General:
+def _eliminated(rows: list[Row], columns: int, position: Position) -> General:
     """The elimination in which as many equations lose all joints as the links have motions.
 
-    Where rounding hides that number, it is looked for a little above and below.
+    Where the rounding of floats hides that number, it is looked for a little above and below.
     """
-    tries = [eliminate(rows, columns)]
+    mobility, vanishes = position.mobility, decider(position.arithmetic)
+    tries = [eliminate(rows, columns, vanishes=vanishes)]
+    if vanishes is not None:
+        return tries[0]
     for spent in SPENT_TRIES:
         if len(tries[-1].left) == mobility:
             return tries[-1]
@@ -125,32 +142,25 @@ def _eliminated(rows: list[Row], columns: int, mobility: int) -> General:
     return tries[-1] if len(tries[-1].left) == mobility else tries[0]
 
 
+UNIQUE = 1e-9
+"""In floats a share below this fraction of the largest is rounding."""
 SPENT_TRIES = (1e-12, 1e-11, 1e-10, 1e-14, 1e-15)
 
 
 def _share(
-    w: Wrench, roots: Sequence[str], known: int, scale: float, arithmetic: Arithmetic = FLOATS
+    w: Wrench, arithmetic: Arithmetic, roots: Sequence[str], known: int, scale: float
 ) -> tuple[int, Scalar]:
     """The parameter that a load's number belongs to, and its factor."""
-    value: Scalar | None = known_value(w)
-    if value is None:
-        return known + 1 + roots.index(w.root), _plain(w.ratio, arithmetic)
-    number = getattr(w.source, "value", None)
-    if arithmetic is not FLOATS and isinstance(number, Number):
-        value = arithmetic.given(number)
-    return known, value * scale * _plain(w.ratio, arithmetic)
-
-
-def _plain(value: Scalar, arithmetic: Arithmetic) -> Scalar:
-    """A number of a scene (it has more digits where bounds are asked for) in the arithmetic of the rows."""
-    return float(value) if arithmetic is FLOATS else value
+    if w.root in roots:
+        return known + 1 + roots.index(w.root), w.ratio
+    return known, number_of(w, arithmetic) * scale * w.ratio
 
 
 class _Rows:
     """Three equations a link: forces along x and y, moments about the link's first point."""
 
-    def __init__(self, position: Position, ties: Iterable[Tie], arithmetic: Arithmetic = FLOATS) -> None:
-        self.position, self.arithmetic = position, arithmetic
+    def __init__(self, position: Position, ties: Iterable[Tie]) -> None:
+        self.position = position
         self.about: dict[str, Point] = {}
         for tie in ties:
             self.about.setdefault(tie.by, tie.at)
@@ -188,10 +198,9 @@ class _Rows:
 
     def load(self, w: Wrench, column: int, factor: Scalar) -> None:
         """A load on its link, the opposite on the link against which it acts."""
-        gain = _plain(w.gain, self.arithmetic) * w.measure * factor
-        units = (w.unit[1], -w.unit[0], w.unit[2])
-        x, y, couple = (gain * _plain(u, self.arithmetic) for u in units)
-        place = place_of(w.load, self.position.points)
+        gain = w.gain * w.measure * factor
+        x, y, couple = (gain * u for u in (w.unit[1], 0.0 - w.unit[0], w.unit[2]))
+        place = place_of(w.load, self.position.points, self.position.arithmetic)
         at, unit = (place, (x, y, 0.0)) if place else ((0.0, 0.0), (0.0, 0.0, couple))
         self.add(w.load.link, at, unit, column)
         self.add(w.against, at, (-unit[0], -unit[1], -unit[2]), column)
@@ -211,7 +220,7 @@ class _Rows:
 
 
 def terms_of(
-    position: Position, statics: Statics, balance: Balance, parameters: Mapping[int, float]
+    position: Position, statics: Statics, balance: Balance, parameters: Mapping[int, Scalar]
 ) -> Terms:
     """What the equations of every link are summed from, in the solution with these parameters."""
     x = statics.filled(parameters)
@@ -228,15 +237,15 @@ def equations_of(position: Position, statics: Statics, balance: Balance) -> Equa
     for n, rope in enumerate(statics.ropes):
         rows.rope(rope, statics.tension(n))
     for w in balance.wrenches:
-        rows.load(w, *_share(w, statics.roots, statics.known, statics.scale))
+        rows.load(w, *_share(w, position.arithmetic, statics.roots, statics.known, statics.scale))
     for n, rub in enumerate(statics.rubs):
         rows.rub(statics.ties[rub.tie], rub, statics.rub(n))
     return {link: (rows.about[link], three) for link, three in rows.rows.items()}
 
 
-def _summed(rows: tuple[Row, Row, Row], x: Mapping[int, float]) -> tuple[tuple[float, float], ...]:
+def _summed(rows: tuple[Row, Row, Row], x: Mapping[int, Scalar]) -> tuple[tuple[float, float], ...]:
     """Size and sum of each equation; a moment is as uncertain as the forces on the figure's size."""
-    terms = [[a * x[c] for c, a in row.items()] for row in rows]
+    terms = [[float(a * x[c]) for c, a in row.items()] for row in rows]
     sizes = [sum(map(abs, row)) for row in terms]
     return tuple(
         (size + (sizes[0] + sizes[1] if n == 2 else 0.0), math.fsum(row))
@@ -263,12 +272,13 @@ ROUNDINGS = 32 * 2.0**-53
 """What the operations from a point to a term of an equation can lose together, of the term."""
 
 
-def unknowns_of(statics: Statics, friction: Mapping[int, float] | None = None) -> dict[str, float] | None:
+def unknowns_of(statics: Statics, friction: Mapping[int, float] | None = None) -> dict[str, Scalar] | None:
     """The unknown loads (case units) from the equations in which no joint is left.
 
     None where these do not determine them. ``friction`` has the values of the friction columns.
     """
     fixed = {statics.known: 1.0, **(friction or {})}
+    vanishes = decider(statics.arithmetic)
     columns = [statics.root(n) for n in range(len(statics.roots))]
     rows = [
         [*(left.get(c, 0.0) for c in columns), -sum(a * fixed.get(c, 0.0) for c, a in left.items())]
@@ -277,13 +287,13 @@ def unknowns_of(statics: Statics, friction: Mapping[int, float] | None = None) -
     rows = independent(rows, len(columns))
     if len(rows) < len(columns):
         return None
-    values = solve_square([row[:-1] for row in rows], [row[-1] for row in rows])
+    values = solve_square([row[:-1] for row in rows], [row[-1] for row in rows], vanishes)
     if values is None:
         return None
     return {root: value / statics.scale for root, value in zip(statics.roots, values, strict=True)}
 
 
-def independent(rows: Sequence[Sequence[float]], count: int) -> list[list[float]]:
+def independent(rows: Sequence[Sequence[Scalar]], count: int) -> list[list[Scalar]]:
     """As many rows as there are unknowns (the first ``count`` entries), those with most to say about them."""
     work = [(row, list(row)) for row in map(list, rows)]
     chosen = []

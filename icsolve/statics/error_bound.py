@@ -18,7 +18,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
-from icsolve.case import ForceVector, Gears, Number
+from icsolve.case import Gears
 from icsolve.kinematics.speeds import Speed
 from icsolve.numbers.arithmetic import Arithmetic, Scalar
 from icsolve.numbers.sparse import Row, eliminate
@@ -28,7 +28,7 @@ from icsolve.statics import reaction_basis
 from icsolve.statics.equilibrium import Rub, Statics, equations_of
 from icsolve.statics.free_bodies import Solved, carrying_flanks
 from icsolve.statics.friction_interface import rates_of, rubs_of
-from icsolve.statics.power import Balance, Bounded, Wrench, vector_size
+from icsolve.statics.power import Balance, Bounded, Wrench, number_of
 from icsolve.statics.reaction_basis import Force, Position, RopeTie, Tie, rope_ties, ties_of
 
 UNBOUND = "no bound was asked for"
@@ -117,12 +117,12 @@ def _doubt(position: Position, traced: Bounded) -> str:
 def _exact(position: Position, solved: Solved, found: Sliding, traced: Bounded) -> Exact:
     """The scene on the tape."""
     tape, outcome = traced.tape, traced.outcome
-    placed = position._replace(points=outcome.points)
+    placed = position._replace(points=outcome.points, arithmetic=tape)
     flanks = carrying_flanks(position, solved.statics.ties, solved)
-    ties = reaction_basis.with_flanks(placed, ties_of(placed, tape), flanks, tape)
+    ties = reaction_basis.with_flanks(placed, ties_of(placed), flanks)
     values = {column: tape.constant(value) for column, value in found.values.items()}
     ropes = rope_ties(position.case, placed.points, position.scale, tape)
-    return Exact(ties, rubs_of(placed, ties, tape), outcome.balance.wrenches, values, tape, ropes)
+    return Exact(ties, rubs_of(placed, ties), outcome.balance.wrenches, values, tape, ropes)
 
 
 def _senses_are_sure(
@@ -292,10 +292,7 @@ def _number(statics: Statics, exact: Exact, w: Wrench) -> Scalar:
     """The number of a load, scaled."""
     if w.root in statics.roots:
         return exact.values[statics.root(statics.roots.index(w.root))]
-    if isinstance(w.source, ForceVector):
-        return vector_size(w.source) * statics.scale
-    assert isinstance(w.source.value, Number)
-    return exact.numbers.given(w.source.value) * statics.scale
+    return number_of(w, exact.numbers) * statics.scale
 
 
 def _of_rub(found: Sliding, weights: Weights, exact: Exact, k: int) -> Scalar:

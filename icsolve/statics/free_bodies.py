@@ -16,6 +16,7 @@ from icsolve.assembly import Frame
 from icsolve.case import ForceVector, Number
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
+from icsolve.numbers.arithmetic import FLOATS, Scalar, Showing
 from icsolve.numbers.sparse import Row
 from icsolve.screws.plane import velocity
 from icsolve.statics import reaction_basis
@@ -24,7 +25,6 @@ from icsolve.statics.equilibrium import (
     bounds_of,
     equilibrium,
     refuse_apart,
-    residual,
     terms_of,
     unknowns_of,
     witnesses,
@@ -41,7 +41,6 @@ class FreeBodies(NamedTuple):
 
     reactions: Reactions
     witnesses: tuple[Witness, ...] = ()
-    residual: float = 0.0
     notes: tuple[str, ...] = ()
     friction: Friction | None = None
     tensions: tuple[Tension, ...] = ()
@@ -64,7 +63,7 @@ class FreeBodies(NamedTuple):
 
 
 def free_bodies(
-    position: Position, frame: Frame, balance: Balance, power: Mapping[str, tuple[float, float]]
+    position: Position, frame: Frame, balance: Balance, power: Mapping[str, tuple[float, float]], a: Showing
 ) -> FreeBodies:
     """Equilibrium of every link; ``power`` has the unknown loads as power found them, and their bounds.
 
@@ -75,21 +74,23 @@ def free_bodies(
     ties = ties_of(position)
     solved = frictionless(position, balance, ties)
     statics, parameters = solved.statics, solved.parameters
-    terms = terms_of(position, statics, balance, parameters)
-    bounds = bounds_of(position, statics, balance, terms) if position.mobility else {}
-    found = witnesses(power, solved.unknowns, bounds)
-    refuse_apart(found, position.slack)
-    reactions = reactions_of(position, frame, statics, parameters)
+    shown = {root: a.rounded(value) for root, value in solved.unknowns.items()}
+    bounds = {root: error for root, (_, error) in shown.items()}
+    if a is FLOATS and position.mobility:
+        bounds = bounds_of(position, statics, balance, terms_of(position, statics, balance, parameters))
+    both = witnesses(power, {root: value for root, (value, _) in shown.items()}, bounds)
+    refuse_apart(both, position.slack)
+    reactions = reactions_of(position, frame, statics, parameters, a)
     notes = notes_of(statics, reactions, names_by_tie(position.case, statics.ties))
-    pulls = tensions_of(statics, parameters)
-    return FreeBodies(reactions, found, residual(terms), (*left, *notes), tensions=pulls)
+    pulls = tensions_of(statics, parameters, a)
+    return FreeBodies(reactions, both, (*left, *notes), tensions=pulls)
 
 
 class Solved(NamedTuple):
     """Statics with the values of its parameters: unknown loads in case units, friction scaled."""
 
     statics: Statics
-    unknowns: dict[str, float]
+    unknowns: dict[str, Scalar]
     friction: tuple[float, ...] = ()
 
     @property
@@ -172,8 +173,11 @@ def on_flanks(position: Position, ties: Sequence[Tie], flanks: Mapping[int, floa
 
 
 def carrying(found: Solved, t: int) -> float:
-    """Sign of the force in a mesh along its first unit."""
-    return math.copysign(1.0, found.statics.value(found.statics.first[t], found.parameters))
+    """Sign of the force in a mesh along its first unit; 1 for no force."""
+    statics, parameters = found.statics, found.parameters
+    value = statics.value(statics.first[t], parameters)
+    largest = max(abs(statics.value(column, parameters)) for column in range(statics.known))
+    return 1.0 if statics.arithmetic.vanishes(value, largest) else math.copysign(1.0, value)
 
 
 ROUNDED = 1e-9

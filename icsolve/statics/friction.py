@@ -16,6 +16,7 @@ from icsolve.assembly import Frame
 from icsolve.case import Belt, Gears, Rope
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import STILL, Speed
+from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.ropes import slip_rates, tension_ratios
 from icsolve.statics import reaction_basis
 from icsolve.statics.equilibrium import (
@@ -257,15 +258,15 @@ def _bodies(scene: Scene, solved: Solved, found: Slid, workless: bool) -> FreeBo
         by_power = {q: (value, 0.0) for q, value in _by_power(scene, solved).items()}
         shown = witnesses(by_power, solved.unknowns, bounds)
         refuse_apart(shown, position.slack)
-    reactions = reactions_of(position, scene.frame, statics, parameters)
-    pulls = tensions_of(statics, parameters)
+    reactions = reactions_of(position, scene.frame, statics, parameters, FLOATS)
+    pulls = tensions_of(statics, parameters, FLOATS)
     rubbing = (*rubbing_of(scene, solved, found, senses), *_ropes_rubbing(scene, statics, pulls))
     refuse_power(rubbing)
     error, losses = found.error if math.isfinite(found.error) else None, sum(r.loss for r in rubbing)
     friction = Friction(rubbing, residual(terms), error, found.unique, losses)
     notes = notes_of(statics, reactions, names_by_tie(position.case, statics.ties))
     notes = (*notes, *notes_in_motion(scene, statics, found, senses))
-    return FreeBodies(reactions, shown, residual(terms), notes, friction, pulls)
+    return FreeBodies(reactions, shown, notes, friction, pulls)
 
 
 def _ropes_rubbing(scene: Scene, statics: Statics, pulls: Sequence[Tension]) -> Iterator[Rubbing]:

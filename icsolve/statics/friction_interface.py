@@ -13,7 +13,7 @@ from collections.abc import Iterable, Sequence
 
 from icsolve.answer import Term, bodies
 from icsolve.case import Case, Contact, Friction, Pin, Screw, Slide, Slot
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
+from icsolve.numbers.arithmetic import Arithmetic, Scalar
 from icsolve.numbers.linear import solve_square
 from icsolve.screws.joints import guide_direction
 from icsolve.screws.plane import pairing, subtract, velocity
@@ -34,10 +34,9 @@ def has_friction(case: Case) -> bool:
     return ropes or any(friction_of(joint) is not None for joint in case.joints)
 
 
-def rubs_of(
-    position: Position, ties: Sequence[Tie], arithmetic: Arithmetic = FLOATS
-) -> tuple[Rub, ...]:
+def rubs_of(position: Position, ties: Sequence[Tie]) -> tuple[Rub, ...]:
     """Every place that can rub, in the order of the joints."""
+    arithmetic = position.arithmetic
     found: list[Rub] = []
     for t, tie in enumerate(ties):
         friction = friction_of(tie.joint)
@@ -73,9 +72,7 @@ def _threaded(position: Position, t: int, tie: Tie, screw: Screw, arithmetic: Ar
     return Rub(t, unit, (normal,), arithmetic.given(screw.mu), radius * along)
 
 
-def _guided(
-    position: Position, t: int, tie: Tie, friction: Friction, arithmetic: Arithmetic
-) -> list[Rub]:
+def _guided(position: Position, t: int, tie: Tie, friction: Friction, arithmetic: Arithmetic) -> list[Rub]:
     """One rub, or one at each end of a block with a length."""
     nx, ny = next((unit[0], unit[1]) for unit in tie.units if float(unit[2]) == 0.0)
     along: Force = (-ny, nx, 0.0)

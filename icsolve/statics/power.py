@@ -30,7 +30,7 @@ from icsolve.case import (
 )
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import Motions
-from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider, magnitude
+from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, decider, magnitude
 from icsolve.numbers.null_space import null_space
 from icsolve.numbers.tape import Tape
 from icsolve.screws.plane import Point, Triple, force_wrench, pairing
@@ -194,7 +194,7 @@ def _is_couple(load: Load) -> bool:
     return isinstance(load, Torque | TorsionSpring)
 
 
-def place_of(load: Load, points: Points) -> Point | None:
+def place_of(load: Load, points: Points, arithmetic: Arithmetic = FLOATS) -> Point | None:
     """Where the resultant of a load acts; None of a couple."""
     if isinstance(load, Torque | TorsionSpring) or _is_couple(load):
         return None
@@ -202,7 +202,7 @@ def place_of(load: Load, points: Points) -> Point | None:
     if not isinstance(over, Stretch) or over.end is None or not isinstance(load, Force):
         return points[load.at]
     assert isinstance(load.value, Number)
-    ratio = over.end.value / load.value.value if load.value.value else 0.0
+    ratio = arithmetic.given(over.end) / arithmetic.given(load.value) if load.value.value else 0.0
     share = (1.0 + 2.0 * ratio) / (3.0 * (1.0 + ratio))
     (x, y), (u, v) = points[over.a], points[over.b]
     return x + share * (u - x), y + share * (v - y)
@@ -353,10 +353,15 @@ def _share(
     k = place.get(w.root)
     if k is not None:
         return k, w.ratio * (w.measure / unknown[k].measure)
+    return len(unknown), number_of(w, arithmetic) * scale * w.measure * w.ratio
+
+
+def number_of(w: Wrench, arithmetic: Arithmetic) -> Scalar:
+    """The number of a known load in its own unit."""
     if isinstance(w.source, ForceVector):
-        return len(unknown), vector_size(w.source) * scale * w.measure * w.ratio
+        return vector_size(w.source)
     assert isinstance(w.source.value, Number)
-    return len(unknown), arithmetic.given(w.source.value) * scale * w.measure * w.ratio
+    return arithmetic.given(w.source.value)
 
 
 def _row(

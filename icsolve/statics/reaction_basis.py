@@ -88,6 +88,8 @@ class Position(NamedTuple):
     twists: Mapping[str, tuple[Triple, ...]]
     slack: float = 0.0
     ropes: tuple[RopeTie, ...] = ()
+    arithmetic: Arithmetic = FLOATS
+    """of the points, the twists, and all that is made of them"""
 
     @property
     def mobility(self) -> int:
@@ -99,17 +101,14 @@ class Position(NamedTuple):
         return subtract(self.twists[on][motion], self.twists[by][motion])
 
 
-def ties_of(position: Position, arithmetic: Arithmetic = FLOATS) -> tuple[Tie, ...]:
-    """Every joint of a case, a pin of several links as one tie for each but the first.
-
-    The points of the position are numbers of the same arithmetic.
-    """
+def ties_of(position: Position) -> tuple[Tie, ...]:
+    """Every joint of a case, a pin of several links as one tie for each but the first."""
     pivots = {(id(bond.joint), bond.links): bond.pivots for bond in position.top.bonds}
     found = []
     for joint in position.case.joints:
         for by, on in pairs_of(joint):
             bond = Bond(0, 1, 0, joint, (by, on), pivots.get((id(joint), (by, on)), ("", "")))
-            found.append(_tie(position, bond, arithmetic))
+            found.append(_tie(position, bond))
     ends = [_end_tie(position, tie) for tie in position.ropes if tie.rope.is_free]
     return (*found, *ends, *(_rotor_tie(position, screw) for screw in position.case.screws))
 
@@ -140,7 +139,7 @@ def _end_tie(position: Position, tie: RopeTie) -> Tie:
     return Tie(joint, position.case.ground, rope.end, at, "", ((0.0 - y, x, 0.0), COUPLE))
 
 
-def _tie(position: Position, bond: Bond, arithmetic: Arithmetic) -> Tie:
+def _tie(position: Position, bond: Bond) -> Tie:
     joint, (by, on) = bond.joint, bond.links
     if isinstance(joint, Weld):
         where = joint.at or _meeting(position, by, on)
@@ -148,22 +147,22 @@ def _tie(position: Position, bond: Bond, arithmetic: Arithmetic) -> Tie:
     if isinstance(joint, Gears | Belt) and not bond.pivots[0]:  # its links move as one: it may carry anything
         at = position.points.get(_meeting(position, by, on), (0.0, 0.0))
         return Tie(joint, by, on, at, "", (X, Y, COUPLE))
-    where, at = _place(bond, position.points, arithmetic)
-    found = Tie(joint, by, on, at, where, _units(position, bond, at, arithmetic), bond.pivots)
+    where, at = _place(bond, position.points, position.arithmetic)
+    found = Tie(joint, by, on, at, where, _units(position, bond, at), bond.pivots)
     for screw in position.case.screws:
         if isinstance(joint, Slide) and screw.links == (on, by) and screw.guide is joint.guide:
-            return _screwed(position, found, screw, arithmetic)
+            return _screwed(position, found, screw)
     return found
 
 
-def _screwed(position: Position, slide: Tie, screw: Screw, arithmetic: Arithmetic) -> Tie:
+def _screwed(position: Position, slide: Tie, screw: Screw) -> Tie:
     """The slide of a screw, with the force on its thread: along the axis, and a couple on the rotor.
 
     A force N square to a thread of radius r that rises by the angle l has N cos l along the axis and the
     couple N r sin l about it; 2 pi r tan l is the lead. Without friction any radius will do.
     """
-    x, y = guide_direction(screw.guide, position.points, arithmetic)
-    along, turned = thread(screw, position.scale, arithmetic)
+    x, y = guide_direction(screw.guide, position.points, position.arithmetic)
+    along, turned = thread(screw, position.scale, position.arithmetic)
     # the slide's second link is the one that the screw moves on: the unit acts on it the other way
     unit: Force = (0.0 - along * x, 0.0 - along * y, 0.0)
     couples = (*(0.0 for _ in slide.units), 0.0 - turned)
@@ -202,18 +201,41 @@ def _place(bond: Bond, points: Points, arithmetic: Arithmetic) -> tuple[str, Poi
     return ("" if at.startswith("@") else at), points[at]
 
 
-def _units(position: Position, bond: Bond, at: Point, arithmetic: Arithmetic) -> tuple[Force, ...]:
+def _units(position: Position, bond: Bond, at: Point) -> tuple[Force, ...]:
     """What the joint transmits: the wrenches that do no work on the freedoms that it leaves.
 
     A mesh or a belt is one constraint, but the force in it has two unknown parts (tangential and
     separating, the pulls of two strands): all that does no work on the turning about the pitch point.
     """
-    basis = freedoms(bond, position.points, arithmetic)
-    if isinstance(bond.joint, Gears | Belt):
-        basis = basis[:1]
+    if isinstance(bond.joint, Gears):
+        return _forces(((0.0, 0.0, 1.0),))
+    basis = freedoms(bond, position.points, position.arithmetic)
+    if isinstance(bond.joint, Belt):
+        return _pulls(bond, position.points, shift(basis[0], at))
     if position.slack and isinstance(bond.joint, KnownCentre | Roll):
         basis = _as_it_moves(position, bond, basis)
-    return tuple((w[1], -w[0], w[2]) for w in transmitted(tuple(shift(b, at) for b in basis)))
+    return _forces(tuple(_seen(b, at) for b in basis))
+
+
+def _pulls(bond: Bond, points: Points, pitch: Triple) -> tuple[Force, ...]:
+    """The forces of a belt: along the line of the pivots, and across it through the pitch point.
+
+    That lies at infinity where the pulleys turn as one, and the second is a couple.
+    """
+    (ax, ay), (bx, by) = (points[p] for p in bond.pivots)
+    (x, y, w), (dx, dy) = pitch, (bx - ax, by - ay)
+    return (dx, dy, 0.0), (0.0 - w * dy, w * dx, x * dx + y * dy)
+
+
+def _seen(b: Triple, at: Point) -> Triple:
+    """A basis twist from the tie's own point: a turning about that is exactly one."""
+    if b[0] is at[0] and b[1] is at[1] and b[2] == 1.0:
+        return (0.0, 0.0, 1.0)
+    return shift(b, at)
+
+
+def _forces(basis: tuple[Triple, ...]) -> tuple[Force, ...]:
+    return tuple((w[1], 0.0 - w[0], w[2]) for w in transmitted(basis))
 
 
 def _as_it_moves(position: Position, bond: Bond, basis: tuple[Triple, ...]) -> tuple[Triple, ...]:
@@ -246,32 +268,29 @@ def _has_teeth(tie: Tie) -> bool:
     return isinstance(tie.joint, Roll) and tie.joint.pressure_angle is not None
 
 
-def with_flanks(
-    position: Position, ties: Sequence[Tie], flanks: Mapping[int, float], arithmetic: Arithmetic = FLOATS
-) -> tuple[Tie, ...]:
+def with_flanks(position: Position, ties: Sequence[Tie], flanks: Mapping[int, float]) -> tuple[Tie, ...]:
     """The ties with the tooth force of each mesh along the line of action of the flank that carries.
 
     ``flanks`` has the sign of the tangential force of each mesh; 0 leaves the two parts apart.
     """
-    along = {t: _along_action(position, ties[t], flank, arithmetic) for t, flank in flanks.items()}
+    along = {t: _along_action(position, ties[t], flank) for t, flank in flanks.items()}
     return tuple(along.get(t, tie) for t, tie in enumerate(ties))
 
 
-def _along_action(position: Position, tie: Tie, flank: float, arithmetic: Arithmetic) -> Tie:
+def _along_action(position: Position, tie: Tie, flank: float) -> Tie:
     """The tangential and the separating force; with a flank one unit: a tangential 1 with its share."""
     assert isinstance(tie.joint, Gears | Roll) and tie.joint.pressure_angle is not None
-    (tx, ty), (sx, sy) = tangent_and_separating(position, tie, arithmetic)
+    (tx, ty), (sx, sy) = tangent_and_separating(position, tie)
     if not flank:
         return tie._replace(units=((tx, ty, 0.0), (sx, sy, 0.0)))
-    cosine, sine = arithmetic.turn(tie.joint.pressure_angle)
+    cosine, sine = position.arithmetic.turn(tie.joint.pressure_angle)
     apart = sine / cosine
     return tie._replace(units=((flank * tx + apart * sx, flank * ty + apart * sy, 0.0),))
 
 
-def tangent_and_separating(
-    position: Position, tie: Tie, arithmetic: Arithmetic = FLOATS
-) -> tuple[Point, Point]:
+def tangent_and_separating(position: Position, tie: Tie) -> tuple[Point, Point]:
     """Unit vectors at the pitch point: the common tangent, and the separating force on link ``on``."""
+    arithmetic = position.arithmetic
     if isinstance(tie.joint, Roll):
         link, centre = _wheel(position, tie)
         ex, ey = _unit(tie.at, centre, arithmetic)
@@ -280,27 +299,28 @@ def tangent_and_separating(
     ex, ey = _unit(a, b, arithmetic)
     assert isinstance(tie.joint, Gears)
     internal_on = tie.joint.teeth[1].value < 0
-    return (-ey, ex), (
-        _unit(a, tie.at, arithmetic) if internal_on else _unit(tie.at, b, arithmetic)
-    )
+    return (-ey, ex), (_unit(a, tie.at, arithmetic) if internal_on else _unit(tie.at, b, arithmetic))
 
 
-def axial_shares(position: Position, tie: Tie, tangential: float) -> tuple[tuple[str, float], ...]:
+def axial_shares(position: Position, tie: Tie, tangential: Scalar) -> list[tuple[str, Scalar]]:
     """Of helical teeth the axial force, square to the plane, and the couple that it makes about each wheel.
 
     Where the span of the bearings is given, ``bearing`` is what each carries more for that couple.
     """
     helix = tie.joint.helix if isinstance(tie.joint, Gears) else None
     if helix is None:
-        return ()
-    axial = tangential * math.tan(math.radians(helix.angle.value))
+        return []
+    a = position.arithmetic
+    cosine, sine = a.turn(helix.angle)
+    axial = tangential * (sine / cosine)
     parts = [("axial", axial)]
     for link, pivot in zip(tie.joint.links, tie.pivots, strict=True):
-        couple = axial * math.dist(position.points[pivot], tie.at) / position.scale
-        parts.append((f"couple {link}", couple * position.case.units.torque_per_force_length))
+        (px, py), (x, y) = position.points[pivot], tie.at
+        couple = axial * a.sqrt((px - x) * (px - x) + (py - y) * (py - y)) / position.scale
+        parts.append((f"couple {link}", couple * a.ratio(position.case.units.exact_torque)))
         if helix.span is not None:
-            parts.append((f"bearing {link}", couple / helix.span.value))
-    return tuple(parts)
+            parts.append((f"bearing {link}", couple / a.given(helix.span)))
+    return parts
 
 
 def _wheel(position: Position, tie: Tie) -> tuple[str, Point]:

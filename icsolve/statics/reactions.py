@@ -7,49 +7,51 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from icsolve.answer.bodies import Reaction, Reactions, Tension, names_of
-from icsolve.assembly import Frame, case_point
+from icsolve.assembly import Frame
 from icsolve.case import Belt, Case, Contact, Gears, KnownCentre, Roll, Rope, Slide, Slot
 from icsolve.case.names import ordered_pair
 from icsolve.errors import SceneError, Status
+from icsolve.numbers.arithmetic import Scalar, Showing, all_vanish, size_of, zero_of
 from icsolve.numbers.sparse import Row
 from icsolve.screws.plane import velocity
 from icsolve.statics.equilibrium import Statics
 from icsolve.statics.reaction_basis import Force, Position, Tie, axial_shares, kind_of, tangent_and_separating
 from icsolve.wording.sentences import listed, plural
 
-UNIQUE = 1e-9
-"""A share in what the joints leave open that is below this, of the largest, is none (rounding)."""
-NOTHING = 1e-14
-"""A force below this fraction of the largest in the mechanism is none (rounding)."""
-
 
 def reactions_of(
-    position: Position, frame: Frame, statics: Statics, parameters: Mapping[int, float]
+    position: Position, frame: Frame, statics: Statics, parameters: Mapping[int, Scalar], a: Showing
 ) -> Reactions:
     """Every joint's reaction; ``parameters`` are the known loads, the unknown ones and the friction."""
     combined = [_combined(statics, t) for t in range(len(statics.ties))]
     sizes = _open_sizes(statics)
     values = [tuple(_value(statics, row, parameters) for row in rows) for rows in combined]
-    least = _least(values)
+    zero = _zeros(values, a)
     names = names_by_tie(position.case, statics.ties)
     found = Reactions()
     for tie, rows, forces, name in zip(statics.ties, combined, values, names, strict=True):
         if tie.on.startswith("@"):  # the free end of a rope, which is no link
             continue
-        unique = [all(abs(row.get(c, 0.0)) <= UNIQUE * size for c, size in sizes.items()) for row in rows]
-        clean = [0.0 if abs(f) <= small else f for f, small in zip(forces, least, strict=True)]
-        kept = [f if u else None for f, u in zip(clean, unique, strict=True)]
-        found[name] = _reaction(position, frame, tie, kept, statics.scale)
+        unique = [all(statics.is_none(row.get(c, 0.0), size) for c, size in sizes.items()) for row in rows]
+        kept = [zero(f, n) if u else None for n, (f, u) in enumerate(zip(forces, unique, strict=True))]
+        parts = _parts(position, tie, kept, a)
         if isinstance(tie.joint, Belt) and tie.pivots[0]:
-            pull = _net_pull(position, tie.joint, tie, forces) / statics.scale
-            found[name] = found[name]._replace(parts=(("net pull", pull),))
+            parts = [("net pull", _net_pull(position, tie.joint, tie, forces, a))]
+        shares = tuple(
+            (n, a.rounded(share if n in DEGREES else share / statics.scale)[0]) for n, share in parts
+        )
+        found[name] = _reaction(position, frame, tie, kept, statics.scale, a)._replace(parts=shares)
     return found
 
 
-def tensions_of(statics: Statics, parameters: Mapping[int, float]) -> tuple[Tension, ...]:
+DEGREES = ("pressure angle",)
+"""Parts of a reaction that are no forces."""
+
+
+def tensions_of(statics: Statics, parameters: Mapping[int, Scalar], a: Showing) -> tuple[Tension, ...]:
     """The pull of every rope, case units.
 
     Raises SceneError where one would have to push.
@@ -59,20 +61,20 @@ def tensions_of(statics: Statics, parameters: Mapping[int, float]) -> tuple[Tens
     found = []
     for n, tie in enumerate(statics.ropes):
         row = statics.general.of(statics.tension(n))
-        if any(abs(row.get(c, 0.0)) > UNIQUE * size for c, size in sizes.items()):
+        if not all(statics.is_none(row.get(c, 0.0), size) for c, size in sizes.items()):
             found.append(Tension(tie.rope.name, None, why=SHARED))
             continue
         value = _value(statics, row, parameters)
-        if value < -SLACK * largest:
-            raise SceneError(Status.SLACK, _slack(tie.rope, value / statics.scale))
-        pull = max(value, 0.0) / statics.scale
+        value = zero_of(value) if a.vanishes(value, largest) else value
+        pull, error = a.rounded(value / statics.scale)
+        if pull < 0.0:
+            raise SceneError(Status.SLACK, _slack(tie.rope, pull))
         slips = any(mu is not None for mu in tie.rope.mu)
-        found.append(Tension(tie.rope.name, pull, tuple(pull * r for r in tie.ratios) if slips else ()))
+        parts = tuple(pull * r for r in tie.ratios) if slips else ()
+        found.append(Tension(tie.rope.name, pull, parts, error=error if math.isfinite(error) else None))
     return tuple(found)
 
 
-SLACK = 1e-12
-"""A pull below zero by less than this fraction of the largest force is rounding."""
 SHARED = "the joints share the load in a way that equilibrium alone does not determine"
 
 
@@ -83,14 +85,14 @@ def _slack(rope: Rope, value: float) -> str:
     )
 
 
-def _net_pull(position: Position, belt: Belt, tie: Tie, force: tuple[float, ...]) -> float:
+def _net_pull(position: Position, belt: Belt, tie: Tie, force: tuple[Scalar, ...], a: Showing) -> Scalar:
     """What the tight strand pulls more than the slack one: the torque on the second pulley over its radius.
 
     The part of the force that is left open lies along the line of the pivots and makes no torque.
     """
     px, py = position.points[tie.pivots[1]]
     torque = force[2] + (tie.at[0] - px) * force[1] - (tie.at[1] - py) * force[0]
-    return float(abs(torque) / (abs(belt.radii[1].value) * position.scale))
+    return size_of(torque / (a.given(belt.radii[1]) * position.scale))
 
 
 def names_by_tie(case: Case, ties: tuple[Tie, ...]) -> list[str]:
@@ -136,52 +138,84 @@ def _open_sizes(statics: Statics) -> dict[int, float]:
 def is_unique(statics: Statics, t: int, unit: int) -> bool:
     """Whether equilibrium determines a tie's force along one of its units."""
     row = statics.general.of(statics.first[t] + unit)
-    return all(abs(row.get(c, 0.0)) <= UNIQUE * size for c, size in _open_sizes(statics).items())
+    return all(statics.is_none(row.get(c, 0.0), size) for c, size in _open_sizes(statics).items())
 
 
-def _value(statics: Statics, row: Row, parameters: Mapping[int, float]) -> float:
-    return sum(a * parameters.get(c, 0.0) for c, a in row.items() if c >= statics.known)
+def _value(statics: Statics, row: Row, parameters: Mapping[int, Scalar]) -> Scalar:
+    return sum((a * parameters.get(c, 0.0) for c, a in row.items() if c >= statics.known), 0.0)
 
 
-def _least(values: list[tuple[float, ...]]) -> tuple[float, float, float]:
-    """Below which a force, and a couple, is rounding."""
-    force = NOTHING * max((abs(v) for three in values for v in three[:2]), default=0.0)
-    couple = max((abs(three[2]) for three in values), default=0.0)
-    return force, force, NOTHING * max(couple, force / NOTHING)
+def _zeros(values: Sequence[tuple[Scalar, ...]], a: Showing) -> Callable[[Scalar, int], Scalar]:
+    """What makes a force, or a couple (2), that is nothing beside the largest of all a zero."""
+    force = max((abs(v) for three in values for v in three[:2]), default=0.0)
+    sizes = (force, force, max(force, max((abs(three[2]) for three in values), default=0.0)))
+    return lambda value, n: zero_of(value) if a.vanishes(value, sizes[n]) else value
 
 
-def _reaction(position: Position, frame: Frame, tie: Tie, kept: list[float | None], scale: float) -> Reaction:
+def _reaction(
+    position: Position, frame: Frame, tie: Tie, kept: list[Scalar | None], scale: float, a: Showing
+) -> Reaction:
+    """The numbers of a reaction, each rounded once."""
     case = position.case
-    x, y, couple = (None if f is None else f / scale + 0.0 for f in kept)
-    per_torque = frame.scale / case.units.torque_per_force_length
-    moment = None if couple is None else couple / per_torque
-    at = case_point(frame, tie.at)
-    why, parts = _why(tie, kept), _parts(position, tie, x, y)
+    ordered = ordered_pair(case, tie.by, tie.on) == (tie.by, tie.on)
+    x, y, couple = (None if f is None else (f if ordered else 0.0 - f) / scale for f in kept)
+    if couple is not None:
+        couple = couple / frame.scale * a.ratio(case.units.exact_torque)
+    (px, _), (py, _) = (
+        a.rounded(p / frame.scale + o, 1.0 / frame.scale + abs(o))
+        for p, o in zip(tie.at, frame, strict=False)
+    )
+    exact = {"x": x, "y": y, "moment": couple, **_polar(x, y, a)}
+    both = {name: a.rounded(value) for name, value in exact.items() if value is not None}
+    shown = {name: value for name, (value, _) in both.items()}
+    errors = {name: error for name, (_, error) in both.items() if math.isfinite(error) and name != "opposite"}
+    toward, back = (shown[n] % 360.0 if n in shown else None for n in ("direction", "opposite"))
     kind = "screw" if tie.screw is not None else kind_of(tie.joint)
-    found = Reaction(tie.by, tie.on, kind, tie.where, at, x, y, moment, why, parts)
-    return found if ordered_pair(case, tie.by, tie.on) == (tie.by, tie.on) else found.reversed()
+    by, on = (tie.by, tie.on) if ordered else (tie.on, tie.by)
+    force = (shown.get("x"), shown.get("y"), shown.get("moment"), _why(tie, kept))
+    size = shown.get("magnitude")
+    return Reaction(by, on, kind, tie.where, (px, py), *force, (), size, toward, back, errors)
 
 
-def _parts(position: Position, tie: Tie, x: float | None, y: float | None) -> tuple[tuple[str, float], ...]:
-    """Shares of a force in the directions that the joint is about."""
+def _polar(x: Scalar | None, y: Scalar | None, a: Showing) -> dict[str, Scalar | None]:
+    """Size and direction of a force, and the direction of its opposite."""
+    found: dict[str, Scalar | None] = dict.fromkeys(("magnitude", "direction", "opposite"))
     if x is None or y is None:
-        return ()
+        return found
+    if float(x) == float(y) == 0.0:
+        return {**found, "magnitude": x if isinstance(y, float) else y}
+    toward = a.degrees(x, y)
+    back = toward + 180.0
+    return {
+        "magnitude": a.sqrt(x * x + y * y),
+        "direction": toward if float(toward) >= 0.0 else toward + 360.0,
+        "opposite": back if float(back) < 360.0 else back - 360.0,
+    }
+
+
+def _parts(
+    position: Position, tie: Tie, kept: Sequence[Scalar | None], a: Showing
+) -> list[tuple[str, Scalar]]:
+    """Shares of a force in the directions that the joint is about."""
+    x, y, _ = kept
+    if x is None or y is None:
+        return []
     if isinstance(tie.joint, Gears) or (isinstance(tie.joint, Roll) and tie.joint.pressure_angle is not None):
         (tx, ty), (sx, sy) = tangent_and_separating(position, tie)
-        tangential = abs(x * tx + y * ty)
-        shares = (("tangential", tangential), ("separating", x * sx + y * sy))
-        return (*shares, *axial_shares(position, tie, tangential))
+        tangential = size_of(x * tx + y * ty)
+        shares = [("tangential", tangential), ("separating", x * sx + y * sy)]
+        return [*shares, *axial_shares(position, tie, tangential)]
     if isinstance(tie.joint, Contact | Slot | Slide):
         nx, ny = next((u[0], u[1]) for u in tie.units if not u[2])
         normal = x * nx + y * ny
-        parts = [("normal", normal if isinstance(tie.joint, Contact) else abs(normal))]
-        parts += [("friction", abs(x * ny - y * nx))] if tie.joint.friction else []
-        angle = pressure_angle(position, tie) if isinstance(tie.joint, Contact) else None
-        return (*parts, ("pressure angle", angle)) if angle is not None else tuple(parts)
-    return ()
+        parts = [("normal", normal if isinstance(tie.joint, Contact) else size_of(normal))]
+        parts += [("friction", size_of(x * ny - y * nx))] if tie.joint.friction else []
+        angle = pressure_angle(position, tie, a) if isinstance(tie.joint, Contact) else None
+        return [*parts, (DEGREES[0], angle)] if angle is not None else parts
+    return []
 
 
-def pressure_angle(position: Position, tie: Tie) -> float | None:
+def pressure_angle(position: Position, tie: Tie, a: Showing) -> Scalar | None:
     """Degrees between the normal of a contact and the velocity of its second link there.
 
     None where that link is at rest there, or has more than one motion.
@@ -190,13 +224,16 @@ def pressure_angle(position: Position, tie: Tie) -> float | None:
         velocity(position.relative(position.case.ground, tie.on, m), tie.at) for m in range(position.mobility)
     ]
     fastest = max((abs(x) for ts in position.twists.values() for t in ts for x in t), default=0.0)
-    moving = [v for v in motions if math.hypot(*v) > 1e-12 * fastest]
-    nx, ny = tie.units[0][0], tie.units[0][1]
-    angles = [math.degrees(math.atan2(abs(x * ny - y * nx), abs(x * nx + y * ny))) for x, y in moving]
-    return angles[0] if angles and max(angles) - min(angles) < 1e-9 else None
+    moving = [v for v in motions if not all_vanish(a, ((part, fastest) for part in v))]
+    if not moving:
+        return None
+    (u, v), (nx, ny) = moving[0], tie.units[0][:2]
+    if not all(a.vanishes(u * y - v * x, fastest * fastest) for x, y in moving[1:]):
+        return None
+    return a.degrees(size_of(u * nx + v * ny), size_of(u * ny - v * nx))
 
 
-def _why(tie: Tie, kept: list[float | None]) -> str:
+def _why(tie: Tie, kept: list[Scalar | None]) -> str:
     if None not in kept:
         boxed = isinstance(tie.joint, KnownCentre)
         return "a given centre stands for joints that the case does not show" if boxed else ""

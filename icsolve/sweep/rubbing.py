@@ -128,13 +128,13 @@ def rubbing(scene: Scene, motions: Motions, balance: Balance) -> Rubbing | None:
     other = len(case.motion) > 1 or (turned is not None and turned.point is not None)
     if case.ropes or case.screws or other or motions.mobility != 1 or motions.slack or motions.redundant:
         return None
-    record = scene.record
-    position = Position(case, scene.top, scene.points, scene.frame.scale, motions.twists)
-    ties = ties_of(position, record)
+    frame, record = scene.frame, scene.record
+    position = Position(case, scene.top, scene.points, frame.scale, motions.twists, arithmetic=record)
+    ties = ties_of(position)
     if meshes(ties):
         return None
-    rubs = rubs_of(position, ties, record)
-    statics = equilibrium(position, ties, balance, rubs, record)
+    rubs = rubs_of(position, ties)
+    statics = equilibrium(position, ties, balance, rubs)
     try:
         pressing = forces_of(statics)
     except LookupError:
