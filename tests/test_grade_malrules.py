@@ -9,12 +9,13 @@ import pytest
 
 import icsolve
 from grade_shell import CASES, Class
+from icsolve.case import LoadIs
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.keys import Key
-from icsolve.grade.mistakes import CODES, Wrong, Wrongs, message, wrong_answers
-from icsolve.grade.mistakes.engine import shares
-from icsolve.grade.solved import solved
+from icsolve.grade.mistakes import CODES, Wrong, WrongAnswers, Wrongs, message
+from icsolve.grade.mistakes import solved_for as solved
+from icsolve.grade.mistakes.steps import shares
 
 CAM = """\
 icsolve: 1
@@ -36,6 +37,12 @@ loads:
   T12: {torque: unknown, link: 2}
 """
 """An eccentric disk under a flat follower: T12 = P e cos 40."""
+
+
+def wrong_answers(answer: icsolve.Answer) -> dict[str, list[Wrong]]:
+    """The wrong answers of every unknown load."""
+    wrongs = WrongAnswers(answer)
+    return {name: wrongs.of(LoadIs(name)) for name in answer.answers}
 
 
 @pytest.fixture
@@ -129,7 +136,7 @@ def test_a_size_without_a_sign_is_looked_up_in_both_senses(a_class: Class) -> No
 def test_wrong_answers_wait_until_they_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
     """A right answer costs one solution of the case."""
     calls: list[str] = []
-    monkeypatch.setattr("icsolve.grade.case_store.wrong_answers", lambda answer: calls.append("made") or {})
+    monkeypatch.setattr(WrongAnswers, "of", lambda *given: calls.append("made") or [])
     key = CaseStore(CASES, Course()).key("13_08_four_bar")
     assert isinstance(key, Key)
     assert calls == []

@@ -14,10 +14,10 @@ from icsolve.answer import Answer
 from icsolve.case import CentreIs, DistanceIs, Load, RateIs, RatioIs, SpeedIs, Target
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.judge import WRONG, feedback, share_of
-from icsolve.grade.keys import Key, PlaceKey, RangeKey
-from icsolve.grade.mistakes import Wrong
+from icsolve.grade.keys import Key, PlaceKey
+from icsolve.grade.mistakes import Wrong, WrongAnswers
 from icsolve.grade.mistakes.changed import Place
-from icsolve.grade.mistakes.engine import centres_of, parts_of, shares
+from icsolve.grade.mistakes.steps import centres_of
 from icsolve.grade.results import Marked
 from icsolve.grade.solved import Solved, unknowns
 from icsolve.grade.store import StoredAnswer
@@ -36,9 +36,10 @@ class Intermediate(NamedTuple):
     given: tuple[float, ...]
 
 
-def carried(answer: Answer, unknown: str, wrong: list[Intermediate]) -> list[Wrong]:
+def carried(wrongs: WrongAnswers, unknown: str, wrong: list[Intermediate]) -> list[Wrong]:
     """The values of the unknown that follow from the wrong intermediate answers, alone and together."""
-    parts = shares(answer, unknown) or parts_of(answer, unknown)
+    answer = wrongs.answer
+    parts = wrongs.shares(unknown) if unknown in answer.answers else {}
     own = next((load for load in answer.case.loads if load.name == unknown), None)
     if not parts or own is None:
         return []
@@ -170,8 +171,9 @@ class CarriedForward:
         solved = self._case_store.solved(entry.item.partition(":")[0], entry.student)
         key, name = solved.key(entry.item), getattr(solved.target(entry.item), "load", "")
         value = before.judged.value
-        assert isinstance(key, Key) and value is not None
-        for unscaled in carried(solved.answer, name, list(_steps(solved, wrong))):
+        if not isinstance(key, Key) or value is None:
+            return final
+        for unscaled in carried(solved.wrongs, name, list(_steps(solved, wrong))):
             cause = unscaled._replace(value=unscaled.value * solved.scale)
             close = abs(value - cause.value) <= key.wrongs.reach * abs(cause.value)
             if close and abs(cause.value - key.value) > key.half:
@@ -199,7 +201,7 @@ def _steps(solved: Solved, wrong: list[Found]) -> Iterator[Intermediate]:
             key = solved.key(entry.item)
         except NoKeyError:
             continue
-        if isinstance(key, RangeKey):
+        if not isinstance(key, Key | PlaceKey):
             continue
         right = key.place if isinstance(key, PlaceKey) else (key.value,)
         if len(marked.given) == len(right):

@@ -7,14 +7,25 @@ import re
 from typing import NamedTuple
 
 from icsolve.grade.course import Policy
-from icsolve.grade.keys import AGAINST, NEITHER, AnyKey, Key, PlaceKey, RangeKey, unit_factor
+from icsolve.grade.keys import (
+    AGAINST,
+    NEITHER,
+    AnyKey,
+    ChoiceKey,
+    Key,
+    PlaceKey,
+    RangeKey,
+    unit_factor,
+)
 from icsolve.grade.mistakes import Wrong, message, together
 from icsolve.grade.tolerance import SLACK
 from icsolve.grade.written import MISSING, NO_NUMBER, UNREAD, Direction, Written, figures
 from icsolve.grade.written.answer import Combined, flagged
+from icsolve.grade.written.characters import plain
+from icsolve.grade.written.directions import direction as direction_of
 from icsolve.grade.written.numerals import AMBIGUOUS
 from icsolve.grade.written.two_numbers import WrittenPlace, WrittenRange, read_place, read_range
-from icsolve.grade.written.units import CASE, ENERGY
+from icsolve.grade.written.units import CASE, ENERGY, unit_word
 
 RIGHT, WRONG, INVALID, IN_REVIEW = "right", "wrong", "invalid", "review"
 OPEN = (IN_REVIEW, INVALID)
@@ -64,17 +75,49 @@ def judge_answer(
         judged = judge_place(key, place)
         doubted = place.doubtful and judged.verdict == WRONG
         return (_unjudged(AMBIGUOUS) if doubted else judged), place
+    if isinstance(key, ChoiceKey):
+        return _judge_choice(key, combined, answer, unit, direction)
     if isinstance(key, RangeKey):
         text = " ".join(part for part in (answer, unit, direction) if part)
         found = read_range(text, combined.reader.decimal)
         return judge_range(key, found), found
     written = combined.read(answer, unit, direction)
+    if key.period and written.flag == UNREAD:
+        written = _as_heading(answer) or written
     judged = judge(key, written)
     if judged.verdict == WRONG and combined.reader.decimal == "either" and _GROUPED.match(written.digits):
         other = judge(key, written._replace(number=written.number * 1000.0))
         if other.verdict == RIGHT:
             return _unjudged(AMBIGUOUS), flagged(AMBIGUOUS)
     return judged, written
+
+
+def _as_heading(answer: str) -> Written | None:
+    """An angle that is written as a direction: ``at 30 deg``, ``30 deg above +x``."""
+    found = direction_of(plain(answer))
+    if found is None or not found.measured:
+        return None
+    return flagged(found.flag) if found.flag else Written(found.value, unit_word("deg"), None)
+
+
+def _judge_choice(
+    key: ChoiceKey, combined: Combined, answer: str, unit: str, direction: str
+) -> tuple[Judgement, Read]:
+    """By the nearest of several right values, whose mistakes alone are looked up where it is right; else by
+    the first of which it shows a known mistake."""
+    number, word, _, _, _, _ = combined.read(answer, unit, direction)
+
+    def off(one: Key | RangeKey) -> float:
+        if isinstance(one, RangeKey):
+            return 0.0
+        return abs(one.nearest(number * (one.factor(word) or 1.0)) - one.value)
+
+    found = []
+    for one in sorted(key.keys, key=off):
+        found.append(judge_answer(one, combined, answer, unit, direction))
+        if found[-1][0].verdict == RIGHT or found[-1][0].mistakes:
+            return found[-1]
+    return found[0]
 
 
 def judge(key: Key, written: Written) -> Judgement:
@@ -130,7 +173,7 @@ def _in_full(key: Key, written: Written) -> Judgement:
     """Number, unit and direction apart."""
     factor = key.factor(written.unit)
     sign = key.sign(_words(key, written))
-    value = written.number * (factor or 1.0) * (sign or 1)
+    value = key.nearest(written.number * (factor or 1.0) * (sign or 1))
     size = abs(key.value)
     number = abs(abs(value) - size) <= key.half
     unit = _unit_is_right(key, written, factor)
@@ -178,7 +221,8 @@ def _direction_is_right(key: Key, written: Written, value: float, sign: int | No
         return True
     if sign == NEITHER or sign is None:
         return False
-    if key.policy.direction == "required" and written.direction is None and key.expected.any:
+    wanted = key.expected.asked or key.policy.direction == "required"
+    if wanted and written.direction is None and key.expected.any:
         return False
     return (value > 0.0) == (key.value > 0.0)
 
@@ -233,7 +277,8 @@ def _asked_parts(key: AnyKey) -> tuple[bool, bool, bool]:
     """Whether a question has a number, a unit and a direction: a ratio has but the first."""
     if isinstance(key, PlaceKey):
         return True, True, False
-    end = key.end if isinstance(key, RangeKey) else key
+    one = key.keys[0] if isinstance(key, ChoiceKey) else key
+    end = one.end if isinstance(one, RangeKey) else one
     directed = end.expected.any and key.policy.direction != "ignored"
     return True, bool(key.unit_name) and key.policy.unit != "ignored", directed and bool(end.value)
 
@@ -250,6 +295,9 @@ def _codes(mistakes: tuple[Wrong, ...]) -> str:
     return mistakes[0].code if len(mistakes) == 1 else " ".join(mistake.code for mistake in mistakes)
 
 
+_KINDS: dict[type, str] = {PlaceKey: "place", ChoiceKey: "position"}
+
+
 def feedback(key: AnyKey, judged: Judgement, reveal: bool = False) -> str:
     """What the student is told; never the answer, unless it is right or the course reveals it."""
     if judged.verdict == RIGHT:
@@ -257,7 +305,7 @@ def feedback(key: AnyKey, judged: Judgement, reveal: bool = False) -> str:
         return f"Right: {key.accepted} is accepted.{noted}"
     band = f" Accepted is {key.accepted}." if reveal else f" Accepted is an answer {key.rule}."
     if judged.mistakes:
-        kind = key.kind if isinstance(key, Key) else "place" if isinstance(key, PlaceKey) else "load"
+        kind = key.kind if isinstance(key, Key) else _KINDS.get(type(key), "load")
         said = " Or: ".join(message(m.code, m.where, kind) for m in judged.mistakes)
         if judged.both:
             said = together(judged.mistakes[0], judged.mistakes[1], kind)

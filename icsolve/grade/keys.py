@@ -13,6 +13,7 @@ from icsolve.case import (
     ForceVector,
     Load,
     LoadIs,
+    PositionIs,
     RateIs,
     RatioIs,
     ReactionIs,
@@ -50,6 +51,8 @@ _SQUARE = 5.0
 """Degrees: words this near to square to the answer say neither way."""
 _ROUNDING = 1e-6
 """Degrees: 45 is within 45."""
+_DEGREE = 1.0
+"""Degrees within which a direction that is asked for is right."""
 
 Places = tuple[Place | None, Mapping[str, Place]]
 
@@ -70,6 +73,8 @@ class ExpectedDirection(NamedTuple):
     places: Callable[[], Places] = lambda: (None, {})
     by_angle: bool = False
     """Whether only an angle tells it: words on a reaction may mean either link's force."""
+    asked: bool = False
+    """Whether the direction is itself asked for, and has to be right to a degree."""
 
     @property
     def any(self) -> bool:
@@ -89,7 +94,10 @@ class ExpectedDirection(NamedTuple):
         degrees = self._degrees(words)
         if self.heading is None:
             return NEITHER
-        return _compared(degrees - self.heading, within) if degrees is not None else None
+        if degrees is None:
+            return None
+        found = _compared(degrees - self.heading, _DEGREE if self.asked else within)
+        return NEITHER if self.asked and found is None else found
 
     def _degrees(self, words: Direction) -> float | None:
         """A direction in words as degrees; None for a point that the case does not have."""
@@ -153,6 +161,14 @@ class Key(NamedTuple):
     """what is asked for: `kind_of`"""
     plain: bool
     """whether nothing is asked but a right size, sense and unit, where one is given"""
+    period: float = 0.0
+    """of an angle a whole turn, which may be added to it; 0 for none"""
+
+    def nearest(self, value: float) -> float:
+        """A value of the same meaning, less than half a period from the right one."""
+        if not self.period or not math.isfinite(value):
+            return value
+        return self.value + math.remainder(value - self.value, self.period)
 
     def factor(self, unit: UnitWord | None) -> float | None:
         """How many units of the key make one of the answer's; None for another kind."""
@@ -207,7 +223,18 @@ class RangeKey(NamedTuple):
         return found
 
 
-AnyKey = Key | PlaceKey | RangeKey
+class ChoiceKey(NamedTuple):
+    """A right answer that is one of several: a key for each position of equilibrium."""
+
+    question: str
+    keys: tuple[Key | RangeKey, ...]
+    unit_name: str
+    policy: Policy
+    accepted: str
+    rule: str
+
+
+AnyKey = Key | PlaceKey | RangeKey | ChoiceKey
 
 
 def scalar_key(
@@ -236,6 +263,49 @@ def scalar_key(
     expected = _expected(target, answer)
     kind = kind_of(target)
     return _key(question, value, (unit_name, unit), (half, width), expected, policy, wrongs, kind)
+
+
+def position_key(
+    question: str,
+    target: PositionIs,
+    answer: Answer,
+    policy: Policy,
+    wrongs: Callable[[float], Iterable[Wrong]],
+) -> AnyKey:
+    """The key of a datum of the figure that is to find: its value, or its range with friction, in any of the
+    positions of equilibrium; ``wrongs`` makes the wrong answers to a value.
+
+    Raises NoKeyError where a drawing is to give the tolerance.
+    """
+    if policy.tolerance.drawing:
+        raise NoKeyError("a drawing says nothing of a position of rest; give it a tolerance such as 2%")
+    angle = target.path.startswith("angles.")
+    unit_name = unit_of_target(target, answer)
+    unit, period = parsed_unit(unit_name), 360.0 if angle else 0.0
+    expected = ExpectedDirection(turn=1.0) if angle else ExpectedDirection()
+    width = width_of(policy.tolerance, unit, unit_name)
+
+    def key(value: float, pose: Answer, own: Callable[[float], Iterable[Wrong]]) -> Key:
+        widths = (half_width(policy.tolerance, value, width, zero_width(target, pose)), width)
+        found = _key(question, value, (unit_name, unit), widths, expected, policy, tuple, "position")
+        found = found._replace(period=period, plain=False)
+
+        def within_a_turn() -> list[Wrong]:
+            wide = 2.0 * period or math.inf
+            return [w._replace(value=found.nearest(w.value)) for w in own(value) if abs(w.value) <= wide]
+
+        return found._replace(wrongs=Wrongs(within_a_turn, value, found.half))
+
+    keys: list[Key | RangeKey] = []
+    for position in answer.positions or ():
+        held = position.at[target.path]
+        if isinstance(held, float):
+            keys.append(key(held, position.answer, wrongs))
+        else:
+            low, high = (key(end, position.answer, lambda value: ())._replace(period=0.0) for end in held)
+            keys.append(_range(question, low, high, policy))
+    accepted, rule = " or ".join(key.accepted for key in keys), keys[0].rule
+    return keys[0] if len(keys) == 1 else ChoiceKey(question, tuple(keys), unit_name, policy, accepted, rule)
 
 
 def kind_of(target: Target) -> str:
@@ -287,7 +357,7 @@ def _key(
     """A key with what follows from its value, unit, and half and own width."""
     half, width = widths
     accepted, rule = range_in_words(value, half, unit[0]), in_words(policy.tolerance)
-    plain = _is_plain(policy) and value != 0.0 and expected.any
+    plain = _is_plain(policy) and value != 0.0 and expected.any and not expected.asked
     foreseen = Wrongs(wrongs, value, half)
     return Key(
         question, value, *unit, half, expected, foreseen, policy, accepted, rule, {}, {}, width, kind, plain
@@ -316,11 +386,19 @@ def range_key(question: str, target: LoadIs, answer: Answer, policy: Policy) -> 
     low, high = map(end, found.holds)
     if low is None and high is None:
         raise NoKeyError(f"{answer.case.name} holds with any value of {target.load}, so nothing can be asked")
+    return _range(question, low, high, policy)
+
+
+def _range(question: str, low: Key | None, high: Key | None, policy: Policy) -> RangeKey:
+    """The key of a range, one end of which may be open."""
     said = [f"from {low.value:.6g} to {high.value:.6g}"] if low and high else []
     said += [f"{low.value:.6g} or more"] if low and not high else []
     said += [f"{high.value:.6g} or less"] if high and not low else []
     rule = f"{in_words(policy.tolerance)} at each end, as in '113 N to 287 N'"
-    return RangeKey(question, low, high, found.unit, unit, policy, f"{said[0]} {found.unit}".strip(), rule)
+    end = low or high
+    assert end is not None
+    accepted = f"{said[0]} {end.unit_name}".strip()
+    return RangeKey(question, low, high, end.unit_name, end.unit, policy, accepted, rule)
 
 
 def scaled_key(key: Key, factor: float) -> Key:
@@ -348,6 +426,10 @@ def _is_plain(policy: Policy) -> bool:
 
 
 def _expected(target: Target, answer: Answer) -> ExpectedDirection:
+    if isinstance(target, LoadIs) and target.load in answer.case.directed:
+        parts = answer.answers[target.load].components
+        heading = math.degrees(math.atan2(parts[1], parts[0])) if parts is not None and any(parts) else None
+        return ExpectedDirection(heading=heading, asked=True)
     if isinstance(target, LoadIs):
         load = next(load for load in answer.case.loads if load.name == target.load)
         return expected_direction(load, answer)
@@ -413,7 +495,7 @@ def place_key(
     )
 
 
-def unit_factor(key: AnyKey, unit: Unit) -> float | None:
+def unit_factor(key: Key | PlaceKey | RangeKey, unit: Unit) -> float | None:
     """How many units of the key make one of the answer's; None for another kind."""
     try:
         return factors_between(unit, key.unit)

@@ -8,7 +8,7 @@ from typing import Any
 from icsolve.grade.case_store import CaseStore, case_name
 from icsolve.grade.course import Course
 from icsolve.grade.judge import feedback, judge_answer
-from icsolve.grade.keys import AnyKey, Key, RangeKey
+from icsolve.grade.keys import AnyKey, Key, PlaceKey
 from icsolve.grade.platforms.given import given
 from icsolve.grade.platforms.questions import asked, figure, sensible
 from icsolve.grade.written import Reader
@@ -41,11 +41,9 @@ class Task:
     def right(self, what: str = "") -> str:
         """The right answer as text."""
         key = self._key(what)
-        if isinstance(key, RangeKey):
-            return key.accepted
-        if not isinstance(key, Key):
+        if isinstance(key, PlaceKey):
             return f"({key.place[0]:.6g}, {key.place[1]:.6g}) {key.unit_name}"
-        return f"{sensible(key)} {key.unit_name}".strip()
+        return f"{sensible(key)} {key.unit_name}".strip() if isinstance(key, Key) else key.accepted
 
     def grade(self, what: str, answer: str) -> dict[str, Any]:
         """``verdict``, ``score`` from 0 to 1, ``code`` and ``feedback`` of an answer."""

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from copy import copy
+from functools import cached_property, lru_cache
 
 from icsolve.answer import Answer
-from icsolve.case import Case, CentreIs, LoadIs, ReactionIs, Target
+from icsolve.case import ArmIs, Case, CentreIs, FrictionRadiusIs, LoadIs, PositionIs, ReactionIs, Target
 from icsolve.errors import SceneError
 from icsolve.grade.course import Course
-from icsolve.grade.keys import AnyKey, Key, place_key, range_key, scalar_key, scaled_key
-from icsolve.grade.mistakes import wrong_answers
-from icsolve.grade.mistakes.codes import Wrong
-from icsolve.grade.mistakes.engine import place_wrongs, solved_for, target_wrongs
+from icsolve.grade.keys import AnyKey, Key, place_key, position_key, range_key, scalar_key, scaled_key
+from icsolve.grade.mistakes import WrongAnswers, solved_for
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.read.expect import target_of
 from icsolve.read.names import Problems
@@ -19,9 +18,18 @@ from icsolve.read.reading import Reading
 from icsolve.statics.power import is_unknown
 
 
+@lru_cache(maxsize=256)
 def unknowns(case: Case) -> tuple[str, ...]:
-    """The unknown loads that a student can be asked for; those that are like another are left out."""
-    return tuple(load.name for load in case.loads if is_unknown(load))
+    """What a student can be asked for: the unknown loads, those that are like another left out; where every
+    load is known the data of the figure that are to find."""
+    from icsolve.solve.equilibrium import free_coordinate
+
+    whole = {f"{name}.{axis}": name for name in case.directed for axis in "xy"}
+    loads = dict.fromkeys(whole.get(load.name, load.name) for load in case.loads if is_unknown(load))
+    if loads or case.unknowns:
+        return tuple(loads) or tuple(unknown.path for unknown in case.unknowns)
+    free = free_coordinate(case)
+    return (free.path,) if free is not None else ()
 
 
 def asked_of(case: Case, what: str) -> Target:
@@ -31,14 +39,15 @@ def asked_of(case: Case, what: str) -> Target:
     """
     if not what:
         names = unknowns(case)
-        if len(names) == 1:
-            return LoadIs(names[0])
         if not names:
             raise NoKeyError(
                 f"the case {case.name} has no unknown load; say what is asked, as in {case.name}:w4/w2"
             )
-        asked = " or ".join(f"{case.name}:{name}" for name in names)
-        raise NoKeyError(f"the case {case.name} has {len(names)} unknown loads; write {asked}")
+        if len(names) > 1:
+            asked = " or ".join(f"{case.name}:{name}" for name in names)
+            kind = "unknown data of the figure" if "." in names[0] else "unknown loads"
+            raise NoKeyError(f"the case {case.name} has {len(names)} {kind}; write {asked}")
+        (what,) = names
     target = target_of(_reading(case), what, _points(case))
     if isinstance(target, str):
         raise NoKeyError(f"{case.name}: {target}")
@@ -49,14 +58,18 @@ def asked_of(case: Case, what: str) -> Target:
 
 def canonical(case: Case, name: str, what: str) -> str:
     """The one name of a question."""
-    names = unknowns(case)
-    return name if not what or names == (what,) else f"{name}:{what}"
+    if what.partition(".")[0] in ("angles", "lengths", "points"):
+        found = target_of(_reading(case), what, _points(case))
+        what = found.path if isinstance(found, PositionIs) else what
+    return name if not what or unknowns(case) == (what,) else f"{name}:{what}"
 
 
 def _reading(case: Case) -> Reading:
     """What the reader of keys needs to know of a case."""
     reading = Reading(Problems(case.path), {}, {})
-    reading.kinds = {load.name: "force" for load in case.loads}
+    reading.kinds = dict.fromkeys((*case.directed, *(load.name for load in case.loads)), "force")
+    reading.unknowns = list(case.unknowns)
+    reading.given = set(case.points)
     reading.links = dict.fromkeys(case.links, (1, 1))
     return reading
 
@@ -76,19 +89,20 @@ class Solved:
         self._bound = bound
         self.scale = 1.0
         """by what the loads, and so the answers, are larger than in ``answer``"""
-        self._answer = solved(case, bound) if full else None
+        self._answer = solved_for(case, None, bound) if full else None
         self.plain = self._answer or solved_plainly(case)
         """the answers alone: enough for the key of a load"""
         self._base: Solved | None = None
         self._keys: dict[str, AnyKey] = {}
-        self._wrongs: dict[str, list[Wrong]] | None = None
+        self._with_bodies: WrongAnswers | None = None
+        """those to what is asked of the forces in joints"""
 
     @property
     def answer(self) -> Answer:
         """The answers with all centres and rates; solved when it is first asked for."""
         origin = self._base or self
         if origin._answer is None:
-            origin._answer = solved(self.case, self._bound)
+            origin._answer = solved_for(self.case, None, self._bound)
         return origin._answer
 
     def scaled(self, factor: float) -> Solved:
@@ -123,24 +137,29 @@ class Solved:
             return self._with_scale(key, target)
         policy = self.course.policy_of(question, self.case.tolerance)
         if isinstance(target, CentreIs):
-            return place_key(question, target, self.answer, policy, place_wrongs(self.answer, target))
+            return place_key(question, target, self.answer, policy, self.wrongs.places(target))
+        if isinstance(target, PositionIs):
+            return position_key(question, target, self.plain, policy, lambda v: self.wrongs.of(target, v))
         if isinstance(target, LoadIs):
             ranged = range_key(question, target, self.plain, policy)
-            name = target.load
-            return ranged or scalar_key(question, target, self.plain, policy, lambda: self._of_load(name))
-        own = solved_for(self.case, target)
-        return scalar_key(question, target, own, policy, lambda: target_wrongs(own, target))
+            return ranged or scalar_key(question, target, self.plain, policy, lambda: self.wrongs.of(target))
+        if isinstance(target, ReactionIs | ArmIs | FrictionRadiusIs):
+            if self._with_bodies is None:
+                self._with_bodies = WrongAnswers(solved_for(self.case, target), target)
+            bodies = self._with_bodies
+            return scalar_key(question, target, bodies.answer, policy, lambda: bodies.of(target))
+        own = self.answer if self.answer.rates is not None else solved_for(self.case, target)
+        return scalar_key(question, target, own, policy, lambda: self.wrongs.of(target))
+
+    @cached_property
+    def wrongs(self) -> WrongAnswers:
+        """The wrong answers to whatever is asked of the case."""
+        return WrongAnswers(self.answer)
 
     def _with_scale(self, key: AnyKey, target: Target) -> AnyKey:
         """Loads and reactions grow with the loads; ratios and places do not."""
         grows = isinstance(target, LoadIs | ReactionIs) and isinstance(key, Key)
         return scaled_key(key, self.scale) if grows else key  # type: ignore[arg-type]
-
-    def _of_load(self, name: str) -> list[Wrong]:
-        """The wrong answers of one unknown; those of all are computed together, once."""
-        if self._wrongs is None:
-            self._wrongs = wrong_answers(self.answer)
-        return self._wrongs.get(name, [])
 
 
 def solved_plainly(case: Case, bound: bool = False) -> Answer:
@@ -148,14 +167,3 @@ def solved_plainly(case: Case, bound: bool = False) -> Answer:
     from icsolve.solve import solve
 
     return solve(case, bound=bound)
-
-
-def solved(case: Case, bound: bool = False) -> Answer:
-    """The answer with all centres and rates; the bare answer where those can't be had.
-
-    Raises SceneError.
-    """
-    try:
-        return solved_for(case, bound=bound)
-    except SceneError:
-        return solved_plainly(case, bound)

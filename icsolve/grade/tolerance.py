@@ -7,28 +7,33 @@ from dataclasses import replace
 
 from icsolve.answer import Answer
 from icsolve.case import (
+    Area,
     Case,
+    Force,
     ForceVector,
     Load,
     LoadIs,
     Number,
+    PositionIs,
     RateIs,
     RatioIs,
     ReactionIs,
     SpeedIs,
     Spring,
+    Stretch,
     Target,
     Tolerance,
     Torque,
+    TorsionSpring,
     Weight,
 )
 from icsolve.check import value_of
 from icsolve.errors import IcsolveError
-from icsolve.grade.mistakes.engine import solved_for
+from icsolve.grade.mistakes import solved_for
 from icsolve.grade.written import factors_between
 from icsolve.grade.written.units import unit_word
 from icsolve.scene.sensitivity import band
-from icsolve.units import DIMENSIONS, Unit, parse_unit, split_quantity
+from icsolve.units import DIMENSIONS, Unit, nearest, parse_unit, split_quantity
 
 SLACK = 1e-9
 """Relative room, so that 101 passes for 100 within 1 %."""
@@ -99,12 +104,12 @@ class NoKeyError(ValueError):
 
 def unit_of_target(target: Target, answer: Answer) -> str:
     """The unit of a target's value in case units; '' for a ratio."""
-    from icsolve.wording.senses import unit_of
-
     units = answer.case.units
     match target:
         case LoadIs(name):
-            return unit_of(next(load for load in answer.case.loads if load.name == name), answer.case)
+            return answer.answers[name].unit if name in answer.answers else ""
+        case PositionIs(path) if path.startswith("angles."):
+            return "deg"
         case RatioIs():
             return ""
         case RateIs():
@@ -133,10 +138,10 @@ def zero_width(target: Target, answer: Answer) -> float:
     """What a true zero is judged against: the largest load (times the size for a torque), 1, or the size."""
     match target:
         case LoadIs(name):
-            load = next(load for load in answer.case.loads if load.name == name)
-            return (
-                OF_LOADS * largest_load(answer) * (_torque_scale(answer) if isinstance(load, Torque) else 1.0)
-            )
+            load = next((load for load in answer.case.loads if load.name == name), None)
+            return OF_LOADS * largest_load(answer) * (_per_force(load, answer) if load is not None else 1.0)
+        case PositionIs(path) if path.startswith("angles."):
+            return OF_LOADS * 180.0
         case ReactionIs(part=part):
             return OF_LOADS * largest_load(answer) * (_torque_scale(answer) if part == "moment" else 1.0)
         case RatioIs():
@@ -144,10 +149,6 @@ def zero_width(target: Target, answer: Answer) -> float:
         case RateIs() | SpeedIs():
             return OF_LOADS * _fastest(target, answer)
     return OF_LOADS * size_of(answer)
-
-
-def _of_loads(answer: Answer, torque: bool) -> float:
-    return OF_LOADS * largest_load(answer) * (_torque_scale(answer) if torque else 1.0)
 
 
 def _torque_scale(answer: Answer) -> float:
@@ -163,15 +164,23 @@ def largest_load(answer: Answer) -> float:
 def _as_force(load: Load, answer: Answer) -> float:
     if isinstance(load, ForceVector):
         return math.hypot(load.x.value, load.y.value)
-    if not isinstance(load.value, Number):
-        return 0.0
-    if isinstance(load, Torque):
-        return load.value.value / _torque_scale(answer)
-    if isinstance(load, Spring):
-        return load.value.value * size_of(answer)
-    if isinstance(load, Weight) and load.mass:
-        return load.value.value * answer.case.gravity.value * answer.case.units.force_per_newton
-    return load.value.value
+    return load.value.value / _per_force(load, answer) if isinstance(load.value, Number) else 0.0
+
+
+def _per_force(load: Load, answer: Answer) -> float:
+    """How many of a load's own unit stand for a unit of force, at the mechanism's size."""
+    match load:
+        case Torque() | TorsionSpring():
+            return _torque_scale(answer)
+        case Spring() | Force(over=Stretch()):
+            return 1.0 / size_of(answer)
+        case Weight(mass=True):
+            return 1.0 / (answer.case.gravity.value * answer.case.units.force_per_newton)
+        case Force(over=Area() as area):
+            widths = [0.0 if number is None else number.value for number in (area.bore, area.rod)]
+            size = area.area.value if area.area is not None else widths[0] ** 2 - widths[1] ** 2
+            return 1.0 / (nearest(area.per) * size)
+    return 1.0
 
 
 def _fastest(target: Target, answer: Answer) -> float:
@@ -197,8 +206,6 @@ def own_width(tolerance: Tolerance, target: Target, answer: Answer, unit: Unit, 
     width = width_of(tolerance, unit, unit_name)
     if not tolerance.drawing:
         return width
-    from icsolve.grade.tolerance import drawn_width
-
     return max(width, drawn_width(tolerance.drawing, target, answer))
 
 

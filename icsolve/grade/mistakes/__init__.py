@@ -1,7 +1,7 @@
 """Which mistake: the likely wrong answers of a case, each with its cause."""
 
 from icsolve.grade.mistakes.codes import CODES, Wrong, message, together
-from icsolve.grade.mistakes.engine import wrong_answers
+from icsolve.grade.mistakes.engine import WrongAnswers, solved_for
 from icsolve.grade.mistakes.lookup import Wrongs
 
-__all__ = ["CODES", "Wrong", "Wrongs", "message", "together", "wrong_answers"]
+__all__ = ["CODES", "Wrong", "WrongAnswers", "Wrongs", "message", "solved_for", "together"]

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import Any
+from typing import Any, NamedTuple
 
 from icsolve.answer import Answer
 from icsolve.case import (
+    Area,
     Belt,
     Case,
     Contact,
@@ -24,12 +25,102 @@ from icsolve.case import (
     Slide,
     Slope,
     Slot,
+    Spring,
+    Stretch,
     Torque,
+    TorsionSpring,
     Toward,
     Weight,
 )
+from icsolve.case.names import pair_name
 
 Place = tuple[float, float]
+
+
+class Changed(NamedTuple):
+    """A case that a student may have solved instead: the code of the mistake, where it sits, and the load
+    whose share it changes, where it changes no other."""
+
+    code: str
+    case: Case
+    where: str = ""
+    load: str = ""
+
+
+def changed_figures(case: Case, answer: Answer) -> Iterator[Changed]:
+    """The case with its figure, its joints or its directions misread; ``answer`` has its points.
+
+    A datum that is to find is read by nobody, so that no misreading of it is tried.
+    """
+    for figure, loads in ((True, True), (False, True), (True, False)):
+        changed = _in_radians(case, figure, loads)
+        if changed is not None:
+            yield Changed("deg-rad", changed)
+    for other in _with_other_meshes(case):
+        yield Changed("mesh-sense", other)
+    for other in _other_modes(case, answer):
+        yield Changed("other-mode", other)
+    smooth = without_friction(case)
+    if smooth is not None:
+        yield Changed("no-friction", smooth)
+        if case.motion:
+            yield Changed("friction-sense", replace(case, motion=tuple(map(_reversed, case.motion))))
+    yield from _changed_angles(case)
+    yield from _without_stages(case)
+
+
+def moves_otherwise(changed: Case, case: Case) -> bool:
+    """Whether not the loads alone are others: else centres and ratios are the same."""
+    return changed.angles is not case.angles or changed.joints is not case.joints or changed.near != case.near
+
+
+def changed_loads(case: Case, points: Mapping[str, Place]) -> Iterator[Changed]:
+    """The case without a load, with it reversed, and with what makes it misread."""
+    known = list(known_loads(case))
+    for load in known if len(known) > 1 else ():
+        yield Changed("missed-load", with_load(case, scaled(load, 0.0)), load.name, load.name)
+        yield Changed("load-sense", with_load(case, scaled(load, -1.0)), load.name, load.name)
+    for load in case.loads:
+        own = load.name if load in known else ""
+        for code, other in _misread_load(load, points):
+            yield Changed(code, with_load(case, other), load.name, own)
+
+
+def _misread_load(load: Load, points: Mapping[str, Place]) -> Iterator[tuple[str, Load]]:
+    """What a spring, a pressure, a force per length or a mass is often taken for."""
+    match load:
+        case Spring():
+            yield "free-length", load._replace(free=_times(load.free, 0.0))
+        case TorsionSpring():
+            yield "free-length", load._replace(free=_times(load.free, 0.0))
+            if isinstance(load.value, Number):
+                yield "deg-rad", scaled(load, math.degrees(1.0))
+        case Weight(value=Number()):
+            yield "mass", load._replace(mass=not load.mass)
+        case Force(over=Area() as area):
+            num, den, pi = area.per
+            for power in (pi, pi - 1) if area.bore is not None else ():  # a bore as radius, or squared alone
+                yield "area", load._replace(over=area._replace(per=(4 * num, den, power)))
+            if area.rod is not None:
+                yield "area", load._replace(over=area._replace(rod=None))
+        case Force(over=Stretch() as over):
+            yield from (("line-load", other) for other in _elsewhere(load, over, points))
+
+
+def _elsewhere(load: Force, over: Stretch, points: Mapping[str, Place]) -> Iterator[Force]:
+    """A force per length whose length is left out, or whose resultant acts in another place."""
+    yield load._replace(over=None)
+    if not isinstance(load.value, Number) or over.a not in points or over.b not in points:
+        return
+    last = load.value.value if over.end is None else over.end.value
+    length = math.dist(points[over.a], points[over.b])
+    whole = _times(load.value, 0.5 * length * (1.0 + (last / load.value.value if load.value.value else 0.0)))
+    yield load._replace(over=None, at=over.a, value=whole)
+    yield load._replace(over=None, at=over.b, value=whole)
+    if over.end is not None:
+        yield load._replace(over=None, value=whole)  # in the middle
+        yield load._replace(over=over._replace(end=None))  # uniform, as large as at its larger end
+        yield load._replace(over=Stretch(over.b, over.a, over.end))  # its ends exchanged
 
 
 def known_loads(case: Case) -> Iterator[Load]:
@@ -49,11 +140,19 @@ def scaled(load: Load, factor: float) -> Load:
     if isinstance(load, ForceVector):
         return load._replace(x=_times(load.x, factor), y=_times(load.y, factor))
     assert isinstance(load.value, Number)
-    return load._replace(value=_times(load.value, factor))
+    value = _times(load.value, factor)
+    if isinstance(load, Force) and isinstance(load.over, Stretch) and load.over.end is not None:
+        return load._replace(value=value, over=load.over._replace(end=_times(load.over.end, factor)))
+    return load._replace(value=value)
 
 
 def _times(number: Number, factor: float) -> Number:
-    return number._replace(value=number.value * factor)
+    return _written(number, number.value * factor)
+
+
+def _written(number: Number, value: float) -> Number:
+    """Another value in place of a number, as if the case gave it."""
+    return Number(value, 0.0, number.path, repr(value))
 
 
 def turned(load: Load, answer: Answer) -> Load | None:
@@ -103,11 +202,11 @@ def _degrees(value: float) -> Number:
     return Number(value, 0.0, "angle", f"{value:.17g}")
 
 
-def in_radians(case: Case, figure: bool, loads: bool) -> Case | None:
+def _in_radians(case: Case, figure: bool, loads: bool) -> Case | None:
     """The case with its degrees taken for radians, in the figure or in the loads; None where it has none."""
     angles, forces, joints = case.angles, case.loads, case.joints
     if figure:
-        angles = tuple(_fed(angle) for angle in angles)
+        angles = tuple(_fed(angle) if _is_given(angle, case) else angle for angle in angles)
         joints = tuple(_fed_joint(joint) for joint in joints)
     if loads:
         forces = tuple(_fed_load(load) for load in forces)
@@ -116,16 +215,21 @@ def in_radians(case: Case, figure: bool, loads: bool) -> Case | None:
     return replace(case, angles=angles, loads=forces, joints=joints)
 
 
+def _is_given(angle: Direction | Corner, case: Case) -> bool:
+    """Whether an angle is a number of the case, and not what is asked."""
+    return all(unknown.path != angle.value.path for unknown in case.unknowns)
+
+
 def _fed_joint(joint: Joint) -> Joint:
     """A guide's direction or a contact's normal; multiples of 90 degrees need no calculator."""
     if isinstance(joint, Slide | Slot) and joint.guide.angle is not None and joint.guide.angle.value % 90.0:
-        return joint._replace(guide=joint.guide._replace(angle=as_radians(joint.guide.angle)))
+        return joint._replace(guide=joint.guide._replace(angle=_as_radians(joint.guide.angle)))
     if isinstance(joint, Contact) and joint.normal.value % 90.0:
-        return joint._replace(normal=as_radians(joint.normal))
+        return joint._replace(normal=_as_radians(joint.normal))
     return joint
 
 
-def with_other_meshes(case: Case) -> Iterator[Case]:
+def _with_other_meshes(case: Case) -> Iterator[Case]:
     """The case with one mesh or belt turning its wheels the other way."""
     for n, joint in enumerate(case.joints):
         other: Joint | None = None
@@ -139,17 +243,17 @@ def with_other_meshes(case: Case) -> Iterator[Case]:
 
 
 def _fed(angle: Direction | Corner) -> Direction | Corner:
-    return angle._replace(value=as_radians(angle.value))
+    return angle._replace(value=_as_radians(angle.value))
 
 
-def as_radians(angle: Number) -> Number:
+def _as_radians(angle: Number) -> Number:
     """``60`` taken for 60 rad, in degrees again."""
-    return angle._replace(value=math.degrees(angle.value) % 360.0)
+    return _written(angle, math.degrees(angle.value) % 360.0)
 
 
 def _fed_load(load: Load) -> Load:
     if isinstance(load, Force) and isinstance(load.heading, Number):
-        return load._replace(heading=as_radians(load.heading))
+        return load._replace(heading=_as_radians(load.heading))
     return load
 
 
@@ -163,22 +267,15 @@ def _smooth(joint: Any) -> Any:
     return joint._replace(friction=None) if getattr(joint, "friction", None) is not None else joint
 
 
-def with_motion_reversed(case: Case) -> Case | None:
-    """The case moving the other way, so that its friction is turned; None where none is given."""
-    if not case.motion or without_friction(case) is None:
-        return None
-    return replace(case, motion=tuple(_reversed(given) for given in case.motion))
-
-
 def _reversed(given: Motion) -> Motion:
     if given.turns is not None:
         return given._replace(turns="cw" if given.turns == "ccw" else "ccw")
     if given.angle is not None:
-        return given._replace(angle=_times(given.angle, 1.0)._replace(value=given.angle.value + 180.0))
+        return given._replace(angle=_written(given.angle, given.angle.value + 180.0))
     return given._replace(speed=_times(given.speed, -1.0)) if given.speed is not None else given
 
 
-def other_modes(case: Case, answer: Answer) -> Iterator[Case]:
+def _other_modes(case: Case, answer: Answer) -> Iterator[Case]:
     """The case started in the mirror image of each point that ``near`` places.
 
     A point at given distances from two others has two places, mirror images about the line of the two;
@@ -226,10 +323,50 @@ def _on_guides(name: str, here: Place, places: list[Place], case: Case) -> Itera
             yield _mirrored(here, centre, across)
 
 
-Resolve = Callable[[Case | None], "dict[str, float]"]
-"""The answers of a changed case by name; empty where it has none."""
-
-
 def same_kind(a: Load, b: Load) -> bool:
     """Whether both are torques, or both forces."""
     return isinstance(a, Torque) == isinstance(b, Torque)
+
+
+def _changed_angles(case: Case) -> Iterator[Changed]:
+    """One given angle fed in radians, its sine taken for its cosine, or turned round."""
+    for n, angle in enumerate(case.angles):
+        if not _is_given(angle, case):
+            continue
+        name = angle.a + angle.at + angle.b if isinstance(angle, Corner) else angle.a + angle.b
+        for code, value in _misread(angle.value, len(case.angles) > 1):
+            other: Direction | Corner = angle._replace(value=value)
+            angles = (*case.angles[:n], other, *case.angles[n + 1 :])
+            yield Changed(code, replace(case, angles=angles), f"angle {name}")
+    for load in known_loads(case):
+        if isinstance(load, Force) and isinstance(load.heading, Number):
+            for code, value in _misread(load.heading, True):
+                other_load = with_load(case, load._replace(heading=value))
+                yield Changed(code, other_load, f"angle of {load.name}")
+
+
+def _misread(angle: Number, alone: bool) -> Iterator[tuple[str, Number]]:
+    """An angle that is misread; of multiples of 90 degrees nothing is misread but their sense."""
+    degrees = angle.value % 360.0
+    if degrees % 90.0:
+        if alone:
+            yield "deg-rad", _as_radians(angle)
+        if degrees % 45.0:
+            yield "sin-cos", _written(angle, 90.0 - angle.value)
+    if degrees % 180.0:
+        yield "angle-sense", _written(angle, -angle.value)
+
+
+def _without_stages(case: Case) -> Iterator[Changed]:
+    """The case with the ratio of one mesh or belt left out."""
+    for n, joint in enumerate(case.joints):
+        if not isinstance(joint, Gears | Belt):
+            continue
+        first, second = joint.teeth if isinstance(joint, Gears) else joint.radii
+        if abs(first.value) != abs(second.value):
+            alike = _written(second, math.copysign(first.value, second.value * first.value))
+            both = (first, alike)
+            other = joint._replace(teeth=both) if isinstance(joint, Gears) else joint._replace(radii=both)
+            links = pair_name(case, (joint.links[0], joint.links[1]))
+            joints = (*case.joints[:n], other, *case.joints[n + 1 :])
+            yield Changed("missed-stage", replace(case, joints=joints), links)

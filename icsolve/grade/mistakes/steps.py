@@ -1,115 +1,156 @@
-"""Wrong answers of a single step: a ratio taken as 1, a stage forgotten, one component of an arm, one
-angle.
-"""
+"""Wrong answers of a single step, by the centres and rates of an answer: a ratio, an arm, a component."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import replace
+from typing import NamedTuple
 
 from icsolve.answer import Answer
-from icsolve.case import Belt, Case, Corner, Direction, Force, Gears, Load, Number, Torque
+from icsolve.case import Load, Torque
 from icsolve.case.names import pair_name
-from icsolve.grade.mistakes.changed import Place, as_radians, heading_of, known_loads, place_of, same_kind
+from icsolve.errors import SceneError
+from icsolve.grade.mistakes.changed import Place, heading_of, known_loads, place_of, same_kind
+from icsolve.grade.mistakes.codes import Wrong
+from icsolve.statics.power import reacting
 
 _SAME = 1e-9
 """Rates and arms that differ less are the same."""
+Shares = dict[str, float]
+"""The part of an unknown that each known load asks for; they add up to it."""
 
 
-def ratio_steps(
-    answer: Answer, load: Load, own: Load, factors: tuple[float, float]
-) -> Iterator[tuple[str, float, str]]:
-    """Code, factor of the load's share and place: the ratio of two links taken as 1, or one of its stages.
+class Step(NamedTuple):
+    """A wrong step: its code, by what it changes the share of a load, and where it sits."""
 
-    w4/w2 is (w4/w3) (w3/w2): without one of the two, the other stands for all of it. ``factors`` are those of
-    the load and of the unknown in the sum of power.
-    """
-    rates = answer.rates or {}
-    first, second = rates.get(load.link), rates.get(own.link)
-    where = f"links {own.link} and {load.link}"
-    if isinstance(first, float) and isinstance(second, float) and first and second and load.link != own.link:
-        yield "ratio-one", second / first, where
-        yield "ratio-one", -second / first, where
-        for link, rate in rates.items():
-            if link in (load.link, own.link, answer.case.ground) or not isinstance(rate, float) or not rate:
-                continue
-            for stage in (rate / first, second / rate):
-                if min(abs(abs(stage) - 1.0), abs(stage - second / first)) > _SAME:
-                    yield "missed-stage", stage, f"link {link}"
-                    yield "missed-stage", -stage, f"link {link}"
-    mine, its = factors
-    if same_kind(load, own) and mine and its:
-        yield "ratio-one", its / mine, f"{own.name} and {load.name}"
-        yield "ratio-one", -its / mine, f"{own.name} and {load.name}"
+    code: str
+    factor: float
+    where: str
 
 
-def one_component(answer: Answer, load: Load, centre: Place | None) -> Iterator[float]:
-    """By what the moment of a force about a centre changes where only one of its components is taken."""
-    at, heading = place_of(getattr(load, "at", ""), answer), heading_of(load, answer)
-    if isinstance(load, Torque) or at is None or heading is None or centre is None:
+def shares(answer: Answer, unknown: str) -> Shares:
+    """What each known load contributes to the unknown, by the sum of power: ``-L * factor / own factor``."""
+    try:
+        own = next((term for term in answer.terms if term.load == unknown), None)
+    except SceneError:  # the motions of the links leave the powers open
+        return {}
+    if own is None or own.factor == 0.0 or sum(term.unknown for term in answer.terms) != 1:
+        return {}
+    return {term.load: -term.power / own.factor for term in answer.terms if not term.unknown}
+
+
+def step_wrongs(answer: Answer, unknown: str) -> Iterator[Wrong]:
+    """Wrong answers for a scene with one unknown; ``answer`` has its centres and rates."""
+    parts, case = shares(answer, unknown), answer.case
+    if not parts:
         return
-    angle = math.radians(heading)
-    by_y = (at[0] - centre[0]) * math.sin(angle)
-    by_x = -(at[1] - centre[1]) * math.cos(angle)
-    size = abs(by_x) + abs(by_y)
-    if min(abs(by_x), abs(by_y), abs(by_x + by_y)) > 1e-6 * size:
-        yield by_x / (by_x + by_y)
-        yield by_y / (by_x + by_y)
-
-
-def one_arm(common: Place | None, first: Place | None, second: Place | None) -> Iterator[float]:
-    """By what a ratio of two distances changes where one of them alone is taken, in the case's own unit."""
-    if common is None or first is None or second is None:
-        return
-    above, below = math.dist(common, first), math.dist(common, second)
-    if above and below:
-        yield below
-        yield 1.0 / above
-
-
-def changed_angles(case: Case) -> Iterator[tuple[str, Case, str]]:
-    """Code, case and place: one given angle fed in radians, its sine taken for its cosine, or turned
-    round.
-    """
-    for n, angle in enumerate(case.angles):
-        name = angle.a + angle.at + angle.b if isinstance(angle, Corner) else angle.a + angle.b
-        for code, value in _misread(angle.value, len(case.angles) > 1):
-            other: Direction | Corner = angle._replace(value=value)
-            yield (
-                code,
-                replace(case, angles=(*case.angles[:n], other, *case.angles[n + 1 :])),
-                f"angle {name}",
-            )
+    value = answer.answers[unknown].value
+    own = next(load for load in case.loads if load.name == unknown)
     for load in known_loads(case):
-        if isinstance(load, Force) and isinstance(load.heading, Number):
-            for code, value in _misread(load.heading, True):
-                changed = load._replace(heading=value)
-                loads = tuple(changed if one.name == load.name else one for one in case.loads)
-                yield code, replace(case, loads=loads), f"angle of {load.name}"
+        part = parts.get(load.name)
+        if part:
+            for code, factor, where in (*_of_ratio(answer, load, own), *_of_force(answer, load)):
+                yield Wrong(code, value + part * (factor - 1.0), where, load.name)
+    for code, factor, where in _of_force(answer, own):  # its velocity stands below the line
+        yield Wrong(code, value / factor, where)
 
 
-def _misread(angle: Number, alone: bool) -> Iterator[tuple[str, Number]]:
-    """An angle that is misread; of multiples of 90 degrees nothing is misread but their sense."""
-    degrees = angle.value % 360.0
-    if degrees % 90.0:
-        if alone:
-            yield "deg-rad", as_radians(angle)
-        if degrees % 45.0:
-            yield "sin-cos", angle._replace(value=90.0 - angle.value)
-    if degrees % 180.0:
-        yield "angle-sense", angle._replace(value=-angle.value)
+def _of_ratio(answer: Answer, load: Load, own: Load) -> Iterator[Step]:
+    """The ratio of the two links' rates, or of the two loads' factors, upside down, taken as 1, without one
+    of its stages, or by another centre or one distance alone.
+
+    w4/w2 is (w4/w3) (w3/w2): without one of the two, the other stands for all of it.
+    """
+    factors = {term.load: term.factor for term in answer.terms}
+    ratio = factors.get(load.name, 0.0) / factors[own.name]
+    if same_kind(load, own) and ratio:
+        both = f"{own.name} and {load.name}"
+        yield Step("inverse-ratio", ratio**-2, both)
+        yield Step("ratio-one", 1.0 / ratio, both)
+        yield Step("ratio-one", -1.0 / ratio, both)
+    if load.link == own.link:
+        return
+    where = f"links {own.link} and {load.link}"
+    yield from _of_rates(answer, load.link, own.link, where)
+    ground = answer.case.ground
+    mine, its = centres_of(answer, own.link), centres_of(answer, load.link)
+    common, first, second = its.get(own.link), mine.get(ground), its.get(ground)
+    if common is None:
+        return
+    above, below = (math.dist(common, c) if c is not None else 0.0 for c in (first, second))
+    if above and below:
+        yield Step("one-arm", below, where)
+        yield Step("one-arm", 1.0 / above, where)
+    right = _quotient(common, first, second)
+    for centres, link in ((its, load.link), (mine, own.link)) if first or second else ():
+        for other, centre in centres.items():
+            wrong = _quotient(centre, first, second)
+            if right and wrong and {other, link} != {load.link, own.link} and other != ground:
+                yield Step("wrong-ic", wrong / right, f"I{pair_name(answer.case, (link, other))}")
 
 
-def without_stages(case: Case) -> Iterator[tuple[Case, str]]:
-    """The case with the ratio of one mesh or belt left out."""
-    for n, joint in enumerate(case.joints):
-        if not isinstance(joint, Gears | Belt):
+def _of_rates(answer: Answer, link: str, own: str, where: str) -> Iterator[Step]:
+    """The ratio of the rates of two links taken otherwise."""
+    rates = answer.rates or {}
+    first, second = rates.get(link), rates.get(own)
+    if not isinstance(first, float) or not isinstance(second, float) or not first or not second:
+        return
+    yield Step("inverse-ratio", (second / first) ** 2, where)
+    yield Step("ratio-one", second / first, where)
+    yield Step("ratio-one", -second / first, where)
+    for name, rate in rates.items():
+        if name in (link, own, answer.case.ground) or not isinstance(rate, float) or not rate:
             continue
-        first, second = joint.teeth if isinstance(joint, Gears) else joint.radii
-        if abs(first.value) != abs(second.value):
-            alike = second._replace(value=math.copysign(first.value, second.value * first.value))
-            both = (first, alike)
-            other = joint._replace(teeth=both) if isinstance(joint, Gears) else joint._replace(radii=both)
-            links = pair_name(case, (joint.links[0], joint.links[1]))
-            yield replace(case, joints=(*case.joints[:n], other, *case.joints[n + 1 :])), links
+        for stage in (rate / first, second / rate):
+            if min(abs(abs(stage) - 1.0), abs(stage - second / first)) > _SAME:
+                yield Step("missed-stage", stage, f"link {name}")
+                yield Step("missed-stage", -stage, f"link {name}")
+
+
+def _quotient(centre: Place, first: Place | None, second: Place | None) -> float | None:
+    """Distance from the first over that from the second; one at infinity counts for nothing: of a link that
+    only slides, the ratio is the distance of the common centre from the other one's."""
+    below = math.dist(centre, second) if second is not None else 1.0
+    above = math.dist(centre, first) if first is not None else 1.0
+    return above / below if below else None
+
+
+def _of_force(answer: Answer, load: Load) -> Iterator[Step]:
+    """The moment of a force about another centre of its link, or by one of its components alone."""
+    at, heading = place_of(getattr(load, "at", ""), answer), heading_of(load, answer)
+    against, centres = reacting(answer.case, load), centres_of(answer, load.link)
+    frame_centre = centres.get(against)
+    if isinstance(load, Torque) or at is None or heading is None or frame_centre is None:
+        return
+    by_x, by_y = _moments(at, heading, frame_centre)
+    right, size = by_x + by_y, abs(by_x) + abs(by_y)
+    if abs(right) >= _SAME * (1.0 + math.dist(at, frame_centre)):
+        for other, centre in centres.items():
+            wrong = sum(_moments(at, heading, centre))
+            if other != against and wrong:
+                yield Step("wrong-ic", wrong / right, f"I{pair_name(answer.case, (load.link, other))}")
+    if min(abs(by_x), abs(by_y), abs(right)) > 1e-6 * size:
+        yield Step("one-component", by_x / right, load.name)
+        yield Step("one-component", by_y / right, load.name)
+
+
+def _moments(at: Place, heading: float, centre: Place) -> tuple[float, float]:
+    """Moments of the two components of a unit force about a centre."""
+    angle = math.radians(heading)
+    return -(at[1] - centre[1]) * math.cos(angle), (at[0] - centre[0]) * math.sin(angle)
+
+
+def centres_of(answer: Answer, link: str) -> dict[str, Place]:
+    """The places of a link's centres, by the other link; those at infinity have none."""
+    found = {}
+    for pair, place in finite_centres(answer):
+        if link in pair:
+            found[pair[1] if pair[0] == link else pair[0]] = place
+    return found
+
+
+def finite_centres(answer: Answer) -> Iterator[tuple[tuple[str, str], Place]]:
+    """The centres that have a place."""
+    for pair, centre in answer.centres.items():
+        if centre.kind == "at":
+            yield pair, (centre.place[0], centre.place[1])

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from html import escape
 from typing import NamedTuple
 
-from icsolve.case import Case, LoadIs, Target
+from icsolve.case import Case, LoadIs, PositionIs, Target
 from icsolve.grade.keys import AnyKey, Key, PlaceKey, RangeKey
 from icsolve.grade.mistakes import Wrong, message
 from icsolve.grade.mistakes.codes import ORDER
@@ -32,11 +32,19 @@ def asked(key: AnyKey, target: Target) -> str:
     unit = f" in {key.unit_name}" if key.unit_name else ""
     if isinstance(key, PlaceKey):
         return f"Where is the centre {name}? Give x and y{unit}."
-    sign = ""
+    if isinstance(target, PositionIs):
+        section, _, datum = target.path.partition(".")
+        told = {"angles": "the angle", "lengths": "the length", "points": "the coordinate"}[section]
+        ccw = ", counterclockwise positive" if section == "angles" else ""
+        return f"In which position is the mechanism in equilibrium? Find {told} {datum}{unit}{ccw}."
     if isinstance(key, RangeKey):
         return f"Over which range of {name}{unit} does the mechanism hold still? Give both ends."
+    assert isinstance(key, Key)
+    sign = ""
     if key.expected.turn:
         sign = f" ({'counterclockwise' if key.expected.turn > 0 else 'clockwise'} positive)"
+    elif key.expected.asked:
+        sign = ", and its direction in degrees counterclockwise from +x"
     elif key.expected.heading is not None:
         sign = f" (positive at {key.expected.heading % 360.0:.6g} deg from +x)"
     return f"Find {name}{unit}{sign}."

@@ -16,9 +16,8 @@ from icsolve.grade.course import Course
 from icsolve.grade.keys import (
     AnyKey,
 )
-from icsolve.grade.mistakes import Wrong
+from icsolve.grade.mistakes import WrongAnswers
 from icsolve.grade.mistakes.changed import without_friction
-from icsolve.grade.mistakes.engine import centre_wrongs, load_wrongs, resolve
 from icsolve.grade.solved import Solved
 from icsolve.grade.tolerance import NoKeyError, size_of
 from icsolve.read.document import Mapping as Tree
@@ -187,23 +186,16 @@ def _smooth(answer: Answer) -> Answer:
 def swallowed(answer: Answer) -> frozenset[Mistake]:
     """The mistakes that this variant would not show: their answers are as good as the right one."""
     found = set()
-    for name, wrong in _wrongs(answer):
-        right = answer.answers[name].value
-        if abs(wrong.value - right) <= APART * abs(right):
-            found.add((name, wrong.code, wrong.where))
+    wrongs = WrongAnswers(answer)
+    for name, one in answer.answers.items():
+        for wrong in wrongs.of_loads(name):
+            if wrong.code in _SHOWN and abs(wrong.value - one.value) <= APART * abs(one.value):
+                found.add((name, wrong.code, wrong.where))
     return frozenset(found)
 
 
-def _wrongs(answer: Answer) -> list[tuple[str, Wrong]]:
-    """The mistakes of loads and centres; those of signs, powers of ten and units are always apart."""
-    try:
-        found = list(load_wrongs(answer, resolve))
-    except (ArithmeticError, StopIteration):
-        found = []
-    if len(answer.answers) == 1:
-        (name,) = answer.answers
-        found += [(name, wrong) for wrong in centre_wrongs(answer, name)]
-    return [(name, wrong) for name, wrong in found if name in answer.answers]
+_SHOWN = frozenset({"missed-load", "load-sense", "inverse-ratio", "no-cos", "sin-cos", "wrong-ic"})
+"""Mistakes that a variant should show; those of signs, powers of ten and units are always apart."""
 
 
 Texts = dict[str, str]

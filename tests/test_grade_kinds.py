@@ -1,0 +1,152 @@
+"""Questions for positions of equilibrium, forces of unknown direction, and the mistakes of springs and
+pressures; truths from closed forms."""
+
+from __future__ import annotations
+
+import importlib
+import math
+from pathlib import Path
+
+import pytest
+
+import icsolve
+from grade_shell import CASES, Class
+
+BAR = """\
+icsolve: 1
+points: {A: [0, 0]}
+lengths: {AB: 2}
+angles: {AB: {unknown: [-110, 80]}}
+joints: [{pin: [1, 2], at: A}]
+loads:
+  S: {spring: 0.2, corner: AB, free: 90, link: 2}
+  W: {weight: 8, link: 2, at: B}
+"""
+"""W l cos t = k (pi/2 - t): the bar hangs almost, with the stiffness per degree it stands out."""
+ARM = """\
+icsolve: 1
+points: {A: [0, 0]}
+lengths: {AB: 1, BC: 1}
+angles: {AB: 0, ABC: 90}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}]
+loads:
+  W2: {weight: 10, link: 2, at: B}
+  M: {torque: 4, link: 2}
+  Q: {force: 3, link: 3, at: C, angle: 180}
+  P: {force: [unknown, unknown], link: 3, at: C}
+"""
+"""C = (1, -1): about B px = 3; about A 3 - 3 + py - 10 + 4 = 0, py = 6."""
+LOADED = """\
+icsolve: 1
+points: {{A: [0, 0], E: [2, -6]}}
+lengths: {{AB: 2}}
+angles: {{AB: 0}}
+joints: [{{pin: [1, 2], at: A}}]
+loads:
+  L: {load}
+  M: {{torque: 3, link: 2}}
+  T: {{torque: unknown, link: 2}}
+"""
+
+
+@pytest.fixture
+def a_class(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Class:
+    return Class(tmp_path, capsys)
+
+
+def rest(stiffness: float) -> float:
+    """Degrees at which the weight of 8 and the torsion spring balance, by bisection."""
+    low, high = math.radians(-110.0), math.radians(80.0)
+    for _ in range(60):
+        middle = 0.5 * (low + high)
+        falls = 16.0 * math.cos(middle) > stiffness * (0.5 * math.pi - middle)
+        low, high = (low, middle) if falls else (middle, high)
+    return math.degrees(low)
+
+
+TWO = CASES / "equilibrium" / "two_springs_on_a_crank.yaml"
+
+
+def test_any_position_of_equilibrium_is_right_and_whole_turns_do_not_count(a_class: Class) -> None:
+    """Published: 50.0394 degrees; the other is unstable, at 233.1255."""
+    a_class.case("crank", TWO.read_text())
+    right = ("50.04", "50.04 deg", "0.8734 rad", "410.04", "233.1", "-126.9", "at 50.04 deg", "50.04° ccw")
+    assert set(a_class.verdicts(*right, case="crank")) == {"right"}
+    rows = a_class.judge("-50.04", "39.96", "130", "70", "50.04° above the horizontal", case="crank")
+    assert [(row["verdict"], row["code"]) for row in rows] == [
+        ("wrong", "sign"), ("wrong", "sin-cos"), ("wrong", "angle-sense"), ("wrong", ""),
+        ("review", "ambiguous-direction"),
+    ]  # fmt: skip
+    named = a_class.judge("50.04", case="crank:angles.AB") + a_class.judge("50.04", case="crank:angles.A-B")
+    assert {(row["case"], row["verdict"]) for row in named} == {("crank", "right")}
+
+
+def test_mistakes_with_a_position_are_named(a_class: Class) -> None:
+    a_class.case("bar", BAR)
+    assert a_class.verdicts(f"{rest(0.2):.5g}", case="bar") == ["right"]
+    (row,) = a_class.judge(f"{rest(0.2 * math.degrees(1.0)):.5g}", case="bar")
+    assert (row["verdict"], row["code"]) == ("wrong", "deg-rad")
+
+
+def test_a_case_with_nothing_unknown_costs_no_search_for_its_mistakes(
+    a_class: Class, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Right positions cost one search; wrong ones one for each thing that can be misread, however many."""
+    solves: list[str] = []
+    room = importlib.import_module("icsolve.solve")
+    plain = room.solve
+
+    def counted(case: icsolve.Case, **asked: bool) -> icsolve.Answer:
+        solves.append(case.name)
+        return plain(case, **asked)
+
+    monkeypatch.setattr(room, "solve", counted)
+    a_class.case("crank", TWO.read_text())
+    a_class.judge("50.04", "50", "233.1", case="crank")
+    assert len(solves) == 1
+    solves.clear()
+    a_class.judge("10", "20", "30", case="crank")
+    dropped_reversed_and_free = 3 * 2 + 2  # of three loads, two of them springs
+    assert len(solves) <= 3 + dropped_reversed_and_free
+
+
+def test_a_force_of_unknown_direction_is_its_size_and_an_angle(a_class: Class) -> None:
+    a_class.case("arm", ARM)
+    size, angle = math.hypot(3.0, 6.0), math.degrees(math.atan2(6.0, 3.0))
+    answers = {
+        f"{size:.4g} N at {angle:.4g} deg": "right", f"{size:.4g} N, {angle:.3g}°": "right",
+        f"{size:.4g} N at {angle + 3.0:.4g} deg": "wrong", f"{size:.4g} N": "wrong",
+        f"{size:.4g} N at {angle + 180.0:.4g} deg": "wrong", f"{2 * size:.4g} N at {angle:.4g} deg": "wrong",
+    }  # fmt: skip
+    rows = a_class.judge(*answers, case="arm")
+    assert [row["verdict"] for row in rows] == list(answers.values())
+    assert [row["code"] for row in rows[2:]] == ["direction", "no-direction", "sign", "double"]
+
+
+LINE = "{distributed: 50, link: 2, from: A, to: B, angle: 90}"
+TRIANGLE = "{distributed: [0, 50], link: 2, from: A, to: B, angle: 90}"
+PISTON = "{pressure: 2 MPa, bore: 3, link: 2, at: B, angle: 90}"
+AREA = math.pi / 4.0
+WRONG = {
+    "uniform, at A": (LINE, "line-load", 0.0),
+    "uniform, at B": (LINE, "line-load", 200.0),
+    "length left out": (LINE, "line-load", 50.0),
+    "triangle, in the middle": (TRIANGLE, "line-load", 50.0),
+    "triangle turned round": (TRIANGLE, "line-load", 50.0 * 2.0 / 3.0),
+    "bore as radius": (PISTON, "area", 2e6 * 9 * AREA * 4 * 2),
+    "without pi/4": (PISTON, "area", 2e6 * 9 * 2),
+    "rod not left out": (PISTON.replace("3,", "3, rod: 1,"), "area", 2e6 * 9 * AREA * 2),
+    "free length": ("{spring: 10, free: 1, link: 2, at: B, to: E}", "free-length", -120.0),
+    "mass as weight": ("{mass: 5 kg, link: 2, at: B}", "mass", -10.0),
+    "stiffness per degree": ("{spring: 7, corner: AB, free: 90, link: 2}", "deg-rad", 7 * 90.0),
+}
+"""A load, the code of a mistake, and the moment about A for which the load is taken then."""
+
+
+@pytest.mark.parametrize("kind", WRONG)
+def test_what_springs_pressures_and_line_loads_are_often_taken_for(a_class: Class, kind: str) -> None:
+    load, code, moment = WRONG[kind]
+    a_class.case("loaded", LOADED.format(load=load))
+    (row,) = a_class.judge(f"{-(moment + 3.0):.6g}", case="loaded")
+    assert row["verdict"] == "wrong"
+    assert code in row["code"].split(), row
