@@ -3,7 +3,7 @@ and how the speed of one link follows from another's. Explanations, drawings and
 
 from __future__ import annotations
 
-from icsolve.derivation.known import Acting, Known, acting_loads, known_of
+from icsolve.derivation.known import Acting, Known, acting_loads, known_of, rope_pulls, tension_name
 from icsolve.derivation.ratios import (
     Ratio,
     Ratios,
@@ -26,4 +26,6 @@ __all__ = [
     "known_of",
     "loaded_links",
     "needed_steps",
+    "rope_pulls",
+    "tension_name",
 ]

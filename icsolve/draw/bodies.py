@@ -4,18 +4,19 @@ scale."""
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import shapely
 
 from icsolve.answer.bodies import Reaction
-from icsolve.derivation import Acting, acting_loads
+from icsolve.derivation import Acting, acting_loads, rope_pulls
 from icsolve.draw.frame import point_parts
 from icsolve.draw.links import bars, body_of, link_part, wheel_parts
 from icsolve.draw.loads import ARC, axle, heads, hidden, ways
 from icsolve.draw.marks import Box, Disc, Group, Mark, Point, Run, Stroke, Text, arrow, bounds, moved, turning
-from icsolve.draw.place import Label, Soft, nearest
+from icsolve.draw.place import Label, Soft, joined, nearest
 from icsolve.draw.scene import Part, Scene, around, together, with_labels
 from icsolve.draw.words import force_runs, name_runs, quantity
 
@@ -43,6 +44,8 @@ class Push(NamedTuple):
     at: Point
     force: Point
     couple: float
+    pull: bool = False
+    """drawn from where it acts outward"""
 
 
 def body_panels(scene: Scene, left: float, top: float, width: float) -> list[Mark]:
@@ -71,7 +74,7 @@ def support_parts(scene: Scene, solid: shapely.Geometry) -> list[Part]:
         if ground in (r.by, r.on)
     ]
     largest = max((math.hypot(*push.force) for push in pushes), default=0.0)
-    return [part for n, push in enumerate(pushes) for part in _drawn(scene, push, largest, solid, n)]
+    return [part for n, push in enumerate(pushes) for part in _drawn(scene, push, largest, solid, n, solid)]
 
 
 def _smaller(scene: Scene) -> Scene:
@@ -97,9 +100,24 @@ def _pushes(scene: Scene, link: str) -> Iterable[Push]:
     for name, reaction in (answer.reactions or {}).items():
         if link in (reaction.by, reaction.on):
             yield _reaction(scene, name, reaction if reaction.on == link else reaction.reversed())
+    yield from _pulls(scene, link)
     for acting in acting_loads(scene.known):
+        if acting.link.startswith("@"):
+            continue
         if link in (acting.link, acting.against):
             yield _load(scene, acting, 1.0 if link == acting.link else -1.0)
+
+
+def _pulls(scene: Scene, link: str) -> Iterable[Push]:
+    """The pulls of ropes; those of several parts along one line as one."""
+    pulls = list(rope_pulls(scene.known, link))
+    alike = Counter((pull.symbol, pull.at, pull.force) for pull in pulls)
+    for n, ((symbol, at, (x, y)), count) in enumerate(alike.items(), 1):
+        times = (Run(f"{count} "),) if count > 1 else ()
+        low = (Run(symbol[1], True),) if symbol[1] else ()
+        size = Run(f" = {quantity(count * math.hypot(x, y), scene.case.units.force)}")
+        force, words = (count * x, -count * y), (*times, Run(symbol[0]), *low, size)
+        yield Push(f"body-rope-{n}-on-{link}", words, "reaction", scene.view.at(at), force, 0.0, True)
 
 
 def _reaction(scene: Scene, name: str, reaction: Reaction) -> Push:
@@ -151,7 +169,13 @@ def _panel(scene: Scene, link: str, pushes: Sequence[Push], largest: float) -> l
     )
     parts = [*wheel_parts([body]), link_part(scene, body)]
     parts += [_point(p) for p in dict.fromkeys(alone.at.values())]
-    parts += [part for n, push in enumerate(pushes) for part in _drawn(scene, push, largest, solid, n)]
+    taken = solid
+    for n, push in enumerate(
+        sorted(pushes, key=lambda push: not push.pull)
+    ):  # a rope can't be drawn otherwise
+        drawn = list(_drawn(scene, push, largest, solid, n, taken))
+        taken = joined([taken, *(soft.geometry for part in drawn for soft in part.soft)])
+        parts += drawn
     parts += [part._replace(marks=()) for part in point_parts(alone)]
     left, top, right, bottom = bounds(together(parts).marks)
     window: Box = (left - ROUND, top - ROUND, right + ROUND, bottom + ROUND)
@@ -171,7 +195,10 @@ def _point(p: Point) -> Part:
     return Part((Disc(p, 2.4, "dot"),), (), (around(p, 2.8),))
 
 
-def _drawn(scene: Scene, push: Push, largest: float, solid: shapely.Geometry, n: int) -> Iterable[Part]:
+def _drawn(
+    scene: Scene, push: Push, largest: float, solid: shapely.Geometry, n: int, taken: shapely.Geometry
+) -> Iterable[Part]:
+    """A force or couple with its words; of two places for its arrow the one that hides less of ``taken``."""
     size = math.hypot(*push.force)
     marks: list[Mark] = []
     soft: list[Soft] = []
@@ -182,7 +209,8 @@ def _drawn(scene: Scene, push: Push, largest: float, solid: shapely.Geometry, n:
     if size > NOTHING * largest:
         u = (push.force[0] / size, push.force[1] / size)
         length = max(LONGEST * size / largest, LEAST)
-        tail, tip, _ = min(ways(push.at, u, length), key=lambda way: hidden(scene, way, solid))
+        both = ways(push.at, u, length)
+        tail, tip, _ = both[1] if push.pull else min(both, key=lambda way: hidden(scene, way, taken))
         marks += arrow(tail, tip, push.kind)
         soft.append(Soft(shapely.LineString([tail, tip]).buffer(4.0, quad_segs=1), 4.0))
         far = max((tail, tip), key=lambda p: math.dist(p, push.at))

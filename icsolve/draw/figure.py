@@ -13,11 +13,12 @@ import shapely
 from icsolve.case import Case, Pin
 from icsolve.derivation import Known, Step, all_steps, known_of, needed_steps
 from icsolve.draw.centres import centre_parts, circle_marks
-from icsolve.draw.frame import belts, frame_parts, joint_parts, point_parts, rims
+from icsolve.draw.frame import frame_parts, joint_parts, point_parts, rims, threads
 from icsolve.draw.links import Body, bars, body_of, inside_plate, link_part, outline, wheel_parts
 from icsolve.draw.loads import legend, load_parts, velocity_parts
 from icsolve.draw.marks import HEIGHT, WIDTH, Box, Mark, bounds, view_of
 from icsolve.draw.place import joined
+from icsolve.draw.ropes import belts, courses, filled, rope_boxes, rope_marks
 from icsolve.draw.scene import Part, Round, Scene, outline_boxes, round_things, together, with_labels
 from icsolve.draw.svg import document
 from icsolve.draw.tikz import standalone
@@ -37,7 +38,11 @@ def scene_of(known: Known, steps: Sequence[Step] = ()) -> Scene:
     used = {name for names in known.case.carries.values() for name in names}
     used |= {at for joint in known.case.joints if (at := getattr(joint, "at", None))}
     boxes = [(*known.points[p], *known.points[p]) for p in known.points if p in used]
-    boxes += [*_wheel_boxes(shapes), *outline_boxes(known.case, known.points)]
+    boxes += [
+        *_wheel_boxes(shapes),
+        *outline_boxes(known.case, known.points),
+        *rope_boxes(known.case, known.points),
+    ]
     centres = [step.centre.place for step in steps if step.centre.kind == "at"]
     finite = [(x, y) for x, y in centres if math.isfinite(x) and math.isfinite(y)]
     view = view_of(boxes, finite, known.size)
@@ -70,7 +75,8 @@ def figure_marks(scene: Scene, steps: Sequence[Step] = (), *, velocities: bool =
     """The whole figure: frame, links, centres, joints, loads, and all labels."""
     bodies = [body_of(scene, link) for link in scene.case.links if link != scene.case.ground]
     bodies.sort(key=_depth)
-    links = joined([bars(body) for body in bodies]) if bodies else shapely.Polygon()
+    ropes = courses(scene)
+    links = joined([*(bars(body) for body in bodies), *filled(ropes)])
     speeds = velocity_parts(scene) if velocities else []
     under = [body for body in bodies if _hides_its_foot(scene, body)]
     parts = [
@@ -79,7 +85,9 @@ def figure_marks(scene: Scene, steps: Sequence[Step] = (), *, velocities: bool =
         *(link_part(scene, body) for body in under),
         *frame_parts(scene, links),
         *(link_part(scene, body) for body in bodies if body not in under),
+        *threads(scene),
         *belts(scene),
+        *rope_marks(scene, ropes),
         *joint_parts(scene),
         *centre_parts(scene, steps),
         *load_parts(scene, _filled(links, speeds)),
@@ -147,7 +155,7 @@ def draw(case: Case, drawing: Drawing = PLAIN, known: Known | None = None, form:
 
     A case that has no answer is drawn as far as it is known, with the reason below.
     """
-    known = known or known_of(case, reactions=drawing.bodies)
+    known = known or known_of(case, reactions=drawing.bodies or bool(case.ropes))
     marks = drawn(known, drawing)
     if form == "tex":
         return standalone(marks, known.title)

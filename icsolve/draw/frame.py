@@ -8,14 +8,28 @@ from collections.abc import Iterable
 import shapely
 
 from icsolve.case import Contact, Joint, KnownCentre, Pin, Roll, Slide, Slot, Weld
-from icsolve.draw.links import guide_in_picture
+from icsolve.draw.links import ROD, guide_in_picture
 from icsolve.draw.marks import Disc, Group, Mark, Point, Run, Stroke, along, unit
-from icsolve.draw.place import Label, Soft, area, hatched
-from icsolve.draw.scene import BLOCK, PIN, RAIL, SLOT, Edge, Loop, Part, Scene, Wheel, around, fixed_springs
+from icsolve.draw.place import Label, Soft, area, bar, hatched
+from icsolve.draw.scene import (
+    BLOCK,
+    PIN,
+    RAIL,
+    SLOT,
+    Edge,
+    Part,
+    Scene,
+    Wheel,
+    around,
+    fixed_springs,
+    screw_of,
+)
 from icsolve.draw.words import name_runs
 
 FOOT = (17.0, 13.0)
 """Height of a foot and half its width."""
+PITCH = 7.0
+"""From thread to thread of a screw."""
 DOWN, UP, LEFT, RIGHT = (0.0, 1.0), (0.0, -1.0), (-1.0, 0.0), (1.0, 0.0)
 
 
@@ -23,9 +37,13 @@ def frame_parts(scene: Scene, links: shapely.Geometry) -> list[Part]:
     """Feet, rails and straight edges of the frame, and its number."""
     ground = scene.case.ground
     parts = [_foot(p, links) for p in _feet(scene)]
-    parts += [_rail(scene, joint, links) for joint in _guides(scene) if joint.links[1] == ground]
+    guides = [joint for joint in _guides(scene) if joint.links[1] == ground]
+    parts += [_rail(scene, joint, links) for joint in guides if screw_of(scene.case, joint) is None]
+    parts += [_spindle(scene, joint) for joint in guides if screw_of(scene.case, joint) is not None]
     parts += [_surface(scene, edge) for edge in scene.round.edges if edge.link == ground]
-    parts += [_annulus(scene, w) for w in scene.round.wheels if w.link == ground and w.kind == "gear"]
+    parts += [
+        _annulus(scene, w) for w in scene.round.wheels if w.link == ground and w.kind in ("gear", "post")
+    ]
     anchors = tuple(a for part in parts for a in part.labels[0].anchors)[:6]
     bare = [part._replace(labels=()) for part in parts]
     if anchors:
@@ -45,6 +63,9 @@ def _feet(scene: Scene) -> list[Point]:
             found.append(scene.at[joint.at])
         if isinstance(joint, Slide | Slot) and joint.links[0] == ground:
             found.append(scene.at[joint.at])
+    for rope in scene.case.ropes:
+        held = zip(rope.points, rope.links, rope.mu, strict=False)
+        found += [scene.at[p] for p, link, mu in held if link == ground and mu is None and p in scene.at]
     found += [scene.at[spring.to] for spring in fixed_springs(scene.case) if spring.to in scene.at]
     return list(dict.fromkeys(found))
 
@@ -106,6 +127,37 @@ def _rail(scene: Scene, joint: Slide | Slot, links: shapely.Geometry) -> Part:
     return Part(tuple(marks), tuple(lines), (), (Label("", (), "", 0.0, ends, 0.0),))
 
 
+def _spindle(scene: Scene, joint: Slide | Slot) -> Part:
+    """The rod of a screw that the frame holds, with its bearing."""
+    p, u = scene.at[joint.at], guide_in_picture(scene, joint)
+    first, last = scene.ends(joint.links[1], scene.known.points[joint.at], p, u, RAIL)
+    v = (-u[1], u[0])
+    ends = (along(first, v, -14.0), along(first, v, 14.0))
+    marks: tuple[Mark, ...] = (area(bar((first, last), ROD), "body"), *hatched(*ends, 1.0))
+    soft = (Soft(bar((first, last), ROD), 1.5), Soft(_band(ends), 1.5))
+    return Part(marks, soft, (), (Label("", (), "", 0.0, ends, 0.0),))
+
+
+def threads(scene: Scene) -> list[Part]:
+    """The threads of screws on both sides of their nuts."""
+    parts = []
+    for joint in _guides(scene):
+        if screw_of(scene.case, joint) is None:
+            continue
+        p, u = scene.at[joint.at], guide_in_picture(scene, joint)
+        ends = scene.ends(joint.links[1], scene.known.points[joint.at], p, u, RAIL)
+        marks: list[Mark] = []
+        for end in ends:
+            way, v = unit(end[0] - p[0], end[1] - p[1]), (-u[1], u[0])
+            start, count = along(p, way, BLOCK[0] / 2.0), int((math.dist(p, end) - BLOCK[0] / 2.0) / PITCH)
+            for n in range(count):
+                middle = along(start, way, (n + 0.5) * PITCH)
+                lean = tuple(along(along(middle, v, s * ROD), u, s * PITCH / 2.0) for s in (-1.0, 1.0))
+                marks.append(Stroke(lean, "hatch"))
+        parts.append(Part((Group(f"screw-{'-'.join(joint.links)}", "", tuple(marks), "screw"),)))
+    return parts
+
+
 def _band(points: tuple[Point, ...]) -> shapely.Geometry:
     return shapely.LineString(points).buffer(6.0, quad_segs=1, cap_style="flat")
 
@@ -130,7 +182,7 @@ def _annulus(scene: Scene, wheel: Wheel) -> Part:
     """A pitch circle of the frame with hatching outside."""
     centre, radius = scene.view.at(wheel.centre), wheel.radius * scene.view.scale
     count = max(int(2.0 * math.pi * radius / 9.0), 12)
-    marks: list[Mark] = [Disc(centre, radius, "rim")]
+    marks: list[Mark] = [Disc(centre, radius, "rim" if wheel.kind == "gear" else "foot")]
     outer = radius + 5.0 if wheel.rim else radius - 5.0
     marks.append(Disc(centre, outer, "frame"))
     step = 2.0 * math.pi / count
@@ -160,31 +212,6 @@ def rims(scene: Scene) -> list[Part]:
             group = Group(f"rim-{wheel.link}", "", marks, f"link {wheel.link}")
             parts.append(Part((group,), (Soft(ring, 2.0),), (), (label,)))
     return parts
-
-
-def belts(scene: Scene) -> list[Part]:
-    """The two strands of each belt."""
-    parts = []
-    for loop in scene.round.loops:
-        strands = [Stroke(ends, "rope") for ends in _strands(scene, loop)]
-        soft = tuple(Soft(shapely.LineString(strand.points), 2.0) for strand in strands)
-        name = f"belt-{loop.first.link}-{loop.second.link}"
-        parts.append(Part((Group(name, "", tuple(strands), "belt"),), soft))
-    return parts
-
-
-def _strands(scene: Scene, loop: Loop) -> Iterable[tuple[Point, Point]]:
-    a, b = scene.view.at(loop.first.centre), scene.view.at(loop.second.centre)
-    ra = loop.first.radius * scene.view.scale
-    rb = loop.second.radius * scene.view.scale * (-1.0 if loop.crossed else 1.0)
-    span = math.dist(a, b)
-    if span <= abs(ra - rb):
-        return
-    heading = math.atan2(b[1] - a[1], b[0] - a[0])
-    lean = math.acos((ra - rb) / span)
-    for side in (1.0, -1.0):
-        angle = heading + side * lean
-        yield _polar(a, ra, angle), _polar(b, rb, angle)
 
 
 def joint_parts(scene: Scene) -> list[Part]:

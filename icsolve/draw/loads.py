@@ -8,8 +8,10 @@ from collections.abc import Iterable, Mapping
 
 import shapely
 
-from icsolve.case import Load, Pin, Spring, Weight
+from icsolve.case import Area as Face
+from icsolve.case import Load, Number, Pin, Screw, Spring, Stretch, TorsionSpring, Weight
 from icsolve.derivation import Acting, acting_loads
+from icsolve.draw.links import guide_in_picture
 from icsolve.draw.marks import (
     Area,
     Group,
@@ -20,18 +22,25 @@ from icsolve.draw.marks import (
     Text,
     along,
     arrow,
+    leaves,
     plain_text,
     turning,
     unit,
 )
-from icsolve.draw.place import Label, Soft, joined
-from icsolve.draw.scene import Part, Scene
+from icsolve.draw.place import Label, Soft, area, joined
+from icsolve.draw.scene import BLOCK, HALF, RAIL, Part, Scene
 from icsolve.draw.words import figure_number, name_runs, quantity, unit_word
+from icsolve.wording.senses import sense_as
 
 ARROW = 56.0
 """Length of a load's arrow."""
 ARC = 25.0
 """Radius of a torque's arc."""
+HUNG = (30.0, 24.0)
+"""Width and height of a weight that hangs on a rope."""
+SPIRAL = 24.0
+"""Radius of a torsion spring."""
+DOWN = (0.0, 1.0)
 
 
 def load_parts(scene: Scene, links: shapely.Geometry) -> list[Part]:
@@ -39,7 +48,9 @@ def load_parts(scene: Scene, links: shapely.Geometry) -> list[Part]:
     parts = []
     turned: dict[Point, int] = {}
     for acting in acting_loads(scene.known):
-        if acting.at is None:
+        if isinstance(acting.load, TorsionSpring):
+            part = _spiral(scene, acting, acting.load)
+        elif acting.at is None:
             part = _torque(scene, acting, turned)
         elif isinstance(acting.load, Spring):
             part = _spring(scene, acting, acting.load)
@@ -60,15 +71,17 @@ def load_words(acting: Acting) -> tuple[Run, ...]:
     """``T_12 = 33.76 lbf·in cw``."""
     name = name_runs(acting.load.name)
     if acting.holds is not None:
-        ends = (figure_number(end) if math.isfinite(end) else "∞" for end in acting.holds)
-        return (*name, Run(f": {' to '.join(ends)} {unit_word(acting.unit)}"))
+        limits = (figure_number(end) if math.isfinite(end) else "∞" for end in acting.holds)
+        return (*name, Run(f": {' to '.join(limits)} {unit_word(acting.unit)}"))
     if acting.value is None:
         return (*name, Run(" = ?"))
     text = f" = {quantity(abs(acting.value), acting.unit)}"
+    if ends := _intensities(acting.load):
+        text = f" = {figure_number(min(ends))} to {quantity(max(ends), acting.unit)}"
     if acting.at is None and acting.value:
-        text += " ccw" if acting.couple > 0.0 else " cw"
-    if isinstance(acting.load, Spring):
-        text = f": k{text}"
+        text += f" {sense_as(acting.load, acting.value, acting.gain, 0.0)}"
+    if isinstance(acting.load, Spring | TorsionSpring):
+        return (*name, Run(f": k = {quantity(abs(acting.value), acting.unit)}"))
     return (*name, Run(text))
 
 
@@ -80,19 +93,70 @@ def _heading(acting: Acting) -> Point:
 
 def _force(scene: Scene, acting: Acting, links: shapely.Geometry) -> Part | None:
     assert acting.at is not None
-    at, u = scene.view.at(acting.at), _heading(acting)
-    ends = min(ways(at, u, ARROW, isinstance(acting.load, Weight)), key=lambda way: hidden(scene, way, links))
-    lines = [ends[:2]]
+    at, u, kind = scene.view.at(acting.at), _heading(acting), kind_of(acting)
+    hung = _hung(acting, at)
+    at = along(at, DOWN, HUNG[1]) if hung else at
+    pressed = isinstance(getattr(acting.load, "over", None), Face)
+    both = ways(at, u, ARROW, isinstance(acting.load, Weight))
+    ends = min(both, key=lambda way: hidden(scene, way, links))
+    if pressed:  # it pushes on the face of a block
+        at = along(at, u, 10.0 - BLOCK[0] / 2.0)
+        ends = ways(at, u, 0.6 * ARROW)[0]
+    tail, tip = ends[:2]
+    spread = _spread(scene, acting, tail, tip)
+    lines = [(tail, tip), *(line for line, _ in spread)]
+    marks = arrow(tail, tip, kind)
+    if hung or spread:
+        sheaf = [mark for line, size in spread for mark in arrow(*line, kind, size)]
+        tails = tuple(line[0] for line, _ in spread)
+        rail = (Stroke(tails, kind),) if isinstance(getattr(acting.load, "over", None), Stretch) else ()
+        marks = (Group("", "", (*(sheaf or marks), *hung)), Group("", "", rail))
     if acting.against != scene.case.ground:
         partner = _partner(scene, acting.load)
         lines.append((along(partner, u, -8.0), along(partner, u, -8.0 - ARROW)))
-    marks = tuple(mark for tail, tip in lines for mark in arrow(tail, tip, kind_of(acting)))
+        marks += arrow(*lines[-1], kind)
     soft = tuple(Soft(shapely.LineString(line).buffer(4.0, quad_segs=1), 4.0) for line in lines)
-    tail, tip = lines[0]
     outer, inner = (tail, tip) if math.dist(tail, at) > math.dist(tip, at) else (tip, tail)
     middle = ((outer[0] + inner[0]) / 2.0, (outer[1] + inner[1]) / 2.0)
     inward = along(outer, unit(at[0] - outer[0], at[1] - outer[1]), 12.0)
     return _with_label(acting, marks, soft, (outer, inward, middle))
+
+
+def _spread(scene: Scene, acting: Acting, tail: Point, tip: Point) -> list[tuple[tuple[Point, Point], float]]:
+    """The arrows of a pressure or of a force per length, side by side, with the size of their heads."""
+    load, over = acting.load, getattr(acting.load, "over", None)
+    u = unit(tip[0] - tail[0], tip[1] - tail[1])
+    if isinstance(over, Face):
+        v = (-u[1], u[0])
+        return [((along(tail, v, s), along(tip, v, s)), 7.0) for s in (-8.0, 0.0, 8.0)]
+    if not isinstance(over, Stretch) or not {over.a, over.b} <= scene.at.keys():
+        return []
+    (ax, ay), (bx, by) = scene.at[over.a], scene.at[over.b]
+    first, last = _intensities(load) or (1.0, 1.0)
+    largest = max(abs(first), abs(last)) or 1.0
+    count = max(int(math.dist((ax, ay), (bx, by)) / 22.0), 3)
+    found = []
+    for n in range(count + 1):
+        s = n / count
+        p, size = (ax + s * (bx - ax), ay + s * (by - ay)), 34.0 * (first + s * (last - first)) / largest
+        found.append(((along(p, u, -HALF - size), along(p, u, -HALF)), 7.0))
+    return found
+
+
+def _intensities(load: Load) -> tuple[float, float] | None:
+    """The force per length at both ends of a stretch over which it is not uniform."""
+    over, value = getattr(load, "over", None), getattr(load, "value", None)
+    if not isinstance(over, Stretch) or over.end is None or not isinstance(value, Number):
+        return None
+    return value.value, over.end.value
+
+
+def _hung(acting: Acting, at: Point) -> tuple[Mark, ...]:
+    """The body of a weight that hangs on the free end of a rope."""
+    if not (isinstance(acting.load, Weight) and acting.link.startswith("@")):
+        return ()
+    width, height = HUNG
+    return (area(shapely.box(at[0] - width / 2.0, at[1], at[0] + width / 2.0, at[1] + height), "block"),)
 
 
 def ways(at: Point, u: Point, length: float, weight: bool = False) -> list[tuple[Point, Point, float]]:
@@ -125,6 +189,20 @@ def _spring(scene: Scene, acting: Acting, load: Spring) -> Part:
     return _with_label(acting, (line,), soft, tuple(middle), gap=10.0)
 
 
+def _spiral(scene: Scene, acting: Acting, load: TorsionSpring) -> Part | None:
+    """A torsion spring about its corner, its last end toward what it turns."""
+    if load.at not in scene.at or load.corner[-1] not in scene.at:
+        return None
+    centre, end = scene.at[load.at], scene.at[load.corner[-1]]
+    toward = math.atan2(end[1] - centre[1], end[0] - centre[0])
+    steps = [n / 60.0 for n in range(61)]
+    places = [(toward + 5.0 * math.pi * (s - 1.0), 9.0 + (SPIRAL - 9.0) * s) for s in steps]
+    chain = tuple(along(centre, (math.cos(a), math.sin(a)), r) for a, r in places)
+    soft = (Soft(shapely.Point(centre).buffer(SPIRAL), 1.0),)
+    sides = tuple(along(centre, (math.cos(a), math.sin(a)), SPIRAL) for a in (0.0, math.pi, -1.57, 1.57))
+    return _with_label(acting, (Stroke(chain, "unknown" if acting.unknown else "spring"),), soft, sides)
+
+
 def _coil(a: Point, b: Point) -> Iterable[Point]:
     """A zigzag between two points with straight ends."""
     span = math.dist(a, b)
@@ -141,8 +219,25 @@ def _coil(a: Point, b: Point) -> Iterable[Point]:
     yield b
 
 
+def _screwed(scene: Scene, acting: Acting, screw: Screw) -> Part:
+    """A torque that turns a screw: an arrow round its rod, as one sees it from the side."""
+    p, u = scene.at[screw.at], guide_in_picture(scene, screw)
+    centre, v = along(p, u, 0.8 * RAIL), (-u[1], u[0])  # v: in front, clockwise as one looks along u
+    sense = 1.0 if acting.couple > 0.0 or (not acting.couple and acting.gain > 0.0) else -1.0
+    angles = [math.radians(sense * (12.0 * n - 120.0)) for n in range(21)]
+    ring = [along(along(centre, v, 15.0 * math.sin(a)), u, -6.0 * math.cos(a)) for a in angles]
+    marks = (*arrow(ring[-2], ring[-1], kind_of(acting)), Stroke(tuple(ring[:-1]), kind_of(acting)))
+    soft = (Soft(shapely.Point(centre).buffer(17.0), 3.0),)
+    return _with_label(
+        acting, marks, soft, (along(centre, v, 15.0), along(centre, v, -15.0), along(centre, u, 8.0))
+    )
+
+
 def _torque(scene: Scene, acting: Acting, turned: dict[Point, int]) -> Part | None:
     link = acting.link
+    for screw in scene.case.screws:
+        if screw.rotor == link:
+            return _screwed(scene, acting, screw)
     centre = axle(scene, link)
     if centre is None:
         return None
@@ -191,7 +286,7 @@ def _with_label(
 
 def heads(marks: Iterable[Mark]) -> list[Soft]:
     """The heads of arrows, which no label should cover."""
-    return [Soft(shapely.Polygon(m.rings[0]).buffer(2.0), 6.0) for m in marks if isinstance(m, Area)]
+    return [Soft(shapely.Polygon(m.rings[0]).buffer(2.0), 6.0) for m in leaves(marks) if isinstance(m, Area)]
 
 
 # --- velocities of the points, on a scale of their own ---------------------------------------------------

@@ -10,7 +10,21 @@ from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import NamedTuple
 
-from icsolve.case import Belt, Case, Contact, Gears, Joint, KnownCentre, Pin, Roll, Slide, Slot, Spring, Weld
+from icsolve.case import (
+    Belt,
+    Case,
+    Contact,
+    Gears,
+    Joint,
+    KnownCentre,
+    Pin,
+    Roll,
+    Screw,
+    Slide,
+    Slot,
+    Spring,
+    Weld,
+)
 from icsolve.case.profiles import Circle, Flat, Knife, Roller, points_of
 from icsolve.derivation import Known
 from icsolve.draw.marks import Box, Mark, Point, View, along
@@ -88,14 +102,26 @@ def round_things(case: Case, points: Mapping[str, Point]) -> Round:
             wheels += [thing for thing in (first, second) if isinstance(thing, Wheel)]
             edges += [thing for thing in (first, second) if isinstance(thing, Edge)]
             cams += [joint] if first is None else []
+    wheels += _drums(case, points)
     return Round(tuple(_once(wheels)), tuple(edges), tuple(loops), tuple(cams))
+
+
+def _drums(case: Case, points: Mapping[str, Point]) -> Iterable[Wheel]:
+    """What ropes are wound on or slip on: wheels of links, posts of the frame."""
+    for rope in case.ropes:
+        for k, (p, link) in enumerate(zip(rope.points, rope.links, strict=False)):
+            radius = rope.radii[k]
+            held = k in (0, len(rope.points) - 1) or rope.mu[k] is not None
+            if radius is not None and held and p in points:
+                yield Wheel(link, points[p], radius.value, "post" if link == case.ground else "pulley")
 
 
 def _once(wheels: Iterable[Wheel]) -> Iterable[Wheel]:
     """Each circle once (a gear may mesh with several)."""
+    wheels = list(wheels)
     seen: dict[tuple[str, int, int, int], Wheel] = {}
+    fine = 1e6 / (max((wheel.radius for wheel in wheels), default=0.0) or 1.0)
     for wheel in wheels:
-        fine = 1e6 / wheel.radius if wheel.radius else 1.0
         x, y = wheel.centre
         seen.setdefault((wheel.link, round(x * fine), round(y * fine), round(wheel.radius * fine)), wheel)
     return seen.values()
@@ -281,6 +307,12 @@ class Scene(NamedTuple):
     def joints(self) -> Iterable[Joint]:
         """The joints whose points can be placed."""
         return (joint for joint in self.case.joints if all(p in self.at for p in needs(joint)))
+
+
+def screw_of(case: Case, joint: Joint) -> Screw | None:
+    """The screw whose slide a joint is."""
+    guide = joint.guide if isinstance(joint, Slide) else None
+    return next((screw for screw in case.screws if screw.guide is guide), None)
 
 
 def needs(joint: Joint) -> tuple[str, ...]:

@@ -15,11 +15,12 @@ import shapely
 
 from icsolve.case import Contact, Force, Pin, Roll, Slide, Slot, Spring
 from icsolve.derivation import Acting, Known, Step, acting_loads
-from icsolve.draw.frame import belts, frame_parts, joint_name, joint_parts, point_parts, rims
+from icsolve.draw.frame import frame_parts, joint_name, joint_parts, point_parts, rims
 from icsolve.draw.links import Body, bars, body_of, guide_in_picture, link_part, outline
 from icsolve.draw.loads import load_parts
 from icsolve.draw.marks import Box, Group, Mark, Point, Stroke, Text, bounds, view_of
 from icsolve.draw.place import Label, Placer, joined
+from icsolve.draw.ropes import belts
 from icsolve.draw.scene import ORDER, Part, Scene, Wheel, outlines, round_things, together
 from icsolve.page.motion import Array, Motion, moved
 

@@ -1,0 +1,181 @@
+"""Ropes round their pulleys, and belts: straight parts that touch both circles, arcs between them, and the
+tension beside each part that has one of its own.
+
+A pulley without a radius is drawn with a small one, each in a place larger than the one before: the strands
+of a tackle lie apart as they do on its sheaves.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from typing import NamedTuple
+
+import shapely
+
+from icsolve.case import Case, Rope
+from icsolve.derivation import tension_name
+from icsolve.draw.marks import Box, Disc, Group, Mark, Point, Run, Stroke
+from icsolve.draw.place import Label, Soft
+from icsolve.draw.scene import Loop, Part, Scene, around
+from icsolve.draw.words import quantity
+from icsolve.errors import SceneError
+from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers.given import Number
+from icsolve.screws.ropes import rope_parts
+
+SMALL, LARGER = 10.0, 6.0
+"""Radius of a pulley that is given none, and by how much the next one in its place is larger."""
+AXLE = 3.0
+"""Radius of a pulley's pin."""
+CHORD = math.radians(6.0)
+"""Of an arc the part that is drawn straight."""
+
+
+class Course(NamedTuple):
+    """A rope as it is drawn (picture units): its straight parts, its whole line, its loose pulleys."""
+
+    rope: Rope
+    parts: tuple[tuple[Point, Point], ...]
+    line: tuple[Point, ...]
+    pulleys: tuple[Disc, ...]
+
+
+def courses(scene: Scene) -> list[Course]:
+    """The ropes of a case whose points are known."""
+    ropes = [rope for rope in scene.case.ropes if set(rope.points) <= scene.known.points.keys()]
+    return [course for rope in ropes if (course := _course(scene, rope)) is not None]
+
+
+def _course(scene: Scene, rope: Rope) -> Course | None:
+    for one in (
+        _with_pulleys(scene, rope),
+        rope,
+    ):  # of small pulleys that are too large for the figure, points
+        try:
+            return _laid(scene, one)
+        except SceneError:
+            continue
+    return None
+
+
+def _with_pulleys(scene: Scene, rope: Rope) -> Rope:
+    """A rope with a radius and a sense at each pulley."""
+    radii, wraps = list(rope.radii), list(rope.wraps)
+    places = [scene.known.points[p] for p in rope.points]
+    for k in range(1, len(places) - 1):
+        if radii[k] is None:
+            size = SMALL + LARGER * places[1:k].count(places[k])
+            radii[k] = _number(size / scene.view.scale)
+        if wraps[k] is None:
+            (ax, ay), (bx, by), (cx, cy) = places[k - 1 : k + 2]
+            wraps[k] = "cw" if (bx - ax) * (cy - by) - (by - ay) * (cx - bx) < 0.0 else "ccw"
+    return rope._replace(radii=tuple(radii), wraps=tuple(wraps))
+
+
+def _number(value: float) -> Number:
+    return Number(value, 0.0, "", repr(value))
+
+
+def _laid(scene: Scene, rope: Rope) -> Course:
+    """A rope round its circles; raises SceneError where it has no straight part between two of them."""
+    straight = []
+    for part in rope_parts(rope, scene.known.points, 1.0, FLOATS):
+        (x, y), (u, v), length = part.at, part.along, float(part.length)
+        straight.append(((x, y), (x + length * u, y + length * v)))
+    line: list[Point] = [*straight[0]]
+    pulleys = []
+    for k in range(1, len(straight)):
+        centre, radius = scene.known.points[rope.points[k]], rope.radii[k]
+        line += _arc(centre, straight[k - 1][1], straight[k][0], rope.wraps[k] == "ccw")
+        line += straight[k]
+        if radius is not None and rope.mu[k] is None:
+            pulleys.append(Disc(scene.view.at(centre), radius.value * scene.view.scale, "body"))
+    parts = tuple((scene.view.at(a), scene.view.at(b)) for a, b in straight)
+    return Course(rope, parts, tuple(map(scene.view.at, line)), tuple(pulleys))
+
+
+def _arc(centre: Point, start: Point, end: Point, ccw: bool) -> Iterable[Point]:
+    """Points between two of a circle."""
+    radius = math.dist(centre, start)
+    first, last = (math.atan2(p[1] - centre[1], p[0] - centre[0]) for p in (start, end))
+    turned = (last - first if ccw else first - last) % (2.0 * math.pi)
+    count = int(turned / CHORD) if radius and turned < 2.0 * math.pi - CHORD else 0
+    for n in range(1, count + 1):
+        angle = first + (1.0 if ccw else -1.0) * turned * n / (count + 1)
+        yield (centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle))
+
+
+def rope_boxes(case: Case, points: Mapping[str, Point]) -> list[Box]:
+    """The room that pulleys of a given radius take, case units."""
+    return [
+        around(points[p], radius.value)
+        for rope in case.ropes
+        for p, radius in zip(rope.points, rope.radii, strict=True)
+        if radius is not None and p in points
+    ]
+
+
+def filled(ropes: Sequence[Course]) -> list[shapely.Geometry]:
+    """What ropes and their pulleys fill: feet and arrows keep off them."""
+    lines = [shapely.LineString(rope.line).buffer(3.0, quad_segs=1) for rope in ropes]
+    return [*lines, *(shapely.Point(d.centre).buffer(d.radius) for rope in ropes for d in rope.pulleys)]
+
+
+def rope_marks(scene: Scene, ropes: Sequence[Course]) -> list[Part]:
+    """The pulleys, the ropes above them, and the tensions."""
+    discs = sorted({disc for rope in ropes for disc in rope.pulleys}, key=lambda disc: -disc.radius)
+    pulleys: list[Mark] = [mark for d in discs for mark in (d, Disc(d.centre, AXLE, "pin"))]
+    parts = [Part((Group("pulleys", "", tuple(pulleys), "pulleys"),))] if pulleys else []
+    for rope in ropes:
+        group = Group(f"rope-{rope.rope.name}", "", (Stroke(rope.line, "rope"),), f"rope {rope.rope.name}")
+        solid = tuple(around(disc.centre, AXLE) for disc in rope.pulleys)
+        soft = (Soft(shapely.LineString(rope.line), 3.0), *(Soft(ring, 1.5) for ring in _rims(rope)))
+        parts.append(Part((group,), soft, solid, tuple(_tensions(scene, rope))))
+    return parts
+
+
+def _rims(rope: Course) -> Iterable[shapely.Geometry]:
+    return (shapely.Point(disc.centre).buffer(disc.radius).boundary for disc in rope.pulleys)
+
+
+def _tensions(scene: Scene, course: Course) -> Iterable[Label]:
+    """The tension beside the longest part, of a rope that slips beside every part."""
+    answer, name = scene.known.answer, course.rope.name
+    found = next((t for t in (answer.tensions if answer else ()) if t.rope == name), None)
+    if found is None or found.tension is None:
+        return
+    longest = max(course.parts, key=lambda ends: math.dist(*ends))
+    shown = [(0, found.tension, longest)]
+    if found.parts:
+        shown = [(n, *one) for n, one in enumerate(zip(found.parts, course.parts, strict=True), 1)]
+    for n, pull, ((ax, ay), (bx, by)) in shown:
+        base, low = tension_name(scene.case, course.rope, n)
+        runs = (Run(base), Run(low, True), Run(f" = {quantity(pull, scene.case.units.force)}"))
+        spots = tuple((ax + s * (bx - ax), ay + s * (by - ay)) for s in (0.5, 0.35, 0.65))
+        yield Label(f"tension-{name}-{n}", tuple(r for r in runs if r.text), "t-reaction", 13.0, spots, 6.0)
+
+
+def belts(scene: Scene) -> list[Part]:
+    """The two strands of each belt."""
+    parts = []
+    for loop in scene.round.loops:
+        strands = [Stroke(ends, "rope") for ends in _strands(scene, loop)]
+        soft = tuple(Soft(shapely.LineString(strand.points), 2.0) for strand in strands)
+        name = f"belt-{loop.first.link}-{loop.second.link}"
+        parts.append(Part((Group(name, "", tuple(strands), "belt"),), soft))
+    return parts
+
+
+def _strands(scene: Scene, loop: Loop) -> Iterable[tuple[Point, Point]]:
+    """A belt is a rope to the second wheel and back."""
+    points = {"A": loop.first.centre, "B": loop.second.centre}
+    radii = tuple(_number(wheel.radius) for wheel in (loop.first, loop.second, loop.first))
+    wraps = ("ccw", "cw" if loop.crossed else "ccw", "ccw")
+    try:
+        return _laid(
+            scene._replace(known=scene.known._replace(points=points)),
+            Rope(("A", "B", "A"), ("", "", ""), radii, wraps, (None,) * 3),
+        ).parts
+    except SceneError:
+        return ()
