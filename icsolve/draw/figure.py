@@ -18,7 +18,7 @@ from icsolve.draw.links import Body, bars, body_of, inside_plate, link_part, out
 from icsolve.draw.loads import legend, load_parts, velocity_parts
 from icsolve.draw.marks import HEIGHT, WIDTH, Box, Mark, bounds, view_of
 from icsolve.draw.place import joined
-from icsolve.draw.ropes import belts, courses, filled, rope_boxes, rope_marks
+from icsolve.draw.ropes import belts, courses, filled, free_ends, rope_boxes, rope_marks
 from icsolve.draw.scene import Part, Round, Scene, outline_boxes, round_things, together, with_labels
 from icsolve.draw.svg import document
 from icsolve.draw.tikz import standalone
@@ -49,7 +49,8 @@ def scene_of(known: Known, steps: Sequence[Step] = ()) -> Scene:
     larger = min(SHORT / max(_shortest(known) * view.scale, 1e-9), LARGER)
     if larger > 1.0:
         view = view_of(boxes, finite, known.size, (larger * WIDTH, larger * HEIGHT))
-    return Scene(known, view, {name: view.at(p) for name, p in known.points.items()}, shapes)
+    scene = Scene(known, view, {name: view.at(p) for name, p in known.points.items()}, shapes)
+    return scene._replace(at={**scene.at, **free_ends(scene)})
 
 
 def _shortest(known: Known) -> float:

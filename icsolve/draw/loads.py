@@ -94,6 +94,8 @@ def _heading(acting: Acting) -> Point:
 def _force(scene: Scene, acting: Acting, links: shapely.Geometry) -> Part | None:
     assert acting.at is not None
     at, u, kind = scene.view.at(acting.at), _heading(acting), kind_of(acting)
+    if acting.link.startswith("@"):  # the free end of a rope, as it is drawn
+        at = scene.at[getattr(acting.load, "at", "")]
     hung = _hung(acting, at)
     at = along(at, DOWN, HUNG[1]) if hung else at
     pressed = isinstance(getattr(acting.load, "over", None), Face)

@@ -73,14 +73,33 @@ def _with_pulleys(scene: Scene, rope: Rope) -> Rope:
     return rope._replace(radii=tuple(radii), wraps=tuple(wraps))
 
 
+def free_ends(scene: Scene) -> dict[str, Point]:
+    """Where the free ends of ropes are drawn: beside the rim of their last pulley."""
+    ropes = [rope for rope in scene.case.ropes if rope.is_free]
+    placed = [rope for rope in ropes if set(rope.points) <= scene.known.points.keys()]
+    return {rope.points[-1]: scene.view.at(_free_end(scene, _with_pulleys(scene, rope))) for rope in placed}
+
+
+def _free_end(scene: Scene, rope: Rope) -> Point:
+    (ax, ay), (bx, by) = (scene.known.points[p] for p in rope.points[-2:])
+    given = next(own for own in scene.case.ropes if own.name == rope.name).radii[-2]
+    radius, span = rope.radii[-2], math.dist((ax, ay), (bx, by))
+    if radius is None or given is not None or span == 0.0:
+        return (bx, by)
+    aside = radius.value / span * (1.0 if rope.wraps[-2] == "ccw" else -1.0)
+    return (bx + aside * (by - ay), by - aside * (bx - ax))
+
+
 def _number(value: float) -> Number:
     return Number(value, 0.0, "", repr(value))
 
 
 def _laid(scene: Scene, rope: Rope) -> Course:
     """A rope round its circles; raises SceneError where it has no straight part between two of them."""
-    straight = []
-    for part in rope_parts(rope, scene.known.points, 1.0, FLOATS):
+    straight, points = [], scene.known.points
+    if rope.is_free:
+        points = {**points, rope.points[-1]: _free_end(scene, rope)}
+    for part in rope_parts(rope, points, 1.0, FLOATS):
         (x, y), (u, v), length = part.at, part.along, float(part.length)
         straight.append(((x, y), (x + length * u, y + length * v)))
     line: list[Point] = [*straight[0]]
