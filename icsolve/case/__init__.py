@@ -7,6 +7,7 @@ hidden name that starts with ``@``.
 """
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from icsolve.case.bodies import Inertia, Rope, Screw
@@ -40,6 +41,7 @@ from icsolve.case.joints import (
     Roll,
     Slide,
     Slot,
+    Thread,
     Weld,
 )
 from icsolve.case.loads import (
@@ -115,6 +117,7 @@ __all__ = [
     "Spring",
     "Stretch",
     "Target",
+    "Thread",
     "Tolerance",
     "Torque",
     "TorsionSpring",
@@ -164,8 +167,6 @@ class Case:
     dynamic: bool = False
     """whether the inertia forces of the given motion are among the loads"""
     ropes: tuple[Rope, ...] = ()
-    screws: tuple[Screw, ...] = ()
-    """those that a torque turns; their slides are among the joints"""
     tolerance: Tolerance | None = None
     variables: tuple[Variable, ...] = ()
     profiles: "Profiles | None" = None
@@ -175,6 +176,12 @@ class Case:
     noticed: tuple[str, ...] = ()
     """sentences of the reader on what may be a slip, for the notes of an answer"""
     marks: dict[str, Mark] = field(default_factory=dict)
+
+    @cached_property
+    def screws(self) -> tuple[Screw, ...]:
+        """Those that a torque turns."""
+        slides = (joint for joint in self.joints if isinstance(joint, Slide))
+        return tuple(Screw(slide, slide.thread) for slide in slides if slide.thread is not None)
 
     def __repr__(self) -> str:
         """Its name and size; the fields of a whole case would fill a page."""

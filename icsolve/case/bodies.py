@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from icsolve.case.figure import Guide
+from icsolve.case.joints import Slide, Thread
 from icsolve.numbers.given import Number
 
 
@@ -19,18 +19,16 @@ class Inertia(NamedTuple):
 
 
 class Screw(NamedTuple):
-    """A screw that a torque turns, out of the plane: ``links[1]`` moves on ``links[0]`` along the guide.
+    """A screw that a torque turns, by the slide that it is among the joints."""
 
-    By ``lead`` a turn, right-handed; with ``mu`` its square thread of mean ``radius`` rubs. Among the joints
-    stands its slide.
-    """
+    slide: Slide
+    thread: Thread
 
-    links: tuple[str, str]
-    at: str
-    guide: Guide
-    lead: Number
-    radius: Number | None = None
-    mu: Number | None = None
+    @property
+    def links(self) -> tuple[str, str]:
+        """The second moves on the first."""
+        on, by = self.slide.links
+        return by, on
 
     @property
     def rotor(self) -> str:
@@ -40,11 +38,12 @@ class Screw(NamedTuple):
     @property
     def rubs(self) -> bool:
         """Whether its thread does."""
-        return self.mu is not None and self.mu.value > 0.0
+        return self.thread.mu is not None and self.thread.mu.value > 0.0
 
 
 class Rope(NamedTuple):
-    """A rope through ``points``, in order, each on the link of ``links`` at the same place.
+    """A rope through ``points``, in order, each on the link of ``links`` at the same place; ``name`` is
+    ``A-P-B``, with ``#2`` where another runs through the same points.
 
     The first and the last are its ends, the others pulleys; where ``links`` has one less than ``points``,
     the last end is free and loads pull it. For each place ``radii`` has a pulley's (or drum's) radius,
@@ -52,17 +51,13 @@ class Rope(NamedTuple):
     ``mu`` the friction of a rope that slips there; None where there is none.
     """
 
+    name: str
     points: tuple[str, ...]
     links: tuple[str, ...]
     radii: tuple[Number | None, ...]
     wraps: tuple[str | None, ...]
     mu: tuple[Number | None, ...]
     length: Number | None = None
-
-    @property
-    def name(self) -> str:
-        """Its points: ``A-P-B``."""
-        return "-".join(self.points)
 
     @property
     def slips(self) -> bool:

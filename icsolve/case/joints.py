@@ -22,13 +22,24 @@ class Pin(NamedTuple):
     friction: Friction | None = None
 
 
+class Thread(NamedTuple):
+    """Of a screw that a torque turns, out of the plane: by ``lead`` a turn, right-handed; square, of mean
+    ``radius``, with ``mu`` where it rubs."""
+
+    lead: Number
+    radius: Number | None = None
+    mu: Number | None = None
+
+
 class Slide(NamedTuple):
-    """A prismatic: block ``links[0]``, carrying ``at``, on a guide of ``links[1]``."""
+    """A prismatic: block ``links[0]``, carrying ``at``, on a guide of ``links[1]``; of a screw it has the
+    ``thread``, on which ``links[1]`` moves."""
 
     links: tuple[str, str]
     at: str
     guide: Guide
     friction: Friction | None = None
+    thread: Thread | None = None
 
 
 class Slot(NamedTuple):

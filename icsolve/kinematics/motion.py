@@ -89,25 +89,20 @@ TURN = Number(6.283185307179586, 0.0, "turn", "6.283185307179586", 1.0, (2, 1, 1
 """Radians of a turn."""
 
 
-def with_screws(
+def with_ends(
     motions: Motions, case: Case, points: Points, scale: float, arithmetic: Arithmetic
 ) -> Motions:
-    """The motions with the turning of screws, cw as one looks along their axes, under the names of these."""
+    """The motions with the turning of screws, cw as one looks along their axes, and with those of the ends of
+    ropes that loads pull: under the names of what stands there for links."""
+    if not (case.screws or case.ropes):
+        return motions
     twists = dict(motions.twists)
     for screw in case.screws:
-        x, y = guide_direction(screw.guide, points, arithmetic)
-        per = arithmetic.given(TURN) / (arithmetic.given(screw.lead) * scale)
+        x, y = guide_direction(screw.slide.guide, points, arithmetic)
+        per = arithmetic.given(TURN) / (arithmetic.given(screw.thread.lead) * scale)
         by, on = (twists[link] for link in screw.links)
-        both = [velocity(subtract(b, a), points[screw.at]) for a, b in zip(by, on, strict=True)]
+        both = [velocity(subtract(b, a), points[screw.slide.at]) for a, b in zip(by, on, strict=True)]
         twists[screw.rotor] = tuple((0.0, 0.0, per * (x * vx + y * vy)) for vx, vy in both)
-    return motions._replace(twists=twists)
-
-
-def with_free_ends(
-    motions: Motions, case: Case, points: Points, scale: float, arithmetic: Arithmetic
-) -> Motions:
-    """The motions with those of the ends of ropes that loads pull, under the names of these ends."""
-    twists = dict(motions.twists)
     for rope in case.ropes:
         if rope.is_free:
             parts = rope_parts(rope, points, scale, arithmetic)

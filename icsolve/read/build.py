@@ -262,7 +262,6 @@ def _case(
         unknowns=tuple(reading.unknowns),
         inertia=parts.inertia,
         ropes=parts.ropes,
-        screws=tuple(reading.screws),
         dynamic=read_dynamic(reading, root.items.get("dynamic")),
         noticed=tuple(reading.noticed),
         marks=reading.marks,

@@ -22,6 +22,7 @@ from icsolve.case import (
     Screw,
     Slide,
     Slot,
+    Thread,
     Weld,
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
@@ -374,8 +375,9 @@ def _screw(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
     pair = (links[0], links[1])
     if frozenset(pair) not in entry.reading.driven:
         return Weld(pair, at)
-    entry.reading.screws.append(Screw(pair, at, guide, lead, radius, mu))
-    return Slide((pair[1], pair[0]), at, guide)
+    slide = Slide((pair[1], pair[0]), at, guide, thread=Thread(lead, radius, mu))
+    entry.reading.screws.append(Screw(slide, Thread(lead, radius, mu)))
+    return slide
 
 
 BUILDERS: Builders[Joint] = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TypeVar
 
-from icsolve.case import AlongRope, Force, Load, Number, Rope, Toward, Weight
+from icsolve.case import AlongRope, Force, Load, Number, Rope, Weight
 from icsolve.read.document import Mapping, Node, Sequence
 from icsolve.read.keys import JOINTS
 from icsolve.read.load_forms import Likes, magnitude, word_at
@@ -38,8 +38,8 @@ def _rope(reading: Reading, node: Mapping) -> Rope | None:
     points = tuple(item.text for item in names or ())
     for item in names or ():
         reading.used.setdefault(item.text, item.mark)
-    name = "-".join(points) or "?"
-    path = _unlike(f"joints.{name}", reading)
+    path = _unlike(f"joints.{'-'.join(points) or '?'}", reading)
+    name = path.partition(".")[2]
     reading.marks[path] = node.mark
     entry = Entry(reading, node, path, f"the rope {name}", JOINTS["rope"].keys)
     entry.check("rope")
@@ -58,7 +58,7 @@ def _rope(reading: Reading, node: Mapping) -> Rope | None:
     _check_wraps(entry, points, len(links), radii, wraps, mu)
     if len(reading.problems.found) > before:
         return None
-    return Rope(points, links, radii, wraps, mu, length)
+    return Rope(name, points, links, radii, wraps, mu, length)
 
 
 def _number(entry: Entry, one: Entry, key: str, at: str) -> tuple[Node, str, str, str, str]:
@@ -150,9 +150,7 @@ def read_pull(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
         return None
     if kind in ("weight", "mass"):
         return Weight(name, rope.end, rope.points[-1], value, kind == "mass")
-    last = len(rope.links) - 1
-    heading = Toward(rope.points[-2], away=True) if rope.radii[last] is None else AlongRope(rope)
-    return Force(name, rope.end, rope.points[-1], value, heading)
+    return Force(name, rope.end, rope.points[-1], value, AlongRope(rope))
 
 
 def check_ends(reading: Reading, ropes: tuple[Rope, ...], loads: tuple[Load, ...]) -> None:

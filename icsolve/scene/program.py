@@ -110,7 +110,7 @@ def _wanted_points(case: Case, top: Topology, bonds: tuple[int, ...], want: Want
     points += [p for load in case.loads for p in power.points_of(load)]
     points += [given.point for given in case.motion if given.point is not None]
     points += [p for rope in case.ropes for p in rope.points]
-    points += [p for screw in case.screws for p in (screw.at, *(screw.guide.ends or ()))]
+    points += [p for screw in case.screws for p in (screw.slide.at, *(screw.slide.guide.ends or ()))]
     if want.bodies:
         points += [p for joint in case.joints if (p := getattr(joint, "at", None)) is not None]
     return list(dict.fromkeys(points))
@@ -133,10 +133,7 @@ def evaluate(program: Program, arithmetic: Arithmetic = FLOATS, rounds: int = 1)
             return evaluate(without_plan(program), arithmetic, rounds)
     if motions is None:
         motions = motion.by_loops(case, top, points, arithmetic, figure.frame)
-    if case.screws:
-        motions = motion.with_screws(motions, case, points, figure.frame.scale, arithmetic)
-    if case.ropes:
-        motions = motion.with_free_ends(motions, case, points, figure.frame.scale, arithmetic)
+    motions = motion.with_ends(motions, case, points, figure.frame.scale, arithmetic)
     # power
     wrenches = power.wrenches(case, figure.frame, points, arithmetic)
     if case.dynamic and case.inertia:

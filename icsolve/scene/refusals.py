@@ -132,7 +132,7 @@ def _no_work(
 
 def _why_at_rest(top: Topology, motions: Motions, link: str, arithmetic: Arithmetic) -> str:
     """Which centres on one line hold a link at rest."""
-    body = top.body_of[link]
+    body = top.body_of.get(link, -1)
     own_first = sorted(motions.closures, key=lambda closure: body not in closure.group.bodies)
     clauses = (aligned(top, lined_up(closure, top, body, arithmetic)) for closure in own_first)
     return next(filter(None, clauses), "")

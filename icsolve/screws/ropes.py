@@ -44,37 +44,42 @@ def rope_parts(rope: Rope, points: Points, scale: float, arithmetic: Arithmetic)
 
     Raises SceneError where a part has no length, or two pulleys overlap.
     """
-    places = [points[p] for p in rope.points]
-    offsets = [_offset(rope, k, scale, arithmetic) for k in range(len(places))]
+    circles = list(zip((points[p] for p in rope.points), offsets_of(rope, scale, arithmetic), strict=True))
+    pairs = enumerate(pairwise(circles))
+    return tuple(part_between(rope, k, one, two, scale, arithmetic) for k, (one, two) in pairs)
+
+
+Circle = tuple[Point, Scalar]
+"""Its centre; its radius, positive where a rope goes round it ccw (normalised)."""
+
+
+def part_between(
+    rope: Rope, k: int, one: Circle, two: Circle, scale: float, arithmetic: Arithmetic
+) -> RopePart:
+    """The straight part of a rope from its circle ``k`` to the next."""
+    ((ax, ay), offset), ((bx, by), next_offset) = one, two
+    d = (bx - ax, by - ay)
+    between = next_offset - offset
+    square = d[0] * d[0] + d[1] * d[1]
+    apart = math.hypot(float(d[0]), float(d[1]))
+    if apart <= abs(float(between)) or apart == 0.0:
+        raise SceneError(Status.INCONSISTENT, _no_part(rope, k, apart, scale))
+    length = arithmetic.sqrt(square - between * between)
+    u = (
+        (length * d[0] + between * d[1]) / square,
+        (length * d[1] - between * d[0]) / square,
+    )
+    at = (ax + offset * u[1], ay - offset * u[0])
+    x, y, moment = force_wrench(u, (ax, ay))
     links = (*rope.links, "")
-    found = []
-    for k in range(len(places) - 1):
-        (ax, ay), (bx, by) = places[k], places[k + 1]
-        d = (bx - ax, by - ay)
-        between = offsets[k + 1] - offsets[k]
-        square = d[0] * d[0] + d[1] * d[1]
-        apart = math.hypot(float(d[0]), float(d[1]))
-        if apart <= abs(float(between)) or apart == 0.0:
-            raise SceneError(Status.INCONSISTENT, _no_part(rope, k, apart, scale))
-        length = arithmetic.sqrt(square - between * between)
-        u = (
-            (length * d[0] + between * d[1]) / square,
-            (length * d[1] - between * d[0]) / square,
-        )
-        at = (ax + offsets[k] * u[1], ay - offsets[k] * u[0])
-        x, y, moment = force_wrench(u, (ax, ay))
-        wrench = (x, y, moment + offsets[k])
-        found.append(RopePart((links[k], links[k + 1]), at, u, length, wrench, offsets[k]))
-    return tuple(found)
+    return RopePart((links[k], links[k + 1]), at, u, length, (x, y, moment + offset), offset)
 
 
-def _offset(rope: Rope, k: int, scale: float, arithmetic: Arithmetic) -> Scalar:
-    """Radius of a circle, positive where the rope goes round it ccw (normalised)."""
-    radius = rope.radii[k]
-    if radius is None:
-        return 0.0
-    size = arithmetic.given(radius) * scale
-    return size if rope.wraps[k] == "ccw" else 0.0 - size
+def offsets_of(rope: Rope, scale: float, arithmetic: Arithmetic) -> tuple[Scalar, ...]:
+    """Radii of the circles, positive where the rope goes round ccw (normalised)."""
+    sizes = [0.0 if radius is None else arithmetic.given(radius) * scale for radius in rope.radii]
+    wraps = zip(sizes, rope.wraps, strict=True)
+    return tuple(size if wrap != "cw" else 0.0 - size for size, wrap in wraps)
 
 
 def _no_part(rope: Rope, k: int, apart: float, scale: float) -> str:

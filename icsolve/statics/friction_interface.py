@@ -61,15 +61,16 @@ def _pin(position: Position, t: int, tie: Tie, friction: Friction, arithmetic: A
 
 def _threaded(position: Position, t: int, tie: Tie, screw: Screw, arithmetic: Arithmetic) -> Rub:
     """Friction along a thread: at most mu times the force square to it."""
-    assert screw.radius is not None
-    assert screw.mu is not None
-    along, turned = thread(screw, position.scale, arithmetic)
-    radius = arithmetic.given(screw.radius) * position.scale
-    x, y = guide_direction(screw.guide, position.points, arithmetic)
+    _, mean, mu = screw.thread
+    assert mean is not None
+    assert mu is not None
+    along, turned = thread(screw.thread, position.scale, arithmetic)
+    radius = arithmetic.given(mean) * position.scale
+    x, y = guide_direction(screw.slide.guide, position.points, arithmetic)
     rise = turned / radius
     unit: Force = (0.0 - rise * x, 0.0 - rise * y, 0.0)
     normal = (*(0.0 for _ in tie.units[:-1]), 1.0)
-    return Rub(t, unit, (normal,), arithmetic.given(screw.mu), radius * along)
+    return Rub(t, unit, (normal,), arithmetic.given(mu), radius * along)
 
 
 def _guided(position: Position, t: int, tie: Tie, friction: Friction, arithmetic: Arithmetic) -> list[Rub]:

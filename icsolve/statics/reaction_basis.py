@@ -28,6 +28,7 @@ from icsolve.case import (
     Rope,
     Screw,
     Slide,
+    Thread,
     Weld,
 )
 from icsolve.errors import SceneError, Status
@@ -115,8 +116,9 @@ def ties_of(position: Position) -> tuple[Tie, ...]:
 
 def _rotor_tie(position: Position, screw: Screw) -> Tie:
     """What keeps the rotor of a screw in its place."""
-    ground, at = position.case.ground, position.points[screw.at]
-    return Tie(Pin((ground, screw.rotor), screw.at), ground, screw.rotor, at, "", (X, Y))
+    ground, at = position.case.ground, screw.slide.at
+    joint = Pin((ground, screw.rotor), at)
+    return Tie(joint, ground, screw.rotor, position.points[at], "", (X, Y))
 
 
 def rope_ties(
@@ -149,9 +151,8 @@ def _tie(position: Position, bond: Bond) -> Tie:
         return Tie(joint, by, on, at, "", (X, Y, COUPLE))
     where, at = _place(bond, position.points, position.arithmetic)
     found = Tie(joint, by, on, at, where, _units(position, bond, at), bond.pivots)
-    for screw in position.case.screws:
-        if isinstance(joint, Slide) and screw.links == (on, by) and screw.guide is joint.guide:
-            return _screwed(position, found, screw)
+    if isinstance(joint, Slide) and joint.thread is not None:
+        return _screwed(position, found, Screw(joint, joint.thread))
     return found
 
 
@@ -161,15 +162,15 @@ def _screwed(position: Position, slide: Tie, screw: Screw) -> Tie:
     A force N square to a thread of radius r that rises by the angle l has N cos l along the axis and the
     couple N r sin l about it; 2 pi r tan l is the lead. Without friction any radius will do.
     """
-    x, y = guide_direction(screw.guide, position.points, position.arithmetic)
-    along, turned = thread(screw, position.scale, position.arithmetic)
+    x, y = guide_direction(screw.slide.guide, position.points, position.arithmetic)
+    along, turned = thread(screw.thread, position.scale, position.arithmetic)
     # the slide's second link is the one that the screw moves on: the unit acts on it the other way
     unit: Force = (0.0 - along * x, 0.0 - along * y, 0.0)
     couples = (*(0.0 for _ in slide.units), 0.0 - turned)
     return slide._replace(units=(*slide.units, unit), screw=screw, couples=couples)
 
 
-def thread(screw: Screw, scale: float, arithmetic: Arithmetic) -> tuple[Scalar, Scalar]:
+def thread(screw: Thread, scale: float, arithmetic: Arithmetic) -> tuple[Scalar, Scalar]:
     """Of a unit force square to a screw's thread: its part along the axis, and its couple (normalised)."""
     rise = arithmetic.given(screw.lead) * scale / arithmetic.given(TURN)
     if screw.radius is None:

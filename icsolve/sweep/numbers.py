@@ -12,8 +12,8 @@ from icsolve.errors import CaseError, Problem
 from icsolve.read.names import atoms, shown, suggestion
 
 _FORM = "a path is like angles.AB, lengths.AB, points.D.x, loads.P, loads.P.angle or joints.B.mu"
-_SECTIONS = ("points", "lengths", "angles", "joints", "profile", "loads", "motion", "gravity")
-_PARTS = ("points", "lengths", "angles", "joints", "profiles", "loads", "motion", "gravity")
+_SECTIONS = ("points", "lengths", "angles", "joints", "profile", "loads", "motion", "gravity", "links")
+_PARTS = ("points", "lengths", "angles", "joints", "ropes", "profiles", "loads", "motion", "gravity", "inertia")
 
 
 @lru_cache(maxsize=64)
@@ -78,6 +78,9 @@ def _means(own: str, section: str, rest: str) -> bool:
     if section in ("lengths", "angles"):
         asked, given = _parts(rest), _parts(tail)
         return asked == given or (section == "lengths" and asked == given[::-1])
+    if section == "joints" and own.split(".")[-2] in ("mu", "radii"):  # of a rope, by a point of it
+        *_, key, point = own.split(".")
+        return rest in (f"{point}.{key}", f"{point}.{key.replace('radii', 'radius')}")
     if section == "joints":
         (asked_at, _, asked_key), (at, _, key) = rest.rpartition("."), tail.rpartition(".")
         pair, _, point = at.partition("@")

@@ -105,10 +105,12 @@ def wanted_points(case: Case) -> tuple[list[str], list[str]]:
     used = [p for joint in case.joints if (p := getattr(joint, "at", None)) is not None]
     given = [name for name in names_of(case) if name in case.points]
     loads = [getattr(getattr(load, "heading", None), "point", None) for load in case.loads]
-    wanted = list(dict.fromkeys([*carried, *used, *given, *(p for p in loads if p)]))
+    ends = [rope.points[-1] for rope in case.ropes]
+    wanted = list(dict.fromkeys([*carried, *used, *given, *ends, *(p for p in loads if p)]))
     guides = [guide for joint in case.joints if (guide := getattr(joint, "guide", None)) is not None]
     needed = {*used, *(p for guide in guides for p in (*(guide.ends or ()), guide.through))}
     needed |= {p for load in case.loads for p in points_of(load)} | {m.point for m in case.motion}
+    needed |= {p for rope in case.ropes for p in rope.points}
     return wanted, [p for p in wanted if p in needed]
 
 

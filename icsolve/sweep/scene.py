@@ -7,9 +7,10 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from icsolve.assembly.driven.mechanism import Mechanism
-from icsolve.assembly.driven.poses import Moved, Spot, product
+from icsolve.assembly.driven.poses import Moved, Spot, plus, product
 from icsolve.assembly.workspace import Frame
 from icsolve.case import (
+    AlongRope,
     Belt,
     Case,
     Centroid,
@@ -21,6 +22,7 @@ from icsolve.case import (
     Load,
     Number,
     Pair,
+    Rope,
     Slide,
     Slope,
     Slot,
@@ -77,6 +79,7 @@ class _Writer:
         self.record, self.body_of = mechanism.shape.record, mechanism.top.body_of
         self.points = {name: moved.place(spot) for name, spot in mechanism.owners.items()}
         self.points |= {name: contact.place(moved) for name, contact in mechanism.contacts.items()}
+        self.ropes = tuple(map(self._rope, mechanism.case.ropes))
         for name, place in mechanism.case.points.items():
             if isinstance(place, Centroid) and set(place.of) <= self.points.keys():
                 self.points.setdefault(name, _mean([self.points[p] for p in place.of]))
@@ -100,11 +103,26 @@ class _Writer:
         at = self.on((self.body_of[joint.links[0]], joint.at))
         return joint._replace(at=at, guide=Guide(along, None, None))
 
+    def _rope(self, rope: Rope) -> Rope:
+        """A rope at points that its links carry; a free end keeps its way from the last pulley."""
+        spots = [(self.body_of[link], point) for link, point in zip(rope.links, rope.points, strict=False)]
+        points = [self.on(spot) for spot in spots]
+        if rope.is_free:
+            end = rope.points[-1]
+            points.append(end if end not in self.mechanism.owners else f"@{end} of {rope.name}")
+            way = self.mechanism.shape.between(spots[-1], (spots[-1][0], rope.points[-1]))
+            self.points[points[-1]] = plus(self.moved.place(spots[-1]), way)
+        return rope._replace(points=tuple(points))
+
     def load(self, load: Load) -> Load:
         """A load at points that its links carry, in a direction that holds or turns with a link."""
         ground = self.mechanism.case.ground
         if not isinstance(load, Force | ForceVector | Weight | Spring):
             return load
+        if load.link not in self.body_of:
+            rope = next(rope for rope in self.ropes if rope.end == load.link)
+            load = load._replace(at=rope.points[-1])
+            return load._replace(heading=AlongRope(rope)) if isinstance(load, Force) else load
         load = load._replace(at=self.on((self.body_of[load.link], load.at)))
         if isinstance(load, Weight):
             return load
@@ -139,7 +157,7 @@ def moved_scene(mechanism: Mechanism, moved: Moved) -> Scene:
     write, case = _Writer(mechanism, moved), mechanism.case
     joints = tuple(write.joint(i, joint) for i, joint in enumerate(case.joints))
     loads = tuple(map(write.load, case.loads))
-    rewritten = replace(case, joints=joints, loads=loads)
+    rewritten = replace(case, joints=joints, loads=loads, ropes=write.ropes)
     return Scene(rewritten, topology(rewritten), mechanism.frame, mechanism.shape.record, write.points)
 
 
@@ -151,7 +169,8 @@ def statics(scene: Scene, everything: bool) -> Statics:
     case, top = scene.case, scene.top
     links = {link for load in case.loads for link in (load.link, power.reacting(case, load))}
     unknown = any(power.is_unknown(load) for load in case.loads)
-    wanted = frozenset(top.body_of[link] for link in links) if unknown and not everything else None
+    some = unknown and not (everything or case.ropes or case.screws)
+    wanted = frozenset(top.body_of[link] for link in links) if some else None
     motions = motions_of(scene, wanted)
     wrenches = power.wrenches(case, scene.frame, scene.points, scene.record)
     balance = power.balance(wrenches, motions.twists, motions.mobility)
@@ -168,11 +187,12 @@ def motions_of(scene: Scene, wanted: Collection[int] | None = None) -> motion.Mo
     """The motions of the wanted bodies (None: of all), by the plan or by all loop equations at once."""
     top = scene.top
     plan = make_plan(top, wanted if wanted is not None else range(len(top.members)))
-    if plan is not None and plan.closed:
+    found = None
+    if plan is not None and plan.closed and not scene.case.ropes:
         found = motion.by_plan(plan, top, scene.points, scene.record)
-        if found is not None:
-            return found
-    return motion.by_loops(scene.case, top, scene.points, scene.record, scene.frame)
+    if found is None:
+        found = motion.by_loops(scene.case, top, scene.points, scene.record, scene.frame)
+    return motion.with_ends(found, scene.case, scene.points, scene.frame.scale, scene.record)
 
 
 # --- rates and centres ----------------------------------------------------------------------------

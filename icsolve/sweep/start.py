@@ -81,10 +81,6 @@ def start_of(case: Case, columns: Columns, asked: Asked) -> Start:
 
     Raises SceneError where the case as written cannot be moved so, or no row assembles.
     """
-    if case.ropes or case.screws:
-        what = f"the rope {case.ropes[0].name}" if case.ropes else f"the {case.screws[0].rotor[1:]}"
-        said = f"{what} is not moved on in a sweep: solve position by position, with --set."
-        raise SceneError(Status.UNSUPPORTED, said)
     start = Start(case, tuple(columns.paths), tuple(columns.links), asked)
     try:
         return _checked(start)

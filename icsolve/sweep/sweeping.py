@@ -24,7 +24,7 @@ from icsolve.sweep.start import Start, start_of
 from icsolve.sweep.table import CODE, Sweep, Table
 from icsolve.sweep.work import Work
 
-BY_SCENES = "with friction each row is solved as a scene of its own."
+BY_SCENES = "with friction, or ropes, each row is solved as a scene of its own."
 IN_SPACE = (
     "a sweep moves a planar mechanism, and this case is in space: its points have three coordinates. Solve "
     "it position by position, with --set."
@@ -81,7 +81,7 @@ def sweep(
     start = start_of(case, columns, _told(case, wanted.asked))
     if start.one_by_one:
         return _family(start, columns, wanted, progress)
-    if _rubs(case):
+    if _rubs(case) or case.ropes:
         return _rubbing(start, columns, wanted, progress)
     return _together(start, columns, wanted, progress)
 

@@ -6,15 +6,20 @@ alike) and an `OnLine`; a slot is an `OnLine`; gears and belts are a `Turning`; 
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from itertools import pairwise
 from typing import NamedTuple
 
 from icsolve.assembly.data import Datum
 from icsolve.assembly.driven.poses import Places, Rotation, Shape, Spot, dot, minus, square
 from icsolve.assembly.groups import Equation
 from icsolve.assembly.workspace import Workspace
+from icsolve.case import Rope
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import RADIAN, Scalar
+from icsolve.numbers.record import Record
 from icsolve.screws.plane import Point, Triple
+from icsolve.screws.ropes import RopePart, part_between
 
 
 class BodyLine(NamedTuple):
@@ -122,6 +127,59 @@ class Drawn(NamedTuple):
         return frozenset(body for body, _ in self.owners)
 
 
+class Roped(NamedTuple):
+    """A rope keeps its length: its straight parts, and the arcs on what it goes round.
+
+    ``offsets`` are the radii of its circles, positive where it goes round ccw; ``written`` its parts as
+    written.
+    """
+
+    rope: Rope
+    spots: tuple[Spot, ...]
+    offsets: tuple[Scalar, ...]
+    written: tuple[RopePart, ...]
+    scale: float
+
+    @property
+    def bodies(self) -> frozenset[int]:
+        """The bodies that it ties."""
+        return frozenset(body for body, _ in self.spots)
+
+    def is_round(self, k: int) -> bool:
+        """Whether it goes round its circle ``k``, which has a size."""
+        return type(self.offsets[k]) is not float or self.offsets[k] != 0.0
+
+    def part(self, k: int, places: Places, record: Record) -> RopePart:
+        """A straight part where the bodies are."""
+        one, two = ((places.place(self.spots[n]), self.offsets[n]) for n in (k, k + 1))
+        return part_between(self.rope, k, one, two, self.scale, record)
+
+    def longer(self, places: Places, record: Record, turned: Turn, without: Spot | None = None) -> Scalar:
+        """By how much it is longer than as written; ``without`` the parts at a spot.
+
+        On a drum it is wound by as much as that turns, and by as much as its part does.
+        """
+        more: Scalar = 0.0
+        count = len(self.written)
+        for k, then in enumerate(self.written):
+            more = more - then.length
+            if without in self.spots[k : k + 2]:
+                continue
+            now = self.part(k, places, record)
+            more = more + now.length
+            if self.is_round(k) or self.is_round(k + 1):
+                angle = turned(dot(then.along, now.along), dot(square(then.along), now.along))
+                more = more + (self.offsets[k] - self.offsets[k + 1]) * angle * RADIAN
+        for k, sign in ((0, -1.0), (count, 1.0)):
+            if self.is_round(k) and self.spots[k] != without:
+                more = more + sign * self.offsets[k] * places.degrees(self.spots[k][0]) * RADIAN
+        return more
+
+
+Turn = Callable[[Scalar, Scalar], Scalar]
+"""By how much a vector has turned from +x, degrees."""
+
+
 class Immovable(NamedTuple):
     """A joint that is known as written only: the wrenches that it transmits, and why it cannot be moved."""
 
@@ -135,7 +193,9 @@ class Immovable(NamedTuple):
         return frozenset(self.ends)
 
 
-Constraint = OnLine | SpotDistance | Turning | Pointed | RolledStraight | RolledRound | Drawn | Immovable
+Constraint = (
+    OnLine | SpotDistance | Turning | Pointed | RolledStraight | RolledRound | Roped | Drawn | Immovable
+)
 
 
 class ConditionRow(NamedTuple):
@@ -167,6 +227,8 @@ class ConditionRows:
                 return self._straight(constraint)
             case RolledRound():
                 return self._round(constraint)
+            case Roped():
+                return self._roped(constraint)
             case Immovable():
                 return self._immovable(constraint)
         return self._drawn(constraint)
@@ -248,6 +310,15 @@ class ConditionRows:
         return ConditionRow(
             value * RADIAN, self._pushed((one[0], along, contact), (two[0], _less(along), contact))
         )
+
+    def _roped(self, c: Roped) -> ConditionRow:
+        """Each part pulls at the points of its links on its line."""
+        record = self.shape.record
+        pulls = []
+        for k, (one, two) in enumerate(pairwise(c.spots)):
+            part = c.part(k, self.places, record)
+            pulls += [(one[0], _less(part.along), part.at), (two[0], part.along, part.at)]
+        return ConditionRow(c.longer(self.places, record, record.angle), self._pushed(*pulls))
 
     def _immovable(self, c: Immovable) -> ConditionRow:
         """Power of the wrench on the relative step of the two bodies."""

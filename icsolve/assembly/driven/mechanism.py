@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import NamedTuple
 
 from icsolve.assembly.driven import rolling
-from icsolve.assembly.driven.constraints import BodyLine, Constraint, Immovable, OnLine, Turning
+from icsolve.assembly.driven.constraints import BodyLine, Constraint, Immovable, OnLine, Roped, Turning
 from icsolve.assembly.driven.poses import Shape, Spot, dot, minus, square
 from icsolve.assembly.driven.rolling import ROUNDED, Side
 from icsolve.assembly.workspace import Frame
@@ -21,6 +21,7 @@ from icsolve.case import (
     KnownCentre,
     Pin,
     Roll,
+    Rope,
     Slide,
     Slot,
     Toward,
@@ -30,6 +31,7 @@ from icsolve.numbers.arithmetic import FLOATS, Scalar
 from icsolve.numbers.record import Record
 from icsolve.screws.joints import guide_direction, joint_freedoms, transmitted
 from icsolve.screws.plane import Point
+from icsolve.screws.ropes import offsets_of, rope_parts
 from icsolve.structure.topology import Bond, Topology
 
 
@@ -81,9 +83,18 @@ def mechanism(case: Case, top: Topology, frame: Frame, record: Record, ref: Mapp
         elif isinstance(joint, Contact | KnownCentre):
             constraints += _immovable(joint, top, places, _refusal(joint))
     constraints += [_meshed(bond, top, record) for bond in top.bonds if isinstance(bond.joint, Gears | Belt)]
+    constraints += [_roped(rope, top, frame, record, places) for rope in top.ropes]
     _base(spots, lines.values(), places)
     owners = _owners(case, top, spots, contacts)
     return Mechanism(case, top, frame, shape, spots, owners, constraints, lines, contacts)
+
+
+def _roped(rope: Rope, top: Topology, frame: Frame, record: Record, ref: Mapping[str, Point]) -> Roped:
+    """A rope that is fixed at both ends."""
+    offsets = offsets_of(rope, frame.scale, record)
+    written = rope_parts(rope, ref, frame.scale, record)
+    spots = tuple((top.body_of[link], p) for link, p in zip(rope.links, rope.points, strict=True))
+    return Roped(rope, spots, offsets, written, frame.scale)
 
 
 def _refusal(joint: Contact | KnownCentre) -> SceneError:
@@ -120,9 +131,10 @@ def _spots(case: Case, top: Topology, ref: Mapping[str, Point]) -> dict[int, lis
         for name in case.carries.get(link, ()):
             if name in ref:
                 found[top.body_of[link]][top.body_of[link], name] = None
-    carried = {name for spots in found.values() for _, name in spots}
+    told = {name for spots in found.values() for _, name in spots}
+    told |= {rope.points[-1] for rope in case.ropes if rope.is_free}
     for name in ref:
-        if name not in carried:
+        if name not in told:
             body = _inferred(case, name, found, top)
             if body is not None:
                 found[body][body, name] = None
