@@ -37,9 +37,11 @@ def around(path: str, value: float) -> np.ndarray:
 
 
 def holes(sweep: icsolve.Sweep) -> list[str]:
-    """What is not a finite number in a row whose status is ok. Of cams by profiles no bound is proven."""
-    ok = sweep.status == "ok"
-    tables = dict(sweep.kinds) if sweep.case.profiles else {**sweep.kinds, "error": sweep.error}
+    """What is not a finite number in a row whose status is ok. Of cams by profiles no bound is proven, nor of
+    ropes that slip or screws that rub."""
+    ok, case = sweep.status == "ok", sweep.case
+    rubs = any(rope.slips for rope in case.ropes) or any(screw.rubs for screw in case.screws)
+    tables = dict(sweep.kinds) if case.profiles or rubs else {**sweep.kinds, "error": sweep.error}
     arrays = {f"{kind} {name}": array for kind, table in tables.items() for name, array in table.items()}
     empty = [(name, array) for name, array in arrays.items() if not np.isfinite(array[ok]).all()]
     return [name for name, array in empty if not all(left_open(sweep, name, k) for k in gaps(array, ok))]

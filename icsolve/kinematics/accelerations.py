@@ -16,6 +16,7 @@ from typing import NamedTuple
 from icsolve.assembly.workspace import Frame
 from icsolve.case import Belt, Case, Contact, Gears, KnownCentre, Motion, Pin, Roll, Rope, Slide, Slot
 from icsolve.errors import SceneError, Status
+from icsolve.kinematics.speeds import NO_SPEED
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider
 from icsolve.numbers.sparse import General, Row, eliminate
 from icsolve.screws.joints import Points, freedoms, guide_direction, mesh_weights, transmitted
@@ -83,11 +84,6 @@ def moving(
     rates, loose = _rates(case, top, points, twists, conditions, arithmetic, frame)
     return Moving(twists, {link: rates[top.body_of[link]] for link in of_links}, frozenset(idle | loose))
 
-
-NO_SPEED = (
-    "inertia forces need to know how fast the mechanism moves: give `motion` a `speed`, as in "
-    "`motion: {link: 2, speed: 12 rad/s}`."
-)
 
 Condition = tuple[Sequence[Scalar], Scalar, Motion, Point | None, Scalar]
 """What a given motion takes from each motion, their sum, a point's direction, the acceleration."""

@@ -30,6 +30,10 @@ STILL = ROUNDING_NOISE
 LOOSE = 5e4
 """In floats a combination of several motions is zero within so many times as much."""
 
+NO_SPEED = (
+    "inertia forces need to know how fast the mechanism moves: give `motion` a `speed`, as in "
+    "`motion: {link: 2, speed: 12 rad/s}`."
+)
 OPEN = "a freedom that no given motion fixes moves it."
 
 

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, NamedTuple
 from icsolve.answer import Answer, Deferred
 from icsolve.case import Case, ForceVector, Load, Torque
 from icsolve.errors import SceneError, Status
-from icsolve.kinematics.accelerations import NO_SPEED, Moving, moving
-from icsolve.kinematics.speeds import OPEN, moving_points
+from icsolve.kinematics.accelerations import Moving, moving
+from icsolve.kinematics.speeds import NO_SPEED, OPEN, moving_points
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.given import Number
 from icsolve.scene.program import Program, Want, evaluate, prepare

@@ -122,10 +122,10 @@ class Wanted(NamedTuple):
 
 
 @lru_cache(maxsize=64)
-def wanted_of(case: Case, want: tuple[str, ...]) -> Wanted:
+def wanted_of(case: Case, want: tuple[str, ...], dynamic: bool = False) -> Wanted:
     """What is wanted: whole kinds (``points``) or single ones (``points.C``, ``centres.2-4``).
 
-    Raises AskError for a word that is none.
+    Raises AskError for a word that is none, and for accelerations without inertia forces.
     """
     points: dict[str, None] = {}
     centres: dict[Pair, None] = {}
@@ -142,8 +142,11 @@ def wanted_of(case: Case, want: tuple[str, ...]) -> Wanted:
             points.update(dict.fromkeys(_points(case, name) if dot else shown_points(case)))
         elif kind == "centres":
             centres.update(dict.fromkeys(_pairs(case, name) if dot else all_pairs(case)))
+    if "accelerations" in kinds and not dynamic:
+        raise AskError("accelerations are those of a motion with its inertia forces: ask for `dynamic` too")
     answers = bool(kinds & {"answers", "error", "status"})
-    asked = Asked(answers, tuple(points), tuple(centres), "rates" in kinds)
+    moving = ("rates" in kinds, "velocities" in kinds, "accelerations" in kinds, dynamic)
+    asked = Asked(answers, tuple(points), tuple(centres), *moving)
     return Wanted(asked, "error" in kinds, want)
 
 

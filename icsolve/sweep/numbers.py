@@ -13,7 +13,7 @@ from icsolve.read.names import atoms, shown, suggestion
 
 _FORM = "a path is like angles.AB, lengths.AB, points.D.x, loads.P, loads.P.angle or joints.B.mu"
 _SECTIONS = ("points", "lengths", "angles", "joints", "profile", "loads", "motion", "gravity", "links")
-_PARTS = ("points", "lengths", "angles", "joints", "ropes", "profiles", "loads", "motion", "gravity", "inertia")
+_PARTS = (*_SECTIONS[:4], "ropes", "profiles", "loads", "motion", "gravity", "inertia")
 
 
 @lru_cache(maxsize=64)

@@ -40,6 +40,14 @@ class Asked(NamedTuple):
     points: tuple[str, ...] = ()
     centres: tuple[Pair, ...] = ()
     rates: bool = False
+    velocities: bool = False
+    accelerations: bool = False
+    dynamic: bool = False
+
+    @property
+    def in_motion(self) -> bool:
+        """Whether it asks for what only a scene of its own tells of a row's motion."""
+        return self.velocities or self.dynamic
 
 
 class Setting(NamedTuple):

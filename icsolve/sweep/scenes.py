@@ -60,7 +60,11 @@ def _one(table: Table, row: int, case_of: Callable[[int], Case], missing: bool) 
             answer = solve_scene(case, rates=table.lacks_rates(row))
         else:
             answer = solve_scene(
-                case, rates=asked.rates, all_centres=bool(asked.centres), examine=bool(asked.points)
+                case,
+                rates=asked.rates or asked.velocities,
+                all_centres=bool(asked.centres),
+                examine=bool(asked.points),
+                dynamic=asked.dynamic,
             )
         table.fill(row, answer, missing)
     except SceneError as error:

@@ -11,11 +11,11 @@ import numpy.typing as npt
 
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
+from icsolve.kinematics.speeds import NO_SPEED
 from icsolve.numbers.replay import Array
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.ask import Columns, Wanted, columns_of, refuse_size, shown_points, wanted_of
-from icsolve.sweep.inertia import refuse_profiles, refuse_still, sweep_moving
 from icsolve.sweep.numbers import with_numbers
 from icsolve.sweep.program import Asked
 from icsolve.sweep.runner import Progress
@@ -24,7 +24,7 @@ from icsolve.sweep.start import Start, start_of
 from icsolve.sweep.table import CODE, Sweep, Table
 from icsolve.sweep.work import Work
 
-BY_SCENES = "with friction, or ropes, each row is solved as a scene of its own."
+BY_SCENES = "each row is solved as a scene of its own."
 IN_SPACE = (
     "a sweep moves a planar mechanism, and this case is in space: its points have three coordinates. Solve "
     "it position by position, with --set."
@@ -67,22 +67,20 @@ def sweep(
     if case.space is not None:
         raise SceneError(Status.UNSUPPORTED, IN_SPACE)
     columns = columns_of(case, vary, drive)
-    wanted = wanted_of(case, tuple(want) if not isinstance(want, str) else (want,))
+    dynamic = dynamic or case.dynamic
+    wanted = wanted_of(case, tuple(want) if not isinstance(want, str) else (want,), dynamic)
     refuse_size(columns, wanted.asked, wanted.error)
+    if dynamic and not any(given.speed is not None for given in case.motion):
+        raise SceneError(Status.MOBILITY, NO_SPEED)
     if case.profiles is not None and case.profiles.touches:
-        refuse_profiles(dynamic or case.dynamic)
         from icsolve.sweep.cam_sweep import sweep_touching
 
         return sweep_touching(case, columns, wanted, progress)
-    dynamic = dynamic or case.dynamic
-    refuse_still(case, wanted, dynamic)
-    if dynamic or "velocities" in wanted.words:
-        return sweep_moving(replace(case, dynamic=False), columns, wanted, dynamic, progress)
     start = start_of(case, columns, _told(case, wanted.asked))
     if start.one_by_one:
         return _family(start, columns, wanted, progress)
-    if _rubs(case) or case.ropes:
-        return _rubbing(start, columns, wanted, progress)
+    if case.ropes or wanted.asked.in_motion or (_rubs(case) and not _rubs_at_once(start, wanted)):
+        return _by_scenes(start, columns, wanted, progress)
     return _together(start, columns, wanted, progress)
 
 
@@ -99,16 +97,19 @@ def _rubs(case: Case) -> bool:
     return rubs(case)
 
 
-def _rubbing(start: Start, columns: Columns, wanted: Wanted, progress: Progress | None) -> Sweep:
-    """A sweep with friction: all rows at once; where that can't be, or bounds are asked for, positions at
-    once and each row then a scene of its own."""
-    if start.sheet().rubbing is not None and not wanted.error:
-        return _together(start, columns, wanted, progress)
+def _rubs_at_once(start: Start, wanted: Wanted) -> bool:
+    """Whether the friction of all rows is on the record; it has no bounds."""
+    return start.sheet().rubbing is not None and not wanted.error
+
+
+def _by_scenes(start: Start, columns: Columns, wanted: Wanted, progress: Progress | None) -> Sweep:
+    """Positions at once, each row then a scene of its own: with friction, ropes, or in a given motion."""
     placed = start._replace(asked=Asked(answers=False, points=tuple(shown_points(start.case))))
     work = Work(placed, columns, False)
     work.run()
     table = Table(columns.rows, wanted.asked)
     table.codes[:] = work.codes
+    table.values |= {("points", p): work.values["points", p] for p in wanted.asked.points}
     by_scenes(table, np.flatnonzero(table.codes == 0).tolist(), work.case_of, progress)
     return table.sweep(start.case, _shown(columns), wanted.error, (*work.notes, BY_SCENES), work.case_of)
 
@@ -128,7 +129,8 @@ def _family(start: Start, columns: Columns, wanted: Wanted, progress: Progress |
         vary = {path: columns.paths[path][rows] for path in moving}
         drive = {link: array[rows] for link, array in columns.links.items()}
         try:
-            part = sweep(case, vary, wanted.words, drive=drive, progress=progress)
+            dynamic = wanted.asked.dynamic
+            part = sweep(case, vary, wanted.words, drive=drive, dynamic=dynamic, progress=progress)
         except SceneError as error:
             table.codes[rows] = CODE.get(error.status, CODE[Status.NEAR_SINGULAR])
             continue

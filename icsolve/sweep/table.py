@@ -42,6 +42,7 @@ WORDS = (
     "holds",
     Status.JAM,
     Status.UNBALANCED,
+    Status.SLACK,
 )
 """The statuses of rows; ``holds``: with friction and no motion, the unknown holds over a range."""
 CODE = {word: n for n, word in enumerate(WORDS)}
@@ -136,10 +137,11 @@ class Sweep:
     @property
     def kinds(self) -> dict[str, dict[str, Array]]:
         """The arrays of each kind."""
-        return dict(zip(KINDS, (self.answers, self.points, self.centres, self.rates), strict=True))
+        return {kind: getattr(self, kind) for kind in KINDS}
 
 
-KINDS = ("answers", "points", "centres", "rates")
+VECTORS = ("velocities", "accelerations")
+KINDS = ("answers", "points", "centres", "rates", *VECTORS, "angular_accelerations")
 
 
 def by_kind(arrays: Mapping[tuple[str, str], Array]) -> dict[str, dict[str, Array]]:
@@ -224,15 +226,26 @@ class Table:
                 given = isinstance(case.points.get(name), Coordinates)
                 error = (abs(x) * UNIT, abs(y) * UNIT) if given else None
                 self.put("points", name, row, (x, y), error)
-        errors = answer.errors.get("rates", {})
-        for link, rate in (answer.rates or {}).items() if asked.rates else ():
-            if isinstance(rate, float):
-                self.put("rates", link, row, rate, errors.get(link, 0.0 if rate == 0.0 else None))
+        self._fill_motion(row, answer)
         for pair in asked.centres if not missing else ():
             triple = _triple(answer, pair)
             if triple is not None:
                 first, second = sorted(pair, key=lambda link: link_order(case, link))
                 self.put("centres", f"{first}-{second}", row, triple, _centre_error(answer, pair))
+
+    def _fill_motion(self, row: int, answer: Answer) -> None:
+        """Rates, velocities and accelerations, where they are asked and not open."""
+        asked, errors = self.asked, answer.errors.get("rates", {})
+        for link, rate in (answer.rates or {}).items() if asked.rates else ():
+            if isinstance(rate, float):
+                self.put("rates", link, row, rate, errors.get(link, 0.0 if rate == 0.0 else None))
+        for link, rate in (answer.angular_accelerations or {}).items() if asked.accelerations else ():
+            if not isinstance(rate, str):
+                self.put("angular_accelerations", link, row, rate)
+        for kind in (kind for kind in VECTORS if getattr(asked, kind)):
+            for (point, on), vector in (getattr(answer, kind) or {}).items():
+                if not isinstance(vector, str) and not point.startswith("@"):
+                    self.put(kind, f"{point} on {on}", row, vector)
 
     def lacks_rates(self, row: int) -> bool:
         """Whether a link of a row has no rate: what scales the others stands still there."""
@@ -296,23 +309,22 @@ def columns(sweep: Sweep) -> dict[str, Array]:
         bounds = sweep.errors.get(kind, {})
         for name, array in arrays.items():
             table |= _parted(kind, name, array)
-            if name in bounds:
+            if name in bounds and kind not in KINDS[4:]:  # of accelerations no bounds are told
                 table |= {f"error {n}": bound for n, bound in _parted(kind, name, bounds[name]).items()}
     for name, array in sweep.holds.items():
         table |= {f"{name} from": array[:, 0], f"{name} to": array[:, 1]}
-    for letter, vectors in (("v", sweep.velocities), ("a", sweep.accelerations)):
-        for name, array in vectors.items():
-            table |= {f"{letter} {name}.x": array[:, 0], f"{letter} {name}.y": array[:, 1]}
-    return table | {f"a{link}": array for link, array in sweep.angular_accelerations.items()}
+    return table
 
 
 def _parted(kind: str, name: str, array: Array) -> dict[str, Array]:
     """The columns of one array."""
     if kind == "points":
         return {f"{name}.x": array[:, 0], f"{name}.y": array[:, 1]}
+    if kind in VECTORS:
+        return {f"{kind[0]} {name}.{axis}": array[:, k] for k, axis in enumerate("xy")}
     if kind == "centres":
         return {f"I{name}.{axis}": array[:, k] for k, axis in enumerate("xyw")}
-    return {name if kind == "answers" else f"w{name}": array}
+    return {name if kind == "answers" else f"{'w' if kind == 'rates' else 'a'}{name}": array}
 
 
 def as_csv(sweep: Sweep) -> Iterator[bytes]:
