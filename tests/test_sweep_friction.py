@@ -124,3 +124,27 @@ def test_several_processes_find_what_one_does(monkeypatch: pytest.MonkeyPatch, n
     together = icsolve.sweep(case(name), drive={"2": degrees}, want=WANT, progress=done.append)
     assert same(alone, together)
     assert sum(done) >= len(degrees)
+
+
+@pytest.mark.parametrize("toward", [0, 180])
+def test_a_point_goes_on_in_the_sense_in_which_it_is_given(toward: int) -> None:
+    """To either side: the row as written is the case, and beyond the dead centre the crank turns on."""
+    text = f"""icsolve: 1
+points: {{A: [0, 0], C: [unknown, 0]}}
+lengths: {{AB: 0.1, BC: 0.25}}
+angles: {{AB: 35}}
+near: {{C: [0.3, 0]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{slide: [4, 1], at: C, along: 0, mu: 0.1}}
+loads: {{T: {{torque: unknown, link: 2}}, P: {{force: 10, link: 4, at: C, angle: 180}}}}
+motion: {{point: C, link: 4, speed: 1, angle: {toward}}}
+"""
+    written = icsolve.load(text)
+    rows = icsolve.sweep(written, drive={"2": np.array([-80.0, 0.0, 90.0, 225.0])}, want=WANT)
+    answer = icsolve.solve(written, rates=True)
+    assert rows.answers["T"][1] == pytest.approx(answer.answers["T"].value)
+    assert answer.rates is not None
+    assert np.sign(rows.rates["2"]).tolist() == [np.sign(answer.rates["2"])] * 4

@@ -268,11 +268,10 @@ class RowScenes:
 
     def _with(self, points: dict[str, Coordinates | Centroid], numbers: Mapping[str, Number]) -> Case:
         case = with_numbers(self.scene.case, numbers)
-        motion = tuple(m._replace(angle=None) if m.point else m for m in case.motion)
         carries = {
             link: tuple(name for name in names if name in self.points) for link, names in case.carries.items()
         }
-        case = replace(case, lengths=(), angles=(), near={}, motion=motion, expect=())
+        case = replace(case, lengths=(), angles=(), near={}, expect=())
         return replace(case, points=points, carries=carries)
 
 

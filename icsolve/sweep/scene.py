@@ -20,6 +20,7 @@ from icsolve.case import (
     Guide,
     Joint,
     Load,
+    Motion,
     Number,
     Pair,
     Rope,
@@ -32,11 +33,11 @@ from icsolve.case import (
 from icsolve.case.names import ordered_pair
 from icsolve.errors import SceneError
 from icsolve.kinematics import motion, speeds
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.arithmetic import FLOATS, Scalar
 from icsolve.numbers.record import Record
 from icsolve.scene import refusals
 from icsolve.screws.joints import freedoms, pitch_point
-from icsolve.screws.plane import Point, Triple, subtract
+from icsolve.screws.plane import Point, Triple, subtract, velocity
 from icsolve.statics import power
 from icsolve.structure.plan import make_plan
 from icsolve.structure.topology import Topology, topology
@@ -158,7 +159,33 @@ def moved_scene(mechanism: Mechanism, moved: Moved) -> Scene:
     joints = tuple(write.joint(i, joint) for i, joint in enumerate(case.joints))
     loads = tuple(map(write.load, case.loads))
     rewritten = replace(case, joints=joints, loads=loads, ropes=write.ropes)
-    return Scene(rewritten, topology(rewritten), mechanism.frame, mechanism.shape.record, write.points)
+    scene = Scene(rewritten, topology(rewritten), mechanism.frame, mechanism.shape.record, write.points)
+    if not any(given.point for given in case.motion):
+        return scene
+    return scene._replace(case=replace(rewritten, motion=_going_on(scene)))
+
+
+def _going_on(scene: Scene) -> tuple[Motion, ...]:
+    """The given motions: a point's direction goes on along its path, where there is one freedom."""
+    found = motions_of(scene)
+    turned = []
+    for given in scene.case.motion:
+        if given.point is not None and given.angle is not None:
+            angle = None
+            if found.mobility == 1:
+                v = velocity(found.twists[given.link][0], scene.points[given.point])
+                sign = 1.0 if _forward(v, given) else -1.0
+                angle = scene.record.direct(given.angle, (sign * v[0], sign * v[1]))
+            given = given._replace(angle=angle)  # noqa: PLW2901
+        turned.append(given)
+    return tuple(turned)
+
+
+def _forward(v: Point, given: Motion) -> bool:
+    """Whether a velocity has the sense of a given direction."""
+    assert given.angle is not None
+    c, s = FLOATS.turn(given.angle)
+    return float(v[0]) * c + float(v[1]) * s > 0.0
 
 
 # --- statics --------------------------------------------------------------------------------------
@@ -224,10 +251,12 @@ def _scale(scene: Scene, twists: Mapping[str, tuple[Triple, ...]]) -> tuple[Scal
         x, y, w = twists[link][0]
         if point is None:
             return w, target
-        px, py = scene.points[point]
-        return _signed(scene, (y - w * py, w * px - x), speed.divisor), target
+        v = velocity((x, y, w), scene.points[point])
+        given = scene.case.motion[0]
+        forward = float(speed.divisor) > 0.0 if given.angle is None else _forward(v, given)
+        return _signed(scene, v, forward), target
     link = next(n for n in speeds.joint_order(scene.case) if max(map(abs, floats[n][0])) > 0.0)
-    return _signed(scene, (twists[link][0][1], -twists[link][0][0]), speed.divisor), target
+    return _signed(scene, (twists[link][0][1], -twists[link][0][0]), float(speed.divisor) > 0.0), target
 
 
 def _plain(case: Case) -> Case:
@@ -235,9 +264,9 @@ def _plain(case: Case) -> Case:
     return replace(case, motion=tuple(m._replace(angle=None) if m.point else m for m in case.motion))
 
 
-def _signed(scene: Scene, v: Point, divisor: float) -> Scalar:
+def _signed(scene: Scene, v: Point, forward: bool) -> Scalar:
     size = scene.record.sqrt(v[0] * v[0] + v[1] * v[1])
-    return size if divisor > 0.0 else -size
+    return size if forward else -size
 
 
 def centre(scene: Scene, found: motion.Motions, pair: Pair) -> Triple | None:
