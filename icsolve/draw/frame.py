@@ -22,7 +22,7 @@ from icsolve.draw.scene import (
     Wheel,
     around,
     fixed_springs,
-    screw_of,
+    is_screw,
 )
 from icsolve.draw.words import name_runs
 
@@ -38,8 +38,8 @@ def frame_parts(scene: Scene, links: shapely.Geometry) -> list[Part]:
     ground = scene.case.ground
     parts = [_foot(p, links) for p in _feet(scene)]
     guides = [joint for joint in _guides(scene) if joint.links[1] == ground]
-    parts += [_rail(scene, joint, links) for joint in guides if screw_of(scene.case, joint) is None]
-    parts += [_spindle(scene, joint) for joint in guides if screw_of(scene.case, joint) is not None]
+    parts += [_rail(scene, joint, links) for joint in guides if not is_screw(joint)]
+    parts += [_spindle(scene, joint) for joint in guides if is_screw(joint)]
     parts += [_surface(scene, edge) for edge in scene.round.edges if edge.link == ground]
     parts += [
         _annulus(scene, w) for w in scene.round.wheels if w.link == ground and w.kind in ("gear", "post")
@@ -142,7 +142,7 @@ def threads(scene: Scene) -> list[Part]:
     """The threads of screws on both sides of their nuts."""
     parts = []
     for joint in _guides(scene):
-        if screw_of(scene.case, joint) is None:
+        if not is_screw(joint):
             continue
         p, u = scene.at[joint.at], guide_in_picture(scene, joint)
         ends = scene.ends(joint.links[1], scene.known.points[joint.at], p, u, RAIL)

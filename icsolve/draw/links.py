@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import shapely
 
-from icsolve.case import Joint, KnownCentre, Pin, Screw, Slide, Slot
+from icsolve.case import Joint, KnownCentre, Pin, Slide, Slot
 from icsolve.draw.marks import Disc, Group, Mark, Point, Run, along, unit
 from icsolve.draw.place import Label, Soft, area, bar, joined, nearest, plate, tilted
 from icsolve.draw.scene import BLOCK, HALF, PIN, RAIL, SLOT, Part, Scene, outlines
@@ -69,7 +69,7 @@ def _own_points(scene: Scene, link: str) -> list[Point]:
     return list(dict.fromkeys(scene.at[p] for p in names))
 
 
-def guide_in_picture(scene: Scene, joint: Slide | Slot | Screw) -> Point:
+def guide_in_picture(scene: Scene, joint: Slide | Slot) -> Point:
     """Unit vector along a guide, in the picture."""
     x, y = guide_direction(joint.guide, scene.known.points, FLOATS)
     return (x, -y)

@@ -223,7 +223,7 @@ def _coil(a: Point, b: Point) -> Iterable[Point]:
 
 def _screwed(scene: Scene, acting: Acting, screw: Screw) -> Part:
     """A torque that turns a screw: an arrow round its rod, as one sees it from the side."""
-    p, u = scene.at[screw.at], guide_in_picture(scene, screw)
+    p, u = scene.at[screw.slide.at], guide_in_picture(scene, screw.slide)
     centre, v = along(p, u, 0.8 * RAIL), (-u[1], u[0])  # v: in front, clockwise as one looks along u
     sense = 1.0 if acting.couple > 0.0 or (not acting.couple and acting.gain > 0.0) else -1.0
     angles = [math.radians(sense * (12.0 * n - 120.0)) for n in range(21)]

@@ -194,7 +194,7 @@ def _strands(scene: Scene, loop: Loop) -> Iterable[tuple[Point, Point]]:
     try:
         return _laid(
             scene._replace(known=scene.known._replace(points=points)),
-            Rope(("A", "B", "A"), ("", "", ""), radii, wraps, (None,) * 3),
+            Rope("", ("A", "B", "A"), ("", "", ""), radii, wraps, (None,) * 3),
         ).parts
     except SceneError:
         return ()

@@ -19,7 +19,6 @@ from icsolve.case import (
     KnownCentre,
     Pin,
     Roll,
-    Screw,
     Slide,
     Slot,
     Spring,
@@ -309,10 +308,9 @@ class Scene(NamedTuple):
         return (joint for joint in self.case.joints if all(p in self.at for p in needs(joint)))
 
 
-def screw_of(case: Case, joint: Joint) -> Screw | None:
-    """The screw whose slide a joint is."""
-    guide = joint.guide if isinstance(joint, Slide) else None
-    return next((screw for screw in case.screws if screw.guide is guide), None)
+def is_screw(joint: Joint) -> bool:
+    """Whether a joint is the slide of a screw."""
+    return isinstance(joint, Slide) and joint.thread is not None
 
 
 def needs(joint: Joint) -> tuple[str, ...]:
