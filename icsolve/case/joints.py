@@ -64,16 +64,20 @@ class Roll(NamedTuple):
 
 
 class Helix(NamedTuple):
-    """Helical teeth: their angle with the axis; the span of each shaft's bearings, where it is given."""
+    """Helical teeth: their angle with the axis; the span of each shaft's bearings, where it is given.
+
+    With ``normal`` the mesh has its pressure angle square to the teeth, not in the plane of the wheels.
+    """
 
     angle: Number
     span: Number | None = None
+    normal: bool = False
 
 
 class Gears(NamedTuple):
     """A mesh; negative ``teeth`` are internal. The pivots are pins to one carrier.
 
-    Pressure angle, pitch and module are those in the plane of the wheels.
+    Pitch and module are those in the plane of the wheels; the pressure angle too, but for that of a helix.
     """
 
     links: tuple[str, str]

@@ -7,7 +7,6 @@ import math
 from icsolve.case import Helix, Number
 from icsolve.case.space import Teeth
 from icsolve.read.reading import Entry
-from icsolve.statics.space.reaction_basis import transverse_angle
 
 SECTIONS = ("", "normal ", "transverse ")
 ANGLES = tuple(f"{section}pressure angle" for section in SECTIONS)
@@ -15,7 +14,7 @@ PITCHES = tuple(f"{section}diametral pitch" for section in SECTIONS)
 MODULES = tuple(f"{section}module" for section in SECTIONS)
 
 Transverse = tuple[Number, Number | None, Number | None, Helix | None]
-"""Pressure angle, diametral pitch and module in the plane of the wheel, and the helix."""
+"""Pressure angle; diametral pitch and module in the plane of the wheel; the helix."""
 
 
 def read_helical(entry: Entry) -> Transverse | None:
@@ -25,12 +24,12 @@ def read_helical(entry: Entry) -> Transverse | None:
     span = entry.number("bearing span")
     if teeth is None or teeth.helix_angle is None or (span is None and entry.has("bearing span")):
         return None
-    angle, helix = math.degrees(transverse_angle(teeth)), Helix(teeth.helix_angle, span)
+    helix = Helix(teeth.helix_angle, span, teeth.normal_angle)
     cosine = math.cos(math.radians(teeth.helix_angle.value)) if teeth.normal_pitch else 1.0
     pitch, module = teeth.diametral_pitch, teeth.module
     pitch = pitch and pitch._replace(value=pitch.value * cosine, half=pitch.half * cosine)
     module = module and module._replace(value=module.value / cosine, half=module.half / cosine)
-    return teeth.pressure_angle._replace(value=angle), pitch, module, helix
+    return teeth.pressure_angle, pitch, module, helix
 
 
 def read_teeth(entry: Entry, pitch_needed: bool, hand_needed: bool = True) -> Teeth | None:

@@ -286,6 +286,9 @@ def _along_action(position: Position, tie: Tie, flank: float) -> Tie:
         return tie._replace(units=((tx, ty, 0.0), (sx, sy, 0.0)))
     cosine, sine = position.arithmetic.turn(tie.joint.pressure_angle)
     apart = sine / cosine
+    helix = tie.joint.helix if isinstance(tie.joint, Gears) else None
+    if helix is not None and helix.normal:  # the tangent in the plane is that of the normal section / cos
+        apart = apart / position.arithmetic.turn(helix.angle)[0]
     return tie._replace(units=((flank * tx + apart * sx, flank * ty + apart * sy, 0.0),))
 
 

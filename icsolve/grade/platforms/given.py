@@ -234,7 +234,8 @@ def _teeth(joint: Gears, case: Case) -> str:
     inner = any(number.value < 0.0 for number in joint.teeth)
     parts = [f"{counts[0]} and {counts[1]} teeth" + (", one of them internal" if inner else "")]
     if joint.pressure_angle is not None:
-        parts.append(f"pressure angle {_shown(joint.pressure_angle)} deg")
+        normal = "normal " if joint.helix is not None and joint.helix.normal else ""
+        parts.append(f"{normal}pressure angle {_shown(joint.pressure_angle)} deg")
     if joint.diametral_pitch is not None:
         parts.append(f"diametral pitch {_shown(joint.diametral_pitch)} a {case.units.length}")
     if joint.module is not None:
