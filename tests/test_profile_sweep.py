@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,7 +14,7 @@ from icsolve.case import Case, Motion
 from icsolve.errors import SceneError, Status
 from icsolve.read import load
 from icsolve.solve import solve
-from icsolve.sweep import sweep
+from icsolve.sweep import cam_sweep, sweep
 from icsolve.sweep.cam_sweep import SAID
 from icsolve.sweep.numbers import with_numbers
 
@@ -298,3 +299,33 @@ def test_progress_is_told_every_row() -> None:
     told: list[int] = []
     sweep(CAMS["flat on a circle"], drive={"2": TURN}, progress=told.append)
     assert sum(told) == len(TURN)
+
+
+# --- all rows at once -----------------------------------------------------------------------------
+
+PULLED = sliding(CIRCLE, "{flat: B, along: 0}")
+PULLED = replace(
+    PULLED, loads=tuple(q._replace(turns_with="2") if q.name == "P" else q for q in PULLED.loads)
+)
+LIBRARY = Path(__file__).parent.parent / "cases" / "cams"
+DWELLS, SPINS = (load(str(LIBRARY / f"{name}.yaml")) for name in ("tangent_cam", "offset_roller_follower"))
+ROWS = {**CAMS, "a dwell": DWELLS, "a roller that spins": SPINS, "a load that lifts the follower": PULLED}
+
+
+@pytest.mark.parametrize("name", ROWS)
+def test_rows_at_once_are_the_scenes_one_by_one(monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    """Values, statuses, contacts, and what is said of pressure angles and of lost contacts; to rounding."""
+    turn, want = np.arange(-175.0, 180.0, 39.5), ("answers", "points", "rates", "centres", "status")
+    together = sweep(ROWS[name], drive={"2": turn}, want=want)
+    monkeypatch.setattr(cam_sweep, "_together", lambda _, part, *__: np.zeros(len(part.rows), dtype=bool))
+    alone = sweep(ROWS[name], drive={"2": turn}, want=want)
+    assert together.notes == alone.notes
+    assert (together.status == alone.status).all()
+    for kind in ("answers", "points", "rates"):
+        for key, array in alone.kinds[kind].items():
+            np.testing.assert_allclose(together.kinds[kind][key], array, rtol=1e-11, atol=1e-9)
+    for key, array in alone.touching.items():
+        np.testing.assert_allclose(together.touching[key], array, atol=1e-9)
+    for key, array in alone.centres.items():
+        across = np.cross(together.centres[key], array)
+        np.testing.assert_allclose(across, 0.0, atol=1e-9 * np.abs(array).max() ** 2)

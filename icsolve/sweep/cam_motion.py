@@ -29,7 +29,7 @@ from icsolve.cams.contact_candidates import (
     meeting_of,
     outermost,
 )
-from icsolve.cams.contact_search import ContactSearch, Places, found, places_of
+from icsolve.cams.contact_search import ROUNDED, ContactSearch, Places, found, places_of
 from icsolve.cams.curve import Body, Curve, Foot, placed
 from icsolve.cams.pieces import Point
 from icsolve.cams.words import not_guided
@@ -37,8 +37,13 @@ from icsolve.case import Case, Contact, Coordinates, Length, Number
 from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Radii, Roller, Shape, points_of
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
+from icsolve.scene.refusals import rubs
 from icsolve.sweep.ask import Columns
+from icsolve.sweep.branches import signs_of
+from icsolve.sweep.cam_meeting import FirstMeeting, Mask, Met, Poses, Vectors
 from icsolve.sweep.program import Asked
+from icsolve.sweep.runner import Key
+from icsolve.sweep.scene import Resting
 from icsolve.sweep.start import start_of
 from icsolve.sweep.table import CODE, Codes
 from icsolve.sweep.work import Work
@@ -77,6 +82,56 @@ class Follow(NamedTuple):
         """Where the follower meets the cam first, in this pose of the cam; as the cam sees it."""
         body, freedom = pose.body_back(self.body), pose.freedom_back(self.freedom)
         return outermost(self.curve, body, freedom, self.side, self.sense)
+
+    def rested(self, first: Array, second: Array) -> Met:
+        """Where the follower meets the cam in every row, by the places of the cam's two points."""
+        (ax, ay), (bx, by) = self.written
+        (ux, uy), v = (bx - ax, by - ay), second - first
+        c, s = ux * v[:, 0] + uy * v[:, 1], ux * v[:, 1] - uy * v[:, 0]
+        size = np.hypot(c, s)
+        c, s = c / size, s / size
+
+        def back(x: Array | float, y: Array | float) -> Vectors:
+            return c * x + s * y, c * y - s * x
+
+        def place(p: Point) -> Vectors:
+            x, y = back(p[0] - first[:, 0], p[1] - first[:, 1])
+            return x + ax, y + ay
+
+        shifts = isinstance(self.freedom, Shift)
+        along = self.freedom.along if isinstance(self.freedom, Shift) else (1.0, 0.0)
+        about = self.freedom.about if isinstance(self.freedom, Turn) else (0.0, 0.0)
+        poses = Poses(place(self.body.at), back(*self.body.face), back(*along), place(about))
+        met = FirstMeeting(self.curve, self.body, shifts, self.side, self.sense).run(poses)
+
+        def out(v: Array) -> Array:
+            return np.stack([c * v[:, 0] - s * v[:, 1], s * v[:, 0] + c * v[:, 1]], axis=1)
+
+        return met._replace(point=out(met.point - (ax, ay)) + first, normal=out(met.normal))
+
+    def pressure(self, at: Array, normal: Array) -> Array:
+        """Pressure angles (degrees) at contacts, as `contact_search.pressure_angle`."""
+        x, y = at.T + self.body.radius * normal.T
+        if isinstance(self.freedom, Turn):
+            x, y = self.freedom.about[1] - y, x - self.freedom.about[0]
+        else:
+            x, y = (np.full(len(at), v) for v in self.freedom.along)
+        along, across = x * normal[:, 0] + y * normal[:, 1], x * normal[:, 1] - y * normal[:, 0]
+        angle = np.degrees(np.arctan2(np.abs(across), np.abs(along)))
+        return np.where(np.abs(across) <= ROUNDED * np.abs(along), 0.0, angle)
+
+    def resting(self, whole: Case) -> Resting:
+        """The contact, whose place and normal each row tells."""
+        hidden = self.seeking.hidden
+        joint = next(j for j in whole.joints if isinstance(j, Contact) and j.at == hidden)
+        place = whole.points[hidden]
+        assert isinstance(place, Coordinates) and place.x is not None and place.y is not None
+        touch, follower = self.seeking.touch, self.seeking.follower
+        roller = None
+        if isinstance(follower, Roller):
+            off = -1.0 if touch.links[0] == self.seeking.cam else 1.0
+            roller = (follower.at, off * follower.radius.value)
+        return Resting(touch.place, joint, (place.x.value, place.y.value), roller)
 
     def contact(self, case: Case, pose: Pose, way: Candidate) -> tuple[Case, Touching]:
         """A row's case with this contact."""
@@ -167,7 +222,10 @@ class Rows:
     def __init__(self, course: CamMotion, columns: Columns) -> None:
         self.course, self.columns = course, columns
         self.codes: Codes = np.zeros(columns.rows, dtype=np.int8)
-        self.ways: list[list[tuple[Pose, Candidate] | None]] = []
+        self.ways: dict[tuple[int, int], tuple[Pose, Candidate] | None] = {}
+        self.frames: list[tuple[Array, Array]] = []
+        self.rested: list[Met] = []
+        """where each follower touches in every row, in the figure"""
         self.drivers = {f.driver: np.full(columns.rows, f.start) for f in course.follows}
         for follow in course.follows:
             self._place(follow)
@@ -190,19 +248,55 @@ class Rows:
         work = self._work(follow.frame)
         work.run()
         first, second = (work.values["points", name] for name in follow.frame)
-        found: list[tuple[Pose, Candidate] | None] = []
-        for row in range(self.columns.rows):
-            found.append(None)
-            if work.codes[row] in (0, CODE[Status.CHANGE_POINT]) and self.codes[row] == 0:
-                now = (_point(first[row]), _point(second[row]))
-                pose = pose_of(follow.written, now)
-                way = follow.met(pose)
-                found[-1] = (pose, way) if way is not None else None
-            if found[-1] is None and self.codes[row] == 0:
+        turned, placed = self.codes == 0, np.isin(work.codes, (0, CODE[Status.CHANGE_POINT]))
+        self.codes[turned & ~placed] = CODE[Status.CANNOT_ASSEMBLE]
+        rested = follow.rested(first, second)
+        rested.sure[~(turned & placed)] = False
+        self.frames.append((first, second))
+        self.rested.append(rested)
+        for row in np.flatnonzero(turned & placed & ~rested.sure).tolist():
+            one = self._way(len(self.rested) - 1, row)
+            if one is None:
                 self.codes[row] = CODE[Status.CANNOT_ASSEMBLE]
-        self.ways.append(found)
-        by = np.array([one[1].by if one is not None else 0.0 for one in found])
+            rested.by[row] = one[1].by if one is not None else 0.0
+        by = np.where(turned & placed & np.isfinite(rested.by), rested.by, 0.0)
         self.drivers[follow.driver] = follow.driven(by)
+
+    def _way(self, k: int, row: int) -> tuple[Pose, Candidate] | None:
+        """Where a follower meets its cam in a row, with every rule of a single scene."""
+        if (k, row) not in self.ways:
+            first, second = self.frames[k]
+            pose = pose_of(self.course.follows[k].written, (_point(first[row]), _point(second[row])))
+            way = self.course.follows[k].met(pose)
+            self.ways[k, row] = (pose, way) if way is not None else None
+        return self.ways[k, row]
+
+    def together(self, asked: Asked) -> tuple[dict[Key, Array], Mask]:
+        """What is asked of the rows, from one record; and in which rows that is sure."""
+        sure = np.logical_and.reduce([rested.sure for rested in self.rested]) & (self.codes == 0)
+        contacts = tuple(follow.resting(self.course.whole) for follow in self.course.follows)
+        start = self.work.start._replace(asked=asked._replace(contacts=contacts))
+        values: dict[Key, Array] = {}
+        for part in self.work.done:
+            runner = start.runner(signs_of(part.followed.sheet) if part.followed else ())
+            sheet, old = runner.sheet, part.runner.sheet
+            if sheet.refusal is not None or sheet.delicate or runner.sequential or rubs(sheet.scene.case):
+                return {}, np.zeros(len(sure), dtype=bool)
+            given, good = self.work.parts.given(part)
+            by_name = {name: given[k] for name, k in old.inputs.items()}
+            for follow, contact, rested in zip(self.course.follows, contacts, self.rested, strict=True):
+                normal = (
+                    rested.normal if follow.seeking.touch.links[0] == follow.seeking.cam else -rested.normal
+                )
+                columns = np.hstack([rested.point, normal])[part.rows].T
+                by_name |= dict(zip(contact.inputs, columns, strict=True))
+            found = runner.run({k: by_name[name] for name, k in sheet.inputs.items()}, len(part.rows))
+            values = values or runner.blank(len(sure))
+            for key, array in found.values.items():
+                values[key][part.rows] = array
+            sure[part.rows[~good]] = False
+            sure[part.rows[found.doubtful]] = False
+        return values, sure
 
     def plain(self, row: int) -> tuple[Case, list[Touching]]:
         """A row as a case with plain contacts, and the contacts.
@@ -214,8 +308,8 @@ class Rows:
     def _with_contacts(self, case: Case, row: int) -> tuple[Case, list[Touching]]:
         """A case with the contacts of a row."""
         touching = []
-        for follow, ways in zip(self.course.follows, self.ways, strict=True):
-            one = ways[row]
+        for k, follow in enumerate(self.course.follows):
+            one = self._way(k, row)
             assert one is not None
             case, touched = follow.contact(case, *one)
             touching.append(touched)

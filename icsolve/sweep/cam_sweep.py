@@ -1,4 +1,4 @@
-"""Sweeps of cases with profiles: each row is posed by its course and solved as a scene of its own.
+"""Sweeps of cases with profiles: all rows by one record, and those in doubt as scenes of their own.
 
 The pressure angles of a cam for `solve --report`: now, and over a turn.
 """
@@ -16,23 +16,23 @@ from icsolve.answer.contacts import Touching
 from icsolve.cams.contact_candidates import Turn
 from icsolve.cams.solving import pressed
 from icsolve.cams.words import follower_driven, lost_rows, widest_pressure
-from icsolve.case import Case, Pin
+from icsolve.case import Case, Gears, Pin
 from icsolve.case.profiles import Flat, Knife, Roller
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
 from icsolve.scene import solve_scene
-from icsolve.screws.plane import Point
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.ask import Columns, Wanted
+from icsolve.sweep.cam_meeting import Mask
 from icsolve.sweep.cam_motion import CamMotion, Rows
 from icsolve.sweep.numbers import with_numbers
 from icsolve.sweep.program import Asked, setting_of
 from icsolve.sweep.runner import Progress
 from icsolve.sweep.runner import Rows as Which
-from icsolve.sweep.table import Sweep, Table
+from icsolve.sweep.table import KINDS, Sweep, Table, by_kind
 from icsolve.wording.sentences import listed
 
-SAID = "each row is solved as a scene of its own, with its contacts found on the profiles."
+SAID = "in every row the contacts are found on the profiles."
 SHAPING = ("points", "lengths", "angles", "profile", "joints")
 
 
@@ -50,23 +50,31 @@ class _Seen:
     def __init__(self) -> None:
         self.widest: dict[tuple[str, ...], tuple[float, int]] = {}
         self.lost: dict[tuple[str, ...], list[int]] = {}
-        self.at: dict[tuple[str, ...], dict[int, Point]] = {}
+        self.at: dict[tuple[str, ...], list[tuple[Which, Array]]] = {}
 
     def take(self, row: int, touching: Iterable[Touching]) -> None:
         """Note a row's contacts."""
         for one in touching:
-            self.at.setdefault(one.links, {})[row] = one.at
-            angle = one.pressure_angle
-            if angle is not None and angle > self.widest.get(one.links, (-1.0, 0))[0]:
-                self.widest[one.links] = (angle, row)
-            if one.lost:
-                self.lost.setdefault(one.links, []).append(row)
+            angle = np.nan if one.pressure_angle is None else one.pressure_angle
+            here = (np.array([row]), np.array([one.at]), np.array([angle]), np.array([one.lost]))
+            self.take_all(one.links, *here)
+
+    def take_all(self, links: tuple[str, ...], rows: Which, at: Array, angles: Array, lost: Mask) -> None:
+        """Note a contact in some rows: its places, pressure angles (not a number: none), where it is lost."""
+        self.at.setdefault(links, []).append((rows, at))
+        if np.isfinite(angles).any():
+            k = int(np.nanargmax(angles))
+            if angles[k] > self.widest.get(links, (-1.0, 0))[0]:
+                self.widest[links] = (float(angles[k]), int(rows[k]))
+        if lost.any():
+            self.lost.setdefault(links, []).extend(rows[lost].tolist())
 
     def places(self, count: int) -> dict[str, Array]:
         """Where the contacts are in all rows."""
         found = {"-".join(links): np.full((count, 2), np.nan) for links in self.at}
-        for links, rows in self.at.items():
-            found["-".join(links)][list(rows)] = list(rows.values())
+        for links, parts in self.at.items():
+            for rows, at in parts:
+                found["-".join(links)][rows] = at
         return found
 
     def notes(self, columns: Columns) -> Iterator[str]:
@@ -91,8 +99,11 @@ def sweep_touching(case: Case, columns: Columns, wanted: Wanted, progress: Progr
     moving = _moving(first, columns)
     for part in _parts(case, columns, moving, table):
         parts.append(part)
-        for n, row in enumerate(part.rows.tolist()):
-            _fill(table, part, n, row, columns, seen)
+        done = _together(table, part, wanted.error, seen)
+        if progress is not None and done.any():
+            progress(int(done.sum()))
+        for n in np.flatnonzero(~done).tolist():
+            _fill(table, part, n, int(part.rows[n]), columns, seen)
             if progress is not None:
                 progress(1)
     notes = (SAID, *(one.note for one in first.touching if one.note), *seen.notes(columns))
@@ -160,6 +171,28 @@ def _run(case: Case, columns: Columns, rows: Which, moving: set[str], shaping: l
 def _written(case: Case, columns: Columns, row: int) -> Case:
     """The case of a row as if written so."""
     return with_numbers(case, {path: float(a[row]) for path, a in columns.paths.items()})
+
+
+def _together(table: Table, part: Part, error: bool, seen: _Seen) -> Mask:
+    """Fill in the rows of a part that one record solves all at once; which these are."""
+    case, run = part.case, part.run
+    teeth = any(isinstance(joint, Gears) and joint.pressure_angle is not None for joint in case.joints)
+    if run is None or teeth:
+        return np.zeros(len(part.rows), dtype=bool)
+    values, done = run.together(table.asked)
+    rows = part.rows[done]
+    own = by_kind({key: array[done] for key, array in values.items() if key[0] in KINDS})
+    none = {kind: {n: np.full_like(a, np.nan) for n, a in arrays.items()} for kind, arrays in own.items()}
+    answers, points, centres, rates = (own[kind] for kind in KINDS)
+    codes = np.zeros(len(rows), dtype=np.int8)
+    found = Sweep(case, {}, answers, points, centres, rates, none if error else {}, codes=codes)
+    table.take(rows, found)
+    for follow, rested in zip(run.course.follows, run.rested, strict=True):
+        force = values.get(("contact", follow.seeking.hidden))
+        lost = force[done] < 0.0 if force is not None else np.zeros(len(rows), dtype=bool)
+        at = rested.point[done]
+        seen.take_all(follow.seeking.touch.links, rows, at, follow.pressure(at, rested.normal[done]), lost)
+    return done
 
 
 def _fill(table: Table, part: Part, n: int, row: int, columns: Columns, seen: _Seen) -> None:

@@ -26,7 +26,17 @@ from icsolve.structure.topology import Topology, topology
 from icsolve.sweep.drivers import Drive, condition, drive_of, pose_of, turning, turns_a_wheel
 from icsolve.sweep.numbers import find_number, numbers_of
 from icsolve.sweep.rubbing import Rubbing, rubbing
-from icsolve.sweep.scene import Scene, Statics, centre, moved_scene, rates, statics
+from icsolve.sweep.scene import (
+    Resting,
+    Scene,
+    Statics,
+    centre,
+    moved_scene,
+    pressing,
+    rates,
+    rested,
+    statics,
+)
 from icsolve.wording.sentences import listed
 
 Signs = tuple[tuple[str, float], ...]
@@ -43,6 +53,7 @@ class Asked(NamedTuple):
     velocities: bool = False
     accelerations: bool = False
     dynamic: bool = False
+    contacts: tuple[Resting, ...] = ()
 
     @property
     def in_motion(self) -> bool:
@@ -87,6 +98,8 @@ class Sheet(NamedTuple):
     """whether the mechanism moves only because its data are exact, or nearly so"""
     rubbing: Rubbing | None = None
     """of a case with friction whose unknown loads can be had in all rows at once"""
+    rests: bool = False
+    """whether contacts are told row by row"""
 
 
 def setting_of(case: Case, paths: Sequence[str], links: Sequence[str]) -> Setting:
@@ -184,8 +197,9 @@ def _sheet(setting: Setting, asked: Asked, nudge: float, signs: Signs) -> Sheet:
         scene = moved_scene(motion.mechanism, motion.moved)
     else:
         motion, scene = None, Scene(case, setting.top, frame, record, names)
+    scene = rested(scene, asked.contacts, inputs)
     outputs, found = _outputs(scene, asked)
-    sheet = Sheet(setting, record, inputs, outputs, motion, scene, None, margins)
+    sheet = Sheet(setting, record, inputs, outputs, motion, scene, None, margins, rests=bool(asked.contacts))
     if found is None:
         return sheet
     sheet = sheet._replace(delicate=found.delicate)
@@ -254,4 +268,6 @@ def _outputs(scene: Scene, asked: Asked) -> tuple[dict[tuple[str, str], tuple[Sc
         triple = centre(scene, found.motions, pair)
         if triple is not None:
             out["centres", f"{pair[0]}-{pair[1]}"] = triple
+    if asked.contacts and found.answers:
+        out |= {("contact", at): (force,) for at, force in pressing(scene, found, asked.contacts)}
     return out, found

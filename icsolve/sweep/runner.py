@@ -35,6 +35,8 @@ AGREED = 1e-9
 """Conditions that were not needed to place the links are met to this (normalised)."""
 NOTHING = 1e-13
 """An answer below this fraction of its terms where the record was made is nothing in every row."""
+DWELL = 1e-12
+"""Where contacts are told row by row, an answer below this part of what it is elsewhere is none: a dwell."""
 BATCH = 8
 """So many outputs are bounded at once: each takes a few megabytes."""
 
@@ -66,7 +68,9 @@ class Runner:
         alive = Code(record, [*wanted, *self.rubs]).order
         self.roots = [record.roots[k] for k in alive if k in record.roots]
         self.divisors = _divisors(record.nodes, alive)
-        self.loose = [n for n, (key, _, _) in enumerate(self.moving) if key[0] == "answers"]
+        answers = [n for n, (key, _, _) in enumerate(self.moving) if key[0] == "answers"]
+        self.loose = answers if not sheet.rests else []
+        self.resting = answers if sheet.rests else []
         self.margins = sheet.margins
         self.checks = _living(sheet, alive)
         watched = [*(root.radicand for root in self.roots), *self.divisors, *self.margins, *self.checks]
@@ -171,6 +175,8 @@ class Runner:
             stop = min(start + BLOCK, rows)
             here = {k: v[start:stop] if v.ndim else v for k, v in given.items()}
             found = self.code.run(here, stop - start)
+            for n in self.resting:
+                np.copyto(found[n], 0.0, where=np.abs(found[n]) <= DWELL * self.usual[n])
             for (key, part, _), array in zip(self.moving, found, strict=False):
                 column(values[key], part)[start:stop] = array
             again = self._watch(found)

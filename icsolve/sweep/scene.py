@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -14,6 +14,7 @@ from icsolve.case import (
     Belt,
     Case,
     Centroid,
+    Contact,
     Force,
     ForceVector,
     Gears,
@@ -33,12 +34,14 @@ from icsolve.case import (
 from icsolve.case.names import ordered_pair
 from icsolve.errors import SceneError
 from icsolve.kinematics import motion, speeds
-from icsolve.numbers.arithmetic import FLOATS, Scalar
+from icsolve.numbers.arithmetic import FLOATS, Scalar, turn_of
 from icsolve.numbers.record import Record
 from icsolve.scene import refusals
 from icsolve.screws.joints import freedoms, pitch_point
 from icsolve.screws.plane import Point, Triple, subtract, velocity
 from icsolve.statics import power
+from icsolve.statics.equilibrium import equilibrium
+from icsolve.statics.reaction_basis import Position, ties_of
 from icsolve.structure.plan import make_plan
 from icsolve.structure.topology import Topology, topology
 
@@ -188,6 +191,45 @@ def _forward(v: Point, given: Motion) -> bool:
     return float(v[0]) * c + float(v[1]) * s > 0.0
 
 
+class Resting(NamedTuple):
+    """A contact whose place and normal every row tells for itself: where it stands among the joints, the
+    contact as written, and its place there (case units); of a roller the centre, and how far the contact is
+    from it along the normal."""
+
+    place: int
+    joint: Contact
+    at: Point
+    roller: tuple[str, float] | None = None
+
+    @property
+    def inputs(self) -> tuple[str, ...]:
+        """The names of the inputs: x and y, and those of the unit normal."""
+        return tuple(f"{self.joint.at} {part}" for part in ("x", "y", "across", "up"))
+
+
+def rested(scene: Scene, contacts: Sequence[Resting], inputs: dict[str, int]) -> Scene:
+    """The scene with these contacts; the inputs of the record are noted."""
+    if not contacts:
+        return scene
+    joints, points, record = list(scene.case.joints), dict(scene.points), scene.record
+    ox, oy, scale = scene.frame
+    for contact in contacts:
+        own = contact.joint
+        c, s = turn_of(own.normal.value)
+        at = contact.at
+        if contact.roller is not None:  # the record is made beside the position as written
+            (x, y), off = scene.points[contact.roller[0]], contact.roller[1]
+            at = (float(x) / scale + ox + off * c, float(y) / scale + oy + off * s)
+        written = (*at, c, s)
+        nodes = [record.input(name, v) for name, v in zip(contact.inputs, written, strict=True)]
+        inputs |= {name: node.index for name, node in zip(contact.inputs, nodes, strict=True)}
+        points[own.at] = ((nodes[0] - ox) * scale, (nodes[1] - oy) * scale)
+        normal = record.direct(own.normal, (nodes[2], nodes[3]))
+        joints.insert(contact.place, own._replace(normal=normal))
+    case = replace(scene.case, joints=tuple(joints))
+    return scene._replace(case=case, top=topology(case), points=points)
+
+
 # --- statics --------------------------------------------------------------------------------------
 
 
@@ -220,6 +262,25 @@ def motions_of(scene: Scene, wanted: Collection[int] | None = None) -> motion.Mo
     if found is None:
         found = motion.by_loops(scene.case, top, scene.points, scene.record, scene.frame)
     return motion.with_ends(found, scene.case, scene.points, scene.frame.scale, scene.record)
+
+
+def pressing(scene: Scene, found: Statics, contacts: Sequence[Resting]) -> Iterator[tuple[str, Scalar]]:
+    """The normal force of contacts (scaled), by their points; of those that equilibrium determines."""
+    position = Position(scene.case, scene.top, scene.points, scene.frame.scale, found.motions.twists)
+    loaded = {load.link for load in scene.case.loads if power.is_unknown(load)}
+    # a follower's own equilibrium tells its force, that of the link with the unknown not in a dwell
+    ties = sorted(ties_of(position, scene.record), key=lambda tie: bool(loaded & {tie.by, tie.on}))
+    solved = equilibrium(position, ties, found.balance, (), scene.record)
+    values = {solved.known: 1.0}
+    values |= {solved.root(n): found.answers[name] * solved.scale for n, name in enumerate(solved.roots)}
+    for contact in contacts:
+        t = next(t for t, tie in enumerate(ties) if getattr(tie.joint, "at", None) == contact.joint.at)
+        row = solved.general.of(solved.first[t])
+        if all(column in values for column in row):
+            total: Scalar = 0.0
+            for column, factor in row.items():
+                total = total + factor * values[column]
+            yield contact.joint.at, total
 
 
 # --- rates and centres ----------------------------------------------------------------------------

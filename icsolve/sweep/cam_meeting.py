@@ -1,0 +1,375 @@
+"""Where followers first meet their cams in all rows at once, as the cam sees it.
+
+To a cam the way of a roller's centre is one closed line, which no row changes: its pieces moved out by the
+roller's radius, with an arc about each corner. Likewise a face only asks how far the profile reaches in a
+direction. Both are sampled once; in every row the samples say on which chord of the line the follower meets
+it first, and the place is closed in on the exact piece. Rows in doubt are left to `contact_candidates`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from icsolve.cams.curve import CORNER, Body, Curve
+from icsolve.cams.pieces import TURN, CircularArc, Piece, Polar, Spline, Straight
+from icsolve.numbers.replay import Array
+
+CLOSE = 1e-4
+"""Of the profile's size: what is as near as this to being otherwise is left open."""
+WAYS = 720
+"""Directions in which the reach of a profile is known beforehand."""
+ROWS = 512
+"""Rows that are looked at together: their samples fit the cache."""
+STEPS = 60
+NEWTON = 12
+AT_ONE = 1e-12
+"""A step of this part of a turn is none."""
+
+Mask = npt.NDArray[np.bool_]
+Which = npt.NDArray[np.intp]
+Vectors = tuple[Array, Array]
+"""x and y, (n,) each."""
+
+
+class Poses(NamedTuple):
+    """A follower as the cam sees it, row by row: its point, the ways of its face and guide, its pivot."""
+
+    at: Vectors
+    face: Vectors
+    along: Vectors
+    about: Vectors
+
+    def some(self, rows: slice) -> Poses:
+        """Some rows."""
+        return Poses(*((x[rows], y[rows]) for x, y in self))
+
+
+class Met(NamedTuple):
+    """How far the follower is moved, where it touches and the unit normal there, as the cam sees it; in which
+    rows this is sure."""
+
+    by: Array
+    point: Array
+    normal: Array
+    sure: Mask
+
+
+class FirstMeeting:
+    """The meetings of one follower and its cam; ``side`` and ``sense`` as in `Follow`; it
+    slides, or turns about a point."""
+
+    def __init__(self, curve: Curve, body: Body, shifts: bool, side: float, sense: float) -> None:
+        self.size, self.side, self.sense = curve.size, side, sense
+        self.flat, self.shifts = body.kind == "flat face", shifts
+        self.line = _Line(curve, 0.0 if self.flat else body.radius)
+        self.angles = np.linspace(0.0, TURN, WAYS + 1)
+        if self.flat and not self.shifts:
+            self.reach = (
+                _outer(np.cos(self.angles), self.line.x) + _outer(np.sin(self.angles), self.line.y)
+            ).max(1)
+
+    def run(self, poses: Poses) -> Met:
+        """All rows."""
+        rows = len(poses.at[0])
+        parts = [
+            self._block(poses.some(slice(start, start + ROWS))) for start in range(0, max(rows, 1), ROWS)
+        ]
+        return Met(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+
+    def _block(self, poses: Poses) -> Met:
+        with np.errstate(all="ignore"):
+            if self.flat:
+                met = self._face_shifted(poses) if self.shifts else self._face_turned(poses)
+            else:
+                met = self._centre(poses)
+        finite = (
+            np.isfinite(met.by) & np.isfinite(met.point).all(axis=1) & np.isfinite(met.normal).all(axis=1)
+        )
+        return met._replace(sure=met.sure & finite)
+
+    # --- rollers and knife edges ------------------------------------------------------------------
+
+    def _centre(self, poses: Poses) -> Met:
+        """Where the way of the follower's point crosses the line."""
+        line, (px, py) = self.line, poses.at
+        rows = len(px)
+        if self.shifts:
+            dx, dy = poses.along
+            off = _outer(dy, line.x) - _outer(dx, line.y) - (px * dy - py * dx)[:, None]
+        else:
+            qx, qy = poses.about
+            square = (px - qx) ** 2 + (py - qy) ** 2
+            off = (
+                line.square
+                - 2.0 * (_outer(qx, line.x) + _outer(qy, line.y))
+                + (qx * qx + qy * qy - square)[:, None]
+            )
+        beyond = off > 0.0
+        row, chord = np.nonzero(beyond[:, line.first] != beyond[:, line.first + 1])
+        a, b = line.first[chord], line.first[chord] + 1
+        share = off[row, a] / (off[row, a] - off[row, b])
+        x, y = (v[a] + share * (v[b] - v[a]) for v in (line.x, line.y))
+        by, sense = self._way(poses, row, x, y, line.nx[a], line.ny[a])
+        real = np.ones(len(row), dtype=bool) if self.shifts else line.good[a] | line.good[b]
+        chosen, sure = self._first(row[real], by[real], sense[real], rows)
+        picked = np.flatnonzero(real)[chosen]
+        chord, sure = chord[picked], sure & (chosen >= 0)
+        sure &= line.good[line.first[chord]] & line.good[line.first[chord] + 1]
+        every = np.arange(rows)
+
+        def miss(k: Which, x: Array, y: Array) -> Array:
+            if self.shifts:
+                return (x - px[k]) * dy[k] - (y - py[k]) * dx[k]
+            return (x - qx[k]) ** 2 + (y - qy[k]) ** 2 - square[k]
+
+        x, y, nx, ny, closed = line.closed(chord, miss)
+        by, _ = self._way(poses, every, x, y, nx, ny)
+        point = np.stack([x - line.radius * nx, y - line.radius * ny], axis=1)
+        return Met(by, point, np.stack([nx, ny], axis=1), sure & closed)
+
+    def _way(self, poses: Poses, row: Which, x: Array, y: Array, nx: Array, ny: Array) -> tuple[Array, Array]:
+        """How far the follower is moved to places, and whether the gap grows there as it moves on."""
+        (px, py), (dx, dy) = poses.at, poses.along
+        if self.shifts:
+            by = (x - px[row]) * dx[row] + (y - py[row]) * dy[row]
+            return by, np.sign(nx * dx[row] + ny * dy[row])
+        qx, qy = (v[row] for v in poses.about)
+        by = np.arctan2(y - qy, x - qx) - np.arctan2(py[row] - qy, px[row] - qx)
+        return _wrapped(by), np.sign(ny * (x - qx) - nx * (y - qy))
+
+    def _first(self, row: Which, by: Array, sense: Array, rows: int) -> tuple[Which, Mask]:
+        """Of the places in each row that which a follower from outside meets first (-1: none), and where no
+        other comes near."""
+        count = np.bincount(row, minlength=rows)
+        most = int(count.max(initial=0))
+        if not most:
+            return np.full(rows, -1), np.zeros(rows, dtype=bool)
+        start = np.concatenate([[0], np.cumsum(count)[:-1]])
+        place = np.full((rows, most), -1)
+        place[row, np.arange(len(row)) - start[row]] = np.arange(len(row))
+        ways = np.where(place >= 0, by[place], np.nan)
+        outer = (place >= 0) & (sense[place] == self.sense)
+        if self.shifts:
+            rank, near = self.sense * ways, CLOSE * self.size
+        else:
+            apart = np.where(
+                np.eye(most, dtype=bool)[None],
+                TURN,
+                (self.sense * (ways[:, None, :] - ways[:, :, None])) % TURN,
+            )
+            rank, near = np.nanmin(apart, axis=2), CLOSE * TURN
+        rank = np.where(outer, rank, -np.inf)
+        best = rank.argmax(axis=1)
+        every = np.arange(rows)
+        top = rank[every, best]
+        rank[every, best] = -np.inf
+        sure = np.isfinite(top) & (top - rank.max(axis=1) > near)
+        if self.shifts:  # nor one at which the gap shrinks
+            others = np.where((place >= 0) & ~outer, self.sense * ways, -np.inf)
+            sure &= top - others.max(axis=1) > near
+        return np.where(sure, place[every, best], -1), sure
+
+    # --- faces ------------------------------------------------------------------------------------
+
+    def _face_shifted(self, poses: Poses) -> Met:
+        (fx, fy), (dx, dy), (px, py) = poses.face, poses.along, poses.at
+        wx, wy = -self.side * fy, self.side * fx
+        x, y, sure = self.line.farthest(wx, wy)
+        rate = wx * dx + wy * dy
+        by = -((px - x) * wx + (py - y) * wy) / rate
+        sure &= (np.sign(rate) == self.sense) & (np.abs(rate) > CLOSE)
+        return Met(by, np.stack([x, y], axis=1), np.stack([wx, wy], axis=1), sure)
+
+    def _face_turned(self, poses: Poses) -> Met:
+        """A face on an arm: by the angle of its normal, the gap is the arm's less the profile's reach."""
+        (fx, fy), (qx, qy), (px, py) = poses.face, poses.about, poses.at
+        wx, wy = -self.side * fy, self.side * fx
+        rows, start = len(px), np.arctan2(wy, wx)
+        own = wx * (px - qx) + wy * (py - qy)
+        gap = own[:, None] + _outer(qx, np.cos(self.angles)) + _outer(qy, np.sin(self.angles)) - self.reach
+        beyond = gap > 0.0
+        row, k = np.nonzero(beyond[:, :-1] != beyond[:, 1:])
+        share = gap[row, k] / (gap[row, k] - gap[row, k + 1])
+        angle = self.angles[k] + share * (self.angles[1] - self.angles[0])
+        sense = np.where(beyond[row, k], -1.0, 1.0)
+        chosen, sure = self._first(row, _wrapped(angle - start[row]), sense, rows)
+        angle = angle[chosen] if len(angle) else np.full(rows, np.nan)
+        for _ in range(NEWTON):
+            c, s = np.cos(angle), np.sin(angle)
+            x, y, smooth = self.line.farthest(c, s)
+            step = (own + c * (qx - x) + s * (qy - y)) / (c * (qy - y) - s * (qx - x))
+            angle = angle - step
+            if np.nanmax(np.abs(step), initial=0.0) <= AT_ONE:
+                break
+        sure &= (np.abs(step) <= 1e3 * AT_ONE) & smooth
+        normal = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+        return Met(_wrapped(angle - start), np.stack([x, y], axis=1), normal, sure)
+
+
+def _outer(a: Array, b: Array) -> Array:
+    return np.multiply.outer(a, b)
+
+
+def _wrapped(by: Array) -> Array:
+    """Angles within the whole turn in which ways are looked for."""
+    low = 0.001 - TURN / 2.0
+    return np.asarray(low + (by - low) % TURN)
+
+
+class _Line:
+    """A profile moved out by a radius: its pieces, samples of each (with their normals) in order, and the
+    samples at which chords begin. A sample is ``good`` where the profile is no nearer than the radius."""
+
+    def __init__(self, curve: Curve, radius: float) -> None:
+        self.radius, self.size = radius, curve.size
+        self.pieces = list(_pieces(curve, radius > 0.0))
+        counts = [piece.chords() for piece in self.pieces]
+        self.u = np.concatenate([np.arange(n + 1) / n for n in counts])
+        self.piece = np.repeat(np.arange(len(counts)), np.array(counts) + 1)
+        self.first = np.concatenate([np.arange(n) + sum(counts[:k]) + k for k, n in enumerate(counts)])
+        self.x, self.y, self.nx, self.ny = self.at(self.piece, self.u)
+        self.square = self.x**2 + self.y**2
+        self.step = 1.0 / np.array(counts)
+        self.whole = np.array([isinstance(piece, Polar) for piece in self.pieces])
+        self.ends = (self.u == 0.0) | (self.u == 1.0)
+        self.beside = (np.arange(len(self.u)) + np.where(self.u == 0.0, -1, 1)) % len(self.u)
+        turned = np.abs(self.nx * self.ny[self.beside] - self.ny * self.nx[self.beside])
+        self.joined = self.ends & (turned < CORNER)
+        self.good = np.ones(len(self.x), dtype=bool)
+        if radius:
+            import shapely
+
+            apart = shapely.distance(curve.inside.exterior, shapely.points(self.x, self.y))
+            self.good = ~shapely.contains_xy(curve.inside, self.x, self.y) & (
+                apart > radius - CLOSE * self.size
+            )
+
+    def at(self, pieces: Which, u: Array) -> tuple[Array, Array, Array, Array]:
+        """Places and normals on the pieces."""
+        found = np.empty((4, len(u)))
+        for k in np.unique(pieces).tolist():
+            some = pieces == k
+            found[:, some] = _at(self.pieces[k], u[some], self.radius)
+        return found[0], found[1], found[2], found[3]
+
+    def closed(
+        self, chord: Which, miss: Callable[[Which, Array, Array], Array]
+    ) -> tuple[Array, Array, Array, Array, Mask]:
+        """Where a function of the place vanishes on a chord of each row, with the normal; where it does."""
+        first = self.first[chord]
+        pieces, every = self.piece[first], np.arange(len(chord))
+
+        def value(u: Array) -> Array:
+            x, y, _, _ = self.at(pieces, u)
+            return miss(every, x, y)
+
+        u, there = _zero(value, self.u[first], self.u[first + 1])
+        return (*self.at(pieces, u), there)
+
+    def farthest(self, wx: Array, wy: Array) -> tuple[Array, Array, Mask]:
+        """Where the profile reaches farthest in a direction, and in which rows at one place only."""
+        reach = _outer(wx, self.x) + _outer(wy, self.y)
+        best = reach.argmax(axis=1)
+        u, there = self._turned(best, wx, wy)
+        late = np.flatnonzero(~there & self.joined[best])  # it lies on the piece beside
+        best[late] = self.beside[best[late]]
+        u[late], there[late] = self._turned(best[late], wx[late], wy[late])
+        x, y, _, _ = self.at(self.piece[best], u)
+        sure = there | (self.ends[best] & ~self.joined[best] & (self._aside(best, u, wx, wy) > CLOSE))
+        far = (self.x - x[:, None]) ** 2 + (self.y - y[:, None]) ** 2 > (0.05 * self.size) ** 2
+        level = reach > (reach.max(axis=1) - CLOSE**1.5 * self.size)[:, None]
+        return x, y, sure & ~(far & level).any(axis=1)
+
+    def _turned(self, best: Which, wx: Array, wy: Array) -> tuple[Array, Mask]:
+        """Where the normal has a direction, near a sample of each row; the sample where it has not."""
+        pieces = self.piece[best]
+        step, whole = 1.5 * self.step[pieces], self.whole[pieces]
+        low, high = self.u[best] - step, self.u[best] + step
+        low, high = np.where(whole, low, np.maximum(low, 0.0)), np.where(whole, high, np.minimum(high, 1.0))
+
+        def aside(u: Array) -> Array:
+            _, _, nx, ny = self.at(pieces, u)
+            return nx * wy - ny * wx
+
+        u, there = _zero(aside, low, high)
+        return np.where(there, u, self.u[best]), there
+
+    def _aside(self, best: Which, u: Array, wx: Array, wy: Array) -> Array:
+        """How far a direction is from the normal of a place (its sine)."""
+        _, _, nx, ny = self.at(self.piece[best], u)
+        return np.abs(nx * wy - ny * wx)
+
+
+def _pieces(curve: Curve, corners: bool) -> list[Piece]:
+    """The pieces of a curve in order; with an arc of no radius at each corner that juts out."""
+    found: list[Piece] = []
+    for k, piece in enumerate(curve.pieces):
+        found.append(piece)
+        foot = curve.foot(k, 1.0)
+        if corners and foot.is_corner and foot.is_convex:
+            (ax, ay), (bx, by) = foot.normals
+            sweep = math.atan2(ax * by - ay * bx, ax * bx + ay * by)
+            found.append(CircularArc(foot.point, 0.0, math.atan2(ay, ax), sweep))
+    return found
+
+
+def _at(piece: Piece, u: Array, out: float) -> Array:
+    """Places on a piece moved out, and its normals there: x, y and the normal's, (4, n)."""
+    if isinstance(piece, Straight):
+        (ax, ay), (bx, by), (tx, ty) = piece.a, piece.b, piece.tangent(0.0)
+        x, y, nx, ny = ax + u * (bx - ax), ay + u * (by - ay), np.full(len(u), ty), np.full(len(u), -tx)
+    elif isinstance(piece, CircularArc):
+        angle, sign = piece.start + u * piece.sweep, math.copysign(1.0, piece.sweep)
+        c, s = np.cos(angle), np.sin(angle)
+        x, y, nx, ny = (
+            piece.centre[0] + piece.radius * c,
+            piece.centre[1] + piece.radius * s,
+            sign * c,
+            sign * s,
+        )
+    else:
+        r, slope = _radius(piece.radius, piece.turn * u * TURN)
+        slope = slope * piece.turn
+        c, s = np.cos(piece.zero + u * TURN), np.sin(piece.zero + u * TURN)
+        x, y, size = piece.about[0] + r * c, piece.about[1] + r * s, np.hypot(r, slope)
+        nx, ny = (slope * s + r * c) / size, (r * s - slope * c) / size
+    return np.stack([x + out * nx, y + out * ny, nx, ny])
+
+
+def _radius(by: Spline, angle: Array) -> Vectors:
+    """Values of a spline and its slopes, as `Spline.at`."""
+    places, values, bends = (np.array(row) for row in (by.places, by.values, by.bends))
+    x = places[0] + (angle - places[0]) % by.period
+    k = np.minimum(np.searchsorted(places, x, side="right"), len(places)) - 1
+    n = (k + 1) % len(places)
+    h = places[n] - places[k] + np.where(n <= k, by.period, 0.0)
+    b = (x - places[k]) / h
+    a = 1.0 - b
+    value = a * values[k] + b * values[n] + ((a**3 - a) * bends[k] + (b**3 - b) * bends[n]) * h * h / 6.0
+    bent = (3.0 * b * b - 1.0) * bends[n] - (3.0 * a * a - 1.0) * bends[k]
+    return value, (values[n] - values[k]) / h + bent * h / 6.0
+
+
+def _zero(function: Callable[[Array], Array], low: Array, high: Array) -> tuple[Array, Mask]:
+    """Where a function of each row changes its sign, by false position (Illinois); in which rows it does."""
+    a, b = low.copy(), high.copy()
+    at_a, at_b = function(a), function(b)
+    there = (at_a <= 0.0) != (at_b <= 0.0)
+    u = np.where(np.abs(at_a) < np.abs(at_b), a, b)
+    for _ in range(STEPS):
+        new = b - at_b * (b - a) / (at_b - at_a)
+        new = np.where((new >= np.minimum(a, b)) & (new <= np.maximum(a, b)), new, (a + b) / 2.0)
+        here = function(new)
+        crossed = (here <= 0.0) != (at_b <= 0.0)
+        a, at_a = np.where(crossed, b, a), np.where(crossed, at_b, at_a / 2.0)
+        b, at_b = new, here
+        settled = (np.abs(new - u) <= 2.0**-51 * np.maximum(np.abs(new), 2.0**-20)) | (here == 0.0) | ~there
+        u = new
+        if settled.all():
+            break
+    return u, there & settled
