@@ -266,11 +266,12 @@ def motions_of(scene: Scene, wanted: Collection[int] | None = None) -> motion.Mo
 
 def pressing(scene: Scene, found: Statics, contacts: Sequence[Resting]) -> Iterator[tuple[str, Scalar]]:
     """The normal force of contacts (scaled), by their points; of those that equilibrium determines."""
-    position = Position(scene.case, scene.top, scene.points, scene.frame.scale, found.motions.twists)
+    frame, twists = scene.frame, found.motions.twists
+    position = Position(scene.case, scene.top, scene.points, frame.scale, twists, arithmetic=scene.record)
     loaded = {load.link for load in scene.case.loads if power.is_unknown(load)}
     # a follower's own equilibrium tells its force, that of the link with the unknown not in a dwell
-    ties = sorted(ties_of(position, scene.record), key=lambda tie: bool(loaded & {tie.by, tie.on}))
-    solved = equilibrium(position, ties, found.balance, (), scene.record)
+    ties = sorted(ties_of(position), key=lambda tie: bool(loaded & {tie.by, tie.on}))
+    solved = equilibrium(position, ties, found.balance)
     values = {solved.known: 1.0}
     values |= {solved.root(n): found.answers[name] * solved.scale for n, name in enumerate(solved.roots)}
     for contact in contacts:
