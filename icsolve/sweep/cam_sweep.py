@@ -177,13 +177,13 @@ def _together(table: Table, part: Part, error: bool, seen: _Seen) -> Mask:
     """Fill in the rows of a part that one record solves all at once; which these are."""
     case, run = part.case, part.run
     teeth = any(isinstance(joint, Gears) and joint.pressure_angle is not None for joint in case.joints)
-    if run is None or teeth:
+    if run is None or teeth or table.asked.in_motion:
         return np.zeros(len(part.rows), dtype=bool)
     values, done = run.together(table.asked)
     rows = part.rows[done]
     own = by_kind({key: array[done] for key, array in values.items() if key[0] in KINDS})
     none = {kind: {n: np.full_like(a, np.nan) for n, a in arrays.items()} for kind, arrays in own.items()}
-    answers, points, centres, rates = (own[kind] for kind in KINDS)
+    answers, points, centres, rates = (own[kind] for kind in ("answers", "points", "centres", "rates"))
     codes = np.zeros(len(rows), dtype=np.int8)
     found = Sweep(case, {}, answers, points, centres, rates, none if error else {}, codes=codes)
     table.take(rows, found)
