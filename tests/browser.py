@@ -33,7 +33,15 @@ SWITCHES = (
 )
 ELEMENT = "element-6066-11e4-a52e-4f735466cecf"
 """The key of an element in WebDriver's JSON (https://www.w3.org/TR/webdriver2/#elements)."""
-KEYS = {"right": "\ue014", "left": "\ue012", "home": "\ue011", "end": "\ue010", "enter": "\ue007"}
+KEYS = {
+    "right": "\ue014",
+    "left": "\ue012",
+    "up": "\ue013",
+    "down": "\ue015",
+    "home": "\ue011",
+    "end": "\ue010",
+    "enter": "\ue007",
+}
 
 
 class NoBrowserError(Exception):
@@ -98,6 +106,23 @@ class Browser:
         text = "".join(KEYS.get(key, key) for key in keys)
         self.send(f"/element/{self._find(selector)}/value", {"text": text})
 
+    def drag(self, kind: str, start: tuple[float, float], end: tuple[float, float]) -> None:
+        """Press at a place of the window, move and let go: with the mouse, or by touch."""
+        steps = (
+            0.0,
+            0.25,
+            0.5,
+            0.75,
+            1.0,
+            1.0,
+        )  # Chromium holds the last move of a finger back until the next
+        way = [(start[0] + k * (end[0] - start[0]), start[1] + k * (end[1] - start[1])) for k in steps]
+        moves = [{"type": "pointerMove", "x": round(x), "y": round(y), "duration": 10} for x, y in way]
+        down, up = {"type": "pointerDown", "button": 0}, {"type": "pointerUp", "button": 0}
+        actions = [moves[0], down, *moves[1:], {"type": "pause", "duration": 50}, up]
+        finger = {"type": "pointer", "id": kind, "parameters": {"pointerType": kind}, "actions": actions}
+        self.send("/actions", {"actions": [finger]})
+
     def text(self, selector: str) -> str:
         """What an element shows."""
         found = self.run("return document.querySelector(arguments[0]).textContent", selector)
@@ -140,9 +165,12 @@ def _request(url: str, method: str, body: dict[str, Any] | None = None) -> Any:
 def browser() -> Iterator[Browser]:
     """A headless Chromium, closed at the end; raises NoBrowserError where there is none that starts."""
     chromium, driver = programs()
-    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile, subprocess.Popen(
-        [driver, "--port=0"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
-    ) as process:
+    with (
+        tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile,
+        subprocess.Popen(
+            [driver, "--port=0"], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+        ) as process,
+    ):
         try:
             address = f"http://127.0.0.1:{_port(process)}"
             session = _session(address, chromium, profile)

@@ -75,11 +75,13 @@ const turn = d => {
 
 
 class Text(NamedTuple):
-    """Lines in order, the names that they assign, and the expression of every wanted node."""
+    """Lines in order with the node that each ends at, the names that they assign, and the expression of
+    every wanted node."""
 
     lines: tuple[str, ...]
     names: tuple[str, ...]
     wanted: tuple[str, ...]
+    at: tuple[int, ...]
 
 
 def straight_line(
@@ -97,6 +99,7 @@ def straight_line(
     text: dict[int, tuple[str, int]] = {k: (name, 0) for k, name in inputs.items()}
     lines: list[str] = []
     names: list[str] = []
+    at: list[int] = []
 
     def form(k: int) -> tuple[str, int]:
         if k not in text:  # the same in every row
@@ -112,6 +115,7 @@ def straight_line(
             text[cosine], text[cosine + 1] = (f"v{cosine}", 0), (f"v{cosine + 1}", 0)
             names += [f"v{cosine}", f"v{cosine + 1}"]
             lines.append(language.turned.format(c=names[-2], s=names[-1], a=form(node.a)[0]))
+            at.append(k)
             continue
         if node.op == Op.INPUT:
             form(k)
@@ -122,9 +126,10 @@ def straight_line(
         if uses[k] > 1 or depth > DEEPEST:
             names.append(f"v{k}")
             lines.append(language.assigned.format(name=names[-1], value=value))
+            at.append(k)
             value, depth = names[-1], 0
         text[k] = (value, depth)
-    return Text(tuple(lines), tuple(names), tuple(form(k)[0] for k in wanted))
+    return Text(tuple(lines), tuple(names), tuple(form(k)[0] for k in wanted), tuple(at))
 
 
 def _needed(record: Record, wanted: Sequence[int], inputs: Mapping[int, str]) -> list[int]:

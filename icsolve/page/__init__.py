@@ -36,6 +36,7 @@ def _in_space(known: Known) -> Parts:
 def _in_plane(known: Known) -> Parts:
     from icsolve.page.document import equation_of
     from icsolve.page.figure import figure_of
+    from icsolve.page.live import live_of
     from icsolve.page.model import model_of
     from icsolve.page.motion import motion_of, why_still
     from icsolve.page.pictures import ALWAYS, circle_svg, figure_svg, kinds_of, plot_data, plot_svg, plots_of
@@ -45,7 +46,8 @@ def _in_plane(known: Known) -> Parts:
     figure = figure_of(known, steps, motion)
     plots = [] if motion is None else plots_of(known, motion)
     equation = equation_of(known, motion)
-    model = model_of(known, steps, figure, motion)
+    live = live_of(known)
+    model = model_of(known, steps, figure, motion, live)
     model["terms"] = None if equation is None else equation.data
     model["root"] = None if equation is None else {"sign": equation.sign, "gain": equation.gain}
     model["plots"] = [plot_data(plot) for plot in plots]
@@ -64,6 +66,7 @@ def _in_plane(known: Known) -> Parts:
         still,
         model,
         sheet(used | ALWAYS),
+        live,
     )
 
 

@@ -6,7 +6,7 @@ from __future__ import annotations
 import base64
 import hashlib
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import cache
 from html import escape
 from pathlib import Path
@@ -21,6 +21,8 @@ from icsolve.explain.document import Document, Formula, formula
 from icsolve.explain.formula import MATHML, Expr, Name, Num, Quotient, Sum, product
 from icsolve.explain.given import load_name
 from icsolve.explain.typeset import AsHtml
+from icsolve.page.fields import section
+from icsolve.page.live import Live, why_presolved
 from icsolve.page.model import gain_rows
 from icsolve.page.motion import Array, Motion, exact, script_json
 from icsolve.page.pictures import track_svg
@@ -135,7 +137,7 @@ def ratio_unit(known: Known, root: Acting, of: Acting) -> str:
 
 
 HERE = Path(__file__).parent
-PARTS = ("data", "moving", "centres", "labels", "words", "position", "construction")
+PARTS = tuple("data scene live moving centres labels words position construction fields".split())
 """The parts of the script, in the order in which they run: each uses those before it."""
 
 
@@ -152,10 +154,11 @@ def style() -> str:
     return (HERE / "page.css").read_text(encoding="utf-8")
 
 
-def policy(styles: str) -> str:
-    """A Content-Security-Policy: this script and these styles, no network, no frames, no forms."""
+def policy(styles: str, scripts: Sequence[str]) -> str:
+    """A Content-Security-Policy: these scripts and these styles, no network, no frames, no forms."""
+    allowed = " ".join(f"'{_hash(text)}'" for text in scripts)
     return (
-        f"default-src 'none'; script-src '{_hash(script())}'; style-src '{_hash(styles)}'; "
+        f"default-src 'none'; script-src {allowed}; style-src '{_hash(styles)}'; "
         "base-uri 'none'; form-action 'none'"
     )
 
@@ -184,6 +187,7 @@ class Parts(NamedTuple):
     still: str
     model: dict[str, Any]
     sheet: str
+    live: Live | None = None
 
 
 def html_of(parts: Parts) -> str:
@@ -191,13 +195,17 @@ def html_of(parts: Parts) -> str:
     styles = style() + parts.sheet
     title = escape(_clean(parts.known.title))
     body = "\n".join(part for part in _body(parts) if part)
+    scripts = ((parts.live.source,) if parts.live is not None else ()) + (script(),)
+    allowed = policy(styles, scripts)
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
-        f'<meta http-equiv="Content-Security-Policy" content="{escape(policy(styles))}">\n'
+        f"<!-- For a server that sends its own policy: {allowed} -->\n"
+        f'<meta http-equiv="Content-Security-Policy" content="{escape(allowed)}">\n'
         '<meta name="viewport" content="width=device-width,initial-scale=1">\n'
         f"<title>{title}</title>\n<style>{styles}</style>\n</head>\n<body>\n<main>\n{body}\n</main>\n"
         f'<script type="application/json" id="data">{script_json(parts.model)}</script>\n'
-        f"<script>{script()}</script>\n</body>\n</html>\n"
+        + "".join(f"<script>{text}</script>\n" for text in scripts)
+        + "</body>\n</html>\n"
     )
 
 
@@ -224,11 +232,12 @@ def _body(parts: Parts) -> Iterable[str]:
     yield '</header>\n<div class="panels">'
     construction, power = _construction(parts), _power(parts)
     short = bool(construction) and _count(parts) <= FEW
-    yield '<div class="column">' if construction else '<div class="column wide">'
+    beside = (section(case) if parts.live is not None else "") + construction
+    yield '<div class="column">' if beside else '<div class="column wide">'
     yield _stage(parts)
     yield "" if short else power
     yield "</div>"
-    yield f'<div class="column">{construction}{power if short else ""}</div>' if construction else ""
+    yield f'<div class="column">{beside}{power if short else ""}</div>' if beside else ""
     yield _plots(parts)
     yield _solution(parts)
     yield "</div>"
@@ -244,6 +253,7 @@ def _stage(parts: Parts) -> str:
             _answers(parts),
             _controls(parts) if "motion" in parts.model else "",
             f'<p class="hint still">{_text(parts.still)}</p>' if parts.still else "",
+            "" if parts.live is not None else f'<p class="hint presolved">{why_presolved(parts.known)}</p>',
             _step_buttons(parts),
             "</section>",
         )
@@ -258,11 +268,19 @@ def _answers(parts: Parts) -> str:
     sentences = answer_sentences(parts.known)
     names = list(parts.known.answer.answers)
     items = "".join(
-        f'<li data-answer="{_text(name)}"><span>{_name(name)}</span>'
+        f'<li id="answer-{_text(name)}" data-answer="{_text(name)}" data-value="{_value(parts, name)}" '
+        f'data-status="{parts.known.answer.status}"><span>{_name(name)}</span>'
         f"<span>{_text(sentence.removeprefix(name))}</span></li>"
         for name, sentence in zip(names, sentences, strict=True)
     )
     return f'<ul class="answers" id="answers" aria-live="polite">{items}</ul>'
+
+
+def _value(parts: Parts, name: str) -> str:
+    """An answer in full precision; '' where it is a range."""
+    assert parts.known.answer is not None
+    value = parts.known.answer.answers[name].value
+    return "" if value is None else repr(value)
 
 
 def _name(name: str) -> str:

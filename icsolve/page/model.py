@@ -23,6 +23,7 @@ from icsolve.draw.svg import identifier
 from icsolve.draw.words import centre_runs, figure_number, name_runs, unit_word
 from icsolve.errors import Status
 from icsolve.page.figure import Figure
+from icsolve.page.live import Live
 from icsolve.page.motion import FINE, Array, Motion, compact, exact, moved, moves
 from icsolve.wording.senses import holding, sense_as, spelt, unit_of
 
@@ -137,11 +138,18 @@ HINTS = {
     Status.CANNOT_ASSEMBLE: "The links do not meet here.",
     Status.UNBALANCED: "The loads do not balance here.",
     Status.INCONSISTENT: "No single motion fits this position.",
+    Status.STRUCTURE: "Nothing moves: the links hold each other.",
+    Status.MOBILITY: "The unknown loads are not as many as the freedoms.",
+    Status.AMBIGUOUS: "The figure assembles in several ways, and nothing picks one.",
+    Status.UNDERDETERMINED: "The figure leaves a point free.",
+    Status.CONTRADICTORY: "No motion has all of the given centres.",
 }
 """What a position without an answer says."""
 
 
-def model_of(known: Known, steps: Sequence[Step], figure: Figure, motion: Motion | None) -> dict[str, Any]:
+def model_of(
+    known: Known, steps: Sequence[Step], figure: Figure, motion: Motion | None, live: Live | None = None
+) -> dict[str, Any]:
     """The data of a page, ready to be written as JSON."""
     view = figure.scene.view
     loads = acting_loads(known)
@@ -158,6 +166,8 @@ def model_of(known: Known, steps: Sequence[Step], figure: Figure, motion: Motion
     }
     if motion is not None:
         data["motion"] = motion_data(known, view, motion)
+    if live is not None:
+        data |= {"live": live.data, "view": [view.scale, *view.origin], "statuses": HINTS}
     return data
 
 
@@ -205,13 +215,13 @@ def _round(value: float) -> float:
 
 
 def _hints(motion: Motion) -> list[list[Any]]:
-    """First row, last row and sentence of every stretch that has no answer."""
+    """First row, last row, sentence and status of every stretch that has no answer."""
     status = motion.status[motion.first : motion.last + 1]
     found: list[list[Any]] = []
     for word, rows in groupby(range(len(status)), key=lambda n: status[n]):
         some = list(rows)
         if word != Status.OK:
-            found.append([some[0], some[-1], HINTS.get(word, f"No answer here ({word}).")])
+            found.append([some[0], some[-1], HINTS.get(word, f"No answer here ({word})."), word])
     return found
 
 

@@ -1,11 +1,13 @@
-"""One number of a case replaced before it is read: ``angles.AB`` = 30."""
+"""One number of a case replaced before it is read: ``angles.AB`` = 30; and where in its text it stands."""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterable, Iterator
 from collections.abc import Mapping as Named
 
 from icsolve.case import Mark
-from icsolve.read.document import Mapping, Node, Scalar, Sequence
+from icsolve.read.document import Mapping, Node, Scalar, Sequence, parse
 from icsolve.read.joints import NAMES
 from icsolve.read.keys import JOINTS, LOADS
 from icsolve.read.names import Problems, atoms, shown, suggestion
@@ -155,6 +157,7 @@ def _of_motion(node: Node, steps: list[str], text: str) -> str:
 def _of_joint(node: Node, steps: list[str], text: str) -> str:
     joints = [item for item in node.items if type(item) is Mapping] if type(node) is Sequence else []
     found = [joint for joint in joints if steps[0] in _labels(joint)]
+    place = steps.pop() if len(steps) == 3 and steps[2] in ("0", "1") else ""  # of two teeth, two radii
     if len(steps) != 2:
         return "a number of a joint is set as joints.B.mu, with the point at which the joint stands"
     if not found:
@@ -163,6 +166,10 @@ def _of_joint(node: Node, steps: list[str], text: str) -> str:
     if len(found) > 1:
         names = " or ".join(f"joints.{label}.{steps[1]}" for label in (_labels(joint)[-1] for joint in found))
         return f"{len(found)} joints stand at {steps[0]}; write {names}"
+    both = found[0].items.get(steps[1])
+    if place and type(both) is Sequence and int(place) < len(both.items):
+        both.items[int(place)] = Scalar(text, True, both.items[int(place)].mark)
+        return ""
     return _put(found[0], steps[1], text)
 
 
@@ -184,3 +191,38 @@ def _labels(joint: Mapping) -> list[str]:
     pair, turned = "-".join(names), "-".join(reversed(names))
     point = [at.text] if type(at) is Scalar else []
     return [*point, turned, pair, *[f"{pair}@{name}" for name in point]]
+
+
+_SOUGHT = "the number that is sought"
+
+
+def places(text: str, paths: Iterable[str]) -> dict[str, tuple[int, int]]:
+    """Where in a text the number at each path stands, from character to character; of a number that is not
+    written (or not so that it could be set) nothing is said."""
+    problems = Problems("<text>")
+    written = {scalar.mark: scalar for scalar in _scalars(parse(text, problems))}
+    starts = [0, *(found.end() for found in re.finditer("\n", text))]
+    found = {}
+    for path in paths:
+        root = parse(text, problems)
+        if type(root) is not Mapping or _set(root, path, _SOUGHT):
+            continue
+        mark = next((scalar.mark for scalar in _scalars(root) if scalar.text == _SOUGHT), None)
+        old = written.get(mark) if mark is not None else None
+        if old is not None:
+            at = starts[old.mark[0] - 1] + old.mark[1] - 1
+            if text[at : at + len(old.text)] == old.text:
+                found[path] = (at, at + len(old.text))
+    return found
+
+
+def _scalars(node: Node | None) -> Iterator[Scalar]:
+    """The scalars of a tree."""
+    if type(node) is Scalar:
+        yield node
+    elif type(node) is Mapping:
+        for item in node.items.values():
+            yield from _scalars(item)
+    elif type(node) is Sequence:
+        for item in node.items:
+            yield from _scalars(item)

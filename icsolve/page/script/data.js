@@ -46,7 +46,9 @@ function number(value, digits) {
 }
 
 /* Where a place of a link is. */
-function carried([link, x, y], r) {
+function carried(place, r) {
+  if (r === LIVE && place.now) return place.now;
+  const [link, x, y] = place;
   const pose = own(links, link);
   if (!pose) return [x, y];
   const a = (pose.a[r] * Math.PI) / 180;

@@ -13,7 +13,7 @@ function turnOf(name, r) {
   const answer = unknown(name);
   const value = answer ? answer.values[r] : 1;
   const written = answer ? answer.values[zero] : 1;
-  return { way: load.way ? load.way[r] : 0, flip: value !== null && value < 0 !== written < 0, gone: value === null };
+  return { way: (load.way && load.way[r]) || 0, flip: value !== null && value < 0 !== written < 0, gone: value === null };
 }
 function moveParts(r) {
   for (const [e, l] of turning)

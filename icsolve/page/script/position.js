@@ -5,15 +5,17 @@ const cursors = (data.plots || []).map((plot, n) => ({ ...plot, dots: plot.dots.
 const degreesOf = (r) => motion.first + motion.step * r;
 function angleWords(r) {
   if (r === zero) return "as written";
+  if (r === LIVE) return "with the numbers as they are";
   return `${number(Math.abs(degreesOf(r)), 5)}${motion.unit} ${motion.senses[r > zero ? 0 : 1]}`;
 }
 function moveCursors(r) {
   for (const plot of cursors) {
+    show(plot.svg.querySelector(".cursor"), r !== LIVE);
     const [left, top, right, bottom] = plot.box;
     const x = left + ((degreesOf(r) - plot.x[0]) / (plot.x[1] - plot.x[0])) * (right - left);
     set(plot.svg.querySelector(".cursor"), "d", `M${f(x)},${top} L${f(x)},${bottom}`);
     all(".cursor-dot", plot.svg).forEach((dot, n) => {
-      const y = plot.dots[n].y[r];
+      const y = r === LIVE ? null : plot.dots[n].y[r];
       show(dot, y !== null && y >= top - 0.1 && y <= bottom + 0.1);
       if (y !== null) {
         set(dot, "cx", f(x));
@@ -24,7 +26,7 @@ function moveCursors(r) {
 }
 function render() {
   if (figure && stage) {
-    if (motion) moveParts(row);
+    if (motion || live) moveParts(row);
     tell(row);
     placeLabels(row, drawCentres(row));
   }
@@ -40,6 +42,7 @@ function hintOf(r, beyond) {
   return found ? found[2] : "";
 }
 function moveTo(r, beyond = "") {
+  leave();
   row = Math.max(0, Math.min(rows - 1, Math.round(r)));
   slider.value = String(degreesOf(row));
   hint.textContent = hintOf(row, beyond);

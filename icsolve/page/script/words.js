@@ -4,9 +4,14 @@ function saying(answer, r) {
   const held = answer.holds && (answer.holds[r] ?? answer.holds[0]);
   if (held) return { text: ` ${held}`, sense: "" };
   if (value === null || value === undefined) return { text: " = no value", sense: "" };
-  const sense = answer.senses[answer.sense[r]];
+  const sense = r === LIVE ? answer.word : answer.senses[answer.sense[r]];
   return { text: ` = ${number(Math.abs(value), 6)} ${answer.unit}`.trimEnd(), sense };
 }
+const statusAt = (r) => {
+  if (r === LIVE) return scene.status;
+  const found = motion && motion.hints.find(([first, last]) => first <= r && r <= last);
+  return found ? found[3] : "ok";
+};
 const SHORT = { counterclockwise: " ccw", clockwise: " cw" };
 function lastText(text) {
   let node = text.lastChild;
@@ -17,9 +22,13 @@ function tell(r) {
   for (const answer of answers) {
     const { text, sense } = saying(answer, r);
     const line = byId("answers") && all("[data-answer]").find((e) => e.dataset.answer === answer.name);
-    if (line) line.lastElementChild.textContent = text + (sense ? `, ${sense}` : "");
+    if (line) {
+      line.lastElementChild.textContent = text + (sense ? `, ${sense}` : "");
+      line.dataset.value = typeof answer.values[r] === "number" ? String(answer.values[r]) : "";
+      line.dataset.status = statusAt(r);
+    }
     const label = labels.find((l) => l.label === answer.name);
-    if (!label || !motion || (answer.holds && answer.holds[r])) continue;
+    if (!label || !(motion || live) || (answer.holds && answer.holds[r])) continue;
     const value = answer.values[r];
     const lead = answer.low ? "" : answer.base;
     const spring = loads[answer.name].span ? `: k` : "";

@@ -1,0 +1,273 @@
+"""The numbers of a case as fields of its page, each beside what it is of, and handles of the points that they
+place; and where in the text of the case they stand, so that the page can write it with others."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
+from html import escape
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from icsolve.assembly.data import LENGTH, RAY, Datum, X, number_of
+from icsolve.assembly.loci import Axis, Circle, Locus
+from icsolve.assembly.steps import Given, Meet, Polar, Step
+from icsolve.case import Case, Load, Number, Pin, TorsionSpring
+from icsolve.case.names import pair_name
+from icsolve.draw.words import unit_word
+from icsolve.errors import CaseError
+from icsolve.read import load
+from icsolve.read.keys import JOINTS, LOADS
+from icsolve.read.settings import places
+from icsolve.sweep.numbers import numbers_of
+from icsolve.wording.senses import unit_of
+
+DEGREES = "°"
+_BOUNDS = {
+    key: form.bound
+    for kinds in (JOINTS, LOADS)
+    for kind in kinds.values()
+    for key, form in kind.keys.items()
+    if form.bound
+}
+
+
+class Field(NamedTuple):
+    """A number with what stands before it, its unit, and what it may not be."""
+
+    path: str
+    text: str
+    before: str
+    unit: str
+    said: str
+    """its name for who does not see the page"""
+    bound: str
+
+
+class Line(NamedTuple):
+    """Fields that are told in one line, after words."""
+
+    words: str
+    fields: tuple[Field, ...]
+
+
+def lines_of(case: Case) -> list[tuple[str, list[Line]]]:
+    """All numbers of a case by section, in lines as one would say them."""
+    held = numbers_of(case)
+    sections = (
+        ("Points", _points(case, held)),
+        ("Lengths", _plain(case, held, "lengths", unit_word(case.units.length))),
+        ("Angles", _plain(case, held, "angles", DEGREES)),
+        ("Joints", _joints(case, held)),
+        ("Loads", _loads(case, held)),
+        ("Motion", _motion(case, held)),
+    )
+    return [(title, lines) for title, found in sections if (lines := list(found))]
+
+
+def _field(number: Number, before: str, unit: str, said: str, bound: str = "") -> Field:
+    text = number.digits if number.factor == 1.0 and number.exact is None else f"{number.value:.12g}"
+    return Field(number.path, text, before, unit, said, bound)
+
+
+def _points(case: Case, held: Mapping[str, Number]) -> Iterable[Line]:
+    unit = unit_word(case.units.length)
+    for name in case.points:
+        axes = [axis for axis in "xy" if f"points.{name}.{axis}" in held]
+        fields = [_field(held[f"points.{name}.{axis}"], axis, unit, f"{axis} of {name}") for axis in axes]
+        if fields:
+            yield Line(name.lstrip("@"), tuple(fields))
+
+
+def _plain(case: Case, held: Mapping[str, Number], section: str, unit: str) -> Iterable[Line]:
+    bound = "not negative" if section == "lengths" else ""
+    for path, number in held.items():
+        if path.startswith(f"{section}."):
+            name = path.partition(".")[2]
+            yield Line("", (_field(number, f"{name} =", unit, name, bound),))
+
+
+def _joints(case: Case, held: Mapping[str, Number]) -> Iterable[Line]:
+    for joint in case.joints:
+        own = [n for n in _numbers(joint) if n.path in held]
+        if own:
+            kind = type(joint).__name__.lower()
+            at = getattr(joint, "at", None)
+            words = f"{kind} {pair_name(case, joint.links[:2]) if len(joint.links) == 2 else ''}"
+            words += f" at {at.lstrip('@')}" if at and not isinstance(joint, Pin) else ""
+            yield Line(words, tuple(_of_joint(case, n, words) for n in own))
+
+
+def _of_joint(case: Case, number: Number, words: str) -> Field:
+    key, place = _key(number.path, 2)
+    unit = ""
+    if key in ("along", "normal", "toward", "pressure angle"):
+        unit = DEGREES
+    elif key in ("radii", "radius", "length", "module", "at", "lead"):
+        unit = unit_word(case.units.length)
+    elif key == "diametral pitch":
+        unit = f"1/{unit_word(case.units.length)}"
+    shown = f"{key} {'xy'[int(place)] if key == 'at' else int(place) + 1}" if place else key
+    return _field(number, shown, unit, f"{shown} of the {words}", _BOUNDS.get(key, ""))
+
+
+def _key(path: str, after: int) -> tuple[str, str]:
+    """The key at the end of a path, and the place in a list behind it."""
+    parts = path.split(".")[after:] or [""]
+    return (parts[-2], parts[-1]) if parts[-1].isdigit() and len(parts) > 1 else (parts[-1], "")
+
+
+def _loads(case: Case, held: Mapping[str, Number]) -> Iterable[Line]:
+    for one in case.loads:
+        own = [n for n in _numbers(one) if n.path in held]
+        if own:
+            yield Line(one.name, tuple(_of_load(case, one, n) for n in own))
+    if "gravity" in held and any(getattr(one, "mass", False) for one in case.loads):
+        yield Line("", (_field(held["gravity"], "gravity", "m/s²", "gravity", "not negative"),))
+
+
+_LOAD_UNITS = {"angle": DEGREES, "slope": "", "times": "", "mass": "kg"}
+
+
+def _of_load(case: Case, one: Load, number: Number) -> Field:
+    parts = number.path.split(".")[2:]
+    name = parts[0] if parts else ""
+    if name in ("", "x", "y", "0", "1"):
+        before = {"": "=", "0": "from", "1": "to"}.get(name, f"{name} =")
+        return _field(number, before, unit_word(unit_of(one, case)), f"{one.name} {name}".strip())
+    length = unit_word(case.units.length)
+    unit = _LOAD_UNITS.get(name, f"{length}²" if name == "area" else length)
+    if name == "free" and isinstance(one, TorsionSpring):
+        unit = DEGREES
+    shown = " ".join(parts)
+    return _field(number, shown, unit, f"{shown} of {one.name}", _BOUNDS.get(name, ""))
+
+
+def _motion(case: Case, held: Mapping[str, Number]) -> Iterable[Line]:
+    for given in case.motion:
+        fields = []
+        for number, name in ((given.speed, "speed"), (given.angle, "angle")):
+            if number is not None and number.path in held:
+                speed = "rad/s" if given.point is None else f"{unit_word(case.units.length)}/s"
+                unit = DEGREES if name == "angle" else speed
+                fields.append(_field(number, name, unit, f"{name} of link {given.link}", "positive"))
+        if fields:
+            point = f", point {given.point}" if given.point else ""
+            yield Line(f"link {given.link}{point}", tuple(fields))
+
+
+def _numbers(value: Any) -> Iterable[Number]:
+    if isinstance(value, Number):
+        yield value
+    elif isinstance(value, tuple):
+        for item in value:
+            yield from _numbers(item)
+
+
+# --- handles ---------------------------------------------------------------------------------------------
+
+
+def handles_of(case: Case, steps: Iterable[Step], paths: list[str]) -> dict[str, list[list[Any]]]:
+    """For each point what moves it: kind of number, its place among the inputs, and what it is measured from.
+
+    ``x``, ``y``: a coordinate; ``turn`` (base, sense): an angle; ``span`` (centre): a length to a centre.
+    """
+
+    def number(datum: Datum) -> int:
+        return paths.index(number_of(case, datum).path)
+
+    found: dict[str, list[list[Any]]] = {}
+    for step in steps:
+        for key in step.targets:
+            if isinstance(step, Given):
+                ways = ((axis, f"points.{key}.{axis}") for axis in "xy")
+                found[str(key)] = [[axis, paths.index(path)] for axis, path in ways if path in paths]
+            elif isinstance(step, Polar):
+                found[str(key)] = list(_turning(step, number))
+            elif isinstance(step, Meet):
+                found[str(key)] = [
+                    move for locus in (step.first, step.second) for move in _along(locus, number)
+                ]
+    return {name: moves for name, moves in found.items() if moves and not name.startswith(("@", "("))}
+
+
+def _turning(step: Polar, number: Callable[[Datum], int]) -> Iterable[list[Any]]:
+    """The angle that turns a point about another."""
+    root, corners = step.direction.root, step.direction.turns
+    datum, sense = corners[-1] if corners else (root, 1)
+    if isinstance(datum, Datum) and (corners or datum.kind == RAY):
+        yield ["turn", number(datum), step.base, sense]
+
+
+def _along(locus: Locus, number: Callable[[Datum], int]) -> Iterable[list[Any]]:
+    """The length or coordinate that moves a locus."""
+    if isinstance(locus, Circle) and isinstance(locus.radius, Datum) and locus.radius.kind == LENGTH:
+        yield ["span", number(locus.radius), locus.centre]
+    elif isinstance(locus, Axis):
+        yield ["x" if locus.datum.kind == X else "y", number(locus.datum)]
+
+
+# --- the text of the case --------------------------------------------------------------------------------
+
+
+def text_of(case: Case) -> str | None:
+    """The text of a case's file, where it still says what the case says (but for numbers that were set)."""
+    with suppress(OSError, UnicodeDecodeError, CaseError, ValueError):
+        text = Path(case.path).read_bytes().decode("utf-8-sig")
+        again = load(text) if "\n" in text else None
+        if again is not None and numbers_of(again).keys() == numbers_of(case).keys():
+            return text.replace("\r\n", "\n")
+    return None
+
+
+def text_data(case: Case, paths: list[str]) -> dict[str, Any] | None:
+    """The text with the places of its numbers, by the place of each among the inputs; and of `near`."""
+    text = text_of(case)
+    if text is None:
+        return None
+    near = [f"near.{name}.{axis}" for name in case.near for axis in "xy"]
+    at = places(text, [*paths, *near])
+    written = numbers_of(load(text))
+    return {
+        "text": text,
+        "at": [list(at[path]) if path in at else None for path in paths],
+        "near": {path[5:]: list(at[path]) for path in near if path in at},
+        "set": [n for n, path in enumerate(paths) if numbers_of(case)[path].value != written[path].value],
+    }
+
+
+# --- markup ----------------------------------------------------------------------------------------------
+
+
+def section(case: Case) -> str:
+    """The numbers as a section of the page."""
+    groups = "".join(
+        f'<fieldset><legend>{title}</legend><ul class="lines">{"".join(map(_line, lines))}</ul></fieldset>'
+        for title, lines in lines_of(case)
+    )
+    return (
+        '<section aria-label="Numbers" id="numbers"><h2>The numbers: change any</h2>\n'
+        f"{groups}\n"
+        '<p class="hint" id="live-hint" role="status"></p>\n'
+        '<div class="row"><button type="button" id="reset">As written</button>'
+        '<button type="button" id="copy-case">Copy the case</button>'
+        '<button type="button" id="copy-link">Copy a link</button></div>\n'
+        '<p id="copied-line" hidden><label for="copied">Copied</label>'
+        '<textarea id="copied" rows="6" readonly></textarea></p></section>'
+    )
+
+
+def _line(one: Line) -> str:
+    words = f'<span class="what">{escape(one.words)}</span> ' if one.words else ""
+    return f"<li>{words}{' '.join(map(_input, one.fields))}</li>"
+
+
+def _input(field: Field) -> str:
+    name = escape(field.path)
+    unit = f' <span class="unit">{escape(field.unit)}</span>' if field.unit else ""
+    return (
+        f'<span class="number"><label for="number-{name}">{escape(field.before)}</label> '
+        f'<input type="text" inputmode="decimal" autocomplete="off" spellcheck="false" id="number-{name}" '
+        f'data-path="{name}" data-bound="{field.bound}" size="{max(len(field.text), 4) + 1}" '
+        f'aria-label="{escape(field.said)}" value="{escape(field.text)}">{unit}</span>'
+    )

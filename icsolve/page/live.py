@@ -1,0 +1,342 @@
+"""The scene of a case as JavaScript, every number of figure and loads an input: a page as a laboratory.
+
+The kernels of one scene run once on a record: the construction of the figure a step at a time, with the
+branch of every step as an input, then the loop equations of the joints and the wrenches of the loads. The
+page walks the steps, and eliminates with pivots of its own, so that what is singular there is seen there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
+
+from icsolve.assembly.data import LINE, MEAN, data_of, number_of
+from icsolve.assembly.groups import Group
+from icsolve.assembly.loci import is_round
+from icsolve.assembly.steps import Meet, Step, aims
+from icsolve.assembly.workspace import Key, Workspace, normalised
+from icsolve.case import Belt, Case, Gears, KnownCentre, Motion, Number, Roll, Slide
+from icsolve.derivation import Known
+from icsolve.draw.words import unit_word
+from icsolve.errors import SceneError
+from icsolve.kinematics.loops import ORIGIN, Bases, Tree, loop_rows, span
+from icsolve.kinematics.speeds import joint_order
+from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.record import Record
+from icsolve.numbers.source import JAVASCRIPT, JAVASCRIPT_FUNCTIONS, straight_line
+from icsolve.page.fields import handles_of, text_data
+from icsolve.screws.joints import freedoms
+from icsolve.solve.refusals import rubs
+from icsolve.statics import power
+from icsolve.structure.topology import Bond, Topology
+from icsolve.sweep.numbers import numbers_of
+from icsolve.sweep.program import Setting, setting_of
+
+SECTIONS = ("points", "lengths", "angles", "joints", "loads", "motion", "gravity")
+"""What is an input of the program."""
+
+
+class Live(NamedTuple):
+    """The program of a scene (JavaScript), and what the script of the page must know of it."""
+
+    source: str
+    data: dict[str, Any]
+
+
+class Written(NamedTuple):
+    """A step of the construction on the record: the expressions that it gives, the first of them its points,
+    and what the others are; ``start`` and ``end`` are the nodes that it made."""
+
+    values: tuple[Scalar, ...]
+    told: dict[str, Any]
+    start: int
+    end: int
+
+
+def why_presolved(known: Known) -> str:
+    """Why the numbers of a case can't be changed in its page, as a sentence; '' where they can."""
+    case = known.case
+    if known.answer is None or known.structure:
+        return "Nothing is solved for here that could follow other numbers."
+    if case.space is not None:
+        return "A case in space is solved beforehand, as it is written."
+    for held, what in (
+        (rubs(case), "With friction"),
+        (known.answer.case.profiles is not None, "With cam profiles"),
+        (bool(case.ropes), "With ropes"),
+        (bool(case.screws), "With screws"),
+        (case.dynamic, "With inertia forces"),
+        (known.answer.positions is not None, "Where a position is asked for"),
+    ):
+        if held:
+            return f"{what} every position is solved beforehand: the numbers are those of the case."
+    return ""
+
+
+def live_of(known: Known) -> Live | None:
+    """The scene of a case as a program; None where it has to be solved beforehand."""
+    if why_presolved(known):
+        return None
+    try:
+        return _Writer(known.case).live()
+    except SceneError:
+        return None
+
+
+class _Writer:
+    """A case on a record whose inputs are its numbers."""
+
+    def __init__(self, case: Case) -> None:
+        self.case, self.record = case, Record()
+        self.setting: Setting = setting_of(case, (), ())
+        self.top: Topology = self.setting.top
+        self.names: dict[int, str] = {}
+        self.workspace = Workspace(case, self.setting.figure.frame, self.record)
+        numbers = numbers_of(case)
+        self.paths = [path for path in numbers if path.partition(".")[0] in SECTIONS]
+        for n, path in enumerate(self.paths):
+            node = self.record.input(path, numbers[path].value)
+            self.record.vary[path] = node
+            self.names[node.index] = f"x[{n}]"
+        self.order: list[Key] = []
+        """the points in the order in which they are placed"""
+
+    def live(self) -> Live:
+        """The program, and the data about it."""
+        steps = [self._written(step) for step in self.setting.figure.steps]
+        bases = {k: freedoms(bond, self._points(), self.record) for k, bond in enumerate(self.top.bonds)}
+        top = self.top
+        tree = span(top, sorted(bases), (top.ground,), bases, [group[0] for group in top.afloat])
+        parts = self._scene(bases, tree)
+        return Live(self._source(steps, parts), self._data(steps, tree, bases))
+
+    def _points(self) -> Mapping[str, tuple[Scalar, Scalar]]:
+        return {name: at for name, at in self.workspace.points.items() if isinstance(name, str)}
+
+    # --- the figure -------------------------------------------------------------------------------
+
+    def _written(self, step: Step) -> Written:
+        """A step, its branch an input."""
+        start, ws = len(self.record.nodes), self.workspace
+        told: dict[str, Any] = {}
+        apart = self._apart(step)
+        if isinstance(step, Meet):
+            more = self._meet(step, told)
+        elif isinstance(step, Group):
+            more = self._group(step, told)
+        else:
+            step.place(ws)
+            more = []
+        told["p"] = [self._number(key) for key in step.targets]
+        told["apart"] = len(apart)
+        places = [part for key in step.targets for part in ws.points[key]]
+        return Written((*places, *apart, *more), told, start, len(self.record.nodes))
+
+    def _number(self, key: Key) -> int:
+        if key not in self.order:
+            self.order.append(key)
+        return self.order.index(key)
+
+    def _apart(self, step: Step) -> list[Scalar]:
+        """The squared distances of points whose direction a step goes by."""
+        found = []
+        for a, b in aims(step):
+            (ax, ay), (bx, by) = self.workspace.points[a], self.workspace.points[b]
+            found.append((bx - ax) * (bx - ax) + (by - ay) * (by - ay))
+        return found
+
+    def _meet(self, step: Meet, told: dict[str, Any]) -> list[Scalar]:
+        """Two loci, with what must not be negative; a branch is -1, 1 or 0, where a circle touches."""
+        ws = self.workspace
+        found = step._replace(sign=step.sign or 1).cross(ws)
+        x, y = found.middle
+        loci = [step.first.values(ws), step.second.values(ws)]
+        gaps = list(found.margins)
+        if found.half is None:
+            told["lines"] = True
+            gaps = [found.scale]
+        else:
+            sign = self.record.input(f"sign {len(self.order)}", float(step.sign))
+            told["sign"] = step.sign
+            self.names[sign.index] = f"s[{self._number(step.target)}]"
+            hx, hy = found.half
+            x, y = x + sign * hx, y + sign * hy
+            told["round"] = is_round(step.first)
+        ws.points[step.target] = (x, y)
+        told["gaps"], told["loci"] = len(gaps), [len(locus) for locus in loci]
+        return [*gaps, *loci[0], *loci[1], *step.ahead(ws)]
+
+    def _group(self, step: Group, told: dict[str, Any]) -> list[Scalar]:
+        """One step of Newton's method from where the page stands, and the residuals there."""
+        ws = self.workspace
+        for target, at in zip(step.targets, step.start, strict=True):
+            nodes = [self.record.input(f"{target} {n}", float(part)) for n, part in enumerate(at)]
+            for n, node in enumerate(nodes):
+                self.names[node.index] = f"q[{2 * self._number(target) + n}]"
+            ws.points[target] = (nodes[0], nodes[1])
+            ws.starts = {**ws.starts, target: (nodes[0], nodes[1])}
+        told["start"] = [list(at) for at in step.start]
+        off = [equation.row(ws).value for equation in step.equations]
+        step.place(ws)
+        return off
+
+    # --- motions and loads ------------------------------------------------------------------------
+
+    def _scene(self, bases: Bases, tree: Tree) -> list[Any]:
+        """Loop equations, the path of joints to every body, wrenches, basis twists, directions of guides."""
+        roots = {self.top.ground: ORIGIN}
+        rows = [row[:-1] for row in loop_rows(self.top, tree, bases, roots)]
+        paths = [
+            [[column, *basis] for column, basis in tree.branches[body].path]
+            for body in range(len(self.top.members))
+        ]
+        loads = []
+        for w in power.wrenches(self.case, self.workspace.frame, self._points(), self.record):
+            loads.append([*w.unit, w.gain, w.ratio, self._value(w)])
+        own = [list(basis[0]) for _, basis in sorted(bases.items())]
+        return [rows, paths, loads, own]
+
+    def _value(self, w: power.Wrench) -> Scalar:
+        """The number of a known load; 0 of an unknown one."""
+        number = getattr(w.source, "value", None)
+        return self.record.given(number) if isinstance(number, Number) else power.known_value(w) or 0.0
+
+    # --- the program ------------------------------------------------------------------------------
+
+    def _source(self, steps: Sequence[Written], parts: list[Any]) -> str:
+        """The program: a function a step, and one for the rest."""
+        flat = [v for step in steps for v in step.values] + list(_leaves(parts))
+        wanted = [self.record.lifted(v).index for v in flat]
+        text = straight_line(self.record, wanted, self.names, JAVASCRIPT)
+        given = iter(text.wanted)
+        functions = []
+        for step in steps:
+            lines = [s for s, k in zip(text.lines, text.at, strict=True) if step.start <= k < step.end]
+            values = ",".join(next(given) for _ in step.values)
+            functions.append(f"()=>{{{''.join(lines)}return[{values}]}}")
+        last = steps[-1].end if steps else 0
+        lines = [s for s, k in zip(text.lines, text.at, strict=True) if k >= last]
+        body = f"{''.join(lines)}return{_shaped(parts, given)}"
+        variables = f"let {','.join(text.names)};\n" if text.names else ""
+        steps_text = ",\n".join(functions)
+        return (
+            f'"use strict";\nconst program = (x, s, q) => {{\n{JAVASCRIPT_FUNCTIONS}{variables}'
+            f"return {{ steps: [{steps_text}],\nscene: () => {{{body}}} }};\n}};\n"
+        )
+
+    def _data(self, steps: Sequence[Written], tree: Tree, bases: Bases) -> dict[str, Any]:
+        case, top, frame = self.case, self.top, self.setting.figure.frame
+        numbers = numbers_of(case)
+        ground = [key for key in self.order if isinstance(key, str)]
+        place = {key: n for n, key in enumerate(self.order)}
+        return {
+            "points": {name: place[name] for name in ground},
+            "steps": [step.told for step in steps],
+            "near": {
+                place[name]: list(normalised(frame, at)) for name, at in case.near.items() if name in place
+            },
+            "frame": list(frame),
+            "unit": unit_word(case.units.length),
+            "body": top.body_of,
+            "ground": top.ground,
+            "bodies": len(top.members),
+            "columns": tree.columns,
+            "freedoms": top.freedoms_by_count,
+            "checks": list(self._checks(place)),
+            "paths": self.paths,
+            "numbers": [numbers[path].value for path in self.paths],
+            "halves": [numbers[path].half for path in self.paths],
+            "handles": handles_of(case, self.setting.figure.steps, self.paths),
+            "text": text_data(case, self.paths),
+            "links": {link: [p for p in names if p in place] for link, names in case.carries.items()},
+            "aims": [
+                [place[p] for p in ends] for ends in self._ends() if ends[0] in place and ends[1] in place
+            ],
+            "meshes": [mesh for bond in top.bonds for mesh in self._mesh(bond, place)],
+            "motion": [self._motion(given, place) for given in case.motion],
+            "order": joint_order(case),
+            "inexact": any(isinstance(joint, KnownCentre | Roll) for joint in case.joints),
+            "given": any(isinstance(joint, KnownCentre) for joint in case.joints),
+            "loads": [self._load(w) for w in self._wrenches()],
+            "frameLink": case.ground,
+            "bonds": [
+                [*bond.links, len(bases[k]) == 1 or isinstance(bond.joint, Gears | Belt)]
+                for k, bond in enumerate(top.bonds)
+            ],
+            "guides": {
+                link: k
+                for k, bond in enumerate(top.bonds)
+                if isinstance(bond.joint, Slide)
+                for link in bond.links
+            },
+        }
+
+    def _checks(self, place: Mapping[Key, int]) -> Iterable[list[Any]]:
+        """All data of the figure: kind, points, and the number's place among the inputs."""
+        for datum in data_of(self.case):
+            if all(p in place for p in datum.points):
+                path = None if datum.kind in (MEAN, LINE) else number_of(self.case, datum).path
+                number = None if path is None else self.paths.index(path)
+                yield [datum.kind, [place[p] for p in datum.points], number]
+
+    def _ends(self) -> Iterable[tuple[str, str]]:
+        """Pairs of points that give a direction to a load, a guide, a wheel."""
+        guides = [getattr(bond.joint, "guide", None) for bond in self.top.bonds]
+        found = [power.line_of(load) for load in self.case.loads]
+        found += [guide.ends for guide in guides if guide is not None]
+        found += [bond.pivots for bond in self.top.bonds if bond.pivots[0]]
+        return (ends for ends in found if ends is not None)
+
+    def _mesh(self, bond: Bond, place: Mapping[Key, int]) -> Iterable[list[Any]]:
+        """Pivots, teeth, and module or diametral pitch of gears: whether they fit has to be seen."""
+        joint = bond.joint
+        if isinstance(joint, Gears) and set(bond.pivots) <= place.keys():
+            size = joint.module or joint.diametral_pitch
+            if size is not None:
+                numbers = [self.paths.index(number.path) for number in (*joint.teeth, size)]
+                yield [*(place[p] for p in bond.pivots), *numbers, joint.module is not None]
+
+    def _motion(self, given: Motion, place: Mapping[Key, int]) -> dict[str, Any]:
+        """What the case says of a speed; numbers by their place among the inputs."""
+        numbers = {"speed": given.speed, "angle": given.angle}
+        found = {key: self.paths.index(number.path) for key, number in numbers.items() if number is not None}
+        point = {} if given.point is None else {"point": place[given.point]}
+        return {"link": given.link, "cw": given.turns == "cw", **point, **found}
+
+    def _wrenches(self) -> tuple[power.Wrench, ...]:
+        return power.wrenches(self.case, self.workspace.frame, self._points(), self.record)
+
+    def _load(self, w: power.Wrench) -> dict[str, Any]:
+        load = w.load
+        heading = getattr(load, "heading", None)
+        return {
+            "name": load.name,
+            "kind": type(load).__name__,
+            "on": load.link,
+            "against": w.against,
+            "held": getattr(load, "against", None) is not None,
+            "root": w.root,
+            "measure": w.measure,
+            "unknown": power.is_unknown(load),
+            "cw": getattr(load, "turns", None) == "cw",
+            "toward": getattr(heading, "point", None),
+            "away": bool(getattr(heading, "away", False)),
+            "at": getattr(load, "at", None),
+            "to": getattr(load, "to", None),
+        }
+
+
+def _leaves(parts: Any) -> Iterable[Scalar]:
+    """The numbers of nested lists."""
+    if isinstance(parts, list | tuple):
+        for part in parts:
+            yield from _leaves(part)
+    else:
+        yield parts
+
+
+def _shaped(parts: Any, given: Any) -> str:
+    """Nested lists of expressions as text."""
+    if isinstance(parts, list | tuple):
+        return f"[{','.join(_shaped(part, given) for part in parts)}]"
+    return str(next(given))

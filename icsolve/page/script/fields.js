@@ -1,0 +1,238 @@
+/* Fields of the numbers, handles of the points, and the case written with the numbers as they are. */
+const fieldOf = (n) => byId(`number-${live.paths[n]}`);
+const liveHint = byId("live-hint");
+const halfOf = (text) => {
+  const [digits, power] = text.toLowerCase().split("e");
+  return 0.5 * 10 ** (Number(power || 0) - (digits.split(".")[1] || "").length);
+};
+/* The number that a text is; null where it is none, or one that cannot be there. */
+function numberIn(text, bound) {
+  const plain = text.trim().replace("−", "-").replace(/^(-?\d*),(\d+)$/, "$1.$2");
+  const value = plain === "" ? NaN : Number(plain);
+  if (!Number.isFinite(value)) return null;
+  if ((bound === "positive" && value <= 0) || (bound === "not negative" && value < 0)) return null;
+  return { value, half: halfOf(plain) };
+}
+/* Back to the positions that were solved beforehand. */
+function leave() {
+  if (!live || !scene.changed) return;
+  scene.changed = false;
+  writtenNumbers();
+}
+function writtenNumbers() {
+  live.numbers.forEach((value, n) => enter(n, value, live.firstHalves[n], live.texts[n]));
+  liveHint.textContent = "";
+}
+function enter(n, value, half, text) {
+  numbers[n] = value;
+  live.halves[n] = half;
+  const field = fieldOf(n);
+  if (!field) return;
+  field.value = text;
+  field.removeAttribute("aria-invalid");
+}
+function changed(dragged) {
+  if (playing) stop();
+  scene.changed = true;
+  resolve(dragged);
+  row = LIVE;
+  if (hint) hint.textContent = "";
+  const words = data.statuses[scene.status] || "";
+  liveHint.textContent = scene.status === "ok" ? "" : `${scene.status}: ${scene.words ? scene.words + "." : words}`;
+  if (slider) slider.value = "0";
+  render();
+  placeHandles();
+}
+const tidy = (value, unit) => Number((Math.round(value / unit) * unit).toFixed(Math.max(0, -Math.floor(Math.log10(unit)))));
+
+/* --- handles ------------------------------------------------------------------------------------------ */
+
+const handles = [];
+function placeHandles() {
+  for (const h of handles) {
+    const p = points[h.name];
+    const x = p.x[row] === undefined ? p.x[zero] : p.x[row];
+    const y = p.y[row] === undefined ? p.y[zero] : p.y[row];
+    set(h.e, "transform", `translate(${f(x)} ${f(y)})`);
+  }
+}
+/* A point pulled to a place (case units): the numbers that place it follow. */
+function pull(h, to) {
+  const base = (k) => fromFrame(laboratory.points[live.points[k]]);
+  const step = 10 ** Math.floor(Math.log10(1 / view[0]));
+  for (const [kind, n, from, sense] of h.moves) {
+    let [value, unit] = [0, step];
+    if (kind === "x" || kind === "y") value = to[kind === "x" ? 0 : 1];
+    else if (kind === "span") value = apart(base(from), to);
+    else {
+      const centre = base(from);
+      const now = fromFrame(laboratory.points[live.points[h.name]]);
+      const arm = (p) => [p[0] - centre[0], p[1] - centre[1]];
+      [value, unit] = [numbers[n] + sense * turned(arm(now), arm(to)), 0.1];
+    }
+    const shown = tidy(value, unit);
+    if (Number.isFinite(shown) && !(kind === "span" && shown <= 0)) enter(n, shown, unit / 2, String(shown));
+  }
+  changed(true);
+}
+function grip(name, moves) {
+  const e = make("circle", { id: `handle-${name}`, class: "handle", r: 11, tabindex: 0, role: "button" }, byId("handles"));
+  set(e, "aria-label", `Point ${name}: drag it, or move it with the arrow keys`);
+  make("title", {}, e).textContent = `drag ${name}`;
+  const h = { name, moves, e };
+  const place = (event) => {
+    const p = new DOMPoint(event.clientX, event.clientY).matrixTransform(figure.getScreenCTM().inverse());
+    return inCase([p.x, p.y]);
+  };
+  let held = null;
+  const follow = (event) => {
+    if (!held) return;
+    const at = place(event);
+    if (apart(at, held.last) === 0) return;
+    held.last = at;
+    pull(h, [at[0] - held.off[0], at[1] - held.off[1]]);
+  };
+  e.addEventListener("pointerdown", (event) => {
+    if (event.button) return;
+    const at = place(event);
+    const own = fromFrame(laboratory.points[live.points[name]]);
+    held = { last: at, off: [at[0] - own[0], at[1] - own[1]] };
+    e.setPointerCapture(event.pointerId);
+    event.preventDefault();
+    e.focus({ preventScroll: true });
+  });
+  e.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false }); // or the page scrolls
+  e.addEventListener("pointermove", follow);
+  e.addEventListener("pointerup", follow);
+  for (const end of ["pointerup", "pointercancel", "lostpointercapture"]) e.addEventListener(end, () => { held = null; });
+  const WAYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+  e.addEventListener("keydown", (event) => {
+    const way = WAYS[event.key];
+    if (!way) return;
+    event.preventDefault();
+    const by = (event.shiftKey ? 20 : 4) / view[0];
+    const [x, y] = fromFrame(laboratory.points[live.points[name]]);
+    pull(h, [x + way[0] * by, y + way[1] * by]);
+  });
+  return h;
+}
+
+/* --- the case with the numbers as they are ------------------------------------------------------------ */
+
+const differing = () => numbers.map((value, n) => n).filter((n) => numbers[n] !== live.numbers[n] || live.text.set.includes(n));
+const textOf = (n) => (fieldOf(n) && numberIn(fieldOf(n).value) ? fieldOf(n).value.trim().replace("−", "-").replace(",", ".") : String(numbers[n]));
+/* What `near` has to be so that the numbers alone lead here: nothing, where the way as typed is this one. */
+function nearHere() {
+  const here = laboratory.points.map((p) => [...p]);
+  let same = false;
+  try {
+    const fresh = figureOf(program, live, numbers);
+    fresh.typed();
+    same = fresh.points.every((p, k) => apart(p, here[k]) < 1e-9);
+  } catch (refusal) {
+    if (!(refusal instanceof Refusal)) throw refusal;
+    same = scene.status !== "ok";
+  }
+  return same ? {} : Object.fromEntries(Object.keys(live.near).map((k) => [k, fromFrame(here[k])]));
+}
+function caseText() {
+  const { text, at, near } = live.text;
+  const swaps = differing().filter((n) => at[n]).map((n) => [...at[n], textOf(n)]);
+  const moved = nearHere();
+  for (const [name, k] of Object.entries(live.points))
+    ["x", "y"].forEach((axis, m) => { if (moved[k] && near[`${name}.${axis}`]) swaps.push([...near[`${name}.${axis}`], number(moved[k][m], 6).replace("−", "-")]); });
+  return swaps.sort((a, b) => b[0] - a[0]).reduce((all, [from, to, by]) => all.slice(0, from) + by + all.slice(to), text);
+}
+function linkText() {
+  const parts = differing().map((n) => `${encodeURIComponent(live.paths[n])}=${encodeURIComponent(textOf(n))}`);
+  const moved = nearHere();
+  for (const [name, k] of Object.entries(live.points))
+    if (moved[k]) ["x", "y"].forEach((axis, m) => parts.push(`near.${name}.${axis}=${moved[k][m]}`));
+  return parts.join("&");
+}
+function copied(text) {
+  byId("copied-line").hidden = false;
+  byId("copied").value = text;
+  byId("copied").select();
+  if (navigator.clipboard) navigator.clipboard.writeText(text).catch(() => {});
+}
+/* Numbers from the address. */
+function fromAddress() {
+  const asked = new URLSearchParams(location.hash.slice(1).replaceAll("+", "%2B"));
+  let some = false;
+  for (const [path, text] of asked) {
+    const n = live.paths.indexOf(path);
+    const found = numberIn(text, n < 0 || !fieldOf(n) ? "" : fieldOf(n).dataset.bound);
+    const near = /^near\.(.+)\.([xy])$/.exec(path);
+    if (found && n >= 0) enter(n, found.value, found.half, text);
+    else if (found && near && live.near[live.points[near[1]]]) {
+      const m = near[2] === "x" ? 0 : 1;
+      laboratory.near.get(live.points[near[1]])[m] = (found.value - live.frame[m]) * live.frame[2];
+    } else continue;
+    some = true;
+  }
+  if (some) changed(false);
+}
+if (live) {
+  live.firstHalves = [...live.halves];
+  live.texts = live.paths.map((_, n) => (fieldOf(n) ? fieldOf(n).value : ""));
+  live.text = live.text || { set: [], at: [], near: {} };
+  const fine = make0("input", { type: "range", class: "fine", id: "fine" });
+  live.paths.forEach((path, n) => {
+    const field = fieldOf(n);
+    if (!field) return;
+    field.addEventListener("input", () => {
+      const found = numberIn(field.value, field.dataset.bound);
+      if (!found) {
+        set(field, "aria-invalid", "true");
+        liveHint.textContent = field.dataset.bound ? `${path}: a number that is ${field.dataset.bound}.` : `${path}: a number.`;
+        return;
+      }
+      field.removeAttribute("aria-invalid");
+      numbers[n] = found.value;
+      live.halves[n] = found.half;
+      changed(false);
+    });
+    field.addEventListener("focus", () => {
+      const angle = field.nextElementSibling && field.nextElementSibling.textContent === "°";
+      const reach = angle ? 90 : Math.abs(live.numbers[n]) || (path.startsWith("points.") ? 1 / live.frame[2] / 4 : 1);
+      const unit = angle ? 0.5 : 10 ** (Math.floor(Math.log10(reach)) - 2);
+      const low = field.dataset.bound && !angle ? unit : -Infinity;
+      set(fine, "step", unit);
+      set(fine, "min", Math.max(tidy(numbers[n] - reach, unit), low));
+      set(fine, "max", tidy(numbers[n] + reach, unit));
+      fine.value = String(numbers[n]);
+      set(fine, "aria-label", field.getAttribute("aria-label"));
+      fine.dataset.n = n;
+      field.closest("li").appendChild(fine);
+    });
+  });
+  fine.addEventListener("input", () => {
+    const n = Number(fine.dataset.n);
+    enter(n, Number(fine.value), halfOf(fine.value), fine.value);
+    changed(false);
+  });
+  byId("reset").addEventListener("click", () => {
+    writtenNumbers();
+    scene.changed = false;
+    if (motion) moveTo(zero);
+    else { resolve(false); row = zero; render(); }
+    placeHandles();
+  });
+  byId("copy-case").hidden = !live.text.text;
+  byId("copy-case").addEventListener("click", () => copied(caseText()));
+  byId("copy-link").addEventListener("click", () => {
+    location.hash = linkText();
+    copied(location.href);
+  });
+  make("g", { id: "handles" }, figure);
+  for (const [name, moves] of Object.entries(live.handles)) if (own(live.points, name) !== undefined) handles.push(grip(name, moves));
+  placeHandles();
+  if (location.hash.length > 1) fromAddress();
+  window.addEventListener("hashchange", fromAddress);
+}
+function make0(name, attributes) {
+  const e = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) set(e, key, value);
+  return e;
+}

@@ -1,0 +1,563 @@
+/* A scene for any numbers: the figure by the construction of the case, its way of assembling by `near` or by
+   continuity; motions from the loop equations; the unknown loads from the sums of power. As `icsolve solve`. */
+const UNIT = 2 ** -53;
+const NOISE = 2e-14;
+const EVEN = 0.99;
+const SIDEWAYS = 0.05;
+const TOO_CLOSE = 1e-12;
+const SAME = 1e-11;
+class Refusal {
+  constructor(status, words = "", amount = Infinity) { Object.assign(this, { status, words, amount }); }
+}
+const spread = (some) => Math.hypot(...some.flat());
+const apart = (p, q) => Math.hypot(p[0] - q[0], p[1] - q[1]);
+const largest = (some) => some.reduce((most, v) => Math.max(most, Math.abs(v)), 0);
+const powerOfTwo = (v) => (v > 0 && Number.isFinite(v) ? 2 ** (Math.floor(Math.log2(v)) + 1) : 1);
+
+/* All x with rows x = 0, by elimination with complete pivoting. */
+function nullSpace(rows, columns, zero = 64 * UNIT, unit = 0) {
+  const work = rows.map((row) => [...row]);
+  const order = [...Array(columns).keys()];
+  const limit = zero * Math.max(work.length, 1);
+  const pivots = [];
+  let rank = 0;
+  let dropped = 0;
+  while (rank < Math.min(work.length, columns)) {
+    let best = -1;
+    let at = [rank, rank];
+    for (let r = rank; r < work.length; r++)
+      for (let c = rank; c < columns; c++)
+        if (Math.abs(work[r][c]) > best) [best, at] = [Math.abs(work[r][c]), [r, c]];
+    const fraction = best > 0 ? best / (pivots.length ? pivots[0] : Math.max(best, unit)) : 0;
+    if (!(fraction > limit)) {
+      dropped = fraction;
+      break;
+    }
+    pivots.push(best);
+    [work[rank], work[at[0]]] = [work[at[0]], work[rank]];
+    [order[rank], order[at[1]]] = [order[at[1]], order[rank]];
+    for (const row of work) [row[rank], row[at[1]]] = [row[at[1]], row[rank]];
+    const top = work[rank];
+    for (const row of work.slice(rank + 1)) {
+      if (row[rank] === 0) continue;
+      const ratio = row[rank] / top[rank];
+      for (let k = rank + 1; k < columns; k++) row[k] -= ratio * top[k];
+      row[rank] = 0;
+    }
+    rank += 1;
+  }
+  const basis = [];
+  for (let free = rank; free < columns; free++) {
+    const x = Array(columns).fill(0);
+    x[free] = 1;
+    for (let r = rank - 1; r >= 0; r--) {
+      let total = work[r][free];
+      for (let k = r + 1; k < rank; k++) total += work[r][k] * x[k];
+      x[r] = -total / work[r][r];
+    }
+    const vector = Array(columns).fill(0);
+    order.forEach((column, place) => (vector[column] = x[place]));
+    basis.push(vector);
+  }
+  const first = pivots.length ? pivots[0] : 1;
+  return { basis, rank, pivots: pivots.map((p) => p / first), dropped };
+}
+
+/* --- the figure -------------------------------------------------------------------------------------- */
+
+/* Whether the first of two placements of some points is clearly the nearer to `near`. */
+function nearer(one, two, near) {
+  const away = (p, q) => spread(p.map((at, n) => [at[0] - q[n][0], at[1] - q[n][1]]));
+  const [first, second, half] = [away(one, near), away(two, near), away(one, two) / 2];
+  if (half === 0 || first < EVEN * second) return half > 0;
+  return ((second - first) * (second + first)) / (4 * half) > SIDEWAYS * Math.sqrt((first * first + second * second) / 2);
+}
+const line = (path) => {
+  const out = [];
+  for (let at = path; at; at = at.before) out.unshift(at);
+  return out;
+};
+
+function figureOf(program, told, x) {
+  const points = [];
+  const s = [];
+  const q = [];
+  const { steps, scene } = program(x, s, q);
+  const near = new Map(Object.entries(told.near).map(([k, at]) => [Number(k), at]));
+  for (const step of told.steps) {
+    if (step.sign !== undefined) s[step.p[0]] = step.sign;
+    (step.start || []).forEach((at, n) => q.splice(2 * step.p[n], 2, ...at));
+  }
+  const size = () => {
+    const own = Object.values(told.points).map((k) => points[k]).filter(Boolean);
+    const span = (n) => Math.max(...own.map((p) => p[n])) - Math.min(...own.map((p) => p[n]));
+    return Math.max(span(0), span(1));
+  };
+
+  /* A step with the branch that `s` has: its places, and what else it gives. */
+  function run(n) {
+    const step = told.steps[n];
+    const values = steps[n]();
+    step.p.forEach((k, m) => (points[k] = [values[2 * m], values[2 * m + 1]]));
+    let at = 2 * step.p.length;
+    const take = (count) => values.slice(at, (at += count));
+    const found = { apart: take(step.apart), gaps: take(step.gaps || 0) };
+    found.loci = (step.loci || []).map(take);
+    found.rest = values.slice(at);
+    return found;
+  }
+  const sound = (n) => told.steps[n].p.every((k) => points[k].every(Number.isFinite));
+
+  /* Newton's method from where `q` stands; whether it arrives. */
+  function iterate(n) {
+    const step = told.steps[n];
+    const start = [...q];
+    for (let round = 0; round < 60; round++) {
+      const { rest } = run(n);
+      if (!sound(n)) break;
+      let move = step.p.map((k) => [points[k][0] - q[2 * k], points[k][1] - q[2 * k + 1]]);
+      const longest = largest(move.flat());
+      const share = Math.min(1, 0.4 / (longest || 1));
+      step.p.forEach((k, m) => {
+        q[2 * k] += share * move[m][0];
+        q[2 * k + 1] += share * move[m][1];
+      });
+      if (longest < 4e-15 || (longest < 1e-12 && round > 40)) return largest(rest) < 1e-9;
+    }
+    q.splice(0, q.length, ...start);
+    return false;
+  }
+
+  /* What a step can be here: branches to try, or why there is none. */
+  function options(n) {
+    const step = told.steps[n];
+    if (step.start) return newton(n);
+    if (step.sign !== undefined) s[step.p[0]] = 1;
+    const { apart: pairs, gaps, loci } = run(n);
+    const name = plain(step.p[0]);
+    if (pairs.some((d) => !(d > TOO_CLOSE * TOO_CLOSE)))
+      return new Refusal("cannot-assemble", `${name} has no place: two points that give its direction coincide`);
+    if (step.lines) {
+      if (Math.abs(gaps[0]) > 1e-14) return [null];
+      const [p, r] = loci;
+      const off = Math.abs(p[2] * (r[1] - p[1]) - p[3] * (r[0] - p[0]));
+      if (off <= 1e-12 * (1 + Math.hypot(p[0], p[1]) + Math.hypot(r[0], r[1])))
+        return new Refusal("underdetermined", `${name} may lie anywhere on a line`, 0);
+      return new Refusal("cannot-assemble", `two lines that are to meet at ${name} are parallel`, off);
+    }
+    if (step.sign === undefined) return sound(n) ? [null] : new Refusal("cannot-assemble", `${name} has no place`);
+    const slack = 16 * UNIT * Math.max(1, largest(gaps));
+    if (step.round) {
+      const [far, over, under] = gaps;
+      const d = (over + under) / 2;
+      if (d <= slack) {
+        const other = Math.abs(under - over) / 2;
+        if (other <= 1e-12 * Math.abs(far + d)) return new Refusal("underdetermined", `${name} may lie anywhere on a circle`, 0);
+        return new Refusal("cannot-assemble", `${name}: two circles about one centre do not meet`, other);
+      }
+    }
+    const least = Math.min(...gaps);
+    if (least < -slack) {
+      const words = `the links do not meet at ${name}: they miss each other by ${measure(-least)}`;
+      points[step.p[0]] = between(step, loci, gaps);
+      return Object.assign(new Refusal("cannot-assemble", words, -least), { placed: true });
+    }
+    if (!(least > slack)) return [0];
+    const wish = near.get(step.p[0]);
+    if (!wish) return [1, -1];
+    const one = points[step.p[0]];
+    s[step.p[0]] = -1;
+    run(n);
+    return apart(one, wish) <= apart(points[step.p[0]], wish) ? [1, -1] : [-1, 1];
+  }
+  const plain = (k) => (Object.keys(told.points).find((name) => told.points[name] === k) || "a point").replace(/^@/, "");
+  const measure = (length) => `${number(length / told.frame[2], 6)} ${told.unit}`;
+
+  /* Where two loci that do not meet come closest. */
+  function between(step, [p, r], gaps) {
+    if (!step.round) {
+      const along = (r[0] - p[0]) * p[2] + (r[1] - p[1]) * p[3];
+      const [px, py] = [p[0] + along * p[2], p[1] + along * p[3]];
+      const share = (1 + r[2] / (Math.hypot(px - r[0], py - r[1]) || 1)) / 2;
+      return [r[0] + (px - r[0]) * share, r[1] + (py - r[1]) * share];
+    }
+    const [a, b, d] = [p[2], r[2], Math.hypot(r[0] - p[0], r[1] - p[1])];
+    const along = gaps[0] < 0 ? (a + d - b) / 2 : gaps[1] < 0 ? (a + d + b) / 2 : -(a + b - d) / 2;
+    return [p[0] + (along * (r[0] - p[0])) / (d || 1), p[1] + (along * (r[1] - p[1])) / (d || 1)];
+  }
+  function newton(n) {
+    const step = told.steps[n];
+    const last = [...q];
+    const written = (k, m) => step.start[m];
+    const found = [];
+    const starts = [(k) => near.get(k), written, (k) => last.slice(2 * k, 2 * k + 2)];
+    for (const start of starts) {
+      step.p.forEach((k, m) => q.splice(2 * k, 2, ...(start(k, m) || written(k, m))));
+      if (!iterate(n)) continue;
+      const places = step.p.map((k) => [...points[k]]);
+      if (!found.some((one) => one.every((at, m) => apart(at, places[m]) < 1e-9))) found.push(places);
+    }
+    q.splice(0, q.length, ...last);
+    const off = (one) => spread(one.map((at, m) => (near.has(step.p[m]) ? [apart(at, near.get(step.p[m]))] : [0])));
+    found.sort((a, b) => off(a) - off(b));
+    return found.length ? found : new Refusal("cannot-assemble", `the links do not meet at ${plain(step.p[0])}`);
+  }
+  function take(n, option) {
+    const step = told.steps[n];
+    if (step.start) step.p.forEach((k, m) => q.splice(2 * k, 2, ...option[m]));
+    else if (step.sign !== undefined) s[step.p[0]] = option;
+    return run(n);
+  }
+
+  /* Whether the points meet the data that made none of them; else the refusal. */
+  function contradicted() {
+    const whole = size();
+    for (const [kind, names, place] of told.checks) {
+      const [off, ahead] = residual(kind, names, place);
+      const words = `more data than the figure needs, and these contradict each other at ${plain(names[0])}`;
+      if (!ahead) return new Refusal("inconsistent", words);
+      if (Math.abs(off) <= 1e-10 * whole) continue;
+      const most = Math.min(0.002 * whole, allowance(kind, names, place, off));
+      if (!(Math.abs(off) <= most)) return new Refusal("inconsistent", `${words}: off by ${measure(Math.abs(off))}`, Math.abs(off));
+    }
+    return null;
+  }
+  function residual(kind, names, place) {
+    const [p, o, v, w] = names.map((k) => points[k]);
+    const value = place === null ? 0 : x[place];
+    const turned = (d) => [Math.cos((d * Math.PI) / 180), Math.sin((d * Math.PI) / 180)];
+    if (kind === "length") return [apart(p, o) - value * told.frame[2], true];
+    if (kind === "x" || kind === "y") {
+      const n = kind === "x" ? 0 : 1;
+      return [p[n] - (value - told.frame[n]) * told.frame[2], true];
+    }
+    if (kind === "mean") {
+      const of = names.slice(1).map((k) => points[k]);
+      const miss = [0, 1].map((n) => p[n] - of.reduce((sum, at) => sum + at[n], 0) / of.length);
+      return [Math.abs(miss[0]) > Math.abs(miss[1]) ? miss[0] : miss[1], true];
+    }
+    if (kind === "line") {
+      const d = apart(v, w);
+      return d <= TOO_CLOSE ? [d, false] : [((w[0] - v[0]) * (p[1] - o[1]) - (w[1] - v[1]) * (p[0] - o[0])) / d, true];
+    }
+    const [c, t] = turned(value);
+    if (kind === "guide") return [c * (p[1] - o[1]) - t * (p[0] - o[0]), true];
+    if (kind === "ray") {
+      const [dx, dy] = [o[0] - p[0], o[1] - p[1]];
+      return [c * dy - t * dx, c * dx + t * dy > TOO_CLOSE || Math.hypot(dx, dy) <= TOO_CLOSE];
+    }
+    const [one, two] = [[p[0] - o[0], p[1] - o[1]], [v[0] - o[0], v[1] - o[1]]];
+    const arms = [Math.hypot(...one), Math.hypot(...two)];
+    if (Math.min(...arms) <= TOO_CLOSE) return [Math.max(...arms), false];
+    const [tx, ty] = [c * one[0] - t * one[1], t * one[0] + c * one[1]];
+    return [(tx * two[1] - ty * two[0]) / Math.min(...arms), tx * two[0] + ty * two[1] > 0];
+  }
+  /* What half a unit of the last decimal of each number does to a residual, added up. */
+  function allowance(kind, names, place, off) {
+    let total = 0;
+    told.halves.forEach((half, n) => {
+      if (!half) return;
+      const written = x[n];
+      x[n] += half;
+      told.steps.forEach((_, k) => run(k));
+      total += Math.abs(residual(kind, names, place)[0] - off) || 0;
+      x[n] = written;
+    });
+    told.steps.forEach((_, k) => run(k));
+    return total;
+  }
+
+  /* Every way of assembling that is not clearly farther from `near` than another. */
+  function walk() {
+    const modes = [];
+    const ends = [];
+    let best = Infinity;
+    let budget = 20000;
+    const longer = (before, n, off) => {
+      const places = new Map(told.steps[n].p.map((k) => [k, points[k]]));
+      let sum = off;
+      for (const [k, at] of places) if (near.has(k)) sum += apart(at, near.get(k)) ** 2;
+      return { before, places, off: sum };
+    };
+    const beyond = (path) => best < EVEN * EVEN * path.off;
+    const advance = (n, path) => {
+      if (--budget < 0) return;
+      if (n === told.steps.length) {
+        const miss = contradicted();
+        if (miss) ends.push({ depth: n, miss, path });
+        else {
+          modes.push({ path, points: points.map((p) => [...p]), s: [...s], q: [...q] });
+          best = Math.min(best, path.off);
+        }
+        return;
+      }
+      const off = path ? path.off : 0;
+      const some = options(n);
+      if (some instanceof Refusal) {
+        ends.push({ depth: n, miss: some, path: some.placed ? longer(path, n, off) : path });
+        return;
+      }
+      const tried = some.map((option) => {
+        const { rest } = take(n, option);
+        const own = longer(path, n, off);
+        const behind = told.steps[n].start ? [] : rest.filter((v) => !(v > TOO_CLOSE));
+        if (!behind.length) return { option, own };
+        const words = `the links meet at ${plain(told.steps[n].p[0])} only on the wrong side`;
+        ends.push({ depth: n, miss: new Refusal("cannot-assemble", words, Math.abs(behind[0])), path: own });
+        return null;
+      });
+      const kept = tried.filter((one) => one && !beyond(one.own)).sort((a, b) => a.own.off - b.own.off);
+      for (const { option, own } of kept) {
+        if (beyond(own)) continue;
+        take(n, option);
+        advance(n + 1, own);
+      }
+    };
+    advance(0, null);
+    return { modes: modes.filter((mode) => !beyond(mode.path)), ends, spent: budget < 0 || modes.length > 256 };
+  }
+  /* The places with a `near` of two ways, from where they part. */
+  function parted(one, two) {
+    const [ours, theirs] = [line(one), line(two)];
+    let at = 0;
+    while (at < Math.min(ours.length, theirs.length) && ours[at] === theirs[at]) at += 1;
+    const places = (paths) => new Map(paths.flatMap((path) => [...path.places]).filter(([k]) => near.has(k)));
+    return [places(ours.slice(at)), places(theirs.slice(at))];
+  }
+  function clearly(one, other) {
+    const [ours, theirs] = parted(one.path, other);
+    const held = [...ours.keys()].filter((k) => theirs.has(k));
+    return nearer(held.map((k) => ours.get(k)), held.map((k) => theirs.get(k)), held.map((k) => near.get(k)));
+  }
+  function chosen({ modes, ends, spent }) {
+    if (spent) throw new Refusal("ambiguous", "the figure has too many open branches to try them all");
+    if (!modes.length) {
+      const first = ends.filter((end) => !clearly(ends[0], end.path));
+      const worst = (first.length ? first : ends).sort((a, b) => b.depth - a.depth || a.miss.amount - b.miss.amount)[0];
+      throw worst.miss;
+    }
+    modes.sort((a, b) => a.path.off - b.path.off);
+    for (const end of ends)
+      if (clearly(end, modes[0].path))
+        throw new Refusal(end.miss.status, `what lies at near: does not assemble: ${end.miss.words}`, end.miss.amount);
+    const names = Object.values(told.points);
+    const differing = (a, b) => names.filter((k) => apart(a.points[k], b.points[k]) > SAME * (1 + Math.hypot(...a.points[k])));
+    const best = modes[0];
+    const rivals = modes.filter((mode) => {
+      const other = differing(best, mode);
+      const held = other.filter((k) => near.has(k));
+      return other.length && !nearer(held.map((k) => best.points[k]), held.map((k) => mode.points[k]), held.map((k) => near.get(k)));
+    });
+    if (rivals.length) {
+      const k = differing(best, rivals[0])[0];
+      throw new Refusal("ambiguous", `the figure assembles in several ways, of which nothing picks one, at ${plain(k)}`);
+    }
+    return best;
+  }
+  return {
+    points,
+    scene,
+    /* As the case with these numbers is solved. */
+    typed() {
+      const mode = chosen(walk());
+      s.splice(0, s.length, ...mode.s);
+      q.splice(0, q.length, ...mode.q);
+      told.steps.forEach((_, n) => run(n));
+    },
+    /* From where it is: the same branches, Newton's method from the last places. */
+    followed() {
+      told.steps.forEach((step, n) => {
+        if (step.start) {
+          if (!iterate(n)) throw new Refusal("cannot-assemble", `the links do not meet at ${plain(step.p[0])}`);
+          return;
+        }
+        const branch = s[step.p[0]];
+        const some = options(n);
+        if (some instanceof Refusal) {
+          if (step.sign !== undefined) s[step.p[0]] = branch;
+          throw some;
+        }
+        const touching = step.sign !== undefined && some.length === 1;
+        const { rest } = take(n, touching ? 0 : branch);
+        if (step.sign !== undefined) s[step.p[0]] = branch;
+        if (rest.some((v) => !(v > TOO_CLOSE)))
+          throw new Refusal("cannot-assemble", `the links meet at ${plain(step.p[0])} only on the wrong side`);
+      });
+      const miss = contradicted();
+      if (miss) throw miss;
+    },
+  };
+}
+
+/* --- motions and loads -------------------------------------------------------------------------------- */
+
+const pairing = (w, t) => w[0] * t[0] + w[1] * t[1] + w[2] * t[2];
+const less = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
+
+/* For each body a twist per freedom. */
+function motionsOf(told, [rows, paths]) {
+  let found = nullSpace(rows, told.columns, 64 * UNIT, 1);
+  const last = found.pivots.length ? found.pivots[found.pivots.length - 1] : 1;
+  const exact = found.basis.length > 0;
+  if (!exact && told.inexact && last < 2e-3) {
+    const nearly = nullSpace(rows, told.columns, 2e-3 / found.pivots.length, 1);
+    if (nearly.basis.length === 1) found = nearly;
+  }
+  if (!found.basis.length) {
+    if (told.given) throw new Refusal("contradictory-centres");
+    throw new Refusal(last < 1e-6 ? "near-singular" : "structure");
+  }
+  const twists = paths.map((path) =>
+    found.basis.map((rates) =>
+      path.reduce((t, [k, a, b, c]) => [t[0] + rates[k] * a, t[1] + rates[k] * b, t[2] + rates[k] * c], [0, 0, 0])));
+  const mobility = found.basis.length;
+  return { twists, mobility, redundant: Math.max(mobility - told.freedoms, 0), trust: exact ? last : 1 };
+}
+
+/* The unknown loads from the sums of power of all motions; `power` is that of a unit of each load. */
+function balanceOf(told, loads, motions) {
+  const unknown = told.loads.map((load, n) => n).filter((n) => told.loads[n].unknown);
+  const place = new Map(unknown.map((n, k) => [told.loads[n].root, k]));
+  const relative = told.loads.map(({ on, against }) =>
+    motions.twists[told.body[on]].map((t, m) => less(t, motions.twists[told.body[against]][m])));
+  const power = loads.map((load, n) => relative[n].map((t) => load[3] * pairing(load, t)));
+  const most = largest(loads.filter((_, n) => !place.has(told.loads[n].root)).map((load, n) => load[5] * load[3]));
+  const scale = 1 / powerOfTwo(most);
+  const columns = unknown.length + 1;
+  const rows = [...Array(motions.mobility).keys()].map((m) => {
+    const sums = Array(columns).fill(0);
+    const terms = Array(columns).fill(0);
+    const fastest = largest(motions.twists.map((ts) => ts[m]).flat());
+    loads.forEach((load, n) => {
+      const { root, measure } = told.loads[n];
+      const k = place.get(root);
+      const amount = k !== undefined ? (load[4] * measure) / told.loads[unknown[k]].measure : load[5] * scale * measure * load[4];
+      const own = k === undefined ? columns - 1 : k;
+      sums[own] += amount * power[n][m];
+      terms[own] += Math.abs(amount) * Math.abs(load[3]) * (Math.abs(load[0]) + Math.abs(load[1]) + Math.abs(load[2])) * fastest;
+    });
+    return sums.map((v, k) => (Math.abs(v) <= NOISE * terms[k] ? 0 : v)).concat([terms]);
+  });
+  const trust = Math.min(1, ...rows.flatMap((row) => row.slice(0, unknown.length).map((v, k) => (v === 0 ? 1 : Math.abs(v) / row[columns][k]))));
+  const plain = rows.map((row) => row.slice(0, columns));
+  const working = plain.filter((row) => row.some((v) => v !== 0));
+  const idle = plain.length - working.length;
+  return { ...solved(working, idle, unknown.map((n) => told.loads[n]), scale), idle, relative, power, trust, unknown };
+}
+function solved(working, idle, unknown, scale) {
+  const count = unknown.length;
+  if (working.length === 1 && count === 1) {
+    const [factor, known] = working[0];
+    if (factor === 0) return { verdict: "no value", culprit: 0 };
+    return { verdict: "balanced", values: [-known / factor / scale / unknown[0].measure] };
+  }
+  const rows = working.map((row) => row.map((v) => v / powerOfTwo(largest(row))));
+  const free = nullSpace(rows.map((row) => row.slice(0, count)), count, 1e-13);
+  const whole = nullSpace(rows, count + 1, 1e-13);
+  const workless = Math.max(0, unknown.findIndex((_, k) => rows.every((row) => row[k] === 0)));
+  if (whole.rank > free.rank)
+    return { verdict: free.rank < count && rows.length <= count ? "no value" : "too few unknowns", culprit: workless };
+  if (free.rank < count) return { verdict: count > rows.length + idle ? "too many unknowns" : "any value", culprit: workless };
+  if (!whole.basis.length || !count) return { verdict: "balanced", values: Array(count).fill(0) };
+  const vector = whole.basis[0];
+  const last = vector[count];
+  if (Math.abs(last) <= NOISE) throw new Refusal("near-singular");
+  const most = largest(vector);
+  const values = vector.slice(0, count).map((v, k) => (Math.abs(v) <= NOISE * most ? 0 : v / (last * scale * unknown[k].measure)));
+  return { verdict: "balanced", values };
+}
+/* Why power does not determine the unknown loads. */
+function refuseUnbalanced(told, motions, found) {
+  const count = found.unknown.length;
+  if (found.verdict === "balanced" || !count) return;
+  const active = motions.mobility - found.idle;
+  if (found.verdict.startsWith("too") || count > Math.max(active, 1))
+    throw new Refusal(motions.redundant && told.freedoms === count ? "change-point" : "mobility");
+  const load = told.loads[found.unknown[found.culprit]];
+  const others = found.verdict === "no value";
+  const fast = largest(motions.twists.flat(2));
+  const rests = found.relative[found.unknown[found.culprit]].every((t) => t.every((v) => Math.abs(v) <= NOISE * fast));
+  if (load.on === load.against || !rests) throw new Refusal(others ? "no-value" : "any-value");
+  throw new Refusal(others ? "dead-centre" : "any-value");
+}
+const velocity = (t, p) => [t[1] - t[2] * p[1], t[2] * p[0] - t[0]];
+const dot = (a, b) => a.reduce((sum, v, k) => sum + v * b[k], 0);
+
+/* Which of the motions is meant, and how fast: its coefficients, and those that stay open. */
+function speedOf(told, x, motions, points) {
+  const fast = largest(motions.twists.flat(2));
+  const still = (...some) => some.every((v) => Math.abs(v) <= NOISE * fast);
+  const twists = (link) => motions.twists[told.body[link]];
+  const rows = told.motion.map((given) => {
+    const own = twists(given.link);
+    if (given.point === undefined) {
+      const rates = own.map((t) => t[2]);
+      if (still(...rates)) throw new Refusal("dead-centre", `link ${given.link} cannot drive in this position`);
+      return [...rates, -(given.cw ? -1 : 1) * (given.speed === undefined ? 1 : x[given.speed])];
+    }
+    const speeds = own.map((t) => velocity(t, points[given.point]));
+    if (still(...speeds.flat())) throw new Refusal("dead-centre", `the point to which link ${given.link}'s motion is given is at rest`);
+    const target = -x[given.speed] * told.frame[2];
+    if (given.angle === undefined) return [...speeds.map((v) => dot(v, rightward(longest(speeds), still))), target];
+    const a = (x[given.angle] * Math.PI) / 180;
+    const along = [Math.cos(a), Math.sin(a)];
+    if (own.length > 1) return [...speeds.map((v) => dot(v, along)), target];
+    const [v] = speeds;
+    const size = Math.hypot(...v);
+    if (Math.abs(v[0] * along[1] - v[1] * along[0]) > size * Math.sin(Math.PI / 180))
+      throw new Refusal("inconsistent", `the point of link ${given.link} cannot move in the direction that the motion gives`);
+    return [dot(v, along) > 0 ? size : -size, target];
+  });
+  if (!rows.length) rows.push(normal(told, twists, still));
+  if (motions.mobility === 1 && rows.length === 1) return { meant: [-rows[0][1] / rows[0][0]], open: [] };
+  const scaled = rows.map((row) => row.map((v) => v / powerOfTwo(largest(row))));
+  const found = nullSpace(scaled, motions.mobility + 1, 1e-12).basis;
+  const first = found.find((v) => Math.abs(v[motions.mobility]) > 1e-9);
+  if (!first) throw new Refusal("inconsistent", "the motions given contradict each other");
+  const meant = first.slice(0, -1).map((v) => v / first[motions.mobility]);
+  return { meant, open: found.filter((v) => v !== first).map((v) => meant.map((m, k) => v[k] - v[motions.mobility] * m)) };
+}
+const longest = (some) => some.reduce((best, v) => (Math.hypot(...v) > Math.hypot(...best) ? v : best));
+function rightward(v, still) {
+  const size = Math.hypot(...v);
+  const sign = (still(v[0]) ? v[1] > 0 : v[0] > 0) ? 1 : -1;
+  return [(sign * v[0]) / size, (sign * v[1]) / size];
+}
+/* Where no motion is given: the first link that turns does so at 1; where none turns, the first that moves. */
+function normal(told, twists, still) {
+  const turning = told.order.map((link) => twists(link).map((t) => t[2])).find((rates) => !still(...rates));
+  if (turning) return [...turning, -1];
+  const moving = told.order.map((link) => twists(link).map((t) => [t[1], -t[0]])).find((speeds) => !still(...speeds.flat()));
+  if (!moving) throw new Refusal("structure");
+  return [...moving.map((v) => dot(v, rightward(longest(moving), still))), -told.frame[2]];
+}
+/* What two points or teeth must not be. */
+function refuseMisfit(told, x, points) {
+  for (const [a, b] of told.aims)
+    if (apart(points[a], points[b]) < 1e-13) throw new Refusal("inconsistent", "two points that give a direction lie at one place");
+  for (const [a, b, one, two, size, module] of told.meshes) {
+    const fit = (Math.abs(x[one] + x[two]) * (module ? x[size] : 1 / x[size])) / 2;
+    if (Math.abs(apart(points[a], points[b]) / told.frame[2] - fit) > 2e-3 * fit)
+      throw new Refusal("inconsistent", "the teeth do not fit the distance of the pivots");
+  }
+}
+const LEAST_TRUST = 1e-11;
+/* All of a scene whose points are placed: loads, and the twist of every body in the motion that is meant (null
+   where that is left open). */
+function solvedScene(told, x, figure) {
+  refuseMisfit(told, x, figure.points);
+  const parts = figure.scene();
+  const [, , loads, own] = parts;
+  const motions = motionsOf(told, parts);
+  const found = balanceOf(told, loads, motions);
+  refuseUnbalanced(told, motions, found);
+  if (Math.min(motions.trust, found.trust) < LEAST_TRUST) throw new Refusal("near-singular");
+  const speed = speedOf(told, x, motions, figure.points);
+  const mix = (by, ts) => [0, 1, 2].map((k) => dot(by, ts.map((t) => t[k])));
+  const fast = largest(motions.twists.flat(2));
+  const twists = motions.twists.map((ts) =>
+    speed.open.some((by) => largest(mix(by, ts)) > 1e-9 * fast) ? null : mix(speed.meant, ts));
+  const root = new Map(found.unknown.map((n, k) => [told.loads[n].root, found.values ? found.values[k] : 0]));
+  const values = told.loads.map((load, n) => loads[n][4] * (root.has(load.root) ? root.get(load.root) : loads[n][5]));
+  return { motions, twists, values, loads, own, power: found.power };
+}

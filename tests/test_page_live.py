@@ -1,0 +1,284 @@
+"""The live page in a headless Chromium: whatever is typed, its answers are those of `icsolve solve --set` to
+1e-9 and its statuses the same words; handles are dragged by mouse, finger and keys; nothing is asked for.
+
+Fixed seeds; with ICSOLVE_FULL=1 every case of the library and more changes of each.
+"""
+
+from __future__ import annotations
+
+import os
+import random
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import icsolve
+from browser import REQUIRED, Browser, NoBrowserError, browser, required
+from icsolve.errors import CaseError, SceneError
+from icsolve.page import motion, page_html
+from icsolve.page.motion import motion_of
+
+ROOT = Path(__file__).parent.parent / "cases"
+FULL = bool(os.environ.get("ICSOLVE_FULL"))
+LENGTHS = """icsolve: 1
+title: Four-bar by lengths
+points: {A: [0, 0], D: [4, 0]}
+lengths: {AB: 1, BC: 3.5, CD: 2.5, DE: 1.5}
+angles: {AB: 60, CDE: 0}
+near: {C: [3.5, 2.4]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {pin: [4, 1], at: D}
+loads:
+  P: {force: 100, link: 4, at: E, angle: 180}
+  T12: {torque: unknown, link: 2}
+"""
+SOME = {
+    "linkages/four_bar": "by coordinates",
+    "linkages/jansen_leg": "eight links",
+    "linkages/peaucellier": "redundant by its lengths",
+    "linkages/stephenson_six_bar": "no dyad",
+    "linkages/double_butterfly": "a group that only all data place",
+    "linkages/five_bar": "two freedoms, two unknowns",
+    "sliders/quick_return": "slots",
+    "sliders/inverted_slider_crank": "a turning guide",
+    "springs/knee_with_spring": "a spring is asked for",
+    "gears/epicyclic_train": "gears",
+    "rolling/rack_and_pinion": "a rolling wheel",
+    "ch13/13_10_black_box": "a given centre",
+    "tools/toggle_clamp": "a toggle",
+}
+"""Mechanisms of all kinds, and what each is here for."""
+CHANGES = 30 if FULL else 8
+
+
+@pytest.fixture(scope="module")
+def window() -> Iterator[Browser]:
+    try:
+        with browser() as session:
+            session.size(1280, 900)
+            yield session
+    except NoBrowserError as missing:
+        if required():
+            pytest.fail(f"{REQUIRED}=required, and {missing}")
+        pytest.skip(f"no browser: {missing}")
+
+
+@pytest.fixture
+def shown(window: Browser, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
+    """Opens the page of a case, as a rule without the turn, which takes longest to solve. Nothing
+    may be complained of, or asked for."""
+    asked: list[Path] = []
+
+    def open_page(case: str | Path, moves: bool = False) -> Browser:
+        monkeypatch.setattr(motion, "motion_of", motion_of if moves or FULL else lambda *_: None)
+        asked.append(tmp_path / f"{len(asked)}.html")
+        asked[-1].write_text(page_html(icsolve.load(case)), encoding="utf-8")
+        window.open(asked[-1])
+        return window
+
+    yield open_page
+    assert window.logs() == []
+    assert [u.partition("#")[0] for u in window.requests()] == [path.as_uri() for path in asked[-1:]]
+
+
+TYPE = """const answers = () => Object.fromEntries([...document.querySelectorAll('[id^="answer-"]')]
+  .map((e) => [e.id.slice(7), [e.dataset.value, e.dataset.status]]));
+return arguments[0].map((change) => {
+  const fields = Object.keys(change).map((path) => document.getElementById('number-' + path));
+  const before = fields.map((field) => field.value);
+  const put = (texts) => fields.forEach((field, n) => {
+    field.value = texts[n];
+    field.dispatchEvent(new Event('input', { bubbles: true }));
+  });
+  put(Object.values(change));
+  const found = answers();
+  put(before);
+  return found;
+});"""
+
+
+def solved(case: str | Path, change: dict[str, str]) -> tuple[str, dict[str, float | None]] | None:
+    """Status and answers of the case with these numbers; None where it can't be read."""
+    try:
+        answer = icsolve.solve(icsolve.load(case, change))
+    except SceneError as refusal:
+        return refusal.status, {}
+    except CaseError:
+        return None
+    return answer.status, {name: found.value for name, found in answer.answers.items()}
+
+
+def some_changes(
+    paths: list[str], texts: list[str], size: float, draw: random.Random
+) -> Iterator[dict[str, str]]:
+    """One to three numbers a time, small and large changes, now and then a round angle."""
+    values = dict(zip(paths, map(float, texts), strict=True))
+    while True:
+        yield {
+            p: changed(p, values[p], size, draw)
+            for p in draw.sample(paths, min(draw.choice((1, 1, 2, 3)), len(paths)))
+        }
+
+
+def changed(path: str, value: float, size: float, draw: random.Random) -> str:
+    if "teeth" in path:
+        return str(draw.choice((12, 20, 33, 57)) * (1 if value > 0 else -1))
+    if path.startswith("angles") or path.rpartition(".")[2] in ("angle", "along"):
+        if draw.random() < 0.2:
+            return draw.choice(("0", "90", "180", "270"))
+        value += draw.uniform(-1, 1) * draw.choice((5, 40, 180))
+    elif path.startswith("points"):
+        value += draw.uniform(-1, 1) * size * draw.choice((0.05, 0.3))
+    else:
+        value *= draw.uniform(0.8, 1.25) if draw.random() < 0.6 else draw.choice((0.3, 2, 3))
+    return repr(round(value, draw.choice((2, 4, 6))))
+
+
+FIELDS = """const live = JSON.parse(document.getElementById('data').textContent).live;
+const fields = live ? [...document.querySelectorAll('input[id^="number-"]')] : [];
+return [fields.map((e) => e.dataset.path), fields.map((e) => e.value)]"""
+
+
+def compare(page: Browser, case: str | Path, changes: list[dict[str, str]]) -> list[str]:
+    """The statuses of the changes, each compared with those of `solve`."""
+    wanted = [solved(case, change) for change in changes]
+    kept = [(change, own) for change, own in zip(changes, wanted, strict=True) if own is not None]
+    seen = page.run(TYPE, [change for change, _ in kept])
+    for (change, (status, values)), found in zip(kept, seen, strict=True):
+        assert {own for _, own in found.values()} <= {status}, (case, change)
+        for name, value in values.items():
+            assert value is not None and float(found[name][0]) == pytest.approx(value, rel=1e-9, abs=1e-12), (
+                case,
+                change,
+            )
+    return [status for _, (status, _) in kept]
+
+
+CASES = (
+    [p.relative_to(ROOT).with_suffix("").as_posix() for p in sorted(ROOT.rglob("*.yaml"))] if FULL else SOME
+)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_what_is_typed_is_solved_as_solve_does(name: str, shown: Any) -> None:
+    """Random changes: values to 1e-9 (of zero to 1e-12), statuses by their words."""
+    path, draw = ROOT / f"{name}.yaml", random.Random(name)
+    page = shown(path)
+    paths, texts = page.run(FIELDS)
+    assert paths or name not in SOME
+    if paths:
+        size = max((max(map(abs, p)) for p in icsolve.solve(icsolve.load(path)).points.values()), default=1.0)
+        makes = some_changes(paths, texts, size, draw)
+        compare(page, path, [next(makes) for _ in range(CHANGES)])
+
+
+def test_statuses_where_half_of_the_changes_leave_no_answer(shown: Any) -> None:
+    """Changes of a four-bar and a slider-crank, half of them beyond limits or at dead centres."""
+    draw = random.Random(5)
+    page = shown(LENGTHS)
+    changes: list[dict[str, str]] = [
+        {"lengths.BC": repr(round(draw.uniform(3.0, 12.0), 3))} for _ in range(14)
+    ]
+    changes += [{"angles.AB": a, "lengths.AB": b} for a in ("0", "180", "75") for b in ("1", "1.5", "2")]
+    changes += [{"points.D.x": "2"}, {"lengths.DE": "0"}, {"loads.P": "0"}, {"lengths.CD": "0"}]
+    found = compare(page, LENGTHS, changes)
+    path = ROOT / "sliders/slider_crank_in_line.yaml"
+    page = shown(path)
+    changes = [{"angles.AB": a} for a in ("0", "90", "180", "270", "360", "-180", "45.5", "1e-3")]
+    changes += [{"angles.AB": "90", "lengths.AB": s} for s in ("300", "600", "500.001", "1")]
+    found += compare(page, path, changes)
+    assert len(found) >= 38 and 14 <= sum(status != "ok" for status in found) <= 26
+
+
+def test_a_handle_is_dragged_by_mouse_and_by_finger(shown: Any) -> None:
+    """The pin goes where it is pulled, the fields follow, and the answer is that of their numbers."""
+    path = ROOT / "linkages/four_bar.yaml"
+    page = shown(path, moves=True)
+    where = """const b = document.getElementById(arguments[0]).getBoundingClientRect();
+        return [b.x + b.width / 2, b.y + b.height / 2]"""
+    for kind, step in (("mouse", 25), ("touch", -18)):
+        x, y = page.run(where, "handle-C")
+        page.drag(kind, (x, y), (x + step, y + 0.6 * step))
+        assert page.run(where, "handle-C") == pytest.approx([x + step, y + 0.6 * step], abs=1.5)
+        change = dict(zip(*page.run(FIELDS), strict=True))
+        assert (change["points.C.x"], change["points.C.y"]) != ("5", "3")
+        status, values = solved(path, change) or ("", {})
+        assert page.run("return document.getElementById('answer-T12').dataset.status") == status == "ok"
+        found = float(page.run("return document.getElementById('answer-T12').dataset.value"))
+        assert found == pytest.approx(values["T12"], rel=1e-9)
+
+
+def test_a_crank_is_turned_by_its_handle_and_by_keys(shown: Any) -> None:
+    page = shown(LENGTHS)
+    page.press("#handle-B", "left", "left", "up")
+    change = dict(zip(*page.run(FIELDS), strict=True))
+    assert change["angles.AB"] != "60" and change["lengths.AB"] == "1"
+    status, values = solved(LENGTHS, change) or ("", {})
+    found = page.run(
+        "const e = document.getElementById('answer-T12'); return [e.dataset.status, e.dataset.value]"
+    )
+    assert found[0] == status and float(found[1]) == pytest.approx(values["T12"], rel=1e-9)
+
+
+def test_the_case_is_copied_with_its_numbers_and_a_link_leads_back(shown: Any, tmp_path: Path) -> None:
+    """Dragged beyond `near` too: what is copied solves to what the page shows."""
+    path = ROOT / "linkages/jansen_leg.yaml"
+    page = shown(path)
+    page.run(
+        """for (const [path, text] of Object.entries(arguments[0])) {
+        const field = document.getElementById('number-' + path);
+        field.value = text; field.dispatchEvent(new Event('input')); }""",
+        {"angles.OX": "75.5", "lengths.UV": "38"},
+    )
+    value = float(page.run("return document.getElementById('answer-T12').dataset.value"))
+    page.click("#copy-case")
+    text = page.run("return document.getElementById('copied').value")
+    assert "75.5" in text and "UV: 38" in text and text != path.read_text(encoding="utf-8")
+    assert icsolve.solve(icsolve.load(text)).answers["T12"].value == pytest.approx(value, rel=1e-9)
+    page.click("#copy-link")
+    address = page.run("return location.href")
+    page.click("#reset")
+    assert page.run("return document.getElementById('number-lengths.UV').value") == "39.4"
+    page.run("location.hash = ''")
+    page.send("/url", {"url": address})
+    again = page.run("return document.getElementById('answer-T12').dataset.value")
+    assert float(again) == value
+
+
+def test_what_is_no_number_is_said_and_changes_nothing(shown: Any) -> None:
+    page = shown(LENGTHS)
+    before = page.run("return document.getElementById('answer-T12').dataset.value")
+    for text in ("", "abc", "-2"):
+        page.run(
+            "const e = document.getElementById('number-lengths.BC'); e.value = arguments[0]; "
+            "e.dispatchEvent(new Event('input'))",
+            text,
+        )
+        assert (
+            page.run("return document.getElementById('number-lengths.BC').getAttribute('aria-invalid')")
+            == "true"
+        )
+        assert page.text("#live-hint").startswith("lengths.BC: a number")
+        assert page.run("return document.getElementById('answer-T12').dataset.value") == before
+
+
+def test_friction_and_cams_stay_as_solved_beforehand() -> None:
+    some = {"tools/vice": "With friction", "cams/offset_roller_follower": "With cam profiles"}
+    for name, words in some.items():
+        html = page_html(icsolve.load(ROOT / f"{name}.yaml"))
+        assert words in html and "data-path" not in html.split("<script")[0]
+
+
+def test_a_live_page_is_small_and_lets_nothing_else_run() -> None:
+    """Under 300 kB; the policy in the page and in its comment allow the two scripts by their hashes alone."""
+    html = page_html(icsolve.load(ROOT / "linkages/jansen_leg.yaml"))
+    assert len(html.encode()) < 300_000
+    policies = re.findall(r"default-src &#x27;none&#x27;[^\"]*|default-src 'none'.*?(?= -->)", html)
+    assert len(policies) == 2 and policies[1].replace("&#x27;", "'") == policies[0]
+    assert "unsafe" not in policies[0]
