@@ -276,7 +276,7 @@ def test_friction_and_cams_stay_as_solved_beforehand() -> None:
 
 
 def test_a_live_page_is_small_and_lets_nothing_else_run() -> None:
-    """Under 300 kB; the policy in the page and in its comment allow the two scripts by their hashes alone."""
+    """Under 300 kB; the policy in the page and in its comment allow the script by its hash alone."""
     html = page_html(icsolve.load(ROOT / "linkages/jansen_leg.yaml"))
     assert len(html.encode()) < 300_000
     policies = re.findall(r"default-src &#x27;none&#x27;[^\"]*|default-src 'none'.*?(?= -->)", html)

@@ -6,7 +6,7 @@ from __future__ import annotations
 import base64
 import hashlib
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from functools import cache
 from html import escape
 from pathlib import Path
@@ -142,10 +142,15 @@ PARTS = tuple("data scene live moving centres labels words position construction
 
 
 @cache
-def script() -> str:
-    """The script, the same for every page."""
-    parts = ((HERE / "script" / f"{part}.js").read_text(encoding="utf-8") for part in PARTS)
-    return f'"use strict";\n(() => {{\n{"".join(parts)}}})();\n'
+def _parts() -> str:
+    """What is the same in the script of every page."""
+    return "".join((HERE / "script" / f"{part}.js").read_text(encoding="utf-8") for part in PARTS)
+
+
+def script(live: Live | None) -> str:
+    """The script of a page, with the program of its scene where it has one."""
+    program = "" if live is None else live.source
+    return f'"use strict";\n(() => {{\n{program}{_parts()}}})();\n'
 
 
 @cache
@@ -154,11 +159,10 @@ def style() -> str:
     return (HERE / "page.css").read_text(encoding="utf-8")
 
 
-def policy(styles: str, scripts: Sequence[str]) -> str:
-    """A Content-Security-Policy: these scripts and these styles, no network, no frames, no forms."""
-    allowed = " ".join(f"'{_hash(text)}'" for text in scripts)
+def policy(styles: str, scripts: str) -> str:
+    """A Content-Security-Policy: this script and these styles, no network, no frames, no forms."""
     return (
-        f"default-src 'none'; script-src {allowed}; style-src '{_hash(styles)}'; "
+        f"default-src 'none'; script-src '{_hash(scripts)}'; style-src '{_hash(styles)}'; "
         "base-uri 'none'; form-action 'none'"
     )
 
@@ -195,7 +199,7 @@ def html_of(parts: Parts) -> str:
     styles = style() + parts.sheet
     title = escape(_clean(parts.known.title))
     body = "\n".join(part for part in _body(parts) if part)
-    scripts = ((parts.live.source,) if parts.live is not None else ()) + (script(),)
+    scripts = script(parts.live)
     allowed = policy(styles, scripts)
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
@@ -204,8 +208,7 @@ def html_of(parts: Parts) -> str:
         '<meta name="viewport" content="width=device-width,initial-scale=1">\n'
         f"<title>{title}</title>\n<style>{styles}</style>\n</head>\n<body>\n<main>\n{body}\n</main>\n"
         f'<script type="application/json" id="data">{script_json(parts.model)}</script>\n'
-        + "".join(f"<script>{text}</script>\n" for text in scripts)
-        + "</body>\n</html>\n"
+        f"<script>{scripts}</script>\n</body>\n</html>\n"
     )
 
 

@@ -220,7 +220,7 @@ class _Writer:
         variables = f"let {','.join(text.names)};\n" if text.names else ""
         steps_text = ",\n".join(functions)
         return (
-            f'"use strict";\nconst program = (x, s, q) => {{\n{JAVASCRIPT_FUNCTIONS}{variables}'
+            f"const program = (x, s, q) => {{\n{JAVASCRIPT_FUNCTIONS}{variables}"
             f"return {{ steps: [{steps_text}],\nscene: () => {{{body}}} }};\n}};\n"
         )
 
