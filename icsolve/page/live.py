@@ -25,8 +25,8 @@ from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record
 from icsolve.numbers.source import JAVASCRIPT, JAVASCRIPT_FUNCTIONS, straight_line
 from icsolve.page.fields import handles_of, text_data
+from icsolve.scene.refusals import rubs
 from icsolve.screws.joints import freedoms
-from icsolve.solve.refusals import rubs
 from icsolve.statics import power
 from icsolve.structure.topology import Bond, Topology
 from icsolve.sweep.numbers import numbers_of
