@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 import icsolve
+from grade_mistakes import mistakes
 from grade_shell import CASES, Class
 from icsolve.case import LoadIs
 from icsolve.grade.case_store import CaseStore
@@ -337,3 +338,97 @@ def test_errors_are_carried_forward_to_one_of_two_unknowns(a_class: Class) -> No
     assert found["a", "two:T2"][1].split()[0] == "carried"
     assert found["a", "two:T4"][0] == "right"
     assert "carried" not in found["b", "two:T2"][1]
+
+
+BLOCK = """\
+icsolve: 1
+points: {A: [0, 0]}
+joints:
+  - {slide: [2, 1], at: A, along: 0, mu: 0.2}
+loads:
+  N: {force: 100, link: 2, at: A, angle: -90}
+  F: {force: 50, link: 2, at: A, angle: 180}
+  P: {force: unknown, link: 2, at: A, angle: 0}
+motion: {point: A, link: 2, speed: 1, angle: 0}
+"""
+"""P = 50 + 0.2 * 100 = 70 N."""
+ANNULUS = """\
+icsolve: 1
+points: {A: [0, 0], B: [40, 0]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [1, 3], at: B}
+  - {gears: [2, 3], teeth: [20, -60]}
+loads:
+  M: {torque: 11, link: 3}
+  T: {torque: unknown, link: 2}
+"""
+"""w3/w2 = 1/3: T = -11/3 N*m."""
+
+
+def modelled() -> dict[str, tuple[str, str, float, str]]:
+    """33 kinds of mistakes: the case, what is asked, the wrong answer by plain mechanics, its code."""
+    p, q, right = 25.0, -70.0, moments(25.0, -70.0)
+    by_q = -40.0 * (0.7 * math.sin(math.radians(q)) - 0.2 * math.cos(math.radians(q)))
+    by_p, whole = right - by_q, math.copysign(50.0, right - by_q)  # the arm of P is 0.5 m
+    square = math.sqrt(50.0**2 - by_p**2)
+    found = {
+        "wrong sense": ("crank", "", -right, "sign"),
+        "mm for m": ("crank", "", 1000.0 * right, "power-of-ten"),
+        "kN for N": ("crank", "", right / 1000.0, "power-of-ten"),
+        "in and mm": ("crank", "", 25.4 * right, "unit-factor"),
+        "ft and in": ("crank", "", right / 12.0, "unit-factor"),
+        "lb and N": ("crank", "", 4.448 * right, "unit-factor"),
+        "kg and N": ("crank", "", right / 9.81, "unit-factor"),
+        "counted twice": ("crank", "", 2.0 * right, "double"),
+        "counted by half": ("crank", "", right / 2.0, "half"),
+        "rounded on the way": ("crank", "", 1.02 * right, "near-miss"),
+        "a load missed": ("crank", "", by_q, "missed-load"),
+        "a load reversed": ("crank", "", by_q - by_p, "load-sense"),
+        "calculator in radians": ("crank", "", moments(math.degrees(p), math.degrees(q)), "deg-rad"),
+        "one angle in radians": ("crank", "", moments(math.degrees(p), q), "deg-rad"),
+        "sine for cosine": ("crank", "", moments(90.0 - p, q), "sin-cos"),
+        "angle the other way round": ("crank", "", moments(-p, q), "angle-sense"),
+        "one component, x": ("crank", "", moments(p, q, py=0.0), "one-component"),
+        "one component, y": ("crank", "", moments(p, q, px=0.0), "one-component"),
+        "force times the whole arm": ("crank", "", by_q + whole, "no-cos"),
+        "component along the arm": ("crank", "", by_q + math.copysign(square, by_p), "sin-cos"),
+        "sign, and a load missed": ("crank", "", -by_q, "sign missed-load"),
+        "mm for m, and a load missed": ("crank", "", 1000.0 * by_q, "power-of-ten missed-load"),
+        "ratio taken as 1": ("train", "", 70.0 + 4.4, "ratio-one"),
+        "ratio upside down": ("train", "", -70.0 / (0.8 / 7.0) + 4.4, "inverse-ratio"),
+        "first stage forgotten": ("train", "", -70.0 * 2.0 / 7.0 + 4.4, "missed-stage"),
+        "second stage forgotten": ("train", "", -70.0 * 0.4 + 4.4, "missed-stage"),
+        "rpm for rad/s": ("train", "w3", -48.0, "rpm"),
+        "annulus as an outer wheel": ("annulus", "", 11.0 / 3.0, "mesh-sense sign"),
+        "friction left out": ("block", "", 50.0, "no-friction"),
+        "friction the other way": ("block", "", 30.0, "friction-sense"),
+        "one unknown for the other": ("two", "T2", 3.7, "other-unknown"),
+    }  # fmt: skip
+    for case, kind, code in (
+        ("13_08_four_bar", "another centre", "wrong-ic"), ("13_08_four_bar", "other assembly", "other-mode"),
+    ):  # fmt: skip
+        (path,) = CASES.rglob(f"{case}.yaml")
+        found[kind] = (case, "", next(m.value for m in mistakes(path) if m.code == code), code)
+    return found
+
+
+def test_32_of_33_kinds_of_mistakes_are_named(a_class: Class) -> None:
+    """Each by one code at least that is its own; of two at once both."""
+    texts = {"crank": CRANKS, "train": TRAIN, "annulus": ANNULUS, "block": BLOCK}
+    texts["two"] = TWO.replace("torque: 6", "torque: 5.55")
+    texts["13_08_four_bar"] = (CASES / "ch13" / "13_08_four_bar.yaml").read_text()
+    for name, text in texts.items():
+        a_class.case(name, text)
+    kinds = modelled()
+    assert len(kinds) == 33
+    lines = [f"{n},{case}{':' * bool(what)}{what},{value:.5g}" for n, (case, what, value, _) in
+             enumerate(kinds.values())]  # fmt: skip
+    ran = a_class.grade("student_id,case,answer\n" + "\n".join(lines) + "\n")
+    given = {int(row["student_id"]): set(row["code"].split()) for row in ran.rows() if row["raw_answer"]}
+    missed = []
+    for n, (kind, (*_, codes)) in enumerate(kinds.items()):
+        wanted = set(codes.split())
+        if not (wanted <= given[n] if "," in kind else wanted & given[n]):
+            missed.append(kind)
+    assert len(kinds) - len(missed) >= 32, missed

@@ -294,7 +294,8 @@ def position_key(
             wide = 2.0 * period or math.inf
             return [w._replace(value=found.nearest(w.value)) for w in own(value) if abs(w.value) <= wide]
 
-        return found._replace(wrongs=Wrongs(within_a_turn, value, found.half))
+        others = len(answer.positions or ()) - 1
+        return found._replace(wrongs=Wrongs(within_a_turn, value, found.half, period, others))
 
     keys: list[Key | RangeKey] = []
     for position in answer.positions or ():

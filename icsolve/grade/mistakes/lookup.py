@@ -33,16 +33,21 @@ class Pair(NamedTuple):
 
 class Room:
     """What mistakes may cover of all answers, those that are even up to three times the right one, and those
-    that are even in their powers of ten from a thousandth to a thousand times of it."""
+    that are even in their powers of ten from a thousandth to a thousand times of it; of an angle, which whole
+    turns do not change, those that are even over the ``period``. With ``others`` right answers beside this
+    one each has its part."""
 
-    def __init__(self, right: float) -> None:
+    def __init__(self, right: float, period: float, others: int) -> None:
         self._right = right
-        self._even = self._decades = _CHANCE
+        self._period = period
+        self._even = self._decades = _CHANCE / (1.0 + others)
 
     def take(self, value: float, width: float) -> bool:
         """Whether there is room for a value with its relative half-width; it is taken then."""
         size = abs(value / self._right)
         even = size * width / _SPAN if size <= _SPAN else 0.0
+        if self._period:
+            even, size = 2.0 * abs(value) * width / self._period, 0.0
         decades = width / (6.0 * math.log(10.0)) if 1e-3 <= size <= 1e3 else 0.0
         if even > self._even or decades > self._decades:
             return False
@@ -60,8 +65,16 @@ class Wrongs:
     that a hit by chance allows are left out, the least simple first.
     """
 
-    def __init__(self, make: Callable[[], Iterable[Wrong]], right: float, half: float) -> None:
+    def __init__(
+        self,
+        make: Callable[[], Iterable[Wrong]],
+        right: float,
+        half: float,
+        period: float = 0.0,
+        others: int = 0,
+    ) -> None:
         self._make = make
+        self._room = Room(right, period, others)
         self._right = right
         self._half = half
         self.reach = min(half / abs(right), 0.05) if right else 0.01
@@ -72,10 +85,6 @@ class Wrongs:
         right, half = self._right, self._half
         kept = [w for w in self._make() if math.isfinite(w.value) and w.value and abs(w.value - right) > half]
         return tuple(sorted(self._likely(kept), key=lambda w: (w.value, ORDER[w.code])))
-
-    @cached_property
-    def _room(self) -> Room:
-        return Room(self._right)
 
     def _likely(self, wrongs: list[Wrong]) -> list[Wrong]:
         """As many as may be hit by chance, the simplest first."""
