@@ -401,7 +401,17 @@ def test_a_canvas_quiz_as_qti(a_class: Class) -> None:
     assert "Write the number alone, in N*m." in text
     assert lever.findtext(f".//{QTI}setvar") == "100"
     told_after = {f.get("ident") for f in lever.iter(f"{QTI}itemfeedback")}
-    assert told_after == {"correct_fb", "general_incorrect_fb"}
+    assert told_after >= {"correct_fb", "general_incorrect_fb"}
+    assert told_after == {f.get("linkrefid") for f in lever.iter(f"{QTI}displayfeedback")}
+    wrong = {condition.findtext(f"{QTI}conditionvar/{QTI}varequal"): condition[-1].get("linkrefid")
+             for condition in lever.iter(f"{QTI}respcondition")}  # fmt: skip
+    said = {f.get("ident"): f.findtext(f".//{QTI}mattext") or "" for f in lever.iter(f"{QTI}itemfeedback")}
+    assert "Right size, wrong sense" in said[wrong["-200"]]
+    assert "Half the right size" in said[wrong["100"]]
+    assert "Right size, wrong sense" in said["general_incorrect_fb"]
+    assert "200" not in said["general_incorrect_fb"]
+    for way in ("or", "and"):  # Canvas takes each of them for a right answer
+        assert len(list(lever.iter(f"{QTI}{way}"))) == 1
     group = next(s for s in root.iter(f"{QTI}section") if s.get("title") == "press")
     assert group.findtext(f".//{QTI}selection_number") == "1"
     assert len(group.findall(f"{QTI}item")) == 3

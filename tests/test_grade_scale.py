@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from grade_bench import CASES, write_class
+from grade_bench import CASES, questions, write_class
 from grade_shell import PRESS
 
 FULL = bool(os.environ.get("ICSOLVE_FULL"))
@@ -74,3 +74,30 @@ def test_3000_different_variants_of_a_four_bar_with_values_and_keys(tmp_path: Pa
         rows = list(csv.DictReader(file))
     assert len(rows) == 3000
     assert len({row["variant"] for row in rows}) > 2900
+
+
+def test_two_corrections_and_40_overrides_leave_all_other_lines_alone(tmp_path: Path) -> None:
+    """3,000 students and 25 cases (60 in a sample): keys of two cases corrected, 40 marks by hand."""
+    table, cases = tmp_path / "class.csv", tmp_path / "cases"
+    cases.mkdir()
+    files = {path.stem: path for path in CASES.rglob("*.yaml")}
+    for name, _, _ in questions():
+        (cases / f"{name}.yaml").write_text(files[name].read_text())
+    write_class(table, 3000 if FULL else 60)
+    corrected = {"13_07_slider_crank": ("force: 10,", "force: 13,"), "gear_pair": ("[20, 50]", "[25, 50]")}
+    marks = tmp_path / "marks.csv"
+    with open(table, newline="") as file:
+        rows = list(csv.DictReader(file))
+    others = [(row["student_id"], row["case"]) for row in rows if row["case"] not in corrected]
+    overruled = set(others[:: len(rows) // 45][:40])
+    marks.write_text("student_id,case,score\n" + "".join(f"{s},{c},0.25\n" for s, c in sorted(overruled)))
+    command("grade", str(table), "--cases", str(cases), "-o", str(tmp_path / "before.csv"), "-q")
+    for name, (misprint, right) in corrected.items():
+        (cases / f"{name}.yaml").write_text(files[name].read_text().replace(misprint, right))
+    more = ("--overrides", str(marks), "--against", str(tmp_path / "before.csv"))
+    command("grade", str(table), "--cases", str(cases), "-o", str(tmp_path / "after.csv"), "-q", *more)
+    before, after = ((tmp_path / f"{name}.csv").read_bytes().splitlines() for name in ("before", "after"))
+    pairs = zip(before, after, strict=True)
+    changed = {tuple(old.decode().split(",")[:2]) for old, new in pairs if old != new}
+    assert overruled <= changed
+    assert {case for _, case in changed - overruled} == set(corrected)

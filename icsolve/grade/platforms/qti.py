@@ -1,7 +1,9 @@
 """Canvas quizzes: a package of QTI 1.2 with numerical questions, their figures, tolerances and feedback.
 
-Canvas takes every condition on a number for a right answer, so that only right answers have one; the variants
-of a case are a group of which each student gets one.
+Canvas takes every range and every alternative for a right answer (`numeric_interaction.rb` of its importer),
+and passes over a bare equality: known wrong answers stand so, with their feedback, for readers that compare,
+and what they are told stands, without the values, in what Canvas tells of any wrong answer. The variants of a
+case are a group of which each student gets one.
 """
 
 from __future__ import annotations
@@ -12,7 +14,8 @@ import zipfile
 from collections.abc import Iterable
 from html import escape
 
-from icsolve.grade.platforms.questions import Question, number, sensible, table_of
+from icsolve.grade.mistakes import message
+from icsolve.grade.platforms.questions import Question, number, sensible, table_of, wrong_rows
 
 _QTI = "http://www.imsglobal.org/xsd/ims_qtiasiv1p2"
 _CANVAS = "http://canvas.instructure.com/xsd/cccv1p0"
@@ -20,6 +23,8 @@ _PACKAGE = "http://www.imsglobal.org/xsd/imsccv1p1/imscp_v1p1"
 _METADATA = "http://www.imsglobal.org/xsd/imsmd_v1p2"
 _RESOURCE = "associatedcontent/imscc_xmlv1p1/learning-application-resource"
 _HEAD = '<?xml version="1.0" encoding="UTF-8"?>\n'
+_CAUSES = 5
+"""Mistakes that are told with any wrong answer: the simplest."""
 SMALLEST = 1e-4
 """Canvas keeps four decimals of a numerical answer."""
 
@@ -126,7 +131,10 @@ def _item(question: Question) -> str:
         f'<and><vargte respident="response1">{number(low)}</vargte>'
         f'<varlte respident="response1">{number(high)}</varlte></and>'
     )
-    otherwise = f"Not right. Accepted is an answer {key.rule}."
+    wrongs = list(wrong_rows(key))
+    causes = dict.fromkeys(message(wrong.code, kind=key.kind) for wrong, _, _ in wrongs)
+    checks = f" Check what is often mistaken: {' '.join(list(causes)[:_CAUSES])}" if causes else ""
+    otherwise = f"Not right. Accepted is an answer {key.rule}.{checks}"
     return (
         f'<item ident="{ident}" title={_attribute(question.name)}>'
         f"<itemmetadata><qtimetadata>{about}</qtimetadata></itemmetadata>"
@@ -138,11 +146,25 @@ def _item(question: Question) -> str:
         f'<varequal respident="response1">{sensible(key)}</varequal>{within}</or></conditionvar>'
         '<setvar action="Set" varname="SCORE">100</setvar>'
         '<displayfeedback feedbacktype="Response" linkrefid="correct_fb"/></respcondition>'
+        f"{''.join(_wrong_condition(n, wrong.value) for n, (wrong, _, _) in enumerate(wrongs))}"
         '<respcondition continue="Yes"><conditionvar><other/></conditionvar>'
         '<displayfeedback feedbacktype="Response" linkrefid="general_incorrect_fb"/></respcondition>'
         "</resprocessing>"
         f"{_feedback('correct_fb', f'Right: {key.accepted} is accepted.')}"
-        f"{_feedback('general_incorrect_fb', otherwise)}</item>"
+        f"{_feedback('general_incorrect_fb', otherwise)}"
+        + "".join(
+            _feedback(f"wrong{n}_fb", message(wrong.code, wrong.where, key.kind))
+            for n, (wrong, _, _) in enumerate(wrongs)
+        )
+        + "</item>"
+    )
+
+
+def _wrong_condition(n: int, value: float) -> str:
+    """A known wrong answer as a bare equality, which earns nothing."""
+    return (
+        f'<respcondition continue="Yes"><conditionvar><varequal respident="response1">{value:.6g}</varequal>'
+        f'</conditionvar><displayfeedback feedbacktype="Response" linkrefid="wrong{n}_fb"/></respcondition>'
     )
 
 
