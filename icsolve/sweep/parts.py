@@ -97,7 +97,7 @@ class Parts:
     def _at_once(self, runner: Runner, rows: Rows, main: str, others: list[str]) -> tuple[Part | None, Rows]:
         """What can be run at once, and the rows that are left."""
         if others:
-            clear = self._clear(runner.sheet, [main, *others])
+            clear = self._clear(runner.sheet, main, others)
             return (Part(runner, rows[clear]) if clear.any() else None), rows[~clear]
         if self._meets_nothing(runner.sheet, main):
             return Part(runner, rows, ordered=True), rows[:0]
@@ -111,23 +111,42 @@ class Parts:
         track = Track(sheet, way, written_state(sheet), Touches({}), (way.start, way.start))
         return not Radicands(sheet, track, grid).touching
 
-    def _clear(self, sheet: Sheet, names: list[str]) -> Mask:
-        """Rows on whose straight way from the position as written no branch comes near a change point."""
+    def _clear(self, sheet: Sheet, main: str, others: list[str]) -> Mask:
+        """Rows on whose way from the position as written no branch comes near a change point.
+
+        First the other inputs go to their values, then the main one over all of its own: rows that share the
+        other values share the way. Where few do, each row is looked at on the straight way to it.
+        """
+        values, start = self.arrays[main], self._written(main)
+        grid = grid_of([start, float(values.min()), float(values.max())], self._way(sheet, main, {}))
+        sets, which = _sets(np.stack([self.arrays[name] for name in others], axis=1))
+        share, whole = np.linspace(0.0, 1.0, GLANCES), np.ones(len(grid))
+        if len(sets) * (GLANCES + len(grid)) > len(values) * GLANCES:
+            every = np.column_stack([*(self.arrays[name] for name in others), values])
+            return self._unbroken(sheet, [*others, main], every, share)
+        mains = np.full((len(sets), 1), start)
+        first = self._unbroken(sheet, [*others, main], np.hstack([sets, mains]), share)
+        then = self._unbroken(sheet, others, sets, whole, {sheet.inputs[main]: grid})
+        return np.asarray((first & then)[which])
+
+    def _unbroken(
+        self, sheet: Sheet, names: list[str], sets: Array, share: Array, along: dict[int, Array] | None = None
+    ) -> Mask:
+        """Which sets of numbers lead away from no branch, where these shares reach them from those as
+        written (and other inputs go along)."""
         code = Code(sheet.record, [root.radicand for root in live_roots(sheet)])
-        clear = np.ones(self.columns.rows, dtype=bool)
-        step = max(1, 4 * BLOCK // GLANCES)
-        share = np.linspace(0.0, 1.0, GLANCES)
-        for start in range(0, self.columns.rows, step):
-            rows = slice(start, min(start + step, self.columns.rows))
-            count = rows.stop - rows.start
-            given = {}
-            for name in names:
-                written, to = self._written(name), self.arrays[name][rows]
-                given[sheet.inputs[name]] = (written + (to[:, None] - written) * share).ravel()
-            for found in code.run(given, count * GLANCES):
-                radicand = np.broadcast_to(found, count * GLANCES).reshape(count, GLANCES)
+        clear = np.ones(len(sets), dtype=bool)
+        step = max(1, 4 * BLOCK // len(share))
+        for start in range(0, len(sets), step):
+            some = sets[start : start + step]
+            given = {k: np.tile(values, len(some)) for k, values in (along or {}).items()}
+            for n, name in enumerate(names):
+                written = self._written(name)
+                given[sheet.inputs[name]] = (written + (some[:, n : n + 1] - written) * share).ravel()
+            for found in code.run(given, len(some) * len(share)):
+                radicand = np.broadcast_to(found, len(some) * len(share)).reshape(len(some), -1)
                 steps = np.abs(np.diff(radicand, axis=1)).max(axis=1)
-                clear[rows] &= radicand.min(axis=1) > STEEP * steps
+                clear[start : start + step] &= radicand.min(axis=1) > STEEP * steps
         return clear
 
     # --- followed ---------------------------------------------------------------------------------
@@ -138,8 +157,7 @@ class Parts:
             if len(rows):
                 yield rows
             return
-        table = np.stack([self.arrays[name][rows] for name in others], axis=1)
-        which = np.unique(table, axis=0, return_inverse=True)[1].ravel()
+        which = _sets(np.stack([self.arrays[name][rows] for name in others], axis=1))[1]
         order = np.argsort(which, kind="stable")
         yield from (rows[part] for part in np.split(order, np.flatnonzero(np.diff(which[order])) + 1))
 
@@ -170,6 +188,15 @@ class Parts:
         base = {name: self._written(name) for name in sheet.inputs if name in self.arrays}
         base = {**base, **here, main: 0.0}
         return Way(base, {main: 1.0}, self._written(main), widest, 360.0 if angle else None)
+
+
+def _sets(table: Array) -> tuple[Array, Rows]:
+    """The different rows of a table, and which of them each row is; rows alike often follow one another."""
+    new = np.ones(len(table), dtype=bool)
+    np.any(table[1:] != table[:-1], axis=1, out=new[1:])
+    firsts = table[new]
+    sets, which = np.unique(firsts, axis=0, return_inverse=True)
+    return sets, which.ravel()[np.cumsum(new) - 1]
 
 
 def _changed(sheet: Sheet, state: State) -> Signs:
