@@ -33,12 +33,16 @@ PITCH = 7.0
 DOWN, UP, LEFT, RIGHT = (0.0, 1.0), (0.0, -1.0), (-1.0, 0.0), (1.0, 0.0)
 
 
-def frame_parts(scene: Scene, links: shapely.Geometry) -> list[Part]:
-    """Feet, rails and straight edges of the frame, and its number."""
+def frame_parts(scene: Scene, links: shapely.Geometry, *, following: bool = False) -> list[Part]:
+    """Feet, rails and straight edges of the frame, and its number; with ``following`` each foot and rail is
+    a group that says which point it follows."""
     ground = scene.case.ground
+    name_at = {at: name for name, at in reversed(list(scene.at.items()))}
+    held = [("data-at", name_at[p]) for p in _feet(scene)]
     parts = [_foot(p, links) for p in _feet(scene)]
     guides = [joint for joint in _guides(scene) if joint.links[1] == ground]
     parts += [_rail(scene, joint, links) for joint in guides if not is_screw(joint)]
+    held += [("data-rail", joint.at) for joint in guides if not is_screw(joint)]
     parts += [_spindle(scene, joint) for joint in guides if is_screw(joint)]
     parts += [_surface(scene, edge) for edge in scene.round.edges if edge.link == ground]
     parts += [
@@ -46,6 +50,8 @@ def frame_parts(scene: Scene, links: shapely.Geometry) -> list[Part]:
     ]
     anchors = tuple(a for part in parts for a in part.labels[0].anchors)[:6]
     bare = [part._replace(labels=()) for part in parts]
+    for n, data in enumerate(held if following else ()):
+        bare[n] = bare[n]._replace(marks=(Group("", "", bare[n].marks, "", (data,)),))
     if anchors:
         runs = (Run(ground),)
         bare.append(Part(labels=(Label(f"number-{ground}", runs, "t-link", 12.0, anchors, 5.0, badge=True),)))

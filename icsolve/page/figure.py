@@ -46,7 +46,7 @@ def figure_of(known: Known, steps: Sequence[Step], motion: Motion | None) -> Fig
     parts = [
         *_wheels(bodies),
         *(_following(part, f"rim-{w}", ("data-turn", w)) for part in rims(scene) for w in _rim_links(scene)),
-        *frame_parts(scene, links),
+        *frame_parts(scene, links, following=True),
         *(_turning(link_part(scene, body), body.link) for body in bodies),
         *_belts(scene),
         *_joints(scene),

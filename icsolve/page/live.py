@@ -15,7 +15,7 @@ from icsolve.assembly.groups import Group
 from icsolve.assembly.loci import is_round
 from icsolve.assembly.steps import Meet, Step, aims
 from icsolve.assembly.workspace import Key, Workspace, normalised
-from icsolve.case import Belt, Case, Gears, KnownCentre, Motion, Number, Roll, Slide
+from icsolve.case import Belt, Case, Gears, KnownCentre, Motion, Number, Roll, Slide, Slot
 from icsolve.derivation import Known
 from icsolve.draw.words import unit_word
 from icsolve.errors import SceneError
@@ -193,7 +193,10 @@ class _Writer:
         loads = []
         for w in power.wrenches(self.case, self.workspace.frame, self._points(), self.record):
             loads.append([*w.unit, w.gain, w.ratio, self._value(w)])
-        own = [list(basis[0]) for _, basis in sorted(bases.items())]
+        own = [
+            list(basis[0] if isinstance(self.top.bonds[k].joint, Gears | Belt) else basis[-1])
+            for k, basis in sorted(bases.items())
+        ]
         return [rows, paths, loads, own]
 
     def _value(self, w: power.Wrench) -> Scalar:
@@ -263,12 +266,12 @@ class _Writer:
                 [*bond.links, len(bases[k]) == 1 or isinstance(bond.joint, Gears | Belt)]
                 for k, bond in enumerate(top.bonds)
             ],
-            "guides": {
-                link: k
+            "rails": {
+                bond.joint.at: k
                 for k, bond in enumerate(top.bonds)
-                if isinstance(bond.joint, Slide)
-                for link in bond.links
+                if isinstance(bond.joint, Slide | Slot) and case.ground in bond.links
             },
+            "guides": self._guides(),
         }
 
     def _checks(self, place: Mapping[Key, int]) -> Iterable[list[Any]]:
@@ -278,6 +281,15 @@ class _Writer:
                 path = None if datum.kind in (MEAN, LINE) else number_of(self.case, datum).path
                 number = None if path is None else self.paths.index(path)
                 yield [datum.kind, [place[p] for p in datum.points], number]
+
+    def _guides(self) -> dict[str, int]:
+        """The bond whose guide tells how a link lies that has one."""
+        found: dict[str, list[int]] = {}
+        for k, bond in enumerate(self.top.bonds):
+            if isinstance(bond.joint, Slide | Slot):
+                for link in bond.links:
+                    found.setdefault(link, []).append(k)
+        return {link: ks[0] for link, ks in found.items() if len(ks) == 1}
 
     def _ends(self) -> Iterable[tuple[str, str]]:
         """Pairs of points that give a direction to a load, a guide, a wheel."""

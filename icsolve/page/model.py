@@ -167,8 +167,19 @@ def model_of(
     if motion is not None:
         data["motion"] = motion_data(known, view, motion)
     if live is not None:
-        data |= {"live": live.data, "view": [view.scale, *view.origin], "statuses": HINTS}
+        data["live"] = {**live.data, **_drive(motion, live)}
+        data |= {"view": [view.scale, *view.origin], "statuses": HINTS}
     return data
+
+
+def _drive(motion: Motion | None, live: Live) -> dict[str, int]:
+    """The number that turns the input, where one does: its place among the inputs of the program."""
+    driven = live.data["links"].get(motion.driver, ()) if motion is not None else ()
+    for point in driven:
+        for kind, number, *rest in live.data["handles"].get(point, ()):
+            if kind == "turn" and rest[0] in driven and rest[1] == 1:
+                return {"drive": number}
+    return {}
 
 
 def motion_data(known: Known, view: View, motion: Motion) -> dict[str, Any]:

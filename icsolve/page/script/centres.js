@@ -6,8 +6,19 @@ const make = (name, attributes, parent) => {
   return e;
 };
 const stage = byId("centres");
-const [LEFT, TOP, RIGHT, BOTTOM] = data.window;
-const MIDDLE = [(LEFT + RIGHT) / 2, (TOP + BOTTOM) / 2];
+let [LEFT, TOP, RIGHT, BOTTOM] = data.window;
+let MIDDLE = [(LEFT + RIGHT) / 2, (TOP + BOTTOM) / 2];
+/* The window with some more places in it. */
+function fit(more) {
+  const [left, top, right, bottom] = data.window;
+  const room = (n, end, pick) => pick(end, ...more.map((p) => p[n] + (pick === Math.min ? -46 : 46)));
+  [LEFT, TOP] = [room(0, left, Math.min), room(1, top, Math.min)];
+  [RIGHT, BOTTOM] = [room(0, right, Math.max), room(1, bottom, Math.max)];
+  MIDDLE = [(LEFT + RIGHT) / 2, (TOP + BOTTOM) / 2];
+  set(figure, "viewBox", [LEFT, TOP, RIGHT - LEFT, BOTTOM - TOP].map(f).join(" "));
+  const clip = figure.querySelector("#window rect");
+  Object.entries({ x: LEFT, y: TOP, width: RIGHT - LEFT, height: BOTTOM - TOP }).forEach(([key, v]) => set(clip, key, f(v)));
+}
 if (stage) {
   const lined = make("g", { "clip-path": "url(#window)" }, stage);
   for (const c of centres)

@@ -18,6 +18,7 @@ function leave() {
   if (!live || !scene.changed) return;
   scene.changed = false;
   writtenNumbers();
+  fit([]);
 }
 function writtenNumbers() {
   live.numbers.forEach((value, n) => enter(n, value, live.firstHalves[n], live.texts[n]));
@@ -31,23 +32,32 @@ function enter(n, value, half, text) {
   field.value = text;
   field.removeAttribute("aria-invalid");
 }
-function changed(dragged) {
-  if (playing) stop();
+function changed(dragged, driven = false) {
+  if (playing && !driven) stop();
   scene.changed = true;
   resolve(dragged);
   row = LIVE;
   if (hint) hint.textContent = "";
   const words = data.statuses[scene.status] || "";
   liveHint.textContent = scene.status === "ok" ? "" : `${scene.status}: ${scene.words ? scene.words + "." : words}`;
-  if (slider) slider.value = "0";
+  const drives = motion && live.drive !== undefined;
+  if (slider) slider.value = String(drives ? numbers[live.drive] - live.numbers[live.drive] : 0);
+  if (hint && !drives) hint.textContent = "The slider turns the mechanism as it is written.";
+  if (!dragged) fitNow();
   render();
   placeHandles();
+}
+const fitNow = () => fit(row === LIVE ? Object.keys(live.points).map((name) => [points[name].x[row], points[name].y[row]]) : []);
+/* The input turned, with the other numbers as they are. */
+function drive(degrees) {
+  const n = live.drive;
+  enter(n, tidy(live.numbers[n] + degrees, 1e-6), 0.05, number(live.numbers[n] + degrees, 8).replace("−", "-"));
+  changed(true, true);
 }
 const tidy = (value, unit) => Number((Math.round(value / unit) * unit).toFixed(Math.max(0, -Math.floor(Math.log10(unit)))));
 
 /* --- handles ------------------------------------------------------------------------------------------ */
 
-const handles = [];
 function placeHandles() {
   for (const h of handles) {
     const p = points[h.name];
@@ -103,7 +113,13 @@ function grip(name, moves) {
   });
   e.addEventListener("touchstart", (event) => event.preventDefault(), { passive: false }); // or the page scrolls
   e.addEventListener("pointermove", follow);
-  e.addEventListener("pointerup", follow);
+  e.addEventListener("pointerup", (event) => {
+    follow(event);
+    if (held && row === LIVE) {
+      fitNow();
+      render();
+    }
+  });
   for (const end of ["pointerup", "pointercancel", "lostpointercapture"]) e.addEventListener(end, () => { held = null; });
   const WAYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
   e.addEventListener("keydown", (event) => {
@@ -213,8 +229,8 @@ if (live) {
     changed(false);
   });
   byId("reset").addEventListener("click", () => {
-    writtenNumbers();
-    scene.changed = false;
+    scene.changed = true;
+    leave();
     if (motion) moveTo(zero);
     else { resolve(false); row = zero; render(); }
     placeHandles();

@@ -9,6 +9,7 @@ const fromFrame = ([x, y]) => [x / live.frame[2] + live.frame[0], y / live.frame
 const numbers = live ? [...live.numbers] : [];
 const laboratory = live ? figureOf(program, live, numbers) : null;
 const scene = { status: "ok", words: "", changed: false, solved: null };
+const handles = [];
 const filled = (value) => Array(rows).fill(value);
 const placeOf = (name) => inPicture(fromFrame(laboratory.points[live.points[name]]));
 const turned = (u, v) => (Math.atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]) * 180) / Math.PI;

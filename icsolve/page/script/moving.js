@@ -15,9 +15,82 @@ function turnOf(name, r) {
   const written = answer ? answer.values[zero] : 1;
   return { way: (load.way && load.way[r]) || 0, flip: value !== null && value < 0 !== written < 0, gone: value === null };
 }
+/* In the live row a link may have another shape: an outline about its points, or what it was, stretched. */
+const HALF = 6.5;
+const plainBody = (e) => all("path", e).length === 1 && e.querySelector("path.body") && !e.querySelector("circle");
+function hullOf(some) {
+  const sorted = [...some].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
+  const turnsLeft = (o, a, b) => (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0]) > 1e-9;
+  const chain = (list) => {
+    const out = [];
+    for (const p of list) {
+      while (out.length > 1 && !turnsLeft(out[out.length - 2], out[out.length - 1], p)) out.pop();
+      out.push(p);
+    }
+    return out.slice(0, -1);
+  };
+  return [...chain(sorted), ...chain([...sorted].reverse())];
+}
+function outlineOf(some) {
+  const hull = hullOf(some);
+  const parts = hull.map((p, n) => {
+    const q = hull[(n + 1) % hull.length];
+    const size = apart(p, q) || 1;
+    const [x, y] = [((q[1] - p[1]) / size) * HALF, ((p[0] - q[0]) / size) * HALF];
+    return `${n ? `A${HALF},${HALF} 0 0 1` : "M"} ${f(p[0] + x)},${f(p[1] + y)} L${f(q[0] + x)},${f(q[1] + y)}`;
+  });
+  const start = parts[0].slice(1, parts[0].indexOf("L"));
+  return `${parts.join(" ")} A${HALF},${HALF} 0 0 1 ${start}Z`;
+}
+function stretched(before, after) {
+  const [p, q] = before;
+  const [a, b] = after;
+  const third = before.findIndex((s) => Math.abs((q[0] - p[0]) * (s[1] - p[1]) - (q[1] - p[1]) * (s[0] - p[0])) > 30);
+  const [u, v] = [[q[0] - p[0], q[1] - p[1]], [b[0] - a[0], b[1] - a[1]]];
+  const w = third < 0 ? [-u[1], u[0]] : [before[third][0] - p[0], before[third][1] - p[1]];
+  const k = Math.hypot(...u) / (Math.hypot(...v) || 1);
+  const x = third < 0 ? [-v[1] * k, v[0] * k] : [after[third][0] - a[0], after[third][1] - a[1]];
+  const d = u[0] * w[1] - u[1] * w[0];
+  const m = [(v[0] * w[1] - x[0] * u[1]) / d, (v[1] * w[1] - x[1] * u[1]) / d, (x[0] * u[0] - v[0] * w[0]) / d, (x[1] * u[0] - v[1] * w[0]) / d];
+  return `matrix(${m.map((c) => c.toFixed(5)).join()},${f(a[0] - m[0] * p[0] - m[2] * p[1])},${f(a[1] - m[1] * p[0] - m[3] * p[1])})`;
+}
+function bent(e, r) {
+  const own = e.querySelector(".bent");
+  if (own) own.remove();
+  const body = e.querySelector("path.body");
+  if (body) show(body, true);
+  const names = r === LIVE && live.links[e.dataset.turn];
+  if (!names) return false;
+  const before = names.map((n) => written[n]);
+  const after = names.map((n) => [points[n].x[r], points[n].y[r]]);
+  if (before.every((p, i) => before.every((q, j) => Math.abs(apart(p, q) - apart(after[i], after[j])) < 0.3))) return false;
+  if (plainBody(e)) {
+    show(body, false);
+    e.removeAttribute("transform");
+    make("path", { class: "body bent", d: outlineOf(after) }, e);
+    return true;
+  }
+  const far = before.reduce((best, p, n) => (apart(p, before[0]) > apart(before[best], before[0]) ? n : best), 0);
+  if (!far) return false;
+  const order = [0, far, ...names.map((_, n) => n).filter((n) => n && n !== far)];
+  set(e, "transform", stretched(order.map((n) => before[n]), order.map((n) => after[n])));
+  return true;
+}
+/* A rail of the frame goes where its guide has gone, not along it. */
+function moveRail(e, r) {
+  const at = e.dataset.rail;
+  if (r !== LIVE || !own(written, at)) return e.removeAttribute("transform");
+  const [before, now] = [guideOf(live.rails[at], scene.first.own), guideOf(live.rails[at], laboratory.scene()[3])];
+  const [p, q] = [written[at], [points[at].x[r], points[at].y[r]]];
+  const across = (q[0] - p[0]) * now[1] + (q[1] - p[1]) * now[0];
+  set(e, "transform", `translate(${f(p[0] + across * now[1])} ${f(p[1] + across * now[0])}) rotate(${f(-turned(before, now))}) translate(${-p[0]} ${-p[1]})`);
+}
+const rails = all("[data-rail]", figure);
 function moveParts(r) {
   for (const [e, l] of turning)
-    set(e, "transform", `translate(${f(l.x[r])} ${f(l.y[r])}) rotate(${f(-l.a[r])}) translate(${-l.from[0]} ${-l.from[1]})`);
+    if (!bent(e, r))
+      set(e, "transform", `translate(${f(l.x[r])} ${f(l.y[r])}) rotate(${f(-l.a[r])}) translate(${-l.from[0]} ${-l.from[1]})`);
+  if (live) for (const e of rails) moveRail(e, r);
   for (const e of contacts) show(e, r === zero || own(points, e.dataset.at));
   for (const [e, p] of following) set(e, "transform", `translate(${f(p.x[r] - p.x[zero])} ${f(p.y[r] - p.y[zero])})`);
   for (const [e, load, name] of pushes) {

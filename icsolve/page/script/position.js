@@ -32,6 +32,7 @@ function render() {
   }
   if (!motion) return;
   moveCursors(row);
+  if (live) placeHandles();
   byId("angle").textContent = angleWords(row);
   const said = answers.map((a) => a.name + saying(a, row).text + (saying(a, row).sense ? `, ${saying(a, row).sense}` : "")).join("; ");
   set(slider, "aria-valuetext", `${angleWords(row)}${said ? "; " + said : ""}`);
@@ -42,6 +43,10 @@ function hintOf(r, beyond) {
   return found ? found[2] : "";
 }
 function moveTo(r, beyond = "") {
+  if (live && scene.changed && live.drive !== undefined) {
+    drive(degreesOf(r));
+    return;
+  }
   leave();
   row = Math.max(0, Math.min(rows - 1, Math.round(r)));
   slider.value = String(degreesOf(row));
