@@ -403,6 +403,54 @@ def test_in_a_sweep_ropes_keep_their_length_and_the_loads_do_no_work() -> None:
     assert kept >= 12 * MORE
 
 
+LONG = """icsolve: 1
+points: {A: [0, 0], P: [1, 2], B: [0.3, 0.4], C: [1, unknown]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {slide: [3, 1], at: C, along: 90}
+  - {rope: [B, P, C], on: [2, 1, 3], length: 3.2%s}
+near: {C: [1, 0.4]}
+loads: {W: {weight: 100, link: 3, at: C}, T: {torque: unknown, link: 2}}
+"""
+
+
+@pytest.mark.parametrize("round_it", ["", ", radii: {P: 0.2}, wraps: {P: cw}"])
+def test_the_length_of_a_rope_places_what_hangs_on_it(round_it: str) -> None:
+    """In one step where its last part is free to swing about a small pulley, else by Newton's method."""
+    case = icsolve.load(LONG % round_it)
+    points = {**icsolve.solve(case).points, "A": (0.0, 0.0), "P": (1.0, 2.0), "B": (0.3, 0.4)}
+    assert same(rope_length(case.ropes[0], points, 0.0), 3.2, case.ropes[0])
+    turned = icsolve.sweep(case, {"points.B.x": np.array([0.3])}, ("answers",))
+    assert turned.answers["T"][0] == pytest.approx(icsolve.solve(case).answers["T"].value)
+
+
+def test_a_length_that_does_not_fit_is_refused() -> None:
+    with pytest.raises(SceneError, match=r"length of the rope B-P-C is given as 3\.2, the coordinates"):
+        icsolve.solve(icsolve.load((LONG % "").replace("unknown]", "0.3]")))
+
+
+@pytest.mark.parametrize("told", ["length: 3.2", "from"])
+def test_positions_of_a_crank_that_a_rope_holds(told: str) -> None:
+    """V x_B balances W times the rate of the part from B to P; the rope's length holds C."""
+    start = ", from: 53.13" if told == "from" else ""
+    place = "0.3" if told == "from" else "unknown"
+    text = f"""icsolve: 1
+points: {{A: [0, 0], P: [1, 2], C: [1, {place}]}}
+lengths: {{AB: 0.5}}
+angles: {{AB: {{unknown: [0, 180]{start}}}}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{slide: [3, 1], at: C, along: 90}}
+  - {{rope: [B, P, C], on: [2, 1, 3]{", length: 3.2" if told != "from" else ""}}}
+loads: {{W: {{weight: 10, link: 3, at: C}}, V: {{weight: 30, link: 2, at: B}}}}
+"""
+    (position,) = icsolve.solve(icsolve.load(text)).positions
+    t = math.radians(position.at["angles.AB"])
+    part = math.sqrt(5.25 - math.cos(t) - 2 * math.sin(t))
+    assert 15 * math.cos(t) + 10 * (math.sin(t) - 2 * math.cos(t)) / 2 / part == pytest.approx(0, abs=1e-9)
+    assert position.stability == "unstable"
+
+
 def test_a_screw_turns_by_its_lead_in_every_row() -> None:
     case = icsolve.load(str(CASES / "tools" / "scissor_jack.yaml"))
     rows = icsolve.sweep(case, want=("answers", "points"), drive={"2": np.linspace(-20.0, 20.0, 9)})

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from itertools import combinations
+from itertools import combinations, pairwise
 from typing import TYPE_CHECKING
 
-from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, X, Y
-from icsolve.assembly.loci import Arc, Axis, Circle, Line, Locus, Shifted, is_round
+from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, ROPE, Datum, X, Y
+from icsolve.assembly.loci import Arc, Axis, Circle, Line, Locus, Shifted, Tether, is_round
 from icsolve.assembly.steps import Mean, Meet, Polar, Step, Transfer, Turned
 from icsolve.assembly.workspace import Apart, LineDirection
 
@@ -99,6 +99,18 @@ def _lined(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:
             yield EXACT, Line(cluster.key(base), direction, False)
 
 
+def _tethered(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:
+    """The one point of a rope that is not in place, tied to one place by straight parts alone."""
+    rope = cluster.drawing.facts.ropes[datum.ref]  # type: ignore[index]
+    if any(p != point and p not in cluster.placed for p in datum.points):
+        return
+    own = [k for k, pair in enumerate(pairwise(datum.points)) if point in pair]
+    others = {p for k in own for p in datum.points[k : k + 2]} - {point}
+    sized = any(rope.radii[n] is not None for k in own for n in (k, k + 1))
+    if len(others) == 1 and not sized:
+        yield BY_LENGTH, Tether(cluster.key(*others), datum, point, len(own))
+
+
 def _axis(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:
     yield EXACT, Axis(datum)
 
@@ -109,7 +121,7 @@ def _nothing(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:
 
 KINDS: dict[str, Callable[[Cluster, Datum, str], Iterator[Candidate]]] = {
     X: _axis, Y: _axis, MEAN: _nothing, GUIDE: _guided, LINE: _lined,
-    LENGTH: _circle, RAY: _nothing, CORNER: _seen,
+    LENGTH: _circle, RAY: _nothing, CORNER: _seen, ROPE: _tethered,
 }  # fmt: skip
 
 

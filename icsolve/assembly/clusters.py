@@ -12,7 +12,7 @@ import heapq
 from collections.abc import Iterable
 
 from icsolve.assembly.candidates import Cost, best_step
-from icsolve.assembly.data import LENGTH, LINE, MEAN, RAY, Facts
+from icsolve.assembly.data import LENGTH, LINE, MEAN, RAY, ROPE, Facts
 from icsolve.assembly.loci import Circle, Line, Shifted
 from icsolve.assembly.steps import Given, Meet, Polar, Step, Transfer, Turned
 from icsolve.assembly.workspace import Apart, Key, LineDirection
@@ -194,7 +194,7 @@ class Cluster:
         outrank it.
         """
         for datum in self.drawing.facts.of.get(point, ()):
-            if datum.kind in (LENGTH, MEAN):
+            if datum.kind in (LENGTH, MEAN, ROPE):
                 continue
             for other in datum.points:
                 if other == point or other not in self.placed or self.key(other) in aimed:

@@ -9,9 +9,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from icsolve.case import Case, Centroid, Coordinates, Corner, Guide, Number, Slide, Slot
+from icsolve.case import Case, Centroid, Coordinates, Corner, Guide, Number, Rope, Slide, Slot
 
 X, Y, MEAN, GUIDE, LINE, LENGTH, RAY, CORNER = "x", "y", "mean", "guide", "line", "length", "ray", "corner"
+ROPE = "rope"
 
 
 class Datum(NamedTuple):
@@ -20,7 +21,8 @@ class Datum(NamedTuple):
     ``kind`` and ``points``: ``x`` and ``y`` (p) a coordinate of a point whose other one is
     unknown; ``mean`` (p, of...) a centroid; ``guide`` (at, through) a guide line by its angle;
     ``line`` (at, through, e1, e2) a guide line by two points; ``length`` (a, b); ``ray`` (a, b)
-    a direction; ``corner`` (a, at, b). ``ref`` is its place in the case.
+    a direction; ``corner`` (a, at, b); ``rope`` (a, p, ..., b) one that is as long as given.
+    ``ref`` is its place in the case.
     """
 
     kind: str
@@ -35,6 +37,8 @@ def number_of(case: Case, datum: Datum) -> Number:
         return case.lengths[ref].value  # type: ignore[index]
     if kind in (RAY, CORNER):
         return case.angles[ref].value  # type: ignore[index]
+    if kind == ROPE:
+        return case.ropes[ref].length  # type: ignore[index, return-value]
     if kind == GUIDE:
         return case.joints[ref].guide.angle  # type: ignore[index, union-attr, return-value]
     place = case.points[ref]  # type: ignore[index]
@@ -67,6 +71,9 @@ def data_of(case: Case) -> Iterator[Datum]:
             yield Datum(CORNER, i, (angle.a, angle.at, angle.b))
         else:
             yield Datum(RAY, i, (angle.a, angle.b))
+    for i, rope in enumerate(case.ropes):
+        if rope.length is not None and not rope.is_free:
+            yield Datum(ROPE, i, rope.points)
 
 
 def _guide(index: int, at: str, guide: Guide) -> Iterator[Datum]:
@@ -110,6 +117,7 @@ class Facts(NamedTuple):
     of: dict[str, list[Datum]]
     arms: dict[tuple[str, str], list[tuple[Datum, str, int]]]
     flat: frozenset[Datum]
+    ropes: tuple[Rope, ...]
 
 
 def facts_of(case: Case, only: tuple[Datum, ...] | None = None) -> Facts:
@@ -125,4 +133,4 @@ def facts_of(case: Case, only: tuple[Datum, ...] | None = None) -> Facts:
             arms.setdefault((at, a), []).append((datum, b, 1))
             arms.setdefault((at, b), []).append((datum, a, -1))
     flat = frozenset(d for d in data if d.kind == CORNER and number_of(case, d).value % 180.0 == 0.0)
-    return Facts(data, of, arms, flat)
+    return Facts(data, of, arms, flat, case.ropes)

@@ -4,16 +4,19 @@ and the smallest group that only all its data together place."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 from icsolve.assembly.clusters import Drawing
-from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, X, Y
+from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, ROPE, Datum, X, Y
+from icsolve.assembly.loci import length_of
 from icsolve.assembly.steps import told
 from icsolve.assembly.words import plain
 from icsolve.assembly.workspace import Key, Workspace
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
+from icsolve.screws.ropes import rope_parts
 from icsolve.wording.sentences import listed
 
 Unknown = tuple[str, int]
@@ -102,6 +105,17 @@ def _mean(workspace: Workspace, equation: Equation) -> Row:
     return Row(value, by)
 
 
+def _rope(workspace: Workspace, equation: Equation) -> Row:
+    """The rope's length less the given one; its pull at each place is the derivative by it."""
+    rope = workspace.case.ropes[equation.datum.ref]  # type: ignore[index]
+    parts = rope_parts(rope, workspace.points, workspace.frame.scale, workspace.arithmetic)  # type: ignore[arg-type]
+    pulls: list[tuple[str, Scalar, Scalar]] = []
+    for part, (a, b) in zip(parts, pairwise(rope.points), strict=True):
+        (x, y) = part.along
+        pulls += [(a, -x, -y), (b, x, y)]
+    return _sum(length_of(workspace, equation.datum) - workspace.length(equation.datum), *pulls)
+
+
 def _axis(workspace: Workspace, equation: Equation) -> Row:
     ((point, part),) = equation.unknowns()
     return Row(workspace.points[point][part] - workspace.coordinate(equation.datum), {(point, part): 1.0})
@@ -109,7 +123,7 @@ def _axis(workspace: Workspace, equation: Equation) -> Row:
 
 ROWS: dict[str, Callable[[Workspace, Equation], Row]] = {
     LENGTH: _length, RAY: _along, GUIDE: _along, CORNER: _corner,
-    LINE: _line, MEAN: _mean, X: _axis, Y: _axis,
+    LINE: _line, MEAN: _mean, X: _axis, Y: _axis, ROPE: _rope,
 }  # fmt: skip
 
 

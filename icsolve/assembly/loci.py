@@ -11,6 +11,7 @@ from typing import NamedTuple
 from icsolve.assembly.data import Datum, X
 from icsolve.assembly.workspace import Key, LineDirection, Point, Span, Workspace, data_in, ends_of
 from icsolve.numbers.arithmetic import Arithmetic, Scalar
+from icsolve.screws.ropes import rope_length
 
 
 class Crossing(NamedTuple):
@@ -176,10 +177,42 @@ class Axis(NamedTuple):
         return ()
 
 
+class Tether(NamedTuple):
+    """The circle about a point on which what a rope of given length leaves keeps another.
+
+    All ``parts`` of the rope that end at that other point come from the centre.
+    """
+
+    centre: Key
+    rope: Datum
+    point: str
+    parts: int
+
+    def values(self, workspace: Workspace) -> Values:
+        """Centre and radius."""
+        left = workspace.length(self.rope) - length_of(workspace, self.rope, self.point)
+        return (*workspace.points[self.centre], left / float(self.parts))
+
+    def data(self) -> tuple[Datum, ...]:
+        """The rope."""
+        return (self.rope,)
+
+    def needs(self) -> tuple[Key, ...]:
+        """Its other points."""
+        return tuple(dict.fromkeys(p for p in self.rope.points if p != self.point))
+
+
+def length_of(workspace: Workspace, datum: Datum, without: str = "") -> Scalar:
+    """How long a rope is where the points are, without its parts at one (normalised)."""
+    rope = workspace.case.ropes[datum.ref]  # type: ignore[index]
+    points = {p: workspace.points[p] for p in rope.points if p != without}
+    return rope_length(rope, points, workspace.frame.scale, workspace.arithmetic, without)
+
+
 class Shifted(NamedTuple):
     """The locus of another point, moved by the known vector from this point to that one."""
 
-    base: Circle | Arc | Line | Axis | Shifted
+    base: Circle | Arc | Tether | Line | Axis | Shifted
     span: Span
     direction: LineDirection
 
@@ -199,14 +232,14 @@ class Shifted(NamedTuple):
         return (*self.base.needs(), *ends_of(self.span), *self.direction.needs())
 
 
-Locus = Circle | Arc | Line | Axis | Shifted
+Locus = Circle | Arc | Tether | Line | Axis | Shifted
 
 
 def is_round(locus: Locus) -> bool:
     """Whether it is a circle, not a line."""
     while type(locus) is Shifted:
         locus = locus.base
-    return type(locus) is Circle or type(locus) is Arc
+    return type(locus) in (Circle, Arc, Tether)
 
 
 def is_ray(locus: Locus) -> bool:

@@ -13,14 +13,14 @@ from itertools import islice, product
 from typing import NamedTuple
 
 from icsolve.assembly.clusters import Drawing
-from icsolve.assembly.data import CORNER, LENGTH, LINE, facts_of
+from icsolve.assembly.data import CORNER, LENGTH, LINE, ROPE, facts_of
 from icsolve.assembly.groups import Group, Unknown, pivots, solved
 from icsolve.assembly.order import grow
 from icsolve.assembly.refusals import Miss, measure
 from icsolve.assembly.steps import Given, Meet, Step
 from icsolve.assembly.words import datum_words, plain
 from icsolve.assembly.workspace import Workspace
-from icsolve.errors import Status
+from icsolve.errors import SceneError, Status
 from icsolve.numbers.linear import inverse, solve_square
 from icsolve.wording.sentences import listed
 
@@ -46,6 +46,8 @@ CLOSE_WORK = 60_000
 
 def every(group: Group, workspace: Workspace) -> Found:
     """Every solution of a group, by exclusion; ``complete`` where they are shown to be all."""
+    if any(equation.datum.kind == ROPE for equation in group.equations):
+        raise SceneError(Status.UNSUPPORTED, ROPED)
     from icsolve.assembly.exclusion import every_solution
 
     found = every_solution(group, workspace)
@@ -55,6 +57,12 @@ def every(group: Group, workspace: Workspace) -> Found:
         groups.append(_polished(group, workspace, place) or group._replace(start=start))
     miss = None if groups else _unreached(group, workspace, {})
     return Found(groups, miss, {}, found.complete)
+
+
+ROPED = (
+    "the length of a rope and other data place points only together, and no search for every way in which "
+    "that can be is complete. Give `near` for one of them."
+)
 
 
 class Found(NamedTuple):
@@ -181,7 +189,7 @@ def _even(k: int, j: int) -> Spot:
     return math.fmod(k * math.sqrt(3 + 8 * j), 1.0), math.fmod(k * math.sqrt(5 + 8 * j), 1.0)
 
 
-STEEPEST = {LENGTH: 2.0, CORNER: 4.0, LINE: 4.0}
+STEEPEST = {LENGTH: 2.0, CORNER: 4.0, LINE: 4.0, ROPE: math.inf}
 """How fast the derivatives of a datum's equation change at most, per move of one of its points."""
 MOST_SHOWN = 60
 """Equations of the largest group for which an inverse is taken."""

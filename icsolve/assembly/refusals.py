@@ -4,7 +4,7 @@ import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from icsolve.assembly.data import CORNER, LENGTH, LINE, MEAN, RAY, Datum, X, Y, number_of
+from icsolve.assembly.data import CORNER, LENGTH, LINE, MEAN, RAY, ROPE, Datum, X, Y, number_of
 from icsolve.assembly.loci import Circle, is_round
 from icsolve.assembly.steps import Meet, Polar, Step, Turned
 from icsolve.assembly.words import datum_words, joined, locus_words, plain, span_words
@@ -195,7 +195,7 @@ def _clash(workspace: Workspace, datum: Datum, off: float, ahead: bool) -> str:
     if kind == MEAN:
         of = ", ".join(map(plain, points[1:]))
         return f"{name} is {measure(workspace, abs(off))} off the centroid of {of}"
-    if kind in (LENGTH, RAY, CORNER, X, Y):
+    if kind in (LENGTH, ROPE, RAY, CORNER, X, Y):
         subject, value, found = _values(workspace, datum, off)
         makers = "the coordinates make" if _all_given(workspace, points) else "the other data make"
         return f"{subject} is given as {value}, {makers} it {found}"
@@ -209,9 +209,10 @@ def _clash(workspace: Workspace, datum: Datum, off: float, ahead: bool) -> str:
 def _values(workspace: Workspace, datum: Datum, off: float) -> tuple[str, str, str]:
     """What a number is of, the number, and what the points make it."""
     points, kind = datum.points, datum.kind
-    if kind == LENGTH:
+    if kind in (LENGTH, ROPE):
         length = workspace.length(datum)
-        return joined(*points), bare(workspace, length), bare(workspace, length + off)
+        subject = joined(*points) if kind == LENGTH else f"the {datum_words(datum)}"
+        return subject, bare(workspace, length), bare(workspace, length + off)
     value = number_of(workspace.case, datum).value
     if kind in (X, Y):
         return datum_words(datum), f"{value:.6g}", f"{value + off / workspace.frame.scale:.6g}"

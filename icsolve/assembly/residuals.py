@@ -6,7 +6,8 @@ import math
 from collections.abc import Callable, Collection
 from typing import TYPE_CHECKING
 
-from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, X, Y, number_of
+from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, ROPE, Datum, X, Y, number_of
+from icsolve.assembly.loci import length_of
 from icsolve.assembly.refusals import Miss, clash, measure
 from icsolve.assembly.steps import Given, leading_to
 from icsolve.assembly.words import datum_words, joined
@@ -103,8 +104,13 @@ def _axis(workspace: Workspace, datum: Datum) -> Residual:
     return (x if datum.kind == X else y) - workspace.coordinate(datum), True
 
 
+def _rope(workspace: Workspace, datum: Datum) -> Residual:
+    return float(length_of(workspace, datum) - workspace.length(datum)), True
+
+
 RESIDUALS: dict[str, Callable[[Workspace, Datum], Residual]] = {
     LENGTH: _length, RAY: _ray, CORNER: _corner, GUIDE: _guide, LINE: _line, MEAN: _mean, X: _axis, Y: _axis,
+    ROPE: _rope,
 }  # fmt: skip
 
 

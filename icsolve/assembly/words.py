@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
-from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum
-from icsolve.assembly.loci import Arc, Axis, Circle, Shifted, is_round
+from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, ROPE, Datum
+from icsolve.assembly.loci import Arc, Axis, Circle, Shifted, Tether, is_round
 
 if TYPE_CHECKING:
     from icsolve.assembly.groups import Group
@@ -31,6 +31,8 @@ def datum_words(datum: Datum) -> str:
     """A datum by its name: ``length AB``, ``angle ABC``, ``the guide of C``."""
     if datum.kind == LENGTH:
         return f"length {joined(*datum.points)}"
+    if datum.kind == ROPE:
+        return f"length of the rope {'-'.join(map(plain, datum.points))}"
     if datum.kind in (RAY, CORNER):
         return f"angle {joined(*datum.points)}"
     if datum.kind in (GUIDE, LINE):
@@ -60,6 +62,8 @@ def locus_words(locus: Locus) -> str:
     """A locus by what makes it."""
     if isinstance(locus, Circle):
         return f"the circle about {plain(locus.centre)} of radius {span_words(locus.radius)}"
+    if isinstance(locus, Tether):
+        return f"the circle about {plain(locus.centre)} that the {datum_words(locus.rope)} leaves"
     if isinstance(locus, Arc):
         return f"the circle of {datum_words(locus.corner)}"
     if isinstance(locus, Axis):

@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 from icsolve.case import Rope
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Arithmetic, Scalar
+from icsolve.numbers.arithmetic import RADIAN, Arithmetic, Scalar
 from icsolve.screws.plane import Point, Triple, force_wrench, pairing, velocity
 
 Points = Mapping[str, Point]
@@ -93,6 +93,33 @@ def _no_part(rope: Rope, k: int, apart: float, scale: float) -> str:
         f"the rope {rope.name} has no straight part from {a} to {b}: they are {apart / scale:.6g} apart, "
         "which is less than their radii need. Correct the `radii` or the `wraps`."
     )
+
+
+def rope_length(
+    rope: Rope, points: Points, scale: float, arithmetic: Arithmetic, without: str = ""
+) -> Scalar:
+    """Length along the centre line from the first end to the last, without the parts at a point.
+
+    On a pulley it lies over the angle of its wrap; what is wound on a drum at an end does not count.
+    """
+    circles = zip(map(points.get, rope.points), offsets_of(rope, scale, arithmetic), strict=True)
+    total: Scalar = 0.0
+    before: RopePart | None = None
+    for k, ((one, radius), (two, next_radius)) in enumerate(pairwise(circles)):
+        part = None
+        if without not in rope.points[k : k + 2]:
+            assert one is not None
+            assert two is not None
+            part = part_between(rope, k, (one, radius), (two, next_radius), scale, arithmetic)
+            total = total + part.length
+        if before is not None and part is not None and rope.radii[k] is not None:
+            (ax, ay), (bx, by) = before.along, part.along
+            turned = arithmetic.angle(ax * bx + ay * by, ax * by - ay * bx)
+            signed = turned if rope.wraps[k] == "ccw" else 0.0 - turned
+            round_it = signed + 360.0 if float(signed) < 0.0 else signed
+            total = total + abs(radius) * round_it * RADIAN
+        before = part
+    return total
 
 
 def lengthening(parts: tuple[RopePart, ...], twists: Mapping[str, Triple]) -> Scalar:

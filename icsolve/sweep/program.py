@@ -149,7 +149,9 @@ def _poses(case: Case, figure: Figure, scratch: Mechanism, path: str) -> bool:
     record.vary[path] = record.input(path, numbers_of(case)[path].value)
     placed = place(figure, case, record).points
     moved = {name for name, p in placed.items() if any(map(varies, p))}
-    if not moved or any(getattr(joint, "at", None) in moved for joint in case.joints):
+    held = {getattr(joint, "at", None) for joint in case.joints}
+    held |= {p for rope in case.ropes for p, _ in zip(rope.points, rope.links, strict=False)}
+    if not moved or held & moved:
         return True
     return turns_a_wheel(scratch, path, moved, numbers_of(case)[path].value)
 

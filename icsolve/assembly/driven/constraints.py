@@ -154,6 +154,14 @@ class Roped(NamedTuple):
         one, two = ((places.place(self.spots[n]), self.offsets[n]) for n in (k, k + 1))
         return part_between(self.rope, k, one, two, self.scale, record)
 
+    def tied_to(self, spot: Spot) -> tuple[Spot, int] | None:
+        """The one spot from which straight parts alone lead to another, and how many do; None elsewhere."""
+        own = [k for k in range(len(self.written)) if spot in self.spots[k : k + 2]]
+        others = {end for k in own for end in self.spots[k : k + 2]} - {spot}
+        if len(others) != 1 or any(self.is_round(n) for k in own for n in (k, k + 1)):
+            return None
+        return next(iter(others)), len(own)
+
     def longer(self, places: Places, record: Record, turned: Turn, without: Spot | None = None) -> Scalar:
         """By how much it is longer than as written; ``without`` the parts at a spot.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from icsolve.assembly.driven.constraints import OnLine, RolledStraight, SpotDistance
+from icsolve.assembly.driven.constraints import OnLine, RolledStraight, Roped, SpotDistance
 from icsolve.assembly.driven.poses import (
     Places,
     Shape,
@@ -132,7 +132,7 @@ class ThroughTurned(NamedTuple):
     """
 
     spot: Spot
-    by: OnLine | SpotDistance | RolledStraight
+    by: OnLine | SpotDistance | RolledStraight | Roped
     own: Spot | None
 
 
@@ -147,6 +147,12 @@ def locus(shape: Shape, places: Places, by: By) -> PinLocus:
     if isinstance(c, SpotDistance):
         own, other = (c.one, c.two) if by.own == c.one else (c.two, c.one)
         return RoundLocus(plus(places.place(other), _off(shape, places, own, by.spot)), c.distance)
+    if isinstance(c, Roped):
+        assert by.own is not None
+        tied = c.tied_to(by.own)
+        assert tied is not None
+        left = -c.longer(places, shape.record, shape.record.turns, by.own) / float(tied[1])
+        return RoundLocus(plus(places.place(tied[0]), _off(shape, places, by.own, by.spot)), left)
     if by.own is None:
         return _of_line(shape, places, c, by.spot)
     along = places.vector(c.line.body, c.line.along)

@@ -16,6 +16,7 @@ from icsolve.assembly.driven.constraints import (
     Pointed,
     RolledRound,
     RolledStraight,
+    Roped,
     SpotDistance,
     Turning,
 )
@@ -322,11 +323,20 @@ class ClosingOrder:
             for mine, other in ((c.one, c.two), (c.two, c.one)):
                 if mine[0] == body and self.known(other) and (turned or self._same(mine, spot)):
                     yield ThroughTurned(spot, c, mine)
+        elif isinstance(c, Roped):
+            ends = [s for s in dict.fromkeys(c.spots) if s[0] == body and (turned or self._same(s, spot))]
+            yield from (ThroughTurned(spot, c, mine) for mine in ends if self._ropes(c, mine))
         elif isinstance(c, RolledStraight) and c.bodies <= self.turned:
             if c.line.body in self.full and c.centre[0] == body:
                 yield ThroughTurned(spot, c, c.centre)
             elif c.line.body == body and self.known(c.centre):
                 yield ThroughTurned(spot, c, None)
+
+    def _ropes(self, c: Roped, spot: Spot) -> bool:
+        """Whether a rope ties a spot to one place, and all else about it is known."""
+        wound = [c.spots[k][0] for k in (0, -1) if c.is_round(k)]
+        others = (other for other in c.spots if other != spot)
+        return c.tied_to(spot) is not None and all(map(self.known, others)) and self.turned.issuperset(wound)
 
     def _same(self, a: Spot, b: Spot) -> bool:
         return self.shape.one(a) == self.shape.one(b)
