@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from icsolve.case import Case, Centroid, Coordinates, Corner, Guide, Number, Rope, Slide, Slot
+from icsolve.case import Case, Centroid, Coordinates, Corner, Guide, Number, Rope
+from icsolve.case.joints import Guided
 
 X, Y, MEAN, GUIDE, LINE, LENGTH, RAY, CORNER = "x", "y", "mean", "guide", "line", "length", "ray", "corner"
 ROPE = "rope"
@@ -62,7 +63,7 @@ def data_of(case: Case) -> Iterator[Datum]:
         elif type(place) is Coordinates and (place.x is None) != (place.y is None):
             yield Datum(Y if place.x is None else X, name, (name,))
     for i, joint in enumerate(case.joints):
-        if isinstance(joint, Slide | Slot):
+        if isinstance(joint, Guided):
             yield from _guide(i, joint.at, joint.guide)
     for i, length in enumerate(case.lengths):
         yield Datum(LENGTH, i, (length.a, length.b))
@@ -94,12 +95,7 @@ def names_of(case: Case) -> list[str]:
     for datum in data_of(case):
         names.update(dict.fromkeys(datum.points))
     for joint in case.joints:
-        at = getattr(joint, "at", None)
-        if at is not None:
-            names[at] = None
-        guide = getattr(joint, "guide", None)
-        if guide is not None:
-            names.update(dict.fromkeys((*(guide.ends or ()), *filter(None, (guide.through,)))))
+        names.update(dict.fromkeys(joint.named))
     for carried in case.carries.values():
         names.update(dict.fromkeys(carried))
     return list(names)

@@ -12,7 +12,8 @@ from icsolve.assembly.refusals import Miss, clash, measure
 from icsolve.assembly.steps import Given, leading_to
 from icsolve.assembly.words import datum_words, joined
 from icsolve.assembly.workspace import Workspace
-from icsolve.case import Case, Coordinates, Gears, Number
+from icsolve.case import Case, Coordinates, Number
+from icsolve.case.joints import Mesh
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Floats, turn_of
 from icsolve.screws.joints import Points
@@ -239,8 +240,8 @@ def refuse_misfit(case: Case, top: Topology, points: Points, scale: float) -> No
         module = _module(bond)
         if module is None or not {*bond.pivots} <= points.keys():
             continue
-        assert isinstance(bond.joint, Gears)
-        fit = abs(bond.joint.teeth[0].value + bond.joint.teeth[1].value) * module / 2.0
+        assert isinstance(bond.joint, Mesh)
+        fit = abs(bond.joint.sizes[0].value + bond.joint.sizes[1].value) * module / 2.0
         apart = math.dist(*(points[p] for p in bond.pivots)) / scale
         if abs(apart - fit) > MISFIT * fit:
             raise SceneError(Status.INCONSISTENT, _misfit(case, bond, fit, apart))
@@ -248,11 +249,7 @@ def refuse_misfit(case: Case, top: Topology, points: Points, scale: float) -> No
 
 def _module(bond: Bond) -> float | None:
     """Pitch diameter per tooth (case lengths), where the case gives it."""
-    if not isinstance(bond.joint, Gears) or not bond.pivots[0]:
-        return None
-    if bond.joint.module is not None:
-        return bond.joint.module.value
-    return None if bond.joint.diametral_pitch is None else 1.0 / bond.joint.diametral_pitch.value
+    return bond.joint.pitch if isinstance(bond.joint, Mesh) and bond.pivots[0] else None
 
 
 def _misfit(case: Case, bond: Bond, fit: float, apart: float) -> str:

@@ -24,7 +24,7 @@ from icsolve.cams.contact_candidates import (
 from icsolve.cams.curve import Body, Curve, body_of, placed
 from icsolve.cams.pieces import Point, unit
 from icsolve.cams.words import corner_refusal, left_open, never_meets, piece_words, several_ways
-from icsolve.case import Case, Contact, Coordinates, Direction, Number, Pin, Slide
+from icsolve.case import Case, Contact, Coordinates, Direction, Joint, Number, Pin
 from icsolve.case.profiles import Flat, Follower, Knife, Profiles, Roller, Shape, Touch, points_of
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import turn_of
@@ -231,7 +231,7 @@ def guided(case: Case, link: str) -> Guided | None:
 
     The frame guides it where it can.
     """
-    own = [joint for joint in case.joints if link in joint.links and isinstance(joint, Pin | Slide)]
+    own = [joint for joint in case.joints if link in joint.links and _guides(joint)]
     for joint in sorted(own, key=lambda joint: case.ground not in joint.links):
         others = [other for other in joint.links if other != link]
         against = case.ground if case.ground in others else others[0]
@@ -243,10 +243,16 @@ def guided(case: Case, link: str) -> Guided | None:
     return None
 
 
-def _freedom(case: Case, joint: Pin | Slide) -> Freedom:
-    if isinstance(joint, Pin):
-        return Turn(places_of(case, (joint.at,))[joint.at])
+def _guides(joint: Joint) -> bool:
+    """Whether it leaves one freedom, whose centre goes with its links."""
+    return joint.freedom == 1 and joint.stays_known
+
+
+def _freedom(case: Case, joint: Joint) -> Freedom:
     guide = joint.guide
+    if guide is None:
+        assert joint.at is not None
+        return Turn(places_of(case, (joint.at,))[joint.at])
     if guide.angle is not None:
         return Shift(turn_of(guide.angle.value))
     assert guide.ends is not None

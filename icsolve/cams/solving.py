@@ -11,7 +11,7 @@ from icsolve.answer.bodies import Reactions, names_of
 from icsolve.answer.contacts import Touching
 from icsolve.cams.contact_search import found
 from icsolve.cams.words import contact_said, lost_said
-from icsolve.case import Case, Contact
+from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.statics.power import is_unknown
 
@@ -76,7 +76,7 @@ def pressed(one: Touching, case: Case, reactions: Reactions | None) -> Touching:
 
 def _name(one: Touching, case: Case, reactions: Reactions) -> str | None:
     """The name of the force in a contact, None where there is none."""
-    hidden = next(j.at for j in case.joints if isinstance(j, Contact) and j.links == one.links)
+    hidden = next(joint.at or "" for joint in case.joints if joint.only_pushes and joint.links == one.links)
     return next((name for name in names_of(*one.links, hidden) if name in reactions), None)
 
 

@@ -34,6 +34,7 @@ from icsolve.case.joints import (
     Contact,
     Friction,
     Gears,
+    Guided,
     Helix,
     Joint,
     KnownCentre,
@@ -180,7 +181,7 @@ class Case:
     @cached_property
     def screws(self) -> tuple[Screw, ...]:
         """Those that a torque turns."""
-        slides = (joint for joint in self.joints if isinstance(joint, Slide))
+        slides = (joint for joint in self.joints if isinstance(joint, Guided))
         return tuple(Screw(slide, slide.thread) for slide in slides if slide.thread is not None)
 
     def __repr__(self) -> str:

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from icsolve.case.joints import Slide, Thread
+from icsolve.case.joints import Guided, Thread
 from icsolve.numbers.given import Number
 
 
@@ -21,7 +21,7 @@ class Inertia(NamedTuple):
 class Screw(NamedTuple):
     """A screw that a torque turns, by the slide that it is among the joints."""
 
-    slide: Slide
+    slide: Guided
     thread: Thread
 
     @property

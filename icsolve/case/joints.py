@@ -1,4 +1,11 @@
-"""The kinds of joint, as a case gives them."""
+"""The kinds of joint, as a case gives them; each class answers what the theory asks of a joint.
+
+What a joint leaves free is told by the centres about which its second link can move against its first:
+`screws.joints` makes basis twists of them, and twists, transmitted wrenches, loops, rates and accelerations,
+free bodies and error bounds follow. Families share answers: `Sliding` surfaces, `Guided` ones among them;
+`Rolling` links; a `Mesh` of wheels on a common carrier. How a kind is read, said and drawn stands in three
+tables: `read.joints`, `wording.joints` and `draw.joints`.
+"""
 
 from typing import NamedTuple
 
@@ -14,12 +21,220 @@ class Friction(NamedTuple):
     length: Number | None = None
 
 
-class Pin(NamedTuple):
-    """A revolute of two or more links about the point ``at``."""
+class CentreAt(NamedTuple):
+    """A centre at a named point, which ``link`` carries; '' where it is known in one position only."""
 
+    point: str
+    link: str = ""
+
+
+class CentreSquareTo(NamedTuple):
+    """A centre at infinity, square to a guide of ``link``."""
+
+    guide: Guide
+    link: str
+
+
+class CentreToward(NamedTuple):
+    """A centre at infinity in a direction, known in one position only."""
+
+    direction: Number
+    link: str = ""
+
+
+JointCentre = CentreAt | CentreSquareTo | CentreToward
+
+
+class Kind:
+    """What a kind of joint answers where it says nothing else."""
+
+    @property
+    def links(self) -> tuple[str, ...]:
+        """The links that it joins, in its own order."""
+        raise NotImplementedError
+
+    @property
+    def kind(self) -> str:
+        """The kind in the words of the format."""
+        return type(self).__name__.lower()
+
+    @property
+    def at(self) -> str | None:
+        """The point at which it is, where it has one."""
+        return None
+
+    @property
+    def guide(self) -> Guide | None:
+        """The line along which its point runs."""
+        return None
+
+    @property
+    def friction(self) -> Friction | None:
+        """How it rubs."""
+        return None
+
+    @property
+    def pressure_angle(self) -> Number | None:
+        """That of its teeth."""
+        return None
+
+    @property
+    def direction(self) -> Number | None:
+        """The angle that directs it, degrees."""
+        return None
+
+    @property
+    def centres(self) -> tuple[JointCentre, ...]:
+        """The centres that span its freedoms: one, or two on whose line its centre lies; none of a weld."""
+        raise NotImplementedError
+
+    @property
+    def freedom(self) -> int:
+        """Relative freedoms that it leaves to its links."""
+        return len(self.centres)
+
+    @property
+    def keeps_direction(self) -> bool:
+        """Whether its links cannot turn against each other."""
+        return not any(isinstance(centre, CentreAt) for centre in self.centres)
+
+    @property
+    def stays_known(self) -> bool:
+        """Whether its centres go with its links, so that it is known in all positions."""
+        return all(centre.link for centre in self.centres)
+
+    @property
+    def has_written_centre(self) -> bool:
+        """Whether its one centre is a place of the file, which others may miss by its last digits."""
+        return self.freedom == 1 and not self.stays_known
+
+    @property
+    def stands_in(self) -> bool:
+        """Whether it stands for joints that the case does not show."""
+        return False
+
+    @property
+    def only_pushes(self) -> bool:
+        """Whether its links part where they would have to pull."""
+        return False
+
+    @property
+    def pulls(self) -> bool:
+        """Whether its strands pull, which slacken where they would have to push."""
+        return False
+
+    @property
+    def carried(self) -> tuple[tuple[str, str], ...]:
+        """Its points, each after the link whose point it is."""
+        return ()
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        """The points that place it."""
+        ends = () if self.guide is None else self.guide.ends or ()
+        return (self.at, *ends) if self.at is not None else ends
+
+    @property
+    def named(self) -> tuple[str, ...]:
+        """All points that it names."""
+        through = self.guide.through if self.guide is not None else None
+        return (*self.points, *((through,) if through is not None else ()))
+
+
+class Sliding(Kind):
+    """Surfaces that slide on each other at the point ``at``, and press square to that."""
+
+    at: str
+
+
+class Guided(Sliding):
+    """A point of ``links[0]`` that runs along a guide of ``links[1]``."""
+
+    guide: Guide
+
+    @property
+    def thread(self) -> "Thread | None":
+        """Of a screw, whose nut is ``links[1]``."""
+        return None
+
+    @property
+    def direction(self) -> Number | None:
+        """The angle of the guide."""
+        return self.guide.angle
+
+    @property
+    def carried(self) -> tuple[tuple[str, str], ...]:
+        """The point that runs, and the points of the guide."""
+        on = (*(self.guide.ends or ()), *((self.guide.through,) if self.guide.through else ()))
+        return ((self.links[0], self.at), *((self.links[1], point) for point in on))
+
+
+class Rolling(Kind):
+    """Links that roll on each other without slip at the point ``at``."""
+
+    at: str
+    radii: tuple[Number, Number] | None
+
+
+class Mesh(Kind):
+    """Two wheels that are pinned to one carrier; their pitch point divides the line of the pivots."""
+
+    carrier: str | None
+
+    @property
+    def centres(self) -> tuple[JointCentre, ...]:
+        """Told by the pivots, which a bond knows: the pitch point, and square to the line of the pivots."""
+        return ()
+
+    @property
+    def freedom(self) -> int:
+        """A mesh is one constraint."""
+        return 2
+
+    @property
+    def keeps_direction(self) -> bool:
+        """Wheels turn."""
+        return False
+
+    @property
+    def sizes(self) -> tuple[Number, Number]:
+        """Numbers of teeth, or radii."""
+        raise NotImplementedError
+
+    @property
+    def turns_alike(self) -> bool:
+        """Whether both wheels turn the same way, seen from the carrier: the pitch point lies outside."""
+        raise NotImplementedError
+
+    @property
+    def pitch(self) -> float | None:
+        """Pitch diameter for each tooth, case lengths, where the case gives it."""
+        return None
+
+    @property
+    def helix(self) -> "Helix | None":
+        """The slant of its teeth."""
+        return None
+
+
+class _Pin(NamedTuple):
     links: tuple[str, ...]
     at: str
     friction: Friction | None = None
+
+
+class Pin(_Pin, Kind):
+    """A revolute of two or more links about the point ``at``."""
+
+    @property
+    def centres(self) -> tuple[JointCentre, ...]:
+        """Its point."""
+        return (CentreAt(self.at, self.links[0]),)
+
+    @property
+    def carried(self) -> tuple[tuple[str, str], ...]:
+        """Its point, of every link."""
+        return tuple((link, self.at) for link in self.links)
 
 
 class Thread(NamedTuple):
@@ -31,10 +246,7 @@ class Thread(NamedTuple):
     mu: Number | None = None
 
 
-class Slide(NamedTuple):
-    """A prismatic: block ``links[0]``, carrying ``at``, on a guide of ``links[1]``; of a screw it has the
-    ``thread``, on which ``links[1]`` moves."""
-
+class _Slide(NamedTuple):
     links: tuple[str, str]
     at: str
     guide: Guide
@@ -42,25 +254,75 @@ class Slide(NamedTuple):
     thread: Thread | None = None
 
 
-class Slot(NamedTuple):
-    """A pin of ``links[0]`` at ``at`` in a slot of ``links[1]``."""
+class Slide(_Slide, Guided):
+    """A prismatic: block ``links[0]``, carrying ``at``, on a guide of ``links[1]``; of a screw it has the
+    ``thread``, on which ``links[1]`` moves."""
 
+    @property
+    def centres(self) -> tuple[JointCentre, ...]:
+        """At infinity."""
+        return (CentreSquareTo(self.guide, self.links[1]),)
+
+
+class _Slot(NamedTuple):
     links: tuple[str, str]
     at: str
     guide: Guide
     friction: Friction | None = None
 
 
-class Roll(NamedTuple):
+class Slot(_Slot, Guided):
+    """A pin of ``links[0]`` at ``at`` in a slot of ``links[1]``."""
+
+    @property
+    def centres(self) -> tuple[JointCentre, ...]:
+        """The pin, and square to the slot."""
+        return CentreAt(self.at, self.links[0]), CentreSquareTo(self.guide, self.links[1])
+
+
+class _Contact(NamedTuple):
+    links: tuple[str, str]
+    at: str
+    normal: Number
+    friction: Friction | None = None
+
+
+class Contact(_Contact, Sliding):
+    """Contact that rolls and slips; the normal points from ``links[0]`` into ``links[1]``."""
+
+    @property
+    def centres(self) -> tuple[JointCentre, ...]:
+        """On the common normal; how it moves hangs on profiles that the joint does not know."""
+        return CentreAt(self.at), CentreToward(self.normal)
+
+    @property
+    def direction(self) -> Number:
+        """That of the normal."""
+        return self.normal
+
+    @property
+    def only_pushes(self) -> bool:
+        """Nothing holds the surfaces together."""
+        return True
+
+
+class _Roll(NamedTuple):
+    links: tuple[str, str]
+    at: str
+    radii: tuple[Number, Number] | None = None
+    pressure_angle: Number | None = None
+
+
+class Roll(_Roll, Rolling):
     """Rolling without slip, in contact at ``at``; ``radii`` as the format says.
 
     With ``pressure_angle`` it rolls by teeth (a rack and its pinion).
     """
 
-    links: tuple[str, str]
-    at: str
-    radii: tuple[Number, Number] | None = None
-    pressure_angle: Number | None = None
+    @property
+    def centres(self) -> tuple[JointCentre, ...]:
+        """Where they touch, which is a point of neither link."""
+        return (CentreAt(self.at),)
 
 
 class Helix(NamedTuple):
@@ -74,12 +336,7 @@ class Helix(NamedTuple):
     normal: bool = False
 
 
-class Gears(NamedTuple):
-    """A mesh; negative ``teeth`` are internal. The pivots are pins to one carrier.
-
-    Pitch and module are those in the plane of the wheels; the pressure angle too, but for that of a helix.
-    """
-
+class _Gears(NamedTuple):
     links: tuple[str, str]
     teeth: tuple[Number, Number]
     carrier: str | None = None
@@ -89,37 +346,106 @@ class Gears(NamedTuple):
     helix: Helix | None = None
 
 
-class Belt(NamedTuple):
-    """A belt or chain over two pulleys that are pinned to one carrier."""
+class Gears(_Gears, Mesh):
+    """A mesh; negative ``teeth`` are internal. The pivots are pins to one carrier.
 
+    Pitch and module are those in the plane of the wheels; the pressure angle too, but for that of a helix.
+    """
+
+    @property
+    def sizes(self) -> tuple[Number, Number]:
+        """Numbers of teeth."""
+        return self.teeth
+
+    @property
+    def turns_alike(self) -> bool:
+        """With one internal wheel."""
+        return (self.teeth[0].value < 0) != (self.teeth[1].value < 0)
+
+    @property
+    def pitch(self) -> float | None:
+        """Pitch diameter for each tooth, case lengths, where the case gives it."""
+        if self.module is not None:
+            return self.module.value
+        return None if self.diametral_pitch is None else 1.0 / self.diametral_pitch.value
+
+
+class _Belt(NamedTuple):
     links: tuple[str, str]
     radii: tuple[Number, Number]
     crossed: bool = False
     carrier: str | None = None
 
 
-class Contact(NamedTuple):
-    """Contact that rolls and slips; the normal points from ``links[0]`` into ``links[1]``."""
+class Belt(_Belt, Mesh):
+    """A belt or chain over two pulleys that are pinned to one carrier."""
 
-    links: tuple[str, str]
-    at: str
-    normal: Number
-    friction: Friction | None = None
+    @property
+    def sizes(self) -> tuple[Number, Number]:
+        """Radii."""
+        return self.radii
+
+    @property
+    def turns_alike(self) -> bool:
+        """Where it is open."""
+        return not self.crossed
+
+    @property
+    def pulls(self) -> bool:
+        """By its two strands."""
+        return True
 
 
-class KnownCentre(NamedTuple):
-    """A relative centre that the case gives: at a point, or at infinity toward a direction."""
-
+class _KnownCentre(NamedTuple):
     links: tuple[str, str]
     at: str | None
     toward: Number | None = None
 
 
-class Weld(NamedTuple):
-    """Two links that move as one; ``at`` serves only its reaction."""
+class KnownCentre(_KnownCentre, Kind):
+    """A relative centre that the case gives: at a point, or at infinity toward a direction."""
 
+    @property
+    def kind(self) -> str:
+        """As the format has it."""
+        return "centre"
+
+    @property
+    def direction(self) -> Number | None:
+        """Toward the centre."""
+        return self.toward
+
+    @property
+    def centres(self) -> tuple[JointCentre, ...]:
+        """As given."""
+        if self.at is not None:
+            return (CentreAt(self.at),)
+        assert self.toward is not None
+        return (CentreToward(self.toward),)
+
+    @property
+    def stands_in(self) -> bool:
+        """For all between its links."""
+        return True
+
+
+class _Weld(NamedTuple):
     links: tuple[str, str]
     at: str | None = None
+
+
+class Weld(_Weld, Kind):
+    """Two links that move as one; ``at`` serves only its reaction."""
+
+    @property
+    def centres(self) -> tuple[JointCentre, ...]:
+        """It leaves no freedom."""
+        return ()
+
+    @property
+    def carried(self) -> tuple[tuple[str, str], ...]:
+        """Its point, of both links."""
+        return tuple((link, self.at) for link in self.links) if self.at else ()
 
 
 Joint = Pin | Slide | Slot | Roll | Gears | Belt | Contact | KnownCentre | Weld

@@ -9,6 +9,7 @@ from typing import NamedTuple
 import shapely
 
 from icsolve.case import Joint, KnownCentre, Pin, Slide, Slot
+from icsolve.case.joints import Guided
 from icsolve.draw.marks import Disc, Group, Mark, Point, Run, along, unit
 from icsolve.draw.place import Label, Soft, area, bar, joined, nearest, plate, tilted
 from icsolve.draw.scene import BLOCK, HALF, PIN, RAIL, SLOT, Part, Scene, outlines
@@ -69,7 +70,7 @@ def _own_points(scene: Scene, link: str) -> list[Point]:
     return list(dict.fromkeys(scene.at[p] for p in names))
 
 
-def guide_in_picture(scene: Scene, joint: Slide | Slot) -> Point:
+def guide_in_picture(scene: Scene, joint: Guided) -> Point:
     """Unit vector along a guide, in the picture."""
     x, y = guide_direction(joint.guide, scene.known.points, FLOATS)
     return (x, -y)

@@ -7,13 +7,15 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 
 from icsolve.answer import Centre
-from icsolve.case import Belt, Contact, Gears, Joint, KnownCentre, Pair, Pin, Roll, Slide, Slot
+from icsolve.case import Pair
+from icsolve.case.joints import Sliding
 from icsolve.case.names import pair_name
 from icsolve.derivation import Known, Ratio, Ratios, Step
 from icsolve.derivation.ratios import ratios_of
 from icsolve.explain.document import Block, Inline, Items, Section, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Quotient, Root, Span, Square, Sum, Trig, minus, product
 from icsolve.explain.given import Figures, centre_name, place_words, rate_name, speed_name
+from icsolve.wording.joints import centre_words, normal_words
 
 
 def centre_sections(known: Known, figures: Figures, steps: Sequence[Step]) -> list[Section]:
@@ -59,28 +61,8 @@ def _why(known: Known, centre: Centre) -> str:
         return "given"
     for joint in known.case.joints:
         if set(centre.pair) <= set(joint.links):
-            return _reason(joint)
+            return centre_words(joint)
     return "the links that they are welded to show it"
-
-
-def _reason(joint: Joint) -> str:
-    at = getattr(joint, "at", None)
-    match joint:
-        case Pin():
-            return f"the pin {at}"
-        case Slide():
-            return f"square to the guide at {at}"
-        case Roll():
-            return f"rolling contact at {at}"
-        case Gears():
-            teeth = " : ".join(n.digits.lstrip("-") for n in joint.teeth)
-            return f"the pitch point, which divides the line of the pivots as {teeth}"
-        case Belt():
-            radii = " : ".join(r.digits for r in joint.radii)
-            return f"where the belt cuts the line of the pivots, divided as {radii}"
-        case KnownCentre():
-            return "given"
-    return "a joint"
 
 
 def _constructed(known: Known, figures: Figures, centre: Centre) -> Iterable[Inline]:
@@ -114,8 +96,8 @@ def _line(known: Known, centre: Centre, line: tuple[Pair, ...]) -> Iterable[Inli
 
 def _normal(known: Known, pair: Pair) -> str:
     for joint in known.case.joints:
-        if set(pair) <= set(joint.links) and isinstance(joint, Slot | Contact):
-            what = "normal of the slot" if isinstance(joint, Slot) else "common normal"
+        if set(pair) <= set(joint.links) and isinstance(joint, Sliding) and joint.freedom > 1:
+            what = normal_words(joint)
             hidden = joint.at.startswith("@")
             return f"{what} of links {' and '.join(joint.links)}" if hidden else f"{what} at {joint.at}"
     return "common normal of the joint"

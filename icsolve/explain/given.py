@@ -9,24 +9,16 @@ from icsolve.answer import Centre
 from icsolve.case import (
     AlongRope,
     Area,
-    Belt,
     Case,
-    Contact,
     Coordinates,
     Force,
     ForceVector,
-    Gears,
     Joint,
-    KnownCentre,
     Like,
     Load,
     Motion,
     Number,
-    Pin,
-    Roll,
-    Slide,
     Slope,
-    Slot,
     Spring,
     Stretch,
     Torque,
@@ -34,15 +26,14 @@ from icsolve.case import (
     Toward,
     Units,
     Weight,
-    Weld,
 )
-from icsolve.case.joints import Friction
 from icsolve.case.names import pair_name
 from icsolve.case.profiles import Circle, Flat, Follower, Knife, Roller, Shape
 from icsolve.derivation import Known
 from icsolve.explain.document import Block, Inline, Items, Section, Table, words
 from icsolve.explain.formula import Name, Num, Quantity
 from icsolve.statics.power import is_unknown, reacting
+from icsolve.wording.joints import joint_words
 from icsolve.wording.senses import SPELT, unit_of
 from icsolve.wording.sentences import link_words, listed
 
@@ -174,41 +165,9 @@ def _verb(items: list[str]) -> str:
     return "s" if len(items) == 1 else ""
 
 
-def joint_words(joint: Joint) -> str:
-    """A joint in words."""
-    links = listed(joint.links)
-    at = getattr(joint, "at", None)
-    where = f" at {at}" if at and not at.startswith("@") else ""
-    match joint:
-        case Pin():
-            return f"a pin joins links {links}{where}"
-        case Slide():
-            return f"link {joint.links[0]} slides on link {joint.links[1]}{where}{_along(joint)}"
-        case Slot():
-            pin, slot = joint.links
-            return f"a pin of link {pin} runs in a slot of link {slot}{where}{_along(joint)}"
-        case Roll():
-            return f"links {links} roll on each other without slip{where}"
-        case Gears():
-            teeth = " and ".join(n.digits.lstrip("-") for n in joint.teeth)
-            kind = ", internal" if any(n.value < 0 for n in joint.teeth) else ""
-            return f"links {links} are gears with {teeth} teeth{kind}"
-        case Belt():
-            return f"a {'crossed ' if joint.crossed else ''}belt runs over links {links}"
-        case Contact():
-            if joint.at.startswith("@"):
-                normal = f"{joint.normal.value:.6g}"
-                return f"the profiles of links {links} touch, with the common normal at {normal} deg"
-            return f"links {links} touch{where}, with the common normal at {joint.normal.digits} deg"
-        case KnownCentre():
-            return f"the centre of links {links} is known"
-        case Weld():
-            return f"links {links} are welded together{where}"
-
-
 def _rubbing(figures: Figures, joint: Joint) -> str:
     """What a joint says of its friction."""
-    friction: Friction | None = getattr(joint, "friction", None)
+    friction = joint.friction
     if friction is None:
         return ""
     parts = [f"mu = {figures.number(friction.mu.value).digits}"]
@@ -231,18 +190,6 @@ def profile_words(figures: Figures, link: str, shape: Shape | Follower) -> str:
             return f"link {link}: a knife edge at {at}"
     names = {"Polygon": "a polygon", "Arcs": "arcs and lines", "Radii": "a table of radii"}
     return f"link {link}: {names.get(type(shape).__name__, 'a profile')}"
-
-
-def _along(joint: Slide | Slot) -> str:
-    guide = joint.guide
-    if guide.angle is not None:
-        return f", along {guide.angle.digits} deg"
-    assert guide.ends is not None
-    return (
-        f", along {guide.ends[0]}{guide.ends[1]}"
-        if all(len(e) == 1 for e in guide.ends)
-        else (f", along {guide.ends[0]}-{guide.ends[1]}")
-    )
 
 
 def _points(known: Known, figures: Figures) -> list[Block]:

@@ -14,7 +14,8 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from icsolve.assembly.workspace import Frame
-from icsolve.case import Belt, Case, Contact, Gears, KnownCentre, Motion, Pin, Roll, Rope, Slide, Slot
+from icsolve.case import Case, Joint, Motion, Pin, Rope
+from icsolve.case.joints import CentreAt, CentreSquareTo, JointCentre, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import NO_SPEED
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider
@@ -23,6 +24,7 @@ from icsolve.screws.joints import Points, freedoms, guide_direction, mesh_weight
 from icsolve.screws.plane import Point, Triple, add, blend, cross, pairing, subtract, velocity
 from icsolve.screws.ropes import part_changes, rope_parts
 from icsolve.structure.topology import Bond, Topology
+from icsolve.wording.joints import why_no_acceleration
 from icsolve.wording.sentences import listed
 
 STILL: Triple = (0.0, 0.0, 0.0)
@@ -262,30 +264,27 @@ class _Place(NamedTuple):
 def _changes(place: _Place, bond: Bond, basis: tuple[Triple, ...]) -> tuple[Triple, ...]:
     """Rates of a bond's basis twists."""
     joint, (by, on) = bond.joint, bond.links
-    match joint:
-        case Pin():
-            return (_moved(place.at(by, joint.at)),)
-        case Slide():
-            return (_turned(place, on, guide_direction(joint.guide, place.points, place.arithmetic)),)
-        case Slot():
-            guide = guide_direction(joint.guide, place.points, place.arithmetic)
-            return _moved(place.at(by, joint.at)), _turned(place, on, guide)
-        case Gears() | Belt():
-            p, q = mesh_weights(joint, place.arithmetic)
-            (ax, ay), (bx, by_) = place.at(by, bond.pivots[0]), place.at(on, bond.pivots[1])
-            return (p * ax + q * bx, p * ay + q * by_, 0.0), (ay - by_, bx - ax, 0.0)
-        case Roll():
-            return (_moved(_contact_velocity(place, joint)),)
-        case Contact():
-            raise _unknown(joint, "nothing says how its profiles curve")
-        case KnownCentre():
-            raise _unknown(joint, "it stands for joints that the case does not show. Give those")
-    raise TypeError(f"{type(joint).__name__} has no motion of its own")
+    if isinstance(joint, Mesh):
+        p, q = mesh_weights(joint, place.arithmetic)
+        (ax, ay), (bx, by_) = place.at(by, bond.pivots[0]), place.at(on, bond.pivots[1])
+        return (p * ax + q * bx, p * ay + q * by_, 0.0), (ay - by_, bx - ax, 0.0)
+    if isinstance(joint, Rolling):
+        return (_moved(_contact_velocity(place, joint)),)
+    return tuple(_change(place, joint, centre) for centre in joint.centres)
 
 
-def _unknown(joint: Contact | KnownCentre | Roll, why: str) -> SceneError:
-    kind = {"Contact": "contact", "KnownCentre": "centre", "Roll": "rolling"}[type(joint).__name__]
-    message = f"the {kind} of links {listed(joint.links)} has no acceleration: {why}."
+def _change(place: _Place, joint: Joint, centre: JointCentre) -> Triple:
+    """Rate of a basis twist whose centre a link carries."""
+    if not centre.link:
+        raise SceneError(Status.UNSUPPORTED, why_no_acceleration(joint))
+    if isinstance(centre, CentreAt):
+        return _moved(place.at(centre.link, centre.point))
+    assert isinstance(centre, CentreSquareTo)
+    return _turned(place, centre.link, guide_direction(centre.guide, place.points, place.arithmetic))
+
+
+def _unknown(joint: Rolling, why: str) -> SceneError:
+    message = f"the rolling of links {listed(joint.links)} has no acceleration: {why}."
     return SceneError(Status.UNSUPPORTED, message)
 
 
@@ -299,7 +298,7 @@ def _turned(place: _Place, link: str, along: Point) -> Triple:
     return (-(omega * along[0]), -(omega * along[1]), 0.0)
 
 
-def _contact_velocity(place: _Place, joint: Roll) -> Point:
+def _contact_velocity(place: _Place, joint: Rolling) -> Point:
     """How the point moves at which two links roll on each other (it is of neither).
 
     The centres of curvature are points of the links at the radii r, s along the normal n out of the first:
@@ -324,7 +323,7 @@ def _contact_velocity(place: _Place, joint: Roll) -> Point:
     return (s * vc[0] + r * vd[0]) / whole, (s * vc[1] + r * vd[1]) / whole
 
 
-def _normal(place: _Place, joint: Roll) -> Point:
+def _normal(place: _Place, joint: Rolling) -> Point:
     """Unit normal at a rolling contact, out of the first link: along the line to a round link's centre."""
     assert joint.radii is not None
     px, py = place.points[joint.at]

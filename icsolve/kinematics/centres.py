@@ -13,14 +13,15 @@ from typing import Any
 
 from icsolve.answer import Centre
 from icsolve.assembly.workspace import Frame
-from icsolve.case import Belt, Case, Gears, KnownCentre, Pair, Weld
+from icsolve.case import Case, Pair
+from icsolve.case.joints import Mesh
 from icsolve.case.names import ordered_pair
 from icsolve.kinematics.kennedy import BodyPair, Kennedy, Known, ordered, sine_between, unit
 from icsolve.numbers.arithmetic import ROUNDING_NOISE, Arithmetic, Showing, all_vanish
 from icsolve.numbers.null_space import ROUNDING
 from icsolve.screws.joints import Points, freedoms, joint_freedoms, joint_points, pitch_point
 from icsolve.screws.plane import Triple, cross, subtract
-from icsolve.structure.topology import FREEDOMS, Topology
+from icsolve.structure.topology import Topology
 
 LinkTwists = Mapping[str, Sequence[Triple]]
 ONE = 5.0
@@ -87,14 +88,14 @@ class CentreFinder:
             if bond.a not in self.twists or bond.b not in self.twists:
                 continue
             pair = ordered(bond.a, bond.b)
-            if isinstance(bond.joint, Gears | Belt):
+            if isinstance(bond.joint, Mesh):
                 primaries.setdefault(pair, (pitch_point(bond, self.points, self.arithmetic), "inspection"))
                 continue
             basis = freedoms(bond, self.points, self.arithmetic)
             if len(basis) == 2:
                 normals[pair] = (*normals.get(pair, ()), cross(*basis))
             else:
-                by = "given" if isinstance(bond.joint, KnownCentre) else "inspection"
+                by = "given" if bond.joint.stands_in else "inspection"
                 primaries.setdefault(pair, (basis[0], by))
         return primaries, normals
 
@@ -127,12 +128,12 @@ class CentreFinder:
     def _own(self, pair: Pair) -> tuple[Triple, str] | None:
         """The centre of the joint between two links, which stands even where they do not move (a weld
         has none)."""
-        if any(isinstance(joint, Weld) and set(joint.links) == set(pair) for joint in self.case.joints):
+        if any(not joint.freedom and set(joint.links) == set(pair) for joint in self.case.joints):
             return None
         for joint in self.case.joints:
-            single = {*pair} <= {*joint.links} and FREEDOMS.get(type(joint)) == 1
+            single = {*pair} <= {*joint.links} and joint.freedom == 1
             if single and all(point in self.points for point in joint_points(joint)):
-                by = "given" if isinstance(joint, KnownCentre) else "inspection"
+                by = "given" if joint.stands_in else "inspection"
                 return joint_freedoms(joint, self.points, self.arithmetic)[0], by
         return None
 
@@ -194,7 +195,7 @@ def own_centre(top: Topology, pair: Pair, points: Points, arithmetic: Arithmetic
     bodies = ordered(*(top.body_of[link] for link in pair))
     for bond in top.bonds:
         if ordered(bond.a, bond.b) == bodies:
-            if isinstance(bond.joint, Gears | Belt):
+            if isinstance(bond.joint, Mesh):
                 return pitch_point(bond, points, arithmetic)
             basis = freedoms(bond, points, arithmetic)
             if len(basis) == 1:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from icsolve.case import Contact, Pin, Slot
+from icsolve.case import Pin
+from icsolve.case.joints import Sliding
 from icsolve.kinematics.twists import Closure, is_dead, products, rate_sizes
 from icsolve.numbers.arithmetic import Arithmetic
 from icsolve.structure.topology import Bond, Topology
+from icsolve.wording.joints import normal_words
 from icsolve.wording.sentences import listed
 
 
@@ -64,7 +66,7 @@ def _place(bond: Bond) -> str:
 
 
 def _normal(bond: Bond) -> str:
-    if not isinstance(bond.joint, Slot | Contact) or bond.joint.at.startswith("@"):
+    joint = bond.joint
+    if not isinstance(joint, Sliding) or joint.freedom == 1 or joint.at.startswith("@"):
         return ""
-    what = "the normal to the slot" if isinstance(bond.joint, Slot) else "the common normal"
-    return f"{what} at {bond.joint.at}"
+    return f"the {normal_words(joint)} at {joint.at}"

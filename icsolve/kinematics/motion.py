@@ -5,7 +5,7 @@ import math
 from typing import NamedTuple
 
 from icsolve.assembly.workspace import Frame
-from icsolve.case import Case, KnownCentre, Roll
+from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.loops import ORIGIN, Bases, LoopMotions, all_motions
 from icsolve.kinematics.twists import Closure, is_singular, run
@@ -89,9 +89,7 @@ TURN = Number(6.283185307179586, 0.0, "turn", "6.283185307179586", 1.0, (2, 1, 1
 """Radians of a turn."""
 
 
-def with_ends(
-    motions: Motions, case: Case, points: Points, scale: float, arithmetic: Arithmetic
-) -> Motions:
+def with_ends(motions: Motions, case: Case, points: Points, scale: float, arithmetic: Arithmetic) -> Motions:
     """The motions with the turning of screws, cw as one looks along their axes, and with those of the ends of
     ropes that loads pull: under the names of what stands there for links."""
     if not (case.screws or case.ropes):
@@ -123,13 +121,13 @@ def _almost(
     """The motion that data of few digits just miss; refuses a structure and what is in doubt."""
     pivots = rigid.found.pivots
     last = pivots[-1] if pivots else 1.0
-    inexact = [joint for joint in case.joints if isinstance(joint, KnownCentre | Roll)]
+    inexact = [joint for joint in case.joints if joint.has_written_centre]
     if inexact and last < AGREE:
         motions = all_motions(top, bases, AGREE / len(pivots))
         if len(motions.found.basis) == 1:
             miss = f"{motions.found.dropped:.1g} of the figure's size"
             return motions, (f"the given centres and rolling contacts agree with each other to {miss}.",)
-    if any(isinstance(joint, KnownCentre) for joint in inexact):
+    if any(joint.stands_in for joint in inexact):
         raise SceneError(Status.CONTRADICTORY, contradiction(top, bases, frame, case.units.length))
     raise _rigid(top, rigid)
 
@@ -147,7 +145,7 @@ def contradiction(top: Topology, bases: Bases, frame: Frame, unit: str) -> str:
     """Which given centre lies off the place that the others give it, and how far."""
     worst: tuple[float, str] | None = None
     for k, bond in enumerate(top.bonds):
-        if not isinstance(bond.joint, KnownCentre):
+        if not bond.joint.stands_in:
             continue
         off = _off_place(top, bases, k)
         if off is not None and (worst is None or off < worst[0]):

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from icsolve.case import Pin, Slide
 from icsolve.kinematics.loops import ORIGIN, Bases, Branch, loop_rows, span
 from icsolve.numbers.null_space import null_space
 from icsolve.screws.joints import transmitted
@@ -25,9 +24,9 @@ BINDS = 1e-9
 def goes_on(top: Topology, bases: Bases) -> bool | None:
     """Whether the one motion of a redundant scene extends to second order.
 
-    None where a joint is neither a pin nor a slide, or there is not one motion.
+    None where a joint has not one centre that goes with its links, or there is not one motion.
     """
-    if any(not isinstance(top.bonds[k].joint, Pin | Slide) for k in bases):
+    if any(top.bonds[k].joint.freedom > 1 or not top.bonds[k].joint.stays_known for k in bases):
         return None
     tree = span(top, sorted(bases), (top.ground,), bases)
     rows = [row[:-1] for row in loop_rows(top, tree, bases, {top.ground: ORIGIN})]

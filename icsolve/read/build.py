@@ -20,7 +20,6 @@ from icsolve.case import (
     Rope,
     Tolerance,
     Units,
-    Weld,
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
 from icsolve.read.expect import read_expect
@@ -77,7 +76,7 @@ def build(root: Mapping, problems: Problems, name: str, measured: Measures) -> C
     mention_links(reading, root.items.get("joints"))
     ground = ground_of(reading, root)
     parts = _parts(reading, root)
-    welds = [joint.links for joint in parts.joints if isinstance(joint, Weld)]
+    welds = [joint.links for joint in parts.joints if not joint.freedom]
     check_frame(reading, "ground" in root.items, ground, welds)
     check_unknowns(reading, parts.loads)
     if readable(root, "points", "lengths", "angles"):

@@ -14,30 +14,23 @@ from typing import NamedTuple
 
 from icsolve.case import (
     Centroid,
-    Contact,
     Coordinates,
     Corner,
     Direction,
     Force,
     Inertia,
     Joint,
-    KnownCentre,
     Length,
     Load,
     Mark,
     Motion,
     Number,
-    Pin,
-    Roll,
-    Slide,
-    Slot,
     Spring,
     Stretch,
     Torque,
     TorsionSpring,
     Unknown,
     Weight,
-    Weld,
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.keys import CENTROID, MASSES, UNKNOWN
@@ -351,23 +344,13 @@ def carried(
 ) -> dict[str, tuple[str, ...]]:
     """The points that each link carries, in order of mention: of joints, loads, ``links:``, motion."""
     found: dict[str, dict[str, None]] = {link: {} for link in links}
-    placed = [pair for joint in joints for pair in _on_joint(joint)]
+    placed = [pair for joint in joints for pair in joint.carried]
     placed += [pair for load in loads for pair in _on_load(load, ground)]
     placed += [(link, point) for link, points in further.items() for point in points]
     placed += [(given.link, given.point) for given in motion if given.point]
     for link, point in placed:
         found.setdefault(link, {})[point] = None
     return {link: tuple(points) for link, points in found.items()}
-
-
-def _on_joint(joint: Joint) -> list[tuple[str, str]]:
-    if isinstance(joint, Pin) or (isinstance(joint, Weld) and joint.at):
-        return [(link, joint.at or "") for link in joint.links]
-    if isinstance(joint, Slide | Slot):
-        guide = joint.guide
-        named = [*(guide.ends or ()), *([guide.through] if guide.through else [])]
-        return [(joint.links[0], joint.at), *[(joint.links[1], point) for point in named]]
-    return []
 
 
 def _on_load(load: Load, ground: str) -> list[tuple[str, str]]:
@@ -385,8 +368,6 @@ def _on_load(load: Load, ground: str) -> list[tuple[str, str]]:
 
 FRAMES = ("0", "frame", "ground", "base", "fixed", "gnd", "earth")
 """What books call the frame."""
-_PLACED = Pin | Slide | Slot | Weld | Roll | Contact
-"""Joints whose point is a point of their links; a known centre is none."""
 
 
 class Figure(NamedTuple):
@@ -400,7 +381,7 @@ class Figure(NamedTuple):
     """points of links by `links:` and by profiles"""
 
 
-def check_frame(reading: Reading, given: bool, ground: str, welds: Iterable[tuple[str, str]]) -> None:
+def check_frame(reading: Reading, given: bool, ground: str, welds: Iterable[tuple[str, ...]]) -> None:
     """Refuse a link that is called as frames are where the case leaves it open which link is the frame."""
     if given or not reading.links or ground not in reading.links:
         return
@@ -412,11 +393,11 @@ def check_frame(reading: Reading, given: bool, ground: str, welds: Iterable[tupl
             return
 
 
-def _welded(link: str, welds: Iterable[tuple[str, str]]) -> set[str]:
+def _welded(link: str, welds: Iterable[tuple[str, ...]]) -> set[str]:
     """The links that move as one with a link."""
     pairs = list(welds)
     found = {link}
-    while more := {b for pair in pairs for a, b in (pair, pair[::-1]) if a in found} - found:
+    while more := {b for pair in pairs for a, *_, b in (pair, pair[::-1]) if a in found} - found:
         found |= more
     return found
 
@@ -496,7 +477,7 @@ class _Owners:
 
     def __init__(self, figure: Figure, ground: str) -> None:
         self.figure, self.ground = figure, ground
-        welds = [joint.links for joint in figure.joints if isinstance(joint, Weld)]
+        welds = [joint.links for joint in figure.joints if not joint.freedom]
         self.own: dict[str, set[str]] = {}
         for link, point in _on_joints(figure.joints):
             self.own.setdefault(link, set()).add(point)
@@ -507,7 +488,7 @@ class _Owners:
             points_of_all = set().union(*(self.own.get(link, ()) for link in together))
             self.own.update(dict.fromkeys(together, points_of_all))
         self.dimensioned = {end for length in figure.lengths for end in (length.a, length.b)}
-        self.centres = {joint.at for joint in figure.joints if isinstance(joint, KnownCentre)}
+        self.centres = {joint.at for joint in figure.joints if joint.stands_in}
         self.fixed: dict[str, set[str]] = {}
 
     def instead(self, link: str, point: str) -> tuple[list[str], bool]:
@@ -538,12 +519,8 @@ class _Owners:
 
 def _on_joints(joints: Iterable[Joint]) -> Iterator[tuple[str, str]]:
     for joint in joints:
-        if not isinstance(joint, _PLACED) or joint.at is None:
-            continue
-        guide = joint.guide if isinstance(joint, Slide | Slot) else None
-        named = [*(guide.ends or ()), guide.through] if guide else []
-        for link in joint.links:
-            yield from ((link, point) for point in (joint.at, *named) if point)
+        if not joint.stands_in:  # a known centre is no point of its links
+            yield from ((link, point) for link in joint.links for point in joint.named)
 
 
 def _tied(figure: Figure, known: set[str]) -> Iterator[str]:

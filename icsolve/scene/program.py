@@ -9,7 +9,8 @@ from typing import NamedTuple
 
 from icsolve.assembly import Figure, place, placed_figure, solve_figure
 from icsolve.assembly.data import names_of
-from icsolve.case import Case, Gears
+from icsolve.case import Case
+from icsolve.case.joints import Mesh
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics import motion, speeds
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic
@@ -61,7 +62,7 @@ def prepare(case: Case, want: Want) -> Program:
     figure = _figure(case, top, bonds, want)
     refusals.refuse_no_direction(case, top, figure.points)
     refusals.refuse_no_hanging(case, figure.points, figure.frame.scale)
-    if any(isinstance(joint, Gears) for joint in case.joints):
+    if any(isinstance(joint, Mesh) for joint in case.joints):
         from icsolve.assembly.residuals import refuse_misfit
 
         refuse_misfit(case, top, figure.points, figure.frame.scale)
@@ -112,7 +113,7 @@ def _wanted_points(case: Case, top: Topology, bonds: tuple[int, ...], want: Want
     points += [p for rope in case.ropes for p in rope.points]
     points += [p for screw in case.screws for p in (screw.slide.at, *(screw.slide.guide.ends or ()))]
     if want.bodies:
-        points += [p for joint in case.joints if (p := getattr(joint, "at", None)) is not None]
+        points += [joint.at for joint in case.joints if joint.at is not None]
     return list(dict.fromkeys(points))
 
 

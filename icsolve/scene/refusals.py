@@ -36,7 +36,7 @@ def refuse_no_direction(case: Case, top: Topology, points: Points) -> None:
     lines = [(f"load {load.name}", power.line_of(load)) for load in case.loads]
     for bond in top.bonds:
         names = sentences.listed(bond.links)
-        guide = getattr(bond.joint, "guide", None)
+        guide = bond.joint.guide
         lines.append((f"the guide of links {names}", guide.ends if guide is not None else None))
         lines.append((f"the wheels {names}", bond.pivots if bond.pivots[0] else None))
     for what, ends in lines:
@@ -72,7 +72,7 @@ def rubs(case: Case) -> bool:
     """Whether friction has a part in the answer: a joint rubs, and a load is unknown."""
     if not any(power.is_unknown(load) for load in case.loads):
         return False
-    frictions = (getattr(joint, "friction", None) for joint in case.joints)
+    frictions = (joint.friction for joint in case.joints)
     ropes = any(rope.slips for rope in case.ropes) or any(screw.rubs for screw in case.screws)
     return ropes or any(friction is not None and friction.mu.value > 0 for friction in frictions)
 

@@ -8,7 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from icsolve.case import Belt, Contact, Gears, Guide, Joint, KnownCentre, Pin, Roll, Slide, Slot
+from icsolve.case import Guide, Joint
+from icsolve.case.joints import CentreAt, CentreSquareTo, JointCentre, Mesh
 from icsolve.numbers.arithmetic import Arithmetic
 from icsolve.screws.plane import Point, Triple, normal_twist, pin_twist, slide_twist
 from icsolve.structure.topology import Bond
@@ -18,48 +19,38 @@ Points = Mapping[str, Point]
 
 def freedoms(bond: Bond, points: Points, arithmetic: Arithmetic) -> tuple[Triple, ...]:
     """Basis twists (normalised frame) that the bond leaves to its two bodies."""
-    joint = bond.joint
-    if type(joint) is Pin:
-        return (pin_twist(points[joint.at]),)
-    if isinstance(joint, Gears | Belt):
+    if isinstance(bond.joint, Mesh):
         return _mesh(bond, points, arithmetic)
-    return joint_freedoms(joint, points, arithmetic)
+    return joint_freedoms(bond.joint, points, arithmetic)
 
 
 def joint_freedoms(joint: Joint, points: Points, arithmetic: Arithmetic) -> tuple[Triple, ...]:
     """Basis twists of a joint that needs no pivots of its own links."""
-    match joint:
-        case Pin() | Roll():
-            return (pin_twist(points[joint.at]),)
-        case Slide():
-            return (slide_twist(guide_direction(joint.guide, points, arithmetic)),)
-        case Slot():
-            along = slide_twist(guide_direction(joint.guide, points, arithmetic))
-            return (pin_twist(points[joint.at]), along)
-        case Contact():
-            return (pin_twist(points[joint.at]), normal_twist(arithmetic.turn(joint.normal)))
-        case KnownCentre():
-            return (_known_centre(joint, points, arithmetic),)
-    raise TypeError(f"{type(joint).__name__} leaves no freedom of its own")
+    return tuple(_twist(centre, points, arithmetic) for centre in joint.centres)
+
+
+def _twist(centre: JointCentre, points: Points, arithmetic: Arithmetic) -> Triple:
+    if isinstance(centre, CentreAt):
+        return pin_twist(points[centre.point])
+    if isinstance(centre, CentreSquareTo):
+        return slide_twist(guide_direction(centre.guide, points, arithmetic))
+    return normal_twist(arithmetic.turn(centre.direction))
 
 
 def points_of(bond: Bond) -> tuple[str, ...]:
     """The points whose places the basis twists need."""
-    return bond.pivots if isinstance(bond.joint, Gears | Belt) else joint_points(bond.joint)
+    return bond.pivots if isinstance(bond.joint, Mesh) else joint_points(bond.joint)
 
 
 def joint_points(joint: Joint) -> tuple[str, ...]:
     """The points whose places the basis twists of a joint need, without pivots."""
-    match joint:
-        case Slide():
-            return joint.guide.ends or ()
-        case Slot():
-            return (joint.at, *(joint.guide.ends or ()))
-        case KnownCentre():
-            return (joint.at,) if joint.at else ()
-        case Pin() | Roll() | Contact():
-            return (joint.at,)
-    return ()
+    return tuple(point for centre in joint.centres for point in _points(centre))
+
+
+def _points(centre: JointCentre) -> tuple[str, ...]:
+    if isinstance(centre, CentreAt):
+        return (centre.point,)
+    return centre.guide.ends or () if isinstance(centre, CentreSquareTo) else ()
 
 
 def guide_direction(guide: Guide, points: Points, arithmetic: Arithmetic) -> Point:
@@ -73,33 +64,20 @@ def guide_direction(guide: Guide, points: Points, arithmetic: Arithmetic) -> Poi
     return (dx / length, dy / length)
 
 
-def _known_centre(joint: KnownCentre, points: Points, arithmetic: Arithmetic) -> Triple:
-    if joint.at is not None:
-        return pin_twist(points[joint.at])
-    assert joint.toward is not None
-    return normal_twist(arithmetic.turn(joint.toward))
-
-
-def mesh_weights(joint: Gears | Belt, arithmetic: Arithmetic) -> tuple[float, float]:
+def mesh_weights(joint: Mesh, arithmetic: Arithmetic) -> tuple[float, float]:
     """Weights (p, q) of the pivots in the pitch point ``(p O_a + q O_b, p + q)``.
 
     Teeth or radii n_a, n_b: the pitch point divides the line of the pivots as n_a : n_b, inside for
     external gears and crossed belts, outside for internal gears and open belts.
     """
-    if isinstance(joint, Gears):
-        a, b = (arithmetic.given(n) for n in joint.teeth)
-        outside = (joint.teeth[0].value < 0) != (joint.teeth[1].value < 0)
-    else:
-        a, b = (arithmetic.given(n) for n in joint.radii)
-        outside = not joint.crossed
-    a, b = _size(a), _size(b)
+    a, b = (_size(arithmetic.given(n)) for n in joint.sizes)
     whole = a + b
-    return (b / whole, -a / whole) if outside else (b / whole, a / whole)
+    return (b / whole, -a / whole) if joint.turns_alike else (b / whole, a / whole)
 
 
 def weights_of(bond: Bond, arithmetic: Arithmetic) -> tuple[float, float]:
     """The same for the bond of a mesh."""
-    assert isinstance(bond.joint, Gears | Belt)
+    assert isinstance(bond.joint, Mesh)
     return mesh_weights(bond.joint, arithmetic)
 
 
@@ -134,4 +112,3 @@ def transmitted(basis: tuple[Triple, ...]) -> tuple[Triple, ...]:
     if type(w) is float and w == 0.0:
         return ((0.0, 0.0, 1.0), (y, -x, 0.0))
     return ((w, 0.0, -x), (0.0, w, -y))
-

@@ -86,7 +86,7 @@ def _is_placed(case: Case) -> bool:
 
 def rubs(case: Case) -> bool:
     """Whether a joint has friction."""
-    frictions = (getattr(joint, "friction", None) for joint in case.joints)
+    frictions = (joint.friction for joint in case.joints)
     return any(friction is not None and friction.mu.value > 0 for friction in frictions)
 
 

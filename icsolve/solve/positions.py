@@ -14,21 +14,15 @@ from icsolve.answer import Answer
 from icsolve.answer.equilibrium import Stiffness
 from icsolve.assembly.ways import ways_of
 from icsolve.case import (
-    Belt,
     Case,
-    Contact,
     Coordinates,
     Force,
-    Gears,
-    KnownCentre,
     Load,
     Number,
-    Roll,
-    Slide,
-    Slot,
     Torque,
     TorsionSpring,
 )
+from icsolve.case.joints import Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.replay import Code
@@ -189,11 +183,11 @@ def _history(case: Case) -> Iterator[tuple[str, str]]:
     """What counts from a position as written, with a link on which it does."""
     for joint in case.joints:
         pair = "-".join(joint.links[:2])
-        if isinstance(joint, Gears | Belt | Roll | KnownCentre):
+        if isinstance(joint, Rolling | Mesh) or joint.stands_in:
             yield from ((f"the joint of links {pair}", link) for link in joint.links)
-        elif isinstance(joint, Slide | Slot) and joint.guide.angle is not None:
+        elif joint.guide is not None and joint.guide.angle is not None:
             yield f"the guide of links {pair} by degrees", joint.links[1]
-        elif isinstance(joint, Contact):
+        elif not joint.stays_known:
             yield from ((f"the normal of links {pair}", link) for link in joint.links)
     for load in case.loads:
         if getattr(load, "turns_with", None):

@@ -65,7 +65,7 @@ def find_ranges(case: Case, path: str, span: tuple[float, float] | None) -> Rang
 
 
 def _smooth(joint: Any) -> Any:
-    return joint._replace(friction=None) if getattr(joint, "friction", None) is not None else joint
+    return joint._replace(friction=None) if joint.friction is not None else joint
 
 
 def _holds(function: LoadFunction, value: float) -> bool:

@@ -18,7 +18,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from typing import NamedTuple
 
-from icsolve.case import Gears
+from icsolve.case.joints import Mesh
 from icsolve.kinematics.speeds import Speed
 from icsolve.numbers.arithmetic import Arithmetic, Scalar
 from icsolve.numbers.sparse import Row, eliminate
@@ -109,7 +109,7 @@ def _doubt(position: Position, traced: Bounded) -> str:
         return f"{UNSURE} with ropes that slip"
     if position.slack:
         return MISSED
-    if any(isinstance(joint, Gears) and joint.helix is not None for joint in position.case.joints):
+    if any(isinstance(joint, Mesh) and joint.helix is not None for joint in position.case.joints):
         return HELICAL
     return TOO_CLOSE if max(traced.tape.doubts(SMALL), default=0.0) else ""
 

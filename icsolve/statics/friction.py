@@ -13,7 +13,8 @@ from typing import NamedTuple
 from icsolve.answer import Answer, Deferred, Found
 from icsolve.answer.bodies import Friction, Rubbing, Tension, Witness
 from icsolve.assembly import Frame
-from icsolve.case import Belt, Gears, Rope
+from icsolve.case import Rope
+from icsolve.case.joints import Mesh
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import STILL, Speed
 from icsolve.numbers.arithmetic import FLOATS
@@ -237,9 +238,10 @@ def _statics(scene: Scene, ties: Sequence[Tie]) -> Statics:
 def _shared(tie: Tie, ties: Sequence[Tie]) -> str:
     remedy = "Take out `mu` there, or make the joints fewer (a pin in a slot in place of a slide)."
     cause = "the joints are redundant and share the load by their fit"
-    if any(isinstance(other.joint, Gears) and other.joint.pressure_angle is None for other in ties):
+    meshes = [other.joint for other in ties if isinstance(other.joint, Mesh)]
+    if any(not mesh.pulls and mesh.pressure_angle is None for mesh in meshes):
         cause, remedy = "it hangs on how hard teeth push apart", "Give the gears their `pressure angle`."
-    elif any(isinstance(other.joint, Belt) for other in ties):
+    elif any(mesh.pulls for mesh in meshes):
         cause = "it hangs on the initial tension of the belt"
         remedy = "Take out `mu` there, or in place of the belt put its two pulls on the pulleys as loads."
     return (

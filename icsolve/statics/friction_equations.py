@@ -19,7 +19,6 @@ from typing import NamedTuple
 from icsolve.numbers.linear import inverse, solve_square
 from icsolve.numbers.sparse import Row
 from icsolve.statics.equilibrium import Statics, independent
-from icsolve.statics.reaction_basis import is_touching
 
 Form = tuple[float, ...]
 """An affine form: the constant, then the coefficients of y."""
@@ -267,7 +266,7 @@ def _alone(k: int, n: int, gain: float) -> Form:
 
 
 def _touching(statics: Statics) -> list[bool]:
-    return [is_touching(statics.ties[rub.tie].joint) for rub in statics.rubs]
+    return [statics.ties[rub.tie].joint.only_pushes for rub in statics.rubs]
 
 
 def reduced_workless(statics: Statics, senses: Sequence[float]) -> Reduced | None:

@@ -12,7 +12,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from icsolve.answer import Term, bodies
-from icsolve.case import Case, Contact, Friction, Pin, Screw, Slide, Slot
+from icsolve.case import Case, Friction, Joint, Screw
+from icsolve.case.joints import Sliding
 from icsolve.numbers.arithmetic import Arithmetic, Scalar
 from icsolve.numbers.linear import solve_square
 from icsolve.screws.joints import guide_direction
@@ -22,9 +23,9 @@ from icsolve.statics.power import Balance, Wrench, known_value
 from icsolve.statics.reaction_basis import COUPLE, Force, Position, RopeTie, Tie, thread
 
 
-def friction_of(joint: object) -> Friction | None:
+def friction_of(joint: Joint) -> Friction | None:
     """A joint's friction, where its coefficient is not zero."""
-    friction: Friction | None = getattr(joint, "friction", None)
+    friction = joint.friction
     return friction if friction is not None and friction.mu.value > 0.0 else None
 
 
@@ -44,10 +45,10 @@ def rubs_of(position: Position, ties: Sequence[Tie]) -> tuple[Rub, ...]:
             found.append(_threaded(position, t, tie, tie.screw, arithmetic))
         if friction is None:
             continue
-        if isinstance(tie.joint, Pin):
-            found.append(_pin(position, t, tie, friction, arithmetic))
-        elif isinstance(tie.joint, Slide | Slot | Contact):
+        if isinstance(tie.joint, Sliding):
             found += _guided(position, t, tie, friction, arithmetic)
+        else:
+            found.append(_pin(position, t, tie, friction, arithmetic))
     return tuple(found)
 
 
@@ -104,7 +105,7 @@ def _rate(position: Position, tie: Tie, rub: Rub, motion: int) -> Scalar:
 
 def kind_of_rub(tie: Tie) -> str:
     """``pin``, ``slide``, ``slot``, ``contact`` or ``screw``."""
-    return "screw" if tie.screw is not None else type(tie.joint).__name__.lower()
+    return "screw" if tie.screw is not None else tie.joint.kind
 
 
 def unknowns_by_power(

@@ -16,21 +16,16 @@ from typing import NamedTuple
 
 from icsolve.assembly.residuals import MISFIT
 from icsolve.case import (
-    Belt,
     Case,
-    Contact,
-    Gears,
     Guide,
     Joint,
-    KnownCentre,
     Pin,
-    Roll,
     Rope,
     Screw,
     Slide,
     Thread,
-    Weld,
 )
+from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import TURN
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
@@ -143,15 +138,15 @@ def _end_tie(position: Position, tie: RopeTie) -> Tie:
 
 def _tie(position: Position, bond: Bond) -> Tie:
     joint, (by, on) = bond.joint, bond.links
-    if isinstance(joint, Weld):
+    if not joint.freedom:
         where = joint.at or _meeting(position, by, on)
         return Tie(joint, by, on, position.points.get(where, (0.0, 0.0)), where, (X, Y, COUPLE))
-    if isinstance(joint, Gears | Belt) and not bond.pivots[0]:  # its links move as one: it may carry anything
+    if isinstance(joint, Mesh) and not bond.pivots[0]:  # its links move as one: it may carry anything
         at = position.points.get(_meeting(position, by, on), (0.0, 0.0))
         return Tie(joint, by, on, at, "", (X, Y, COUPLE))
     where, at = _place(bond, position.points, position.arithmetic)
     found = Tie(joint, by, on, at, where, _units(position, bond, at), bond.pivots)
-    if isinstance(joint, Slide) and joint.thread is not None:
+    if isinstance(joint, Guided) and joint.thread is not None:
         return _screwed(position, found, Screw(joint, joint.thread))
     return found
 
@@ -190,13 +185,13 @@ def _meeting(position: Position, by: str, on: str) -> str:
 
 def _place(bond: Bond, points: Points, arithmetic: Arithmetic) -> tuple[str, Point]:
     joint = bond.joint
-    if isinstance(joint, Gears):
-        x, y, w = pitch_point(bond, points, arithmetic)
-        return "", (x / w, y / w)
-    if isinstance(joint, Belt):
+    if isinstance(joint, Mesh) and joint.pulls:
         (ax, ay), (bx, by) = (points[p] for p in bond.pivots)
         return "", ((ax + bx) / 2.0, (ay + by) / 2.0)
-    at = getattr(joint, "at", None)
+    if isinstance(joint, Mesh):
+        x, y, w = pitch_point(bond, points, arithmetic)
+        return "", (x / w, y / w)
+    at = joint.at
     if at is None:
         return "", (0.0, 0.0)
     return ("" if at.startswith("@") else at), points[at]
@@ -208,12 +203,13 @@ def _units(position: Position, bond: Bond, at: Point) -> tuple[Force, ...]:
     A mesh or a belt is one constraint, but the force in it has two unknown parts (tangential and
     separating, the pulls of two strands): all that does no work on the turning about the pitch point.
     """
-    if isinstance(bond.joint, Gears):
+    meshed = isinstance(bond.joint, Mesh)
+    if meshed and not bond.joint.pulls:
         return _forces(((0.0, 0.0, 1.0),))
     basis = freedoms(bond, position.points, position.arithmetic)
-    if isinstance(bond.joint, Belt):
+    if meshed:
         return _pulls(bond, position.points, shift(basis[0], at))
-    if position.slack and isinstance(bond.joint, KnownCentre | Roll):
+    if position.slack and bond.joint.has_written_centre:
         basis = _as_it_moves(position, bond, basis)
     return _forces(tuple(_seen(b, at) for b in basis))
 
@@ -248,25 +244,14 @@ def _as_it_moves(position: Position, bond: Bond, basis: tuple[Triple, ...]) -> t
     return ((x / w, y / w, 1.0),) if abs(w) > 1e-9 * size else ((x / size, y / size, 0.0),)
 
 
-def is_touching(joint: Joint) -> bool:
-    """Whether a joint can push and not pull."""
-    return isinstance(joint, Contact)
-
-
-def kind_of(joint: Joint) -> str:
-    """A joint's kind in the words of the format."""
-    return "centre" if isinstance(joint, KnownCentre) else type(joint).__name__.lower()
-
-
 def meshes(ties: Sequence[Tie]) -> list[int]:
     """The ties that are meshes of known pressure angle: gears, and rolling by teeth (a rack)."""
     return [t for t, tie in enumerate(ties) if _has_teeth(tie)]
 
 
 def _has_teeth(tie: Tie) -> bool:
-    if isinstance(tie.joint, Gears):
-        return tie.joint.pressure_angle is not None and tie.pivots[0] != ""
-    return isinstance(tie.joint, Roll) and tie.joint.pressure_angle is not None
+    fixed = isinstance(tie.joint, Mesh) and not tie.pivots[0]
+    return tie.joint.pressure_angle is not None and not fixed
 
 
 def with_flanks(position: Position, ties: Sequence[Tie], flanks: Mapping[int, float]) -> tuple[Tie, ...]:
@@ -280,13 +265,13 @@ def with_flanks(position: Position, ties: Sequence[Tie], flanks: Mapping[int, fl
 
 def _along_action(position: Position, tie: Tie, flank: float) -> Tie:
     """The tangential and the separating force; with a flank one unit: a tangential 1 with its share."""
-    assert isinstance(tie.joint, Gears | Roll) and tie.joint.pressure_angle is not None
+    assert tie.joint.pressure_angle is not None
     (tx, ty), (sx, sy) = tangent_and_separating(position, tie)
     if not flank:
         return tie._replace(units=((tx, ty, 0.0), (sx, sy, 0.0)))
     cosine, sine = position.arithmetic.turn(tie.joint.pressure_angle)
     apart = sine / cosine
-    helix = tie.joint.helix if isinstance(tie.joint, Gears) else None
+    helix = tie.joint.helix if isinstance(tie.joint, Mesh) else None
     if helix is not None and helix.normal:  # the tangent in the plane is that of the normal section / cos
         apart = apart / position.arithmetic.turn(helix.angle)[0]
     return tie._replace(units=((flank * tx + apart * sx, flank * ty + apart * sy, 0.0),))
@@ -295,14 +280,13 @@ def _along_action(position: Position, tie: Tie, flank: float) -> Tie:
 def tangent_and_separating(position: Position, tie: Tie) -> tuple[Point, Point]:
     """Unit vectors at the pitch point: the common tangent, and the separating force on link ``on``."""
     arithmetic = position.arithmetic
-    if isinstance(tie.joint, Roll):
+    if not isinstance(tie.joint, Mesh):
         link, centre = _wheel(position, tie)
         ex, ey = _unit(tie.at, centre, arithmetic)
         return (-ey, ex), ((ex, ey) if link == tie.on else (-ex, -ey))
     a, b = (position.points[p] for p in tie.pivots)
     ex, ey = _unit(a, b, arithmetic)
-    assert isinstance(tie.joint, Gears)
-    internal_on = tie.joint.teeth[1].value < 0
+    internal_on = tie.joint.sizes[1].value < 0
     return (-ey, ex), (_unit(a, tie.at, arithmetic) if internal_on else _unit(tie.at, b, arithmetic))
 
 
@@ -311,7 +295,7 @@ def axial_shares(position: Position, tie: Tie, tangential: Scalar) -> list[tuple
 
     Where the span of the bearings is given, ``bearing`` is what each carries more for that couple.
     """
-    helix = tie.joint.helix if isinstance(tie.joint, Gears) else None
+    helix = tie.joint.helix if isinstance(tie.joint, Mesh) else None
     if helix is None:
         return []
     a = position.arithmetic
@@ -329,7 +313,7 @@ def axial_shares(position: Position, tie: Tie, tangential: Scalar) -> list[tuple
 
 def _wheel(position: Position, tie: Tie) -> tuple[str, Point]:
     """The round link of a rolling contact (not a hollow one), and its centre: the pin at its radius."""
-    assert isinstance(tie.joint, Roll)
+    assert isinstance(tie.joint, Rolling)
     radii = tie.joint.radii or (None, None)
     for link, radius in zip(tie.joint.links, radii, strict=True):
         if link == position.case.ground or (radius is not None and radius.value <= 0.0):

@@ -11,14 +11,21 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from icsolve.answer.bodies import Reaction, Reactions, Tension, names_of
 from icsolve.assembly import Frame
-from icsolve.case import Belt, Case, Contact, Gears, KnownCentre, Roll, Rope, Slide, Slot
+from icsolve.case import Case, Rope
+from icsolve.case.joints import Mesh, Sliding
 from icsolve.case.names import ordered_pair
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar, Showing, all_vanish, size_of, zero_of
 from icsolve.numbers.sparse import Row
 from icsolve.screws.plane import velocity
 from icsolve.statics.equilibrium import Statics
-from icsolve.statics.reaction_basis import Force, Position, Tie, axial_shares, kind_of, tangent_and_separating
+from icsolve.statics.reaction_basis import (
+    Force,
+    Position,
+    Tie,
+    axial_shares,
+    tangent_and_separating,
+)
 from icsolve.wording.sentences import listed, plural
 
 
@@ -38,7 +45,7 @@ def reactions_of(
         unique = [all(statics.is_none(row.get(c, 0.0), size) for c, size in sizes.items()) for row in rows]
         kept = [zero(f, n) if u else None for n, (f, u) in enumerate(zip(forces, unique, strict=True))]
         parts = _parts(position, tie, kept, a)
-        if isinstance(tie.joint, Belt) and tie.pivots[0]:
+        if isinstance(tie.joint, Mesh) and tie.joint.pulls and tie.pivots[0]:
             parts = [("net pull", _net_pull(position, tie.joint, tie, forces, a))]
         shares = tuple(
             (n, a.rounded(share if n in DEGREES else share / statics.scale)[0]) for n, share in parts
@@ -85,14 +92,14 @@ def _slack(rope: Rope, value: float) -> str:
     )
 
 
-def _net_pull(position: Position, belt: Belt, tie: Tie, force: tuple[Scalar, ...], a: Showing) -> Scalar:
+def _net_pull(position: Position, belt: Mesh, tie: Tie, force: tuple[Scalar, ...], a: Showing) -> Scalar:
     """What the tight strand pulls more than the slack one: the torque on the second pulley over its radius.
 
     The part of the force that is left open lies along the line of the pivots and makes no torque.
     """
     px, py = position.points[tie.pivots[1]]
     torque = force[2] + (tie.at[0] - px) * force[1] - (tie.at[1] - py) * force[0]
-    return size_of(torque / (a.given(belt.radii[1]) * position.scale))
+    return size_of(torque / (a.given(belt.sizes[1]) * position.scale))
 
 
 def names_by_tie(case: Case, ties: tuple[Tie, ...]) -> list[str]:
@@ -101,9 +108,9 @@ def names_by_tie(case: Case, ties: tuple[Tie, ...]) -> list[str]:
     shared = Counter(pairs)
     names: list[str] = []
     for tie, (by, on) in zip(ties, pairs, strict=True):
-        options = names_of(by, on, tie.where or kind_of(tie.joint))
+        options = names_of(by, on, tie.where or tie.joint.kind)
         name = options[0] if shared[by, on] == 1 else options[-1]
-        names.append(name if name not in names else f"{name} {kind_of(tie.joint)} {names.count(name) + 1}")
+        names.append(name if name not in names else f"{name} {tie.joint.kind} {names.count(name) + 1}")
     return names
 
 
@@ -170,7 +177,7 @@ def _reaction(
     shown = {name: value for name, (value, _) in both.items()}
     errors = {name: error for name, (_, error) in both.items() if math.isfinite(error) and name != "opposite"}
     toward, back = (shown[n] % 360.0 if n in shown else None for n in ("direction", "opposite"))
-    kind = "screw" if tie.screw is not None else kind_of(tie.joint)
+    kind = "screw" if tie.screw is not None else tie.joint.kind
     by, on = (tie.by, tie.on) if ordered else (tie.on, tie.by)
     force = (shown.get("x"), shown.get("y"), shown.get("moment"), _why(tie, kept))
     size = shown.get("magnitude")
@@ -200,19 +207,24 @@ def _parts(
     x, y, _ = kept
     if x is None or y is None:
         return []
-    if isinstance(tie.joint, Gears) or (isinstance(tie.joint, Roll) and tie.joint.pressure_angle is not None):
+    if _pushes_by_teeth(tie):
         (tx, ty), (sx, sy) = tangent_and_separating(position, tie)
         tangential = size_of(x * tx + y * ty)
         shares = [("tangential", tangential), ("separating", x * sx + y * sy)]
         return [*shares, *axial_shares(position, tie, tangential)]
-    if isinstance(tie.joint, Contact | Slot | Slide):
+    if isinstance(tie.joint, Sliding):
         nx, ny = next((u[0], u[1]) for u in tie.units if not u[2])
         normal = x * nx + y * ny
-        parts = [("normal", normal if isinstance(tie.joint, Contact) else size_of(normal))]
+        parts = [("normal", normal if tie.joint.only_pushes else size_of(normal))]
         parts += [("friction", size_of(x * ny - y * nx))] if tie.joint.friction else []
-        angle = pressure_angle(position, tie, a) if isinstance(tie.joint, Contact) else None
+        angle = pressure_angle(position, tie, a) if tie.joint.only_pushes else None
         return [*parts, (DEGREES[0], angle)] if angle is not None else parts
     return []
+
+
+def _pushes_by_teeth(tie: Tie) -> bool:
+    """Whether the force has a tangential and a separating part."""
+    return tie.joint.pressure_angle is not None or (isinstance(tie.joint, Mesh) and not tie.joint.pulls)
 
 
 def pressure_angle(position: Position, tie: Tie, a: Showing) -> Scalar | None:
@@ -235,13 +247,13 @@ def pressure_angle(position: Position, tie: Tie, a: Showing) -> Scalar | None:
 
 def _why(tie: Tie, kept: list[Scalar | None]) -> str:
     if None not in kept:
-        boxed = isinstance(tie.joint, KnownCentre)
+        boxed = tie.joint.stands_in
         return "a given centre stands for joints that the case does not show" if boxed else ""
-    if isinstance(tie.joint, Gears | Belt) and not tie.pivots[0]:
+    if isinstance(tie.joint, Mesh) and not tie.pivots[0]:
         return "its links are fixed to each other: what it carries hangs on how it was fitted"
-    if isinstance(tie.joint, Belt):
+    if isinstance(tie.joint, Mesh) and tie.joint.pulls:
         return "the pull of the slack strand is not given: only the difference of the two pulls is determined"
-    if isinstance(tie.joint, Gears) and tie.joint.pressure_angle is None:
+    if isinstance(tie.joint, Mesh) and tie.joint.pressure_angle is None:
         return "the part that pushes the gears apart needs `pressure angle`"
     return SHARED
 
@@ -278,10 +290,10 @@ def _open_parts(shown: Mapping[str, Reaction]) -> list[str]:
 
 
 def _remedy(ties: Sequence[Tie]) -> str:
-    meshed = [tie for tie in ties if tie.pivots[0]]
-    if any(isinstance(tie.joint, Gears) and tie.joint.pressure_angle is None for tie in meshed):
+    meshed = [tie.joint for tie in ties if isinstance(tie.joint, Mesh) and tie.pivots[0]]
+    if any(not joint.pulls and joint.pressure_angle is None for joint in meshed):
         return "Give the gears their `pressure angle` for the loads on their bearings."
-    if any(isinstance(tie.joint, Belt) for tie in meshed):
+    if any(joint.pulls for joint in meshed):
         return (
             "The bearing loads depend on the belt's initial tension: in place of the belt put its two pulls "
             "on the pulleys as loads."
@@ -291,7 +303,7 @@ def _remedy(ties: Sequence[Tie]) -> str:
 
 def _touching(tie: Tie, reaction: Reaction) -> Iterable[str]:
     """A contact that would have to pull."""
-    if not isinstance(tie.joint, Contact):
+    if not tie.joint.only_pushes:
         return
     force = dict(reaction.parts).get("normal")
     place = f"the contact of links {tie.by} and {tie.on}" + (f" at {tie.where}" if tie.where else "")
@@ -300,7 +312,7 @@ def _touching(tie: Tie, reaction: Reaction) -> Iterable[str]:
 
 
 def _black_boxes(ties: Sequence[Tie]) -> Iterable[str]:
-    pairs = [f"{tie.by}-{tie.on}" for tie in ties if isinstance(tie.joint, KnownCentre)]
+    pairs = [f"{tie.by}-{tie.on}" for tie in ties if tie.joint.stands_in]
     if pairs:
         yield (
             f"the force at a given centre ({listed(pairs)}) is what a pin there would carry: it stands for "

@@ -31,7 +31,6 @@ from icsolve.statics.friction_equations import (
     reduced_workless,
 )
 from icsolve.statics.homotopy import all_roots, can_count, followed, solutions, without_friction
-from icsolve.statics.reaction_basis import is_touching
 
 PROVEN = "proven: no friction within its limits holds more"
 SEARCHED = "every combination of full friction was tried"
@@ -245,7 +244,7 @@ def _capacity(statics: Statics, against: Sequence[float], powers: Sequence[float
         )
         for rows in forces_of(statics)
     ]
-    touching = [is_touching(statics.ties[rub.tie].joint) for rub in statics.rubs]
+    touching = [statics.ties[rub.tie].joint.only_pushes for rub in statics.rubs]
     equations = fixed_point(vectors, touching)
     y, _, _ = followed(equations)
     if y is None:

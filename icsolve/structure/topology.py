@@ -5,16 +5,11 @@ A bond is one joint between two bodies, with the relative freedoms (1 or 2) that
 
 from collections.abc import Iterable
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
-from icsolve.case import Belt, Case, Contact, Gears, Joint, KnownCentre, Pin, Roll, Rope, Slide, Slot, Weld
+from icsolve.case import Case, Joint, Pin, Rope
+from icsolve.case.joints import Mesh
 from icsolve.errors import SceneError, Status
-
-FREEDOMS: dict[type[Any], int] = {
-    **dict.fromkeys((Pin, Slide, Roll, KnownCentre), 1),
-    **dict.fromkeys((Slot, Contact, Gears, Belt), 2),
-}
-"""Relative freedoms that a joint leaves to its two links (a mesh is one constraint)."""
 
 
 class Bond(NamedTuple):
@@ -118,7 +113,7 @@ def _bodies(case: Case) -> tuple[dict[str, int], tuple[tuple[str, ...], ...]]:
         return link
 
     for joint in case.joints:
-        if isinstance(joint, Weld):
+        if not joint.freedom:
             leader[find(joint.links[1])] = find(joint.links[0])
     members: dict[str, list[str]] = {}
     for link in leader:
@@ -144,12 +139,12 @@ def _bonds(case: Case, body_of: dict[str, int], pins: dict[str, list[int]]) -> I
     for joint in case.joints:
         for links in pairs_of(joint):
             a, b = body_of[links[0]], body_of[links[1]]
-            if isinstance(joint, Weld) or a == b:
+            if not joint.freedom or a == b:
                 continue
             pivots = ("", "")
-            if isinstance(joint, Gears | Belt):
+            if isinstance(joint, Mesh):
                 pivots = _pivots(joint, body_of, pins, pins_of)
-            yield Bond(a, b, FREEDOMS[type(joint)], joint, links, pivots)
+            yield Bond(a, b, joint.freedom, joint, links, pivots)
 
 
 def pairs_of(joint: Joint) -> list[tuple[str, str]]:
@@ -159,7 +154,7 @@ def pairs_of(joint: Joint) -> list[tuple[str, str]]:
 
 
 def _pivots(
-    joint: Gears | Belt, body_of: dict[str, int], pins: dict[str, list[int]], pins_of: dict[int, list[str]]
+    joint: Mesh, body_of: dict[str, int], pins: dict[str, list[int]], pins_of: dict[int, list[str]]
 ) -> tuple[str, str]:
     """The pins about which two wheels turn on a common carrier."""
     a, b = (body_of[link] for link in joint.links)
@@ -172,8 +167,7 @@ def _pivots(
                     found.setdefault((p, q), carrier)
     if len(found) == 1:
         return next(iter(found))
-    kind = "gears" if isinstance(joint, Gears) else "belt"
-    names = f"{kind} {joint.links[0]} and {joint.links[1]}"
+    names = f"{joint.kind} {joint.links[0]} and {joint.links[1]}"
     if not found:
         raise SceneError(
             Status.INCONSISTENT,

@@ -150,9 +150,9 @@ class CamMotion:
         known = found(case)
         self.case, self.touching = case, known.touching
         self.whole = anchored(known.case)
-        contacts = [joint for joint in self.whole.joints if isinstance(joint, Contact) and joint.at[0] == "@"]
-        hidden = {joint.at for joint in contacts}
-        joints = tuple(j for j in self.whole.joints if getattr(j, "at", None) not in hidden)
+        touching = [joint.at for joint in self.whole.joints if joint.only_pushes]
+        hidden = {at for at in touching if at is not None and at[0] == "@"}
+        joints = tuple(j for j in self.whole.joints if j.at not in hidden)
         points = {name: place for name, place in self.whole.points.items() if name not in hidden}
         carries = {link: tuple(n for n in ns if n not in hidden) for link, ns in self.whole.carries.items()}
         bare = replace(self.whole, joints=joints, profiles=None, expect=())

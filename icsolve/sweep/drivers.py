@@ -30,7 +30,8 @@ from icsolve.assembly.driven.groups import Matrix, bases_of, jacobian, matrix, r
 from icsolve.assembly.driven.mechanism import Mechanism
 from icsolve.assembly.driven.poses import Rotation, Spot, Still, minus
 from icsolve.assembly.workspace import Workspace, normalised
-from icsolve.case import Belt, Case, Coordinates, Gears, Number, Roll, Slide, Slot
+from icsolve.case import Case, Coordinates, Number
+from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Scalar
 from icsolve.screws.plane import Point
@@ -40,7 +41,6 @@ from icsolve.wording.sentences import listed, plural
 SAME = 1e-8
 """Change of a distance that is none, where a coordinate changed by a thousandth (normalised)."""
 
-WHEELS = (Gears, Belt, Roll)
 
 Places = Mapping[str, tuple[float, float]]
 
@@ -58,7 +58,9 @@ def only_poses(mechanism: Mechanism, path: str, point: str, written: float) -> b
 def turns_a_wheel(mechanism: Mechanism, path: str, moved: Collection[str], written: float) -> bool:
     """Whether a number that moves these points turns what carries them: bodies that mesh, roll or bear a
     belt and so turn others, all of which keep their shapes."""
-    wheels = {b for bond in mechanism.top.bonds if isinstance(bond.joint, WHEELS) for b in (bond.a, bond.b)}
+    wheels = {
+        b for bond in mechanism.top.bonds if isinstance(bond.joint, Rolling | Mesh) for b in (bond.a, bond.b)
+    }
     carriers = {body for body, spots in mechanism.spots.items() if any(name in moved for _, name in spots)}
     if not carriers or not carriers <= wheels - {mechanism.top.ground}:
         return False
@@ -124,7 +126,7 @@ def _slides_on(mechanism: Mechanism, body: int, ground: int) -> bool:
 def _beside(mechanism: Mechanism, index: int, line: BodyLine, places: Places) -> bool:
     """A guide, drawn anew as if written so, has the points of its link as far beside it as before."""
     joint = mechanism.case.joints[index]
-    assert isinstance(joint, Slide | Slot)
+    assert isinstance(joint, Guided)
     guide = joint.guide
     name = guide.through or (guide.ends[0] if guide.ends else joint.at)
     if name not in places:

@@ -123,12 +123,12 @@ def wanted_points(case: Case) -> tuple[list[str], list[str]]:
     """Every point that a joint, a link or a load has, and those that are given; and which of them joints,
     loads and motions need."""
     carried = [p for points in case.carries.values() for p in points]
-    used = [p for joint in case.joints if (p := getattr(joint, "at", None)) is not None]
+    used = [joint.at for joint in case.joints if joint.at is not None]
     given = [name for name in names_of(case) if name in case.points]
     loads = [getattr(getattr(load, "heading", None), "point", None) for load in case.loads]
     ends = [rope.points[-1] for rope in case.ropes]
     wanted = list(dict.fromkeys([*carried, *used, *given, *ends, *(p for p in loads if p)]))
-    guides = [guide for joint in case.joints if (guide := getattr(joint, "guide", None)) is not None]
+    guides = [joint.guide for joint in case.joints if joint.guide is not None]
     needed = {*used, *(p for guide in guides for p in (*(guide.ends or ()), guide.through))}
     needed |= {p for load in case.loads for p in points_of(load)} | {m.point for m in case.motion}
     needed |= {p for rope in case.ropes for p in rope.points}
@@ -149,7 +149,7 @@ def _poses(case: Case, figure: Figure, scratch: Mechanism, path: str) -> bool:
     record.vary[path] = record.input(path, numbers_of(case)[path].value)
     placed = place(figure, case, record).points
     moved = {name for name, p in placed.items() if any(map(varies, p))}
-    held = {getattr(joint, "at", None) for joint in case.joints}
+    held = {joint.at for joint in case.joints}
     held |= {p for rope in case.ropes for p, _ in zip(rope.points, rope.links, strict=False)}
     if not moved or held & moved:
         return True

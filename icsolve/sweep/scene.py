@@ -11,13 +11,11 @@ from icsolve.assembly.driven.poses import Moved, Spot, plus, product
 from icsolve.assembly.workspace import Frame
 from icsolve.case import (
     AlongRope,
-    Belt,
     Case,
     Centroid,
     Contact,
     Force,
     ForceVector,
-    Gears,
     Guide,
     Joint,
     Load,
@@ -25,12 +23,11 @@ from icsolve.case import (
     Number,
     Pair,
     Rope,
-    Slide,
     Slope,
-    Slot,
     Spring,
     Weight,
 )
+from icsolve.case.joints import Guided, Mesh
 from icsolve.case.names import ordered_pair
 from icsolve.errors import SceneError
 from icsolve.kinematics import motion, speeds
@@ -99,7 +96,7 @@ class _Writer:
 
     def joint(self, index: int, joint: Joint) -> Joint:
         """A joint whose guide is a direction that its link carries."""
-        if not isinstance(joint, Slide | Slot):
+        if not isinstance(joint, Guided):
             return joint
         line = self.mechanism.lines[index]
         number = joint.guide.angle or Number(0.0, 0.0, f"joints.{index}.along", "0")
@@ -351,7 +348,7 @@ def _own(scene: Scene, pair: Pair) -> Triple | None:
     bodies = {scene.top.body_of[link] for link in pair}
     for bond in scene.top.bonds:
         if {bond.a, bond.b} == bodies:
-            if isinstance(bond.joint, Gears | Belt):
+            if isinstance(bond.joint, Mesh):
                 return pitch_point(bond, scene.points, scene.record)
             basis = freedoms(bond, scene.points, scene.record)
             if len(basis) == 1:

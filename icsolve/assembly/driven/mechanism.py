@@ -11,21 +11,15 @@ from icsolve.assembly.driven.poses import Shape, Spot, dot, minus, square
 from icsolve.assembly.driven.rolling import ROUNDED, Side
 from icsolve.assembly.workspace import Frame
 from icsolve.case import (
-    Belt,
     Case,
     Centroid,
-    Contact,
-    Gears,
     Guide,
     Joint,
-    KnownCentre,
     Pin,
-    Roll,
     Rope,
-    Slide,
-    Slot,
     Toward,
 )
+from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Scalar
 from icsolve.numbers.record import Record
@@ -33,6 +27,7 @@ from icsolve.screws.joints import guide_direction, joint_freedoms, transmitted
 from icsolve.screws.plane import Point
 from icsolve.screws.ropes import offsets_of, rope_parts
 from icsolve.structure.topology import Bond, Topology
+from icsolve.wording.joints import why_not_moved
 
 
 class Mechanism(NamedTuple):
@@ -51,7 +46,7 @@ class Mechanism(NamedTuple):
     owners: dict[str, Spot]
     constraints: list[Constraint]
     lines: dict[int, BodyLine]
-    contacts: dict[str, rolling.Contact]
+    contacts: dict[str, rolling.RollingContact]
 
 
 def mechanism(case: Case, top: Topology, frame: Frame, record: Record, ref: Mapping[str, Point]) -> Mechanism:
@@ -63,26 +58,27 @@ def mechanism(case: Case, top: Topology, frame: Frame, record: Record, ref: Mapp
     lines = {
         i: _line(joint.guide, joint.at, top.body_of[joint.links[1]], places, record)
         for i, joint in enumerate(case.joints)
-        if isinstance(joint, Slide | Slot)
+        if isinstance(joint, Guided)
     }
     constraints: list[Constraint] = []
-    contacts: dict[str, rolling.Contact] = {}
+    contacts: dict[str, rolling.RollingContact] = {}
     for i, joint in enumerate(case.joints):
-        if isinstance(joint, Slide | Slot):
+        if isinstance(joint, Guided):
             constraints += _guided(joint, lines[i], top, places)
-        elif isinstance(joint, Roll):
+        elif isinstance(joint, Rolling):
             try:
                 found = rolling.rolling(joint, _sides(joint, case, top, frame, record), places)
-            except SceneError as refusal:
-                constraints += _immovable(joint, top, places, refusal)
+            except SceneError as unknown:
+                constraints += _immovable(joint, top, places, unknown)
                 continue
             places.update(found.centres)
             _carry(spots, found.constraints)
             constraints += found.constraints
             contacts[joint.at] = found.contact
-        elif isinstance(joint, Contact | KnownCentre):
-            constraints += _immovable(joint, top, places, _refusal(joint))
-    constraints += [_meshed(bond, top, record) for bond in top.bonds if isinstance(bond.joint, Gears | Belt)]
+        elif not joint.stays_known:
+            refusal = SceneError(Status.UNSUPPORTED, why_not_moved(joint))
+            constraints += _immovable(joint, top, places, refusal)
+    constraints += [_meshed(bond, top, record) for bond in top.bonds if isinstance(bond.joint, Mesh)]
     constraints += [_roped(rope, top, frame, record, places) for rope in top.ropes]
     _base(spots, lines.values(), places)
     owners = _owners(case, top, spots, contacts)
@@ -95,22 +91,6 @@ def _roped(rope: Rope, top: Topology, frame: Frame, record: Record, ref: Mapping
     written = rope_parts(rope, ref, frame.scale, record)
     spots = tuple((top.body_of[link], p) for link, p in zip(rope.links, rope.points, strict=True))
     return Roped(rope, spots, offsets, written, frame.scale)
-
-
-def _refusal(joint: Contact | KnownCentre) -> SceneError:
-    """Why a joint of which only one position is known cannot be moved."""
-    names = " and ".join(joint.links)
-    if isinstance(joint, Contact):
-        why = (
-            f"the contact of links {names} at {joint.at} cannot be moved: its profile is not known beyond "
-            "the position as written. Vary a load, or put joints in its place that describe the profile."
-        )
-    else:
-        why = (
-            f"the given centre of links {names} cannot be moved: it holds in the position as written only. "
-            "Put the joints between the two links in its place."
-        )
-    return SceneError(Status.UNSUPPORTED, why)
 
 
 def _immovable(
@@ -146,7 +126,7 @@ def _inferred(case: Case, name: str, spots: Mapping[int, Iterable[Spot]], top: T
     force toward it, or that carries all the points to which its data tie it; the frame where nothing
     does (None: a centroid, or torn)."""
     if isinstance(case.points.get(name), Centroid) or any(
-        isinstance(joint, Roll) and joint.at == name for joint in case.joints
+        isinstance(joint, Rolling) and joint.at == name for joint in case.joints
     ):
         return None
     for load in case.loads:
@@ -203,17 +183,17 @@ def _line(guide: Guide, at: str, body: int, ref: Mapping[str, Point], record: Re
     return BodyLine(body, ref[name] if abs(float(off)) <= ROUNDED else ref[at], along)
 
 
-def _guided(joint: Slide | Slot, line: BodyLine, top: Topology, ref: Mapping[str, Point]) -> list[Constraint]:
+def _guided(joint: Guided, line: BodyLine, top: Topology, ref: Mapping[str, Point]) -> list[Constraint]:
     body = top.body_of[joint.links[0]]
     if body == line.body:
         return []
     on: list[Constraint] = [OnLine((body, joint.at), line)]
-    if isinstance(joint, Slide):
+    if joint.keeps_direction:
         on.append(Turning(((body, 1.0), (line.body, -1.0))))
     return on
 
 
-def _sides(joint: Roll, case: Case, top: Topology, frame: Frame, record: Record) -> tuple[Side, Side]:
+def _sides(joint: Rolling, case: Case, top: Topology, frame: Frame, record: Record) -> tuple[Side, Side]:
     pins = frozenset(pin.at for pin in case.joints if isinstance(pin, Pin))
     sides = []
     for k, link in enumerate(joint.links):
@@ -235,12 +215,10 @@ def _carry(spots: dict[int, list[Spot]], constraints: Iterable[Constraint]) -> N
 def _meshed(bond: Bond, top: Topology, record: Record) -> Turning:
     """Two gears or pulleys seen from their carrier: ``n_a (w_a - w_c) = -+ n_b (w_b - w_c)``."""
     joint = bond.joint
-    assert isinstance(joint, Gears | Belt)
-    pair = joint.teeth if isinstance(joint, Gears) else joint.radii
-    a, b = (record.given(n) for n in pair)
+    assert isinstance(joint, Mesh)
+    a, b = (record.given(n) for n in joint.sizes)
     a, b = (-n if float(n) < 0.0 else n for n in (a, b))
-    inside = pair[0].value * pair[1].value < 0.0 if isinstance(joint, Gears) else not joint.crossed
-    b = -b if inside else b
+    b = -b if joint.turns_alike else b
     return Turning(((bond.a, a), (bond.b, b), (_carrier(bond, top), -(a + b))))
 
 
@@ -251,8 +229,8 @@ def _carrier(bond: Bond, top: Topology) -> int:
         pins = (other for other in top.bonds if isinstance(other.joint, Pin) and other.joint.at == pivot)
         around.append({body for pin in pins for body in (pin.a, pin.b)})
     carriers = around[0] & around[1] - {bond.a, bond.b}
-    joint = bond.joint
-    named = getattr(joint, "carrier", None)
+    assert isinstance(bond.joint, Mesh)
+    named = bond.joint.carrier
     return top.body_of[named] if named else min(carriers)
 
 
@@ -273,7 +251,7 @@ def _add_base(spots: dict[int, list[Spot]], body: int, at: Point, ref: dict[str,
 
 
 def _owners(
-    case: Case, top: Topology, spots: Mapping[int, list[Spot]], contacts: Mapping[str, rolling.Contact]
+    case: Case, top: Topology, spots: Mapping[int, list[Spot]], contacts: Mapping[str, rolling.RollingContact]
 ) -> dict[str, Spot]:
     """The spot that a name stands for: a pin's, the first link's of a slide or slot, a carrier's."""
     owners: dict[str, Spot] = {}
@@ -281,7 +259,7 @@ def _owners(
         if isinstance(joint, Pin):
             owners.setdefault(joint.at, (top.body_of[joint.links[0]], joint.at))
     for joint in case.joints:
-        if isinstance(joint, Slide | Slot):
+        if isinstance(joint, Guided):
             owners.setdefault(joint.at, (top.body_of[joint.links[0]], joint.at))
     for carried in spots.values():
         for spot in carried:

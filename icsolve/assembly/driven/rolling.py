@@ -15,7 +15,7 @@ from icsolve.assembly.driven.constraints import (
     SpotDistance,
 )
 from icsolve.assembly.driven.poses import Places, Spot, minus, plus, scaled, square
-from icsolve.case import Roll
+from icsolve.case.joints import Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.screws.plane import Point
@@ -28,7 +28,7 @@ ROUNDED = 1e-14
 Sizes = tuple[float, float]
 
 
-class Contact(NamedTuple):
+class RollingContact(NamedTuple):
     """Where two links touch: from the centre of the round one, along a flank's normal or toward the
     other centre."""
 
@@ -49,11 +49,11 @@ class Contact(NamedTuple):
         return plus(centre, scaled(share, minus(places.place(self.other), centre)))
 
 
-class Rolling(NamedTuple):
+class Rolled(NamedTuple):
     """A rolling joint: its conditions, its contact, and the places of centres that have no name."""
 
     constraints: tuple[Constraint, ...]
-    contact: Contact
+    contact: RollingContact
     centres: dict[str, Point]
 
 
@@ -67,7 +67,7 @@ class Side(NamedTuple):
     pins: frozenset[str]
 
 
-def rolling(joint: Roll, sides: tuple[Side, Side], ref: Mapping[str, Point]) -> Rolling:
+def rolling(joint: Rolling, sides: tuple[Side, Side], ref: Mapping[str, Point]) -> Rolled:
     """The conditions of a rolling joint (``ref``: places as written).
 
     Raises SceneError where the radii are not given, or no point lies at a radius from the contact.
@@ -103,7 +103,7 @@ def _on_flank(
     contact: Point,
     places: Mapping[str, Point],
     centres: dict[str, Point],
-) -> Rolling:
+) -> Rolled:
     """One of the two is straight: ``normal`` points from a into b."""
     first = float(b.radius) == 0.0
     side, centre, flank = (a, spots[0], b.body) if first else (b, spots[1], a.body)
@@ -117,19 +117,19 @@ def _on_flank(
         offset = radius
     kept = {name: place for name, place in centres.items() if name == centre[1]}
     conditions = (OnLine(centre, line, offset), RolledStraight(centre, line, radius))
-    return Rolling(conditions, Contact(centre, offset, line, None), kept)
+    return Rolled(conditions, RollingContact(centre, offset, line, None), kept)
 
 
-def _on_round(sides: tuple[Side, Side], spots: tuple[Spot, Spot], centres: dict[str, Point]) -> Rolling:
+def _on_round(sides: tuple[Side, Side], spots: tuple[Spot, Spot], centres: dict[str, Point]) -> Rolled:
     radii = (sides[0].radius, sides[1].radius)
     whole = radii[0] + radii[1]
     distance = whole if float(whole) > 0.0 else -whole
     conditions = (SpotDistance(*spots, distance), RolledRound(*spots, radii))
-    return Rolling(conditions, Contact(spots[0], radii[0], None, spots[1], whole), centres)
+    return Rolled(conditions, RollingContact(spots[0], radii[0], None, spots[1], whole), centres)
 
 
 def _centres(
-    joint: Roll, sides: tuple[Side, Side], ref: Mapping[str, Point]
+    joint: Rolling, sides: tuple[Side, Side], ref: Mapping[str, Point]
 ) -> tuple[str | None, str | None]:
     """A point of each round link that lies at its radius from the contact; None where there is none."""
     at = ref[joint.at]
@@ -146,7 +146,7 @@ def _centres(
     raise _refusal(joint, f"{off}. Name its centre, under `links`")
 
 
-def _only(joint: Roll, side: Side, options: list[str]) -> str:
+def _only(joint: Rolling, side: Side, options: list[str]) -> str:
     """The one point that can be the centre; a pin before others."""
     named = [name for name in options if name in side.pins] or options
     if len(named) == 1:
@@ -179,7 +179,7 @@ def _bend(at: Point, p: Point, q: Point) -> float:
 
 
 def _normal(
-    joint: Roll, sides: tuple[Side, Side], found: tuple[str | None, str | None], ref: Mapping[str, Point]
+    joint: Rolling, sides: tuple[Side, Side], found: tuple[str | None, str | None], ref: Mapping[str, Point]
 ) -> Point:
     """Unit normal out of the first link into the second."""
     for side, name, sense in zip(sides, found, (-1.0, 1.0), strict=True):
@@ -191,6 +191,6 @@ def _normal(
     raise AssertionError(joint)
 
 
-def _refusal(joint: Roll, why: str) -> SceneError:
+def _refusal(joint: Rolling, why: str) -> SceneError:
     what = f"the rolling of links {' and '.join(joint.links)} at {joint.at}"
     return SceneError(Status.UNSUPPORTED, f"{what} cannot be moved: {why}.")

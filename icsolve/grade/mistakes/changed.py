@@ -314,8 +314,8 @@ def _mirrored(p: Place, a: Place, b: Place) -> Place:
 def _on_guides(name: str, here: Place, places: list[Place], case: Case) -> Iterator[Place]:
     """The other end of the chord that a guide of a given direction cuts from a circle about a point."""
     for joint in case.joints:
-        guide = getattr(joint, "guide", None)
-        if guide is None or joint.at != name or guide.angle is None:  # type: ignore[union-attr]
+        guide = joint.guide
+        if guide is None or joint.at != name or guide.angle is None:
             continue
         angle = math.radians(guide.angle.value)
         for centre in places:
