@@ -32,6 +32,8 @@ class General(NamedTuple):
     solved: dict[int, Row]
     free: tuple[int, ...]
     left: tuple[Row, ...]
+    pivots: tuple[float, ...] = ()
+    """what was divided by; of a square system their product is the determinant, but for its sign"""
 
     def of(self, column: int) -> Row:
         """A column as a combination of parameters and free columns."""
@@ -58,7 +60,7 @@ def eliminate(
         pivots.append((column, row))
     solved = _back_substituted(pivots, columns)
     free = tuple(c for c in range(columns) if c not in solved)
-    return General(solved, free, tuple(left))
+    return General(solved, free, tuple(left), tuple(row[column] for column, row in pivots))
 
 
 class _Work:

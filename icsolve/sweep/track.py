@@ -35,13 +35,6 @@ BENT = 1e-4
 """Below this part of its size elsewhere the determinant of a group makes its row doubtful."""
 
 
-def _size(j: Array) -> Array:
-    """The size of the determinant of each matrix (rows, equations, unknowns)."""
-    if j.shape[1] != j.shape[2]:
-        return np.asarray(np.sqrt(np.abs(np.linalg.det(np.swapaxes(j, 1, 2) @ j))))
-    return np.asarray(np.abs(np.linalg.det(j)))
-
-
 class Track:
     """A way that is followed from a state; ``touches`` has the places at which branches change."""
 
@@ -57,6 +50,8 @@ class Track:
         self.breaks: list[tuple[float, float]] = []
         """steps in which a group goes through a singular position and on"""
         self.senses: dict[float, Array] = {}
+        self.last: tuple[Array, dict[int, Array], Mask] | None = None
+        """the places that were asked for last, and what was given of them"""
         self.reach = reach
         self.ends = (-math.inf, math.inf)
         """how far groups were followed to both sides, where that ended"""
@@ -66,6 +61,11 @@ class Track:
 
     def given(self, s: Array) -> tuple[dict[int, Array], Mask]:
         """All inputs at places of the way, and at which of them the groups have a solution."""
+        if not (self.last is not None and np.array_equal(self.last[0], s)):
+            self.last = (s, *self._given(s))
+        return self.last[1], self.last[2]
+
+    def _given(self, s: Array) -> tuple[dict[int, Array], Mask]:
         given, good = self._plain(s), np.ones(len(s), dtype=bool)
         if self.stretches:
             q, turns, good = self._between(s)
@@ -256,14 +256,14 @@ class Track:
         given, _ = self.given(s)
         for group, solver in self.groups:
             q = np.stack([np.broadcast_to(given[k], len(s)) for k in group.solved], axis=1)
-            small |= ~(_size(solver.system(given, q)[1]) > BENT * self._typical(group, solver))
+            small |= ~(solver.determinant(given, q) > BENT * self._typical(group, solver))
         return small
 
     def _typical(self, group: NewtonGroup, solver: Solver) -> float:
         nodes = self.sheet.record.nodes
         env = {k: np.array([node.value]) for k, node in enumerate(nodes) if node.op == Op.INPUT}
         q = np.array([[nodes[k].value for k in group.solved]])
-        return float(_size(solver.system(env, q)[1])[0])
+        return float(solver.determinant(env, q)[0])
 
     def _senses(self, given: Mapping[int, Array], q: Array, turns: Array) -> Array:
         """Signs of the determinants of the groups at one place."""

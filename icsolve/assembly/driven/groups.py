@@ -7,6 +7,7 @@ inputs of their own, on which all that follows hangs.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from functools import cached_property
 from itertools import combinations
 from typing import NamedTuple
 
@@ -21,7 +22,8 @@ from icsolve.assembly.workspace import Workspace
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, RADIAN, Scalar
 from icsolve.numbers.record import Op, Record, Traced
-from icsolve.numbers.replay import Array, Code
+from icsolve.numbers.replay import BLOCK, Array, Code
+from icsolve.numbers.sparse import eliminate
 from icsolve.screws.plane import Point
 from icsolve.wording.sentences import listed
 
@@ -163,6 +165,8 @@ def _refusal(mechanism: Mechanism, order: ClosingOrder, left: Sequence[int]) -> 
 ROUNDS = 25
 CLOSE = 1e-9
 """A step that is smaller (normalised, radians) leaves an error below rounding."""
+MANY = 256
+"""Rows from which one elimination for all of them pays."""
 SOLVED = 1e-11
 """The largest residual of a solution (normalised)."""
 
@@ -265,22 +269,25 @@ class Solver:
     """Newton's method on rows of a group."""
 
     def __init__(self, record: Record, group: NewtonGroup) -> None:
-        self.group = group
+        self.record, self.group = record, group
         flat = [value for row in group.derivatives for value in row]
         self.traced = [n for n, value in enumerate(flat) if isinstance(value, Traced)]
         self.still = np.array([0.0 if isinstance(v, Traced) else float(v) for v in flat])
         wanted = [record.lifted(value).index for value in group.residuals]
         self.equations = len(wanted)
         self.code = Code(record, [*wanted, *(flat[n].index for n in self.traced)])
+        self.misses = Code(record, wanted)
 
-    def system(self, env: Mapping[int, Array], q: Array) -> tuple[Array, Array]:
-        """Residuals (rows, equations) and derivatives (rows, equations, unknowns) at a guess."""
+    def system(self, env: Mapping[int, Array], q: Array, derivatives: bool = True) -> tuple[Array, Array]:
+        """Residuals (rows, equations) and, if asked, derivatives (rows, equations, unknowns) at a guess."""
         rows, unknowns = q.shape
         given = {**env, **{k: q[:, n] for n, k in enumerate(self.group.guesses)}}
-        found = self.code.run(given, rows)
+        found = (self.code if derivatives else self.misses).run(given, rows)
         f = np.empty((rows, self.equations))
         for n in range(self.equations):
             f[:, n] = found[n]
+        if not derivatives:
+            return f, np.empty((0, 0, 0))
         j = np.empty((rows, len(self.still)))
         j[:] = self.still
         for n, value in zip(self.traced, found[self.equations :], strict=True):
@@ -298,26 +305,86 @@ class Solver:
             found = np.linalg.pinv(np.nan_to_num(j)) @ f[:, :, None]
         return np.asarray(found[:, :, 0], dtype=np.float64)
 
+    @cached_property
+    def direct(self) -> tuple[Code, Code] | None:
+        """The step by one elimination for all rows, and the determinant; None where the system is not square.
+
+        The pivots are those of the position in which the record was made.
+        """
+        count = len(self.group.guesses)
+        given = zip(self.group.derivatives, self.group.residuals, strict=True)
+        rows = [{**dict(enumerate(row)), count: 0.0 - f} for row, f in given]
+        general = eliminate(rows, count)
+        if general.left or general.free or len(general.pivots) != count:
+            return None
+        steps = [self.record.lifted(general.of(c).get(count, 0.0)).index for c in range(count)]
+        product: Scalar = 1.0
+        for pivot in general.pivots:
+            product = product * pivot
+        return Code(self.record, steps), Code(self.record, [self.record.lifted(product).index])
+
+    def determinant(self, env: Mapping[int, Array], q: Array) -> Array:
+        """The size of the determinant in each row; of more equations than unknowns the root of Gram's."""
+        if len(q) < MANY or self.direct is None:
+            j = self.system(env, q)[1]
+            if j.shape[1] != j.shape[2]:
+                return np.asarray(np.sqrt(np.abs(np.linalg.det(np.swapaxes(j, 1, 2) @ j))))
+            return np.asarray(np.abs(np.linalg.det(j)))
+        parts = []
+        for here, some in _blocks(env, q):
+            given = {**here, **dict(zip(self.group.guesses, some.T, strict=True))}
+            parts.append(np.abs(np.broadcast_to(self.direct[1].run(given, len(some))[0], len(some))))
+        return np.concatenate(parts)
+
     def solve(self, env: Mapping[int, Array], start: Array, rounds: int = ROUNDS) -> tuple[Array, Array]:
-        """Solutions from a start (rows, unknowns), and whether each row has one."""
+        """Solutions from a start (rows, unknowns), and whether each row has one; many rows are eliminated
+        together, and those that this does not bring there one by one."""
+        if len(start) < MANY or self.direct is None:
+            return self._newton(env, start, rounds, None)
+        parts = [self._newton(here, some, rounds, self.direct[0]) for here, some in _blocks(env, start)]
+        q, good = (np.concatenate(column) for column in zip(*parts, strict=True))
+        late = np.flatnonzero(~good)
+        if late.size:
+            q[late], good[late] = self._newton(_rows_of(env, late), start[late], rounds, None)
+        return q, good
+
+    def _newton(
+        self, env: Mapping[int, Array], start: Array, rounds: int, direct: Code | None
+    ) -> tuple[Array, Array]:
         q, good = start.copy(), np.zeros(len(start), dtype=bool)
         active = np.arange(len(start))
         for _ in range(rounds):
-            here = {k: v[active] if v.ndim and len(v) > 1 else v for k, v in env.items()}
-            move, size = self._move(here, q[active])
+            here = _rows_of(env, active) if len(active) < len(start) else env
+            move, size = self._move(here, q[active], direct)
             q[active] -= move
             good[active] = size < CLOSE
             active = active[~good[active] & np.isfinite(size)]
             if not active.size:
                 break
-        residual = np.abs(self.system(env, q)[0]).max(axis=1)
+        residual = np.abs(self.system(env, q, derivatives=False)[0]).max(axis=1)
         return q, good & (residual < SOLVED)
 
-    def _move(self, env: Mapping[int, Array], q: Array) -> tuple[Array, Array]:
+    def _move(self, env: Mapping[int, Array], q: Array, direct: Code | None) -> tuple[Array, Array]:
         """The next step of every row, cut to half the figure, and its full size."""
-        move = self.step(*self.system(env, q))
+        if direct is None:
+            move = self.step(*self.system(env, q))
+        else:
+            given = {**env, **dict(zip(self.group.guesses, q.T, strict=True))}
+            move = np.stack([np.broadcast_to(v, len(q)) for v in direct.run(given, len(q))], axis=1)
         size = np.abs(move).max(axis=1)
         with np.errstate(all="ignore"):
             move = move * np.minimum(1.0, 0.5 / size)[:, None]
         move[:, 2::3] /= RADIAN
         return np.nan_to_num(move), size
+
+
+def _rows_of(env: Mapping[int, Array], rows: npt.NDArray[np.intp]) -> dict[int, Array]:
+    """Some rows of inputs."""
+    return {k: v[rows] if v.ndim and len(v) > 1 else v for k, v in env.items()}
+
+
+def _blocks(env: Mapping[int, Array], q: Array) -> Iterator[tuple[dict[int, Array], Array]]:
+    """Inputs and states, so many rows after another."""
+    for start in range(0, len(q), BLOCK):
+        part = slice(start, start + BLOCK)
+        yield {k: v[part] if v.ndim and len(v) > 1 else v for k, v in env.items()}, q[part]
