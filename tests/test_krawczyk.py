@@ -14,6 +14,8 @@ import loading
 import mechanisms
 import transcribe
 from figures import without_order
+from icsolve.assembly import solve_figure
+from icsolve.errors import SceneError, Status
 from icsolve.numbers.balls import Balls, MoreDigits
 from icsolve.numbers.krawczyk import enclosed_root
 
@@ -90,3 +92,45 @@ def _newton(case: icsolve.Case, places: dict[str, list[Any]]) -> None:
     move = many.lu_solve(rows, right)
     for (p, k), j in column.items():
         places[p][k] -= move[j]
+
+
+PLATFORM = """
+icsolve: 1
+points: {{A: [0, 0], B: [5, 0], C: [3, 4], D: [-2, 3]}}
+lengths: {{AP: 1.803, BQ: 1.664, CR: 1.612, PQ: 3.513, QR: 2.247, PR: 1.836, PS: 1.3, SD: {rod}}}
+near: {{P: [0.6, 1.7], Q: [4.1, 1.4], R: [2.2, 2.6], S: [-0.5, 2.4]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [1, 3], at: B}}
+  - {{pin: [1, 4], at: C}}
+  - {{pin: [2, 5, 6], at: P}}
+  - {{pin: [3, 5], at: Q}}
+  - {{pin: [4, 5], at: R}}
+  - {{pin: [6, 7], at: S}}
+  - {{pin: [7, 1], at: D}}
+"""
+
+
+def reach() -> Any:
+    """How far P, which Newton's method places with Q and R, is from D."""
+    bars = [(0, 3, "1.803"), (1, 4, "1.664"), (2, 5, "1.612")]
+    bars += [(3, 4, "3.513"), (4, 5, "2.247"), (3, 5, "1.836")]
+
+    def off(*x: Any) -> list[Any]:
+        at = [(0, 0), (5, 0), (3, 4), x[0:2], x[2:4], x[4:6]]
+        return [many.hypot(at[i][0] - at[j][0], at[i][1] - at[j][1]) - many.mpf(n) for i, j, n in bars]
+
+    x = many.findroot(off, (0.6, 1.7, 4.1, 1.4, 2.2, 2.6))
+    return many.hypot(x[0] + 2, x[1] - 3)
+
+
+@pytest.mark.parametrize("gap", ["1e-12", "1e-15", "1e-18", "1e-24"])
+def test_a_step_after_a_group_is_judged_by_the_decimals(gap: str) -> None:
+    """Two rods from a point that Newton's method places reach or not, by a hair that doubles do not see."""
+    rod = reach() - many.mpf("1.3")
+    longer, shorter = (PLATFORM.format(rod=many.nstr(rod + s * many.mpf(gap), 50)) for s in (1, -1))
+    figure = solve_figure(icsolve.load(longer))
+    assert [type(step).__name__ for step in figure.steps] == ["Given", "Group", "Meet"]
+    with pytest.raises(SceneError, match="too far") as refused:
+        solve_figure(icsolve.load(shorter))
+    assert refused.value.status == Status.CANNOT_ASSEMBLE

@@ -161,3 +161,20 @@ def test_every_reaction_of_scenes_of_all_joints(block: int) -> None:
 @pytest.mark.parametrize("seed", range(100 if FULL else 10))
 def test_every_reaction_beside_a_dead_centre(seed: int) -> None:
     assert check(beside_a_dead_centre(Random(f"beside {seed}"))) > 0
+
+
+LEVER = """
+icsolve: 1
+points: {{A: [0, 0], B: [1, 0], C: [-1, 0]}}
+joints: [{{pin: [1, 2], at: A}}]
+loads: {{P: {{force: {p}, link: 2, at: B, angle: 90}}, Q: {{force: 3, link: 2, at: C, angle: 90}}}}
+"""
+
+
+@pytest.mark.parametrize("more", ["0.000000001", "0.000000000000001", "0.00000000000000000000000000001"])
+def test_known_loads_that_do_not_balance_are_never_taken_so_in_silence(more: str) -> None:
+    """However little they leave, of loads whose decimals are exact to it."""
+    balanced = icsolve.solve(icsolve.load(LEVER.format(p="3")), reactions=True)
+    assert not [note for note in balanced.notes if "leave" in note]
+    answer = icsolve.solve(icsolve.load(LEVER.format(p=f"3{more[1:]}")), reactions=True)
+    assert len([note for note in answer.notes if "P and Q leave" in note]) == 1

@@ -69,15 +69,14 @@ class Decimals:
         return None
 
     def _place(self, keys: Iterable[Key], run: _Run) -> bool:
-        """Put points and all that they need; False where Newton's method placed one of them."""
-        from icsolve.assembly.groups import Group
+        """Put points and all that they need; False where a start of Newton's method is being tried."""
         from icsolve.numbers.balls import BelowZero, MoreDigits
 
         stack = [key for key in keys if run.made.get(key) is not self.placed[key]]
         while stack:
             settled = self.placed[stack[-1]]
             step = settled.step
-            if step is None or isinstance(step, Group):
+            if step is None:
                 return False
             ahead = [key for key in step.needs() if run.made.get(key) is not self.placed[key]]
             try:

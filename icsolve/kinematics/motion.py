@@ -77,7 +77,7 @@ def by_loops(case: Case, top: Topology, points: Points, arithmetic: Arithmetic, 
     if not exact and ropes:
         raise _rigid(top, motions)
     if not exact:
-        motions, notes = _almost(case, top, bases, motions, frame)
+        motions, notes = _almost(case, top, bases, motions, frame, arithmetic)
     mobility = len(motions.found.basis)
     redundant = max(mobility - top.freedoms_by_count, 0)
     twists = {link: motions.twists[body] for body, links in enumerate(top.members) for link in links}
@@ -116,7 +116,7 @@ DOUBT = 1e-6
 
 
 def _almost(
-    case: Case, top: Topology, bases: Bases, rigid: LoopMotions, frame: Frame
+    case: Case, top: Topology, bases: Bases, rigid: LoopMotions, frame: Frame, arithmetic: Arithmetic
 ) -> tuple[LoopMotions, tuple[str, ...]]:
     """The motion that data of few digits just miss; refuses a structure and what is in doubt."""
     pivots = rigid.found.pivots
@@ -128,7 +128,8 @@ def _almost(
             miss = f"{motions.found.dropped:.1g} of the figure's size"
             return motions, (f"the given centres and rolling contacts agree with each other to {miss}.",)
     if any(joint.stands_in for joint in inexact):
-        raise SceneError(Status.CONTRADICTORY, contradiction(top, bases, frame, case.units.length))
+        said = contradiction(top, bases, frame, case.units.length, arithmetic)
+        raise SceneError(Status.CONTRADICTORY, said)
     raise _rigid(top, rigid)
 
 
@@ -141,13 +142,13 @@ def _rigid(top: Topology, motions: LoopMotions) -> SceneError:
     return SceneError(Status.STRUCTURE, structure(len(top.members) - 1, top.constraints))
 
 
-def contradiction(top: Topology, bases: Bases, frame: Frame, unit: str) -> str:
+def contradiction(top: Topology, bases: Bases, frame: Frame, unit: str, arithmetic: Arithmetic) -> str:
     """Which given centre lies off the place that the others give it, and how far."""
     worst: tuple[float, str] | None = None
     for k, bond in enumerate(top.bonds):
         if not bond.joint.stands_in:
             continue
-        off = _off_place(top, bases, k)
+        off = _off_place(top, bases, k, arithmetic)
         if off is not None and (worst is None or off < worst[0]):
             worst = (off, f"{bond.links[0]}-{bond.links[1]}")
     if worst is None:
@@ -162,10 +163,11 @@ def contradiction(top: Topology, bases: Bases, frame: Frame, unit: str) -> str:
     )
 
 
-def _off_place(top: Topology, bases: Bases, k: int) -> float | None:
+def _off_place(top: Topology, bases: Bases, k: int, arithmetic: Arithmetic) -> float | None:
     """Distance (normalised) of a given finite centre from the point, or the line, that all else gives."""
     bond, (px, py, pw) = top.bonds[k], bases[k][0]
-    motions = all_motions(top, {n: basis for n, basis in bases.items() if n != k})
+    others = {n: basis for n, basis in bases.items() if n != k}
+    motions = all_motions(top, others, vanishes=decider(arithmetic))
     if pw == 0.0 or bond.a not in motions.twists or bond.b not in motions.twists:
         return None
     both = zip(motions.twists[bond.a], motions.twists[bond.b], strict=True)
@@ -176,4 +178,4 @@ def _off_place(top: Topology, bases: Bases, k: int) -> float | None:
     if len(relative) != 1:
         return None
     x, y, w = relative[0]
-    return math.hypot(x / w - px, y / w - py) if abs(w) > 1e-12 * max(abs(x), abs(y)) else None
+    return None if arithmetic.vanishes(w, max(abs(x), abs(y))) else math.hypot(x / w - px, y / w - py)

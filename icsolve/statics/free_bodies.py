@@ -16,7 +16,7 @@ from icsolve.assembly import Frame
 from icsolve.case import ForceVector, Number
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
-from icsolve.numbers.arithmetic import FLOATS, Scalar, Showing
+from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, Showing
 from icsolve.numbers.sparse import Row
 from icsolve.screws.plane import velocity
 from icsolve.statics import reaction_basis
@@ -30,7 +30,7 @@ from icsolve.statics.equilibrium import (
     witnesses,
 )
 from icsolve.statics.friction_interface import efficiency, friction_terms, has_friction
-from icsolve.statics.power import Balance, Wrench, is_unknown, known_value
+from icsolve.statics.power import Balance, Wrench, force_scale, is_unknown, known_power, known_value
 from icsolve.statics.reaction_basis import Position, Tie, ties_of
 from icsolve.statics.reactions import is_unique, names_by_tie, notes_of, reactions_of, tensions_of
 from icsolve.wording.sentences import listed, plural
@@ -70,7 +70,7 @@ def free_bodies(
     Raises SceneError where the two disagree.
     """
     known = position.mobility and not any(is_unknown(w.load) for w in balance.wrenches)
-    left = refuse_imbalance(position, balance) if known else ()
+    left = refuse_imbalance(position, balance, a) if known else ()
     ties = ties_of(position)
     solved = frictionless(position, balance, ties)
     statics, parameters = solved.statics, solved.parameters
@@ -180,17 +180,15 @@ def carrying(found: Solved, t: int) -> float:
     return 1.0 if statics.arithmetic.vanishes(value, largest) else math.copysign(1.0, value)
 
 
-ROUNDED = 1e-9
-"""Power of this fraction of the largest term is rounding, where all numbers are exact."""
-NOISE = 1e-13
-"""A power below this fraction of the products that it is summed from is none."""
+TOLERATED = 1e-9
+"""Loads whose powers leave this fraction of the largest are taken as balanced, and that is said."""
 
 
-def refuse_imbalance(position: Position, balance: Balance) -> tuple[str, ...]:
+def refuse_imbalance(position: Position, balance: Balance, a: Arithmetic) -> tuple[str, ...]:
     """Refuse reactions of known loads that do not balance; the notes on what their decimals leave open.
 
-    What half a unit of the last decimals may be the cause of is no refusal: it is said. With friction nothing
-    says how much of it acts, unless a load is unknown.
+    What half a unit of the last decimals may be the cause of is no refusal, nor what is next to nothing: it
+    is said. With friction nothing says how much of it acts, unless a load is unknown.
     """
     notes = []
     if has_friction(position.case):
@@ -201,13 +199,18 @@ def refuse_imbalance(position: Position, balance: Balance) -> tuple[str, ...]:
         )
     for motion, factors in enumerate(balance.factors):
         powers = [_power(w, float(f)) for w, f in zip(balance.wrenches, factors, strict=True)]
-        room = sum(_room(w, float(f)) for w, f in zip(balance.wrenches, factors, strict=True))
         sizes = [_power(w, size) for w, size in zip(balance.wrenches, balance.sizes[motion], strict=True)]
-        rounding = ROUNDED * max(map(abs, powers), default=0.0) + NOISE * sum(map(abs, sizes))
-        if abs(sum(powers)) > room + rounding:
-            raise SceneError(Status.UNBALANCED, _named(position, balance, motion, powers))
-        if abs(sum(powers)) > rounding:
-            notes.append(_within_decimals(position, balance, motion, powers))
+        scale = force_scale(balance)
+        exact = known_power(balance, motion, a)
+        if a.vanishes(exact, sum(map(abs, sizes)) * scale):
+            continue
+        left, largest = abs(exact) / scale, max(map(abs, powers))
+        room = sum(_room(w, float(f)) for w, f in zip(balance.wrenches, factors, strict=True))
+        said = _leave(position, balance, motion, powers, float(exact) / scale)
+        if left > room + TOLERATED * largest:
+            raise SceneError(Status.UNBALANCED, _named(said))
+        within = f"a fraction of {left / largest:.1g} of what they do"
+        notes.append(_taken(said, "half a unit of the last decimals" if left <= room else within))
     return tuple(notes)
 
 
@@ -225,26 +228,28 @@ def _room(w: Wrench, factor: float) -> float:
     return abs(half * float(w.ratio) * factor * w.measure)
 
 
-def _named(position: Position, balance: Balance, motion: int, powers: Sequence[float]) -> str:
+def _named(left: str) -> str:
     """What the loads leave on which link, and what would mend it."""
     return (
-        f"the known loads do not balance: {_leave(position, balance, motion, powers)}, so there are no "
-        "reactions at rest. Make one of the loads `unknown`, or add one."
+        f"the known loads do not balance: {left}, so there are no reactions at rest. Make one of the loads "
+        "`unknown`, or add one."
     )
 
 
-def _within_decimals(position: Position, balance: Balance, motion: int, powers: Sequence[float]) -> str:
-    """What the loads leave, where the decimals that they are written with may be the cause."""
+def _taken(left: str, within: str) -> str:
+    """What the loads leave, where that is so little that it may be for want of decimals."""
     return (
-        f"{_leave(position, balance, motion, powers)}, which is within half a unit of the last decimals: "
-        "the reactions are given without it. To balance the loads, make one of them `unknown`."
+        f"{left}, which is within {within}: the reactions are given without it. To balance the loads, make "
+        "one of them `unknown`."
     )
 
 
-def _leave(position: Position, balance: Balance, motion: int, powers: Sequence[float]) -> str:
+def _leave(
+    position: Position, balance: Balance, motion: int, powers: Sequence[float], left: float
+) -> str:
     working = [w.load.name for w, power in zip(balance.wrenches, powers, strict=True) if power]
     verb = "leaves" if len(working) == 1 else "leave"
-    return f"{listed(working)} {verb} {_left(position, motion, sum(powers))}"
+    return f"{listed(working)} {verb} {_left(position, motion, left)}"
 
 
 def _left(position: Position, motion: int, drive: float) -> str:
