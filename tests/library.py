@@ -5,7 +5,6 @@ What costs most of a test is kept: a case is paged once, whatever number of laws
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
@@ -15,9 +14,8 @@ import icsolve
 from icsolve.derivation import Known, known_of, needed_steps
 from icsolve.page import page_html
 from icsolve.page.motion import Motion, motion_of
+from sizes import FULL
 
-FULL = os.environ.get("ICSOLVE_FULL") == "1"
-"""Whether every law runs at its full size: by hand, for the whole takes an hour."""
 LIBRARY = Path(__file__).parent.parent / "cases"
 FILES = {path.relative_to(LIBRARY).as_posix(): path for path in sorted(LIBRARY.rglob("*.yaml"))}
 

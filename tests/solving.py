@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Iterable
 from itertools import combinations
 from random import Random
@@ -19,10 +18,8 @@ from growth import random_mechanism
 from icsolve.answer import Answer
 from loading import drawn
 from reference import MANY, Motions
+from sizes import MORE
 from transcribe import Scene
-
-FULL = os.environ.get("ICSOLVE_FULL") == "1"
-MORE = 20 if FULL else 1
 
 LAW = 1e-9
 """What the format promises of answers, rates and velocities."""

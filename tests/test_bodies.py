@@ -6,7 +6,6 @@ times as many mechanisms.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable
 from random import Random
 from typing import Any
@@ -23,9 +22,9 @@ from icsolve import case as c
 from icsolve.answer import Answer
 from loading import drawn
 from reference import frame_of, points_of
+from sizes import MORE
 from transcribe import Scene
 
-MORE = 20 if os.environ.get("ICSOLVE_FULL") == "1" else 1
 LAW = 1e-9
 Three = tuple[float | None, float | None, float | None]
 

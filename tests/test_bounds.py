@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 import re
 from collections.abc import Callable
 from fractions import Fraction
@@ -24,9 +23,9 @@ from icsolve.report.text import answer_text
 from icsolve.scene.bounds import Scene, unknown_values
 from icsolve.scene.program import Want, evaluate, prepare
 from more_digits import SixtyDigits
+from sizes import FULL
 
 Measure = Callable[[mechanisms.Scene, Random], mechanisms.Scene | None]
-FULL = os.environ.get("ICSOLVE_FULL") == "1"
 PINNED = [mechanisms.four_bar, mechanisms.watt, mechanisms.stephenson, mechanisms.butterfly]
 SLIDING = [mechanisms.slider_crank, mechanisms.coupler_slot, mechanisms.oldham, mechanisms.trammel]
 TURNING = [mechanisms.gear_pair, mechanisms.epicyclic, mechanisms.belt, mechanisms.cam]

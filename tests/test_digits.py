@@ -7,7 +7,6 @@ most two of them and never broken; scenes of all joints, and scenes a hair from 
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Iterator
 from pathlib import Path
 from random import Random
@@ -29,8 +28,8 @@ from icsolve.scene.program import Program, Want, evaluate, prepare
 from icsolve.screws.plane import subtract
 from icsolve.statics.power import Outcome
 from more_digits import SixtyDigits
+from sizes import FULL
 
-FULL = os.environ.get("ICSOLVE_FULL") == "1"
 NOTHING = mpf(10) ** -40
 """What is zero to within so much of a frame of size 1 is zero, in sixty digits."""
 

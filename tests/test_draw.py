@@ -24,8 +24,9 @@ from growth import random_mechanism
 from icsolve.case import Case
 from icsolve.derivation import known_of, needed_steps
 from icsolve.draw import Drawing, draw
-from library import FILES, FULL, LIBRARY, sample
+from library import FILES, LIBRARY, sample
 from pictures import Picture, on_arrows, outside, overlaps, parsed, shapes
+from sizes import FULL
 
 ROOT = Path(__file__).parent.parent
 FOUR = "ch13/13_08_four_bar.yaml"

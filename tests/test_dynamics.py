@@ -17,7 +17,7 @@ from growth import random_mechanism
 from icsolve.answer import Answer
 from icsolve.case import Case, Inertia, Motion, Number, Pin
 from icsolve.errors import CaseError, SceneError
-from solving import MORE
+from sizes import MORE
 
 
 def solved(text: str, **options: Any) -> Answer:

@@ -11,7 +11,6 @@ from __future__ import annotations
 import csv
 import json
 import math
-import os
 import random
 from collections.abc import Callable
 from pathlib import Path
@@ -27,8 +26,8 @@ from icsolve.cli import main
 from icsolve.errors import SceneError
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import Record
+from sizes import FULL
 
-FULL = os.environ.get("ICSOLVE_FULL") == "1"
 PENDULUM = """icsolve: 1
 points: {{A: [0, 0]{more}}}
 angles: {{AB: {free}}}

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 import math
-import os
 
 import pytest
 
 from figure_drafts import Draft, framework, sequence
 from icsolve.assembly import Figure, case_point, solve_figure
 from icsolve.errors import SceneError, Status
-
-MORE = int(os.environ.get("ICSOLVE_MORE", "1"))
-"""How many times as many random figures as in CI."""
+from sizes import MORE
 
 
 def error(draft: Draft, figure: Figure) -> float:

@@ -19,7 +19,8 @@ import witness
 from figures import from_lengths, without_order
 from loading import drawn, loaded, sound
 from mechanisms import bearing, heading, polar, scene, spot
-from solving import LAW, MORE, solved, told
+from sizes import MORE
+from solving import LAW, solved, told
 from transcribe import Scene
 
 Measures = dict[str, Any]

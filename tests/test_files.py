@@ -332,6 +332,7 @@ def test_ctrl_c_while_a_package_loads_is_no_fault() -> None:
     """Whatever a package makes of an exception that comes while it loads: none is raised."""
     begun = (
         "import os, signal, sys, icsolve.cli as c\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"  # also where the tests run in background
         "class Interrupting:\n"
         "    def find_spec(self, name, path=None, target=None):\n"
         "        if name == 'numpy.linalg':\n"

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import json
 import math
-import os
 from random import Random
 from typing import Any
 
@@ -20,8 +19,8 @@ import transcribe
 from growth import random_mechanism
 from icsolve.answer import Answer, Found
 from reference import frame_of, motions, points_of
+from sizes import MORE
 
-MORE = 20 if os.environ.get("ICSOLVE_FULL") == "1" else 1
 EXACT = 1e-12
 LAW = 1e-9
 

@@ -29,7 +29,8 @@ from icsolve.statics.error_bound import Exact, Sliding, Weights, step
 from icsolve.statics.friction_interface import rubs_of
 from icsolve.statics.reaction_basis import Position, ties_of
 from more_digits import SixtyDigits
-from test_friction import BLOCK, MORE, QUICK_RETURN, SIX_BAR, brake, lever, slider_crank, turning, wedge
+from sizes import MORE
+from test_friction import BLOCK, QUICK_RETURN, SIX_BAR, brake, lever, slider_crank, turning, wedge
 
 CW = "motion: {link: 2, turns: cw}\n"
 SCENES = {

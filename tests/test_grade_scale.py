@@ -12,8 +12,8 @@ import pytest
 
 from grade_bench import CASES, questions, write_class
 from grade_shell import PRESS
+from sizes import FULL
 
-FULL = bool(os.environ.get("ICSOLVE_FULL"))
 ROOT = Path(__file__).parent.parent
 
 

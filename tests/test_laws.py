@@ -18,7 +18,8 @@ import transforms
 import witness
 from growth import random_mechanism
 from icsolve.answer import Centre
-from solving import LAW, MORE, kinds, random_scenes, solved, told, unknown, whole
+from sizes import MORE
+from solving import LAW, kinds, random_scenes, solved, told, unknown, whole
 from transcribe import Scene
 
 # --- changes that leave the mechanics alone --------------------------------------------------------

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import os
 from random import Random
 
 import pytest
@@ -13,9 +12,7 @@ from icsolve.assembly import case_point, solve_figure
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.read import load
-
-MORE = int(os.environ.get("ICSOLVE_MORE", "1"))
-"""How many times as many random figures as in CI."""
+from sizes import MORE
 
 
 def places_of(case: Case) -> dict[str, Place]:

@@ -6,7 +6,6 @@ Fixed seeds; with ICSOLVE_FULL=1 every case of the library and more changes of e
 
 from __future__ import annotations
 
-import os
 import random
 import re
 from collections.abc import Iterator
@@ -20,9 +19,9 @@ from browser import REQUIRED, Browser, NoBrowserError, browser, required
 from icsolve.errors import CaseError, SceneError
 from icsolve.page import motion, page_html
 from icsolve.page.motion import motion_of
+from sizes import FULL
 
 ROOT = Path(__file__).parent.parent / "cases"
-FULL = bool(os.environ.get("ICSOLVE_FULL"))
 LENGTHS = """icsolve: 1
 title: Four-bar by lengths
 points: {A: [0, 0], D: [4, 0]}

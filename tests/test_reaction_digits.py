@@ -7,7 +7,6 @@ within one unit in the last place, stated errors at most two of them and never b
 
 from __future__ import annotations
 
-import os
 from random import Random
 from typing import Any
 
@@ -21,9 +20,9 @@ from icsolve.answer.bodies import Reaction
 from icsolve.scene.program import Want, evaluate, prepare
 from icsolve.statics.power import is_unknown, number_of
 from more_digits import SixtyDigits
+from sizes import FULL
 from test_digits import all_joints, beside_a_dead_centre, near
 
-FULL = os.environ.get("ICSOLVE_FULL") == "1"
 Force = tuple[Any, Any, Any]
 """Force components, and the moment about the origin."""
 X, Y, COUPLE = (1, 0), (0, 1), (0, 0, 1)

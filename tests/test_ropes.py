@@ -16,7 +16,7 @@ import icsolve
 from icsolve.answer import Answer
 from icsolve.case import Force, Number, Rope
 from icsolve.errors import CaseError, SceneError
-from solving import MORE
+from sizes import MORE
 
 CASES = Path(__file__).parent.parent / "cases"
 

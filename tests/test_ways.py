@@ -18,9 +18,9 @@ from icsolve.case import Case
 from icsolve.cli.commands import icsolve
 from icsolve.errors import SceneError, Status
 from icsolve.read import load
+from sizes import MORE
 from test_figure import BUTTERFLY, FOUR_BAR, LOOP, PINS, butterfly
 from test_figure import case as figure_case
-from test_near import MORE
 
 
 def apart(one: dict[str, Place], two: dict[str, Place]) -> float:
