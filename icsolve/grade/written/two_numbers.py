@@ -129,7 +129,7 @@ _START = re.compile(
     re.IGNORECASE,
 )
 _LIMITED = re.compile(
-    rf"(?:{_NAME} )?(?:is |must be )?(?P<low>>=?|=>|at least|min\.?|minimum|no less than|mindestens)? ?"
+    rf"(?:{_NAME} ?(?=[<>=])|{_NAME} (?=is |must |at |no ))?(?:is |must be )?(?P<low>>=?|=>|at least|min\.?|minimum|no less than|mindestens)? ?"
     r"(?P<high><=?|=<|at most|max\.?|maximum|no more than|höchstens)? ?",
     re.IGNORECASE,
 )
@@ -142,6 +142,11 @@ _SEPARATOR = re.compile(
     r" ?(?:about|approx\.?|approximately|ca\.?|~)? ?(?P<sign>[-+]?) ?",
     re.IGNORECASE,
 )
+_LABELLED = re.compile(
+    r"[,;]? ?(?:and )?(?<!\w)(?:[A-Z][a-z\d]{0,3}?_?)?\(?(min|max)(?:imum)?\)?\.? ?(?:=|:|is)? ?(?=[-+.\d])",
+    re.IGNORECASE,
+)
+"""The names of two ends: ``Pmin = 113 N, Pmax = 287 N``."""
 _NUMBER = re.compile(r"(?<!\w)(?:\d|[.,]\d)")
 
 
@@ -161,6 +166,8 @@ def read_range(text: str, decimal: str = "either") -> WrittenRange:
     if flag:
         return WrittenRange(flag=flag)
     words = re.sub(r" ?\.{2,} ?", " to ", words).strip()
+    if len(set(_LABELLED.findall(words))) == 2:
+        words = _LABELLED.sub(" to ", words).removeprefix(" to ")
     found = _numbers(words, decimal)
     if not found:
         return WrittenRange(flag=UNREAD if holds_digits(words) else NO_NUMBER)
