@@ -3,7 +3,9 @@ pressures; truths from closed forms."""
 
 from __future__ import annotations
 
+import csv
 import importlib
+import io
 import math
 from pathlib import Path
 
@@ -11,6 +13,7 @@ import pytest
 
 import icsolve
 from grade_shell import CASES, Class
+from icsolve.grade.platforms.given import given
 
 BAR = """\
 icsolve: 1
@@ -54,12 +57,12 @@ def a_class(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> Class:
     return Class(tmp_path, capsys)
 
 
-def rest(stiffness: float) -> float:
-    """Degrees at which the weight of 8 and the torsion spring balance, by bisection."""
+def rest(stiffness: float, weight: float = 8.0) -> float:
+    """Degrees at which the weight and the torsion spring balance, by bisection."""
     low, high = math.radians(-110.0), math.radians(80.0)
     for _ in range(60):
         middle = 0.5 * (low + high)
-        falls = 16.0 * math.cos(middle) > stiffness * (0.5 * math.pi - middle)
+        falls = 2.0 * weight * math.cos(middle) > stiffness * (0.5 * math.pi - middle)
         low, high = (low, middle) if falls else (middle, high)
     return math.degrees(low)
 
@@ -150,3 +153,51 @@ def test_what_springs_pressures_and_line_loads_are_often_taken_for(a_class: Clas
     (row,) = a_class.judge(f"{-(moment + 3.0):.6g}", case="loaded")
     assert row["verdict"] == "wrong"
     assert code in row["code"].split(), row
+
+
+SLOPE = """\
+icsolve: 1
+variables: {W: {range: [100, 500], step: 10}}
+points: {A: [0, 0]}
+joints: [{slide: [2, 1], at: A, along: 30, mu: 0.2}]
+loads:
+  W: {weight: $W, link: 2, at: A}
+  P: {force: unknown, link: 2, at: A, angle: 30}
+"""
+"""P from W (sin 30 - 0.2 cos 30) to W (sin 30 + 0.2 cos 30)."""
+
+
+def test_variants_of_ranges_and_positions_have_keys_of_their_own(a_class: Class) -> None:
+    """Each student's range grows with the weight; a position hangs on the ratio of weight and stiffness."""
+    for name in ("lever", "pusher", "dead"):
+        a_class.path(f"cases/{name}.yaml").unlink()
+    a_class.case("slope", SLOPE)
+    varied = BAR.replace("points:", "variables: {W: {range: [5, 10], step: 1}}\npoints:", 1)
+    a_class.case("bar", varied.replace("weight: 8", "weight: $W"))
+    roster = a_class.file("roster.csv", "student_id\na\nb\nc\n")
+    cases, sheets = str(a_class.path("cases")), a_class.path("sheets")
+    assert a_class.run("variants", cases, "--roster", roster, "-o", str(sheets), "--no-figures").code == 0
+    table = "student_id,case,answer\n"
+    for name in ("slope", "bar"):
+        values = list(csv.DictReader(io.StringIO((sheets / name / "values.csv").read_text())))
+        assert len({row["W"] for row in values}) > 1
+        for row in values:
+            weight, sine, friction = float(row["W"]), 0.5, 0.2 * math.cos(math.radians(30.0))
+            low, high = weight * (sine - friction), weight * (sine + friction)
+            right = f"{low:.5g} to {high:.5g}" if name == "slope" else f"{rest(0.2, weight):.6g}"
+            table += f"{row['student_id']},{name},{right}\n"
+    assert [row["verdict"] for row in a_class.grade(table).rows()] == ["right"] * 6
+    assert (sheets / "slope" / "key.csv").read_text().count("\n") == 7
+
+
+@pytest.mark.parametrize(
+    ("text", "name", "told"),
+    [
+        (LOADED.format(load=LINE), "L", "50 N/m on link 2 from A to B, at 90 deg"),
+        (LOADED.format(load=TRIANGLE), "L", "50 N/m on link 2 from B to A, 0 N/m there, at 90 deg"),
+        (BAR, "direction AB", "unknown, between -110 and 80 deg from +x"),
+        (ARM, "P", "to be found in size and direction, on link 3 at C"),
+    ],
+)
+def test_what_a_question_of_these_kinds_gives(text: str, name: str, told: str) -> None:
+    assert dict(given(icsolve.load(text)))[name] == told

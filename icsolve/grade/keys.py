@@ -265,6 +265,15 @@ def scalar_key(
     return _key(question, value, (unit_name, unit), (half, width), expected, policy, wrongs, kind)
 
 
+def numbers_of(key: AnyKey) -> list[Key]:
+    """The numbers of a right answer: one, the ends of a range, or those of which one will do."""
+    if isinstance(key, ChoiceKey):
+        return [number for one in key.keys for number in numbers_of(one)]
+    if isinstance(key, RangeKey):
+        return [end for end in (key.low, key.high) if end is not None]
+    return [key] if isinstance(key, Key) else []
+
+
 def position_key(
     question: str,
     target: PositionIs,
@@ -419,6 +428,12 @@ def scaled_key(key: Key, factor: float) -> Key:
         wrongs=Wrongs(wrongs, value, half),
         accepted=range_in_words(value, half, key.unit_name),
     )
+
+
+def scaled_range(key: RangeKey, factor: float) -> RangeKey:
+    """The same of a load that holds over a range."""
+    low, high = (None if end is None else scaled_key(end, factor) for end in (key.low, key.high))
+    return _range(key.question, low, high, key.policy)
 
 
 def _is_plain(policy: Policy) -> bool:

@@ -9,7 +9,17 @@ from icsolve.answer import Answer
 from icsolve.case import ArmIs, Case, CentreIs, FrictionRadiusIs, LoadIs, PositionIs, ReactionIs, Target
 from icsolve.errors import SceneError
 from icsolve.grade.course import Course
-from icsolve.grade.keys import AnyKey, Key, place_key, position_key, range_key, scalar_key, scaled_key
+from icsolve.grade.keys import (
+    AnyKey,
+    Key,
+    RangeKey,
+    place_key,
+    position_key,
+    range_key,
+    scalar_key,
+    scaled_key,
+    scaled_range,
+)
 from icsolve.grade.mistakes import WrongAnswers, solved_for
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.read.expect import target_of
@@ -158,8 +168,9 @@ class Solved:
 
     def _with_scale(self, key: AnyKey, target: Target) -> AnyKey:
         """Loads and reactions grow with the loads; ratios and places do not."""
-        grows = isinstance(target, LoadIs | ReactionIs) and isinstance(key, Key)
-        return scaled_key(key, self.scale) if grows else key  # type: ignore[arg-type]
+        if isinstance(key, Key) and isinstance(target, LoadIs | ReactionIs):
+            return scaled_key(key, self.scale)
+        return scaled_range(key, self.scale) if isinstance(key, RangeKey) else key
 
 
 def solved_plainly(case: Case, bound: bool = False) -> Answer:

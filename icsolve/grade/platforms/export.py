@@ -13,7 +13,7 @@ from icsolve.case import Case
 from icsolve.files import reading_text, write_whole
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
-from icsolve.grade.keys import Key
+from icsolve.grade.keys import Key, RangeKey
 from icsolve.grade.platforms.given import given
 from icsolve.grade.platforms.gradescope import AutograderSource, autograder_zip, pinned
 from icsolve.grade.platforms.qti import SMALLEST, qti_zip
@@ -167,7 +167,10 @@ def _of_case(solved: Solved, case: Case, name: str, order: ExportOrder, title: s
         own = case.name if len(names) == 1 else f"{case.name}:{what}"
         key = solved.key(own)
         if not isinstance(key, Key):
-            raise NoKeyError(f"{what} holds over a range, for which no such question can ask")
+            why = "holds over a range" if isinstance(key, RangeKey) else "has several right values"
+            raise NoKeyError(f"{what} {why}, for which no such question can ask")
+        if key.expected.asked:
+            raise NoKeyError(f"{what} asks for a direction too, for which no such question can ask")
         if order.smallest and 0.0 < abs(key.value) < order.smallest:
             raise NoKeyError(f"{what} is {key.value:.3g} {key.unit_name}, and Canvas keeps four decimals")
         text = asked(key, solved.target(own))

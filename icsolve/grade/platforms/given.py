@@ -28,6 +28,8 @@ from icsolve.case import (
     Slope,
     Slot,
     Spring,
+    Stretch,
+    Thread,
     Torque,
     TorsionSpring,
     Toward,
@@ -94,26 +96,45 @@ def given(case: Case) -> list[tuple[str, str]]:
     """What the figure, its joints, loads and motion give, as pairs of a name and a value."""
     units = case.units
     rows = [(name, f"({_coordinate(p.x)}, {_coordinate(p.y)}) {units.length}") for name, p in _places(case)]
-    rows += [(length.a + length.b, f"{_shown(length.value)} {units.length}") for length in case.lengths]
-    rows += [_angle(angle) for angle in case.angles]
+    rows += [
+        (length.a + length.b, _datum(length.value, units.length, case)) for length in case.lengths
+    ]
+    rows += [_angle(angle, case) for angle in case.angles]
     rows += [row for joint in case.joints for row in _joint(joint, case)]
     if case.profiles is not None:
-        from icsolve.grade.platforms.given import outlines
-
         rows += outlines(case)
     rows += [row for rope in case.ropes for row in _rope(rope, case)]
     rows += [_inertia(link, inertia) for link, inertia in case.inertia.items()]
-    rows += [(load.name, _load(load, case)) for load in case.loads]
+    rows += [_directed(load, case) or (load.name, _load(load, case)) for load in case.loads
+             if load.name.removesuffix(".y") not in case.directed]  # fmt: skip
     rows += [_motion(given, case) for given in case.motion]
     if any(isinstance(load, Weight) and load.mass for load in case.loads):
         rows.append(("gravity", f"{_shown(case.gravity)} m/s^2"))
     return rows
 
 
-def _angle(angle: Direction | Corner) -> tuple[str, str]:
+def _angle(angle: Direction | Corner, case: Case) -> tuple[str, str]:
     if isinstance(angle, Corner):
-        return f"angle {angle.a}{angle.at}{angle.b}", f"{_shown(angle.value)} deg, counterclockwise"
-    return f"direction {angle.a}{angle.b}", f"{_shown(angle.value)} deg from +x"
+        return f"angle {angle.a}{angle.at}{angle.b}", _datum(angle.value, "deg, counterclockwise", case)
+    return f"direction {angle.a}{angle.b}", _datum(angle.value, "deg from +x", case)
+
+
+def _datum(number: Number, unit: str, case: Case) -> str:
+    """A number of the figure; of one that is asked the range."""
+    asked = next((one for one in case.unknowns if one.path == number.path), None)
+    if asked is None:
+        return f"{_shown(number)} {unit}"
+    if asked.low is None or asked.high is None:
+        return "unknown"
+    return f"unknown, between {_shown(asked.low)} and {_shown(asked.high)} {unit}"
+
+
+def _directed(load: Load, case: Case) -> tuple[str, str] | None:
+    """A force of unknown direction, which stands among the loads as two; None of another load."""
+    name = load.name.removesuffix(".x")
+    if name not in case.directed or not isinstance(load, Force):
+        return None
+    return name, f"to be found in size and direction, on link {load.link} at {_place(load.at, case)}"
 
 
 def _places(case: Case) -> list[tuple[str, Coordinates]]:
@@ -137,6 +158,10 @@ def _load(load: Load, case: Case) -> str:
     on = f"on link {load.link}" + (f" against link {against}" if against else "")
     at = getattr(load, "at", "@")
     where = f"{on} at {_place(at, case)}" if at != "@" else on
+    if isinstance(load, Force) and isinstance(load.over, Stretch):
+        where = f"{on} from {load.over.a} to {load.over.b}"
+        if load.over.end is not None:
+            where += f", {_shown(load.over.end)} {unit_of(load, case)} there"
     if isinstance(load, ForceVector):
         return f"({_shown(load.x)}, {_shown(load.y)}) {case.units.force} {where}"
     if isinstance(load.value, Like):
@@ -203,7 +228,10 @@ def _joint(joint: Joint, case: Case) -> Iterator[tuple[str, str]]:
     match joint:
         case Slide() | Slot():
             kind = "block" if isinstance(joint, Slide) else "pin"
-            yield f"{kind} of link {first}{where}", f"slides in link {second} {_along(joint.guide)}"
+            moves = f"slides in link {second}"
+            if isinstance(joint, Slide) and joint.thread is not None:
+                kind, moves = "thread", f"turns on link {second}, {_thread(joint.thread, case)},"
+            yield f"{kind} of link {first}{where}", f"{moves} {_along(joint.guide)}"
         case Gears():
             yield f"gears {first}-{second}", _teeth(joint, case)
         case Belt():
@@ -221,6 +249,13 @@ def _joint(joint: Joint, case: Case) -> Iterator[tuple[str, str]]:
         case KnownCentre(toward=Number() as toward):
             yield f"centre {first}-{second}", f"at infinity at {_shown(toward)} deg"
     yield from _friction(joint, case, f"{first}-{second}{where}")
+
+
+def _thread(thread: Thread, case: Case) -> str:
+    """``lead 5 mm, mean radius 10 mm, mu = 0.1``."""
+    parts = [f"lead {_shown(thread.lead)} {case.units.length}"]
+    parts += [f"mean radius {_shown(thread.radius)} {case.units.length}"] if thread.radius else []
+    return ", ".join([*parts, *([f"mu = {_shown(thread.mu)}"] if thread.mu else [])])
 
 
 def _along(guide: Guide) -> str:

@@ -14,8 +14,9 @@ import zipfile
 from collections.abc import Iterable
 from html import escape
 
+from icsolve.grade.keys import Key
 from icsolve.grade.mistakes import message
-from icsolve.grade.platforms.questions import Question, number, sensible, table_of, wrong_rows
+from icsolve.grade.platforms.questions import Question, number, rights, sensible, table_of, wrong_rows
 
 _QTI = "http://www.imsglobal.org/xsd/ims_qtiasiv1p2"
 _CANVAS = "http://canvas.instructure.com/xsd/cccv1p0"
@@ -118,7 +119,7 @@ def _section(group: list[Question]) -> str:
 
 def _item(question: Question) -> str:
     key, ident = question.key, _ident("item", question.name)
-    low, high = key.value - key.half, key.value + key.half
+    right = "".join(_right_condition(key, value - float(sensible(key))) for value in rights(key))
     about = "".join(
         _field(label, entry)
         for label, entry in (
@@ -126,10 +127,6 @@ def _item(question: Question) -> str:
             ("points_possible", f"{key.policy.points:.10g}"),
             ("assessment_question_identifierref", _ident("reference", question.name)),
         )
-    )
-    within = (
-        f'<and><vargte respident="response1">{number(low)}</vargte>'
-        f'<varlte respident="response1">{number(high)}</varlte></and>'
     )
     wrongs = list(wrong_rows(key))
     causes = dict.fromkeys(message(wrong.code, kind=key.kind) for wrong, _, _ in wrongs)
@@ -142,10 +139,7 @@ def _item(question: Question) -> str:
         '<response_str ident="response1" rcardinality="Single"><render_fib fibtype="Decimal">'
         '<response_label ident="answer1"/></render_fib></response_str></presentation>'
         '<resprocessing><outcomes><decvar maxvalue="100" minvalue="0" varname="SCORE" vartype="Decimal"/>'
-        '</outcomes><respcondition continue="No"><conditionvar><or>'
-        f'<varequal respident="response1">{sensible(key)}</varequal>{within}</or></conditionvar>'
-        '<setvar action="Set" varname="SCORE">100</setvar>'
-        '<displayfeedback feedbacktype="Response" linkrefid="correct_fb"/></respcondition>'
+        f"</outcomes>{right}"
         f"{''.join(_wrong_condition(n, wrong.value) for n, (wrong, _, _) in enumerate(wrongs))}"
         '<respcondition continue="Yes"><conditionvar><other/></conditionvar>'
         '<displayfeedback feedbacktype="Response" linkrefid="general_incorrect_fb"/></respcondition>'
@@ -157,6 +151,20 @@ def _item(question: Question) -> str:
             for n, (wrong, _, _) in enumerate(wrongs)
         )
         + "</item>"
+    )
+
+
+def _right_condition(key: Key, turned: float) -> str:
+    """What is accepted, ``turned`` by nothing or a whole turn."""
+    middle = sensible(key) if not turned else number(key.value + turned)
+    low, high = (number(key.value + turned + side) for side in (-key.half, key.half))
+    return (
+        '<respcondition continue="No"><conditionvar><or>'
+        f'<varequal respident="response1">{middle}</varequal><and>'
+        f'<vargte respident="response1">{low}</vargte><varlte respident="response1">{high}</varlte>'
+        "</and></or></conditionvar>"
+        '<setvar action="Set" varname="SCORE">100</setvar>'
+        '<displayfeedback feedbacktype="Response" linkrefid="correct_fb"/></respcondition>'
     )
 
 

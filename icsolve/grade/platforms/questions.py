@@ -100,8 +100,11 @@ def _xml_question(question: Question) -> str:
         '<generalfeedback format="html"><text/></generalfeedback>',
         f"<defaultgrade>{key.policy.points:.10g}</defaultgrade><penalty>0.3333333</penalty>",
         "<hidden>0</hidden>",
-        _answer(100.0, float(sensible(key)), _half(key), f"Right: {key.accepted} is accepted."),
-        *(_answer(share, w.value, reach, message(w.code, w.where)) for w, share, reach in wrong_rows(key)),
+        *(_answer(100.0, right, _half(key), f"Right: {key.accepted} is accepted.") for right in rights(key)),
+        *(
+            _answer(share, w.value, reach, message(w.code, w.where, key.kind))
+            for w, share, reach in wrong_rows(key)
+        ),
         '<answer fraction="0" format="moodle_auto_format"><text>*</text>'
         f'<feedback format="html"><text>{_text(otherwise)}</text></feedback>'
         "<tolerance>0</tolerance></answer>",
@@ -200,9 +203,10 @@ def _gift_question(question: Question) -> str:
     key = question.key
     values = "; ".join(f"{name} = {value}" for name, value in question.given)
     text = _gift(f"{_sentence(question.title)}Given: {values}. {question.asked}")
-    rows = [f"=%100%{sensible(key)}:{number(key.half)}#{_gift(f'Right: {key.accepted} is accepted.')}"]
+    told = _gift(f"Right: {key.accepted} is accepted.")
+    rows = [f"=%100%{number(right)}:{number(key.half)}#{told}" for right in rights(key)]
     for wrong, share, reach in wrong_rows(key):
-        said = _gift(message(wrong.code, wrong.where))
+        said = _gift(message(wrong.code, wrong.where, key.kind))
         rows.append(f"=%{share:.7g}%{number(wrong.value)}:{number(reach)}#{said}")
     body = "\n".join(rows)
     return (
@@ -224,6 +228,13 @@ def _gift(text: str) -> str:
 def number(value: float) -> str:
     """A number with twelve digits at most."""
     return f"{value:.12g}"
+
+
+def rights(key: Key) -> list[float]:
+    """The right answer, and what a whole turn makes of it."""
+    value = float(sensible(key))
+    turned = (value - math.copysign(key.period, value),) if key.period else ()
+    return [value, *turned]
 
 
 def _half(key: Key) -> float:

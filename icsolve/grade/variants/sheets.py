@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from html import escape
 from typing import NamedTuple
 
-from icsolve.grade.keys import AnyKey, Key
+from icsolve.grade.keys import AnyKey, Key, numbers_of
 from icsolve.grade.platforms.given import given
 from icsolve.grade.platforms.questions import asked
 from icsolve.grade.platforms.questions import figure as drawn
@@ -55,11 +55,10 @@ def key_csv(varied: Varied, found: Iterable[VariantTask]) -> str:
     table.writerow(["student_id", "variant", "case", "value", "unit", "sense", "from", "to"])
     for person, draw in found:
         for question in questions(varied):
-            key = varied.key(question, person.student_id)
-            assert isinstance(key, Key)
-            low, high = max(abs(key.value) - key.half, 0.0), abs(key.value) + key.half
-            cells = (draw.label, question, f"{key.value:.12g}", key.unit_name, sense(varied, draw, key))
-            table.writerow([safe(person.student_id), *cells, f"{low:.10g}", f"{high:.10g}"])
+            for key in numbers_of(varied.key(question, person.student_id)):
+                low, high = max(abs(key.value) - key.half, 0.0), abs(key.value) + key.half
+                cells = (draw.label, question, f"{key.value:.12g}", key.unit_name, sense(varied, draw, key))
+                table.writerow([safe(person.student_id), *cells, f"{low:.10g}", f"{high:.10g}"])
     return out.getvalue()
 
 

@@ -66,6 +66,7 @@ class Magnitudes:
         inside = {name for written in self._texts.values() for name in names_in(written)}
         self.names = frozenset(inside - _elsewhere(root, {node.mark for node in numbers.values()}))
         self._units = {load.name: unit_of(load, case) for load in case.loads if load.name in self._texts}
+        self._dynamic = case.dynamic
         self._written = [(load.name, number_of(load)) for load in case.loads]
 
     def loads(self, values: Mapping[str, str]) -> dict[str, float]:
@@ -80,7 +81,10 @@ class Magnitudes:
         return found
 
     def factor(self, base: Mapping[str, str], values: Mapping[str, str]) -> float | None:
-        """By what all known loads are larger than with other values; None where they do not grow alike."""
+        """By what all loads are larger than with other values; None where they do not grow alike, as those of
+        inertia do not."""
+        if self._dynamic:
+            return None
         old, new = self.loads(base), self.loads(values)
         ratios = set()
         for name, written in self._written:
@@ -163,6 +167,8 @@ def far_from_dead_centres(answer: Answer) -> bool:
     """
     width = DRAWING * size_of(answer)
     for name, found in answer.answers.items():
+        if found.holds is not None:
+            continue
         smooth = answer if name in answer.sensitivities else _smooth(answer)
         if name not in smooth.sensitivities:
             continue
@@ -188,6 +194,8 @@ def swallowed(answer: Answer) -> frozenset[Mistake]:
     found = set()
     wrongs = WrongAnswers(answer)
     for name, one in answer.answers.items():
+        if one.holds is not None:
+            continue
         for wrong in wrongs.of_loads(name):
             if wrong.code in _SHOWN and abs(wrong.value - one.value) <= APART * abs(one.value):
                 found.add((name, wrong.code, wrong.where))

@@ -129,7 +129,8 @@ _START = re.compile(
     re.IGNORECASE,
 )
 _LIMITED = re.compile(
-    rf"(?:{_NAME} ?(?=[<>=])|{_NAME} (?=is |must |at |no ))?(?:is |must be )?(?P<low>>=?|=>|at least|min\.?|minimum|no less than|mindestens)? ?"
+    rf"(?:{_NAME} ?(?=[<>=])|{_NAME} (?=is |must |at |no ))?(?:is |must be )?"
+    r"(?P<low>>=?|=>|at least|min\.?|minimum|no less than|mindestens)? ?"
     r"(?P<high><=?|=<|at most|max\.?|maximum|no more than|höchstens)? ?",
     re.IGNORECASE,
 )
