@@ -188,6 +188,69 @@ def test_equations_of_random_mechanisms_recompute(block: int) -> None:
         assert check(text_equations(explain(case, digits=DIGITS)), known_of(case).size or 1.0) >= 1
 
 
+ROPE = """
+icsolve: 1
+points: {{A: [0, 0], G: [1, 0], C: [2, 0], P: [0, 3], B: [-1, {low}]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{rope: [C, P, B], on: [2, 1], radii: {{P: 0.2}}, wraps: {{P: ccw}}{mu}}}
+loads:
+  W: {{weight: {load}, link: 2, at: G}}
+  F: {{force: unknown, at: B}}
+{motion}
+"""
+SCREW = """
+icsolve: 1
+units: {{length: mm, force: N, torque: N*m}}
+points: {{B: [0, 100]}}
+joints:
+  - {{screw: [1, 2], at: B, along: 90, lead: {lead}, radius: 10, mu: {mu}}}
+loads:
+  W: {{force: {load}, link: 2, at: B, angle: 270}}
+  T: {{torque: unknown, screw: 1-2}}
+motion: {{point: B, link: 2, speed: 1, angle: {angle}}}
+"""
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_ropes_and_screws_are_written_out(seed: int) -> None:
+    """Random numbers: every equation recomputes, Euler's and the thread's formulas give the answer."""
+    draw = Random(seed)
+    load = f"{draw.uniform(10, 500):.3f}"
+    mu = f", mu: {{P: {draw.uniform(0.05, 0.5):.3f}}}" if seed % 2 else ""
+    motion = f"motion: {{link: 2, turns: {draw.choice(['cw', 'ccw'])}}}"
+    rope = icsolve.load(ROPE.format(low=draw.uniform(-1, 2), load=load, mu=mu, motion=motion))
+    numbers = {"lead": f"{draw.uniform(1, 20):.2f}", "mu": f"{draw.uniform(0.02, 0.3):.3f}"}
+    screw = icsolve.load(SCREW.format(load=load, angle=draw.choice([90, 270]), **numbers))
+    for case, formulas in ((rope, ["T = F"] if not mu else ["T1 x h_", "exp("]), (screw, ["tan(phi"])):
+        text = explain(case, digits=DIGITS)
+        size = known_of(case).size or 1.0
+        assert check(text_equations(text), size) == check(latex_equations(explain(case, "md")), size) > 3
+        (found,) = icsolve.solve(case).answers.values()
+        assert all(part in text for part in formulas) and f"{abs(found.value):.6g} {found.unit}" in text
+        assert "unsupported" not in text and "@" not in text
+
+
+def test_inertia_forces_have_their_terms() -> None:
+    """A crank of 2 kg m^2 that is started at 3 rad/s^2, with a mass of 4 kg on its end."""
+    case = icsolve.load("""
+icsolve: 1
+points: {A: [0, 0], B: [0.5, 0]}
+links: {2: {points: [A, B], mass: 4 kg, centre: B, inertia: 2 kg*m^2}}
+joints:
+  - {pin: [1, 2], at: A}
+loads:
+  T: {torque: unknown, link: 2}
+motion: {link: 2, speed: 1, acceleration: 3}
+dynamic: yes
+""")
+    text = explain(case, digits=DIGITS)
+    assert "T_i2 = -J2 x alpha2 = -2 x 3 = -6 N*m" in text
+    assert "F_i2y = -m2 x a_By = -4 x 1.5 = -6 N" in text
+    assert "    T x w2 + F_i2 x h_Fi2 x w2 + T_i2 x w2 = 0" in text
+    assert "= 9 N*m" in text
+
+
 def test_a_wrong_number_would_be_noticed() -> None:
     text = explain(icsolve.load(FILES["ch13/13_08_four_bar.yaml"]))
     assert check(text_equations(text), 3.0) >= 4

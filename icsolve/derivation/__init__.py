@@ -3,7 +3,7 @@ and how the speed of one link follows from another's. Explanations, drawings and
 
 from __future__ import annotations
 
-from icsolve.derivation.known import Acting, Known, acting_loads, known_of, rope_pulls, tension_name
+from icsolve.derivation.known import Acting, Known, acting_loads, known_of
 from icsolve.derivation.ratios import (
     Ratio,
     Ratios,
@@ -13,10 +13,12 @@ from icsolve.derivation.ratios import (
     loaded_links,
     needed_steps,
 )
+from icsolve.derivation.ropes import Pull, pulls_on, rope_pulls, tension_name
 
 __all__ = [
     "Acting",
     "Known",
+    "Pull",
     "Ratio",
     "Ratios",
     "Step",
@@ -26,6 +28,7 @@ __all__ = [
     "known_of",
     "loaded_links",
     "needed_steps",
+    "pulls_on",
     "rope_pulls",
     "tension_name",
 ]

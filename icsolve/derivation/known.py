@@ -3,20 +3,19 @@ links move, and what every load exerts."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import NamedTuple
 
 from icsolve.answer import Answer, Centre, by_load
 from icsolve.assembly import Frame, case_point, solve_figure
-from icsolve.case import Case, Coordinates, ForceVector, Like, Load, Pair, Rope
+from icsolve.case import Case, Coordinates, ForceVector, Like, Load, Pair
 from icsolve.case.figure import Unknown
 from icsolve.case.names import ordered_pair
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.scene.parts import Parts
 from icsolve.screws.plane import Point, Triple
-from icsolve.screws.ropes import rope_parts
 from icsolve.solve import attempt
 from icsolve.statics.power import Wrench, known_value, place_of, points_of, wrenches
 from icsolve.wording.senses import unit_of
@@ -198,42 +197,6 @@ def acting_loads(known: Known) -> list[Acting]:
     except (SceneError, ZeroDivisionError):
         return []
     return [_acting(known, w) for w in found]
-
-
-class Pull(NamedTuple):
-    """What a straight part of a rope does to a link: its ``force`` (case units) at a place of its line;
-    ``part`` counts from 1, ``symbol`` names the tension with what stands low."""
-
-    rope: Rope
-    part: int
-    symbol: tuple[str, str]
-    at: Point
-    force: Point
-
-
-def rope_pulls(known: Known, link: str) -> Iterable[Pull]:
-    """The pulls of all ropes on a link, where their tensions are known."""
-    for tension in () if known.answer is None else known.answer.tensions:
-        rope = next(rope for rope in known.case.ropes if rope.name == tension.rope)
-        if tension.tension is None:
-            continue
-        for n, part in enumerate(rope_parts(rope, known.points, 1.0, FLOATS), 1):
-            pull = tension.parts[n - 1] if tension.parts else tension.tension
-            (x, y), (u, v), length = part.at, part.along, float(part.length)
-            symbol = tension_name(known.case, rope, n if tension.parts else 0)
-            if part.links[0] == link:
-                yield Pull(rope, n, symbol, (x, y), (pull * u, pull * v))
-            if part.links[1] == link:
-                yield Pull(rope, n, symbol, (x + length * u, y + length * v), (-pull * u, -pull * v))
-
-
-def tension_name(case: Case, rope: Rope, part: int = 0) -> tuple[str, str]:
-    """The symbol of a rope's tension, and what stands low: T, of its second ``part`` T2; with the rope's
-    name where there are several, or a load is called so."""
-    low = str(part) if part else ""
-    if len(case.ropes) > 1 or f"T{low}" in {load.name for load in case.loads}:
-        low = f"{rope.name},{low}" if low else rope.name
-    return ("T", low)
 
 
 def _like(load: Load) -> str | None:

@@ -15,13 +15,15 @@ from itertools import combinations
 from typing import NamedTuple
 
 from icsolve.answer import Centre
-from icsolve.case import Case, Pair
+from icsolve.case import Case, Pair, Rope, Screw
 from icsolve.case.names import link_order
 from icsolve.derivation.known import Known
+from icsolve.derivation.ropes import moving_names
 from icsolve.scene.parts import wanted_pairs
 from icsolve.scene.program import Want
 from icsolve.screws.plane import Triple
 from icsolve.statics.power import is_unknown, reacting
+from icsolve.wording.sentences import link_words
 
 
 class Step(NamedTuple):
@@ -82,16 +84,19 @@ class Ratio(NamedTuple):
 
     ``kind``: ``turns`` (both turn: ``value`` is w / w), ``alike`` (their centre is at infinity: one rate),
     ``slides`` (speed of the link's translation over the other's rate), ``drives`` (rate over the speed of
-    a translation), ``glides`` (two translations: speed over speed), ``one`` (welded: they move as one).
+    a translation), ``glides`` (two translations: speed over speed), ``one`` (welded: they move as one),
+    ``rope`` (by the length of ``rope``), ``screw`` (by the lead of ``screw``).
     A speed is positive as the link moves when the reference does at +1. ``pairs`` are the centres that
-    it reads: of the other with the frame, of the link with the frame, and of the two.
+    it reads: of the other with the frame, of the link with the frame, and (not by rope or screw) of the two.
     """
 
     link: str
     of: str
     kind: str
-    pairs: tuple[Pair, Pair, Pair]
+    pairs: tuple[Pair, ...]
     value: float
+    rope: Rope | None = None
+    screw: Screw | None = None
 
 
 class Ratios(NamedTuple):
@@ -121,7 +126,7 @@ def ratios_of(known: Known, links: Sequence[str]) -> Ratios | None:
     moving = [link for link in links if not known.rests(link)]
     if not moving:
         return None
-    turning = [link for link in (*moving, *known.case.links) if known.turns(link)]
+    turning = [link for link in (*moving, *moving_names(known.case)) if known.turns(link)]
     best: tuple[float, Ratios] | None = None
     for reference in dict.fromkeys((*turning, *moving)):
         found = _reach(known, reference, moving)
@@ -163,7 +168,7 @@ def _reach(known: Known, start: str, targets: Sequence[str]) -> tuple[float, tup
         missing.discard(link)
         if ratio is not None:
             by[link] = ratio
-        for other in known.case.links:
+        for other in moving_names(known.case):
             step = None if other in costs else ratio_between(known, link, other, sign)
             if step is not None:
                 heapq.heappush(heap, (cost + _cost(known, step), len(heap) + len(costs), other, step))
@@ -188,7 +193,8 @@ def _chained(start: str, targets: Iterable[str], by: dict[str, Ratio]) -> tuple[
 
 def _cost(known: Known, ratio: Ratio) -> float:
     """One for each ratio, more for centres that must be constructed and for short distances."""
-    made = sum(1 for pair in ratio.pairs if (c := known.centre(*pair)) is not None and c.lines)
+    centres = [centre for pair in ratio.pairs if (centre := known.centre(*pair)) is not None]
+    made = sum(4.0 if centre.by == "loop equations" else bool(centre.lines) for centre in centres)
     small = min(abs(ratio.value), 1.0 / abs(ratio.value)) if ratio.kind == "turns" else 1.0
     return 1.0 + 0.25 * made - 0.05 * math.log10(max(small, 1e-12))
 
@@ -204,12 +210,35 @@ def ratio_between(known: Known, of: str, link: str, sign: float = 1.0) -> Ratio 
     pairs = (known.pair(of, ground), known.pair(link, ground), known.pair(of, link))
     if known.twists[of] == known.twists[link]:
         return Ratio(link, of, "one", pairs, 1.0)
+    tied = _tied(known, of, link, sign)
     centres = [known.centre(*pair) for pair in pairs]
+    if tied is not None and (centres[2] is None or centres[2].by == "loop equations"):
+        return tied
     if any(centre is None or centre.kind not in ("at", "toward") for centre in centres):
         return None
     first, second, common = (centre for centre in centres if centre is not None)
     found = _kind_and_value(known, of, link, (first, second, common), sign)
     return None if found is None else Ratio(link, of, found[0], pairs, found[1])
+
+
+def _tied(known: Known, of: str, link: str, sign: float) -> Ratio | None:
+    """A ratio by a rope that ties these two alone, or by the screw that moves one along the frame."""
+    case = known.case
+    value = _speed(known, link, sign) / _speed(known, of, sign)
+    own = tuple(
+        known.pair(one, case.ground) for one in (of, link) if known.turns(one) and not one.startswith("@")
+    )
+    if any((centre := known.centre(*pair)) is None or centre.kind != "at" for pair in own):
+        return None
+    for screw in case.screws:
+        moved = {one for one in screw.links if not known.rests(one)}
+        if len(moved) == 1 and {of, link} == {*moved, screw.rotor} and not known.turns(*moved):
+            return Ratio(link, of, "screw", own, value, screw=screw)
+    for rope in case.ropes:
+        ends = {*rope.links, *((rope.end,) if rope.is_free else ())}
+        if {one for one in ends if not known.rests(one)} == {of, link}:
+            return Ratio(link, of, "rope", own, value, rope=rope)
+    return None
 
 
 def _kind_and_value(
@@ -372,6 +401,9 @@ def _less(t: Triple, other: Triple, s: float) -> Triple:
 def speed_words(motion: OneMotion) -> str:
     """The driver's motion in words."""
     x, y, w = motion.twists[motion.driver]
+    if motion.turns and motion.driver.startswith("@"):
+        return f"{link_words(motion.driver)} turns at 1 rad/s clockwise as one looks along its axis"
     if motion.turns:
         return f"link {motion.driver} turns at 1 rad/s counterclockwise"
-    return f"link {motion.driver} moves at {math.hypot(x, y) if w == 0.0 else 1.0:.6g} length units a second"
+    speed = math.hypot(x, y) if w == 0.0 else 1.0
+    return f"{link_words(motion.driver)} moves at {speed:.6g} length units a second"

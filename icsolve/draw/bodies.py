@@ -4,14 +4,13 @@ scale."""
 from __future__ import annotations
 
 import math
-from collections import Counter
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 import shapely
 
 from icsolve.answer.bodies import Reaction
-from icsolve.derivation import Acting, acting_loads, rope_pulls
+from icsolve.derivation import Acting, acting_loads, pulls_on
 from icsolve.draw.frame import point_parts
 from icsolve.draw.links import bars, body_of, link_part, wheel_parts
 from icsolve.draw.loads import ARC, axle, heads, hidden, ways
@@ -110,14 +109,12 @@ def _pushes(scene: Scene, link: str) -> Iterable[Push]:
 
 def _pulls(scene: Scene, link: str) -> Iterable[Push]:
     """The pulls of ropes; those of several parts along one line as one."""
-    pulls = list(rope_pulls(scene.known, link))
-    alike = Counter((pull.symbol, pull.at, pull.force) for pull in pulls)
-    for n, ((symbol, at, (x, y)), count) in enumerate(alike.items(), 1):
-        times = (Run(f"{count} "),) if count > 1 else ()
-        low = (Run(symbol[1], True),) if symbol[1] else ()
-        size = Run(f" = {quantity(count * math.hypot(x, y), scene.case.units.force)}")
-        force, words = (count * x, -count * y), (*times, Run(symbol[0]), *low, size)
-        yield Push(f"body-rope-{n}-on-{link}", words, "reaction", scene.view.at(at), force, 0.0, True)
+    for n, pull in enumerate(pulls_on(scene.known, link), 1):
+        times = (Run(f"{pull.strands} "),) if pull.strands > 1 else ()
+        low = (Run(pull.symbol[1], True),) if pull.symbol[1] else ()
+        (x, y), unit = pull.force, scene.case.units.force
+        words = (*times, Run(pull.symbol[0]), *low, Run(f" = {quantity(math.hypot(x, y), unit)}"))
+        yield Push(f"body-rope-{n}-on-{link}", words, "reaction", scene.view.at(pull.at), (x, -y), 0.0, True)
 
 
 def _reaction(scene: Scene, name: str, reaction: Reaction) -> Push:

@@ -7,13 +7,11 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from icsolve.answer.bodies import Reaction
-from icsolve.derivation import Acting, Known, acting_loads
-from icsolve.errors import Status
+from icsolve.derivation import Acting, Known, acting_loads, rope_pulls
 from icsolve.explain.document import Block, Inline, Items, Section, Table, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Sum, product
 from icsolve.explain.given import Figures, load_name
 from icsolve.screws.plane import Point
-from icsolve.wording.sentences import listed
 
 NOTHING = 1e-13
 
@@ -71,8 +69,12 @@ def _acting_on(known: Known, link: str) -> Iterable[On | None]:
     for name, r in (answer.reactions or {}).items():
         if link in (r.by, r.on):
             yield _reaction(known, r if r.on == link else r.reversed(), f"@{r.where}," if "@" in name else "")
+    for rope in known.case.ropes:
+        for pull in rope_pulls(known, rope):
+            if pull.link == link:
+                yield None if pull.tension is None else On(*pull.symbol, pull.at, *pull.force, 0.0)
     for acting in acting_loads(known):
-        if link in (acting.link, acting.against):
+        if link in (acting.link, acting.against) and not acting.link.startswith("@"):
             yield _load(known, acting, 1.0 if link == acting.link else -1.0)
 
 
@@ -93,10 +95,6 @@ def _load(known: Known, acting: Acting, sign: float) -> On:
 def _link(known: Known, figures: Figures, link: str, forces: Sequence[On | None]) -> Section:
     """The sums of forces along x and y and of moments about a joint."""
     title = f"Equilibrium of link {link}"
-    besides = _besides(known, link)
-    if besides:
-        said = f"{besides} on this link: its equations are not written out (status {Status.UNSUPPORTED})."
-        return Section(title, (words(said),))
     if any(force is None for force in forces):
         return Section(
             title, (words("Its joints share the load in a way that equilibrium does not determine."),)
@@ -111,18 +109,6 @@ def _link(known: Known, figures: Figures, link: str, forces: Sequence[On | None]
     blocks += [words("Forces along y:"), *_sum(figures, [(f, f.y) for f in known_forces], "y", largest)]
     blocks += [words(f"Moments about {where}:"), *_moments(figures, known_forces, about, largest, known.size)]
     return Section(title, tuple(blocks))
-
-
-def _besides(known: Known, link: str) -> str:
-    """The ropes and screws that act on a link, which have no equations here; '' for none."""
-    case = known.case
-    ropes = [f"rope {rope.name}" for rope in case.ropes if link in rope.links]
-    screws = [f"the screw of links {listed(screw.links)}" for screw in case.screws if link in screw.links]
-    found = [*ropes, *screws]
-    if not found:
-        return ""
-    whole = listed(found)
-    return f"{whole[:1].upper()}{whole[1:]} {'acts' if len(found) == 1 else 'act'}"
 
 
 def _about(known: Known, link: str) -> tuple[Point, str]:

@@ -14,8 +14,11 @@ from icsolve.derivation import Known, Ratio, Ratios, Step
 from icsolve.derivation.ratios import ratios_of
 from icsolve.explain.document import Block, Inline, Items, Section, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Quotient, Root, Span, Square, Sum, Trig, minus, product
-from icsolve.explain.given import Figures, centre_name, place_words, rate_name, speed_name
+from icsolve.explain.given import Figures, centre_name, place_words, rate_name
+from icsolve.explain.levers import difference, motion_name, place
+from icsolve.explain.ropes import rope_ratio, screw_ratio
 from icsolve.wording.joints import centre_words, normal_words
+from icsolve.wording.sentences import link_words
 
 
 def centre_sections(known: Known, figures: Figures, steps: Sequence[Step]) -> list[Section]:
@@ -113,12 +116,13 @@ def ratio_section(known: Known, figures: Figures, ratios: Ratios) -> Section | N
     return Section("Ratios of the speeds", tuple(blocks)) if blocks else None
 
 
-def motion_name(known: Known, link: str) -> Name:
-    """The rate of a link that turns, the speed of one that slides."""
-    return rate_name(link) if known.turns(link) else speed_name(link)
-
-
 def _blocks(known: Known, figures: Figures, ratios: Ratios, ratio: Ratio) -> Iterable[Block]:
+    if ratio.rope is not None:
+        yield from rope_ratio(known, figures, ratios, ratio)
+        return
+    if ratio.screw is not None:
+        yield from screw_ratio(known, figures, ratio)
+        return
     own, other, common = (centre_name(known, pair) for pair in ratio.pairs)
     left = Quotient(motion_name(known, ratio.link), motion_name(known, ratio.of))
     value = figures.number(ratio.value)
@@ -189,22 +193,10 @@ def _distances(known: Known, figures: Figures, names: tuple[Name, ...], ratio: R
         yield formula(Span(end, common), distance(figures, a, b), figures.distance(math.dist(a, b)))
 
 
-def place(known: Known, pair: tuple[str, str]) -> tuple[float, float]:
-    """Coordinates of a finite centre."""
-    centre = known.centre(*pair)
-    assert centre is not None and centre.kind == "at"
-    return (centre.place[0], centre.place[1])
-
-
 def distance(figures: Figures, a: tuple[float, float], b: tuple[float, float]) -> Expr:
     """The root of the squares of the differences."""
     squares = tuple((1, Square(difference(figures, q, p))) for p, q in zip(a, b, strict=True))
     return Root(Sum(squares))
-
-
-def difference(figures: Figures, to: float, start: float) -> Expr:
-    """One coordinate less another."""
-    return Sum(((1, figures.length(to)), (-1, figures.length(start))))
 
 
 def _gliding(known: Known, figures: Figures, ratios: Ratios, ratio: Ratio, left: Expr) -> Iterable[Block]:
@@ -230,7 +222,7 @@ def _carried(figures: Figures, ratios: Ratios) -> Iterable[Block]:
         if ratio.of == ratios.reference or values[ratio.of].kind == "one":
             continue
         yield words(
-            f"So where link {ratios.reference} has 1, link {ratio.link} has "
+            f"So where {link_words(ratios.reference)} has 1, {link_words(ratio.link)} has "
             f"{figures.number(ratios.rates[ratio.of]).digits} x {figures.number(ratio.value).digits} = "
             f"{figures.number(ratios.rates[ratio.link]).digits}."
         )
@@ -265,6 +257,8 @@ def worked_speeds(known: Known, figures: Figures) -> Iterable[Section]:
 
 def _by_distances(known: Known, ratio: Ratio) -> Expr:
     """A ratio of speeds by the distances of its centres."""
+    if ratio.rope is not None or ratio.screw is not None:
+        return Quotient(motion_name(known, ratio.link), motion_name(known, ratio.of))
     own, other, common = (centre_name(known, pair) for pair in ratio.pairs)
     match ratio.kind:
         case "turns":

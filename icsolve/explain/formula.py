@@ -52,7 +52,7 @@ class Sum(NamedTuple):
 
 
 class Trig(NamedTuple):
-    """``sin`` or ``cos`` of an angle in degrees (a difference, or one number or symbol)."""
+    """``sin``, ``cos`` or ``tan`` of an angle in degrees (a difference, or one number or symbol)."""
 
     function: str
     angle: Expr
@@ -70,6 +70,12 @@ class Square(NamedTuple):
     of: Expr
 
 
+class Exp(NamedTuple):
+    """A power of e."""
+
+    of: Expr
+
+
 class Quantity(NamedTuple):
     """A number with its unit."""
 
@@ -77,7 +83,7 @@ class Quantity(NamedTuple):
     unit: str
 
 
-Expr = Num | Name | Span | Product | Quotient | Sum | Trig | Root | Square | Quantity
+Expr = Num | Name | Span | Product | Quotient | Sum | Trig | Root | Square | Exp | Quantity
 
 
 class Equation(NamedTuple):
@@ -105,6 +111,12 @@ def is_negative(expression: Expr) -> bool:
     if isinstance(expression, Product):
         return is_negative(expression.factors[0])
     return isinstance(expression, Sum) and expression.terms[0][0] < 0
+
+
+def _symbols(angle: Expr) -> bool:
+    """Whether an angle is of symbols, not of degrees."""
+    parts = [term for _, term in angle.terms] if isinstance(angle, Sum) else [angle]
+    return all(isinstance(part, Name) for part in parts)
 
 
 def needs_brackets(child: Expr, *, factor: bool) -> bool:
@@ -152,10 +164,12 @@ class Notation(ABC):
                 return "".join(self._term(n, *term) for n, term in enumerate(expression.terms))
             case Trig():
                 wide = isinstance(expression.angle, Sum) or is_negative(expression.angle)
-                degrees = not isinstance(expression.angle, Name)
+                degrees = not _symbols(expression.angle)
                 return self.trig(expression.function, self.expression(expression.angle), wide, degrees)
             case Root():
                 return self.root(self.expression(expression.of))
+            case Exp():
+                return self.exp(self.expression(expression.of))
             case Square():
                 inner = self.expression(expression.of)
                 wide = isinstance(expression.of, Sum) or is_negative(expression.of)
@@ -221,6 +235,10 @@ class Notation(ABC):
         """A square root."""
 
     @abstractmethod
+    def exp(self, inner: str) -> str:
+        """A power of e."""
+
+    @abstractmethod
     def square(self, inner: str, wide: bool) -> str:
         """A square, of something that has its brackets where it is ``wide``."""
 
@@ -261,14 +279,29 @@ class Plain(Notation):
     def root(self, inner: str) -> str:
         return f"sqrt({inner})"
 
+    def exp(self, inner: str) -> str:
+        return f"exp({inner})"
+
     def square(self, inner: str, wide: bool) -> str:
         return f"{inner}^2"
+
+
+GREEK = {
+    "w": "\N{GREEK SMALL LETTER OMEGA}",
+    "phi": "\N{GREEK SMALL LETTER PHI}",
+    "alpha": "\N{GREEK SMALL LETTER ALPHA}",
+    "beta": "\N{GREEK SMALL LETTER BETA}",
+    "lambda": "\N{GREEK SMALL LETTER LAMDA}",
+    "mu": "\N{GREEK SMALL LETTER MU}",
+    "pi": "\N{GREEK SMALL LETTER PI}",
+}
+"""Symbols by their names in plain text."""
 
 
 class Latex(Notation):
     """LaTeX, as Markdown has it between dollars."""
 
-    greek: ClassVar = {"w": r"\omega", "phi": r"\varphi"}
+    greek: ClassVar = {name: rf"\{name}" for name in GREEK} | {"w": r"\omega", "phi": r"\varphi"}
 
     def number(self, digits: str) -> str:
         mantissa, _, exponent = digits.partition("e")
@@ -310,6 +343,9 @@ class Latex(Notation):
     def root(self, inner: str) -> str:
         return rf"\sqrt{{{inner}}}"
 
+    def exp(self, inner: str) -> str:
+        return rf"e^{{{inner}}}"
+
     def square(self, inner: str, wide: bool) -> str:
         return f"{inner}^{{2}}"
 
@@ -327,7 +363,7 @@ class MathML(Notation):
     """MathML, which browsers set without a library or a network."""
 
     equals = "<mo>=</mo>"
-    greek: ClassVar = {"w": "\N{GREEK SMALL LETTER OMEGA}", "phi": "\N{GREEK SMALL LETTER PHI}"}
+    greek: ClassVar = GREEK
     times, minus = "\N{DOT OPERATOR}", "\N{MINUS SIGN}"
 
     def side(self, expression: Expr) -> str:
@@ -370,6 +406,9 @@ class MathML(Notation):
 
     def root(self, inner: str) -> str:
         return f"<msqrt>{inner}</msqrt>"
+
+    def exp(self, inner: str) -> str:
+        return f"<msup><mi>e</mi><mrow>{inner}</mrow></msup>"
 
     def square(self, inner: str, wide: bool) -> str:
         return f"<msup>{inner if wide else f'<mrow>{inner}</mrow>'}<mn>2</mn></msup>"

@@ -13,11 +13,13 @@ from icsolve.case import (
     Coordinates,
     Force,
     ForceVector,
+    Inertia,
     Joint,
     Like,
     Load,
     Motion,
     Number,
+    Rope,
     Slope,
     Spring,
     Stretch,
@@ -87,19 +89,23 @@ def centre_name(known: Known, pair: tuple[str, str]) -> Name:
 
 
 def load_name(name: str) -> Name:
-    """A load as a symbol: ``T12`` as T with 12 low, other names whole."""
+    """A load as a symbol: ``T12`` as T with 12 low, an inertia force as F with i and the link low, others
+    whole."""
+    if name.startswith(("inertia force ", "inertia couple ")):
+        _, kind, link = name.split(" ", 2)
+        return Name("F" if kind == "force" else "T", f"i{link}")
     letters = name.rstrip("0123456789")
     return Name(letters, name[len(letters) :]) if len(letters) == 1 else Name(name)
 
 
 def rate_name(link: str) -> Name:
-    """The angular velocity of a link."""
-    return Name("w", link)
+    """The angular velocity of a link, or of a screw."""
+    return Name("w", link.removeprefix("@").replace(" ", "_"))
 
 
 def speed_name(link: str) -> Name:
-    """The speed of a link that slides."""
-    return Name("v", link)
+    """The speed of a link that slides, or of the free end of a rope."""
+    return Name("v", link.rpartition("-")[2] if link.startswith("@") else link)
 
 
 def place_words(figures: Figures, centre: Centre) -> str:
@@ -126,13 +132,18 @@ def given_section(known: Known, figures: Figures) -> Section:
     blocks: list[Block] = [
         words(f"The frame is link {case.ground}; link{_s(others)} {listed(others)} move{_verb(others)}.")
     ]
-    blocks.append(Items(tuple((joint_words(joint) + _rubbing(figures, joint),) for joint in case.joints)))
+    said = [joint_words(joint) + _rubbing(figures, joint) for joint in case.joints]
+    said += [_rope_words(figures, rope) for rope in case.ropes]
+    said += [_mass_words(figures, link, inertia) for link, inertia in case.inertia.items()]
+    blocks.append(Items(tuple((one,) for one in said)))
     profiles = case.profiles.shapes if case.profiles is not None else {}
     if profiles:
         blocks.append(words("Profiles:"))
         blocks.append(Items(tuple((profile_words(figures, *one),) for one in profiles.items())))
     blocks += _points(known, figures)
-    known_loads = [load for load in case.loads if not is_unknown(load)]
+    known_loads = [
+        load for load in case.loads if not is_unknown(load) and not load.name.startswith("inertia ")
+    ]
     if known_loads:
         blocks.append(words("Loads:"))
         blocks.append(Items(tuple(_load(known, figures, load) for load in known_loads)))
@@ -163,6 +174,34 @@ def _s(items: list[str]) -> str:
 
 def _verb(items: list[str]) -> str:
     return "s" if len(items) == 1 else ""
+
+
+def _rope_words(figures: Figures, rope: Rope) -> str:
+    """The way of a rope."""
+    said = []
+    last = len(rope.points) - 1
+    for k, (p, link) in enumerate(zip(rope.points, (*rope.links, ""), strict=False)):
+        radius, mu, unit = rope.radii[k], rope.mu[k], figures.units.length
+        more = [] if radius is None else [f"radius {figures.number(radius.value).digits} {unit}"]
+        more += [] if mu is None else [f"mu = {figures.number(mu.value).digits}"]
+        held = f" of link {link}" if link else ""
+        inner = 0 < k < last
+        what = "the pulley " if inner and mu is None else "the drum " if radius is not None else ""
+        said.append(f"{what}{p}{held}" + (f" ({', '.join(more)})" if more else ""))
+    over = f" over {listed(said[1:-1])}" if said[1:-1] else ""
+    return f"a rope runs from {said[0]}{over} to {'its free end ' if rope.is_free else ''}{said[-1]}"
+
+
+def _mass_words(figures: Figures, link: str, inertia: Inertia) -> str:
+    """The mass of a link."""
+    parts = []
+    if inertia.mass is not None:
+        parts.append(
+            f"mass {figures.number(inertia.mass.value).digits} kg with its centre at {inertia.centre}"
+        )
+    if inertia.moment is not None:
+        parts.append(f"moment of inertia {figures.number(inertia.moment.value).digits} kg*m^2")
+    return f"link {link} has {listed(parts)}"
 
 
 def _rubbing(figures: Figures, joint: Joint) -> str:
@@ -254,6 +293,8 @@ _KINDS: dict[type[Load], str] = {
 
 
 def _heading(load: Load) -> str:
+    if isinstance(load, Torque) and load.link.startswith("@"):
+        return ", positive clockwise as one looks along its axis"
     if isinstance(load, Torque):
         return ", counterclockwise" if load.turns == "ccw" else ", clockwise"
     if isinstance(load, Spring):

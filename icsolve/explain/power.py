@@ -12,10 +12,10 @@ from icsolve.case import Area, Force, ForceVector, Joint, Pin, Spring, Torque, T
 from icsolve.case.joints import Friction
 from icsolve.derivation import Acting, Known, Ratios
 from icsolve.derivation.ratios import OneMotion, independent_motions, speed_words
-from icsolve.explain.centres import difference, motion_name, place
 from icsolve.explain.document import Block, Items, Section, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Quotient, Sum, Trig, product
-from icsolve.explain.given import Figures, centre_name, load_name
+from icsolve.explain.given import Figures, load_name
+from icsolve.explain.levers import lever, motion_name
 from icsolve.screws.plane import velocity
 from icsolve.wording.sentences import listed
 
@@ -135,44 +135,11 @@ def _end(
 ) -> tuple[End, list[Block]]:
     if acting.at is None:
         return End(sign, link, None, Num("1"), 1.0), []
-    low = acting.load.name if len(links_of(known, acting)) == 1 else f"{acting.load.name},{link}"
-    if known.turns(link):
-        return _arm(known, figures, acting, End(sign, link, Name("h", low), Num("0"), 0.0))
-    return _part(figures, ratios, acting, End(sign, link, Name("c", low), Num("0"), 0.0))
-
-
-def _arm(known: Known, figures: Figures, acting: Acting, end: End) -> tuple[End, list[Block]]:
-    """The arm of a force about the centre of a link with the frame, positive counterclockwise."""
-    pair = known.pair(end.link, known.case.ground)
-    assert acting.at is not None and end.lever is not None
-    about, at, (dx, dy) = place(known, pair), acting.at, acting.direction
-    arm = (at[0] - about[0]) * dy - (at[1] - about[1]) * dx
-    angle = figures.number(_degrees(acting))
-    across, up = (difference(figures, to, start) for to, start in zip(at, about, strict=True))
-    written = Sum(((1, product(across, Trig("sin", angle))), (-1, product(up, Trig("cos", angle)))))
-    turns = f", positive where it turns link {end.link} counterclockwise:"
-    name = load_name(acting.load.name)
-    return end._replace(number=figures.length(arm), value=arm), [
-        words("The arm of ", name, " about ", centre_name(known, pair), turns),
-        formula(end.lever, written, figures.distance(arm)),
-    ]
-
-
-def _part(figures: Figures, ratios: Ratios, acting: Acting, end: End) -> tuple[End, list[Block]]:
-    """The part of a force along the motion of a link that slides."""
-    assert end.lever is not None
-    angle, heading = _degrees(acting), ratios.headings[end.link]
-    cosine = math.cos(math.radians(angle - heading))
-    between = Sum(((1, figures.number(angle)), (-1, figures.number(heading))))
-    return end._replace(number=figures.number(cosine), value=cosine), [
-        words("The part of ", load_name(acting.load.name), f" along the motion of link {end.link}:"),
-        formula(end.lever, Trig("cos", between), figures.number(cosine)),
-    ]
-
-
-def _degrees(acting: Acting) -> float:
-    """Direction of a load of positive value, degrees in [0, 360)."""
-    return math.degrees(math.atan2(acting.direction[1], acting.direction[0])) % 360.0
+    low = "".join(load_name(acting.load.name))
+    low = low if len(links_of(known, acting)) == 1 else f"{low},{link}"
+    force = (load_name(acting.load.name),)
+    found, said = lever(known, figures, ratios.headings, force, low, link, acting.at, acting.direction)
+    return End(sign, link, *found), said
 
 
 # --- the sum of power ------------------------------------------------------------------------------------
@@ -180,6 +147,8 @@ def _degrees(acting: Acting) -> float:
 
 AGREE = 1e-8
 """The terms of the equation add up to zero, but for this fraction of the largest."""
+FRICTION = "friction "
+"""How terms of the sum of power begin that are those of friction."""
 SLIDING = (
     "In equilibrium the powers of all loads add up to zero, with those of the friction L at each joint "
     "(worked out below), which acts against the given motion:"
@@ -198,23 +167,26 @@ class Rubbed(NamedTuple):
     power: float
 
 
-def rubbed(known: Known, ratios: Ratios) -> list[Rubbed]:
-    """The friction at all joints that rub."""
+def rubbed(known: Known, reference: str) -> list[Rubbed]:
+    """The friction at all joints that rub, while ``reference`` moves at 1."""
     answer, units = known.answer, known.case.units
     if answer is None:
         return []
-    x, y, w = known.twists[ratios.reference]
-    turns = known.turns(ratios.reference)
+    x, y, w = known.twists[reference]
+    turns = known.turns(reference)
     speed = w if turns else math.hypot(x, y)
     found = []
     for term in answer.terms:
-        if " " not in term.load:
+        if not term.load.startswith(FRICTION):
             continue
         torque = term.unit == units.torque
         rate = term.factor * (units.torque_per_force_length if torque else 1.0) / speed
         power = term.value * term.factor / speed * (units.torque_per_force_length if turns else 1.0)
-        name = Name("L", term.load.split()[1].removeprefix("F"))
-        found.append(Rubbed(name, term.words, term.value, term.unit, rate, power))
+        low = term.load.removeprefix(FRICTION).rsplit(" at ", 1)[0]
+        name = Name("L", low.removeprefix("F").removeprefix("T "))
+        what = term.words.removesuffix(" in the rope").replace("friction T ", "friction of the rope ")
+        said = f"{what[:1].upper()}{what[1:]}"
+        found.append(Rubbed(name, said, term.value, term.unit, rate, power))
     return found
 
 
@@ -285,7 +257,7 @@ def power_section(known: Known, figures: Figures, ratios: Ratios, loads: Sequenc
         term, said = term_of(known, figures, ratios, acting)
         blocks += said
         terms += [] if term is None else [term]
-    friction = rubbed(known, ratios)
+    friction = rubbed(known, ratios.reference)
     if not _agrees(known, terms, friction):
         return None
     blocks.append(
@@ -320,7 +292,7 @@ def _numbers(
     for term in terms:
         yield from _term(known, figures, reference, term, unit)
     for r in friction:
-        yield words(f"{r.words[:1].upper()}{r.words[1:]}, {figures.number(r.value).digits} {r.unit}:")
+        yield words(f"{r.words}, {figures.number(r.value).digits} {r.unit}:")
         ratio = r.power / (r.value * r.rate) if r.value * r.rate else 1.0
         numbers = product(figures.number(r.value), figures.number(r.rate), figures.number(ratio))
         yield formula(r.name, numbers, figures.quantity(r.power, unit))
@@ -401,8 +373,15 @@ def motions_section(known: Known, figures: Figures, loads: Sequence[Acting]) -> 
         per = f"{1.0 / units.torque_per_force_length:.12g} {units.force}*{units.length}"
         blocks.append(words(f"1 {units.torque} is {per}."))
     rows = []
+    friction = rubbed(known, motions[0].driver) if motions[0].driver in known.twists else []
+    if count > 1 and any(r.value for r in friction):
+        return Section("Power", (*blocks, words(SHARED)))
     for n, motion in enumerate(motions, 1):
         row, said = _motion(known, figures, loads, motion, n if count > 1 else 0)
+        if row and friction:
+            row += _rubbing(known, friction, motion)
+            said[-2:] = [*(words(f"{r.words}, {figures.number(r.value).digits} {r.unit}.") for r in friction)]
+            said += [words("The sum of power:"), _summed(figures, row, found=False)]
         rows.append(row)
         blocks += said
     blocks += _found(known, figures)
@@ -412,7 +391,19 @@ def motions_section(known: Known, figures: Figures, loads: Sequence[Acting]) -> 
     return Section("Power", tuple(blocks))
 
 
-Factors = list[tuple[Acting, float]]
+SHARED = (
+    "Friction does work in them together; the equations of equilibrium of all links (below) give the answer."
+)
+Factors = list[tuple[Acting | Rubbed, float]]
+
+
+def _rubbing(known: Known, friction: Sequence[Rubbed], motion: OneMotion) -> Factors:
+    """The friction at each joint with its power per unit in a motion that is a multiple of the given one."""
+    (x, y, w), (a, b, c) = known.twists[motion.driver], motion.twists[motion.driver]
+    speed = w if motion.turns else math.hypot(x, y)
+    times = c / w if motion.turns else math.copysign(math.hypot(a, b) / speed, a * x + b * y)
+    per = 1.0 if motion.turns else known.case.units.torque_per_force_length
+    return [(r, r.power * per * speed * times / r.value) for r in friction if r.value]
 
 
 def _motion(
@@ -421,7 +412,7 @@ def _motion(
     """The factor of every load that does work in a motion, and their equation."""
     others = "" if n == 0 else ", the drivers of the other motions held"
     blocks: list[Block] = [words(f"Motion {n}: " if n else "", f"{speed_words(motion)}{others}.")]
-    factors = []
+    factors: Factors = []
     for acting in loads:
         factor, said = _factor(known, figures, acting, motion, n)
         blocks += said
@@ -435,8 +426,10 @@ def _summed(figures: Figures, factors: Factors, *, found: bool) -> Block:
     """The sum of power in a motion; the unknown loads by name or, once ``found``, by their numbers."""
     terms = []
     for acting, factor in factors:
-        named = acting.unknown and not found
-        first = load_name(acting.load.name) if named else figures.number(acting.value or 0.0)
+        if isinstance(acting, Acting) and acting.unknown and not found:
+            first: Expr = load_name(acting.load.name)
+        else:
+            first = figures.number(acting.value or 0.0)
         terms.append((1, product(first, figures.number(factor))))
     return formula(Sum(tuple(terms)), Num("0"))
 
@@ -445,7 +438,7 @@ def _factor(
     known: Known, figures: Figures, acting: Acting, motion: OneMotion, n: int
 ) -> tuple[float, list[Block]]:
     """Power per unit of a load: the rate of its link, or the part of its point's velocity along it."""
-    name = Name("k", acting.load.name + (f",{n}" if n else ""))
+    name = Name("k", "".join(load_name(acting.load.name)) + (f",{n}" if n else ""))
     if acting.at is None:
         return _turned(figures, acting, motion, name)
     assert acting.at is not None

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from icsolve.answer import Answer, Found
 from icsolve.case import Torque
 from icsolve.derivation import Known, Step, acting_loads, all_steps, answer_ratios, needed_steps
-from icsolve.errors import SceneError, Status
+from icsolve.errors import SceneError
 from icsolve.explain.centres import centre_sections, ratio_section, worked_speeds
 from icsolve.explain.document import Block, Document, Inline, Items, Section, Table, words
 from icsolve.explain.formula import Num, Quantity, Quotient
@@ -21,11 +21,12 @@ from icsolve.explain.given import (
     load_name,
     rate_name,
 )
+from icsolve.explain.inertia import inertia_section
 from icsolve.explain.power import friction_section, motions_section, power_section
+from icsolve.explain.ropes import ropes_section, screws_section
 from icsolve.report.text import positions_text
 from icsolve.statics.power import is_unknown
 from icsolve.wording.senses import holding, spelt
-from icsolve.wording.sentences import listed
 
 SEARCHED = (
     "The loads balance where the power of all of them vanishes for the motion that the mechanism has. The "
@@ -211,13 +212,25 @@ def _sections(known: Known, figures: Figures, bodies: bool) -> Iterable[Section]
     if known.refusal is not None:
         yield _refused(known.refusal)
         return
-    yield from _by_power(known, figures)
+    inertia = inertia_section(known, figures)
+    yield from () if inertia is None else (inertia,)
+    power = list(_by_power(known, figures))
+    yield from power
+    ratios = answer_ratios(known)
+    ropes = ropes_section(known, figures, {} if ratios is None else ratios.headings, power)
+    screws = screws_section(known, figures)
+    yield from (section for section in (ropes.section, screws) if section is not None)
     rubbed = friction_section(known, figures)
     yield from () if rubbed is None else (rubbed,)
     yield from answer_section(known, figures)
     yield from left_out(known, steps, bodies=bodies)
     yield from check_section(known, figures)
-    if bodies or known.structure or (known.answer is not None and known.answer.friction is not None):
+    if (
+        bodies
+        or known.structure
+        or ropes.open
+        or (known.answer is not None and known.answer.friction is not None)
+    ):
         from icsolve.explain.bodies import bodies_sections
 
         yield from bodies_sections(known, figures)
@@ -251,17 +264,6 @@ def _steps(known: Known) -> tuple[Step, ...]:
     return needed_steps(known) if asked else all_steps(known)
 
 
-def _rubbing(known: Known) -> str:
-    """The ropes that slip, the screws whose thread rubs, the joints that rub beside ropes; '' for none."""
-    ropes = [f"rope {rope.name}" for rope in known.case.ropes if rope.slips]
-    screws = [f"the screw of links {listed(s.links)}" for s in known.case.screws if s.rubs]
-    friction = None if known.answer is None else known.answer.friction
-    sliding = friction.rubbing if friction is not None and (known.case.ropes or known.case.screws) else ()
-    joints = [one.joint for one in sliding if one.value and not (ropes or screws)]
-    found = [*ropes, *screws, *joints]
-    return listed(found) if found else ""
-
-
 def _by_power(known: Known, figures: Figures) -> Iterable[Section]:
     """Ratios of speeds and the equation of power; by motions where the centres do not give them."""
     loads = acting_loads(known)
@@ -269,11 +271,6 @@ def _by_power(known: Known, figures: Figures) -> Iterable[Section]:
         return
     if any(load.holds is not None for load in loads):
         yield Section("Power", (words(AT_REST),))
-        return
-    rubbing = _rubbing(known)
-    if rubbing:
-        said = f"The friction of {rubbing} is not written out as power (status {Status.UNSUPPORTED})."
-        yield Section("Power", (words(said),))
         return
     ratios = answer_ratios(known)
     several = known.answer is not None and (known.answer.mobility or 0) > 1

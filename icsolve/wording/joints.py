@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import assert_never
 
 from icsolve.case import Belt, Contact, Gears, Joint, KnownCentre, Pin, Roll, Slide, Slot, Weld
-from icsolve.case.joints import Guided, Sliding
+from icsolve.case.joints import Guided, Sliding, Thread
 from icsolve.wording.sentences import listed
 
 
@@ -16,6 +16,12 @@ def joint_words(joint: Joint) -> str:
     match joint:
         case Pin():
             return f"a pin joins links {links}{where}"
+        case Slide(thread=Thread() as thread):
+            on, by = joint.links
+            sizes = [f"lead {thread.lead.digits}"]
+            sizes += [] if thread.radius is None else [f"mean radius {thread.radius.digits}"]
+            sizes += [] if thread.mu is None else [f"mu = {thread.mu.digits}"]
+            return f"a screw moves link {on} on link {by}{where}{_along(joint)} ({', '.join(sizes)})"
         case Slide():
             return f"link {joint.links[0]} slides on link {joint.links[1]}{where}{_along(joint)}"
         case Slot():

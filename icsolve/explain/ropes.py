@@ -1,0 +1,396 @@
+"""Ropes and screws: the ratios that they give, the tension of a rope, Euler's formula where it slips, and the
+torque that raises and lowers by a screw."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from itertools import pairwise
+from typing import NamedTuple
+
+from icsolve.answer.bodies import Reaction
+from icsolve.case import Rope, Screw, Torque, Weight
+from icsolve.derivation import Acting, Known, Pull, Ratio, Ratios, acting_loads, rope_pulls, tension_name
+from icsolve.explain.document import Block, Formula, Section, formula, words
+from icsolve.explain.formula import Exp, Expr, Name, Num, Quantity, Quotient, Sum, Trig, minus, product
+from icsolve.explain.given import Figures, load_name
+from icsolve.explain.levers import Lever, lever, motion_name, pivot
+from icsolve.numbers.arithmetic import FLOATS
+from icsolve.screws.joints import guide_direction
+from icsolve.screws.plane import velocity
+from icsolve.screws.ropes import rope_parts, wrap_angle
+from icsolve.wording.sentences import listed
+
+Headings = Mapping[str, float]
+
+
+class Part(NamedTuple):
+    """What a link has to do with a rope: sign, factor in symbols and in numbers."""
+
+    sign: int
+    symbol: Expr
+    number: Expr
+
+
+def rope_ratio(known: Known, figures: Figures, ratios: Ratios, ratio: Ratio) -> Iterable[Block]:
+    """How two links move that a rope ties: the pulls of its parts do no work."""
+    assert ratio.rope is not None
+    parts: dict[str, list[Part]] = {ratio.of: [], ratio.link: []}
+    yield words(f"The rope {ratio.rope.name} keeps its length, so the pulls of its parts do no work.")
+    for pull in rope_pulls(known, ratio.rope):
+        if pull.link == ratio.rope.end:  # pulled toward the last pulley
+            angle = math.radians(ratios.headings[pull.link])
+            toward = math.cos(angle) * pull.direction[0] + math.sin(angle) * pull.direction[1]
+            parts[pull.link].append(Part(1 if toward > 0.0 else -1, Num("1"), Num("1")))
+        elif pull.link in parts:
+            found, said = _pulled(known, figures, ratios.headings, pull)
+            yield from said
+            both = (product(Num(str(pull.strands)), one) for one in (found.name, found.number))
+            parts[pull.link].append(Part(1, *both))
+    moves = {link: motion_name(known, link) for link in parts}
+    work = tuple((p.sign, product(p.symbol, moves[link])) for link, some in parts.items() for p in some)
+    yield formula(Sum(tuple(sorted(work, key=lambda term: -term[0]))), Num("0"))
+    over, under = parts[ratio.of], parts[ratio.link]
+    flip = -1 if all(part.sign < 0 for part in under) else 1
+    symbols = Quotient(_sum(over, -flip), _sum(under, flip))
+    numbers = Quotient(_sum(over, -flip, numbers=True), _sum(under, flip, numbers=True))
+    yield formula(Quotient(moves[ratio.link], moves[ratio.of]), symbols, numbers, figures.number(ratio.value))
+
+
+def _sum(parts: Sequence[Part], sign: int = 1, *, numbers: bool = False) -> Expr:
+    """The sum of parts, each with its sign times another."""
+    terms = tuple((sign * p.sign, p.number if numbers else p.symbol) for p in parts)
+    return terms[0][1] if len(terms) == 1 and terms[0][0] > 0 else Sum(terms)
+
+
+def _pulled(known: Known, figures: Figures, headings: Headings, pull: Pull) -> tuple[Lever, list[Block]]:
+    """The lever of a pull on its link."""
+    shared = sum(
+        1 for one in rope_pulls(known, pull.rope) if one.where == pull.where and one.link != pull.link
+    )
+    low = f"{pull.where},{pull.link}" if shared else pull.where
+    force = (
+        f"the pull of {pull.where}"
+        if pull.strands == 1
+        else f"each of the {pull.strands} pulls at {pull.where}"
+    )
+    return lever(known, figures, headings, (force,), low, pull.link, pull.at, pull.direction)
+
+
+def screw_ratio(known: Known, figures: Figures, ratio: Ratio) -> Iterable[Block]:
+    """A screw moves its nut by the lead while it turns once."""
+    assert ratio.screw is not None
+    yield words("The screw moves by its lead ", Name("l"), " a turn:")
+    turn, lead = product(Num("2"), Name("pi")), figures.number(ratio.screw.thread.lead.value)
+    both = [Quotient(turn, Name("l")), Quotient(figures.number(2.0 * math.pi), lead)]
+    if ratio.of == ratio.screw.rotor:
+        both = [Quotient(one.under, one.over) for one in both]
+    signed = [minus(one) if ratio.value < 0.0 else one for one in both]
+    left = Quotient(motion_name(known, ratio.link), motion_name(known, ratio.of))
+    yield formula(left, *signed, figures.number(ratio.value))
+
+
+# --- tensions ----------------------------------------------------------------------------------------------
+
+
+class Told(NamedTuple):
+    """What was said of the ropes, and whether a tension is left to the equations of the links."""
+
+    section: Section | None
+    open: bool
+
+
+def ropes_section(known: Known, figures: Figures, headings: Headings, before: Sequence[Section]) -> Told:
+    """The tension of every rope: by the load at its free end, or by the equilibrium of one link; Euler's
+    formula where it slips. Formulas that stand ``before`` are not repeated."""
+    answer = known.answer
+    if answer is None or not answer.tensions:
+        return Told(None, False)
+    blocks: list[Block] = []
+    found: set[str] = set()
+    for rope in known.case.ropes:
+        blocks += _slipping(known, figures, rope)
+        if not (rope.slips and any(a.unknown for a in _at_end(known, rope))):
+            blocks += _drawn(known, figures, rope, found)
+    shown = {b.equation.sides[0] for s in before for b in s.blocks if isinstance(b, Formula)}
+    found |= {a.load.name for a in acting_loads(known) if not a.unknown or _works(known, a)}
+    links = [link for link in known.case.links if _alone(known, link)]
+    for link in [*links, *links]:  # one may give what an earlier one needs
+        blocks += _by_itself(known, figures, headings, link, found, shown)
+    for rope in known.case.ropes:
+        if rope.slips:
+            blocks += _grown(known, figures, rope) if rope.name in found else ()
+            blocks += _drawn(known, figures, rope, found)
+    missing = [rope.name for rope in known.case.ropes if rope.name not in found]
+    if missing:
+        blocks.append(words(f"The equations of equilibrium (below) give the tension of {listed(missing)}."))
+    return Told(Section("Ropes" if len(known.case.ropes) > 1 else "The rope", tuple(blocks)), bool(missing))
+
+
+def _works(known: Known, acting: Acting) -> bool:
+    return not all(known.rests(link) or link == known.case.ground for link in (acting.link, acting.against))
+
+
+def _tensions(known: Known, rope: Rope) -> list[float]:
+    """The tension of each part."""
+    assert known.answer is not None
+    found = next(t for t in known.answer.tensions if t.rope == rope.name)
+    return list(found.parts) or [found.tension or 0.0] * (len(rope.points) - 1)
+
+
+def _symbol(known: Known, rope: Rope, part: int) -> Name:
+    return Name(*tension_name(known.case, rope, part if rope.slips else 0))
+
+
+def _slipping(known: Known, figures: Figures, rope: Rope) -> Iterable[Block]:
+    """The ratio of the tensions on both sides of what a rope slips on."""
+    pulls = _tensions(known, rope)
+    parts = rope_parts(rope, known.points, 1.0, FLOATS)
+    for k, mu in enumerate(rope.mu):
+        if mu is None or not 0 < k < len(parts):
+            continue
+        angle, wrap = wrap_angle(rope, k, parts), Name("beta", rope.points[k])
+        turn = figures.quantity(math.degrees(angle), "deg")
+        yield words(
+            f"On {rope.points[k]} the rope lies over ", wrap, " = ", turn, " = ",
+            figures.quantity(angle, "rad"),
+            " and slips: its tension grows the way in which it runs (Euler, Eytelwein).",
+        )  # fmt: skip
+        more, less = (k + 1, k) if pulls[k] >= pulls[k - 1] else (k, k + 1)
+        ratio = Quotient(_symbol(known, rope, more), _symbol(known, rope, less))
+        numbers = Exp(product(figures.number(mu.value), figures.number(angle)))
+        grown = figures.number(math.exp(mu.value * angle))
+        yield formula(ratio, Exp(product(Name("mu"), wrap)), numbers, grown)
+
+
+def _grown(known: Known, figures: Figures, rope: Rope) -> Iterable[Block]:
+    """The tensions behind what a rope slips on, from the first."""
+    pulls = _tensions(known, rope)
+    for k, (before, after) in enumerate(pairwise(pulls), 1):
+        if rope.mu[k] is not None and before:
+            names = (_symbol(known, rope, k), _symbol(known, rope, k + 1))
+            ratio = figures.number(after / before)
+            tension = figures.quantity(after, known.case.units.force)
+            symbols = product(names[0], Quotient(names[1], names[0]))
+            yield formula(names[1], symbols, product(figures.number(before), ratio), tension)
+
+
+def _at_end(known: Known, rope: Rope) -> list[Acting]:
+    """The loads that pull the free end of a rope."""
+    return [acting for acting in acting_loads(known) if acting.link == rope.end]
+
+
+def _drawn(known: Known, figures: Figures, rope: Rope, found: set[str]) -> Iterable[Block]:
+    """The tension at the free end is what its loads draw; on the other sides it is in the ratios of Euler."""
+    loads = _at_end(known, rope)
+    if not loads or any(acting.value is None for acting in loads) or f"end of {rope.name}" in found:
+        return
+    found |= {rope.name, f"end of {rope.name}"}
+    last = len(rope.points) - 1
+    parts = [
+        Part(
+            1,
+            product(load_name(a.load.name), *_gain(a)),
+            product(figures.number(a.value or 0.0), *_gain_number(figures, a)),
+        )
+        for a in loads
+    ]
+    tension = figures.quantity(_tensions(known, rope)[-1], known.case.units.force)
+    one = " in all of it" if not rope.slips else f" in its part at {rope.points[-1]}"
+    yield words(f"What draws its end is the tension{one}:")
+    yield formula(_symbol(known, rope, last), _sum(parts), _sum(parts, numbers=True), tension)
+
+
+def _gain(acting: Acting) -> tuple[Expr, ...]:
+    return (Name("g"),) if isinstance(acting.load, Weight) and acting.load.mass else ()
+
+
+def _gain_number(figures: Figures, acting: Acting) -> tuple[Num, ...]:
+    return (figures.number(acting.gain),) if _gain(acting) else ()
+
+
+def _alone(known: Known, link: str) -> bool:
+    """Whether a link has joints with the frame alone, without friction, and only plain loads."""
+    case = known.case
+    joints = [joint for joint in case.joints if link in joint.links]
+    plain = all(j.freedom == 1 and case.ground in j.links and j.friction is None for j in joints)
+    loads = [a for a in acting_loads(known) if link in (a.link, a.against)]
+    simple = all(a.against == case.ground and (a.at is None or a.gain == 1.0 or _gain(a)) for a in loads)
+    turned = any(link in screw.links for screw in case.screws)
+    return link != case.ground and bool(joints) and plain and simple and not turned
+
+
+class Work(NamedTuple):
+    """The work of a load or pull on a link: its symbol, what stands beside it in symbols and in numbers, its
+    number, and whether it is asked for."""
+
+    sign: int
+    name: Name
+    beside: tuple[Expr, ...]
+    factors: tuple[Num, ...]
+    number: Quantity
+    asked: bool
+
+
+def _by_itself(
+    known: Known,
+    figures: Figures,
+    headings: Headings,
+    link: str,
+    found: set[str],
+    shown: set[Expr],
+) -> Iterable[Block]:
+    """The work of the loads and pulls on one link, solved for the one that is not ``found`` yet."""
+    pulls = [pull for rope in known.case.ropes for pull in rope_pulls(known, rope) if pull.link == link]
+    loads = [acting for acting in acting_loads(known) if acting.link == link]
+    names = {pull.rope.name for pull in pulls} | {acting.load.name for acting in loads}
+    about = pivot(known, link) is not None
+    if not pulls or len(names - found) != 1 or not (about or link in headings):
+        return
+    terms: list[Work] = []
+    blocks: list[Block] = []
+    for acting in loads:
+        work, said = _of_load(known, figures, headings, acting, found, shown)
+        terms += [] if work is None else [work]
+        blocks += said
+    for pull in pulls:
+        one, said = _pulled(known, figures, headings, pull)
+        beside: tuple[Name, Num] = (one.name, Num(str(pull.strands)))
+        new = pull.rope.name not in found
+        number = figures.quantity(pull.tension or 0.0, known.case.units.force)
+        terms.append(Work(1, Name(*pull.symbol), beside, (beside[1], one.number), number, new))
+        blocks += [] if one.name in shown else said
+    arms = "have no arm about its centre" if about else "do no work as it slides"
+    yield words(f"Link {link} by itself: the forces of the frame {arms}.")
+    yield from blocks
+    yield formula(Sum(tuple((w.sign, product(*w.beside[1:], w.name, w.beside[0])) for w in terms)), Num("0"))
+    rest = tuple((-w.sign, product(w.number.number, *w.factors)) for w in terms if not w.asked)
+    asked = [w for w in terms if w.asked]
+    first = float(asked[0].number.number.digits) or 1.0
+    shares = [figures.number(float(w.number.number.digits) / first) for w in asked]
+    parts = [Part(w.sign, w.name, product(s, *w.factors)) for w, s in zip(asked, shares, strict=True)]
+    over: Expr = Sum(rest) if rest else Num("0")
+    yield formula(asked[0].name, Quotient(over, _sum(parts, numbers=True)), asked[0].number)
+    found |= names
+
+
+def _of_load(
+    known: Known, figures: Figures, headings: Headings, acting: Acting, found: set[str], shown: set[Expr]
+) -> tuple[Work | None, list[Block]]:
+    name, new = load_name(acting.load.name), acting.load.name not in found
+    number = figures.quantity(acting.value or 0.0, acting.unit)
+    if acting.at is not None:
+        low = "".join(name)
+        one, said = lever(known, figures, headings, (name,), low, acting.link, acting.at, acting.direction)
+        factors = (*_gain_number(figures, acting), one.number)
+        return Work(
+            1, name, (one.name, *_gain(acting)), factors, number, new
+        ), [] if one.name in shown else said
+    if pivot(known, acting.link) is None:
+        return None, []
+    turn = -1 if isinstance(acting.load, Torque) and acting.load.turns == "cw" else 1
+    per = figures.number(1.0 / known.case.units.torque_per_force_length)
+    return Work(turn, name, (Num("1"),), (per,), number, new), []
+
+
+# --- screws ------------------------------------------------------------------------------------------------
+
+
+def screws_section(known: Known, figures: Figures) -> Section | None:
+    """The torque of every screw by its thread, as books have it."""
+    blocks = [block for screw in known.case.screws for block in _screw(known, figures, screw)]
+    return (
+        Section("The screw" if len(known.case.screws) == 1 else "Screws", tuple(blocks)) if blocks else None
+    )
+
+
+def _screw(known: Known, figures: Figures, screw: Screw) -> Iterable[Block]:
+    thrust = _thrust(known, screw)
+    turn = product(Num("2"), Name("pi"))
+    lead, pi2 = figures.number(screw.thread.lead.value), figures.number(2.0 * math.pi)
+    if thrust is not None:
+        size = figures.quantity(abs(thrust), known.case.units.force)
+        links = f"Links {listed(screw.links)} press on each other along the screw with "
+        yield words(links, Name("F"), " = ", size, ".")
+    if screw.thread.radius is None or screw.thread.mu is None or not screw.rubs:
+        yield words("Without friction the work of a turn is that of the lead:")
+        sides: tuple[Expr, Expr] = (Quotient(Name("l"), turn), Quotient(lead, pi2))
+        yield _turned(known, figures, screw, thrust, 1, screw.thread.lead.value / (2.0 * math.pi), sides)
+        return
+    r, rise = screw.thread.radius.value, screw.thread.lead.value / (2.0 * math.pi * screw.thread.radius.value)
+    slope, phi = math.degrees(math.atan(rise)), math.degrees(math.atan(screw.thread.mu.value))
+    names = (Name("lambda"), Name("phi"))
+    yield words("The angle of its thread, and that of friction:")
+    sizes = Quotient(lead, product(pi2, figures.number(r)))
+    pitch = Quotient(Name("l"), product(turn, Name("r")))
+    yield formula(Trig("tan", names[0]), pitch, sizes, figures.number(rise))
+    yield formula(names[0], figures.quantity(slope, "deg"))
+    yield formula(Trig("tan", names[1]), Name("mu"), figures.number(screw.thread.mu.value))
+    yield formula(names[1], figures.quantity(phi, "deg"))
+    driven = _driven(known, screw, thrust)
+    for sign, way in ((1, "Against the load, to raise it:"), (-1, "With the load, to lower it:")):
+        if driven in (None, sign):
+            yield words(way)
+            written = (_tangent(*names, sign), _tangent(figures.number(slope), figures.number(phi), sign))
+            sides = (product(Name("r"), written[0]), product(figures.number(r), written[1]))
+            gain = r * math.tan(math.radians(phi + sign * slope))
+            yield _turned(known, figures, screw, thrust, sign, gain, sides)
+    holds = "at least" if phi >= slope else "less than"
+    locks = "is self-locking: the load alone does not turn it" if phi >= slope else "is not self-locking"
+    yield words("As ", names[1], f" is {holds} ", names[0], f", it {locks}.")
+    if driven != -1:
+        yield words("Its efficiency:")
+        whole = Quotient(Trig("tan", names[0]), _tangent(*names, 1))
+        both = (figures.number(slope), figures.number(phi))
+        gained = rise / math.tan(math.radians(phi + slope))
+        yield formula(whole, Quotient(Trig("tan", both[0]), _tangent(*both, 1)), figures.number(gained))
+
+
+def _tangent(slope: Expr, phi: Expr, sign: int) -> Expr:
+    """The tangent of the angle of friction and, or less, that of the thread."""
+    return Trig("tan", Sum(((1, phi), (sign, slope))))
+
+
+def _turned(
+    known: Known,
+    figures: Figures,
+    screw: Screw,
+    thrust: float | None,
+    sign: int,
+    gain: float,
+    sides: tuple[Expr, Expr],
+) -> Block:
+    """The torque that moves a screw against (1) or with (-1) its load: ``gain`` times it, ``sides`` in
+    symbols and in numbers; negative where it turns counterclockwise."""
+    loads = [acting for acting in acting_loads(known) if acting.link == screw.rotor]
+    torque = load_name(loads[0].load.name) if len(loads) == 1 else Name("T", "screw")
+    symbols = product(Name("F"), sides[0])
+    if thrust is None:
+        return formula(torque, symbols)
+    per = known.case.units.torque_per_force_length
+    scale = () if per == 1.0 else (figures.number(per),)
+    numbers = product(figures.number(abs(thrust)), sides[1], *scale)
+    value = math.copysign(1.0, thrust) * sign * abs(thrust) * gain * per
+    backward = thrust * sign < 0.0
+    both = [minus(one) for one in (symbols, numbers)] if backward else [symbols, numbers]
+    return formula(torque, *both, figures.quantity(value, known.case.units.torque))
+
+
+def _thrust(known: Known, screw: Screw) -> float | None:
+    """The force along the axis on the second link; None where it is not known."""
+    reactions: Mapping[str, Reaction] = (known.answer.reactions or {}) if known.answer is not None else {}
+    for r in reactions.values():
+        if r.kind == "screw" and {r.by, r.on} == {*screw.links} and r.x is not None and r.y is not None:
+            x, y = guide_direction(screw.slide.guide, known.points, FLOATS)
+            return float(x * r.x + y * r.y) * (1.0 if r.on == screw.links[1] else -1.0)
+    return None
+
+
+def _driven(known: Known, screw: Screw, thrust: float | None) -> int | None:
+    """1 where the nut moves against its load, -1 with it; None where that is open."""
+    if thrust is None or not known.case.motion or not {*screw.links} <= known.twists.keys():
+        return None
+    x, y = guide_direction(screw.slide.guide, known.points, FLOATS)
+    both = [velocity(known.twists[link], known.points[screw.slide.at]) for link in screw.links]
+    speed = x * (both[1][0] - both[0][0]) + y * (both[1][1] - both[0][1])
+    return None if thrust * speed == 0.0 else 1 if thrust * speed > 0.0 else -1
