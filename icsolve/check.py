@@ -17,6 +17,7 @@ from icsolve.case import (
     Load,
     LoadIs,
     Number,
+    OfBodies,
     Pair,
     PositionIs,
     RateIs,
@@ -24,6 +25,7 @@ from icsolve.case import (
     ReactionIs,
     SpeedIs,
     Target,
+    TensionIs,
     Torque,
 )
 from icsolve.case.names import pair_name
@@ -76,7 +78,7 @@ def wanted(case: Case) -> Wanted:
     return Wanted(
         all_centres=any(isinstance(t, CentreIs | DistanceIs) for t in targets),
         rates=any(isinstance(t, RatioIs | RateIs | SpeedIs) for t in targets),
-        reactions=any(isinstance(t, ReactionIs | ArmIs | FrictionRadiusIs) for t in targets),
+        reactions=any(isinstance(t, OfBodies) for t in targets),
     )
 
 
@@ -235,7 +237,7 @@ def _found(answer: Answer, expected: Expected) -> tuple[float, ...]:
             return (_turned(_rate(answer, link), expected.sense),)
         case SpeedIs(point, link):
             return (_speed(answer, point, link, expected.sense),)
-        case ReactionIs() | ArmIs() | FrictionRadiusIs() as target:
+        case ReactionIs() | TensionIs() | ArmIs() | FrictionRadiusIs() as target:
             return (_of_bodies(answer, target),)
 
 
@@ -248,7 +250,7 @@ def _in_space(answer: Answer, spatial: Spatial, expected: Expected) -> float:
         raise _MissingError(str(error)) from None
 
 
-def _of_bodies(answer: Answer, target: ReactionIs | ArmIs | FrictionRadiusIs) -> float:
+def _of_bodies(answer: Answer, target: OfBodies) -> float:
     from icsolve.statics.published import found_value
 
     if answer.reactions is None and not isinstance(target, FrictionRadiusIs):

@@ -201,3 +201,33 @@ def test_variants_of_ranges_and_positions_have_keys_of_their_own(a_class: Class)
 )
 def test_what_a_question_of_these_kinds_gives(text: str, name: str, told: str) -> None:
     assert dict(given(icsolve.load(text)))[name] == told
+
+
+MACHINES = {
+    "two parts not counted": ("ropes/tackle_four_parts", "rope-parts", 500.0),
+    "exp(mu) alone": ("ropes/capstan", "wrap", 100 * math.exp(0.25)),
+    "round the other side": ("ropes/capstan", "wrap", 100 * math.exp(0.25 * 1.5 * math.pi)),
+    "smooth post": ("ropes/capstan", "no-friction", 100.0),
+    "slipping the other way": ("ropes/capstan", "friction-sense", 100 * math.exp(-0.125 * math.pi)),
+    "smooth thread": ("tools/screw_jack", "no-friction", 10 * 5 / (2 * math.pi)),
+    "lead a radian": ("tools/scissor_jack", "lead", 6 * 4),
+    "no inertia of the drum": ("dynamics/hoist_starting", "no-inertia", 40 * 0.25 * (9.81 + 1.0)),
+    "no acceleration": ("dynamics/hoist_starting", "no-acceleration", 40 * 0.25 * 9.81),
+    "revolutions for radians": ("dynamics/scotch_yoke_piston", "rpm", 8.6602540378 * (math.pi / 30) ** 2),
+}
+"""A case, the code of a mistake, and what is found with it."""
+
+
+@pytest.mark.parametrize("kind", MACHINES)
+def test_what_ropes_screws_and_masses_are_often_taken_for(a_class: Class, kind: str) -> None:
+    name, code, found = MACHINES[kind]
+    a_class.case("machine", (CASES / f"{name}.yaml").read_text())
+    (row,) = a_class.judge(f"{found:.7g}", case="machine")
+    assert row["verdict"] == "wrong"
+    assert code in row["code"].split(), row
+
+
+def test_the_pull_of_a_rope_is_a_question(a_class: Class) -> None:
+    a_class.case("hoist", (CASES / "ropes" / "differential_hoist.yaml").read_text())
+    rows = a_class.judge("500 N", "500", "1000 N", case="hoist:T O-P-N")
+    assert [row["verdict"] for row in rows] == ["right", "right", "wrong"]

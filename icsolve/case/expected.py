@@ -73,6 +73,17 @@ class FrictionRadiusIs(NamedTuple):
     point: str
 
 
+class TensionIs(NamedTuple):
+    """Expected: the pull of a rope, by its name; of one that slips, in its first ``part``, or another."""
+
+    rope: str
+    part: int = 1
+
+
+OfBodies = ReactionIs | TensionIs | ArmIs | FrictionRadiusIs
+"""What free bodies tell."""
+
+
 class PositionIs(NamedTuple):
     """Expected: a datum of the figure in a position of equilibrium, by its path: ``angles.AB``."""
 
@@ -87,9 +98,7 @@ Target = (
     | RatioIs
     | RateIs
     | SpeedIs
-    | ReactionIs
-    | ArmIs
-    | FrictionRadiusIs
+    | OfBodies
 )
 
 

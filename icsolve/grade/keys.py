@@ -20,6 +20,7 @@ from icsolve.case import (
     SpeedIs,
     Spring,
     Target,
+    TensionIs,
     Torque,
     TorsionSpring,
     Toward,
@@ -329,7 +330,7 @@ def kind_of(target: Target) -> str:
             return "ratio"
         case RateIs() | SpeedIs():
             return "rate"
-        case ReactionIs():
+        case ReactionIs() | TensionIs():
             return "reaction"
         case CentreIs():
             return "place"

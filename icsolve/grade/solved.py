@@ -6,7 +6,7 @@ from copy import copy
 from functools import cached_property, lru_cache
 
 from icsolve.answer import Answer
-from icsolve.case import ArmIs, Case, CentreIs, FrictionRadiusIs, LoadIs, PositionIs, ReactionIs, Target
+from icsolve.case import Case, CentreIs, LoadIs, OfBodies, PositionIs, ReactionIs, Target, TensionIs
 from icsolve.errors import SceneError
 from icsolve.grade.course import Course
 from icsolve.grade.keys import (
@@ -80,6 +80,7 @@ def _reading(case: Case) -> Reading:
     reading.kinds = dict.fromkeys((*case.directed, *(load.name for load in case.loads)), "force")
     reading.unknowns = list(case.unknowns)
     reading.given = set(case.points)
+    reading.ropes = {rope.name for rope in case.ropes}
     reading.links = dict.fromkeys(case.links, (1, 1))
     return reading
 
@@ -153,7 +154,7 @@ class Solved:
         if isinstance(target, LoadIs):
             ranged = range_key(question, target, self.plain, policy)
             return ranged or scalar_key(question, target, self.plain, policy, lambda: self.wrongs.of(target))
-        if isinstance(target, ReactionIs | ArmIs | FrictionRadiusIs):
+        if isinstance(target, OfBodies):
             if self._with_bodies is None:
                 self._with_bodies = WrongAnswers(solved_for(self.case, target), target)
             bodies = self._with_bodies
@@ -168,7 +169,7 @@ class Solved:
 
     def _with_scale(self, key: AnyKey, target: Target) -> AnyKey:
         """Loads and reactions grow with the loads; ratios and places do not."""
-        if isinstance(key, Key) and isinstance(target, LoadIs | ReactionIs):
+        if isinstance(key, Key) and isinstance(target, LoadIs | ReactionIs | TensionIs):
             return scaled_key(key, self.scale)
         return scaled_range(key, self.scale) if isinstance(key, RangeKey) else key
 

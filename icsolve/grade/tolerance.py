@@ -22,6 +22,7 @@ from icsolve.case import (
     Spring,
     Stretch,
     Target,
+    TensionIs,
     Tolerance,
     Torque,
     TorsionSpring,
@@ -118,7 +119,7 @@ def unit_of_target(target: Target, answer: Answer) -> str:
             return f"{units.length}/s"
         case ReactionIs(part="moment"):
             return units.torque
-        case ReactionIs():
+        case ReactionIs() | TensionIs():
             return units.force
     return units.length
 
@@ -144,6 +145,8 @@ def zero_width(target: Target, answer: Answer) -> float:
             return OF_LOADS * 180.0
         case ReactionIs(part=part):
             return OF_LOADS * largest_load(answer) * (_torque_scale(answer) if part == "moment" else 1.0)
+        case TensionIs():
+            return OF_LOADS * largest_load(answer)
         case RatioIs():
             return OF_LOADS
         case RateIs() | SpeedIs():

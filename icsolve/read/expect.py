@@ -21,6 +21,7 @@ from icsolve.case import (
     ReactionIs,
     SpeedIs,
     Target,
+    TensionIs,
     Tolerance,
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
@@ -81,7 +82,7 @@ def _is_of_space(target: Target) -> bool:
 
 def _unknown(reading: Reading, key: str) -> str:
     likely = suggestion(key, reading.kinds)
-    forms = "a load, I24, I12-I26, I24-A, w4/w2, w2, 'v C on 8', F34, M34, 'h F32 A' or 'rf B'"
+    forms = "a load, I24, I12-I26, I24-A, w4/w2, w2, 'v C on 8', F34, M34, 'h F32 A', 'rf B' or 'T A-P-B'"
     if reading.axes == "xyz":
         forms = "a load, A-B, F34, F34z, F1-2@B, M34, M34x, 'thrust F12@B' or 'h F32 A'"
     return f"{shown(key)} names nothing in this case" + (likely or f"; a key can be {forms}")
@@ -99,7 +100,7 @@ def _readings(reading: Reading, key: str, points: set[str]) -> Iterator[Target]:
 
 
 def _in_words(reading: Reading, words: list[str], points: set[str]) -> Iterator[Target]:
-    """``v C on 8``, ``h F32 A``, ``rf B``."""
+    """``v C on 8``, ``h F32 A``, ``rf B``, ``T A-P-B``, of a part ``T A-P-B 2``."""
     if len(words) == 4 and words[0] == "v" and words[2] == "on":
         if words[1] in points and reading.knows_link(words[3]):
             yield SpeedIs(words[1], words[3])
@@ -108,6 +109,10 @@ def _in_words(reading: Reading, words: list[str], points: set[str]) -> Iterator[
             yield ArmIs(by, on, words[2])
     elif len(words) == 2 and words[0] == "rf" and words[1] in points:
         yield FrictionRadiusIs(words[1])
+    elif words[0] == "T" and words[1] in reading.ropes and len(words) < 4:
+        part = words[2] if len(words) == 3 else "1"
+        if part.isdigit() and 0 < int(part) < len(words[1].split("-")):
+            yield TensionIs(words[1], int(part))
     elif words[-1].startswith("F"):
         yield from _shares(reading, words, points)
 
@@ -408,6 +413,8 @@ def _dimension(reading: Reading, target: Target) -> str:
     """The dimension of a target; '' of a load whose kind could not be read, and of a vector."""
     if isinstance(target, LoadIs):
         return dimension_of(reading.kinds[target.load])
+    if isinstance(target, TensionIs):
+        return "force"
     if isinstance(target, ReactionIs):
         return "torque" if target.part.partition(" ")[0] in ("moment", "couple") else "force"
     if isinstance(target, RateIs):

@@ -47,10 +47,11 @@ class Reading:
     angles, ``on_guides``: each guide), ``centroids`` those of others by their point; ``hidden`` the points
     that a load or centre gives by coordinates; ``kinds`` the kind of each load by its name. ``axes`` are
     those along which a force has components, ``couples`` those about which a couple has. ``profiled`` are the
-    links under ``profile``, ``touches`` the contacts whose places the profiles give, ``ends`` the ropes that
-    have a free end, by its point, ``noticed`` sentences on what may be a slip, ``unknowns`` the data of the
-    figure that are to find, ``middles`` the hidden points in the middle of two, ``directed`` the forces of
-    unknown direction. ``driven`` are the pairs of links whose screws torques turn, ``screws`` these.
+    links under ``profile``, ``touches`` the contacts whose places the profiles give, ``ropes`` the names
+    of ropes, ``ends`` those that have a free end, by its point, ``noticed`` sentences on what may be a slip,
+    ``unknowns`` the data of the figure that are to find, ``middles`` the hidden points in the middle of two,
+    ``directed`` the forces of unknown direction. ``driven`` are the pairs of links whose screws torques turn,
+    ``screws`` these.
     """
 
     axes = "xy"
@@ -77,6 +78,7 @@ class Reading:
         self.unknowns: list[Unknown] = []
         self.touches: list[tuple[Touch, Mark]] = []
         self.ends: dict[str, Rope] = {}
+        self.ropes: set[str] = set()
         self.driven: set[frozenset[str]] = set()
         self.screws: list[Screw] = []
 

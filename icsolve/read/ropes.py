@@ -28,6 +28,7 @@ def read_ropes(reading: Reading, section: Sequence) -> tuple[tuple[Rope, ...], S
         else:
             others.append(item)
     for rope in found:
+        reading.ropes.add(rope.name)
         if rope.is_free:
             reading.ends[rope.points[-1]] = rope
     return tuple(found), Sequence(others, section.mark)

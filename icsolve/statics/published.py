@@ -6,12 +6,12 @@ import math
 from typing import TYPE_CHECKING
 
 from icsolve.answer.bodies import Reaction
-from icsolve.case import ArmIs, FrictionRadiusIs, Pin, ReactionIs
+from icsolve.case import ArmIs, FrictionRadiusIs, OfBodies, Pin, TensionIs
 
 if TYPE_CHECKING:
     from icsolve.answer import Answer
 
-def found_value(answer: Answer, target: ReactionIs | ArmIs | FrictionRadiusIs) -> float:
+def found_value(answer: Answer, target: OfBodies) -> float:
     """The value of a target, in case units.
 
     Raises LookupError, with a sentence, where the answer has none.
@@ -20,12 +20,22 @@ def found_value(answer: Answer, target: ReactionIs | ArmIs | FrictionRadiusIs) -
         return _friction_radius(answer, target.point)
     if isinstance(target, ArmIs):
         return _arm(answer, _reaction(answer, target.by, target.on, None), target.point)
+    if isinstance(target, TensionIs):
+        return _tension(answer, target)
     reaction = _reaction(answer, target.by, target.on, target.at)
     whole = {"": reaction.magnitude, "x": reaction.x, "y": reaction.y, "moment": reaction.moment}
     value = whole[target.part] if target.part in whole else _share(reaction, target.part)
     if value is None:
         raise LookupError(f"it is not determined: {reaction.why}")
     return value
+
+
+def _tension(answer: Answer, target: TensionIs) -> float:
+    """The pull of a rope, or of a part of it."""
+    found = next(one for one in answer.tensions if one.rope == target.rope)
+    if found.tension is None:
+        raise LookupError(f"it is not determined: {found.why}")
+    return found.parts[target.part - 1] if found.parts else found.tension
 
 
 def _share(reaction: Reaction, name: str) -> float | None:

@@ -33,6 +33,7 @@ from icsolve.case import (
     Weight,
 )
 from icsolve.case.names import pair_name
+from icsolve.grade.mistakes.ropes_and_masses import misread
 
 Place = tuple[float, float]
 
@@ -67,6 +68,7 @@ def changed_figures(case: Case, answer: Answer) -> Iterator[Changed]:
             yield Changed("friction-sense", replace(case, motion=tuple(map(_reversed, case.motion))))
     yield from _changed_angles(case)
     yield from _without_stages(case)
+    yield from (Changed(*one) for one in misread(case, answer))
 
 
 def moves_otherwise(changed: Case, case: Case) -> bool:
@@ -260,10 +262,15 @@ def _fed_load(load: Load) -> Load:
 def without_friction(case: Case) -> Case | None:
     """The case with smooth joints; None where they are so already."""
     joints = tuple(_smooth(joint) for joint in case.joints)
-    return replace(case, joints=joints) if joints != case.joints else None
+    ropes = tuple(rope._replace(mu=(None,) * len(rope.mu)) for rope in case.ropes)
+    if (joints, ropes) == (case.joints, case.ropes):
+        return None
+    return replace(case, joints=joints, ropes=ropes)
 
 
 def _smooth(joint: Any) -> Any:
+    if isinstance(joint, Slide) and joint.thread is not None:
+        joint = joint._replace(thread=joint.thread._replace(mu=None))
     return joint._replace(friction=None) if getattr(joint, "friction", None) is not None else joint
 
 

@@ -8,17 +8,15 @@ from functools import cached_property
 
 from icsolve.answer import Answer
 from icsolve.case import (
-    ArmIs,
     Case,
     CentreIs,
     DistanceIs,
-    FrictionRadiusIs,
     Load,
     LoadIs,
+    OfBodies,
     PositionIs,
     RateIs,
     RatioIs,
-    ReactionIs,
     SpeedIs,
     Target,
 )
@@ -54,7 +52,7 @@ def solved_for(case: Case, target: Target | None = None, bound: bool = False) ->
     """
     from icsolve.solve import solve
 
-    bodies = isinstance(target, ReactionIs | ArmIs | FrictionRadiusIs)
+    bodies = isinstance(target, OfBodies)
     try:
         return solve(case, all_centres=True, rates=True, bound=bound, reactions=bodies)
     except SceneError:
