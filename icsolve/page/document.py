@@ -137,7 +137,7 @@ def ratio_unit(known: Known, root: Acting, of: Acting) -> str:
 
 
 HERE = Path(__file__).parent
-PARTS = tuple("data scene live moving centres labels words position construction fields".split())
+PARTS = tuple("data scene live moving centres labels words position construction fields see".split())
 """The parts of the script, in the order in which they run: each uses those before it."""
 
 
@@ -238,6 +238,7 @@ def _body(parts: Parts) -> Iterable[str]:
     beside = (section(case) if parts.live is not None else "") + construction
     yield '<div class="column">' if beside else '<div class="column wide">'
     yield _stage(parts)
+    yield _see(parts)
     yield "" if short else power
     yield "</div>"
     yield f'<div class="column">{beside}{power if short else ""}</div>' if beside else ""
@@ -261,6 +262,39 @@ def _stage(parts: Parts) -> str:
             "</section>",
         )
         if part
+    )
+
+
+def _see(parts: Parts) -> str:
+    """What can be shown in the figure besides, each by a box to tick."""
+    if parts.live is None:
+        return ""
+    case = parts.known.case
+    links = [link for link in case.links if link != case.ground and not link.startswith("@")]
+    moving = [
+        name for name in parts.model.get("motion", {"points": ()})["points"] if not name.startswith("@")
+    ]
+
+    def boxes(kind: str, names: Iterable[str]) -> str:
+        return " ".join(
+            f'<label><input type="checkbox" data-{kind}="{_text(n)}">{_text(n)}</label>' for n in names
+        )
+
+    rows = [
+        '<label><input type="checkbox" id="see-velocities">velocities of the points</label>',
+        f'<span class="what">rotation about its centre of link</span> {boxes("rotation", links)}',
+        f'<span class="what">path of point</span> {boxes("curve", moving)}' if moving else "",
+        f'<span class="what">centrodes of link</span> {boxes("centrode", links)}' if moving else "",
+        '<label for="see-body" class="what">forces on link</label> <select id="see-body">'
+        f'<option value="">none</option>{"".join(f"<option>{_text(n)}</option>" for n in links)}</select>',
+    ]
+    items = "".join(f"<li>{row}</li>" for row in rows if row)
+    return (
+        f'<section aria-label="Show" id="see"><h2>Show</h2><ul class="lines boxes">{items}</ul>\n'
+        '<p class="hint" id="see-hint" role="status"></p>\n'
+        '<div id="body-panel" hidden><svg class="ic" id="body-figure" viewBox="0 0 600 300" role="img" '
+        'aria-label="Free body and force polygon"></svg>\n<p id="body-said" aria-live="polite"></p></div>'
+        "</section>"
     )
 
 

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 from icsolve.assembly.data import LINE, MEAN, data_of, number_of
 from icsolve.assembly.groups import Group
 from icsolve.assembly.loci import is_round
-from icsolve.assembly.steps import Meet, Step, aims
+from icsolve.assembly.steps import Given, Mean, Meet, Step, aims
 from icsolve.assembly.workspace import Key, Workspace, normalised
 from icsolve.case import Belt, Case, Gears, KnownCentre, Motion, Number, Roll, Slide, Slot
 from icsolve.derivation import Known
@@ -193,11 +193,8 @@ class _Writer:
         loads = []
         for w in power.wrenches(self.case, self.workspace.frame, self._points(), self.record):
             loads.append([*w.unit, w.gain, w.ratio, self._value(w)])
-        own = [
-            list(basis[0] if isinstance(self.top.bonds[k].joint, Gears | Belt) else basis[-1])
-            for k, basis in sorted(bases.items())
-        ]
-        return [rows, paths, loads, own]
+        freed = [[list(twist) for twist in basis] for _, basis in sorted(bases.items())]
+        return [rows, paths, loads, freed]
 
     def _value(self, w: power.Wrench) -> Scalar:
         """The number of a known load; 0 of an unknown one."""
@@ -261,6 +258,10 @@ class _Writer:
             "inexact": any(isinstance(joint, KnownCentre | Roll) for joint in case.joints),
             "given": any(isinstance(joint, KnownCentre) for joint in case.joints),
             "loads": [self._load(w) for w in self._wrenches()],
+            "moves": self._by_points(),
+            "at": [getattr(bond.joint, "at", None) for bond in top.bonds],
+            "units": [unit_word(unit) for unit in (case.units.force, case.units.torque)],
+            "torque": case.units.torque_per_force_length,
             "frameLink": case.ground,
             "bonds": [
                 [*bond.links, len(bases[k]) == 1 or isinstance(bond.joint, Gears | Belt)]
@@ -281,6 +282,13 @@ class _Writer:
                 path = None if datum.kind in (MEAN, LINE) else number_of(self.case, datum).path
                 number = None if path is None else self.paths.index(path)
                 yield [datum.kind, [place[p] for p in datum.points], number]
+
+    def _by_points(self) -> bool:
+        """Whether the places of the points tell all of a position: they are given, and no guide turns."""
+        drawn = all(isinstance(step, Given | Mean) for step in self.setting.figure.steps)
+        guides = [bond for bond in self.top.bonds if getattr(bond.joint, "guide", None) is not None]
+        held = all(bond.joint.guide.angle is None or self.case.ground in bond.links for bond in guides)  # type: ignore[union-attr]
+        return drawn and held and not any(getattr(load, "turns_with", None) for load in self.case.loads)
 
     def _guides(self) -> dict[str, int]:
         """The bond whose guide tells how a link lies that has one."""

@@ -84,15 +84,17 @@ function degreesWords(d) {
 function fillPlaces() {
   for (const name of Object.keys(live.points)) [points[name].x[LIVE], points[name].y[LIVE]] = placeOf(name);
 }
+/* Place and angle of a link by where its points are. */
+function poseIn(pose, place, ownNow) {
+  const arm = (where) => [where(pose.q)[0] - where(pose.p)[0], where(pose.p)[1] - where(pose.q)[1]];
+  if (pose.q) return [...place(pose.p), turned(arm((n) => written[n]), arm(place))];
+  const turns = pose.guide !== undefined;
+  return [...place(pose.p), turns ? turned(guideOf(pose.guide, scene.first.own), guideOf(pose.guide, ownNow)) : 0];
+}
 function fillLinks(ownNow) {
   for (const [link, pose] of Object.entries(live.poses)) {
     const l = links[link];
-    const now = placeOf(pose.p);
-    [l.x[LIVE], l.y[LIVE]] = now;
-    const arm = (place) => [place(pose.q)[0] - place(pose.p)[0], place(pose.p)[1] - place(pose.q)[1]];
-    if (pose.q) l.a[LIVE] = turned(arm((n) => written[n]), arm(placeOf));
-    else if (pose.guide !== undefined) l.a[LIVE] = turned(guideOf(pose.guide, scene.first.own), guideOf(pose.guide, ownNow));
-    else l.a[LIVE] = l.a[LIVE] || 0;
+    [l.x[LIVE], l.y[LIVE], l.a[LIVE]] = poseIn(pose, placeOf, ownNow);
   }
   for (const load of Object.values(loads))
     for (const place of [load.on, ...(load.span || [])]) if (place.point) place.now = placeOf(place.point);
@@ -146,7 +148,7 @@ function resolve(dragged) {
     if (dragged) laboratory.followed();
     else laboratory.typed();
     fillPlaces();
-    fillLinks(laboratory.scene()[3]);
+    fillLinks(ownOf(live, laboratory.scene()[3]));
     solved = solvedScene(live, numbers, laboratory);
     scene.solved = solved;
   } catch (refusal) {

@@ -80,7 +80,7 @@ function bent(e, r) {
 function moveRail(e, r) {
   const at = e.dataset.rail;
   if (r !== LIVE || !own(written, at)) return e.removeAttribute("transform");
-  const [before, now] = [guideOf(live.rails[at], scene.first.own), guideOf(live.rails[at], laboratory.scene()[3])];
+  const [before, now] = [guideOf(live.rails[at], scene.first.own), guideOf(live.rails[at], ownOf(live, laboratory.scene()[3]))];
   const [p, q] = [written[at], [points[at].x[r], points[at].y[r]]];
   const across = (q[0] - p[0]) * now[1] + (q[1] - p[1]) * now[0];
   set(e, "transform", `translate(${f(p[0] + across * now[1])} ${f(p[1] + across * now[0])}) rotate(${f(-turned(before, now))}) translate(${-p[0]} ${-p[1]})`);

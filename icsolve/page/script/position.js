@@ -24,12 +24,14 @@ function moveCursors(r) {
     });
   }
 }
+let seeing = false;
 function render() {
   if (figure && stage) {
     if (motion || live) moveParts(row);
     tell(row);
     placeLabels(row, drawCentres(row));
   }
+  if (seeing) see();
   if (!motion) return;
   moveCursors(row);
   if (live) placeHandles();

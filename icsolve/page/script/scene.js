@@ -541,13 +541,15 @@ function refuseMisfit(told, x, points) {
       throw new Refusal("inconsistent", "the teeth do not fit the distance of the pivots");
   }
 }
+/* The basis twist that tells a joint's own centre, or the direction of its guide. */
+const ownOf = (told, bases) => bases.map((basis, k) => (told.bonds[k][2] ? basis[0] : basis[basis.length - 1]));
 const LEAST_TRUST = 1e-11;
 /* All of a scene whose points are placed: loads, and the twist of every body in the motion that is meant (null
    where that is left open). */
 function solvedScene(told, x, figure) {
   refuseMisfit(told, x, figure.points);
   const parts = figure.scene();
-  const [, , loads, own] = parts;
+  const [, , loads, bases] = parts;
   const motions = motionsOf(told, parts);
   const found = balanceOf(told, loads, motions);
   refuseUnbalanced(told, motions, found);
@@ -559,5 +561,5 @@ function solvedScene(told, x, figure) {
     speed.open.some((by) => largest(mix(by, ts)) > 1e-9 * fast) ? null : mix(speed.meant, ts));
   const root = new Map(found.unknown.map((n, k) => [told.loads[n].root, found.values ? found.values[k] : 0]));
   const values = told.loads.map((load, n) => loads[n][4] * (root.has(load.root) ? root.get(load.root) : loads[n][5]));
-  return { motions, twists, values, loads, own, power: found.power };
+  return { motions, twists, values, loads, bases, own: ownOf(told, bases), power: found.power };
 }

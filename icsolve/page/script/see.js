@@ -1,0 +1,280 @@
+/* What can be seen beside: velocities, rotations about centres, curves of points, centrodes, free bodies. */
+const overlay = byId("see") && make("g", { id: "overlay", "clip-path": "url(#window)" }, figure);
+if (overlay) figure.insertBefore(overlay, byId("labels"));
+const ticked = (selector) => all(selector).filter((e) => e.checked);
+
+/* A scene of its own for the positions of the turn, followed from one to the next. */
+const shadow = live ? { numbers: [...live.numbers], key: "", list: null } : null;
+if (shadow) {
+  shadow.figure = figureOf(program, live, shadow.numbers);
+  shadow.figure.typed();
+}
+const stateOf = (lab, solved) => {
+  const place = (name) => inPicture(fromFrame(lab.points[live.points[name]]));
+  const places = Object.fromEntries(Object.keys(live.points).map((name) => [name, place(name)]));
+  const poses = Object.fromEntries(Object.entries(live.poses).map(([link, pose]) => [link, poseIn(pose, (n) => places[n], solved.own)]));
+  return { places, poses, solved, frame: lab.points.map((p) => [...p]) };
+};
+function shadowed(numbersNow) {
+  numbersNow.forEach((value, n) => (shadow.numbers[n] = value));
+  try {
+    shadow.figure.followed();
+    return stateOf(shadow.figure, solvedScene(live, shadow.numbers, shadow.figure));
+  } catch (refusal) {
+    if (!(refusal instanceof Refusal)) throw refusal;
+    return null;
+  }
+}
+/* The numbers in a position of the turn; null where they do not tell it. */
+function numbersAt(r) {
+  const some = [...(scene.changed ? numbers : live.numbers)];
+  if (live.drive !== undefined) some[live.drive] = live.numbers[live.drive] + degreesOf(r);
+  else if (r !== zero && (!live.moves || scene.changed)) return null;
+  else if (r !== zero)
+    for (const [name, moves] of Object.entries(live.handles))
+      for (const [kind, n] of moves) some[n] = inCase([points[name].x[r], points[name].y[r]])[kind === "x" ? 0 : 1];
+  return some;
+}
+function stateAt(r) {
+  if (r === LIVE) return scene.status === "ok" ? stateOf(laboratory, scene.solved) : null;
+  const some = numbersAt(r);
+  return some && shadowed(some);
+}
+/* All positions of the turn, every other one; solved once for the same numbers. */
+function turnTable() {
+  if (!motion) return [];
+  const key = scene.changed ? numbers.filter((_, n) => n !== live.drive).join() : "written";
+  if (shadow.key !== key) {
+    shadow.key = key;
+    shadow.list = [];
+    const pace = Math.max(1, Math.round(rows / 180));
+    for (let r = 0; r < rows; r += pace) shadow.list.push(numbersAt(r) && stateAt(r));
+  }
+  return shadow.list;
+}
+
+/* --- marks -------------------------------------------------------------------------------------------- */
+
+function arrow(parent, kind, [x, y], [u, v], words) {
+  const size = Math.hypot(u, v);
+  if (!(size > 1.5)) return;
+  const [a, b] = [u / size, v / size];
+  const head = Math.min(9, size);
+  const g = make("g", { class: kind }, parent);
+  make("path", { d: `M${f(x)},${f(y)} L${f(x + u - a * head * 0.8)},${f(y + v - b * head * 0.8)}` }, g);
+  const side = [-b * head * 0.38, a * head * 0.38];
+  const base = [x + u - a * head, y + v - b * head];
+  make("path", { class: "tip", d: `M${f(x + u)},${f(y + v)} L${f(base[0] + side[0])},${f(base[1] + side[1])} L${f(base[0] - side[0])},${f(base[1] - side[1])}Z` }, g);
+  if (words) make("text", { x: f(x + u + a * 12), y: f(y + v + b * 12 + 4), "text-anchor": a > 0.3 ? "start" : a < -0.3 ? "end" : "middle", "font-size": 12 }, g).textContent = words;
+}
+const FASTEST = 80;
+function drawVelocities(state) {
+  const some = [];
+  for (const [link, names] of Object.entries(live.links)) {
+    const t = state.solved.twists[live.body[link]];
+    for (const name of t ? names : []) {
+      const v = velocity(t, state.frame[live.points[name]]);
+      if (!name.startsWith("@") && !some.some((one) => one.name === name && apart(one.v, v) < 1e-9)) some.push({ name, link, v });
+    }
+  }
+  const most = Math.max(...some.map(({ v }) => Math.hypot(...v)));
+  for (const { name, v } of most > 0 ? some : []) {
+    const [u, w] = [(v[0] / most) * FASTEST, (-v[1] / most) * FASTEST];
+    const speed = number(Math.hypot(...v) / live.frame[2], 4);
+    arrow(overlay, "v-arrow", state.places[name], [u, w], `v${name} = ${speed} ${live.unit}/s`);
+  }
+}
+/* The rotation of a link: rays from its centre, and how each point goes about it. */
+function drawRotation(state, link) {
+  const t = state.solved.twists[live.body[link]];
+  if (!t || largest(t) === 0) return;
+  const spots = live.links[link].map((name) => state.places[name]);
+  const far = Math.abs(t[2]) * 1e7 <= Math.hypot(t[0], t[1]);
+  const g = make("g", { class: "rotation" }, overlay);
+  if (far) {
+    const v = [t[1], -t[0]];
+    const size = Math.hypot(...v);
+    for (const p of spots) arrow(g, "spin", p, [(v[0] / size) * 40, (-v[1] / size) * 40]);
+    return;
+  }
+  const c = inPicture(fromFrame([t[0] / t[2], t[1] / t[2]]));
+  const sign = t[2] > 0 ? -1 : 1;
+  for (const p of spots) {
+    const r = apart(p, c);
+    if (r < 1 || r > 1e5) continue;
+    make("path", { d: `M${f(c[0])},${f(c[1])} L${f(p[0])},${f(p[1])}` }, g);
+    const a = Math.atan2(p[1] - c[1], p[0] - c[0]);
+    const wide = Math.min(0.5, 60 / r) * sign;
+    const at = (b) => [c[0] + r * Math.cos(b), c[1] + r * Math.sin(b)];
+    const [from, to] = [at(a - wide), at(a + wide)];
+    make("path", { class: "sweep", d: `M${f(from[0])},${f(from[1])} A${f(r)},${f(r)} 0 0 ${sign > 0 ? 1 : 0} ${f(to[0])},${f(to[1])}` }, g);
+    arrow(g, "spin", at(a + wide * 0.9), [to[0] - at(a + wide * 0.9)[0] + Math.cos(a + wide + sign * 1.571) * 9, to[1] - at(a + wide * 0.9)[1] + Math.sin(a + wide + sign * 1.571) * 9]);
+  }
+  const low = document.createElementNS(NS, "text");
+  for (const [key, value] of Object.entries({ x: f(c[0] + 9), y: f(c[1] - 9), "font-size": 12 })) set(low, key, value);
+  low.textContent = `ω${link} = ${number(t[2], 4)} rad/s`;
+  g.appendChild(low);
+}
+const path = (places) => {
+  let d = "";
+  let before = null;
+  for (const p of places) {
+    if (p) d += `${before && apart(p, before) < 400 ? "L" : "M"}${f(p[0])},${f(p[1])} `;
+    before = p;
+  }
+  return d;
+};
+function drawCurve(name) {
+  const places = scene.changed || !motion ? turnTable().map((state) => state && state.places[name]) : points[name].x.slice(0, rows).map((x, r) => [x, points[name].y[r]]);
+  if (places.length) make("path", { class: "curve", d: path(places) }, overlay);
+}
+/* Where the centre of a link and the frame goes: in the frame, and in the link itself. */
+function drawCentrodes(state, link) {
+  const table = turnTable();
+  const centre = (one) => {
+    const t = one && one.solved.twists[live.body[link]];
+    return t && Math.abs(t[2]) * 100 > Math.hypot(t[0], t[1]) * 1e-3 && t[2] !== 0 ? inPicture(fromFrame([t[0] / t[2], t[1] / t[2]])) : null;
+  };
+  const near = (p) => p && Math.max(Math.abs(p[0]), Math.abs(p[1])) < 5000;
+  const fixed = table.map(centre).map((p) => (near(p) ? p : null));
+  const back = (p, [x, y, a]) => {
+    const b = (a * Math.PI) / 180;
+    return [Math.cos(b) * (p[0] - x) - Math.sin(b) * (p[1] - y), Math.sin(b) * (p[0] - x) + Math.cos(b) * (p[1] - y)];
+  };
+  const forth = ([u, v], [x, y, a]) => {
+    const b = (a * Math.PI) / 180;
+    return [x + Math.cos(b) * u + Math.sin(b) * v, y - Math.sin(b) * u + Math.cos(b) * v];
+  };
+  make("path", { class: "fixed-centrode", d: path(fixed) || "M0,0" }, overlay);
+  const moving = state && fixed.map((p, n) => p && forth(back(p, table[n].poses[link]), state.poses[link]));
+  if (moving) make("path", { class: "moving-centrode", d: path(moving) || "M0,0" }, overlay);
+}
+
+/* --- free bodies -------------------------------------------------------------------------------------- */
+
+/* Wrenches that a joint transmits, by its freedoms. */
+function transmitted(basis) {
+  if (basis.length === 2) {
+    const [a, b] = basis;
+    return [[a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]];
+  }
+  const [x, y, w] = basis[0];
+  return w === 0 ? [[0, 0, 1], [y, -x, 0]] : [[w, 0, -x], [0, w, -y]];
+}
+/* The wrench of every joint on its second link, and of every load; null for a joint that statics leaves open. */
+function reactionsOf({ solved }) {
+  const columns = live.bonds.flatMap((_, k) => transmitted(solved.bases[k]).map((w) => [k, w]));
+  const loadsNow = live.loads.map((load, n) => [0, 1, 2].map((m) => solved.loads[n][m] * solved.loads[n][3] * load.measure * solved.values[n]));
+  const rows = [];
+  const most = largest(loadsNow.flat()) || 1;
+  for (let body = 0; body < live.bodies; body++) {
+    if (body === live.ground) continue;
+    for (let m = 0; m < 3; m++) {
+      const row = columns.map(([k, w]) => w[m] * ((live.body[live.bonds[k][1]] === body) - (live.body[live.bonds[k][0]] === body)));
+      const sum = loadsNow.reduce((all, w, n) => all + w[m] * ((live.body[live.loads[n].on] === body) - (live.body[live.loads[n].against] === body)), 0);
+      rows.push([...row, sum / most]);
+    }
+  }
+  const count = columns.length;
+  const { basis } = nullSpace(rows, count + 1, 1e-12);
+  const first = basis.reduce((best, v) => (!best || Math.abs(v[count]) > Math.abs(best[count]) ? v : best), null);
+  if (!first || Math.abs(first[count]) < 1e-9) return { loads: loadsNow, joints: live.bonds.map(() => null) };
+  const unit = first.map((v) => v / first[count]);
+  const open = basis.filter((v) => v !== first).map((v) => v.map((x, k) => x - v[count] * unit[k]));
+  const joints = live.bonds.map((_, k) => {
+    const own = columns.map((c, n) => n).filter((n) => columns[n][0] === k);
+    if (own.some((n) => open.some((v) => Math.abs(v[n]) > 1e-9))) return null;
+    return [0, 1, 2].map((m) => own.reduce((sum, n) => sum + unit[n] * most * columns[n][1][m], 0));
+  });
+  return { loads: loadsNow, joints };
+}
+/* What acts on a link: names, forces, couples about where they act. */
+function actingOn(state, link) {
+  const body = live.body[link];
+  const { loads: loadsNow, joints } = reactionsOf(state);
+  const found = [];
+  const add = (name, w, at, sign, known) => {
+    const force = [sign * w[1], -sign * w[0]];
+    const place = at && state.places[at] ? state.frame[live.points[at]] : null;
+    const couple = sign * w[2] - (place ? place[0] * force[1] - place[1] * force[0] : 0);
+    found.push({ name, force, couple: (couple / live.frame[2]) / live.torque, at: place && state.places[at], known });
+  };
+  live.bonds.forEach(([a, b], k) => {
+    if (live.body[a] !== body && live.body[b] !== body) return;
+    const onSecond = live.body[b] === body;
+    const [by, on] = onSecond ? [a, b] : [b, a];
+    if (!joints[k]) found.push({ name: `F${by}${on}`, open: true });
+    else add(`F${by.length + on.length === 2 ? by + on : `${by}-${on}`}`, joints[k], live.at[k], onSecond ? 1 : -1, false);
+  });
+  live.loads.forEach((load, n) => {
+    if (live.body[load.on] === body) add(load.name, loadsNow[n], load.at, 1, true);
+    if (live.body[load.against] === body && load.held) add(`−${load.name}`, loadsNow[n], load.to || load.at, -1, true);
+  });
+  return found;
+}
+function drawBody(state, link) {
+  const svg = byId("body-figure");
+  svg.textContent = "";
+  const said = byId("body-said");
+  if (!state) {
+    said.textContent = "No position here in which forces are known.";
+    return;
+  }
+  const found = actingOn(state, link).filter((one) => one.open || Math.hypot(...one.force) > 1e-9 || Math.abs(one.couple) > 1e-12);
+  const forces = found.filter((one) => !one.open && Math.hypot(...one.force) > 0);
+  const most = Math.max(...forces.map((one) => Math.hypot(...one.force)), 1e-300);
+  const real = forces.filter((one) => Math.hypot(...one.force) > 1e-9 * most);
+  const spots = live.links[link].map((name) => state.places[name]);
+  const middle = (n) => (Math.min(...spots.map((p) => p[n])) + Math.max(...spots.map((p) => p[n]))) / 2;
+  const reach = Math.max(...spots.map((p) => Math.max(Math.abs(p[0] - middle(0)), Math.abs(p[1] - middle(1)))), 1);
+  const zoom = Math.min(1, 80 / reach);
+  const here = (p) => [150 + (p[0] - middle(0)) * zoom, 150 + (p[1] - middle(1)) * zoom];
+  make("path", { class: "body", d: spots.length > 1 ? outlineOf(spots.map(here)) : `M134,140 h32 v20 h-32Z` }, svg);
+  for (const one of real) {
+    const [x, y] = here(one.at || spots[0]);
+    const [u, v] = [(one.force[0] / most) * 62, (-one.force[1] / most) * 62];
+    arrow(svg, one.known ? "f-load" : "f-joint", [x, y], [u, v], one.name);
+  }
+  const ends = [[0, 0]];
+  for (const { force } of real) ends.push([ends[ends.length - 1][0] + force[0], ends[ends.length - 1][1] - force[1]]);
+  const span = (n) => [Math.min(...ends.map((p) => p[n])), Math.max(...ends.map((p) => p[n]))];
+  const [[left, right], [top, bottom]] = [span(0), span(1)];
+  const scale = 170 / Math.max(right - left, bottom - top, 1e-300);
+  const put2 = (p) => [450 + (p[0] - (left + right) / 2) * scale, 150 + (p[1] - (top + bottom) / 2) * scale];
+  real.forEach((one, n) => {
+    const [a, b] = [put2(ends[n]), put2(ends[n + 1])];
+    arrow(svg, one.known ? "f-load" : "f-joint", a, [b[0] - a[0], b[1] - a[1]]);
+    const size = apart(a, b) || 1;
+    const off = [((b[1] - a[1]) / size) * 14, ((a[0] - b[0]) / size) * 14];
+    make("text", { x: f((a[0] + b[0]) / 2 + off[0]), y: f((a[1] + b[1]) / 2 + off[1] + 4), "text-anchor": "middle", "font-size": 12, class: one.known ? "f-load" : "f-joint" }, svg).textContent = one.name;
+  });
+  const [force, torque] = live.units;
+  const toward = (one) => degreesWords((Math.atan2(one.force[1], one.force[0]) * 180) / Math.PI);
+  const words = real.map((one) => `${one.name} = ${number(Math.hypot(...one.force), 4)} ${force} at ${toward(one)}`);
+  const couples = found.filter((one) => !one.open && Math.abs(one.couple) > 1e-9 * most / live.frame[2]);
+  words.push(...couples.map((one) => `${one.at ? "couple of " : ""}${one.name} = ${number(one.couple, 4)} ${torque}`));
+  words.push(...found.filter((one) => one.open).map((one) => `${one.name} is not determined by statics`));
+  said.textContent = `${words.join("; ")}.`;
+}
+function see() {
+  if (!overlay) return;
+  overlay.textContent = "";
+  const rotations = ticked("[data-rotation]");
+  const curves = ticked("[data-curve]");
+  const rolls = ticked("[data-centrode]");
+  const body = byId("see-body").value;
+  byId("body-panel").hidden = !body;
+  const wanted = byId("see-velocities").checked || rotations.length || rolls.length || body;
+  const state = wanted ? stateAt(row) : null;
+  byId("see-hint").textContent = wanted && !state ? "Nothing of this is known in this position." : "";
+  for (const e of curves) drawCurve(e.dataset.curve);
+  for (const e of rolls) drawCentrodes(state, e.dataset.centrode);
+  if (state) for (const e of rotations) drawRotation(state, e.dataset.rotation);
+  if (state && byId("see-velocities").checked) drawVelocities(state);
+  if (body) drawBody(state, body);
+}
+if (overlay) {
+  byId("see").addEventListener("change", see);
+  seeing = true;
+  see();
+}
