@@ -6,6 +6,7 @@ Fixed seeds; with ICSOLVE_FULL=1 every case of the library and more changes of e
 
 from __future__ import annotations
 
+import math
 import random
 import re
 from collections.abc import Iterator
@@ -250,6 +251,26 @@ def test_the_case_is_copied_with_its_numbers_and_a_link_leads_back(shown: Any, t
     assert float(again) == value
 
 
+def test_a_link_leads_to_the_way_of_assembling_that_was_dragged_to(shown: Any) -> None:
+    """The coupler's pin pulled to the other side of the frame: `near` goes with the copies."""
+    page = shown(LENGTHS)
+    where = """const b = document.getElementById('handle-C').getBoundingClientRect();
+        return [b.x + b.width / 2, b.y + b.height / 2]"""
+    x, y = page.run(where)
+    low = page.run(where.replace("handle-C", "handle-D"))[1]
+    page.drag("mouse", (x, y), (x, 2 * low - y))
+    assert page.run(where)[1] > page.run(where.replace("handle-C", "handle-D"))[1]
+    answer = "const e = document.getElementById('answer-T12'); return [e.dataset.value, e.dataset.status]"
+    value, status = page.run(answer)
+    page.click("#copy-link")
+    address = page.run("return location.href")
+    page.click("#reset")
+    assert page.run(answer)[0] != value and status == "ok"
+    page.run("location.hash = ''")
+    page.send("/url", {"url": address})
+    assert float(page.run(answer)[0]) == pytest.approx(float(value), rel=1e-9)
+
+
 def test_what_is_no_number_is_said_and_changes_nothing(shown: Any) -> None:
     page = shown(LENGTHS)
     before = page.run("return document.getElementById('answer-T12').dataset.value")
@@ -265,6 +286,43 @@ def test_what_is_no_number_is_said_and_changes_nothing(shown: Any) -> None:
         )
         assert page.text("#live-hint").startswith("lengths.BC: a number")
         assert page.run("return document.getElementById('answer-T12').dataset.value") == before
+
+
+SEEN = """const body = document.getElementById('see-body');
+body.value = arguments[0];
+body.dispatchEvent(new Event('change', { bubbles: true }));
+return document.getElementById('body-said').textContent"""
+FORCE = re.compile(r"(\S+) = (\S+) \S+ at (\S+)°")
+
+
+@pytest.mark.parametrize(
+    "name", ["linkages/jansen_leg", "sliders/inverted_slider_crank", "tools/bolt_cutter"]
+)
+def test_the_forces_on_a_link_are_the_reactions(name: str, shown: Any) -> None:
+    """To the four digits that are shown, with other numbers than those written too."""
+    path = ROOT / f"{name}.yaml"
+    page, case = shown(path), icsolve.load(path)
+    angle = next((p for p in page.run(FIELDS)[0] if p.startswith(("angles", "loads"))), None)
+    change = {angle: repr(float(dict(zip(*page.run(FIELDS), strict=True))[angle]) + 3)} if angle else {}
+    page.run(
+        """const [path, text] = Object.entries(arguments[0])[0];
+        const field = document.getElementById('number-' + path);
+        field.value = text; field.dispatchEvent(new Event('input'));""",
+        change,
+    )
+    reactions = icsolve.solve(icsolve.load(path, change), reactions=True).to_dict()["reactions"]
+    seen = 0
+    for link in case.links:
+        for force, size, way in FORCE.findall(page.run(SEEN, link)) if link != case.ground else ():
+            one, sign = reactions.get(force), 1.0
+            if one is None and len(force) == 3:
+                one, sign = reactions.get(f"F{force[2]}{force[1]}"), -1.0
+            if one is not None:
+                x, y = sign * one["x"], sign * one["y"]
+                assert float(size) == pytest.approx(math.hypot(x, y), rel=1e-3)
+                assert math.cos(math.radians(float(way)) - math.atan2(y, x)) > 0.9999
+                seen += 1
+    assert seen >= 4
 
 
 def test_friction_and_cams_stay_as_solved_beforehand() -> None:

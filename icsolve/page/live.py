@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 from icsolve.assembly.data import LINE, MEAN, data_of, number_of
 from icsolve.assembly.groups import Group
 from icsolve.assembly.loci import is_round
-from icsolve.assembly.steps import Given, Mean, Meet, Step, aims
+from icsolve.assembly.steps import Given, Mean, Meet, Step, aims, leading_to
 from icsolve.assembly.workspace import Key, Workspace, normalised
 from icsolve.case import Belt, Case, Gears, KnownCentre, Motion, Number, Roll, Slide, Slot
 from icsolve.derivation import Known
@@ -30,7 +30,7 @@ from icsolve.screws.joints import freedoms
 from icsolve.statics import power
 from icsolve.structure.topology import Bond, Topology
 from icsolve.sweep.numbers import numbers_of
-from icsolve.sweep.program import Setting, setting_of
+from icsolve.sweep.program import Setting, setting_of, wanted_points
 
 SECTIONS = ("points", "lengths", "angles", "joints", "loads", "motion", "gravity")
 """What is an input of the program."""
@@ -103,7 +103,9 @@ class _Writer:
 
     def live(self) -> Live:
         """The program, and the data about it."""
-        steps = [self._written(step) for step in self.setting.figure.steps]
+        placing = self.setting.figure.steps
+        needed = leading_to(wanted_points(self.case)[1], placing)
+        steps = [self._written(step, needed) for step in placing]
         bases = {k: freedoms(bond, self._points(), self.record) for k, bond in enumerate(self.top.bonds)}
         top = self.top
         tree = span(top, sorted(bases), (top.ground,), bases, [group[0] for group in top.afloat])
@@ -115,10 +117,10 @@ class _Writer:
 
     # --- the figure -------------------------------------------------------------------------------
 
-    def _written(self, step: Step) -> Written:
+    def _written(self, step: Step, needed: Sequence[Step]) -> Written:
         """A step, its branch an input."""
         start, ws = len(self.record.nodes), self.workspace
-        told: dict[str, Any] = {}
+        told: dict[str, Any] = {} if step in needed or isinstance(step, Given) else {"spare": True}
         apart = self._apart(step)
         if isinstance(step, Meet):
             more = self._meet(step, told)

@@ -22,6 +22,7 @@ function leave() {
 }
 function writtenNumbers() {
   live.numbers.forEach((value, n) => enter(n, value, live.firstHalves[n], live.texts[n]));
+  for (const [k, at] of Object.entries(live.near)) laboratory.near.set(Number(k), [...at]);
   liveHint.textContent = "";
 }
 function enter(n, value, half, text) {
@@ -32,10 +33,10 @@ function enter(n, value, half, text) {
   field.value = text;
   field.removeAttribute("aria-invalid");
 }
-function changed(dragged, driven = false) {
+function changed(dragged, driven = false, pulled = null) {
   if (playing && !driven) stop();
   scene.changed = true;
-  resolve(dragged);
+  resolve(dragged, pulled);
   row = LIVE;
   if (hint) hint.textContent = "";
   const words = data.statuses[scene.status] || "";
@@ -83,7 +84,8 @@ function pull(h, to) {
     const shown = tidy(value, unit);
     if (Number.isFinite(shown) && !(kind === "span" && shown <= 0)) enter(n, shown, unit / 2, String(shown));
   }
-  changed(true);
+  const spans = h.moves.some(([kind]) => kind === "span");
+  changed(true, false, spans && [live.points[h.name], to.map((v, m) => (v - live.frame[m]) * live.frame[2])]);
 }
 function grip(name, moves) {
   const e = make("circle", { id: `handle-${name}`, class: "handle", r: 11, tabindex: 0, role: "button" }, byId("handles"));

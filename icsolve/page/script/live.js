@@ -82,7 +82,10 @@ function degreesWords(d) {
 
 /* Fill the live row from the scene; what has no answer leaves the places as they are. */
 function fillPlaces() {
-  for (const name of Object.keys(live.points)) [points[name].x[LIVE], points[name].y[LIVE]] = placeOf(name);
+  for (const name of Object.keys(live.points)) {
+    const now = placeOf(name);
+    if (now.every(Number.isFinite)) [points[name].x[LIVE], points[name].y[LIVE]] = now;
+  }
 }
 /* Place and angle of a link by where its points are. */
 function poseIn(pose, place, ownNow) {
@@ -94,7 +97,8 @@ function poseIn(pose, place, ownNow) {
 function fillLinks(ownNow) {
   for (const [link, pose] of Object.entries(live.poses)) {
     const l = links[link];
-    [l.x[LIVE], l.y[LIVE], l.a[LIVE]] = poseIn(pose, placeOf, ownNow);
+    const now = poseIn(pose, placeOf, ownNow);
+    if (now.every(Number.isFinite)) [l.x[LIVE], l.y[LIVE], l.a[LIVE]] = now;
   }
   for (const load of Object.values(loads))
     for (const place of [load.on, ...(load.span || [])]) if (place.point) place.now = placeOf(place.point);
@@ -141,11 +145,11 @@ function fillAnswers(solved) {
   });
 }
 /* The scene for the present numbers: as they are typed, or on from where it is. */
-function resolve(dragged) {
+function resolve(dragged, pulled) {
   let solved = null;
   [scene.status, scene.words] = ["ok", ""];
   try {
-    if (dragged) laboratory.followed();
+    if (dragged) laboratory.followed(pulled);
     else laboratory.typed();
     fillPlaces();
     fillLinks(ownOf(live, laboratory.scene()[3]));

@@ -210,9 +210,11 @@ function figureOf(program, told, x) {
   }
 
   /* Whether the points meet the data that made none of them; else the refusal. */
-  function contradicted() {
+  function contradicted(list) {
     const whole = size();
+    const placed = new Set(list.flatMap((n) => told.steps[n].p));
     for (const [kind, names, place] of told.checks) {
+      if (!names.every((k) => placed.has(k))) continue;
       const [off, ahead] = residual(kind, names, place);
       const words = `more data than the figure needs, and these contradict each other at ${plain(names[0])}`;
       if (!ahead) return new Refusal("inconsistent", words);
@@ -268,7 +270,7 @@ function figureOf(program, told, x) {
   }
 
   /* Every way of assembling that is not clearly farther from `near` than another. */
-  function walk() {
+  function walk(list) {
     const modes = [];
     const ends = [];
     let best = Infinity;
@@ -280,11 +282,12 @@ function figureOf(program, told, x) {
       return { before, places, off: sum };
     };
     const beyond = (path) => best < EVEN * EVEN * path.off;
-    const advance = (n, path) => {
+    const advance = (depth, path) => {
       if (--budget < 0) return;
-      if (n === told.steps.length) {
-        const miss = contradicted();
-        if (miss) ends.push({ depth: n, miss, path });
+      const n = list[depth];
+      if (depth === list.length) {
+        const miss = contradicted(list);
+        if (miss) ends.push({ depth, miss, path });
         else {
           modes.push({ path, points: points.map((p) => [...p]), s: [...s], q: [...q] });
           best = Math.min(best, path.off);
@@ -294,7 +297,7 @@ function figureOf(program, told, x) {
       const off = path ? path.off : 0;
       const some = options(n);
       if (some instanceof Refusal) {
-        ends.push({ depth: n, miss: some, path: some.placed ? longer(path, n, off) : path });
+        ends.push({ depth, miss: some, path: some.placed ? longer(path, n, off) : path });
         return;
       }
       const tried = some.map((option) => {
@@ -303,14 +306,14 @@ function figureOf(program, told, x) {
         const behind = told.steps[n].start ? [] : rest.filter((v) => !(v > TOO_CLOSE));
         if (!behind.length) return { option, own };
         const words = `the links meet at ${plain(told.steps[n].p[0])} only on the wrong side`;
-        ends.push({ depth: n, miss: new Refusal("cannot-assemble", words, Math.abs(behind[0])), path: own });
+        ends.push({ depth, miss: new Refusal("cannot-assemble", words, Math.abs(behind[0])), path: own });
         return null;
       });
       const kept = tried.filter((one) => one && !beyond(one.own)).sort((a, b) => a.own.off - b.own.off);
       for (const { option, own } of kept) {
         if (beyond(own)) continue;
         take(n, option);
-        advance(n + 1, own);
+        advance(depth + 1, own);
       }
     };
     advance(0, null);
@@ -354,18 +357,31 @@ function figureOf(program, told, x) {
     }
     return best;
   }
+  const every = told.steps.map((_, n) => n);
+  const needed = every.filter((n) => !told.steps[n].spare);
+  function settle(list) {
+    const mode = chosen(walk(list));
+    s.splice(0, s.length, ...mode.s);
+    q.splice(0, q.length, ...mode.q);
+    every.forEach((n) => run(n));
+    if (list !== every) for (const n of every.filter((k) => !list.includes(k))) for (const k of told.steps[n].p) points[k] = [NaN, NaN];
+  }
   return {
     points,
     scene,
-    /* As the case with these numbers is solved. */
+    near,
+    /* As the case with these numbers is solved; points that nothing needs may be missing. */
     typed() {
-      const mode = chosen(walk());
-      s.splice(0, s.length, ...mode.s);
-      q.splice(0, q.length, ...mode.q);
-      told.steps.forEach((_, n) => run(n));
+      try {
+        settle(every);
+      } catch (refusal) {
+        if (!(refusal instanceof Refusal) || needed.length === every.length) throw refusal;
+        settle(needed);
+      }
     },
-    /* From where it is: the same branches, Newton's method from the last places. */
-    followed() {
+    /* From where it is: the same branches, Newton's method from the last places; the point that is pulled
+       (its number and where to) goes to the side to which it is pulled. */
+    followed(pulled) {
       told.steps.forEach((step, n) => {
         if (step.start) {
           if (!iterate(n)) throw new Refusal("cannot-assemble", `the links do not meet at ${plain(step.p[0])}`);
@@ -375,15 +391,22 @@ function figureOf(program, told, x) {
         const some = options(n);
         if (some instanceof Refusal) {
           if (step.sign !== undefined) s[step.p[0]] = branch;
-          throw some;
+          if (!step.spare) throw some;
+          for (const k of step.p) points[k] = [NaN, NaN];
+          return;
         }
         const touching = step.sign !== undefined && some.length === 1;
-        const { rest } = take(n, touching ? 0 : branch);
-        if (step.sign !== undefined) s[step.p[0]] = branch;
-        if (rest.some((v) => !(v > TOO_CLOSE)))
+        let side = branch || 1;
+        if (pulled && pulled[0] === step.p[0] && !touching && step.sign !== undefined) {
+          const off = [1, -1].map((one) => (take(n, one), apart(points[step.p[0]], pulled[1])));
+          side = off[0] <= off[1] ? 1 : -1;
+        }
+        const { rest } = take(n, touching ? 0 : side);
+        if (step.sign !== undefined) s[step.p[0]] = side;
+        if (!step.spare && rest.some((v) => !(v > TOO_CLOSE)))
           throw new Refusal("cannot-assemble", `the links meet at ${plain(step.p[0])} only on the wrong side`);
       });
-      const miss = contradicted();
+      const miss = contradicted(needed);
       if (miss) throw miss;
     },
   };
