@@ -115,7 +115,8 @@ def page_command(case: str, output: str | None, settings: dict[str, str]) -> int
     icsolve page press.yaml -o press.html
 
     A slider turns the input through its whole range; buttons go through the construction a centre at a time;
-    the power equation, the answer and its curve follow. A case that cannot move is shown as it stands, with
+    the power equation, the answer and its curve follow. Every number can be changed in the page, and points
+    can be pulled. A case that cannot move is shown as it stands, with
     the reason; one without an answer too, with exit status 1.
     """
 
