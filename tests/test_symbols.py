@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 import pytest
+import shapely
 
 import icsolve
 from icsolve.draw import Drawing, draw
 from pictures import SVG, Picture, circle, coordinates, parsed
 
+CAMS = Path(__file__).parent.parent / "cases" / "cams"
 OVER_A_PULLEY = """
 icsolve: 1
 points: {{A: [0, 0], P: [3, 2], B: [{x}, -1]}}
@@ -132,3 +135,48 @@ loads:
     rounds = [circle(e) for e in drawn(text).root.iter(f"{SVG}circle") if e.get("class") == "body"]
     radii = sorted(math.sqrt(one.area / math.pi) for one in rounds)
     assert [r / radii[-1] for r in radii] == pytest.approx([0.9, 0.95, 1.0], abs=1e-3)
+
+
+WEDGE = """
+icsolve: 1
+points: {A: [0, 0], B: [60, 80], C: [60, 40]}
+joints:
+  - {slide: [2, 1], at: A, along: 0}
+  - {slide: [3, 2], at: C, along: 15}
+  - {slide: [3, 1], at: B, along: 90}
+loads:
+  W: {weight: 800, link: 3, at: B}
+  P: {force: unknown, link: 2, at: A, angle: 180}
+"""
+
+
+def test_wedges_lie_between_the_planes_of_their_guides() -> None:
+    """The face between them is one line at 15 degrees, the wedge lies on the level of its guide."""
+    picture = drawn(WEDGE)
+    faces = []
+    for link in "23":
+        (corners,) = strokes(picture, f"link-{link}", "body")
+        edges = zip(corners, [*corners[1:], corners[0]], strict=True)
+        slopes = {round(math.degrees(math.atan2(a[1] - b[1], b[0] - a[0])) % 180.0, 1) for a, b in edges}
+        assert 15.0 in slopes and slopes <= {0.0, 15.0, 90.0, 180.0}
+        faces.append([y + math.tan(math.radians(15.0)) * x for x, y in corners])
+        assert not strokes(picture, f"link-{link}", "block")
+    assert min(faces[0]) == pytest.approx(max(faces[1]), abs=0.1)
+
+
+@pytest.mark.parametrize("name", ["roller_follower", "offset_roller_follower", "tangent_cam", "square_cam"])
+def test_no_hatching_runs_through_a_cam(name: str) -> None:
+    """Rails of followers keep off cams and rollers; the block stands on a stem beyond the roller."""
+    picture = parsed(draw(icsolve.load(CAMS / f"{name}.yaml"), Drawing(centres="none")))
+    circles = [e for e in picture.root.iter(f"{SVG}circle") if e.get("class") == "body"]
+    solids = [shapely.Polygon(corners) for e in "234" for corners in _bodies(picture, e) if len(corners) > 20]
+    rails = [line for line in strokes(picture, "link-1", "frame") if abs(line[0][0] - line[-1][0]) < 0.1]
+    assert rails
+    for line in map(shapely.LineString, rails):
+        assert not any(line.intersects(circle(e)) for e in circles)
+        assert not any(line.intersects(solid) for solid in solids if solid.area > 2e4)
+
+
+def _bodies(picture: Picture, link: str) -> list[list[tuple[float, float]]]:
+    ids = {e.get("id") for e in picture.root.iter()}
+    return strokes(picture, f"link-{link}", "body") if f"link-{link}" in ids else []

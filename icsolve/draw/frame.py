@@ -8,9 +8,9 @@ from collections.abc import Iterable
 import shapely
 
 from icsolve.case import Contact, Joint, KnownCentre, Pin, Roll, Slide, Slot, Weld
-from icsolve.draw.links import ROD, guide_in_picture
+from icsolve.draw.links import ROD, block_place, guide_in_picture
 from icsolve.draw.marks import Disc, Group, Mark, Point, Run, Stroke, along, unit
-from icsolve.draw.place import Label, Soft, area, bar, hatched
+from icsolve.draw.place import Label, Soft, area, bar, hatched, joined
 from icsolve.draw.scene import (
     BLOCK,
     PIN,
@@ -23,6 +23,7 @@ from icsolve.draw.scene import (
     around,
     fixed_springs,
     is_screw,
+    outlines,
 )
 from icsolve.draw.words import name_runs
 
@@ -111,7 +112,7 @@ def _turns_left(u: Point, v: Point) -> bool:
 
 def _rail(scene: Scene, joint: Slide | Slot, links: shapely.Geometry) -> Part:
     """A hatched rail beside a block; two beside a pin that runs in a slot of the frame."""
-    p, u = scene.at[joint.at], guide_in_picture(scene, joint)
+    p, u = block_place(scene, joint), guide_in_picture(scene, joint)
     first, last = scene.ends(joint.links[1], scene.known.points[joint.at], p, u, 0.0)
     if u[0] < 0.0 or (u[0] == 0.0 and u[1] > 0.0):
         u, first, last = (-u[0], -u[1]), last, first
@@ -125,12 +126,32 @@ def _rail(scene: Scene, joint: Slide | Slot, links: shapely.Geometry) -> Part:
     marks: list[Mark] = []
     for side in sides:
         start, end = (along(q, v, side * offset) for q in (first, last))
-        marks += hatched(along(start, u, -reach), along(end, u, reach), side)
+        for rail in _beside_cams(scene, p, along(start, u, -reach), along(end, u, reach)):
+            marks += hatched(*rail, side)
     beyond = (along(last, u, reach - 6.0), along(first, u, 6.0 - reach))
     ends = tuple(along(q, v, sides[0] * (offset + 5.0)) for q in beyond)
     rails = [mark.points for mark in marks if isinstance(mark, Stroke) and mark.kind == "frame"]
     lines = [Soft(_band(points), 1.5) for points in rails]
     return Part(tuple(marks), tuple(lines), (), (Label("", (), "", 0.0, ends, 0.0),))
+
+
+def _beside_cams(scene: Scene, p: Point, a: Point, b: Point) -> Iterable[tuple[Point, Point]]:
+    """The part of a rail next to p that does not run through a cam."""
+    profiles = [
+        shapely.Polygon(map(scene.view.at, corners))
+        for _, corners in outlines(scene.case, scene.known.points)
+    ]
+    discs = [
+        shapely.Point(scene.view.at(w.centre)).buffer(w.radius * scene.view.scale)
+        for w in scene.round.wheels
+        if w.kind == "cam"
+    ]
+    cams = joined([*profiles, *discs]).buffer(8.0)
+    clear = shapely.difference(shapely.LineString([a, b]), cams)
+    pieces = [piece for piece in getattr(clear, "geoms", (clear,)) if piece.length > 12.0]
+    if pieces:
+        near = min(pieces, key=lambda piece: shapely.distance(piece, shapely.Point(p)))
+        yield (near.coords[0], near.coords[-1])
 
 
 def _spindle(scene: Scene, joint: Slide | Slot) -> Part:

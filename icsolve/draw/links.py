@@ -8,16 +8,18 @@ from typing import NamedTuple
 
 import shapely
 
-from icsolve.case import Joint, KnownCentre, Pin, Slide, Slot
+from icsolve.case import Contact, Joint, KnownCentre, Pin, Roll, Slide, Slot
 from icsolve.case.joints import Guided
 from icsolve.draw.marks import Disc, Group, Mark, Point, Run, along, unit
 from icsolve.draw.place import Label, Soft, area, bar, joined, nearest, plate, tilted
-from icsolve.draw.scene import BLOCK, HALF, PIN, RAIL, SLOT, Part, Scene, outlines
+from icsolve.draw.scene import BLOCK, HALF, PIN, RAIL, SLOT, Part, Scene, is_screw, outlines
 from icsolve.numbers.arithmetic import FLOATS, turn_of
 from icsolve.screws.joints import guide_direction
 
 ROD = 5.0
 """Half the width of a rod on which a block slides."""
+WIDE, STRIP = 46.0, 10.0
+"""How far a wedge reaches beyond its joints; half the width of one between two walls."""
 COVER = 1.6
 """What it costs a label to cover a link."""
 RIM, PLATE = 15.0, 0.12
@@ -42,6 +44,10 @@ class Body(NamedTuple):
 def body_of(scene: Scene, link: str) -> Body:
     """The outline of a link that moves (or of a black box, dashed)."""
     points = _own_points(scene, link)
+    wedge = _wedge(scene, link)
+    if wedge is not None:
+        inside = wedge.representative_point()
+        return Body(link, wedge, (), (), (), ((inside.x, inside.y),))
     blocks = tuple(_blocks(scene, link))
     levers = list(_slots(scene, link))
     rods = list(_rods(scene, link))
@@ -53,7 +59,7 @@ def body_of(scene: Scene, link: str) -> Body:
     square = not _pivots(scene, link)
     parts = [*_frame_of_points(points, rods, levers, wheels, square=square)]
     parts += [bar(ends, 11.0) for ends in levers]
-    parts += [*_cams(scene, link), *_profiles(scene, link)]
+    parts += [*_stems(scene, link), *_cams(scene, link), *_profiles(scene, link)]
     parts += _edges(scene, link, points, square=square)
     dashed = bool(points) and all(isinstance(j, KnownCentre) for j in scene.case.joints if link in j.links)
     if dashed:
@@ -61,6 +67,51 @@ def body_of(scene: Scene, link: str) -> Body:
     shape = joined(parts) if parts else None
     holes = tuple(bar(_inside(ends), PIN + 0.8) for ends in levers)
     return Body(link, shape, wheels, blocks, holes, _anchors(points, rods, wheels, shape), dashed)
+
+
+def _only_slides(scene: Scene, link: str) -> bool:
+    """Whether a link never turns, and slides on others or has pins in their slots."""
+    own = [joint for joint in scene.case.joints if link in joint.links]
+    sliding = all(isinstance(j, Slide) or (isinstance(j, Slot) and j.links[0] == link) for j in own)
+    still = link in scene.known.twists and not scene.known.turns(link) and link != scene.case.ground
+    return sliding and still and len(own) > 1 and not any(is_screw(joint) for joint in own)
+
+
+def _wedge(scene: Scene, link: str) -> shapely.Geometry | None:
+    """A body between the planes of its guides, where it slides on others that only slide too; else None.
+
+    It lies on the side of each plane on which its other joints are, or away from the body that it slides on;
+    along a guide through all its joints it is a strip.
+    """
+    if not _only_slides(scene, link):
+        return None
+    joints = [j for j in scene.joints() if isinstance(j, Slide | Slot) and link in j.links]
+    others = {one for joint in joints for one in joint.links if one not in (link, scene.case.ground)}
+    if not others or not all(_only_slides(scene, one) for one in others):
+        return None
+    places = [scene.at[joint.at] for joint in joints]
+    xs, ys = [x for x, _ in places], [y for _, y in places]
+    shape: shapely.Geometry = shapely.box(min(xs) - WIDE, min(ys) - WIDE, max(xs) + WIDE, max(ys) + WIDE)
+    for joint in joints:
+        p, u = scene.at[joint.at], guide_in_picture(scene, joint)
+        v, fixed = (-u[1], u[0]), scene.case.ground in joint.links
+        (other,) = (one for one in joint.links if one != link)
+        side = _side(p, v, places) or -_side(p, v, _own_points(scene, other))
+        reach = 2.0 * WIDE + max(max(xs) - min(xs), max(ys) - min(ys))
+        strip = fixed and not _side(p, v, places)
+        low, high = (-STRIP, STRIP) if strip else (-BLOCK[1] / 2.0 if fixed else 0.0, 2.0 * reach)
+        way = v if side >= 0.0 else (-v[0], -v[1])
+        corners = ((-reach, low), (reach, low), (reach, high), (-reach, high))
+        band = shapely.Polygon([along(along(p, u, a), way, b) for a, b in corners])
+        shape = shapely.intersection(shape, band)
+    return shape if shape.geom_type == "Polygon" and not shape.is_empty else None
+
+
+def _side(p: Point, v: Point, places: Iterable[Point]) -> float:
+    """How far the farthest of some places lies from a line through p, positive toward v; 0 for on it."""
+    gaps = [(x - p[0]) * v[0] + (y - p[1]) * v[1] for x, y in places]
+    farthest = max(gaps, key=abs, default=0.0)
+    return farthest if abs(farthest) > 1.0 else 0.0
 
 
 def _own_points(scene: Scene, link: str) -> list[Point]:
@@ -83,7 +134,32 @@ def _joints_of(scene: Scene, link: str, kind: type[Joint], place: int) -> Iterab
 def _blocks(scene: Scene, link: str) -> Iterable[shapely.Geometry]:
     for joint in _joints_of(scene, link, Slide, 0):
         assert isinstance(joint, Slide)
-        yield tilted(scene.at[joint.at], guide_in_picture(scene, joint), *BLOCK)
+        yield tilted(block_place(scene, joint), guide_in_picture(scene, joint), *BLOCK)
+
+
+def block_place(scene: Scene, joint: Guided) -> Point:
+    """Where a block is drawn: at its point; where a roller is about that, on the stem of the follower, beyond
+    the roller and away from what it touches."""
+    p, u = scene.at[joint.at], guide_in_picture(scene, joint)
+    for wheel in scene.round.wheels if isinstance(joint, Slide) else ():
+        centre, radius = scene.view.at(wheel.centre), wheel.radius * scene.view.scale
+        rolled = (j for j in scene.joints() if isinstance(j, Roll | Contact))
+        touching = [scene.at[j.at] for j in rolled if wheel.link in j.links]
+        if math.dist(p, centre) > 1.0 or radius < BLOCK[0] / 2.0 or not touching:
+            continue
+        (x, y) = touching[0]
+        away = 1.0 if (p[0] - x) * u[0] + (p[1] - y) * u[1] >= 0.0 else -1.0
+        return along(p, u, away * (radius + RAIL))
+    return p
+
+
+def _stems(scene: Scene, link: str) -> Iterable[shapely.Geometry]:
+    """From the points of followers to their blocks."""
+    for joint in _joints_of(scene, link, Slide, 0):
+        assert isinstance(joint, Slide)
+        place = block_place(scene, joint)
+        if place != scene.at[joint.at]:
+            yield bar([scene.at[joint.at], place], HALF)
 
 
 def _rods(scene: Scene, link: str) -> Iterable[tuple[Point, Point]]:
