@@ -93,14 +93,13 @@ def _points(case: Case) -> set[str]:
 class Solved:
     """One case with its answer, and the keys that were asked of it."""
 
-    def __init__(self, case: Case, course: Course, bound: bool = False, full: bool = False) -> None:
+    def __init__(self, case: Case, course: Course, full: bool = False) -> None:
         """Solved plainly, or at once in ``full``. Raises SceneError."""
         self.case = case
         self.course = course
-        self._bound = bound
         self.scale = 1.0
         """by what the loads, and so the answers, are larger than in ``answer``"""
-        self._answer = solved_for(case, None, bound) if full else None
+        self._answer = solved_for(case) if full else None
         self.plain = self._answer or solved_plainly(case)
         """the answers alone: enough for the key of a load"""
         self._base: Solved | None = None
@@ -113,7 +112,7 @@ class Solved:
         """The answers with all centres and rates; solved when it is first asked for."""
         origin = self._base or self
         if origin._answer is None:
-            origin._answer = solved_for(self.case, None, self._bound)
+            origin._answer = solved_for(self.case)
         return origin._answer
 
     def scaled(self, factor: float) -> Solved:
@@ -174,8 +173,8 @@ class Solved:
         return scaled_range(key, self.scale) if isinstance(key, RangeKey) else key
 
 
-def solved_plainly(case: Case, bound: bool = False) -> Answer:
+def solved_plainly(case: Case) -> Answer:
     """The answers alone. Raises SceneError."""
     from icsolve.solve import solve
 
-    return solve(case, bound=bound)
+    return solve(case, bound=False)

@@ -162,7 +162,7 @@ class Parts:
         """Derivative of every unknown load by every number of the case: by the tape, and so near a singular
         position that a tape says nothing, by differences of many digits."""
         with suppress(SceneError, ZeroDivisionError):
-            found = slopes(self.traced) if self.traced else {}
+            found = slopes(self.traced or evaluate_bounded(self.program))
             if not self.scene.certain or (found and self._tape_tells()):
                 return found
         by_load: dict[str, dict[str, float]] = {load: {} for load in self.unknowns}

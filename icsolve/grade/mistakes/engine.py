@@ -44,7 +44,7 @@ PlaceWrong = tuple[float, float, Wrong]
 Solution = tuple[Changed, Answer]
 
 
-def solved_for(case: Case, target: Target | None = None, bound: bool = False) -> Answer:
+def solved_for(case: Case, target: Target | None = None) -> Answer:
     """The case solved with all that a target and the wrong answers need; of loads the bare answer, where
     centres and rates can't be had.
 
@@ -54,11 +54,11 @@ def solved_for(case: Case, target: Target | None = None, bound: bool = False) ->
 
     bodies = isinstance(target, OfBodies)
     try:
-        return solve(case, all_centres=True, rates=True, bound=bound, reactions=bodies)
+        return solve(case, all_centres=True, rates=True, bound=False, reactions=bodies)
     except SceneError:
         if target is not None and not isinstance(target, LoadIs):
             raise
-        return solve(case, bound=bound)
+        return solve(case, bound=False)
 
 
 class WrongAnswers:

@@ -154,7 +154,7 @@ class Seen(NamedTuple):
 
 
 def looked_at(answer: Answer) -> Seen:
-    """A variant that was solved with its bound."""
+    """A variant that was solved with all centres and rates."""
     far = far_from_dead_centres(answer)
     return Seen(far, swallowed(answer) if far else frozenset())
 
@@ -162,14 +162,19 @@ def looked_at(answer: Answer) -> Seen:
 def far_from_dead_centres(answer: Answer) -> bool:
     """Whether rounding the figure to a thousandth of its size leaves the answers within 10 %.
 
-    ``answer`` has been solved with its bound, whose backward pass gives the sensitivities; with friction,
-    which has none, those of the smooth mechanism stand for them.
+    Where friction has no sensitivities, those of the smooth mechanism stand for them.
     """
+    from icsolve.solve import solve
+
     width = DRAWING * size_of(answer)
+    try:
+        bounded = answer if without_friction(answer.case) is None else solve(answer.case)
+    except IcsolveError:
+        return False
     for name, found in answer.answers.items():
         if found.holds is not None:
             continue
-        smooth = answer if name in answer.sensitivities else _smooth(answer)
+        smooth = bounded if name in bounded.sensitivities else _smooth(answer)
         if name not in smooth.sensitivities:
             continue
         swing = band(smooth, name, width)
@@ -352,7 +357,7 @@ class Varied:
 
     def _made(self, values: Texts, full: bool) -> Solved | None:
         try:
-            return Solved(self.read(values), self.course, bound=True, full=full)
+            return Solved(self.read(values), self.course, full=full)
         except (CaseError, SceneError, IcsolveError, ArithmeticError):
             return None
 
