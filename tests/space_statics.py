@@ -13,7 +13,18 @@ import numpy.typing as npt
 
 from icsolve import Case
 from icsolve.case import Centroid
-from icsolve.case.space import Along, Ball, Force, ForceVector, Hinge, Line, Radial, Thrust, Torque, Vector
+from icsolve.case.space import (
+    Along,
+    FromTo,
+    Hinge,
+    Radial,
+    SpatialForce,
+    SpatialForceVector,
+    SpatialTorque,
+    SphericalJoint,
+    Thrust,
+    Vector,
+)
 
 Array = npt.NDArray[np.float64]
 
@@ -47,7 +58,7 @@ def along(case: Case, axis: object) -> Array:
     elif isinstance(axis, Vector):
         vector = np.array([number.value for number in axis])
     else:
-        assert isinstance(axis, Line)
+        assert isinstance(axis, FromTo)
         vector = place(case, axis.b) - place(case, axis.a)
     return vector / np.linalg.norm(vector)
 
@@ -58,7 +69,9 @@ def solve(case: Case) -> Solution:
     links = [link for link in case.links if link != case.ground]
     row_of = {link: 6 * n for n, link in enumerate(links)}
     joints, loads = case.space.joints, case.space.loads
-    unknown = [load for load in loads if isinstance(load, Force | Torque) and load.value is None]
+    unknown = [
+        load for load in loads if isinstance(load, SpatialForce | SpatialTorque) and load.value is None
+    ]
     columns = 6 * len(joints) + len(unknown)
     rows, right = [np.zeros((6 * len(links), columns))], [np.zeros(6 * len(links))]
     for n, joint in enumerate(joints):
@@ -110,7 +123,7 @@ def wrench_matrix(p: Array) -> Array:
 def limits(case: Case, joint: object) -> list[Array]:
     """What a joint cannot carry, as rows whose product with its components is zero."""
     couples = [np.eye(6)[k] for k in (3, 4, 5)]
-    if isinstance(joint, Ball | Thrust):
+    if isinstance(joint, SphericalJoint | Thrust):
         return couples
     if isinstance(joint, Radial):
         return [*couples, np.concatenate([along(case, joint.axis), np.zeros(3)])]
@@ -121,13 +134,13 @@ def limits(case: Case, joint: object) -> list[Array]:
 
 def load_wrench(case: Case, load: object) -> Array:
     """Force and moment about the origin; of an unknown load for a number of 1."""
-    if isinstance(load, Torque):
+    if isinstance(load, SpatialTorque):
         size = 1.0 if load.value is None else load.value.value  # type: ignore[union-attr]
         return np.concatenate([np.zeros(3), size * along(case, load.heading)])
-    if isinstance(load, ForceVector):
+    if isinstance(load, SpatialForceVector):
         force = np.array([part.value for part in load.parts])
     else:
-        assert isinstance(load, Force)
+        assert isinstance(load, SpatialForce)
         size = 1.0 if load.value is None else load.value.value  # type: ignore[union-attr]
         force = size * along(case, load.heading)
     return np.concatenate([force, np.cross(place(case, load.at), force)])

@@ -8,8 +8,11 @@ from __future__ import annotations
 import ast
 from collections.abc import Iterator
 from pathlib import Path
+from typing import get_args
 
 import pytest
+
+from icsolve.case import Joint
 
 PACKAGE = Path(__file__).parent.parent / "icsolve"
 ROOMS = (
@@ -77,6 +80,39 @@ def test_no_module_comes_back_to_itself() -> None:
     while ordered := {name for name, others in left.items() if not others & left.keys()}:
         left = {name: others for name, others in left.items() if name not in ordered}
     assert not left, f"a circle of imports: {sorted(left)}"
+
+
+KINDS = [kind.__name__ for kind in get_args(Joint)]
+
+
+def named_in(tree: ast.Module) -> set[str]:
+    """The kinds of joint that a module names."""
+    names = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
+    return names & set(KINDS)
+
+
+@pytest.mark.parametrize("kind", [kind for kind in KINDS if kind != "Pin"])
+def test_a_kind_of_joint_is_told_in_few_places(kind: str) -> None:
+    """Its class, what makes it of a file, what is said and drawn of it; all else asks it what it is.
+
+    Pins are what links are made of; contacts are also what profiles give, and a row of a sweep.
+    """
+    told = {name for name, file in modules().items() if kind in named_in(ast.parse(file.read_text()))}
+    told -= {"icsolve.case.joints", "icsolve.read.joints", "icsolve.wording.joints", "icsolve.draw.frame"}
+    contacts = {"icsolve.cams.contact_search", "icsolve.sweep.scene", "icsolve.sweep.cam_motion"}
+    assert told <= {
+        "Contact": contacts,
+        "Slide": {"icsolve.statics.reaction_basis", "icsolve.grade.mistakes.ropes_and_masses"},
+    }.get(kind, set())
+
+
+def test_where_kinds_are_told_apart_the_type_checker_sees_to_it_that_all_are() -> None:
+    for file in modules().values():
+        for node in ast.walk(ast.parse(file.read_text())):
+            if isinstance(node, ast.Match):
+                cases = [ast.unparse(one.pattern) for one in node.cases]
+                kinds = {word for one in cases for word in KINDS if f"{word}(" in one}
+                assert len(kinds) < 2 or "assert_never" in ast.unparse(node.cases[-1]), f"{file}: {kinds}"
 
 
 @pytest.mark.parametrize("room", ["case", "answer"])

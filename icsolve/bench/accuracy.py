@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from icsolve.bench.families import ALL_JOINTS, BOUNDED, SIX_BARS, Draw, Family, scaled
 from icsolve.bench.rivals import Drawn, Failed, Method, OtherData, drawn
-from icsolve.case import Case, Contact, Coordinates, Force, KnownCentre, Number
+from icsolve.case import Case, Coordinates, Force, Number
 from icsolve.errors import SceneError
 from icsolve.read import load
 from icsolve.scene import refusals
@@ -133,12 +133,7 @@ def _lengths(case: Case) -> set[str]:
 def _angles(case: Case) -> set[str]:
     numbers: list[object] = [angle.value for angle in case.angles]
     for joint in case.joints:
-        if isinstance(joint, Contact):
-            numbers.append(joint.normal)
-        elif isinstance(joint, KnownCentre):
-            numbers.append(joint.toward)
-        guide = getattr(joint, "guide", None)
-        numbers.append(guide.angle if guide is not None else None)
+        numbers.append(joint.direction)
     numbers += [load.heading for load in case.loads if isinstance(load, Force)]
     return {n.path for n in numbers if isinstance(n, Number)}
 

@@ -10,7 +10,8 @@ from itertools import combinations
 from random import Random
 from typing import NamedTuple
 
-from icsolve.case import Belt, Case, Centroid, Coordinates, Force, Joint, Load, Number, Torque
+from icsolve.case import Case, Centroid, Coordinates, Force, Joint, Load, Number, Torque
+from icsolve.case.joints import Mesh
 
 REACH = 4.0
 """Points of a random figure lie in a square of twice this side."""
@@ -93,10 +94,10 @@ def _place(place: Coordinates | Centroid, size: float) -> Coordinates | Centroid
 
 
 def _joint(joint: Joint, size: float) -> Joint:
-    if not isinstance(joint, Belt):
+    if not isinstance(joint, Mesh) or not joint.pulls:
         return joint
-    one, two = joint.radii
-    return joint._replace(radii=(_times(one, size), _times(two, size)))
+    one, two = joint.sizes
+    return joint.resized((_times(one, size), _times(two, size)))
 
 
 def _load(load: Load, factor: float) -> Load:

@@ -4,7 +4,7 @@ What a joint leaves free is told by the centres about which its second link can 
 `screws.joints` makes basis twists of them, and twists, transmitted wrenches, loops, rates and accelerations,
 free bodies and error bounds follow. Families share answers: `Sliding` surfaces, `Guided` ones among them;
 `Rolling` links; a `Mesh` of wheels on a common carrier. How a kind is read, said and drawn stands in three
-tables: `read.joints`, `wording.joints` and `draw.joints`.
+tables: `read.joints`, `wording.joints` and `draw.frame`.
 """
 
 from typing import NamedTuple
@@ -201,6 +201,14 @@ class Mesh(Kind):
         """Numbers of teeth, or radii."""
         raise NotImplementedError
 
+    def resized(self, sizes: tuple[Number, Number]) -> "Gears | Belt":
+        """The same with other numbers of teeth, or radii."""
+        raise NotImplementedError
+
+    def turned_round(self) -> "Gears | Belt":
+        """The same with the second wheel turning the other way."""
+        raise NotImplementedError
+
     @property
     def turns_alike(self) -> bool:
         """Whether both wheels turn the same way, seen from the carrier: the pitch point lies outside."""
@@ -209,6 +217,18 @@ class Mesh(Kind):
     @property
     def pitch(self) -> float | None:
         """Pitch diameter for each tooth, case lengths, where the case gives it."""
+        if self.module is not None:
+            return self.module.value
+        return None if self.diametral_pitch is None else 1.0 / self.diametral_pitch.value
+
+    @property
+    def module(self) -> Number | None:
+        """Pitch diameter for each tooth."""
+        return None
+
+    @property
+    def diametral_pitch(self) -> Number | None:
+        """Teeth for each unit of the pitch diameter."""
         return None
 
     @property
@@ -357,17 +377,22 @@ class Gears(_Gears, Mesh):
         """Numbers of teeth."""
         return self.teeth
 
+    def resized(self, sizes: tuple[Number, Number]) -> "Gears":
+        """With other numbers of teeth."""
+        return self._replace(teeth=sizes)
+
+    def turned_round(self) -> "Gears":
+        """With a wheel internal that was external, or external that was internal."""
+        first, second = self.teeth
+        sign = "" if second.digits.startswith("-") else "-"
+        return self._replace(
+            teeth=(first, second._replace(value=-second.value, digits=sign + second.digits.lstrip("-")))
+        )
+
     @property
     def turns_alike(self) -> bool:
         """With one internal wheel."""
         return (self.teeth[0].value < 0) != (self.teeth[1].value < 0)
-
-    @property
-    def pitch(self) -> float | None:
-        """Pitch diameter for each tooth, case lengths, where the case gives it."""
-        if self.module is not None:
-            return self.module.value
-        return None if self.diametral_pitch is None else 1.0 / self.diametral_pitch.value
 
 
 class _Belt(NamedTuple):
@@ -384,6 +409,14 @@ class Belt(_Belt, Mesh):
     def sizes(self) -> tuple[Number, Number]:
         """Radii."""
         return self.radii
+
+    def resized(self, sizes: tuple[Number, Number]) -> "Belt":
+        """With other radii."""
+        return self._replace(radii=sizes)
+
+    def turned_round(self) -> "Belt":
+        """Crossed where it was open, open where it was crossed."""
+        return self._replace(crossed=not self.crossed)
 
     @property
     def turns_alike(self) -> bool:
@@ -449,3 +482,10 @@ class Weld(_Weld, Kind):
 
 
 Joint = Pin | Slide | Slot | Roll | Gears | Belt | Contact | KnownCentre | Weld
+
+
+def without_friction(joint: Joint) -> Joint:
+    """The joint with smooth surfaces, and a smooth thread."""
+    if isinstance(joint, Slide) and joint.thread is not None:
+        joint = joint._replace(thread=joint.thread._replace(mu=None))
+    return joint._replace(friction=None) if isinstance(joint, Pin | Slide | Slot | Contact) else joint

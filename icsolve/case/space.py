@@ -9,7 +9,7 @@ from icsolve.case.loads import Magnitude, Spring, Toward, Weight
 from icsolve.numbers.given import Number
 
 
-class Coordinates(NamedTuple):
+class SpatialPoint(NamedTuple):
     """A point by its coordinates, case lengths."""
 
     x: Number
@@ -31,17 +31,17 @@ class Vector(NamedTuple):
     z: Number
 
 
-class Line(NamedTuple):
+class FromTo(NamedTuple):
     """A direction from one point to another."""
 
     a: str
     b: str
 
 
-Axis = Along | Vector | Line
+Axis = Along | Vector | FromTo
 
 
-class Ball(NamedTuple):
+class SphericalJoint(NamedTuple):
     """A spherical joint: it carries a force and no couple."""
 
     links: tuple[str, str]
@@ -72,7 +72,7 @@ class Hinge(NamedTuple):
     axis: Axis
 
 
-class Weld(NamedTuple):
+class RigidJoint(NamedTuple):
     """A rigid joint: it carries a force and a couple."""
 
     links: tuple[str, str]
@@ -96,7 +96,7 @@ class Teeth(NamedTuple):
     normal_pitch: bool = False
 
 
-class Gears(NamedTuple):
+class GearPair(NamedTuple):
     """A mesh of gears with parallel axes; negative teeth are internal.
 
     ``centres`` and ``counts`` of teeth are those of both gears; or of the first link's alone, and then
@@ -111,12 +111,12 @@ class Gears(NamedTuple):
     toward: Axis | Toward | None = None
 
 
-Joint = Ball | Radial | Thrust | Hinge | Weld | Gears
+Joint = SphericalJoint | Radial | Thrust | Hinge | RigidJoint | GearPair
 
 Heading = Axis | Toward
 
 
-class Force(NamedTuple):
+class SpatialForce(NamedTuple):
     """A force on ``link`` at ``at``; the opposite goes on ``against`` (None: the frame)."""
 
     name: str
@@ -127,7 +127,7 @@ class Force(NamedTuple):
     against: str | None = None
 
 
-class ForceVector(NamedTuple):
+class SpatialForceVector(NamedTuple):
     """A known force by its components."""
 
     name: str
@@ -137,7 +137,7 @@ class ForceVector(NamedTuple):
     against: str | None = None
 
 
-class Torque(NamedTuple):
+class SpatialTorque(NamedTuple):
     """A torque about an axis, by the right-hand rule."""
 
     name: str
@@ -156,13 +156,13 @@ class TorqueVector(NamedTuple):
     against: str | None = None
 
 
-Load = Force | ForceVector | Torque | TorqueVector | Weight | Spring
+Load = SpatialForce | SpatialForceVector | SpatialTorque | TorqueVector | Weight | Spring
 
 
 class Space(NamedTuple):
     """The figure, joints and loads of a case in space; weights pull along ``down``."""
 
-    points: dict[str, Coordinates | Centroid]
+    points: dict[str, SpatialPoint | Centroid]
     joints: tuple[Joint, ...]
     loads: tuple[Load, ...]
     down: Axis = Along("-z")

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from icsolve.case import Case
-from icsolve.case.space import Torque, TorqueVector
+from icsolve.case.space import SpatialTorque, TorqueVector
 from icsolve.derivation.known import Known
 from icsolve.errors import SceneError
 from icsolve.statics.space.figure import Figure, Vec, figure_of, in_case, times
@@ -88,11 +88,11 @@ def _loads(known: Known, figure: Figure) -> tuple[Push, ...]:
         value = w.ratio * w.known if w.known is not None else None
         if value is None and load.name in answers:
             value = answers[load.name].value
-        turned = isinstance(load, Torque | TorqueVector)
+        turned = isinstance(load, SpatialTorque | TorqueVector)
         gain = w.gain / figure.frame.scale if turned else w.gain
         force, couple = (times((value or 0.0) * gain, part) for part in w.unit)
-        at = None if isinstance(load, Torque | TorqueVector) else figure.places[load.at]
-        where = "" if isinstance(load, Torque | TorqueVector) else load.at
+        at = None if isinstance(load, SpatialTorque | TorqueVector) else figure.places[load.at]
+        where = "" if isinstance(load, SpatialTorque | TorqueVector) else load.at
         direction = w.unit[1] if turned else w.unit[0]
         unit = unit_of(load, known.case)
         found.append(

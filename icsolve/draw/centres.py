@@ -11,7 +11,8 @@ from typing import NamedTuple
 import shapely
 
 from icsolve.answer import Centre
-from icsolve.case import Contact, Pair, Slot
+from icsolve.case import Pair
+from icsolve.case.joints import Guided, Sliding
 from icsolve.case.names import link_order, pair_name
 from icsolve.derivation import Known, Step
 from icsolve.draw.links import guide_in_picture
@@ -110,13 +111,13 @@ def _chain(places: Sequence[Spot], scene: Scene) -> tuple[Point, ...]:
 def _normal(scene: Scene, pair: Pair, target: Spot) -> tuple[Point, ...]:
     """The common normal of a slot or contact, from its point to the centre (or to the edge)."""
     for joint in scene.joints():
-        if isinstance(joint, Slot | Contact) and set(joint.links) == set(pair):
+        if isinstance(joint, Sliding) and joint.freedom > 1 and set(joint.links) == set(pair):
             p = scene.at[joint.at]
-            if isinstance(joint, Contact):
-                u = direction(joint.normal.value)
-            else:
+            if isinstance(joint, Guided):
                 x, y = guide_in_picture(scene, joint)
                 u = (-y, x)
+            else:
+                u = direction(joint.normal.value)
             reach = [0.0]
             if target.at is not None:
                 reach.append((target.at[0] - p[0]) * u[0] + (target.at[1] - p[1]) * u[1])

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
+from typing import assert_never
 
 import shapely
 
-from icsolve.case import Contact, Joint, KnownCentre, Pin, Roll, Slide, Slot, Weld
+from icsolve.case import Belt, Contact, Gears, Joint, KnownCentre, Pin, Roll, Slide, Slot, Weld
+from icsolve.case.joints import Guided
 from icsolve.draw.links import ROD, block_place, guide_in_picture
 from icsolve.draw.marks import Disc, Group, Mark, Point, Run, Stroke, along, unit
 from icsolve.draw.place import Label, Soft, area, bar, hatched, joined
@@ -22,7 +24,6 @@ from icsolve.draw.scene import (
     Wheel,
     around,
     fixed_springs,
-    is_screw,
     outlines,
 )
 from icsolve.draw.words import name_runs
@@ -42,9 +43,9 @@ def frame_parts(scene: Scene, links: shapely.Geometry, *, following: bool = Fals
     held = [("data-at", name_at[p]) for p in _feet(scene)]
     parts = [_foot(p, links) for p in _feet(scene)]
     guides = [joint for joint in _guides(scene) if joint.links[1] == ground]
-    parts += [_rail(scene, joint, links) for joint in guides if not is_screw(joint)]
-    held += [("data-rail", joint.at) for joint in guides if not is_screw(joint)]
-    parts += [_spindle(scene, joint) for joint in guides if is_screw(joint)]
+    parts += [_rail(scene, joint, links) for joint in guides if joint.thread is None]
+    held += [("data-rail", joint.at) for joint in guides if joint.thread is None]
+    parts += [_spindle(scene, joint) for joint in guides if joint.thread is not None]
     parts += [_surface(scene, edge) for edge in scene.round.edges if edge.link == ground]
     parts += [
         _annulus(scene, w) for w in scene.round.wheels if w.link == ground and w.kind in ("gear", "post")
@@ -66,9 +67,8 @@ def _feet(scene: Scene) -> list[Point]:
     ground = scene.case.ground
     found: list[Point] = []
     for joint in scene.joints():
-        if isinstance(joint, Pin | Weld) and ground in joint.links and joint.at:
-            found.append(scene.at[joint.at])
-        if isinstance(joint, Slide | Slot) and joint.links[0] == ground:
+        own = joint.carried[:1] if isinstance(joint, Guided) else joint.carried
+        if joint.at is not None and (ground, joint.at) in own:
             found.append(scene.at[joint.at])
     for rope in scene.case.ropes:
         held = zip(rope.points, rope.links, rope.mu, strict=False)
@@ -77,8 +77,8 @@ def _feet(scene: Scene) -> list[Point]:
     return list(dict.fromkeys(found))
 
 
-def _guides(scene: Scene) -> Iterable[Slide | Slot]:
-    return (joint for joint in scene.joints() if isinstance(joint, Slide | Slot))
+def _guides(scene: Scene) -> Iterable[Guided]:
+    return (joint for joint in scene.joints() if isinstance(joint, Guided))
 
 
 def _foot(p: Point, links: shapely.Geometry) -> Part:
@@ -110,7 +110,7 @@ def _turns_left(u: Point, v: Point) -> bool:
     return -u[1] * v[0] + u[0] * v[1] > 0.0
 
 
-def _rail(scene: Scene, joint: Slide | Slot, links: shapely.Geometry) -> Part:
+def _rail(scene: Scene, joint: Guided, links: shapely.Geometry) -> Part:
     """A hatched rail beside a block; two beside a pin that runs in a slot of the frame."""
     p, u = block_place(scene, joint), guide_in_picture(scene, joint)
     first, last = scene.ends(joint.links[1], scene.known.points[joint.at], p, u, 0.0)
@@ -118,7 +118,7 @@ def _rail(scene: Scene, joint: Slide | Slot, links: shapely.Geometry) -> Part:
         u, first, last = (-u[0], -u[1]), last, first
     v = (-u[1], u[0])
     sides: tuple[float, ...] = (1.0, -1.0)
-    if isinstance(joint, Slide):
+    if joint.keeps_direction:
         offset, reach = BLOCK[1] / 2.0 + 1.0, RAIL
         sides = (min(sides, key=lambda side: _cover(along(p, v, side * 16.0), u, links) - 5.0 * side),)
     else:
@@ -154,7 +154,7 @@ def _beside_cams(scene: Scene, p: Point, a: Point, b: Point) -> Iterable[tuple[P
         yield (near.coords[0], near.coords[-1])
 
 
-def _spindle(scene: Scene, joint: Slide | Slot) -> Part:
+def _spindle(scene: Scene, joint: Guided) -> Part:
     """The rod of a screw that the frame holds, with its bearing."""
     p, u = scene.at[joint.at], guide_in_picture(scene, joint)
     first, last = scene.ends(joint.links[1], scene.known.points[joint.at], p, u, RAIL)
@@ -169,7 +169,7 @@ def threads(scene: Scene) -> list[Part]:
     """The threads of screws on both sides of their nuts."""
     parts = []
     for joint in _guides(scene):
-        if not is_screw(joint):
+        if joint.thread is None:
             continue
         p, u = scene.at[joint.at], guide_in_picture(scene, joint)
         ends = scene.ends(joint.links[1], scene.known.points[joint.at], p, u, RAIL)
@@ -247,20 +247,20 @@ def joint_parts(scene: Scene) -> list[Part]:
     for joint in scene.joints():
         marks = _symbol(scene, joint)
         if marks:
-            at = scene.at[getattr(joint, "at", "")]
-            reach = PIN + 1.0 if isinstance(joint, Pin | Slot | Slide) else 4.0
+            at = scene.at[joint.at or ""]
+            reach = PIN + 1.0 if isinstance(joint, Pin | Guided) else 4.0
             parts.append(Part((Group(joint_name(joint), "", tuple(marks)),), (), (around(at, reach),)))
     return parts
 
 
 def joint_name(joint: Joint) -> str:
     """The id of a joint's symbol."""
-    at = (getattr(joint, "at", None) or "").replace("@", "at-")
+    at = (joint.at or "").replace("@", "at-")
     return "-".join(("joint", type(joint).__name__.lower(), at, *joint.links))
 
 
 def _symbol(scene: Scene, joint: Joint) -> list[Mark]:
-    at = getattr(joint, "at", None)
+    at = joint.at
     if at is None:
         return []
     p = scene.at[at]
@@ -279,7 +279,10 @@ def _symbol(scene: Scene, joint: Joint) -> list[Mark]:
             return [_square(p)]
         case KnownCentre():
             return [Disc(p, 4.0, "primary")]
-    return []
+        case Gears() | Belt():  # their wheels show them
+            return []
+        case _:
+            assert_never(joint)
 
 
 def _friction_circle(scene: Scene, joint: Joint, p: Point) -> list[Mark]:
@@ -297,9 +300,9 @@ def _square(p: Point) -> Mark:
 
 def point_parts(scene: Scene) -> list[Part]:
     """The letter of every point that a link carries or a joint has, and a dot where no joint shows it."""
-    jointed = {getattr(joint, "at", None) for joint in scene.joints() if not isinstance(joint, Weld)}
+    jointed = {joint.at for joint in scene.joints() if joint.freedom}
     named = [p for ps in scene.case.carries.values() for p in ps]
-    named += [at for joint in scene.case.joints if (at := getattr(joint, "at", None))]
+    named += [joint.at for joint in scene.case.joints if joint.at]
     parts = []
     for name in dict.fromkeys(named):
         if name not in scene.at or name.startswith("@"):

@@ -8,12 +8,12 @@ from typing import NamedTuple
 
 import shapely
 
-from icsolve.case import Contact, Joint, KnownCentre, Pin, Roll, Slide, Slot
+from icsolve.case import Pin
 from icsolve.case.joints import Guided
 from icsolve.draw.marks import Disc, Group, Mark, Point, Run, along, unit
 from icsolve.draw.place import Label, Soft, area, bar, joined, nearest, plate, tilted
-from icsolve.draw.scene import BLOCK, HALF, PIN, RAIL, SLOT, Part, Scene, is_screw, outlines
-from icsolve.numbers.arithmetic import FLOATS, turn_of
+from icsolve.draw.scene import BLOCK, HALF, PIN, RAIL, SLOT, Part, Scene, normal_of, outlines
+from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.joints import guide_direction
 
 ROD = 5.0
@@ -61,7 +61,7 @@ def body_of(scene: Scene, link: str) -> Body:
     parts += [bar(ends, 11.0) for ends in levers]
     parts += [*_stems(scene, link), *_cams(scene, link), *_profiles(scene, link)]
     parts += _edges(scene, link, points, square=square)
-    dashed = bool(points) and all(isinstance(j, KnownCentre) for j in scene.case.joints if link in j.links)
+    dashed = bool(points) and all(j.stands_in for j in scene.case.joints if link in j.links)
     if dashed:
         parts = [plate(points, 4.0)] if len(points) != 2 else [bar(points, 0.01)]
     shape = joined(parts) if parts else None
@@ -72,9 +72,10 @@ def body_of(scene: Scene, link: str) -> Body:
 def _only_slides(scene: Scene, link: str) -> bool:
     """Whether a link never turns, and slides on others or has pins in their slots."""
     own = [joint for joint in scene.case.joints if link in joint.links]
-    sliding = all(isinstance(j, Slide) or (isinstance(j, Slot) and j.links[0] == link) for j in own)
+    guided = [joint for joint in own if isinstance(joint, Guided) and joint.thread is None]
+    sliding = guided == own and all(joint.keeps_direction or joint.links[0] == link for joint in guided)
     still = link in scene.known.twists and not scene.known.turns(link) and link != scene.case.ground
-    return sliding and still and len(own) > 1 and not any(is_screw(joint) for joint in own)
+    return sliding and still and len(own) > 1
 
 
 def _wedge(scene: Scene, link: str) -> shapely.Geometry | None:
@@ -85,7 +86,7 @@ def _wedge(scene: Scene, link: str) -> shapely.Geometry | None:
     """
     if not _only_slides(scene, link):
         return None
-    joints = [j for j in scene.joints() if isinstance(j, Slide | Slot) and link in j.links]
+    joints = [j for j in scene.joints() if isinstance(j, Guided) and link in j.links]
     others = {one for joint in joints for one in joint.links if one not in (link, scene.case.ground)}
     if not others or not all(_only_slides(scene, one) for one in others):
         return None
@@ -117,7 +118,7 @@ def _side(p: Point, v: Point, places: Iterable[Point]) -> float:
 def _own_points(scene: Scene, link: str) -> list[Point]:
     """Where the link has joints, loads and other points; each place once."""
     names = [p for p in scene.case.carries.get(link, ()) if p in scene.at]
-    names += [j.at for j in scene.joints() if isinstance(j, KnownCentre) and link in j.links and j.at]
+    names += [j.at for j in scene.joints() if j.stands_in and link in j.links and j.at]
     return list(dict.fromkeys(scene.at[p] for p in names))
 
 
@@ -127,13 +128,14 @@ def guide_in_picture(scene: Scene, joint: Guided) -> Point:
     return (x, -y)
 
 
-def _joints_of(scene: Scene, link: str, kind: type[Joint], place: int) -> Iterable[Joint]:
-    return (j for j in scene.joints() if isinstance(j, kind) and j.links[place] == link)
+def _guided(scene: Scene, link: str, place: int, *, turns: bool) -> Iterable[Guided]:
+    """The joints that have the link in a place and a guide, about whose point it turns or does not."""
+    joints = (j for j in scene.joints() if isinstance(j, Guided) and j.links[place] == link)
+    return (joint for joint in joints if joint.keeps_direction != turns)
 
 
 def _blocks(scene: Scene, link: str) -> Iterable[shapely.Geometry]:
-    for joint in _joints_of(scene, link, Slide, 0):
-        assert isinstance(joint, Slide)
+    for joint in _guided(scene, link, 0, turns=False):
         yield tilted(block_place(scene, joint), guide_in_picture(scene, joint), *BLOCK)
 
 
@@ -141,10 +143,10 @@ def block_place(scene: Scene, joint: Guided) -> Point:
     """Where a block is drawn: at its point; where a roller is about that, on the stem of the follower, beyond
     the roller and away from what it touches."""
     p, u = scene.at[joint.at], guide_in_picture(scene, joint)
-    for wheel in scene.round.wheels if isinstance(joint, Slide) else ():
+    for wheel in scene.round.wheels if joint.keeps_direction else ():
         centre, radius = scene.view.at(wheel.centre), wheel.radius * scene.view.scale
-        rolled = (j for j in scene.joints() if isinstance(j, Roll | Contact))
-        touching = [scene.at[j.at] for j in rolled if wheel.link in j.links]
+        rolled = (j for j in scene.joints() if not j.stays_known and not j.stands_in)
+        touching = [scene.at[j.at or ""] for j in rolled if wheel.link in j.links]
         if math.dist(p, centre) > 1.0 or radius < BLOCK[0] / 2.0 or not touching:
             continue
         (x, y) = touching[0]
@@ -155,8 +157,7 @@ def block_place(scene: Scene, joint: Guided) -> Point:
 
 def _stems(scene: Scene, link: str) -> Iterable[shapely.Geometry]:
     """From the points of followers to their blocks."""
-    for joint in _joints_of(scene, link, Slide, 0):
-        assert isinstance(joint, Slide)
+    for joint in _guided(scene, link, 0, turns=False):
         place = block_place(scene, joint)
         if place != scene.at[joint.at]:
             yield bar([scene.at[joint.at], place], HALF)
@@ -164,15 +165,13 @@ def _stems(scene: Scene, link: str) -> Iterable[shapely.Geometry]:
 
 def _rods(scene: Scene, link: str) -> Iterable[tuple[Point, Point]]:
     """The rods of a moving link along which blocks of others slide."""
-    for joint in _joints_of(scene, link, Slide, 1):
-        assert isinstance(joint, Slide)
+    for joint in _guided(scene, link, 1, turns=False):
         p, u = scene.at[joint.at], guide_in_picture(scene, joint)
         yield scene.ends(link, scene.known.points[joint.at], p, u, RAIL)
 
 
 def _slots(scene: Scene, link: str) -> Iterable[tuple[Point, Point]]:
-    for joint in _joints_of(scene, link, Slot, 1):
-        assert isinstance(joint, Slot)
+    for joint in _guided(scene, link, 1, turns=True):
         p, u = scene.at[joint.at], guide_in_picture(scene, joint)
         yield scene.ends(link, scene.known.points[joint.at], p, u, SLOT)
 
@@ -245,7 +244,7 @@ def _cams(scene: Scene, link: str) -> Iterable[shapely.Geometry]:
     for joint in scene.round.cams:
         if joint.links[0] != link:
             continue
-        at, n = scene.at[joint.at], turn_of(joint.normal.value)
+        at, n = scene.at[joint.at], normal_of(joint)
         points = _own_points(scene, link)
         gap = math.dist(points[0], at) if points else 40.0
         radius = min(max(0.4 * gap, 6.0), 34.0)

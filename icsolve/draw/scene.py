@@ -1,6 +1,6 @@
 """What a drawing is made from: a known scene in a view, with its round things and straight edges.
 
-Gears, pulleys, rolling wheels, cams and racks are found in case units; the rooms of a drawing add `Part`s.
+Gear wheels, pulleys, rolling wheels, cams and racks are found in case units; rooms of a drawing add `Part`s.
 """
 
 from __future__ import annotations
@@ -11,19 +11,12 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from icsolve.case import (
-    Belt,
     Case,
-    Contact,
-    Gears,
     Joint,
-    KnownCentre,
     Pin,
-    Roll,
-    Slide,
-    Slot,
     Spring,
-    Weld,
 )
+from icsolve.case.joints import Mesh, Rolling, Sliding
 from icsolve.case.profiles import Circle, Flat, Knife, Roller, points_of
 from icsolve.derivation import Known
 from icsolve.draw.marks import Box, Mark, Point, View, along
@@ -69,7 +62,7 @@ class Round(NamedTuple):
     wheels: tuple[Wheel, ...]
     edges: tuple[Edge, ...]
     loops: tuple[Loop, ...]
-    cams: tuple[Contact, ...]
+    cams: tuple[Sliding, ...]
 
 
 def round_things(case: Case, points: Mapping[str, Point]) -> Round:
@@ -77,19 +70,19 @@ def round_things(case: Case, points: Mapping[str, Point]) -> Round:
     wheels: list[Wheel] = []
     edges: list[Edge] = []
     loops: list[Loop] = []
-    cams: list[Contact] = []
+    cams: list[Sliding] = []
     for bond in _meshes(case):
         if set(bond.pivots) <= set(points):
             both = _mesh(bond, points)
             wheels += both
-            if isinstance(bond.joint, Belt):
-                loops.append(Loop(both[0], both[1], bond.joint.crossed))
+            if isinstance(bond.joint, Mesh) and bond.joint.pulls:
+                loops.append(Loop(both[0], both[1], not bond.joint.turns_alike))
     for joint in case.joints:
-        if isinstance(joint, Roll) and joint.at in points:
+        if isinstance(joint, Rolling) and joint.at in points:
             rolled = _rolled(case, joint, points)
             wheels += [thing for thing in rolled if isinstance(thing, Wheel)]
             edges += [thing for thing in rolled if isinstance(thing, Edge)]
-        if isinstance(joint, Contact) and joint.at in points:
+        if isinstance(joint, Sliding) and joint.only_pushes and joint.at in points:
             if case.profiles is not None and {*joint.links} <= case.profiles.shapes.keys():
                 from icsolve.draw.scene import surfaces
 
@@ -127,33 +120,33 @@ def _once(wheels: Iterable[Wheel]) -> Iterable[Wheel]:
 
 
 def _meshes(case: Case) -> Iterable[Bond]:
-    if not any(isinstance(joint, Gears | Belt) for joint in case.joints):
+    if not any(isinstance(joint, Mesh) for joint in case.joints):
         return ()
     try:
         bonds = topology(case).bonds
     except SceneError:
         return ()
-    return (bond for bond in bonds if isinstance(bond.joint, Gears | Belt))
+    return (bond for bond in bonds if isinstance(bond.joint, Mesh))
 
 
 def _mesh(bond: Bond, points: Mapping[str, Point]) -> tuple[Wheel, ...]:
     """The two pitch circles, or the two pulleys."""
     joint = bond.joint
-    assert isinstance(joint, Gears | Belt)
+    assert isinstance(joint, Mesh)
     a, b = (points[p] for p in bond.pivots)
-    if isinstance(joint, Belt):
-        radii = tuple(abs(r.value) for r in joint.radii)
+    if joint.pulls:
+        radii = tuple(abs(r.value) for r in joint.sizes)
     else:
         p, q = mesh_weights(joint, FLOATS)
         span, whole = math.dist(a, b), abs(p + q)
         radii = (abs(q) * span / whole, abs(p) * span / whole) if whole > 1e-9 else (0.0, 0.0)
-    rims = (False, False) if isinstance(joint, Belt) else tuple(n.value < 0 for n in joint.teeth)
-    kind = "pulley" if isinstance(joint, Belt) else "gear"
+    rims = tuple(n.value < 0 and not joint.pulls for n in joint.sizes)
+    kind = "pulley" if joint.pulls else "gear"
     both = zip(bond.links, (a, b), radii, rims, strict=True)
     return tuple(Wheel(link, centre, radius, kind, rim) for link, centre, radius, rim in both)
 
 
-def _rolled(case: Case, joint: Roll, points: Mapping[str, Point]) -> list[Wheel | Edge]:
+def _rolled(case: Case, joint: Rolling, points: Mapping[str, Point]) -> list[Wheel | Edge]:
     """Wheels, and edges for the straight ones."""
     at = points[joint.at]
     radii: tuple[float | None, ...] = (None, None)
@@ -178,7 +171,7 @@ def _wheel(
         return None
     pins = [j.at for j in case.joints if isinstance(j, Pin) and link in j.links and j.at in points]
     if radius is None:
-        rolls = any(isinstance(j, Roll) and {link, case.ground} == {*j.links} for j in case.joints)
+        rolls = any(isinstance(j, Rolling) and {link, case.ground} == {*j.links} for j in case.joints)
         own = [p for p in case.carries.get(link, ()) if p in points and points[p] != at] if rolls else []
         own.sort(key=lambda p: abs(points[p][0] - at[0]) / math.dist(points[p], at))  # most upright ground
         found = [points[p] for p in (*pins, *own) if math.dist(points[p], at) > 0.0]
@@ -192,10 +185,10 @@ def _wheel(
 
 
 def _touching(
-    case: Case, joint: Contact, points: Mapping[str, Point]
+    case: Case, joint: Sliding, points: Mapping[str, Point]
 ) -> tuple[Wheel | Edge | None, Wheel | Edge]:
     """The two surfaces of a contact: circles where centres are known, else edges; None: a cam to invent."""
-    at, n = points[joint.at], turn_of(joint.normal.value)
+    at, n = points[joint.at], normal_of(joint)
     back = (-n[0], -n[1])
     first = _disc(case, joint.links[0], at, back, points, free=True)
     second = _disc(case, joint.links[1], at, n, points, free=False)
@@ -224,7 +217,13 @@ def _disc(
 # --- surfaces of cams and followers whose profiles a case gives ------------------------------------------
 
 
-def surfaces(case: Case, joint: Contact, points: Mapping[str, Point]) -> list[Wheel | Edge]:
+def normal_of(joint: Sliding) -> Point:
+    """The unit normal of a contact, out of its first link."""
+    assert joint.direction is not None
+    return turn_of(joint.direction.value)
+
+
+def surfaces(case: Case, joint: Sliding, points: Mapping[str, Point]) -> list[Wheel | Edge]:
     """The circles and faces that touch at a contact; other profiles are `outlines`."""
     assert case.profiles is not None
     found: list[Wheel | Edge] = []
@@ -233,7 +232,7 @@ def surfaces(case: Case, joint: Contact, points: Mapping[str, Point]) -> list[Wh
             case Circle(centre, radius) | Roller(centre, radius) if centre in points:
                 found.append(Wheel(link, points[centre], radius.value, "cam"))
             case Flat():
-                x, y = turn_of(joint.normal.value)
+                x, y = normal_of(joint)
                 found.append(Edge(link, points[joint.at], (sign * x, sign * y)))
     return found
 
@@ -305,26 +304,7 @@ class Scene(NamedTuple):
 
     def joints(self) -> Iterable[Joint]:
         """The joints whose points can be placed."""
-        return (joint for joint in self.case.joints if all(p in self.at for p in needs(joint)))
-
-
-def is_screw(joint: Joint) -> bool:
-    """Whether a joint is the slide of a screw."""
-    return isinstance(joint, Slide) and joint.thread is not None
-
-
-def needs(joint: Joint) -> tuple[str, ...]:
-    """The points without which a joint can't be drawn."""
-    match joint:
-        case Pin() | Roll() | Contact():
-            return (joint.at,)
-        case Slide() | Slot():
-            return (joint.at, *(joint.guide.ends or ()))
-        case KnownCentre():
-            return (joint.at,) if joint.at else ()
-        case Weld():
-            return (joint.at,) if joint.at else ()
-    return ()
+        return (joint for joint in self.case.joints if all(p in self.at for p in joint.points))
 
 
 def fixed_springs(case: Case) -> list[Spring]:

@@ -13,7 +13,8 @@ from typing import NamedTuple
 import numpy as np
 import shapely
 
-from icsolve.case import Contact, Force, Pin, Roll, Slide, Slot, Spring
+from icsolve.case import Force, Pin, Spring
+from icsolve.case.joints import Guided
 from icsolve.derivation import Acting, Known, Step, acting_loads
 from icsolve.draw.frame import frame_parts, joint_name, joint_parts, point_parts, rims
 from icsolve.draw.links import Body, bars, body_of, guide_in_picture, link_part, outline
@@ -119,12 +120,12 @@ def travel_of(scene: Scene, motion: Motion) -> dict[tuple[str, Point], tuple[flo
     """How far each joint's place goes along its guide, in picture units (see `Scene`)."""
     found: dict[tuple[str, Point], tuple[float, float]] = {}
     for joint in scene.joints():
-        if isinstance(joint, Slide | Slot) and joint.at in motion.found.points:
+        if isinstance(joint, Guided) and joint.at in motion.found.points:
             u = guide_in_picture(scene, joint)
             found[(joint.links[1], scene.known.points[joint.at])] = _along(
                 scene, motion, joint.links[1], joint.at, u
             )
-        if isinstance(joint, Roll | Contact) and joint.at in motion.found.points:
+        if not joint.stays_known and not joint.stands_in and joint.at in motion.found.points:
             for edge in scene.round.edges:
                 if edge.at == scene.known.points[joint.at]:
                     u = (edge.normal[1], edge.normal[0])

@@ -9,7 +9,8 @@ from types import MappingProxyType
 from typing import NamedTuple
 from urllib.parse import quote
 
-from icsolve.case import Case, Spring
+from icsolve.case import Case, Pin, Spring
+from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.derivation import Known, known_of
 from icsolve.draw import Drawing, draw
 from icsolve.draw.svg import escaped
@@ -98,19 +99,19 @@ def exhibit(case: Case, name: str, source: str, *, exercise: bool = False) -> Ex
 def kind_of(known: Known) -> str:
     """What a mechanism is in the first place."""
     case = known.case
-    has = {type(joint).__name__ for joint in case.joints}
-    rubs = any(getattr(joint, "friction", None) is not None for joint in case.joints)
+    joints = case.joints
+    pinned = all(isinstance(joint, Pin) for joint in joints)
     tests = (
         ("In space", case.space is not None),
         ("Structures", known.structure),
-        ("Given centres", "KnownCentre" in has),
-        ("Cams", bool(case.profiles) or "Contact" in has),
-        ("Friction", rubs),
+        ("Given centres", any(joint.stands_in for joint in joints)),
+        ("Cams", bool(case.profiles) or any(joint.only_pushes for joint in joints)),
+        ("Friction", any(joint.friction is not None for joint in joints)),
         ("Springs", any(isinstance(load, Spring) for load in case.loads)),
-        ("Gears, belts and rolling wheels", bool(has & {"Gears", "Belt", "Roll"})),
-        ("Sliders and slots", bool(has & {"Slide", "Slot"})),
-        ("Four-bar linkages", has == {"Pin"} and len(case.links) == 4),
-        ("Linkages of more bars", has <= {"Pin", "Weld"} and len(case.links) > 4),
+        ("Gears, belts and rolling wheels", any(isinstance(joint, Mesh | Rolling) for joint in joints)),
+        ("Sliders and slots", any(isinstance(joint, Guided) for joint in joints)),
+        ("Four-bar linkages", bool(joints) and pinned and len(case.links) == 4),
+        ("Linkages of more bars", len(case.links) > 4),
     )
     return next((kind for kind, is_so in tests if is_so), KINDS[-1])
 

@@ -15,7 +15,8 @@ from icsolve.assembly.groups import Group
 from icsolve.assembly.loci import is_round
 from icsolve.assembly.steps import Given, Mean, Meet, Step, aims, leading_to
 from icsolve.assembly.workspace import Key, Workspace, normalised
-from icsolve.case import Belt, Case, Gears, KnownCentre, Motion, Number, Roll, Slide, Slot
+from icsolve.case import Case, Motion, Number
+from icsolve.case.joints import Guided, Mesh
 from icsolve.derivation import Known
 from icsolve.draw.words import unit_word
 from icsolve.errors import SceneError
@@ -257,22 +258,22 @@ class _Writer:
             "meshes": [mesh for bond in top.bonds for mesh in self._mesh(bond, place)],
             "motion": [self._motion(given, place) for given in case.motion],
             "order": joint_order(case),
-            "inexact": any(isinstance(joint, KnownCentre | Roll) for joint in case.joints),
-            "given": any(isinstance(joint, KnownCentre) for joint in case.joints),
+            "inexact": any(joint.has_written_centre for joint in case.joints),
+            "given": any(joint.stands_in for joint in case.joints),
             "loads": [self._load(w) for w in self._wrenches()],
             "moves": self._by_points(),
-            "at": [getattr(bond.joint, "at", None) for bond in top.bonds],
+            "at": [bond.joint.at for bond in top.bonds],
             "units": [unit_word(unit) for unit in (case.units.force, case.units.torque)],
             "torque": case.units.torque_per_force_length,
             "frameLink": case.ground,
             "bonds": [
-                [*bond.links, len(bases[k]) == 1 or isinstance(bond.joint, Gears | Belt)]
+                [*bond.links, len(bases[k]) == 1 or isinstance(bond.joint, Mesh)]
                 for k, bond in enumerate(top.bonds)
             ],
             "rails": {
                 bond.joint.at: k
                 for k, bond in enumerate(top.bonds)
-                if isinstance(bond.joint, Slide | Slot) and case.ground in bond.links
+                if isinstance(bond.joint, Guided) and case.ground in bond.links
             },
             "guides": self._guides(),
         }
@@ -296,7 +297,7 @@ class _Writer:
         """The bond whose guide tells how a link lies that has one."""
         found: dict[str, list[int]] = {}
         for k, bond in enumerate(self.top.bonds):
-            if isinstance(bond.joint, Slide | Slot):
+            if isinstance(bond.joint, Guided):
                 for link in bond.links:
                     found.setdefault(link, []).append(k)
         return {link: ks[0] for link, ks in found.items() if len(ks) == 1}
@@ -312,10 +313,10 @@ class _Writer:
     def _mesh(self, bond: Bond, place: Mapping[Key, int]) -> Iterable[list[Any]]:
         """Pivots, teeth, and module or diametral pitch of gears: whether they fit has to be seen."""
         joint = bond.joint
-        if isinstance(joint, Gears) and set(bond.pivots) <= place.keys():
+        if isinstance(joint, Mesh) and set(bond.pivots) <= place.keys():
             size = joint.module or joint.diametral_pitch
             if size is not None:
-                numbers = [self.paths.index(number.path) for number in (*joint.teeth, size)]
+                numbers = [self.paths.index(number.path) for number in (*joint.sizes, size)]
                 yield [*(place[p] for p in bond.pivots), *numbers, joint.module is not None]
 
     def _motion(self, given: Motion, place: Mapping[Key, int]) -> dict[str, Any]:

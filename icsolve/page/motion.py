@@ -14,19 +14,15 @@ import numpy as np
 from icsolve.case import (
     Case,
     Centroid,
-    Contact,
     Coordinates,
     ForceVector,
-    KnownCentre,
     Load,
     Number,
     Pair,
     Pin,
-    Slide,
-    Slot,
     Torque,
-    Weld,
 )
+from icsolve.case.joints import Guided, Mesh, without_friction
 from icsolve.case.names import pair_name
 from icsolve.derivation import Known, loaded_links
 from icsolve.draw.plot import asymptotes, dead_centres
@@ -97,7 +93,7 @@ def _by_guide(
     """As the link turns on which it slides."""
     names = _carried(known, link, found)
     for joint in known.case.joints:
-        if isinstance(joint, Slide) and link in joint.links and names:
+        if isinstance(joint, Guided) and joint.keeps_direction and link in joint.links and names:
             other = joint.links[1 - joint.links.index(link)]
             place = found.points[names[0]]
             if other == known.case.ground:
@@ -178,7 +174,7 @@ def sliding(known: Known) -> tuple[Case, Input] | None:
     if known.answer is None or known.answer.mobility != 1:
         return None
     nameless = any(name.startswith("@") for name in known.points)
-    if nameless or not all(isinstance(joint, Slide | Pin | Slot | Weld) for joint in case.joints):
+    if nameless or not all(joint.stays_known and not isinstance(joint, Mesh) for joint in case.joints):
         return None
     going = {link: (t[1], -t[0]) for link, t in known.twists.items()}
     fastest = max((math.hypot(*v) for v in going.values()), default=0.0)
@@ -204,7 +200,7 @@ def _paces(case: Case, going: Mapping[str, Point]) -> dict[str, Point] | None:
     paces = {p: going[link] for link in case.links if link != case.ground for p in case.carries.get(link, ())}
     paces |= dict.fromkeys(case.carries.get(case.ground, ()), (0.0, 0.0))
     for joint in case.joints:
-        if isinstance(joint, Slide | Slot):
+        if isinstance(joint, Guided):
             ends = {*(joint.guide.ends or ()), joint.guide.through} - {None, joint.at}
             own = going[joint.links[1]]
             if any(math.dist(paces.get(str(p), (0.0, 0.0)), own) > STILL * math.hypot(*own) for p in ends):
@@ -367,7 +363,7 @@ def why_still(known: Known) -> str:
         return "Nothing moves here: the links hold each other."
     if case.dynamic:
         return "The inertia forces are those of the position as written, so nothing is moved from it."
-    if any(isinstance(joint, KnownCentre) for joint in case.joints):
+    if any(joint.stands_in for joint in case.joints):
         return "A given centre holds in the position as written only, so nothing can be moved from it."
     drivers = inputs(known)
     if not drivers or known.answer is None:
@@ -444,9 +440,7 @@ def _swept(case: Case, by: Input, degrees: Array, want: Sequence[str]) -> Sweep 
 
 def _smooth(case: Case) -> Case:
     """The case without friction: its places do not ask whether a load holds."""
-    rubbing = (Pin, Slide, Slot, Contact)
-    joints = (j._replace(friction=None) if isinstance(j, rubbing) else j for j in case.joints)
-    return replace(case, joints=tuple(joints))
+    return replace(case, joints=tuple(map(without_friction, case.joints)))
 
 
 def inputs(known: Known) -> list[str]:

@@ -8,23 +8,23 @@ from icsolve.case import Case, Centroid, Expected, Number, Spring, Toward, Weigh
 from icsolve.case.space import (
     Along,
     Axis,
-    Ball,
-    Coordinates,
-    Force,
-    ForceVector,
-    Gears,
+    FromTo,
+    GearPair,
     Heading,
     Hinge,
     Joint,
-    Line,
     Load,
     Radial,
+    RigidJoint,
     Space,
+    SpatialForce,
+    SpatialForceVector,
+    SpatialPoint,
+    SpatialTorque,
+    SphericalJoint,
     Thrust,
-    Torque,
     TorqueVector,
     Vector,
-    Weld,
 )
 from icsolve.read.build import TEXTS, ground_of, readable, section_of, tolerance_of_case
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
@@ -46,7 +46,7 @@ class SpaceReading(Reading):
 
     axes = "xyz"
     couples = "xyz"
-    places: dict[str, Coordinates]
+    places: dict[str, SpatialPoint]
 
 
 def components(entry: Entry, key: str, dimension: str, meaning: str) -> tuple[Number, Number, Number] | None:
@@ -83,7 +83,7 @@ def axis(entry: Entry, key: str) -> Axis | None:
     return None
 
 
-def _line(entry: Entry, key: str, node: Sequence) -> Line | None:
+def _line(entry: Entry, key: str, node: Sequence) -> FromTo | None:
     items = entry.reading.names(node, f"'{key}' of {entry.what}", "[A, B]")
     if items is None:
         return None
@@ -92,7 +92,7 @@ def _line(entry: Entry, key: str, node: Sequence) -> Line | None:
     if items[0].text == items[1].text:
         entry.refuse(node.mark, f"'{key}' of {entry.what} should be two different points")
         return None
-    return Line(items[0].text, items[1].text)
+    return FromTo(items[0].text, items[1].text)
 
 
 def place(entry: Entry, key: str, hidden: str) -> str | None:
@@ -104,12 +104,12 @@ def place(entry: Entry, key: str, hidden: str) -> str | None:
     if parts is None:
         return None
     assert isinstance(entry.reading, SpaceReading)
-    entry.reading.places[hidden] = Coordinates(*parts)
+    entry.reading.places[hidden] = SpatialPoint(*parts)
     entry.reading.marks[f"points.{hidden}"] = node.mark
     return hidden
 
 
-def _at_point(kind: type[Ball] | type[Weld]) -> Builder[Joint]:
+def _at_point(kind: type[SphericalJoint] | type[RigidJoint]) -> Builder[Joint]:
     def build(entry: Entry, links: tuple[str, ...], complete: bool) -> Joint | None:
         at = entry.point("at")
         return kind((links[0], links[1]), at) if at and complete else None
@@ -138,7 +138,7 @@ def _gears(entry: Entry, links: tuple[str, ...], complete: bool) -> Joint | None
     if len(counts) == 1 and counts[0].value < 0.0:
         entry.refuse(entry.mark("teeth"), "a gear whose mate is not shown has external teeth")
         return None
-    return Gears((links[0], links[1]), centres, counts, along, teeth, toward)
+    return GearPair((links[0], links[1]), centres, counts, along, teeth, toward)
 
 
 def _counts(entry: Entry) -> tuple[Number, ...] | None:
@@ -188,11 +188,11 @@ def _toward(entry: Entry, alone: bool, counted: bool) -> Axis | Toward | None:
 
 
 BUILDERS: Builders[Joint] = {
-    "ball": _at_point(Ball),
+    "ball": _at_point(SphericalJoint),
     "radial": _on_axis(Radial),
     "thrust": _on_axis(Thrust),
     "hinge": _on_axis(Hinge),
-    "weld": _at_point(Weld),
+    "weld": _at_point(RigidJoint),
     "gears": _gears,
 }
 
@@ -216,11 +216,13 @@ def _force(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
     at = place(entry, "at", f"@{name}")
     if type(entry.node.items["force"]) is Sequence:
         parts = _components(entry, "force")
-        return ForceVector(name, link, at, parts, against) if good and link and at and parts else None
+        return SpatialForceVector(name, link, at, parts, against) if good and link and at and parts else None
     heading = _heading(entry)
     read, value = magnitude(entry, name, kind, likes)
     return (
-        Force(name, link, at, value, heading, against) if good and read and link and at and heading else None
+        SpatialForce(name, link, at, value, heading, against)
+        if good and read and link and at and heading
+        else None
     )
 
 
@@ -263,14 +265,14 @@ def _torque(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
     entry.need("along")
     heading = axis(entry, "along")
     read, value = magnitude(entry, name, kind, likes)
-    return Torque(name, link, value, heading, against) if good and read and link and heading else None
+    return SpatialTorque(name, link, value, heading, against) if good and read and link and heading else None
 
 
 def _power(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
     link, against, good = bearer(entry)
     heading = axis(entry, "along")
     value = torque_number(entry)
-    return Torque(name, link, value, heading, against) if good and value and link and heading else None
+    return SpatialTorque(name, link, value, heading, against) if good and value and link and heading else None
 
 
 def _weight(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
@@ -376,9 +378,9 @@ def _joints(reading: SpaceReading, root: Mapping) -> tuple[Joint, ...]:
     return ()
 
 
-def _points(reading: SpaceReading, section: Mapping) -> dict[str, Coordinates | Centroid]:
+def _points(reading: SpaceReading, section: Mapping) -> dict[str, SpatialPoint | Centroid]:
     """Coordinates and centroids by point."""
-    found: dict[str, Coordinates | Centroid] = {}
+    found: dict[str, SpatialPoint | Centroid] = {}
     for key, node in section.items.items():
         name = reading.name(Scalar(key, False, section.keys[key]), "a point")
         if name is None:
@@ -393,7 +395,7 @@ def _points(reading: SpaceReading, section: Mapping) -> dict[str, Coordinates | 
     return found
 
 
-def _coordinates(reading: SpaceReading, name: str, node: Node) -> Coordinates | None:
+def _coordinates(reading: SpaceReading, name: str, node: Node) -> SpatialPoint | None:
     if type(node) is not Sequence or len(node.items) != 3:
         said = "in space every point has three coordinates, as in [3, 0.5, 0]"
         reading.refuse(node.mark, f"point {name}: {said}")
@@ -402,7 +404,7 @@ def _coordinates(reading: SpaceReading, name: str, node: Node) -> Coordinates | 
         number(reading, item, "length", f"points.{name}.{letter}")
         for item, letter in zip(node.items, "xyz", strict=True)
     )
-    return Coordinates(x, y, z) if x is not None and y is not None and z is not None else None
+    return SpatialPoint(x, y, z) if x is not None and y is not None and z is not None else None
 
 
 def _check_given(reading: SpaceReading) -> None:

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from icsolve.answer import Answer
-from icsolve.case import Case, Pin, Slide, Weld
+from icsolve.case import Case, Pin
+from icsolve.case.joints import Guided
 from icsolve.structure.grashof import (
     Crank,
     Range,
@@ -133,7 +134,7 @@ def _bodies(case: Case) -> dict[str, str]:
     """Each link's body: links that are welded count as one, the frame by its own name."""
     body = {link: link for link in case.links}
     for joint in case.joints:
-        if isinstance(joint, Weld):
+        if not joint.freedom:
             kept, gone = (body[link] for link in joint.links)
             if gone == body.get(case.ground):
                 kept, gone = gone, kept
@@ -233,7 +234,7 @@ def _slider_cranks(answer: Answer) -> Iterator[Loop]:
     body = _bodies(case)
     ground = body.get(case.ground, "")
     pivots = _pivots(case)
-    for slide in (joint for joint in case.joints if isinstance(joint, Slide)):
+    for slide in (j for j in case.joints if isinstance(j, Guided) and j.keeps_direction):
         block, guide = (body[link] for link in slide.links)
         if guide == ground != block:
             for bodies, points in _chains(pivots, ground, 3):
@@ -241,7 +242,7 @@ def _slider_cranks(answer: Answer) -> Iterator[Loop]:
                     yield _slider_crank(answer, slide, bodies, points)
 
 
-def _slider_crank(answer: Answer, slide: Slide, links: tuple[str, ...], points: tuple[str, ...]) -> Loop:
+def _slider_crank(answer: Answer, slide: Guided, links: tuple[str, ...], points: tuple[str, ...]) -> Loop:
     a, b, c = (answer.points[point] for point in points)
     path = _path(answer, slide)
     ux, uy = math.cos(math.radians(path)), math.sin(math.radians(path))
@@ -261,7 +262,7 @@ def _has_extent(answer: Answer, points: tuple[str, ...]) -> bool:
     return None not in (a, b, c) and a != b != c
 
 
-def _path(answer: Answer, slide: Slide) -> float:
+def _path(answer: Answer, slide: Guided) -> float:
     """Direction of a slide's guide, degrees."""
     if slide.guide.angle is not None:
         return slide.guide.angle.value

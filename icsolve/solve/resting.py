@@ -5,11 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from icsolve.case import Case, Torque
+from icsolve.case.joints import without_friction
 from icsolve.errors import SceneError
 from icsolve.kinematics.speeds import joint_order
 from icsolve.scene import solve_scene
@@ -43,7 +44,7 @@ def find_ranges(case: Case, path: str, span: tuple[float, float] | None) -> Rang
     ends are closed in on to the last digit.
     """
     low, high = span or whole_range(case, path)
-    smooth = replace(case, joints=tuple(_smooth(joint) for joint in case.joints))
+    smooth = replace(case, joints=tuple(without_friction(joint) for joint in case.joints))
     functions, _ = load_functions(smooth, path, low, high)
     branches = Branches(functions, low, high)
     kept = branches.nearest(case) if case.near else None
@@ -62,10 +63,6 @@ def find_ranges(case: Case, path: str, span: tuple[float, float] | None) -> Rang
         "ranges in which friction alone is enough."
     )
     return Ranges(tuple(_joined(found)), (note,), None)
-
-
-def _smooth(joint: Any) -> Any:
-    return joint._replace(friction=None) if joint.friction is not None else joint
 
 
 def _holds(function: LoadFunction, value: float) -> bool:

@@ -16,7 +16,8 @@ from icsolve.answer.contacts import Touching
 from icsolve.cams.contact_candidates import Turn
 from icsolve.cams.solving import pressed
 from icsolve.cams.words import follower_driven, lost_rows, widest_pressure
-from icsolve.case import Case, Gears, Pin
+from icsolve.case import Case, Pin
+from icsolve.case.joints import Mesh
 from icsolve.case.profiles import Flat, Knife, Roller
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
@@ -176,7 +177,7 @@ def _written(case: Case, columns: Columns, row: int) -> Case:
 def _together(table: Table, part: Part, error: bool, seen: _Seen) -> Mask:
     """Fill in the rows of a part that one record solves all at once; which these are."""
     case, run = part.case, part.run
-    teeth = any(isinstance(joint, Gears) and joint.pressure_angle is not None for joint in case.joints)
+    teeth = any(isinstance(joint, Mesh) and joint.pressure_angle is not None for joint in case.joints)
     if run is None or teeth or table.asked.in_motion:
         return np.zeros(len(part.rows), dtype=bool)
     values, done = run.together(table.asked)

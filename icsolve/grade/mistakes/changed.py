@@ -5,26 +5,21 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from icsolve.answer import Answer
 from icsolve.case import (
     Area,
-    Belt,
     Case,
-    Contact,
     Corner,
     Direction,
     Force,
     ForceVector,
-    Gears,
     Joint,
     Load,
     Motion,
     Number,
-    Slide,
     Slope,
-    Slot,
     Spring,
     Stretch,
     Torque,
@@ -32,6 +27,8 @@ from icsolve.case import (
     Toward,
     Weight,
 )
+from icsolve.case.joints import Guided, Mesh, Sliding
+from icsolve.case.joints import without_friction as smooth
 from icsolve.case.names import pair_name
 from icsolve.grade.mistakes.ropes_and_masses import misread
 
@@ -224,9 +221,13 @@ def _is_given(angle: Direction | Corner, case: Case) -> bool:
 
 def _fed_joint(joint: Joint) -> Joint:
     """A guide's direction or a contact's normal; multiples of 90 degrees need no calculator."""
-    if isinstance(joint, Slide | Slot) and joint.guide.angle is not None and joint.guide.angle.value % 90.0:
-        return joint._replace(guide=joint.guide._replace(angle=_as_radians(joint.guide.angle)))
-    if isinstance(joint, Contact) and joint.normal.value % 90.0:
+    if isinstance(joint, Guided):
+        angle = joint.guide.angle
+        odd = angle is not None and angle.value % 90.0
+        return (
+            joint._replace(guide=joint.guide._replace(angle=_as_radians(angle))) if angle and odd else joint
+        )
+    if isinstance(joint, Sliding) and joint.normal.value % 90.0:
         return joint._replace(normal=_as_radians(joint.normal))
     return joint
 
@@ -234,14 +235,8 @@ def _fed_joint(joint: Joint) -> Joint:
 def _with_other_meshes(case: Case) -> Iterator[Case]:
     """The case with one mesh or belt turning its wheels the other way."""
     for n, joint in enumerate(case.joints):
-        other: Joint | None = None
-        if isinstance(joint, Gears):
-            first, second = joint.teeth
-            other = joint._replace(teeth=(first, _times(second, -1.0)))
-        elif isinstance(joint, Belt):
-            other = joint._replace(crossed=not joint.crossed)
-        if other is not None:
-            yield replace(case, joints=(*case.joints[:n], other, *case.joints[n + 1 :]))
+        if isinstance(joint, Mesh):
+            yield replace(case, joints=(*case.joints[:n], joint.turned_round(), *case.joints[n + 1 :]))
 
 
 def _fed(angle: Direction | Corner) -> Direction | Corner:
@@ -261,17 +256,11 @@ def _fed_load(load: Load) -> Load:
 
 def without_friction(case: Case) -> Case | None:
     """The case with smooth joints; None where they are so already."""
-    joints = tuple(_smooth(joint) for joint in case.joints)
+    joints = tuple(smooth(joint) for joint in case.joints)
     ropes = tuple(rope._replace(mu=(None,) * len(rope.mu)) for rope in case.ropes)
     if (joints, ropes) == (case.joints, case.ropes):
         return None
     return replace(case, joints=joints, ropes=ropes)
-
-
-def _smooth(joint: Any) -> Any:
-    if isinstance(joint, Slide) and joint.thread is not None:
-        joint = joint._replace(thread=joint.thread._replace(mu=None))
-    return joint._replace(friction=None) if getattr(joint, "friction", None) is not None else joint
 
 
 def _reversed(given: Motion) -> Motion:
@@ -367,13 +356,12 @@ def _misread(angle: Number, alone: bool) -> Iterator[tuple[str, Number]]:
 def _without_stages(case: Case) -> Iterator[Changed]:
     """The case with the ratio of one mesh or belt left out."""
     for n, joint in enumerate(case.joints):
-        if not isinstance(joint, Gears | Belt):
+        if not isinstance(joint, Mesh):
             continue
-        first, second = joint.teeth if isinstance(joint, Gears) else joint.radii
+        first, second = joint.sizes
         if abs(first.value) != abs(second.value):
             alike = _written(second, math.copysign(first.value, second.value * first.value))
-            both = (first, alike)
-            other = joint._replace(teeth=both) if isinstance(joint, Gears) else joint._replace(radii=both)
+            other = joint.resized((first, alike))
             links = pair_name(case, (joint.links[0], joint.links[1]))
             joints = (*case.joints[:n], other, *case.joints[n + 1 :])
             yield Changed("missed-stage", replace(case, joints=joints), links)

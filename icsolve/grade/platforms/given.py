@@ -7,26 +7,19 @@ from collections.abc import Iterator
 from icsolve.case import (
     AlongRope,
     Area,
-    Belt,
     Case,
-    Contact,
     Coordinates,
     Corner,
     Direction,
     Force,
     ForceVector,
-    Gears,
     Guide,
     Joint,
-    KnownCentre,
     Like,
     Load,
     Motion,
     Number,
-    Roll,
-    Slide,
     Slope,
-    Slot,
     Spring,
     Stretch,
     Thread,
@@ -36,6 +29,7 @@ from icsolve.case import (
     Weight,
 )
 from icsolve.case.bodies import Inertia, Rope
+from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Knife, Polygon, Radii, Roller, Shape
 
 
@@ -223,31 +217,28 @@ def _place(name: str, case: Case) -> str:
 def _joint(joint: Joint, case: Case) -> Iterator[tuple[str, str]]:
     """What a joint gives beside its place; of a smooth pin nothing."""
     first, second = joint.links[:2]
-    at = getattr(joint, "at", None)
+    at = joint.at
     where = f" at {_place(at, case)}" if at else ""
-    match joint:
-        case Slide() | Slot():
-            kind = "block" if isinstance(joint, Slide) else "pin"
-            moves = f"slides in link {second}"
-            if isinstance(joint, Slide) and joint.thread is not None:
-                kind, moves = "thread", f"turns on link {second}, {_thread(joint.thread, case)},"
-            yield f"{kind} of link {first}{where}", f"{moves} {_along(joint.guide)}"
-        case Gears():
-            yield f"gears {first}-{second}", _teeth(joint, case)
-        case Belt():
-            radii = " and ".join(_shown(radius) for radius in joint.radii)
-            kind = "crossed" if joint.crossed else "open"
-            yield f"belt {first}-{second}", f"{kind}, on radii {radii} {case.units.length}"
-        case Roll():
-            radii = " and ".join(_shown(radius) for radius in joint.radii or ())
-            on = f", radii {radii} {case.units.length}" if radii else ""
-            yield f"links {first} and {second}", f"roll without slip{where}{on}"
-        case Contact():
-            yield f"contact {first}-{second}{where}", f"normal at {_shown(joint.normal)} deg"
-        case KnownCentre(toward=None):
-            yield f"centre {first}-{second}", f"{_place(at or '', case)}"
-        case KnownCentre(toward=Number() as toward):
-            yield f"centre {first}-{second}", f"at infinity at {_shown(toward)} deg"
+    if isinstance(joint, Guided):
+        kind, moves = "block" if joint.keeps_direction else "pin", f"slides in link {second}"
+        if joint.thread is not None:
+            kind, moves = "thread", f"turns on link {second}, {_thread(joint.thread, case)},"
+        yield f"{kind} of link {first}{where}", f"{moves} {_along(joint.guide)}"
+    elif isinstance(joint, Mesh) and joint.pulls:
+        radii = " and ".join(_shown(radius) for radius in joint.sizes)
+        kind = "open" if joint.turns_alike else "crossed"
+        yield f"belt {first}-{second}", f"{kind}, on radii {radii} {case.units.length}"
+    elif isinstance(joint, Mesh):
+        yield f"gears {first}-{second}", _teeth(joint, case)
+    elif isinstance(joint, Rolling):
+        radii = " and ".join(_shown(radius) for radius in joint.radii or ())
+        on = f", radii {radii} {case.units.length}" if radii else ""
+        yield f"links {first} and {second}", f"roll without slip{where}{on}"
+    elif joint.only_pushes and joint.direction is not None:
+        yield f"contact {first}-{second}{where}", f"normal at {_shown(joint.direction)} deg"
+    elif joint.stands_in:
+        toward = f"at infinity at {_shown(joint.direction)} deg" if joint.direction is not None else ""
+        yield f"centre {first}-{second}", toward or f"{_place(at or '', case)}"
     yield from _friction(joint, case, f"{first}-{second}{where}")
 
 
@@ -264,9 +255,9 @@ def _along(guide: Guide) -> str:
     return (by or f"along {'-'.join(guide.ends or ())}") + through
 
 
-def _teeth(joint: Gears, case: Case) -> str:
-    counts = [_shown(number).lstrip("-") for number in joint.teeth]
-    inner = any(number.value < 0.0 for number in joint.teeth)
+def _teeth(joint: Mesh, case: Case) -> str:
+    counts = [_shown(number).lstrip("-") for number in joint.sizes]
+    inner = any(number.value < 0.0 for number in joint.sizes)
     parts = [f"{counts[0]} and {counts[1]} teeth" + (", one of them internal" if inner else "")]
     if joint.pressure_angle is not None:
         normal = "normal " if joint.helix is not None and joint.helix.normal else ""
@@ -279,7 +270,7 @@ def _teeth(joint: Gears, case: Case) -> str:
 
 
 def _friction(joint: Joint, case: Case, where: str) -> Iterator[tuple[str, str]]:
-    friction = getattr(joint, "friction", None)
+    friction = joint.friction
     if friction is None:
         return
     parts = [f"mu = {_shown(friction.mu)}"]

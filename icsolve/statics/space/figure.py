@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from icsolve.case import Case, Centroid, Number, Spring, Toward
-from icsolve.case.space import Along, Axis, Line, Space, Vector
+from icsolve.case.space import Along, Axis, FromTo, Space, Vector
 from icsolve.errors import SceneError, Status
 
 Vec = tuple[float, float, float]
@@ -96,7 +96,7 @@ def direction(axis: Axis, places: Places, what: str) -> Vec:
             return times(-1.0, vector) if word[0] == "-" else vector
         case Vector():
             return unit(vector_of(axis))
-        case Line(a, b):
+        case FromTo(a, b):
             return between(a, b, places, what)
 
 

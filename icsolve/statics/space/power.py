@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from icsolve.case import Case, Like, Spring, Weight
-from icsolve.case.space import Force, ForceVector, Load, Torque, TorqueVector
+from icsolve.case.space import Load, SpatialForce, SpatialForceVector, SpatialTorque, TorqueVector
 from icsolve.numbers.sparse import Row, eliminate
 from icsolve.statics.space.figure import (
     ZERO,
@@ -72,7 +72,7 @@ def wrenched(case: Case, figure: Figure) -> tuple[Wrenched, ...]:
 def _wrenched(case: Case, figure: Figure, load: Load, by_name: Mapping[str, Load]) -> Wrenched:
     root, ratio = _root(load, by_name)
     unit_wrench, gain = _unit(case, figure, load)
-    at = figure.points[load.at] if not isinstance(load, Torque | TorqueVector) else ZERO
+    at = figure.points[load.at] if not isinstance(load, SpatialTorque | TorqueVector) else ZERO
     against = getattr(load, "against", None) or case.ground
     return Wrenched(load, against, at, unit_wrench, gain, root.name, ratio, _number(root))
 
@@ -80,14 +80,14 @@ def _wrenched(case: Case, figure: Figure, load: Load, by_name: Mapping[str, Load
 def _root(load: Load, by_name: Mapping[str, Load]) -> tuple[Load, float]:
     """The load whose number it takes, and how many times that."""
     ratio = 1.0
-    while not isinstance(load, ForceVector | TorqueVector) and isinstance(load.value, Like):
+    while not isinstance(load, SpatialForceVector | TorqueVector) and isinstance(load.value, Like):
         ratio *= 1.0 if load.value.times is None else load.value.times.value
         load = by_name[load.value.load]
     return load, ratio
 
 
 def _number(load: Load) -> float | None:
-    if isinstance(load, ForceVector | TorqueVector):
+    if isinstance(load, SpatialForceVector | TorqueVector):
         return size(vector_of(load.parts))
     assert not isinstance(load.value, Like)
     return None if load.value is None else load.value.value
@@ -97,13 +97,13 @@ def _unit(case: Case, figure: Figure, load: Load) -> tuple[Wrench, float]:
     places, name = figure.places, f"load {load.name}"
     per_torque = figure.frame.scale / case.units.torque_per_force_length
     match load:
-        case Torque():
+        case SpatialTorque():
             return (ZERO, direction(load.heading, places, name)), per_torque
         case TorqueVector():
             return (ZERO, _along(load.parts)), per_torque
-        case ForceVector():
+        case SpatialForceVector():
             return (_along(load.parts), ZERO), 1.0
-        case Force():
+        case SpatialForce():
             return (heading(load.heading, load.at, places, name), ZERO), 1.0
         case Weight():
             gain = case.gravity.value * case.units.force_per_newton if load.mass else 1.0
@@ -128,7 +128,7 @@ def scale_of(loads: Sequence[Wrenched]) -> float:
 
 def is_unknown(load: Load) -> bool:
     """Whether a load is one to find."""
-    return not isinstance(load, ForceVector | TorqueVector) and load.value is None
+    return not isinstance(load, SpatialForceVector | TorqueVector) and load.value is None
 
 
 def acting(w: Wrenched) -> tuple[Vec, Vec]:

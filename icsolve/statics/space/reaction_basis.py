@@ -16,7 +16,7 @@ from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 from icsolve.case import Case, Toward
-from icsolve.case.space import Ball, Gears, Hinge, Joint, Radial, Teeth, Thrust, Weld
+from icsolve.case.space import GearPair, Hinge, Joint, Radial, RigidJoint, SphericalJoint, Teeth, Thrust
 from icsolve.errors import SceneError, Status
 from icsolve.statics.space.figure import (
     AXES,
@@ -70,13 +70,14 @@ def ties_of(case: Case, figure: Figure) -> tuple[Tie, ...]:
 
 def kind_of(joint: Joint) -> str:
     """A joint's kind in the words of the format."""
-    return type(joint).__name__.lower()
+    words = {SphericalJoint: "ball", RigidJoint: "weld", GearPair: "gears"}
+    return words.get(type(joint)) or type(joint).__name__.lower()
 
 
 def _tie(joint: Joint, figure: Figure, line: int) -> Tie:
     by, on = joint.links
     where = f" (line {line})" if line else ""
-    if isinstance(joint, Gears):
+    if isinstance(joint, GearPair):
         return _meshing(joint, figure, f"gears {by} and {on}{where}")
     what = f"the {kind_of(joint)} of links {by} and {on}{where}"
     axis = ZERO
@@ -94,14 +95,14 @@ def _units(joint: Joint, axis: Vec) -> tuple[Wrench, ...]:
             return (*((e, ZERO) for e in square_to(axis)), (axis, ZERO))
         case Hinge():
             return (*forces, *((ZERO, e) for e in square_to(axis)))
-        case Weld():
+        case RigidJoint():
             return (*forces, *((ZERO, e) for e in AXES))
-        case Ball():
+        case SphericalJoint():
             return forces
     raise TypeError(type(joint).__name__)
 
 
-def _meshing(joint: Gears, figure: Figure, what: str) -> Tie:
+def _meshing(joint: GearPair, figure: Figure, what: str) -> Tie:
     """The tangential part alone; which flank carries shows the rest (`flanked`)."""
     axis = direction(joint.axis, figure.places, f"the axis of {what}")
     mesh = mesh_of(joint, axis, figure.places, what)
@@ -198,7 +199,7 @@ def transverse_module(teeth: Teeth) -> float | None:
     return module / math.cos(helix(teeth)) if teeth.normal_pitch else module
 
 
-def mesh_of(joint: Gears, axis: Vec, places: Places, what: str) -> Mesh:
+def mesh_of(joint: GearPair, axis: Vec, places: Places, what: str) -> Mesh:
     """The mesh of a joint.
 
     Raises SceneError where the wheels do not lie in one plane square to the axis, or do not fit each other.
@@ -218,7 +219,7 @@ def mesh_of(joint: Gears, axis: Vec, places: Places, what: str) -> Mesh:
     return _mesh(joint, base, at, unit(sub(at, (first, second)[base])), axis, radii)
 
 
-def _alone(joint: Gears, axis: Vec, places: Places, what: str) -> Mesh:
+def _alone(joint: GearPair, axis: Vec, places: Places, what: str) -> Mesh:
     """A gear with a mate that the case does not show."""
     assert joint.toward is not None
     centre = joint.centres[0]
@@ -233,7 +234,7 @@ def _alone(joint: Gears, axis: Vec, places: Places, what: str) -> Mesh:
     return _mesh(joint, 0, at, outward, axis, (radius,))
 
 
-def _mesh(joint: Gears, base: int, at: Vec, outward: Vec, axis: Vec, radii: tuple[float, ...]) -> Mesh:
+def _mesh(joint: GearPair, base: int, at: Vec, outward: Vec, axis: Vec, radii: tuple[float, ...]) -> Mesh:
     """The mesh with its force on the gear ``base``, which has external teeth."""
     hand = 1.0 if joint.teeth.hand == "right" else -1.0
     axial = -hand * math.tan(helix(joint.teeth))
@@ -253,7 +254,7 @@ def _refuse_oblique(line: Vec, axis: Vec, what: str) -> None:
         )
 
 
-def _refuse_misfit(joint: Gears, apart: float, what: str) -> None:
+def _refuse_misfit(joint: GearPair, apart: float, what: str) -> None:
     module = transverse_module(joint.teeth)
     if module is None:
         return

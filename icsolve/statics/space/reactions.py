@@ -13,7 +13,7 @@ from icsolve.answer.bodies import names_of
 from icsolve.answer.space import Parts, Reaction, Reactions
 from icsolve.case import Case
 from icsolve.case.names import ordered_pair
-from icsolve.case.space import Gears, Hinge, Radial, Thrust
+from icsolve.case.space import GearPair, Hinge, Radial, Thrust
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.sparse import Row
 from icsolve.statics.space.equilibrium import Statics
@@ -116,7 +116,7 @@ class _Reader:
 
     def parts(self, t: int, tie: Tie) -> list[tuple[str, float | None]]:
         """Shares of the force that the joint is about."""
-        if isinstance(tie.joint, Gears):
+        if isinstance(tie.joint, GearPair):
             return self.tooth_parts(t, tie)
         if not isinstance(tie.joint, Radial | Thrust | Hinge):
             return []
@@ -146,7 +146,7 @@ class _Reader:
 
     def axial_couples(self, tie: Tie, axial: float) -> list[tuple[str, float | None]]:
         """The couple that the axial share makes about each wheel's centre, and its load on two bearings."""
-        assert isinstance(tie.joint, Gears) and tie.mesh is not None
+        assert isinstance(tie.joint, GearPair) and tie.mesh is not None
         parts: list[tuple[str, float | None]] = []
         alone = len(tie.mesh.radii) == 1
         for link, radius in zip(tie.joint.links, tie.mesh.radii, strict=False):

@@ -13,7 +13,16 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from icsolve.answer import Answer, Term
 from icsolve.answer.space import Parts, Reaction, Spatial
 from icsolve.case import ArmIs, Case, DistanceIs, Like, LoadIs, ReactionIs, Spring, Target, Toward, Weight
-from icsolve.case.space import Along, Force, ForceVector, Line, Load, Torque, TorqueVector, Vector
+from icsolve.case.space import (
+    Along,
+    FromTo,
+    Load,
+    SpatialForce,
+    SpatialForceVector,
+    SpatialTorque,
+    TorqueVector,
+    Vector,
+)
 from icsolve.statics.report import witness_table
 from icsolve.statics.space.figure import (
     AXES,
@@ -37,7 +46,7 @@ Table = Callable[..., list[str]]
 def unit_of(load: Load, case: Case) -> str:
     """Unit in which a load's number is given and printed."""
     match load:
-        case Torque() | TorqueVector():
+        case SpatialTorque() | TorqueVector():
             return case.units.torque
         case Weight(mass=True):
             return "kg"
@@ -56,11 +65,11 @@ def sense_of(w: Wrenched, value: float) -> str:
             return "pull" if forth == (w.gain > 0.0) else "push"
         case Weight():
             return "down" if forth else "up"
-        case Torque(heading=Along() | Vector() | Line() as heading):
+        case SpatialTorque(heading=Along() | Vector() | FromTo() as heading):
             return f"about {_heading_words(heading, forth)}"
-        case Force(heading=Along() | Vector() | Line() as heading):
+        case SpatialForce(heading=Along() | Vector() | FromTo() as heading):
             return f"along {_heading_words(heading, forth)}"
-        case Force(heading=Toward() as toward):
+        case SpatialForce(heading=Toward() as toward):
             drawn = forth != toward.away
             if w.load.against is not None:
                 return "pull" if drawn else "push"
@@ -68,12 +77,12 @@ def sense_of(w: Wrenched, value: float) -> str:
     return ""
 
 
-def _heading_words(heading: Along | Vector | Line, forth: bool) -> str:
+def _heading_words(heading: Along | Vector | FromTo, forth: bool) -> str:
     """``-z``; ``A to B``; the components of the unit vector."""
     match heading:
         case Along(word):
             return word if forth else word[1:] if word[0] == "-" else f"-{word}"
-        case Line(a, b):
+        case FromTo(a, b):
             return f"{a} to {b}" if forth else f"{b} to {a}"
         case Vector(x, y, z):
             sign = 1.0 if forth else -1.0
@@ -90,7 +99,7 @@ def terms_of(
     powers = [[power_of(w, motion).value for w in loads] for motion in motions]
     ones = [sum(p for p, w in zip(row, loads, strict=True) if w.known is None) for row in powers]
     most = max(range(len(ones)), key=lambda m: abs(ones[m]))
-    turns = isinstance(next(w for w in unknown if w.load.name == w.root).load, Torque)
+    turns = isinstance(next(w for w in unknown if w.load.name == w.root).load, SpatialTorque)
     whole = ones[most] * (case.units.torque_per_force_length if turns else 1.0)
     terms = []
     for w, power in zip(loads, powers[most], strict=True):
@@ -226,7 +235,7 @@ def _load(answer: Answer, name: str, sense: str | None) -> float:
         against = sense is not None and found.sense not in ("", sense)
         return -abs(found.value) if against else abs(found.value) if sense else found.value
     load = next(load for load in in_case(answer.case).loads if load.name == name)
-    if isinstance(load, ForceVector | TorqueVector):
+    if isinstance(load, SpatialForceVector | TorqueVector):
         return size(vector_of(load.parts))
     if isinstance(load.value, Like):
         ratio = 1.0 if load.value.times is None else load.value.times.value
