@@ -151,7 +151,7 @@ def test_two_files_of_one_name_are_no_case(a_class: Class) -> None:
     assert "two files are the case lever" in ran.err
 
 
-def graded(table: str, folder: Path, jobs: int = 1, most: int | None = None) -> str:
+def graded(table: str, folder: Path, most: int | None = None) -> str:
     """The results of a table; with ``most`` at most so many answers in memory."""
     path = folder / "answers.csv"
     path.write_text(table, encoding="utf-8")
@@ -159,7 +159,7 @@ def graded(table: str, folder: Path, jobs: int = 1, most: int | None = None) -> 
     with pytest.MonkeyPatch.context() as patch:
         if most is not None:
             patch.setattr(Store.__init__, "__defaults__", (most,))
-        grade(Job((str(path),), str(CASES), jobs=jobs), Sinks(out))
+        grade(Job((str(path),), str(CASES)), Sinks(out))
     return out.getvalue()
 
 
@@ -176,11 +176,10 @@ def test_results_are_sorted_by_student_and_case(large: str, tmp_path: Path) -> N
     assert rows == sorted(rows)
 
 
-def test_the_same_bytes_in_memory_on_disk_and_on_two_processes(large: str, tmp_path: Path) -> None:
+def test_the_same_bytes_in_memory_and_on_disk(large: str, tmp_path: Path) -> None:
     once = graded(large, tmp_path)
     assert graded(large, tmp_path) == once
     assert graded(large, tmp_path, most=500) == once
-    assert graded(large, tmp_path, jobs=2, most=500) == once
 
 
 def test_the_same_bytes_with_the_rows_in_any_order(large: str, tmp_path: Path) -> None:

@@ -59,7 +59,7 @@ COURSE = "course.yaml"
 )
 @click.option("--student", metavar="ID", help="All answers are this student's; a table needs no ids then.")
 @click.option("--metadata", metavar="FILE", help="Gradescope's submission_metadata.json says who it is.")
-@click.option("--jobs", type=click.IntRange(1, 64), help="Processes [one, two on long work].")
+@click.option("--jobs", type=click.IntRange(1, 64), hidden=True, expose_value=False)
 @click.option("--force", is_flag=True, help="Write over files that are there.")
 @click.option("-q", "--quiet", is_flag=True, help="No summary.")
 def grade_command(**options: Any) -> int:
@@ -93,7 +93,7 @@ def grade_command(**options: Any) -> int:
 
 
 def _job(options: dict[str, Any]) -> Job:
-    from icsolve.grade.run import Job, processes
+    from icsolve.grade.run import Job
 
     if not os.path.exists(options["cases"]):
         raise FileNotFoundError(2, "there is no such folder", options["cases"])
@@ -110,7 +110,6 @@ def _job(options: dict[str, Any]) -> Job:
     seeds = (course.seed, "0")
     if options["seed"] is not None:
         course = course._replace(seed=options["seed"])
-    jobs = options["jobs"] or processes()
     student = options["student"] or ""
     if options["metadata"]:
         from icsolve.grade.tables.hand_ins import student_of
@@ -120,7 +119,7 @@ def _job(options: dict[str, Any]) -> Job:
     roster, variants = options["roster"] or "", tuple(options["variants"])
     overrides = tuple(options["overrides"])
     extra = (variants, seeds, overrides, options["dates"] or "")
-    return Job(submissions, options["cases"], course, roster, jobs, student, *extra)
+    return Job(submissions, options["cases"], course, roster, student, *extra)
 
 
 def _note_inputs(options: dict[str, Any]) -> None:

@@ -147,7 +147,6 @@ def _figures(varied: Varied, found: list[VariantTask], folder: str, force: bool,
     """A figure for each variant, and a sheet for each student; by two processes where that pays."""
     from icsolve.files import check_free
     from icsolve.forked import can_fork, started
-    from icsolve.grade.run import processes
 
     start = time.perf_counter()
     by_label: dict[str, list[VariantTask]] = {}
@@ -157,7 +156,7 @@ def _figures(varied: Varied, found: list[VariantTask], folder: str, force: bool,
     for label in by_label:
         check_free(_figure_path(folder, label), force)
     groups = list(by_label.values())
-    others = processes() - 1 if can_fork() and len(groups) >= _WORTH_TWO else 0
+    others = int(can_fork() and len(groups) >= _WORTH_TWO and (os.cpu_count() or 1) > 1)
     parts = [groups[n :: others + 1] for n in range(others + 1)]
     with started([(_draw, (varied, part, folder, force, True)) for part in parts[1:]]) as waiting:
         _draw(varied, parts[0], folder, force, quiet)

@@ -44,12 +44,6 @@ class Issues:
             key = (path, OTHERS if serious else OTHER_NOTES, serious)
         self._lines.setdefault(key, array("q")).append(line)
 
-    def extend(self, entries: list[Issue]) -> None:
-        """Take over what another process has noted."""
-        for entry in entries:
-            for line in entry.lines:
-                self.note(entry.path, line, entry.reason, entry.serious)
-
     def entries(self) -> Iterator[Issue]:
         """Every reason, those of the earliest lines first."""
         found = [

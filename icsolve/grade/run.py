@@ -2,33 +2,27 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import AbstractContextManager, ExitStack, nullcontext
 from typing import IO, TYPE_CHECKING, NamedTuple
 
-from icsolve.files import scratch
-from icsolve.forked import can_fork, started
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.importing import Import, expand
 from icsolve.grade.issues import Issue, Issues
 from icsolve.grade.keys import Key
-from icsolve.grade.marking import NAMED, GivenValue, Marker
+from icsolve.grade.marking import GivenValue, Marker
 from icsolve.grade.results import HEADER, json_line, line
 from icsolve.grade.roster import Roster, read_roster
 from icsolve.grade.solved import unknowns
-from icsolve.grade.store import Disk, Store, StoredAnswer
+from icsolve.grade.store import Store, StoredAnswer
 from icsolve.grade.tables import HeaderError
-from icsolve.grade.tally import Counts, added
+from icsolve.grade.tally import Counts
 from icsolve.grade.tolerance import NoKeyError
 
 if TYPE_CHECKING:
     from icsolve.grade.regrade import Override, Overrides
     from icsolve.grade.variants.others import Neighbours
 
-_WORTH_TWO = 20_000
-"""Answers from which another process pays."""
 _STEP = 5000
 """Results between two reports of progress."""
 
@@ -40,21 +34,11 @@ class Sinks(NamedTuple):
     jsonl: IO[str] | None = None
 
 
-class ClassPart(NamedTuple):
-    """The students from ``since`` on, before ``until``; all ``students`` owe answers to ``questions``."""
-
-    questions: tuple[str, ...]
-    students: tuple[str, ...]
-    since: str | None
-    until: str | None
-
-
 class MarkingWork(NamedTuple):
-    """What all parts share; ``path`` is the file of answers, for what is noted."""
+    """What answers are judged by; ``path`` is the file of answers, for what is noted."""
 
     course: Course
     case_store: CaseStore
-    store: Store
     path: str
     neighbours: Neighbours | None = None
     """the right answers of the whole class, where they differ"""
@@ -62,108 +46,21 @@ class MarkingWork(NamedTuple):
     """marks given by hand"""
 
 
-class PartOutcome(NamedTuple):
-    """What a part found: counts by question, what is noted, and who gave no answer."""
-
-    counts: dict[str, Counts]
-    notes: list[Issue]
-    owing: dict[str, list[str]]
-    given: list[GivenValue]
-    """values that were given to questions with variables"""
-    overruled: set[tuple[str, str]]
-    """students and questions whose marks were given by hand"""
-
-
-Report = Callable[[int], None]
-
-
-def divided(questions: tuple[str, ...], students: list[str], answers: int, jobs: int) -> list[ClassPart]:
-    """The students in as many ranges as there are processes."""
-    count = jobs if can_fork() and answers >= _WORTH_TWO and len(students) >= 2 * jobs else 1
-    cuts = [len(students) * k // count for k in range(count + 1)]
-    bounds = [None, *(students[cut] for cut in cuts[1:-1]), None]
-    return [
-        ClassPart(questions, tuple(students[cuts[k] : cuts[k + 1]]), bounds[k], bounds[k + 1])
-        for k in range(count)
-    ]
-
-
-def judged(parts: list[ClassPart], work: MarkingWork, sinks: Sinks, report: Report) -> list[PartOutcome]:
-    """Judge all parts; their results go to the sinks one after the other.
-
-    Raises RuntimeError where a process failed.
-    """
-    report(0)
-    if len(parts) == 1:
-        return [_judge(parts[0], work, work.store.sorted(), sinks, report)]
-    first, *others = parts
-    _foresee(first.questions, work.case_store)
-    entries = work.store.sorted(None, first.until)
-    with scratch() as folder:
-        files = [_files(folder, n, sinks) for n in range(len(others))]
-        calls = [(_apart, (part, work, names)) for part, names in zip(others, files, strict=True)]
-        with started(calls) as waiting:
-            own = _judge(first, work, entries, sinks, report)
-            outcomes = [own, *waiting()]
-        for names in files:
-            for sink, name in zip(sinks, names, strict=True):
-                _append(sink, name)
-    return outcomes
-
-
-def _foresee(questions: tuple[str, ...], case_store: CaseStore) -> None:
-    """Compute all wrong answers now, once for all processes; what is there is not looked at for garbage."""
-    import gc
-
-    for question in questions:
-        key = case_store.key(question)
-        if isinstance(key, Key):
-            key.wrongs.near(0.0)
-    gc.freeze()
-
-
-def _files(folder: str, n: int, sinks: Sinks) -> tuple[str, ...]:
-    """The files of a part's own results; '' for a sink that there is not."""
-    return tuple(os.path.join(folder, f"{n}-{k}") if sink is not None else "" for k, sink in enumerate(sinks))
-
-
-def _append(sink: IO[str] | None, name: str) -> None:
-    if sink is not None:
-        with open(name, encoding="utf-8", newline="") as file:
-            while block := file.read(1 << 20):
-                sink.write(block)
-
-
-def _apart(part: ClassPart, work: MarkingWork, names: tuple[str, ...]) -> PartOutcome:
-    """Judge a part in a process of its own, which must not use its parent's database."""
-    disk = Disk(work.store.path) if work.store.path else None
-    entries = (disk or work.store).sorted(part.since, part.until)
-    with ExitStack() as stack:
-        if disk is not None:
-            stack.callback(disk.close)
-        files = [stack.enter_context(_opened(name)) for name in names]
-        return _judge(part, work, entries, Sinks(*files), lambda n: None)
-
-
-def _opened(name: str) -> AbstractContextManager[IO[str] | None]:
-    return open(name, "w", encoding="utf-8", newline="") if name else nullcontext()
-
-
-def _judge(
-    part: ClassPart, work: MarkingWork, entries: Iterator[StoredAnswer], sinks: Sinks, report: Report
-) -> PartOutcome:
-    """Judge sorted entries."""
-    issues = Issues()
-    marker = Marker(work, issues, part.questions)
+def _judged(
+    entries: Iterator[StoredAnswer], students: Iterable[str], marker: Marker, sinks: Sinks, report: Report
+) -> None:
+    """Judge sorted entries; the results go to the sinks as they come."""
     csv, jsonl = sinks
-    for n, result in enumerate(marker.results(entries, part.students), 1):
+    for n, result in enumerate(marker.results(entries, students), 1):
         if not n % _STEP:
             report(n)
         if csv is not None:
             csv.write(line(result))
         if jsonl is not None:
             jsonl.write(json_line(result))
-    return PartOutcome(marker.counted(), list(issues.entries()), marker.owing, marker.given, marker.overruled)
+
+
+Report = Callable[[int], None]
 
 
 class Job(NamedTuple):
@@ -173,7 +70,6 @@ class Job(NamedTuple):
     cases: str
     course: Course = Course()
     roster: str = ""
-    jobs: int = 1
     student: str = ""
     """whose all answers are, where the files have no ids"""
     variants: tuple[str, ...] = ()
@@ -217,12 +113,6 @@ def spare_collector() -> None:
     gc.set_threshold(200_000, 20, 100)
 
 
-def processes() -> int:
-    """Two processes where a second core has nothing else to do."""
-    busy = os.getloadavg()[0] if hasattr(os, "getloadavg") else 0.0
-    return 2 if (os.cpu_count() or 1) - busy >= 0.8 else 1
-
-
 def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
     """Grade all submissions of a job; results go to the sinks, sorted by student and question.
 
@@ -247,20 +137,18 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
         students = sorted(set(imported.students) | set(_expected(job, roster)))
         if not imported.count:
             raise ValueError(f"there is no table of answers in {', '.join(job.submissions)}")
-        parts = divided(questions, students, imported.count, job.jobs)
         if sinks.csv is not None:
             sinks.csv.write(HEADER + "\n")
         neighbours = _neighbours(case_store, students)
-        work = MarkingWork(job.course, case_store, store, _shown(paths), neighbours, overrides)
-        found = judged(parts, work, sinks, lambda n: progress("judging", n / imported.count))
+        work = MarkingWork(job.course, case_store, _shown(paths), neighbours, overrides)
+        marker = Marker(work, issues, questions)
+        _judged(store.sorted(), students, marker, sinks, lambda n: progress("judging", n / imported.count))
     finally:
         store.close()
-    for outcome in found:
-        issues.extend(outcome.notes)
-    _note_unmet(overrides, found, job, issues)
+    _note_unmet(overrides, marker, job, issues)
     if neighbours is not None:
-        _note_other_seeds(job, case_store, [one for outcome in found for one in outcome.given], issues)
-    return _graded(found, issues, case_store, imported.count, len(students))
+        _note_other_seeds(job, case_store, marker.given, issues)
+    return _graded(marker, issues, case_store, imported.count, len(students))
 
 
 def _overrides(job: Job, case_store: CaseStore, roster: Roster | None) -> dict[tuple[str, str], Override]:
@@ -273,11 +161,10 @@ def _overrides(job: Job, case_store: CaseStore, roster: Roster | None) -> dict[t
     return found
 
 
-def _note_unmet(overrides: Overrides, found: list[PartOutcome], job: Job, issues: Issues) -> None:
+def _note_unmet(overrides: Overrides, marker: Marker, job: Job, issues: Issues) -> None:
     """Say which marks given by hand meet no line of the results."""
-    met = set().union(*(outcome.overruled for outcome in found))
     for (student, item), override in overrides.items():
-        if (student, item) not in met:
+        if (student, item) not in marker.overruled:
             why = f"{student} owes and gave no answer to {item}, so this mark is for nobody"
             issues.note(job.overrides[-1], override.line, why, serious=True)
 
@@ -351,13 +238,11 @@ def _shown(paths: list[tuple[str, str]]) -> str:
     return ", ".join(names) if len(names) < 4 else f"{names[0]} and {len(names) - 1} other files"
 
 
-def _graded(
-    found: list[PartOutcome], issues: Issues, case_store: CaseStore, rows: int, students: int
-) -> Graded:
-    """The outcomes of all parts together."""
-    counts = added(outcome.counts for outcome in found)
+def _graded(marker: Marker, issues: Issues, case_store: CaseStore, rows: int, students: int) -> Graded:
+    """What the marker found, with what the keys tell of it."""
+    counts = dict(sorted(marker.counted().items()))
     marks = {item: tuple(_marks(case_store, item, c)) for item, c in counts.items()}
-    owing = _together(outcome.owing for outcome in found)
+    owing = {item: tuple(names) for item, names in sorted(marker.owing.items())}
     accepted = {item: words for item in counts if (words := _accepted(case_store, item))}
     return Graded(counts, tuple(issues.entries()), issues.serious, rows, students, marks, owing, accepted)
 
@@ -368,14 +253,6 @@ def _accepted(case_store: CaseStore, item: str) -> str:
         return "" if varied else case_store.key(item).accepted
     except NoKeyError:
         return ""
-
-
-def _together(parts: Iterable[dict[str, list[str]]]) -> dict[str, tuple[str, ...]]:
-    found: dict[str, list[str]] = {}
-    for part in parts:
-        for item, students in part.items():
-            found.setdefault(item, []).extend(students)
-    return {item: tuple(students[:NAMED]) for item, students in sorted(found.items())}
 
 
 def _marks(case_store: CaseStore, item: str, counts: Counts) -> Iterator[tuple[str, float]]:

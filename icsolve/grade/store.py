@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from bisect import bisect_left
 from collections.abc import Iterable, Iterator
 from contextlib import ExitStack
 from itertools import islice
@@ -16,7 +15,7 @@ _CREATE = (
     " attempt text, variant text, time text, trouble text)"
 )
 _INSERT = "insert into s values (?,?,?,?,?,?,?,?,?,?)"
-_SELECT = "select * from s {where} order by student, item, line"
+_SELECT = "select * from s order by student, item, line"
 _BATCH = 5000
 IN_MEMORY = 110_000
 """Submissions that are sorted in memory; more go to disk."""
@@ -61,19 +60,12 @@ class Store:
                 self._few = []
         return count
 
-    @property
-    def path(self) -> str:
-        """The file on disk that another process can read; '' while all is in memory."""
-        return self._disk.path if self._disk is not None else ""
-
-    def sorted(self, since: str | None = None, until: str | None = None) -> Iterator[StoredAnswer]:
-        """Entries by student, question and line, of the students from ``since`` on, before ``until``."""
+    def sorted(self) -> Iterator[StoredAnswer]:
+        """Entries by student, question and line."""
         if self._disk is not None:
-            return self._disk.sorted(since, until)
+            return self._disk.sorted()
         self._few.sort()
-        first = bisect_left(self._few, (since,)) if since is not None else 0
-        last = bisect_left(self._few, (until,)) if until is not None else len(self._few)
-        return islice(self._few, first, last)
+        return iter(self._few)
 
     def close(self) -> None:
         """Forget all, and delete the file."""
@@ -82,18 +74,17 @@ class Store:
 
 
 class Disk:
-    """A temporary database of entries; with a ``path`` one that another process has written."""
+    """A temporary database of entries."""
 
-    def __init__(self, path: str = "") -> None:
+    def __init__(self) -> None:
         import sqlite3
 
         self._own = ExitStack()
-        self.path = path or os.path.join(self._own.enter_context(scratch()), "answers.sqlite")
-        self._database = sqlite3.connect(self.path, isolation_level=None)
+        path = os.path.join(self._own.enter_context(scratch()), "answers.sqlite")
+        self._database = sqlite3.connect(path, isolation_level=None)
         for pragma in ("journal_mode=off", "synchronous=off", "cache_size=-20000", "temp_store=file"):
             self._database.execute(f"pragma {pragma}")
-        if not path:
-            self._database.execute(_CREATE)
+        self._database.execute(_CREATE)
 
     def add(self, entries: list[StoredAnswer]) -> None:
         """Store entries."""
@@ -102,16 +93,13 @@ class Disk:
         cursor.executemany(_INSERT, entries)
         cursor.execute("commit")
 
-    def sorted(self, since: str | None = None, until: str | None = None) -> Iterator[StoredAnswer]:
-        """Entries in order, of the students from ``since`` on, before ``until``."""
-        clauses = [c for c, bound in (("student >= ?", since), ("student < ?", until)) if bound is not None]
-        where = f"where {' and '.join(clauses)}" if clauses else ""
-        bounds = [bound for bound in (since, until) if bound is not None]
-        cursor = self._database.execute(_SELECT.format(where=where), bounds)
+    def sorted(self) -> Iterator[StoredAnswer]:
+        """Entries in order."""
+        cursor = self._database.execute(_SELECT)
         while batch := cursor.fetchmany(_BATCH):
             yield from map(StoredAnswer._make, batch)
 
     def close(self) -> None:
-        """Close, and delete what is one's own."""
+        """Close and delete it."""
         self._database.close()
         self._own.close()

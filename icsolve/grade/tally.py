@@ -1,4 +1,4 @@
-"""Counts of a class: verdicts, mistakes and answers of each question, small enough to add up and to send."""
+"""Counts of a class: verdicts, mistakes and answers of each question, in little memory."""
 
 from __future__ import annotations
 
@@ -109,22 +109,3 @@ def _with(counts: Counts, marked: list[Marked], band: tuple[float, float] | None
 def _common(texts: Counter[str]) -> Counter[str]:
     """The commonest of too many texts."""
     return texts if len(texts) <= _MOST_TEXTS else Counter(dict(texts.most_common(_MOST_TEXTS // 2)))
-
-
-def added(parts: Iterable[dict[str, Counts]]) -> dict[str, Counts]:
-    """Counts of several groups of students together."""
-    total: dict[str, Counts] = {}
-    for part in parts:
-        for item, counts in part.items():
-            a, b = total.get(item) or empty(), counts
-            total[item] = Counts(
-                a.verdicts + b.verdicts,
-                a.mistakes + b.mistakes,
-                a.bins + b.bins,
-                a.unread + b.unread,
-                a.score + b.score,
-                a.max_score + b.max_score,
-                _common(a.texts + b.texts),
-                _common(a.unexplained + b.unexplained),
-            )
-    return dict(sorted(total.items()))
