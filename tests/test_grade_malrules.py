@@ -16,7 +16,7 @@ from icsolve.grade.course import Course
 from icsolve.grade.keys import Key
 from icsolve.grade.mistakes import CODES, Wrong, WrongAnswers, Wrongs, message
 from icsolve.grade.mistakes import solved_for as solved
-from icsolve.grade.mistakes.steps import shares
+from icsolve.grade.mistakes.engine import shares
 
 CAM = """\
 icsolve: 1

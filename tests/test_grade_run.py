@@ -13,8 +13,8 @@ import pytest
 
 from grade_bench import CASES, write_class
 from grade_shell import PRESS, Class
+from icsolve.grade.importing import Store
 from icsolve.grade.run import Job, Sinks, grade
-from icsolve.grade.store import Store
 from icsolve.grade.timestamps import timestamp
 
 

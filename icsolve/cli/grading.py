@@ -298,10 +298,10 @@ def _regraded(results: str, options: dict[str, Any]) -> str:
 def _pages(graded: Graded, job: Job, results: str, options: dict[str, Any]) -> None:
     """The page for the teacher, and one for each student."""
     from icsolve.files import write_whole
-    from icsolve.grade.page import page, student_page
     from icsolve.grade.results import by_student
     from icsolve.grade.roster import read_roster
     from icsolve.grade.statistics import statistics
+    from icsolve.grade.summary import page, student_page
     from icsolve.grade.variants.sheets import file_name
 
     if options["html"]:

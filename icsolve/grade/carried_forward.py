@@ -13,14 +13,14 @@ from typing import NamedTuple
 from icsolve.answer import Answer
 from icsolve.case import CentreIs, DistanceIs, Load, RateIs, RatioIs, SpeedIs, Target
 from icsolve.grade.case_store import CaseStore
+from icsolve.grade.importing import StoredAnswer
 from icsolve.grade.judge import WRONG, feedback, share_of
 from icsolve.grade.keys import Key, PlaceKey
 from icsolve.grade.mistakes import Wrong, WrongAnswers
 from icsolve.grade.mistakes.changed import Place
-from icsolve.grade.mistakes.steps import centres_of
+from icsolve.grade.mistakes.engine import centres_of
 from icsolve.grade.results import Marked
 from icsolve.grade.solved import Solved, unknowns
-from icsolve.grade.store import StoredAnswer
 from icsolve.grade.tolerance import NoKeyError
 
 Scales = Mapping[str, float]

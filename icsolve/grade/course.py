@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 
 from icsolve.case import Tolerance
 from icsolve.errors import CaseError
-from icsolve.grade.mistakes.codes import CODES
+from icsolve.grade.mistakes.lookup import CODES
 from icsolve.grade.tolerance import DEFAULT
 from icsolve.read.document import Mapping, Node, Scalar, checked, is_null, parse, text_of
 from icsolve.read.expect import tolerance_of

@@ -1,20 +1,22 @@
-"""Files of answers into the store: students matched, questions named, attempts and times read."""
+"""Files of answers into the store: students matched, questions named, attempts and times read; what could not
+be graded, matched or read, by reason, each with its lines.
+"""
 
 from __future__ import annotations
 
 import io
 import os
 import sys
+from array import array
 from collections.abc import Callable, Iterable, Iterator
-from itertools import islice
-from typing import IO
+from contextlib import ExitStack
+from itertools import islice, pairwise
+from typing import IO, NamedTuple
 
-from icsolve.files import is_plain, reading
+from icsolve.files import is_plain, reading, scratch
 from icsolve.grade.case_store import CaseStore
-from icsolve.grade.issues import Issues
 from icsolve.grade.results import HEADER
 from icsolve.grade.roster import Roster
-from icsolve.grade.store import Store, StoredAnswer
 from icsolve.grade.tables import Columns, HeaderError, Submission, Table, TableLayout, recognise
 from icsolve.grade.tables.columns import is_spoilt
 from icsolve.grade.tables.hand_ins import METADATA, exported, submissions
@@ -244,3 +246,167 @@ def expand(paths: Iterable[str]) -> list[tuple[str, str]]:
             inside = (os.path.join(path, name) for name in names)
             found += [(name, "") for name in inside if is_plain(name) and not _are_results(name)]
     return found
+
+
+LISTED = 40
+"""Ranges of lines that a reason shows before it says how many more there are."""
+
+
+MOST = 500
+"""Reasons that are told one by one."""
+OTHERS = "these rows were not graded either, each for the reason that stands in its line of the results"
+OTHER_NOTES = "a note like those above, which were the first"
+
+
+class Issue(NamedTuple):
+    """One reason with its lines; ``serious`` where an answer was not graded for it."""
+
+    path: str
+    reason: str
+    lines: tuple[int, ...]
+    serious: bool
+
+    def __str__(self) -> str:
+        first = f"{self.path}:{self.lines[0]}: " if self.lines and self.lines[0] else f"{self.path}: "
+        more = f" (and {ranges(self.lines[1:])})" if len(self.lines) > 1 else ""
+        return f"{first}{self.reason}{more}"
+
+
+class Issues:
+    """Reasons in the order in which they were met."""
+
+    def __init__(self) -> None:
+        self._lines: dict[tuple[str, str, bool], array[int]] = {}
+
+    def note(self, path: str, line: int, reason: str, serious: bool = False) -> None:
+        """A line of a file and what is wrong there; line 0 for the file itself."""
+        key = (path, _on_one_line(reason), serious)
+        if key not in self._lines and len(self._lines) >= MOST:
+            key = (path, OTHERS if serious else OTHER_NOTES, serious)
+        self._lines.setdefault(key, array("q")).append(line)
+
+    def entries(self) -> Iterator[Issue]:
+        """Every reason, those of the earliest lines first."""
+        found = [
+            Issue(path, reason, tuple(sorted(set(at))), s) for (path, reason, s), at in self._lines.items()
+        ]
+        yield from sorted(found, key=lambda entry: (entry.path, entry.lines[:1], entry.reason))
+
+    @property
+    def serious(self) -> bool:
+        """Whether any answer could not be graded."""
+        return any(serious for _, _, serious in self._lines)
+
+
+def ranges(lines: tuple[int, ...]) -> str:
+    """``lines 3, 5-9``."""
+    runs: list[list[int]] = [[lines[0], lines[0]]]
+    for before, line in pairwise(lines):
+        if line == before + 1:
+            runs[-1][1] = line
+        else:
+            runs.append([line, line])
+    shown = ", ".join(f"{a}-{b}" if b > a else str(a) for a, b in runs[:LISTED])
+    more = sum(b - a + 1 for a, b in runs[LISTED:])
+    word = "line" if len(lines) == 1 else "lines"
+    return f"{word} {shown}" + (f" and {more} more" if more else "")
+
+
+def _on_one_line(text: str) -> str:
+    """Without what could break or colour a terminal."""
+    return "".join(c if c.isprintable() else " " for c in text[:600])
+
+
+_CREATE = (
+    "create table s (student text, item text, line integer, answer text, unit text, direction text,"
+    " attempt text, variant text, time text, trouble text)"
+)
+_INSERT = "insert into s values (?,?,?,?,?,?,?,?,?,?)"
+_SELECT = "select * from s order by student, item, line"
+_BATCH = 5000
+IN_MEMORY = 110_000
+"""Submissions that are sorted in memory; more go to disk."""
+
+
+class StoredAnswer(NamedTuple):
+    """A submission as stored; ``item`` is the question. Order by the first three is the order of results."""
+
+    student: str
+    item: str
+    line: int
+    answer: str = ""
+    unit: str = ""
+    direction: str = ""
+    attempt: str = ""
+    variant: str = ""
+    time: str = ""
+    trouble: str = ""
+
+
+class Store:
+    """Entries; those on disk are in a temporary file, gone when closed."""
+
+    def __init__(self, most: int = IN_MEMORY) -> None:
+        self._few: list[StoredAnswer] = []
+        self._most = most
+        self._disk: Disk | None = None
+
+    def add(self, entries: Iterable[StoredAnswer]) -> int:
+        """Store entries; how many there were."""
+        count = 0
+        source = iter(entries)
+        while batch := list(islice(source, _BATCH)):
+            count += len(batch)
+            if self._disk is not None:
+                self._disk.add(batch)
+                continue
+            self._few += batch
+            if len(self._few) > self._most:
+                self._disk = Disk()
+                self._disk.add(self._few)
+                self._few = []
+        return count
+
+    def sorted(self) -> Iterator[StoredAnswer]:
+        """Entries by student, question and line."""
+        if self._disk is not None:
+            return self._disk.sorted()
+        self._few.sort()
+        return iter(self._few)
+
+    def close(self) -> None:
+        """Forget all, and delete the file."""
+        if self._disk is not None:
+            self._disk.close()
+
+
+class Disk:
+    """A temporary database of entries."""
+
+    def __init__(self) -> None:
+        import sqlite3
+
+        self._own = ExitStack()
+        path = os.path.join(self._own.enter_context(scratch()), "answers.sqlite")
+        self._database = sqlite3.connect(path, isolation_level=None)
+        for pragma in ("journal_mode=off", "synchronous=off", "cache_size=-20000", "temp_store=file"):
+            self._database.execute(f"pragma {pragma}")
+        self._database.execute(_CREATE)
+
+    def add(self, entries: list[StoredAnswer]) -> None:
+        """Store entries."""
+        cursor = self._database.cursor()
+        cursor.execute("begin")
+        cursor.executemany(_INSERT, entries)
+        cursor.execute("commit")
+
+    def sorted(self) -> Iterator[StoredAnswer]:
+        """Entries in order."""
+        cursor = self._database.execute(_SELECT)
+        while batch := cursor.fetchmany(_BATCH):
+            yield from map(StoredAnswer._make, batch)
+
+    def close(self) -> None:
+        """Close and delete it."""
+        self._database.close()
+        self._own.close()

@@ -21,9 +21,8 @@ from icsolve.grade.mistakes import Wrong, message, together
 from icsolve.grade.tolerance import SLACK
 from icsolve.grade.written import MISSING, NO_NUMBER, UNREAD, Direction, Written, figures
 from icsolve.grade.written.answer import Combined, flagged
-from icsolve.grade.written.characters import plain
 from icsolve.grade.written.directions import direction as direction_of
-from icsolve.grade.written.numerals import AMBIGUOUS
+from icsolve.grade.written.numerals import AMBIGUOUS, plain
 from icsolve.grade.written.two_numbers import WrittenPlace, WrittenRange, read_place, read_range
 from icsolve.grade.written.units import CASE, ENERGY, unit_word
 

@@ -8,13 +8,12 @@ from operator import itemgetter
 from typing import TYPE_CHECKING, NamedTuple
 
 from icsolve.grade.carried_forward import CarriedForward
-from icsolve.grade.issues import Issues
+from icsolve.grade.importing import Issues, StoredAnswer
 from icsolve.grade.judge import IN_REVIEW, RIGHT, WRONG, Judgement, feedback, judge_answer
 from icsolve.grade.keys import AnyKey, Key, PlaceKey, unit_factor
 from icsolve.grade.mistakes import Wrong
 from icsolve.grade.results import OVERRIDE, Marked, Result
-from icsolve.grade.store import StoredAnswer
-from icsolve.grade.tally import Counts, Tally
+from icsolve.grade.statistics import Counts, Tally
 from icsolve.grade.timestamps import NEVER, attempt_number, readings
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.written import MISSING, Reader, Written

@@ -7,21 +7,19 @@ from typing import IO, TYPE_CHECKING, NamedTuple
 
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
-from icsolve.grade.importing import Import, expand
-from icsolve.grade.issues import Issue, Issues
+from icsolve.grade.importing import Import, Issue, Issues, Store, StoredAnswer, expand
 from icsolve.grade.keys import Key
 from icsolve.grade.marking import GivenValue, Marker
 from icsolve.grade.results import HEADER, json_line, line
 from icsolve.grade.roster import Roster, read_roster
 from icsolve.grade.solved import unknowns
-from icsolve.grade.store import Store, StoredAnswer
+from icsolve.grade.statistics import Counts
 from icsolve.grade.tables import HeaderError
-from icsolve.grade.tally import Counts
 from icsolve.grade.tolerance import NoKeyError
 
 if TYPE_CHECKING:
     from icsolve.grade.regrade import Override, Overrides
-    from icsolve.grade.variants.others import Neighbours
+    from icsolve.grade.variants.record import Neighbours
 
 _STEP = 5000
 """Results between two reports of progress."""
@@ -192,14 +190,14 @@ def _neighbours(case_store: CaseStore, students: Iterable[str]) -> Neighbours | 
     """The right answers of all students, where a case gives each other numbers."""
     if not case_store.varied:
         return None
-    from icsolve.grade.variants.others import Neighbours
+    from icsolve.grade.variants.record import Neighbours
 
     return Neighbours(case_store, students)
 
 
 def _note_other_seeds(job: Job, case_store: CaseStore, given: list[GivenValue], issues: Issues) -> None:
     """Say of a case most of whose answers are to the numbers of another seed which one that is."""
-    from icsolve.grade.variants.others import other_seed
+    from icsolve.grade.variants.record import other_seed
 
     for name in dict.fromkeys(one.question.partition(":")[0] for one in given):
         varied = case_store.variation(name)

@@ -1,11 +1,19 @@
-"""Results written for a platform: one function a kind, all from the lines of ``results.csv``."""
+"""Results written for a platform: one function a kind, all from the lines of ``results.csv``; among them what
+automatic graders read.
+
+An answer that was not judged costs nothing: PrairieLearn takes it back as a format error, Gradescope shows it
+as a test of zero points out of zero.
+"""
 
 from __future__ import annotations
 
+import csv
+import io
 import json
 import os
-from collections.abc import Callable
-from typing import NamedTuple
+from collections.abc import Callable, Iterable
+from html import escape
+from typing import Any, NamedTuple
 
 from icsolve.files import check_free, write_whole
 from icsolve.grade.platforms.gradebooks import (
@@ -14,12 +22,6 @@ from icsolve.grade.platforms.gradebooks import (
     gradebook_filled,
     moodle_filled,
     moodle_worksheet,
-)
-from icsolve.grade.platforms.graders import (
-    gradescope_results,
-    junit_report,
-    prairielearn_results,
-    prairielearn_scores,
 )
 from icsolve.grade.results import ResultRow, by_student, read_results
 from icsolve.grade.roster import Person
@@ -64,7 +66,7 @@ def _gradebook(order: PlatformFile) -> str:
     """Canvas, new or the teacher's own; of other platforms the teacher's own."""
     students = by_student(order.results)
     if order.template:
-        return _filled(order, gradebook_filled(_text(order.template), students, order.people, order.total))
+        return _filled(order, gradebook_filled(_content(order.template), students, order.people, order.total))
     write_whole(order.path, canvas_gradebook(students, order.people, order.total), order.force)
     return ""
 
@@ -80,7 +82,7 @@ def _moodle(order: PlatformFile) -> str:
     if not order.template:
         write_whole(order.path, moodle_worksheet(students, order.people), order.force)
         return ""
-    return _filled(order, moodle_filled(_text(order.template), students, order.people))
+    return _filled(order, moodle_filled(_content(order.template), students, order.people))
 
 
 def _filled(order: PlatformFile, made: Filled) -> str:
@@ -92,7 +94,7 @@ def _filled(order: PlatformFile, made: Filled) -> str:
     return f"{order.path}: marks of {len(made.placed)} students of {order.template}{missing}"
 
 
-def _text(path: str) -> str:
+def _content(path: str) -> str:
     """The text of a template, which may be filled where it lies if it is named as the target too."""
     with open(path, "rb") as file:
         data = file.read()
@@ -139,3 +141,139 @@ KINDS: dict[str, Callable[[PlatformFile], str]] = {
     "junit": _junit,
 }
 """Every kind by its name on the command line."""
+
+
+_STATUS = {"right": "passed"}
+
+
+def _told(rows: list[ResultRow]) -> str:
+    judged = [row for row in rows if row.score is not None]
+    waiting = len(rows) - len(judged)
+    said = f"{sum(row.verdict == 'right' for row in judged)} of {len(judged)} answers are right."
+    return said if not waiting else f"{said} {waiting} not judged yet."
+
+
+def gradescope_results(rows: Iterable[ResultRow]) -> dict[str, Any]:
+    """The object of ``results.json`` for one student's rows."""
+    rows = list(rows)
+    return {
+        "score": sum(row.score or 0.0 for row in rows),
+        "output": _told(rows),
+        "output_format": "text",
+        "visibility": "visible",
+        "stdout_visibility": "hidden",
+        "tests": [_test(row, number) for number, row in enumerate(rows, 1)],
+        "extra_data": {"schema": "icsolve/grade/1"},
+    }
+
+
+def _test(row: ResultRow, number: int) -> dict[str, Any]:
+    answer = f"Your answer: {row.raw_answer}\n" if row.raw_answer else ""
+    return {
+        "score": row.score or 0.0,
+        "max_score": row.max_score if row.score is not None else 0.0,
+        "status": _STATUS.get(row.verdict, "failed"),
+        "name": row.case,
+        "name_format": "text",
+        "number": str(number),
+        "output": f"{answer}{row.feedback}",
+        "output_format": "text",
+        "tags": [tag for tag in (row.verdict, *row.code.split()) if tag],
+        "visibility": "visible",
+        "extra_data": {"verdict": row.verdict, "code": row.code, "variant": row.variant},
+    }
+
+
+def prairielearn_results(rows: Iterable[ResultRow]) -> dict[str, Any]:
+    """The object of ``/grade/results/results.json`` for one student; what was not judged costs no attempt."""
+    rows = list(rows)
+    judged = [row for row in rows if row.score is not None]
+    most = sum(row.max_score for row in judged)
+    entry: dict[str, Any] = {
+        "gradable": len(judged) == len(rows),
+        "score": sum(row.score or 0.0 for row in judged) / most if most else 0.0,
+        "message": _told(rows),
+        "tests": [_points(row) for row in judged],
+    }
+    if len(judged) < len(rows):
+        entry["format_errors"] = [f"{row.case}: {row.feedback}" for row in rows if row.score is None]
+    return entry
+
+
+def _points(row: ResultRow) -> dict[str, Any]:
+    return {
+        "name": row.case,
+        "description": f"Your answer: {row.raw_answer[:200]}" if row.raw_answer else "No answer",
+        "points": row.score,
+        "max_points": row.max_score,
+        "message": row.feedback,
+        "output": row.code,
+    }
+
+
+def prairielearn_scores(students: Iterable[tuple[str, list[ResultRow]]]) -> str:
+    """``uid,instance,qid,score_perc,feedback``, to be uploaded as manual grades; only what was judged."""
+    out = io.StringIO()
+    table = csv.writer(out, lineterminator="\n")
+    table.writerow(("uid", "instance", "qid", "score_perc", "feedback"))
+    for student, rows in students:
+        for row in rows:
+            if student and row.score is not None:
+                percent = 100.0 * row.score / row.max_score if row.max_score else 0.0
+                table.writerow((student, "1", row.case, f"{percent:.6g}", row.feedback))
+    return out.getvalue()
+
+
+# --- JUnit ------------------------------------------------------------------------------------------
+
+_WRONG, _UNREAD, _OPEN = ("wrong",), ("invalid",), ("review", "missing")
+
+
+def junit_report(rows: Iterable[ResultRow]) -> str:
+    """The report of all results: a suite a question, a test a student."""
+    suites: dict[str, list[ResultRow]] = {}
+    for row in rows:
+        suites.setdefault(row.case, []).append(row)
+    body = "".join(_suite(case, own) for case, own in sorted(suites.items()))
+    counts = _counts([row for own in suites.values() for row in own])
+    head = '<?xml version="1.0" encoding="UTF-8"?>'
+    return f'{head}\n<testsuites name="icsolve grade" {counts}>\n{body}</testsuites>\n'
+
+
+def _counts(rows: list[ResultRow]) -> str:
+    def count(verdicts: tuple[str, ...]) -> int:
+        return sum(row.verdict in verdicts for row in rows)
+
+    bad = f'failures="{count(_WRONG)}" errors="{count(_UNREAD)}" skipped="{count(_OPEN)}"'
+    return f'tests="{len(rows)}" {bad} time="0"'
+
+
+def _suite(case: str, rows: list[ResultRow]) -> str:
+    tests = "".join(_testcase(row) for row in rows)
+    return f"<testsuite name={_attribute(case)} {_counts(rows)}>\n{tests}</testsuite>\n"
+
+
+def _testcase(row: ResultRow) -> str:
+    head = (
+        f'<testcase classname={_attribute(row.case)} name={_attribute(row.student_id or "(no id)")} time="0"'
+    )
+    if row.verdict == "right":
+        return f"{head}/>\n"
+    said = f"message={_attribute(row.code or row.verdict)}"
+    if row.verdict in _OPEN:
+        return f"{head}><skipped {said}/></testcase>\n"
+    tag = "failure" if row.verdict in _WRONG else "error"
+    return f"{head}><{tag} {said} type={_attribute(row.verdict)}>{_text(row.feedback)}</{tag}></testcase>\n"
+
+
+def _attribute(text: str) -> str:
+    return f'"{escape(_printable(text))}"'
+
+
+def _text(text: str) -> str:
+    return escape(_printable(text), quote=False)
+
+
+def _printable(text: str) -> str:
+    """Without the characters that XML has no place for."""
+    return "".join(c if c in "\t\n\r" or (c >= " " and c not in "\ufffe\uffff") else "?" for c in text)

@@ -8,11 +8,10 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-from icsolve.grade.written.characters import plain
 from icsolve.grade.written.directions import AMBIGUOUS as AMBIGUOUS_DIRECTION
 from icsolve.grade.written.directions import Direction, direction
 from icsolve.grade.written.numerals import AMBIGUOUS as AMBIGUOUS_NUMBER
-from icsolve.grade.written.numerals import UNREAD, Numeral, numeral
+from icsolve.grade.written.numerals import UNREAD, Numeral, numeral, plain
 from icsolve.grade.written.units import AMBIGUOUS as AMBIGUOUS_UNIT
 from icsolve.grade.written.units import UnitWord, unit_word
 from icsolve.units import DIMENSIONS
