@@ -214,6 +214,36 @@ def test_a_handle_is_dragged_by_mouse_and_by_finger(shown: Any) -> None:
         assert found == pytest.approx(values["T12"], rel=1e-9)
 
 
+@pytest.mark.parametrize("name", ["linkages/four_bar", "sliders/slider_crank_in_line"])
+def test_the_numbers_follow_the_turn_and_the_turn_the_numbers(name: str, shown: Any) -> None:
+    """What the fields say solves to what is shown: turned, then with another load; to seven digits each."""
+    path = ROOT / f"{name}.yaml"
+    page = shown(path, moves=True)
+    answer = (
+        "const e = document.getElementById('answer-T12'); return [Number(e.dataset.value), e.dataset.status]"
+    )
+    turn = """const slider = document.getElementById('turn'); slider.value = arguments[0];
+        slider.dispatchEvent(new Event('input'))"""
+    written = dict(zip(*page.run(FIELDS), strict=True))
+    page.run(turn, "25")
+    load = next(p for p in written if p.startswith("loads.") and p.count(".") == 1)
+    more = repr(2.0 * float(written[load]))
+    for change in ({}, {load: more}):
+        if change:
+            page.run(
+                """const field = document.getElementById('number-' + arguments[0]);
+                field.value = arguments[1]; field.dispatchEvent(new Event('input'));""",
+                load,
+                more,
+            )
+        now = dict(zip(*page.run(FIELDS), strict=True))
+        assert now != written
+        status, values = solved(path, now) or ("", {})
+        assert page.run(answer) == [pytest.approx(values["T12"], rel=1e-5), status]
+    page.click("#reset")
+    assert dict(zip(*page.run(FIELDS), strict=True)) == written
+
+
 def test_a_crank_is_turned_by_its_handle_and_by_keys(shown: Any) -> None:
     page = shown(LENGTHS)
     page.press("#handle-B", "left", "left", "up")

@@ -143,8 +143,9 @@ PARTS = tuple("data scene live moving centres labels words position construction
 
 @cache
 def _parts() -> str:
-    """What is the same in the script of every page."""
-    return "".join((HERE / "script" / f"{part}.js").read_text(encoding="utf-8") for part in PARTS)
+    """What is the same in the script of every page, without its comments and indents."""
+    text = "".join((HERE / "script" / f"{part}.js").read_text(encoding="utf-8") for part in PARTS)
+    return re.sub(r"^\s*/\*.*?\*/\s*|^\s+", "", text, flags=re.MULTILINE | re.DOTALL)
 
 
 def script(live: Live | None) -> str:
@@ -291,8 +292,8 @@ def _see(parts: Parts) -> str:
     items = "".join(f"<li>{row}</li>" for row in rows if row)
     return (
         f'<section aria-label="Show" id="see"><h2>Show</h2><ul class="lines boxes">{items}</ul>\n'
-        '<p class="hint" id="see-hint" role="status"></p>\n'
-        '<div id="body-panel" hidden><svg class="ic" id="body-figure" viewBox="0 0 600 300" role="img" '
+        '<p class="hint" id="see-hint"></p>\n'
+        '<div id="body-panel" hidden><svg class="ic" id="body-figure" viewBox="0 40 600 220" role="img" '
         'aria-label="Free body and force polygon"></svg>\n<p id="body-said" aria-live="polite"></p></div>'
         "</section>"
     )

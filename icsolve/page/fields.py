@@ -247,6 +247,8 @@ def section(case: Case) -> str:
     )
     return (
         '<section aria-label="Numbers" id="numbers"><h2>The numbers: change any</h2>\n'
+        '<p class="fine"><label for="fine" id="fine-name">Tap a number for its slider.</label>'
+        '<input type="range" id="fine" autocomplete="off" disabled></p>\n'
         f"{groups}\n"
         '<p class="hint" id="live-hint" role="status"></p>\n'
         '<div class="row"><button type="button" id="reset">As written</button>'

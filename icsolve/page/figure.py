@@ -241,7 +241,8 @@ def _told(scene: Scene, label: Label, group: Group) -> Group:
     x, y = _middle(group)
     data: Data = (("data-x", f"{x:.1f}"), ("data-y", f"{y:.1f}"))
     key = {"point": "data-at", "number": "data-on", "label": "data-label"}[kind]
-    return group._replace(data=((key, name), *data), kind="label")
+    own = f"link-number-{name}" if kind == "number" else group.name  # the fields of the page are number-PATH
+    return group._replace(name=own, data=((key, name), *data), kind="label")
 
 
 def _middle(group: Group) -> Point:

@@ -7,12 +7,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from itertools import groupby
 from typing import Any
 
 import numpy as np
 
 from icsolve.answer import Centre, Found
+from icsolve.assembly import case_point, solve_figure
 from icsolve.case import Force, Pair, Spring, TorsionSpring, Toward, Weight
 from icsolve.case.names import pair_name
 from icsolve.derivation import Acting, Known, Step, acting_loads
@@ -21,10 +23,11 @@ from icsolve.draw.marks import Point, View
 from icsolve.draw.scene import Scene
 from icsolve.draw.svg import identifier
 from icsolve.draw.words import centre_runs, figure_number, name_runs, unit_word
-from icsolve.errors import Status
+from icsolve.errors import SceneError, Status
 from icsolve.page.figure import Figure
 from icsolve.page.live import Live
 from icsolve.page.motion import FINE, Array, Motion, compact, exact, moved, moves
+from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.wording.senses import holding, sense_as, spelt, unit_of
 
 # --- loads through a motion ------------------------------------------------------------------------------
@@ -165,25 +168,46 @@ def model_of(
         "answers": _answers(known, motion, loads),
     }
     if motion is not None:
-        data["motion"] = motion_data(known, view, motion)
+        told = live is not None and live.data["moves"]
+        data["motion"] = motion_data(known, view, motion, FINE["told"] if told else FINE["px"])
     if live is not None:
-        data["live"] = {**live.data, **_drive(motion, live)}
+        data["live"] = {**live.data, **_drive(known, motion, live)}
         data |= {"view": [view.scale, *view.origin], "statuses": HINTS}
     return data
 
 
-def _drive(motion: Motion | None, live: Live) -> dict[str, int]:
+def _drive(known: Known, motion: Motion | None, live: Live) -> dict[str, int]:
     """The number that turns the input, where one does: its place among the inputs of the program."""
     driven = live.data["links"].get(motion.driver, ()) if motion is not None else ()
     for point in driven:
         for kind, number, *rest in live.data["handles"].get(point, ()):
-            if kind == "turn" and rest[0] in driven and rest[1] == 1:
+            turns = kind == "turn" and rest[0] in driven and rest[1] == 1
+            if motion is not None and turns and _is_the_turn(known, motion, live.data["paths"][number]):
                 return {"drive": number}
     return {}
 
 
-def motion_data(known: Known, view: View, motion: Motion) -> dict[str, Any]:
-    """Degrees, poses of links and places of points in the rows that assemble."""
+def _is_the_turn(known: Known, motion: Motion, path: str) -> bool:
+    """Whether the case with another number at a path is the mechanism turned so far, and not one of another
+    shape."""
+    ends = (motion.first, motion.last)
+    for row in {(motion.zero + end) // 2 for end in ends} | {(3 * motion.zero + end) // 4 for end in ends}:
+        value = numbers_of(known.case)[path].value + float(motion.degrees[row])
+        places = {name: column[row] for name, column in motion.found.points.items()}
+        near = {name: (float(places[name][0]), float(places[name][1])) for name in known.case.near}
+        turned = replace(with_numbers(known.case, {path: value}), near=near)
+        try:
+            figure = solve_figure(turned, list(places))
+        except SceneError:
+            return False
+        found = {name: case_point(figure.frame, figure.points[name]) for name in places}
+        if any(math.dist(found[name], at) > 1e-6 * known.size for name, at in places.items()):
+            return False
+    return True
+
+
+def motion_data(known: Known, view: View, motion: Motion, fine: int = FINE["px"]) -> dict[str, Any]:
+    """Degrees, poses of links and places of points (in steps of 1 / ``fine``) in the rows that assemble."""
     rows = slice(motion.first, motion.last + 1)
     degrees = motion.degrees
     step = float(degrees[1] - degrees[0])
@@ -203,7 +227,7 @@ def motion_data(known: Known, view: View, motion: Motion) -> dict[str, Any]:
         "hints": _hints(motion),
         "links": _links(known, view, motion, rows),
         "points": {
-            name: _place(view, column[rows, 0], column[rows, 1])
+            name: _place(view, column[rows, 0], column[rows, 1], fine)
             for name, column in {**motion.found.points, **_contacts(known, motion, rows)}.items()
             if moves(column[rows, 0] * view.scale, FINE["px"])
             or moves(column[rows, 1] * view.scale, FINE["px"])
@@ -251,10 +275,10 @@ def _links(known: Known, view: View, motion: Motion, rows: slice) -> dict[str, A
     return found
 
 
-def _place(view: View, x: Array, y: Array) -> dict[str, Any]:
+def _place(view: View, x: Array, y: Array, fine: int = FINE["px"]) -> dict[str, Any]:
     across = (x - view.origin[0]) * view.scale
     down = (view.origin[1] - y) * view.scale
-    return {"x": compact(across, FINE["px"]), "y": compact(down, FINE["px"])}
+    return {"x": compact(across, fine), "y": compact(down, fine)}
 
 
 def _anchors(known: Known, steps: Sequence[Step], figure: Figure) -> dict[str, list[float]]:

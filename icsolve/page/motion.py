@@ -521,8 +521,9 @@ def _zero(load: Load) -> Load:
 
 # --- columns of numbers -----------------------------------------------------------------------------------
 
-FINE = {"px": 10, "deg": 100}
-"""Steps a picture unit, or a degree: a tenth of a unit, a hundredth of a degree."""
+FINE = {"px": 10, "deg": 100, "told": 100_000}
+"""Steps a picture unit, or a degree: a tenth of a unit, a hundredth of a degree; of a point whose place is
+read as a number, far finer."""
 FAR = 1e5
 """Numbers beyond this are written plainly, to five significant digits."""
 DIGITS = 12

@@ -17,6 +17,7 @@ function numberIn(text, bound) {
 function leave() {
   if (!live || !scene.changed) return;
   scene.changed = false;
+  byId("mechanism").classList.remove("stale");
   writtenNumbers();
   fit([]);
 }
@@ -40,10 +41,11 @@ function changed(dragged, driven = false, pulled = null) {
   row = LIVE;
   if (hint) hint.textContent = "";
   const words = data.statuses[scene.status] || "";
-  liveHint.textContent = scene.status === "ok" ? "" : `${scene.status}: ${scene.words ? scene.words + "." : words}`;
+  liveHint.textContent = scene.status === "ok" ? "" : `No answer (${scene.status}): ${scene.words ? scene.words + "." : words}`;
   const drives = motion && live.drive !== undefined;
   if (slider) slider.value = String(drives ? numbers[live.drive] - live.numbers[live.drive] : 0);
   if (hint && !drives) hint.textContent = "The slider turns the mechanism as it is written.";
+  byId("mechanism").classList.toggle("stale", scene.status !== "ok" && !scene.placed);
   if (!dragged) fitNow();
   render();
   placeHandles();
@@ -54,6 +56,23 @@ function drive(degrees) {
   const n = live.drive;
   enter(n, tidy(live.numbers[n] + degrees, 1e-6), 0.05, number(live.numbers[n] + degrees, 8).replace("−", "-"));
   changed(true, true);
+}
+/* The fields tell the position that the turn shows, where numbers of the case can. */
+function follow(r) {
+  const some = numbersAt(r);
+  if (!some) return;
+  some.forEach((value, n) => {
+    if (r === zero) enter(n, live.numbers[n], live.firstHalves[n], live.texts[n]);
+    else if (value !== live.numbers[n]) {
+      const shown = Number(value.toPrecision(7));
+      enter(n, shown, 0, String(shown));
+    }
+  });
+  try {
+    laboratory.followed();
+  } catch (refusal) {
+    if (!(refusal instanceof Refusal)) throw refusal;
+  }
 }
 const tidy = (value, unit) => Number((Math.round(value / unit) * unit).toFixed(Math.max(0, -Math.floor(Math.log10(unit)))));
 
@@ -195,7 +214,7 @@ if (live) {
   live.firstHalves = [...live.halves];
   live.texts = live.paths.map((_, n) => (fieldOf(n) ? fieldOf(n).value : ""));
   live.text = live.text || { set: [], at: [], near: {} };
-  const fine = make0("input", { type: "range", class: "fine", id: "fine" });
+  const fine = byId("fine");
   live.paths.forEach((path, n) => {
     const field = fieldOf(n);
     if (!field) return;
@@ -220,9 +239,9 @@ if (live) {
       set(fine, "min", Math.max(tidy(numbers[n] - reach, unit), low));
       set(fine, "max", tidy(numbers[n] + reach, unit));
       fine.value = String(numbers[n]);
-      set(fine, "aria-label", field.getAttribute("aria-label"));
+      byId("fine-name").textContent = field.getAttribute("aria-label");
       fine.dataset.n = n;
-      field.closest("li").appendChild(fine);
+      fine.disabled = false;
     });
   });
   fine.addEventListener("input", () => {
@@ -248,9 +267,4 @@ if (live) {
   placeHandles();
   if (location.hash.length > 1) fromAddress();
   window.addEventListener("hashchange", fromAddress);
-}
-function make0(name, attributes) {
-  const e = document.createElement(name);
-  for (const [key, value] of Object.entries(attributes)) set(e, key, value);
-  return e;
 }

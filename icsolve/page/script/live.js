@@ -147,10 +147,11 @@ function fillAnswers(solved) {
 /* The scene for the present numbers: as they are typed, or on from where it is. */
 function resolve(dragged, pulled) {
   let solved = null;
-  [scene.status, scene.words] = ["ok", ""];
+  [scene.status, scene.words, scene.placed] = ["ok", "", false];
   try {
     if (dragged) laboratory.followed(pulled);
     else laboratory.typed();
+    scene.placed = true;
     fillPlaces();
     fillLinks(ownOf(live, laboratory.scene()[3]));
     solved = solvedScene(live, numbers, laboratory);

@@ -51,6 +51,7 @@ function moveTo(r, beyond = "") {
   }
   leave();
   row = Math.max(0, Math.min(rows - 1, Math.round(r)));
+  if (live) follow(row);
   slider.value = String(degreesOf(row));
   hint.textContent = hintOf(row, beyond);
   render();

@@ -80,9 +80,9 @@ function drawVelocities(state) {
   const most = Math.max(...some.map(({ v }) => Math.hypot(...v)));
   for (const { name, v } of most > 0 ? some : []) {
     const [u, w] = [(v[0] / most) * FASTEST, (-v[1] / most) * FASTEST];
-    const speed = number(Math.hypot(...v) / live.frame[2], 4);
-    arrow(overlay, "v-arrow", state.places[name], [u, w], `v${name} = ${speed} ${live.unit}/s`);
+    arrow(overlay, "v-arrow", state.places[name], [u, w], `v${name}`);
   }
+  return some.map(({ name, v }) => `v${name} = ${number(Math.hypot(...v) / live.frame[2], 4)} ${live.unit}/s`).join(", ");
 }
 /* The rotation of a link: rays from its centre, and how each point goes about it. */
 function drawRotation(state, link) {
@@ -266,11 +266,12 @@ function see() {
   byId("body-panel").hidden = !body;
   const wanted = byId("see-velocities").checked || rotations.length || rolls.length || body;
   const state = wanted ? stateAt(row) : null;
-  byId("see-hint").textContent = wanted && !state ? "Nothing of this is known in this position." : "";
+  let said = wanted && !state ? "Nothing of this is known in this position." : "";
   for (const e of curves) drawCurve(e.dataset.curve);
   for (const e of rolls) drawCentrodes(state, e.dataset.centrode);
   if (state) for (const e of rotations) drawRotation(state, e.dataset.rotation);
-  if (state && byId("see-velocities").checked) drawVelocities(state);
+  if (state && byId("see-velocities").checked) said = drawVelocities(state);
+  if (byId("see-hint").textContent !== said) byId("see-hint").textContent = said;
   if (body) drawBody(state, body);
 }
 if (overlay) {

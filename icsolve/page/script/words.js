@@ -3,7 +3,7 @@ function saying(answer, r) {
   const value = answer.values[r];
   const held = answer.holds && (answer.holds[r] ?? answer.holds[0]);
   if (held) return { text: ` ${held}`, sense: "" };
-  if (value === null || value === undefined) return { text: " = no value", sense: "" };
+  if (value === null || value === undefined) return { text: ` = no value (${statusAt(r)})`, sense: "" };
   const sense = r === LIVE ? answer.word : answer.senses[answer.sense[r]];
   return { text: ` = ${number(Math.abs(value), 6)} ${answer.unit}`.trimEnd(), sense };
 }
