@@ -298,7 +298,7 @@ def test_the_whole_benchmark_in_small(tmp_path: Path, monkeypatch: pytest.Monkey
     monkeypatch.setattr("icsolve.bench.speed.MILLION", 10_000)
     ran = CliRunner().invoke(command, ["bench", "-o", str(tmp_path / "plot.svg")], standalone_mode=False)
     assert ran.return_value == int("| NO |" in ran.stdout)
-    for heading in ("One scene", "A full turn", "Grading", "Start-up", "Time", "Laws", "Figures"):
+    for heading in ("One scene", "A full turn", "Grading", "Rows", "Time", "Laws", "Figures"):
         assert f"\n## {heading}" in ran.stdout
     assert "| Watt |" in ran.stdout
     assert "| bounds that are less than the error, of " in ran.stdout

@@ -137,14 +137,17 @@ def stress() -> tuple[str, int]:
 def run(full: bool, say: Callable[[str], None]) -> Kept:
     """The whole benchmark; every piece of Markdown goes to ``say``. Returns what the picture draws."""
     from icsolve.bench.grading import drawing, grading
-    from icsolve.bench.speed import full_turn, one_scene, other_programs, start_up
+    from icsolve.bench.promises import promises
+    from icsolve.bench.speed import full_turn, one_scene, other_programs
 
     effort, kept = FULL if full else USUAL, nothing()
     say(f"# icsolve bench\n\n{machine()}\n")
     say(f"## One scene, in process\n\n{one_scene(effort, kept)}\n")
     say(f"## A full turn\n\n{full_turn(effort, kept)}\n")
     say(f"## Other programs\n\n{other_programs(effort, kept)}\n")
-    say(f"## Start-up\n\n{start_up(effort, kept)}\n")
+    say("## Rows, families, growth, tables and starts\n")
+    for text in promises(effort, kept):
+        say(f"{text}\n")
     say(f"## Grading\n\n{grading(effort, kept)}\n")
     say(f"## Drawing\n\n{drawing(effort, kept)}\n")
     say("## Error over (kappa + 1) u, the worst of a family\n")

@@ -152,7 +152,7 @@ def one_scene(effort: Effort, kept: Kept) -> str:
         ratio("`solve` again of a loaded four-bar (warm) / kernel by parts", times[WARM] / parts, 12)
     )
     kept.gates.append(
-        ratio("the same with every digit (warm) / kernel by parts", times[WARM_BOUND] / parts, 100)
+        ratio("the same with every digit (warm) / kernel by parts", times[WARM_BOUND] / parts, 50)
     )
     rows = [[name, f"{t / base:.1f}", f"{t / parts:.1f}", f"{1e6 * t:.1f}"] for name, t in times.items()]
     return table(("one four-bar scene", "x kernel written out", "x kernel by parts", "us"), rows)
@@ -227,14 +227,3 @@ def _peer_score(peer: Ran, positions: int) -> Score:
     name = peer.name.partition(" ")[0]
     method = name if peer.gives == "torque" else f"{name} ({peer.gives})"
     return Score(method, "four-bar", peer.error, math.nan, 1e6 * peer.seconds / positions, 0, 0, positions)
-
-
-def start_up(effort: Effort, kept: Kept) -> str:
-    """Whole processes, cold, in CPU time."""
-    from icsolve.bench.timing import COMMAND, IMPORTS, starts
-
-    found = {start.name: start.seconds for start in starts(2 * effort.rounds)}
-    base = found[IMPORTS[0]]
-    kept.gates.append(ratio(f"`{COMMAND}`, whole process / its imports", found[COMMAND] / base, 1.5))
-    rows = [[name, f"{seconds / base:.2f}", f"{1e3 * seconds:.0f}"] for name, seconds in found.items()]
-    return table(("whole process, cold", "x imports", "CPU ms"), rows)

@@ -8,12 +8,8 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-import tempfile
 import time
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
-
-from icsolve.bench.closed import FOUR_BAR_CASE
 
 Call = Callable[[], object]
 TURN = 20
@@ -53,35 +49,6 @@ def _rough(call: Call) -> float:
     """About how long a call takes, warm."""
     call()
     return max(once(call), 1e-7)
-
-
-class Start(NamedTuple):
-    """A process and the least CPU seconds that it took."""
-
-    name: str
-    seconds: float
-
-
-BARE = ("python -c pass", ["-c", "pass"])
-IMPORTS = ("python -c 'import click, yaml'", ["-c", "import click, yaml"])
-COMMAND = "icsolve solve four-bar.yaml"
-
-
-def starts(rounds: int = 7) -> list[Start]:
-    """Bare Python, the two packages that the command needs, and the command on one case, in turn."""
-    with tempfile.TemporaryDirectory() as folder:
-        path = os.path.join(folder, "four-bar.yaml")
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(FOUR_BAR_CASE)
-        command = (COMMAND, ["-m", "icsolve", "solve", path])
-        runs = (BARE, IMPORTS, command)
-        best = dict.fromkeys((name for name, _ in runs), float("inf"))
-        for _, arguments in runs:
-            cpu_seconds([sys.executable, *arguments])
-        for _ in range(rounds):
-            for name, arguments in runs:
-                best[name] = min(best[name], cpu_seconds([sys.executable, *arguments]))
-    return [Start(name, seconds) for name, seconds in best.items()]
 
 
 def cpu_seconds(command: list[str]) -> float:

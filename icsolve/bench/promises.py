@@ -1,0 +1,298 @@
+"""What was promised of speed, line by line: rows, families, growth, tables, folders and starts.
+
+Each is measured beside its reference in one run, in CPU time of interleaved calls; what grows has its
+exponent fitted. A case is fresh where it was never solved before, warm where it was.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import os
+import sys
+from collections.abc import Callable, Iterator
+from functools import partial
+from random import Random
+
+import numpy as np
+
+from icsolve.bench.closed import FOUR_BAR, FOUR_BAR_CASE, Array
+from icsolve.bench.families import BUTTERFLY, Sheet, by_sides, chain, linkage
+from icsolve.bench.gates import Effort, Gate, Kept, ratio, table
+from icsolve.bench.timing import cpu_seconds, least, once
+from icsolve.case import Case
+from icsolve.files import scratch
+from icsolve.read import load
+from icsolve.solve import solve
+from icsolve.sweep import sweep
+from icsolve.sweep.evaluator import evaluator
+from icsolve.sweep.table import as_csv, as_jsonl, columns
+
+ROWS, POSITIONS = 20_000, 360
+RUBBING = FOUR_BAR_CASE.replace("at: B}", "at: B, mu: 0.2, radius: 0.1}").replace(
+    "at: C}", "at: C, mu: 0.2, radius: 0.1}"
+)
+MOVING = f"{RUBBING}motion: {{link: 2, turns: ccw}}\n"
+CAM = """\
+icsolve: 1
+points: {A: [0, 0], B: [6, unknown]}
+lengths: {AC: 20}
+angles: {AC: 40}
+near: {B: [6, 60]}
+profile: {2: %s, 3: {roller: B, radius: 10}}
+joints: [{pin: [1, 2], at: A}, {contact: [2, 3]}, {slide: [3, 1], at: B, along: 90}]
+loads: {P: {force: 100, link: 3, at: B, angle: -90}, T12: {torque: unknown, link: 2}}
+"""
+DISK = CAM % "{circle: C, radius: 40}"
+LOBES = ", ".join(f"{10 * k}: {40.0 + 8.0 * float(np.cos(np.radians(30.0 * k))):.6f}" for k in range(36))
+LOBED = CAM % f"{{about: A, zero: [A, C], radii: {{{LOBES}}}}}"
+SEED = 3
+"""A double butterfly that moves by its first link over some degrees to both sides."""
+
+
+def promises(effort: Effort, kept: Kept) -> Iterator[str]:
+    """Table by table."""
+    quick = effort.seconds < 1.0
+    yield _rows(effort, kept, ROWS // 40 if quick else ROWS)
+    yield _families(effort, kept, (10, 30) if quick else (10, 100, 1000))
+    yield _growth(kept, quick)
+    yield _tables(effort, kept, ROWS // 40 if quick else 5 * ROWS)
+    yield _starts(effort, kept, 20 if quick else 400)
+
+
+# --- rows -----------------------------------------------------------------------------------------
+
+
+def _rows(effort: Effort, kept: Kept, rows: int) -> str:
+    """Rows of one turn that are not those of a smooth dyad, warm."""
+    turn: Array = np.linspace(-180.0, 180.0, rows, endpoint=False)
+    butterfly = load(by_sides(linkage(BUTTERFLY), (1, 4))(Random(SEED)))
+    angle = butterfly.angles[0].value
+    near: Array = angle.value + np.linspace(-6.0, 6.0, 5 * rows)
+    limits = {
+        "with friction in a given motion": (MOVING, 5.0),
+        "with friction, the range that holds": (RUBBING, 5.0),
+        "a roller on an eccentric disk": (DISK, 20.0),
+        "a roller on a table of radii": (LOBED, 20.0),
+    }
+    calls: dict[str, Callable[[], object]] = {
+        name: _turned(load(text), turn) for name, (text, _) in limits.items()
+    }
+    calls["a group by Newton's method (double butterfly)"] = lambda: sweep(butterfly, {angle.path: near})
+    chained = load(by_sides(chain(10), (1, 2))(Random(1)))
+    start = chained.angles[0].value
+    few, many = (start.value + np.linspace(-0.01, 0.01, n) for n in (POSITIONS // 10, POSITIONS))
+    calls |= {
+        "a chain of 22 links, 36 rows": lambda: sweep(chained, {start.path: few}),
+        "the same, 360 rows": lambda: sweep(chained, {start.path: many}),
+    }
+    times = dict(zip(calls, least(list(calls.values()), effort.seconds), strict=True))
+    counts = dict.fromkeys(calls, rows) | {list(calls)[4]: len(near)}
+    counts |= dict(zip(list(calls)[-2:], (len(few), len(many)), strict=True))
+    micros = {name: 1e6 * took / counts[name] for name, took in times.items()}
+    for name, (_, limit) in limits.items():
+        kept.gates.append(Gate(f"a row {name}", micros[name], limit, " us"))
+    kept.gates.append(Gate(f"a row of {list(calls)[4]}", micros[list(calls)[4]], 4.0, " us"))
+    kept.gates.append(
+        ratio("36 rows of a chain / 360 of them", times[list(calls)[-2]] / times[list(calls)[-1]], 1)
+    )
+    shown = [[name, str(counts[name]), f"{micros[name]:.3g}"] for name in calls]
+    return table(("rows of a sweep, warm", "rows", "us a row"), shown)
+
+
+def _turned(case: Case, turn: Array) -> Callable[[], object]:
+    return lambda: sweep(case, drive={"2": turn})
+
+
+# --- families -------------------------------------------------------------------------------------
+
+
+def _families(effort: Effort, kept: Kept, sizes: tuple[int, ...]) -> str:
+    """Four-bars with lengths, angle and load of their own in each row, against numpy by hand."""
+    rng, shown = np.random.default_rng(SEED), []
+    case = load(FOUR_BAR_CASE)
+    for figures in sizes:
+        sides = {
+            f"lengths.{name}": np.repeat(rng.uniform(0.97 * size, 1.03 * size, figures), POSITIONS)
+            for name, size in zip(("AB", "BC", "CD"), FOUR_BAR, strict=False)
+        }
+        angles = np.tile(np.linspace(60.0, 420.0, POSITIONS, endpoint=False), figures)
+        loads = np.repeat(rng.uniform(5.0, 15.0, figures), POSITIONS)
+        varied = {**sides, "angles.AB": angles, "loads.T4": loads}
+        hand = (*sides.values(), np.radians(angles), loads)
+        calls = (
+            partial(_torque, *hand),
+            partial(evaluator(case, tuple(varied)), *varied.values()),
+            partial(sweep, case, varied),
+        )
+        took = least(calls, effort.seconds / len(sizes))
+        what = f"{figures} four-bars x {POSITIONS}"
+        kept.gates.append(ratio(f"{what}: evaluator / numpy by hand", took[1] / took[0], 3))
+        nanos = [f"{1e9 * one / len(angles):.3g}" for one in took]
+        shown.append([what, *nanos, f"{took[1] / took[0]:.2f}", f"{took[2] / took[0]:.2f}"])
+    single = evaluator(case, ("lengths.BC", "angles.AB"))
+    (one,) = least([lambda: single(3.5, 61.0)], effort.seconds / 4.0)
+    rods = np.full(POSITIONS, FOUR_BAR[1])
+    apart = np.where(np.arange(POSITIONS) == 7, 0.1, rods)  # this one does not reach
+    pair = [partial(sweep, case, {"lengths.BC": some}) for some in (rods, apart)]
+    whole, torn = least(pair, effort.seconds / 4.0)
+    kept.gates.append(ratio("360 rows of which one does not assemble / all do", torn / whole, 2))
+    kept.gates.append(Gate("one row of a four-bar by the evaluator", 1e6 * one, 20, " us"))
+    head = ("families, ns a row", "numpy by hand", "evaluator", "sweep", "evaluator / numpy", "sweep / numpy")
+    return table(head, shown)
+
+
+def _torque(a: Array, b: Array, c: Array, angle: Array, load: Array) -> Array:
+    """As `closed.four_bar`, of arrays of lengths."""
+    d = FOUR_BAR[3]
+    bx, by = a * np.cos(angle), a * np.sin(angle)
+    dx, dy = d - bx, -by
+    s = np.sqrt(dx * dx + dy * dy)
+    along = ((s - c) * (s + c) + b * b) / (2.0 * s)
+    h = np.sqrt((s + b + c) * (b + c - s) * (s - b + c) * (s + b - c)) / (2.0 * s)
+    ex, ey = (along * dx - h * dy) / s, (along * dy + h * dx) / s
+    torque: Array = -load * (ey * bx - ex * by) / (ey * (bx + ex - d) - ex * (by + ey))
+    return torque
+
+
+# --- growth ---------------------------------------------------------------------------------------
+
+
+def _growth(kept: Kept, quick: bool) -> str:
+    """Fresh cases of more and more links: seconds, and the exponent of a power law through them."""
+    sizes = (6, 12) if quick else (22, 42, 82, 162)
+    series: list[tuple[str, Callable[[int], Callable[[], object]], tuple[int, ...], float]] = [
+        ("solve a chain of four-bars, links", lambda n: _solved(chain(n // 2 - 1)), sizes, 1.3),
+        ("the same by lengths", lambda n: _solved(by_sides(chain(n // 2 - 1), (1, 2))), sizes, 1.3),
+        ("a gear train, wheels", lambda n: _solved(_gears(n)), (6, 12) if quick else (100, 200, 400), 1.3),
+        ("set up a sweep of a chain, links", _set_up, sizes, 1.5),
+    ]
+    rows = []
+    for what, made, counts, limit in series:
+        times = [min(once(made(n)) for _ in range(2)) for n in counts]
+        power = float(np.polyfit(np.log(counts), np.log(times), 1)[0])
+        kept.gates.append(Gate(f"{what}: exponent of growth", power, limit))
+        shown = ", ".join(f"{n}: {1e3 * t:.3g}" for n, t in zip(counts, times, strict=True))
+        rows.append([what, shown, f"{power:.2f}"])
+    links = sizes[-2]
+    case = load(chain(links // 2 - 1)(Random(1)))
+    every = once(lambda: list(solve(case, all_centres=True).centres.items()))
+    kept.gates.append(Gate(f"all centres of {links} links", every, 1, " s"))
+    rows.append([f"all n(n-1)/2 centres of {links} links", f"{1e3 * every:.3g}", ""])
+    (fresh,) = least([_fresh_sweeps()], 0.2)
+    kept.gates.append(Gate("set-up of a sweep of a four-bar, fresh", 1e3 * fresh, 1, " ms"))
+    rows.append(["36 rows of a fresh four-bar", f"{1e3 * fresh:.3g}", ""])
+    return table(("growth, fresh", "ms", "exponent"), rows)
+
+
+def _solved(draw: Callable[[Random], str]) -> Callable[[], object]:
+    case = load(draw(Random(1)))
+    return lambda: solve(case).to_dict()
+
+
+def _gears(wheels: int) -> Callable[[Random], str]:
+    """Wheels in a row, each in mesh with the next."""
+
+    def draw(rng: Random) -> str:
+        sheet, at = Sheet(rng), 0.0
+        teeth = [rng.randrange(15, 40) for _ in range(wheels)]
+        for k, n in enumerate(teeth):
+            at += (n + teeth[k - 1]) / 20.0 if k else 0.0
+            sheet.pin(1, sheet.link(), (at, 0.0))
+        for k in range(wheels - 1):
+            sheet.joints.append(f"  - {{gears: [{k + 2}, {k + 3}], teeth: [{teeth[k]}, {teeth[k + 1]}]}}")
+        return sheet.text(f"K: {{torque: 7.5, link: {wheels + 1}}}, U: {{torque: unknown, link: 2}}")
+
+    return draw
+
+
+def _set_up(links: int) -> Callable[[], object]:
+    case = load(by_sides(chain(links // 2 - 1), (1, 2))(Random(1)))
+    angle = case.angles[0].value
+    return lambda: sweep(case, {angle.path: angle.value + np.linspace(-0.01, 0.01, 8)})
+
+
+def _fresh_sweeps() -> Callable[[], object]:
+    """Sweeps of four-bars, none of which was seen before."""
+    count = iter(range(10**9))
+    turn = np.linspace(60.0, 420.0, POSITIONS // 10)
+
+    def call() -> object:
+        return sweep(
+            load(FOUR_BAR_CASE.replace("AB: 60", f"AB: {60.0 + next(count) * 1e-4:.4f}")), {"angles.AB": turn}
+        )
+
+    return call
+
+
+# --- tables, folders and starts -------------------------------------------------------------------
+
+
+def _tables(effort: Effort, kept: Kept, rows: int) -> str:
+    """The table of a sweep as text, against `csv.writer` on the same lists."""
+    found = sweep(
+        load(FOUR_BAR_CASE), {"angles.AB": np.linspace(60.0, 420.0, rows)}, ("answers", "status", "points")
+    )
+
+    def plainly() -> object:
+        out = io.StringIO()
+        numbers = (array.tolist() for array in columns(found).values())
+        csv.writer(out, lineterminator="\n").writerows(zip(*numbers, found.status.tolist(), strict=True))
+        return out.getvalue()
+
+    calls = {
+        "csv.writer": plainly,
+        "CSV": lambda: list(as_csv(found)),
+        "JSON Lines": lambda: list(as_jsonl(found)),
+    }
+    times = dict(zip(calls, least(list(calls.values()), effort.seconds), strict=True))
+    base = times["csv.writer"]
+    kept.gates.append(ratio("a table as CSV / csv.writer", times["CSV"] / base, 1))
+    kept.gates.append(ratio("a table as JSON Lines / csv.writer", times["JSON Lines"] / base, 1.5))
+    shown = [[name, f"{took / base:.2f}", f"{1e3 * took:.3g}"] for name, took in times.items()]
+    return table((f"a table of {rows} rows", "x csv.writer", "ms"), shown)
+
+
+PLAIN, NUMPY, SHAPELY = ("click, yaml", "click, yaml, numpy", "click, yaml, shapely")
+STARTS = (
+    ("solve", FOUR_BAR_CASE, PLAIN, 1.25),
+    ("solve", MOVING, PLAIN, 1.35),
+    ("solve", DISK, PLAIN, 1.6),
+    ("sweep", FOUR_BAR_CASE, NUMPY, 1.15),
+    ("draw", FOUR_BAR_CASE, SHAPELY, 1.5),
+)
+NAMED = {FOUR_BAR_CASE: "four-bar", MOVING: "friction", DISK: "cam"}
+
+
+def _starts(effort: Effort, kept: Kept, files: int) -> str:
+    """Whole processes, cold, against the import of what they need; a folder against its cases one by one."""
+    rows = []
+    with scratch() as folder:
+        best: dict[str, float] = {}
+        runs = {imports: ["-c", f"import {imports}"] for imports in (PLAIN, NUMPY, SHAPELY)}
+        for verb, text, _, _ in STARTS:
+            path = os.path.join(folder, f"{NAMED[text]}.yaml")
+            with open(path, "w", encoding="utf-8") as file:
+                file.write(text)
+            more = {"sweep": ["--vary", "angles.AB=0:359:1", "-o"], "draw": ["-o"]}.get(verb, [])
+            out = [os.path.join(folder, {"sweep": "o.csv", "draw": "o.svg"}[verb])] if more else []
+            runs[f"icsolve {verb} {NAMED[text]}.yaml"] = ["-m", "icsolve", verb, path, *more, *out]
+        for _ in range(effort.rounds + 1):
+            for name, arguments in runs.items():
+                best[name] = min(best.get(name, np.inf), cpu_seconds([sys.executable, *arguments]))
+        for verb, text, imports, limit in STARTS:
+            name = f"icsolve {verb} {NAMED[text]}.yaml"
+            times = best[name] / best[imports]
+            kept.gates.append(ratio(f"`{name}`, whole process / import {imports}", times, limit))
+            rows.append([name, f"{times:.2f}", f"{1e3 * best[name]:.0f}"])
+        cases = os.path.join(folder, "cases")
+        os.mkdir(cases)
+        texts = [FOUR_BAR_CASE.replace("AB: 60", f"AB: {360.0 * k / files:.4f}") for k in range(files)]
+        for k, text in enumerate(texts):
+            with open(os.path.join(cases, f"{k}.yaml"), "w", encoding="utf-8") as file:
+                file.write(text)
+        alone = once(lambda: [solve(load(text)) for text in texts])
+        whole = cpu_seconds([sys.executable, "-m", "icsolve", "check", cases]) - best[PLAIN]
+    kept.gates.append(ratio(f"`icsolve check` of {files} files / load and solve of each", whole / alone, 2))
+    rows.append([f"icsolve check, {files} files", f"{whole / alone:.2f}", f"{1e3 * whole:.0f}"])
+    return table(("whole process, cold", "x its imports", "CPU ms"), rows)
