@@ -293,7 +293,7 @@ def test_least_gives_seconds_a_call() -> None:
 
 
 def test_the_whole_benchmark_in_small(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(report, "USUAL", Effort(2, 4, 4, 4, 0.02, 1))
+    monkeypatch.setattr(report, "USUAL", Effort(2, 4, 4, 4, 10, 0.02, 1))
     monkeypatch.setattr(report, "FAMILIES", FAMILIES[:4])
     monkeypatch.setattr("icsolve.bench.speed.MILLION", 10_000)
     ran = CliRunner().invoke(command, ["bench", "-o", str(tmp_path / "plot.svg")], standalone_mode=False)

@@ -17,15 +17,21 @@ import icsolve
 from icsolve import case as c
 from icsolve.answer import Answer
 from icsolve.answer.bodies import Reaction
+from icsolve.bench.digits import Shown
 from icsolve.scene.program import Want, evaluate, prepare
 from icsolve.statics.power import is_unknown, number_of
 from more_digits import SixtyDigits
 from sizes import FULL
-from test_digits import all_joints, beside_a_dead_centre, near
+from test_digits import all_joints, beside_a_dead_centre
 
 Force = tuple[Any, Any, Any]
 """Force components, and the moment about the origin."""
 X, Y, COUPLE = (1, 0), (0, 1), (0, 0, 1)
+
+
+def near(shown: float, true: Any, size: Any, what: str, error: float | None = None) -> None:
+    """The law for one number; ``size`` is that of its terms."""
+    assert Shown(what, shown, true, size, error).fault == ""
 
 
 def through(p: Any, u: Any) -> Force:

@@ -9,7 +9,7 @@ from random import Random
 from statistics import median
 from typing import Any, NamedTuple
 
-from icsolve.bench.families import ALL_JOINTS, BOUNDED, SIX_BARS, Draw, Family, scaled
+from icsolve.bench.families import ALL_JOINTS, BOUNDED, EXACT, SIX_BARS, Draw, Family, scaled
 from icsolve.bench.rivals import Drawn, Failed, Method, OtherData, drawn
 from icsolve.case import Case, Coordinates, Force, Number
 from icsolve.errors import SceneError
@@ -285,7 +285,7 @@ def bits_kept(case: Case) -> float:
 
 
 FORWARD_FAMILIES = (*SIX_BARS, ALL_JOINTS)
-HELD = (*FORWARD_FAMILIES, *BOUNDED)
+HELD = (*FORWARD_FAMILIES, *BOUNDED, *EXACT)
 
 
 def held(measure: Measure, families: Iterable[Family], scenes: int, jobs: int = 1) -> list[Law]:

@@ -128,6 +128,8 @@ FOUR_BAR = "01 12 23 03"
 WATT = "01 12 23 03 34 45 05"
 STEPHENSON = "01 12 23 03 24 45 05"
 BUTTERFLY = "01 04 05 16 17 23 24 26 35 37"
+TEN_BAR = "01 06 09 17 23 25 29 37 45 46 48 78 89"
+"""All ten links of which have to be found together."""
 
 
 def chain(loops: int) -> Draw:
@@ -284,6 +286,38 @@ def _slide(sheet: Sheet, i: int, j: int) -> None:
     sheet.joints.append(f"  - {{slide: [{one}, {two}], at: {at}, along: {sheet.angle()}}}")
 
 
+def mixed(rng: Random) -> str:
+    """Two or three groups of any kind, welds and pins of several links among them, loads between links."""
+    sheet = Sheet(rng)
+    first = sheet.pin(1, sheet.link())
+    for _ in range(rng.randint(2, 3)):
+        rng.choice([_dyad, _lever, _wheel, _weld])(sheet)
+        if rng.random() < 0.4:
+            _on_a_pin(sheet, first)
+    others = list(range(2, sheet.links + 1))
+    pairs = [(rng.choice(others), rng.choice([1, *others])) for _ in "KU"]
+    return sheet.text(
+        ", ".join(
+            f"{name}: {{torque: {value}, link: {on}{'' if by in (1, on) else f', against: {by}'}}}"
+            for (on, by), name, value in zip(pairs, "KU", ("7.5", "unknown"), strict=True)
+        )
+    )
+
+
+def _weld(sheet: Sheet) -> None:
+    """A link that moves as one with another."""
+    i, a = sheet.rng.randint(2, sheet.links), sheet.link()
+    sheet.joints.append(f"  - {{weld: [{i}, {a}]}}")
+
+
+def _on_a_pin(sheet: Sheet, point: str) -> None:
+    """A dyad whose first link hangs on a pin that is there."""
+    j, a, b = sheet.rng.randint(2, sheet.links), sheet.link(), sheet.link()
+    sheet.joints.append(f"  - {{pin: [2, {a}], at: {point}}}")
+    sheet.pin(a, b)
+    _full(sheet, b, j)
+
+
 def _full(sheet: Sheet, i: int, j: int) -> None:
     """A joint that leaves one freedom."""
     kind = sheet.rng.choice(("pin", "pin", "slide", "roll", "centre"))
@@ -352,6 +386,11 @@ def geared_five_bar(rng: Random) -> str:
     return sheet.text(torques(4, 2))
 
 
+def near(draw: Callable[[float], Draw]) -> Draw:
+    """A family at 1e-12 to 1e-2 from its singular position."""
+    return lambda rng: draw(10.0 ** rng.uniform(-12.0, -2.0))(rng)
+
+
 def coupler_slot(rng: Random) -> str:
     """A four-bar with a slot in its coupler that drives a lever's pin."""
     sheet = Sheet(rng)
@@ -392,6 +431,17 @@ FAMILIES: tuple[Family, ...] = (
     Family("chain of 50", chain(50), 20),
 )
 """In the order of the tables, from easy to hard within each kind."""
+
+EXACT: tuple[Family, ...] = (
+    Family("mixed", mixed),
+    Family("all joints", all_joints, 2),
+    Family("near a toggle", near(near_toggle), 3),
+    Family("near a toggle, from lengths", near(from_lengths), 3),
+    Family("nearly parallel", near(nearly_parallel), 3),
+    Family("double butterfly from lengths", by_sides(linkage(BUTTERFLY), (1, 4)), 50),
+    Family("ten links found together", by_sides(linkage(TEN_BAR), (1, 4)), 200),
+)
+"""On which every number is held to its last digit, and rows of sweeps to their scenes."""
 
 BOUNDED: tuple[Family, ...] = (
     ALL_JOINTS,

@@ -60,12 +60,14 @@ def _row(gate: Gate) -> list[str]:
 
 
 class Effort(NamedTuple):
-    """Scenes a family of the tables, scenes a family of each law, seconds a timing, processes."""
+    """Scenes a family of the tables, scenes a family of each law (of the digits, of the first), seconds a
+    timing, processes."""
 
     scenes: int
     forward: int
     bounds: int
     bits: int
+    digits: int
     seconds: float
     jobs: int
 
@@ -75,8 +77,8 @@ class Effort(NamedTuple):
         return max(2, int(4 * self.seconds))
 
 
-USUAL = Effort(80, 1_000, 500, 200, 3.0, 1)
-FULL = Effort(400, 10_000, 12_000, 2_000, 6.0, os.cpu_count() or 1)
+USUAL = Effort(80, 1_000, 500, 200, 400, 3.0, 1)
+FULL = Effort(400, 10_000, 12_000, 2_000, 40_000, 6.0, os.cpu_count() or 1)
 
 
 class Kept(NamedTuple):

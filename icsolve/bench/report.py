@@ -6,9 +6,10 @@ import os
 import platform
 from collections.abc import Callable, Iterator, Sequence
 
-from icsolve.bench.accuracy import FORWARD, PESSIMISM, Law, Score, bits, bounds, forward, scenes, scored
+from icsolve.bench.accuracy import FORWARD, PESSIMISM, Law, Score, bits, bounds, forward, held, scenes, scored
 from icsolve.bench.closed import compiler_version
-from icsolve.bench.families import FAMILIES
+from icsolve.bench.digits import every_number, every_row
+from icsolve.bench.families import EXACT, FAMILIES
 from icsolve.bench.gates import FULL, USUAL, Effort, Kept, gate_table, lawful, nothing, table, table_row
 from icsolve.bench.rivals import METHODS, OWN
 
@@ -95,6 +96,12 @@ def laws(effort: Effort, kept: Kept) -> Iterator[str]:
     kept.gates.append(lawful(f"bounds that are less than the error, of {count}", broken, 0))
     kept.gates.append(lawful("bound over error, worst median of a family", middle, PESSIMISM))
     yield _laws(f"error bound / error; median at most {PESSIMISM:g}, never broken", found)
+    for name, law, share in (("numbers", every_number, 1), ("rows of sweeps", every_row, 10)):
+        found = held(law, EXACT, effort.digits // share, effort.jobs)
+        broken, count = _broken(found), _scenes(found)
+        kept.gates.append(lawful(f"{name} that are not the exact ones, in {count} scenes", broken, 0))
+        rows = [[law.family, str(law.scenes), str(law.broken), f"{law.median:g}"] for law in found]
+        yield table((f"{name} against 140 digits", "scenes", "broken", "median a scene"), rows)
     found = bits(effort.bits, effort.jobs)
     broken, count = _broken(found), _scenes(found)
     kept.gates.append(lawful(f"answers changed by a scale of a power of two, of {count}", broken, 0))

@@ -17,7 +17,7 @@ ONE_CORE = ("OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "OMP_NUM_THREADS")
 @click.option(
     "--stress", is_flag=True, help="The stress catalogue: scenes that break solvers, with their verdicts."
 )
-@click.option("--full", is_flag=True, help="Hold the laws on all their scenes: about half an hour.")
+@click.option("--full", is_flag=True, help="Hold the laws on all their scenes: about an hour and a half.")
 @click.option(
     "-o",
     "--output",
