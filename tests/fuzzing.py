@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import json
 import os
 import random
 import re
@@ -25,6 +26,7 @@ from typing import NamedTuple
 
 from corpus import ALL
 from icsolve.cli import main
+from icsolve.manual import kinds, template
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.names import Stop
 from trees import document, tree
@@ -79,7 +81,8 @@ def bases() -> list[str]:
     """Texts of cases to begin with: of every kind, as written, and those that once broke something."""
     cases = sorted((ROOT / "cases").rglob("*.yaml"))
     found = sorted(FOUND.glob("*.yaml"))
-    return [*ALL.values(), *(path.read_text() for path in (*cases, *found, *found))]
+    started = [template(kind) for kind in kinds()]
+    return [*ALL.values(), *started, *(path.read_text() for path in (*cases, *found, *found))]
 
 
 def by_characters(dice: Dice, text: str) -> str:
@@ -206,50 +209,88 @@ def answers(dice: Dice, names: list[str]) -> str:
 
 
 def commands(dice: Dice, text: str) -> list[list[str]]:
-    """All verbs, with options drawn."""
+    """All verbs, with options drawn; `solve` without any comes first."""
     names = re.findall(r"\b([A-Z][\w']?[A-Z]?)\s*:", text) or ["AB"]
+    path = dice.choice(paths(text))
     spans = ["0:360:30", "10:12:0.5", "0:1e-9:1e-9", "-180:180:90", "0,0,1e300", "1:100000:50000", "0:0:1"]
-    path = dice.choice(
-        [
-            f"angles.{dice.choice(names)}",
-            f"lengths.{dice.choice(names)}",
-            f"loads.{dice.choice(names)}",
-            "joints.0.mu",
-        ]
-    )
     vary = dice.choice([["--vary", f"{path}={dice.choice(spans)}"], ["--drive", f"2={dice.choice(spans)}"]])
-    some = [
-        "--all-centres",
-        "--rates",
-        "--reactions",
-        "--report",
-        "--sensitivity",
-        "--json",
-        "--tolerance=0.01",
-    ]
-    more = ["--error", "--points", "--centres", "--rates"]
-    shown = ["--bodies", "--circle", "--velocities", "--centres=all", "--step=1"]
-    find = dice.choice([["--find", "dead"], ["--find", "max"], ["--find", f"{dice.choice(names)}=1"], []])
+    find = dice.choice(["dead", "max", "rest", "neutral", "hold", f"{dice.choice(names)}=1"])
+    kind = dice.choice(
+        [["moodle-xml"], ["gift"], ["qti"], ["prairielearn", "--no-figures"], ["gradescope-zip"]]
+    )
+    words = [path, dice.choice(names), *re.findall(r"[a-z]+", text)[:40]]
     return [
-        ["solve", "case.yaml", *dice.sample(some, dice.randint(0, 3))],
-        ["check", "case.yaml"],
+        ["solve", "case.yaml"],
+        ["solve", "case.yaml", *some(dice, SOLVE), *dice.choice([[], ["--stability", path]])],
+        ["check", "case.yaml", *some(dice, [["--json"], ["--table"]])],
         ["validate", "case.yaml"],
-        ["draw", "case.yaml", *dice.sample(shown, dice.randint(0, 2))],
-        ["explain", "case.yaml", *dice.choice([[], ["--bodies"], ["--format", "html"]])],
+        ["ways", "case.yaml", *some(dice, [["--json"]])],
+        ["draw", "case.yaml", *some(dice, DRAW)],
+        ["explain", "case.yaml", *some(dice, EXPLAIN)],
         ["page", "case.yaml"],
-        ["sweep", "case.yaml", *vary, *dice.sample(more, dice.randint(0, 2)), *find],
-        ["grade", "answers.csv", "--cases", "case.yaml", "--jsonl", "graded.jsonl", "--force"],
-        [
-            "export",
-            dice.choice(["moodle-xml", "gift"]),
-            "case.yaml",
-            "-o",
-            "quiz.xml",
-            "--force",
-            "--count",
-            "2",
-        ],
+        ["sheet", "case.yaml", *some(dice, [["--title", dice.choice(TOKENS[:40])], ["-o", "exam.tex"]])],
+        ["sweep", "case.yaml", *vary, *some(dice, SWEEP), *dice.choice([[], ["--find", find]])],
+        ["sweep", "case.yaml", "--vary", f"{path}={dice.choice(spans)}", "--find", find, "--json"],
+        ["variants", "case.yaml", "--roster", "roster.csv", "-o", "sheets", "--force", "--no-figures"],
+        ["grade", "answers.csv", "--cases", "case.yaml", "--force", "-o", "graded.csv", *some(dice, GRADE)],
+        ["grade", "answers.csv", "--cases", "case.yaml", "--force", *AGAIN, *some(dice, GRADE)],
+        ["export", *kind, "case.yaml", "-o", f"quiz-{kind[0]}", "--force", "--count", "2"],
+        dice.choice(
+            [["new", dice.choice(words)], ["manual", dice.choice(words)], ["manual", dice.choice(TOPICS)]]
+        ),
     ]
+
+
+SOLVE = [
+    *(
+        [option]
+        for option in ("--all-centres", "--rates", "--reactions", "--report", "--sensitivity", "--json")
+    ),
+    *(["--dynamic"], ["--tolerance=0.01"]),
+]
+DRAW = [["--bodies"], ["--circle"], ["--velocities"], ["--centres=all"], ["--step=1"], ["-o", "case.tex"]]
+EXPLAIN = [["--bodies"], ["--format", "html"], ["--format", "tex"], ["--format", "md"]]
+SWEEP = [
+    *([option] for option in ("--error", "--points", "--centres", "--rates", "--velocities", "--dynamic")),
+    *(["--dynamic", "--accelerations"], ["--plot", "plot.svg"]),
+]
+GRADE = [
+    *(
+        ["--html", "class.html"],
+        ["--jsonl", "graded.jsonl"],
+        ["--review", "queue.csv"],
+        ["--students", "pages"],
+    ),
+    *(["--write", "canvas=canvas.csv"], ["--roster", "roster.csv"], ["--overrides", "marks.csv"]),
+    *(["--write", "prairielearn-csv=pl.csv"], ["--write", "junit=junit.xml"], ["--total", "Homework (1)"]),
+]
+AGAIN = ["--against", "graded.csv", "--changes", "changes.csv", "--overrides", "marks.csv", "-o", "again.csv"]
+TOPICS = [*TOKENS, "format", "friction", "rope", "near", "statuses", "units", "12", "case.yaml"]
+READERS = ("solve", "check", "validate", "ways", "draw", "explain", "page", "sheet")
+"""Verbs that end with 2 only where a file is refused, and then say where in it."""
+
+
+def some(dice: Dice, options: list[list[str]]) -> list[str]:
+    """At most two of the options."""
+    return [word for option in dice.sample(options, dice.randint(0, min(2, len(options)))) for word in option]
+
+
+def paths(text: str) -> list[str]:
+    """Paths of numbers of a case, and one that it has not."""
+    try:
+        sections = tree(text).items
+    except (ValueError, AssertionError, Stop):
+        return ["angles.AB"]
+    found = ["angles.AB"]
+    for section in ("angles", "lengths", "points", "loads", "links"):
+        node = sections.get(section)
+        for key, value in node.items.items() if isinstance(node, Mapping) else ():
+            found += [f"{section}.{key}"] * (3 if section == "angles" else 1)
+            inner = (
+                list(value.items) if isinstance(value, Mapping) else ["x", "y"] if section == "points" else []
+            )
+            found += [f"{section}.{key}.{name}" for name in inner]
+    return [*found, "joints.A.mu", "joints.0.mu"]
 
 
 class Fault(NamedTuple):
@@ -284,53 +325,90 @@ def limited() -> Iterator[None]:
 
 def run(command: list[str], apart: bool) -> tuple[int, str, str]:
     """Status, what stood on standard error, and the trace of a fault."""
+    code, _, said, trace = printed(command, apart)
+    return code, said, trace
+
+
+def printed(command: list[str], apart: bool) -> tuple[int, str, str, str]:
+    """Status, what stood on standard output and error, and the trace of a fault."""
     if apart:
         env = {**os.environ, "PYTHONPATH": str(ROOT), "ICSOLVE_DEBUG": "1"}
         call = [sys.executable, "-m", "icsolve", *command]
-        try:
-            ran = subprocess.run(
-                call, env=env, capture_output=True, timeout=SECONDS, check=False, preexec_fn=_little
-            )
-        except subprocess.TimeoutExpired:
-            return 124, "", "too long"
+        ran = subprocess.run(call, env=env, capture_output=True, check=False, preexec_fn=_little)
         said = ran.stderr.decode(errors="replace")
-        return ran.returncode, said.partition("\nTraceback")[0], said
+        return ran.returncode, ran.stdout.decode(errors="replace"), said.partition("\nTraceback")[0], said
     out, err = (io.TextIOWrapper(io.BytesIO(), "utf-8", "backslashreplace") for _ in range(2))
     try:
         with limited(), contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
             main(command)
     except SystemExit as left:
+        out.flush()
         err.flush()
-        said = err.buffer.getvalue().decode()
-        return int(left.code or 0), said.partition("\nTraceback")[0], said
+        text, said = out.buffer.getvalue().decode(), err.buffer.getvalue().decode()
+        return int(left.code or 0), text, said.partition("\nTraceback")[0], said
     except TooLong:
-        return 124, "", traceback.format_exc()
-    return 0, "", ""
+        return 124, "", "", traceback.format_exc()
+    return 0, "", "", ""
 
 
 def _little() -> None:
     resource.setrlimit(resource.RLIMIT_AS, (BYTES * 3, BYTES * 3))
+    resource.setrlimit(resource.RLIMIT_CPU, (SECONDS, SECONDS))
 
 
-def faults_of(dice: Dice, text: str, apart: bool = False) -> list[Fault]:
-    """What is wrong with the commands on one case in the working folder."""
+def most_memory() -> int:
+    """Bytes that this process, or the largest that it started, has held at most."""
+    return 1024 * max(
+        resource.getrusage(whose).ru_maxrss for whose in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)
+    )
+
+
+def faults_of(dice: Dice, text: str, apart: bool = False, most: int = 0) -> list[Fault]:
+    """What is wrong with the commands on one case in the working folder.
+
+    All verbs share one reader: a case that the first refuses goes through two more; others through all, or
+    ``most`` that are drawn.
+    """
     Path("case.yaml").write_text(text, encoding="utf-8", errors="surrogatepass")
     names = re.findall(r"^  ([A-Z]\w*):", text, re.MULTILINE)
     table = answers(dice, names or ["case"])
     Path("answers.csv").write_text(table, encoding="utf-8", errors="surrogatepass")
+    marks = f"student_id,case,score,comment\n1,case,{dice.choice(ANSWERS)},{dice.choice(TOKENS)}\n"
+    Path("marks.csv").write_text(marks, encoding="utf-8", errors="surrogatepass")
+    Path("roster.csv").write_text("student_id,name\n1,A\n007,B\n", encoding="utf-8")
     found = []
-    for command in commands(dice, text):
-        code, said, trace = run(command, apart)
+    first, *left = commands(dice, text)
+    left = [first, *(dice.sample(left, most) if most else left)]
+    held = most_memory()
+    while left:
+        command = left.pop(0)
+        code, out, said, trace = printed(command, apart)
         why = ""
         if code not in (0, 1, 2):
             why = f"status {code}: {said[-300:]}"
-        elif code == 2 and command[0] in ("solve", "check", "draw") and not re.search(r":\d+:\d+: ", said):
+        elif code == 2 and command[0] in READERS and not re.search(r":\d+:\d+: |Usage: ", said):
             why = f"no line and column: {said[-300:]}"
+        elif "--json" in command and code < 2 and not _is_json(out):
+            why = f"no JSON: {out[:300]}"
+        elif held < BYTES < most_memory():
+            why = f"{most_memory()} bytes"
         if why:
             found.append(Fault(" ".join(command), why, trace, text, table))
-            if code == 2:
-                break
+        if command == ["solve", "case.yaml"]:
+            left = dice.sample(left, min(2, len(left))) if code == 2 else left
     return found
+
+
+def _is_json(text: str) -> bool:
+    def strange(word: str) -> None:
+        raise ValueError(word)
+
+    try:
+        for line in text.splitlines():
+            json.loads(line, parse_constant=strange)
+    except ValueError:
+        return False
+    return True
 
 
 def campaign(count: int, seed: int, apart: bool = False) -> Iterator[Fault]:
@@ -340,7 +418,7 @@ def campaign(count: int, seed: int, apart: bool = False) -> Iterator[Fault]:
     with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
         for n in range(count):
             dice = random.Random(f"{seed} {n}")
-            yield from faults_of(dice, mutated(dice, texts), apart)
+            yield from faults_of(dice, mutated(dice, texts), apart, 2 if apart else 0)
 
 
 def _place(trace: str) -> str:
@@ -368,7 +446,8 @@ def main_campaign(many: int, first: int, apart: bool) -> None:
             why = fault.why[:100].replace("\n", " ")
             sys.stdout.write(f"{name} {fault.command} | {why} | {where}\n")
             sys.stdout.flush()
-    sys.stdout.write(f"{many} cases, {sum(seen.values())} faults of {len(seen)} kinds\n")
+    mega = most_memory() // 1_000_000
+    sys.stdout.write(f"{many} cases, {sum(seen.values())} faults of {len(seen)} kinds, {mega} MB at most\n")
 
 
 if __name__ == "__main__":

@@ -26,6 +26,7 @@ from icsolve.cli import main
 from icsolve.errors import SceneError
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import Record
+from icsolve.solve.stability import with_stability
 from sizes import FULL
 
 PENDULUM = """icsolve: 1
@@ -507,3 +508,143 @@ def test_cases_of_the_library_rest_where_their_potentials_say(name: str) -> None
     assert [one.stability for one in found] == [kind for _, kind in expected]
     values = [one.at[unknown.path] for one in found]
     assert values == pytest.approx([u for u, _ in expected], abs=(high - low) / 2000)
+
+
+# --- what poses a figure, and what is in the way ---------------------------------------------------------
+
+LEVER = """icsolve: 1
+points: {{A: [0, 0]}}
+lengths: {{AG: 0.25}}
+angles: {{AG: {angle}}}
+joints:
+  - {{pin: [1, 2], at: A}}
+loads:
+  W: {{weight: 30, link: 2, at: G}}
+  S: {{spring: 20 N*m/rad, corner: AG, free: {free}, link: 2}}
+"""
+
+
+@pytest.mark.parametrize("free", [100, 500, -300])
+def test_a_lever_is_moved_by_the_angle_of_what_it_carries(
+    free: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """V' = 7.5 cos u - 20 (f - u): as written, at 30, the spring is wound by less than half a turn."""
+    unwound = mpmath.radians(30 + math.remainder(free - 30, 360))
+    (one,) = positions(LEVER.format(angle="{unknown: [0, 360], from: 30}", free=free))
+    rest = mpmath.findroot(lambda u: 7.5 * mpmath.cos(u) - 20.0 * (unwound - u), unwound)
+    assert one.at["angles.AG"] == pytest.approx(math.degrees(rest), abs=1e-12)
+    for vary in (("--vary", "angles.AG=0:360:1"), ("--drive", "2=-30:330:1")):
+        text = LEVER.format(angle=30, free=free)
+        (two,) = json.loads(run(tmp_path, capsys, text, "sweep", "CASE", *vary, "--find", "rest", "--json"))[
+            "found"
+        ]
+        assert two["stiffness"]["value"] == pytest.approx(
+            one.stiffness.value if one.stiffness else 0.0, rel=1e-12
+        )
+
+
+POSED = """icsolve: 1
+points: {A: [0, 0], C: [0.5, 0]}
+lengths: {AB: 0.3, BC: 0.4}
+near: {B: [0.2, 0.2]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {slide: [4, 1], at: C, along: 0}
+loads:
+  W: {weight: 10, link: 2, at: B}
+  P: {force: unknown, link: 4, at: C, angle: 180}
+"""
+
+
+def test_only_what_the_motion_changes_poses_a_figure(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A coordinate of the slider does: V = 10 y_B + P x. Lengths of links, pivots, loads do not."""
+
+    def potential(x: mpmath.mpf) -> mpmath.mpf:
+        along = (x * x + 0.09 - 0.16) / (2.0 * x)
+        return 10.0 * mpmath.sqrt(0.09 - along * along) + 4.8 * x
+
+    found = json.loads(run(tmp_path, capsys, POSED, "solve", "CASE", "--json", "--stability", "points.C.x"))
+    assert found["stiffness"]["value"] == pytest.approx(float(mpmath.diff(potential, 0.5, 2)), rel=1e-9)
+    case = icsolve.load(POSED)
+    answer = icsolve.solve(case)
+    for path in ("lengths.AB", "lengths.BC", "points.A.y", "loads.W"):
+        with pytest.raises(SceneError, match="does not pose the figure"):
+            with_stability(case, answer, path)
+    with pytest.raises(SceneError, match="does not pose the figure"):
+        icsolve.solve(
+            icsolve.load(
+                POSED.replace("BC: 0.4", "BC: {unknown: [0.3, 0.5], from: 0.4}").replace(
+                    "P: {force: unknown", "P: {force: 4.8"
+                )
+            )
+        )
+
+
+COUNTERWEIGHT = """icsolve: 1
+points: {A: [0, 0], P: [0, 2], E: [0, 1]}
+lengths: {AB: 1}
+angles: {AB: ANGLE}
+joints:
+  - {pin: [1, 2], at: A}
+  - {rope: [B, P, E], on: [2, 1]}
+loads:
+  W: {weight: 10, link: 2, at: B}
+  Q: {weight: 10, at: E}
+"""
+
+
+def test_a_rope_with_a_free_end_rests_where_its_counterweight_says(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """V = 10 sin u + 10 BP, BP^2 = 5 - 4 sin u: sin u = 1/4, where V'' = -75/16."""
+    (one,) = positions(COUNTERWEIGHT.replace("ANGLE", "{unknown: [-80, 80]}"))
+    assert one.at["angles.AB"] == pytest.approx(math.degrees(math.asin(0.25)), abs=1e-12)
+    assert one.stiffness is not None and one.stiffness.value == pytest.approx(-75 / 16, rel=1e-12)
+    text = COUNTERWEIGHT.replace("ANGLE", "14.47751218592992")
+    for of in ("angles.AB", "2"):
+        found = json.loads(run(tmp_path, capsys, text, "solve", "CASE", "--json", "--stability", of))
+        assert found["stiffness"]["value"] == pytest.approx(-75 / 16, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("sweep CASE --vary angles.AB=20:20:1 --find rest", "one varied number"),
+        ("sweep CASE --vary angles.AB=20:30:1 --vary loads.W=1:2:1 --find hold", "one varied number"),
+        ("sweep CASE --vary joints.0.mu=0:1:0.5 --find hold", "joints.0.mu"),
+        ("sweep CASE --vary loads.W=1:2:1 --find neutral", "do not balance as written"),
+        ("sweep CASE --vary loads.W=1:2:1 --find rest", "does not pose the figure"),
+        ("sweep CASE --drive 2=0:1:1 --dynamic --find rest", "does not rest"),
+        ("solve CASE --dynamic --stability 2", "speed"),
+        ("solve CASE --stability 3", "cannot vary"),
+    ],
+)
+def test_what_is_asked_amiss_is_told(
+    words: str, said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "case.yaml"
+    file.write_text(COUNTERWEIGHT.replace("ANGLE", "20"))
+    with pytest.raises(SystemExit) as left:
+        main([str(file) if word == "CASE" else word for word in words.split()])
+    assert left.value.code in (1, 2)
+    assert said in capsys.readouterr().err
+
+
+def test_a_sweep_of_positions_says_what_it_leaves_out(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "case.yaml"
+    file.write_text(pendulum("T: {torque: 8, link: 2}"))
+    for words in (
+        "--drive 2=0:10:5",
+        "--vary loads.T=1:3:1 --plot x.svg",
+        "--vary loads.T=1:3:1 --find rest",
+    ):
+        with pytest.raises(SystemExit) as left:
+            main(["sweep", str(file), *words.split()])
+        assert left.value.code == 2
+        assert "angles.AB is unknown" in capsys.readouterr().err

@@ -285,3 +285,69 @@ def test_beside_whatever_is_singular_on_a_full_turn(
         for n in range(0, len(rows), 3):
             (true,) = truths(sweep, n)["answers", "U"]
             assert abs(true - mpf(float(sweep.answers["U"][n]))) <= sweep.error["U"][n], rows[n] - low
+
+
+OBLIQUE = """icsolve: 1
+points: {A: [0, 0]}
+lengths: {AB: 1, BC: 2.5}
+angles: {AB: 40}
+near: {C: [3, 1.6]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {slide: [4, 1], at: C, along: 30, through: A}
+loads:
+  T: {torque: 10, link: 2}
+  P: {force: unknown, link: 4, at: C, angle: 30}
+"""
+LID = """icsolve: 1
+points: {A: [0, 0]}
+lengths: {AG: 0.25}
+angles: {AG: 40}
+joints:
+  - {pin: [1, 2], at: A}
+loads:
+  W: {mass: 3 kg, link: 2, at: G}
+  S: {SPRING, link: 2}
+"""
+WOUND = LID.replace("SPRING", "spring: unknown, corner: AG, free: 100")
+
+
+@pytest.mark.parametrize(
+    ("text", "at", "status"),
+    [(OBLIQUE, 30.0, "dead-centre"), (OBLIQUE, 210.0, "dead-centre"), (WOUND, 100.0, "no-value")],
+)
+def test_a_row_at_a_singular_position_that_no_coordinates_meet_is_what_solve_says(
+    text: str, at: float, status: str
+) -> None:
+    """The row's own coordinates are rounded, and miss it by their last digit."""
+    path = next(path for path in numbers_of(icsolve.load(text)) if path.startswith("angles."))
+    found = icsolve.sweep(icsolve.load(text), vary={path: [at - 1.0, at, at + 1.0]})
+    assert found.status.tolist() == ["ok", status, "ok"]
+    with pytest.raises(icsolve.SceneError) as refused:
+        icsolve.solve(icsolve.load(text, {path: at}))
+    assert refused.value.status == status
+
+
+@pytest.mark.parametrize("path", ["lengths.AG", "loads.S.free", "points.A.x", "angles.AG"])
+def test_a_torsion_spring_is_followed_and_sought_over_every_number(path: str) -> None:
+    """S = W cos u AG / (free - u): rows of a family as if written so, those of a motion from the case."""
+    case = icsolve.load(WOUND)
+    values = {"lengths.AG": (0.1, 0.5), "loads.S.free": (60.0, 140.0), "points.A.x": (1.0, 9.0)}
+    low, high = values.get(path, (-30.0, 70.0))
+    rows = np.linspace(low, high, 5)
+    found = icsolve.sweep(case, vary={path: rows}).answers["S"]
+    alone = [icsolve.solve(icsolve.load(WOUND, {path: float(v)})).answers["S"].value for v in rows]
+    assert found == pytest.approx(alone, rel=1e-14)
+    spots = find(case, {path: [low, high]}, Query("value", "S", 5.3))
+    for spot in spots:
+        there = icsolve.solve(icsolve.load(WOUND, {path: spot.at})).answers["S"].value
+        assert there == pytest.approx(5.3, rel=1e-12)
+    changes = int(
+        (
+            np.diff(np.sign(icsolve.sweep(case, vary={path: np.linspace(low, high, 101)}).answers["S"] - 5.3))
+            != 0
+        ).sum()
+    )
+    assert len(spots) == changes

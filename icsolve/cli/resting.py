@@ -39,6 +39,10 @@ def equilibrium_text(case: Case, word: str, along: str, values: Values, as_json:
     unknown = next((load.name for load in case.loads if is_unknown(load)), None)
     if unknown is not None:
         raise AskError(f"--find {word} asks of loads that are all known, and {unknown} is unknown")
+    if case.unknowns:
+        raise AskError(
+            f"{case.unknowns[0].path} is unknown: `icsolve solve` lists the positions of equilibrium"
+        )
     low, high = float(values.min()), float(values.max())
     found = _FINDERS[word](case, along, low, high)
     if as_json:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
@@ -101,7 +102,8 @@ def _solve(case: Case, options: Options) -> Answer:
     from icsolve.solve import solve
 
     asked = {"all_centres": options.all_centres, "rates": options.rates, "reactions": options.reactions}
-    answer = solve(case, **asked, dynamic=options.dynamic)
+    case = replace(case, dynamic=case.dynamic or options.dynamic)
+    answer = solve(case, **asked)
     if options.stability is None:
         return answer
     from icsolve.solve.stability import with_stability

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -122,6 +123,7 @@ def _readable(work: Callable[[Case, str, Asked], int], read: Case, path: str, as
     """The work; what is asked that makes no sense for this case is said."""
     from icsolve.sweep.ask import AskError
 
+    read = replace(read, dynamic=read.dynamic or asked.dynamic)
     try:
         return work(read, path, asked)
     except AskError as error:
@@ -138,11 +140,15 @@ def _table(read: Case, path: str, asked: Asked) -> int:
     varied, driven = _columns(asked)
     if read.unknowns:
         from icsolve.cli.resting import positions_table
+        from icsolve.sweep.ask import AskError
 
+        if driven or asked.plot is not None:
+            what, path = "--drive" if driven else "--plot", read.unknowns[0].path
+            raise AskError(f"{path} is unknown, and {what} is for a case in which it is given")
         content, some = positions_table(read, varied, asked.suffix)
         return _written([content], asked.output, asked) or (DONE if some else NO_ANSWER)
     with Progress(math.prod(len(values) for _, values in (*asked.vary, *asked.drive))) as progress:
-        found = sweep(read, varied, asked.want, drive=driven, dynamic=asked.dynamic, progress=progress.told)
+        found = sweep(read, varied, asked.want, drive=driven, progress=progress.told)
     for note in found.notes:
         complain(f"{path}: {note}")
     code = _pictured(found, asked) if asked.plot is not None else DONE
@@ -170,17 +176,20 @@ def _find(read: Case, path: str, asked: Asked) -> int:
     """Positions that are looked for."""
     from icsolve.cli.resting import WORDS, equilibrium_text
     from icsolve.cli.seeking import as_json, as_text, query_of
+    from icsolve.sweep.ask import along_of, columns_of
     from icsolve.sweep.finding import find
 
+    varied, driven = _columns(asked)
+    columns = columns_of(read, varied, driven)
+    own = along_of(columns)
+    along = columns.names[own]
     if asked.find in WORDS:
-        along, values = next(one for one in (*asked.vary, *asked.drive) if one[1].min() < one[1].max())
-        text = equilibrium_text(read, asked.find, along, values, asked.as_json, asked.digits)
+        values = columns.arrays[own]
+        text = equilibrium_text(read, asked.find, own, values, asked.as_json, asked.digits)
         return _written(text, asked.output, asked)
 
-    varied, driven = _columns(asked)
     query = query_of(read, asked.find or "")
     spots = find(read, varied, query, drive=driven)
-    along = next(name for name, values in (*asked.vary, *asked.drive) if values.min() < values.max())
     if asked.as_json:
         text = as_json(read, along, query, spots)
     else:

@@ -82,9 +82,13 @@ def known_of(case: Case, *, reactions: bool = False) -> Known:
         return Known(case, found.answer, found.refusal, None, {}, {}, 0.0)
     scene = found.scene
     own = case if scene is None else scene.case  # with the contacts where profiles put them
-    whole = found.answer if scene is None else scene.moving()
     points = _points(own, found.answer, scene)
-    twists = {} if whole is None or whole.scene is None else whole.scene.twists
+    whole, twists = found.answer, {}
+    try:  # where nothing moves, or given motions contradict one another, there is no motion to tell
+        whole = whole if scene is None else scene.moving()
+        twists = {} if whole is None or whole.scene is None else whole.scene.twists
+    except SceneError:
+        pass
     return Known(own, found.answer, found.refusal, whole, points, twists, _size(points))
 
 

@@ -134,6 +134,6 @@ def all_vanish(a: Arithmetic, terms: Iterable[tuple[Scalar, float]]) -> bool:
     One that is not settles it, though others be open.
     """
     terms = list(terms)
-    if any(getattr(value, "is_certain", False) for value, _ in terms):
+    if any(getattr(value, "is_certain", False) and not a.vanishes(value, size) for value, size in terms):
         return False
     return all(a.vanishes(value, size) for value, size in terms)

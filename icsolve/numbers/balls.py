@@ -37,6 +37,9 @@ TINY = 5e-323
 """More than what a few products of floats that underflow have lost."""
 ZERO_FRACTION = 1e-40
 """What is smaller than this fraction of its terms, at the highest precision, is zero."""
+ROW_FRACTION = 1e-60
+"""What is smaller than this fraction of its terms is zero at any precision: only a row of a sweep, whose
+coordinates are rounded, comes so near to a singular position."""
 PRECISIONS = (30, 60, 120)
 """Digits with which a scene is evaluated, one after the other, until everything is decided."""
 NORMAL = 1e-300
@@ -418,7 +421,7 @@ class Balls:
         if not self.carried and value.radius:
             return not abs(float(value.value)) > ZERO_FRACTION * size
         if not value.holds_zero:
-            return False
+            return abs(float(value.value)) <= ROW_FRACTION * size
         if value.radius == 0.0:
             return True
         if self.highest and value.radius <= max(ZERO_FRACTION * size, self.nothing):

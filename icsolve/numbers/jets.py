@@ -133,6 +133,27 @@ class Jet(NamedTuple):
         )
 
 
+    def direction(self, other: Jet) -> Jet:
+        """Direction of a vector (self, other), degrees in (-180, 180]."""
+        (x, x1, x2), (y, y1, y2) = self, other
+        inverse = (x * x + y * y).inverse()
+        turned = (x * y1 - y * x1) * inverse
+        bent = ((x * y2 - y * x2) - ((x * x1 + y * y1) * turned).times(2.0)) * inverse
+        mid = np.degrees(np.arctan2(y.mid, x.mid))
+        off, far = np.hypot(x.rad, y.rad), np.hypot(x.mid, y.mid)
+        rad = np.where(off < far, np.degrees(np.arcsin(off / far)), np.inf)
+        rad = np.where(np.abs(mid) + rad < 180.0, rad, rad + 360.0) + 360.0 * ROUNDED
+        return Jet(Ball(mid, rad), turned.times(1.0 / RADIAN), bent.times(1.0 / RADIAN))
+
+    def nearest(self) -> Jet:
+        """The nearest whole number, which is the same in a cell or has no derivative there."""
+        mid, rad = np.rint(self.value.mid), self.value.rad
+        same = np.rint(self.value.mid - rad) == np.rint(self.value.mid + rad)
+        nothing = np.zeros_like(mid)
+        open_ = Ball(nothing, np.where(same, 0.0, np.inf))
+        return Jet(Ball(mid, np.where(same, 0.0, rad + 1.0)), open_, open_)
+
+
 class Cells:
     """A record over cells of one input; ``inputs`` are the numbers of the others (those that vary, too)."""
 
@@ -195,7 +216,15 @@ def _result(node: Node, of: Callable[[int], Jet]) -> Jet:
             return -of(node.a)
         case Op.SQRT:
             return of(node.a).root()
-    return of(node.a).cos_sin()[0 if node.op == Op.COS else 1]
+        case Op.ANGLE:
+            return of(node.a).direction(of(node.b))
+        case Op.NEAREST:
+            return of(node.a).nearest()
+        case Op.COS:
+            return of(node.a).cos_sin()[0]
+        case Op.SIN:
+            return of(node.a).cos_sin()[1]
+    raise TypeError(node.op.name)
 
 
 STILL = 2.0**-45

@@ -8,6 +8,7 @@ are carried out at once, those on 0 and 1 not at all, equal ones once.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from icsolve.numbers.arithmetic import ROUNDING_NOISE, Scalar, turn_of
 from icsolve.numbers.given import Number
@@ -26,6 +27,8 @@ class Record:
         self.nodes: list[Node] = []
         self.inputs: dict[str, Traced] = {}
         self.roots: dict[int, Root] = {}
+        self.follows = True
+        """whether rows are positions of one motion, in which turns are counted on"""
         self.counted: dict[int, tuple[Traced, Scalar]] = {}
         """angles that count whole turns: the guess, and the angle with the turns of the guess"""
         self.vary: dict[str, Scalar] = {}
@@ -123,10 +126,13 @@ class Record:
         one, two = self.lifted(x), self.lifted(y)
         return self._put(Op.ANGLE, one.index, two.index, degrees, one.row or two.row)
 
-    def turns(self, x: Scalar, y: Scalar) -> Scalar:
+    def turns(self, x: Scalar, y: Scalar, about: Scalar = 0.0) -> Scalar:
         """By how much a vector has turned from +x, whole turns too: those nearest to a guess, which
-        becomes an input of the record (one of ``counted``)."""
+        becomes an input of the record (one of ``counted``); those nearest to ``about`` where each row is
+        written anew."""
         angle = self.angle(x, y)
+        if not self.follows and any(isinstance(v, Traced) and v.row for v in (angle, about)):
+            return angle + 360.0 * self.nearest((about - angle) / 360.0)
         if not (isinstance(angle, Traced) and angle.row):
             return angle
         if angle.index not in self.counted:
@@ -249,3 +255,11 @@ def operands(record: Record, k: int) -> tuple[int, ...]:
 
 
 __all__ = ["Node", "Op", "Record", "Root", "Traced", "operands", "varies"]
+
+
+def terms_of(nodes: Sequence[Node], k: int) -> float:
+    """The size of the terms that a value is summed from, where the record was made."""
+    node = nodes[k]
+    if node.op in (Op.ADD, Op.SUB):
+        return terms_of(nodes, node.a) + terms_of(nodes, node.b)
+    return terms_of(nodes, node.a) if node.op == Op.NEG else abs(node.value)

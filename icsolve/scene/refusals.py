@@ -70,8 +70,11 @@ def refuse_no_hanging(case: Case, points: Points, scale: float) -> None:
 
 def rubs(case: Case) -> bool:
     """Whether friction has a part in the answer: a joint rubs, and a load is unknown."""
-    if not any(power.is_unknown(load) for load in case.loads):
-        return False
+    return any(power.is_unknown(load) for load in case.loads) and is_rough(case)
+
+
+def is_rough(case: Case) -> bool:
+    """Whether a joint, a rope or a screw has friction."""
     frictions = (joint.friction for joint in case.joints)
     ropes = any(rope.slips for rope in case.ropes) or any(screw.rubs for screw in case.screws)
     return ropes or any(friction is not None and friction.mu.value > 0 for friction in frictions)
@@ -123,7 +126,8 @@ def _no_work(
     apart = [x - y for a, b in zip(on, off, strict=True) for x, y in zip(a, b, strict=True)]
     at_rest = all_vanish(arithmetic, ((part, largest) for part in apart))
     clause = _why_at_rest(top, motions, culprit.load.link, arithmetic) if at_rest else ""
-    message = sentences.workless(culprit.load.name, culprit.load.link, at_rest, others, clause)
+    slack = culprit.gain == 0.0 or arithmetic.vanishes(culprit.gain, culprit.reach)
+    message = sentences.workless(culprit.load.name, culprit.load.link, at_rest, others, clause, slack)
     if len(top.members) > 2 and (ends := sentences.free_ends(top)):
         message += f" Is a joint missing? {ends[0].upper()}{ends[1:]}."
     status = Status.DEAD_CENTRE if at_rest and others else Status.NO_VALUE if others else Status.ANY_VALUE
@@ -132,7 +136,7 @@ def _no_work(
 
 def _why_at_rest(top: Topology, motions: Motions, link: str, arithmetic: Arithmetic) -> str:
     """Which centres on one line hold a link at rest."""
-    body = top.body_of.get(link, -1)
+    body = top.body_of.get(link, -1)  # none of a screw, or of a rope's end
     own_first = sorted(motions.closures, key=lambda closure: body not in closure.group.bodies)
     clauses = (aligned(top, lined_up(closure, top, body, arithmetic)) for closure in own_first)
     return next(filter(None, clauses), "")

@@ -11,6 +11,7 @@ from icsolve.assembly import solve_figure
 from icsolve.case import Case, Coordinates, Unknown
 from icsolve.errors import SceneError, Status
 from icsolve.scene import solve_scene
+from icsolve.scene.refusals import is_rough
 from icsolve.solve.load_function import given_at
 from icsolve.solve.positions import Search, find_positions, with_scene
 from icsolve.solve.resting import Range, find_ranges
@@ -31,7 +32,7 @@ def solve_positions(
     if len(case.unknowns) == 2:
         return _two(case, all_centres, rates, reactions)
     unknown = _unknown(case)
-    if rubs(case):
+    if is_rough(case):
         return _resting(case, unknown, all_centres, rates, reactions)
     start = None if unknown.start is None else unknown.start.value
     search = find_positions(_written(case), unknown.path, span_of(unknown), start)
@@ -48,8 +49,8 @@ def _two(case: Case, all_centres: bool, rates: bool, reactions: bool) -> Answer:
     """Two unknown data, of a mechanism with two freedoms."""
     _unknown(replace(case, unknowns=case.unknowns[:1]))
     for one in case.unknowns:
-        if one.start is not None or rubs(case):
-            words = "with friction" if rubs(case) else "moved from a position as written"
+        if one.start is not None or is_rough(case):
+            words = "with friction" if is_rough(case) else "moved from a position as written"
             raise SceneError(Status.UNSUPPORTED, f"two unknown data {words} are not searched.")
     spans = [span_of(one) for one in case.unknowns]
     search = find_pairs(_written(case), [one.path for one in case.unknowns], spans)
@@ -82,12 +83,6 @@ def _is_placed(case: Case) -> bool:
     except SceneError as error:
         return error.status != Status.UNDERDETERMINED
     return True
-
-
-def rubs(case: Case) -> bool:
-    """Whether a joint has friction."""
-    frictions = (joint.friction for joint in case.joints)
-    return any(friction is not None and friction.mu.value > 0 for friction in frictions)
 
 
 def span_of(unknown: Unknown) -> tuple[float, float] | None:
@@ -144,6 +139,9 @@ def no_value(path: str, nearest: float | None, notes: tuple[str, ...]) -> SceneE
 
 def _resting(case: Case, unknown: Unknown, all_centres: bool, rates: bool, reactions: bool) -> Answer:
     """With friction: the ranges in which the mechanism holds still."""
+    if unknown.start is not None:
+        said = "with friction nothing is moved from a position as written: ranges are not searched so."
+        raise SceneError(Status.UNSUPPORTED, said)
     search = find_ranges(_written(case), unknown.path, span_of(unknown))
     if not search.ranges:
         raise no_value(unknown.path, search.nearest, search.notes)

@@ -8,6 +8,7 @@ that power vanishes: the principle of virtual work.
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import NamedTuple
@@ -33,12 +34,14 @@ from icsolve.structure.topology import Topology, topology
 from icsolve.sweep.drivers import Drive
 from icsolve.sweep.numbers import with_numbers
 from icsolve.sweep.program import Asked, Setting, Sheet, setting_of, sheet_of, wanted_points
-from icsolve.sweep.scene import motions_of
+from icsolve.sweep.scene import Scene, motions_of
 
 Steps = tuple[Step, ...]
 
 MOST_MODES = 256
 SAMPLES = 181
+APART = 1e-6
+"""A point's path by the free number and by the motion agree to this fraction of its speed."""
 
 
 class LoadFunction(NamedTuple):
@@ -63,6 +66,8 @@ class LoadFunction(NamedTuple):
     """those that turn, the fastest first where the record was made"""
     force_scale: float
     """by what the loads were multiplied"""
+    poses: bool
+    """whether the motion is one along the free number, and does not leave that as it is"""
 
     def given(self, values: Array) -> dict[int, Array]:
         """The inputs for some values of the free datum; what counts turns does so from the record's own."""
@@ -206,6 +211,7 @@ def _function(case: Case, path: str, top: Topology, figure: Figure) -> LoadFunct
 def _on_sheet(sheet: Sheet, path: str, figure: Figure, margins: list[int]) -> LoadFunction:
     """The power of the loads on a record that has the figure, by its one input."""
     record, scene, given = sheet.record, sheet.scene, sheet.inputs[path]
+    record.follows = True  # also where each position is read anew: turns count from one of them
     case = scene.case
     motions = motions_of(scene)
     if motions.mobility != 1:
@@ -217,7 +223,7 @@ def _on_sheet(sheet: Sheet, path: str, figure: Figure, margins: list[int]) -> Lo
     wrenches = power.wrenches(case, scene.frame, scene.points, record)
     balance = power.balance(wrenches, motions.twists, 1)
     total = power.known_power(balance, 0, record)
-    rate = _rate(case, scene.points, motions.twists, record, given)
+    rate, poses = _rate(scene, motions.twists, given)
     slope = gradient(record, total, (given,))[given]
     named = {p: scene.points[p] for p in figure.points if not p.startswith("@")}
     places = {p: (record.lifted(x).index, record.lifted(y).index) for p, (x, y) in named.items()}
@@ -234,7 +240,18 @@ def _on_sheet(sheet: Sheet, path: str, figure: Figure, margins: list[int]) -> Lo
         places,
         _turning(motions.twists),
         power.force_scale(balance),
+        poses,
     )
+
+
+def refuse_unposed(function: LoadFunction) -> None:
+    """Refuse a number that the motion of the mechanism does not change."""
+    if not function.poses:
+        raise SceneError(
+            Status.UNSUPPORTED,
+            f"{function.path} does not pose the figure: the mechanism moves without changing it. Take an "
+            "angle, a length or a coordinate that the motion changes, or a link that turns.",
+        )
 
 
 def _turning(twists: Mapping[str, tuple[tuple[Scalar, Scalar, Scalar], ...]]) -> list[str]:
@@ -243,29 +260,30 @@ def _turning(twists: Mapping[str, tuple[tuple[Scalar, Scalar, Scalar], ...]]) ->
 
 
 def _rate(
-    case: Case,
-    points: Mapping[str, tuple[Scalar, Scalar]],
-    twists: Mapping[str, tuple[tuple[Scalar, Scalar, Scalar], ...]],
-    record: Record,
-    given: int,
-) -> Scalar:
+    scene: Scene, twists: Mapping[str, tuple[tuple[Scalar, Scalar, Scalar], ...]], given: int
+) -> tuple[Scalar, bool]:
     """The rate of the free number in the motion: that with which a point goes along its path, over how
-    far it goes along that path for each unit of the number."""
-    best: tuple[float, Scalar] | None = None
-    for link, names in case.carries.items():
-        if link == case.ground:
+    far it goes along that path for each unit of the number; and whether all points go along such paths."""
+    case, record = scene.case, scene.record
+    best: tuple[float, Scalar] = (0.0, 0.0)
+    ways: list[list[tuple[float, float, float, float]]] = []
+    carries = {link: case.carries[link] for link in case.links if link in case.carries}
+    for name in dict.fromkeys(name for names in carries.values() for name in names):
+        if name not in scene.points or name.startswith("@"):
             continue
-        for name in names:
-            if name not in points or name.startswith("@"):
-                continue
-            x, y = points[name]
-            dx, dy = gradient(record, x, (given,))[given], gradient(record, y, (given,))[given]
-            square = dx * dx + dy * dy
-            size = float(square)
-            if best is None or size > 4.0 * best[0]:
-                vx, vy = velocity(twists[link][0], (x, y))
-                best = (size, (vx * dx + vy * dy) / square if size else 0.0)
-    return best[1] if best is not None else 0.0
+        x, y = scene.points[name]
+        dx, dy = gradient(record, x, (given,))[given], gradient(record, y, (given,))[given]
+        on = [velocity(twists[link][0], (x, y)) for link, names in carries.items() if name in names]
+        ways.append([(float(dx), float(dy), float(vx), float(vy)) for vx, vy in on])
+        square = dx * dx + dy * dy
+        if float(square) > 4.0 * best[0]:
+            # a link whose guide the point lies on moves otherwise there than the link that carries it
+            vx, vy = min(on, key=lambda v: abs(float(v[0] * dy - v[1] * dx)))
+            best = (float(square), (vx * dx + vy * dy) / square)
+    rate = float(best[1])
+    off = [min(math.hypot(v - rate * d, w - rate * e) for d, e, v, w in each) for each in ways]
+    fastest = max((abs(c) for each in ways for one in each for c in one[2:]), default=0.0)
+    return best[1], not any(one > APART * fastest for one in off)
 
 
 __all__ = ["LoadFunction", "load_functions"]

@@ -33,6 +33,7 @@ from icsolve.solve.load_function import (
     given_at,
     load_functions,
     moving_functions,
+    refuse_unposed,
     written_function,
 )
 from icsolve.sweep.exact import RowScenes
@@ -43,6 +44,8 @@ PROBE = "@equilibrium"
 STEPS = 64
 JUMP = 1e-5
 """Beside a zero, even one at which the load rises as steeply as a root, it is smaller than this fraction."""
+NEAR = 1e-6
+"""Loads balance where the torque that would balance them is this small beside the largest times the size."""
 AT_LIMIT = "at a limit of the unknown the other links' rates per unit of it grow without bound."
 DEGREES = 180.0 / math.pi
 
@@ -86,7 +89,8 @@ def find_positions(
     low, high = span or whole_range(case, path)
     if start is None:
         functions, complete = load_functions(case, path, low, high)
-        _refuse_history(case, functions[0])
+        refuse_history(case, functions[0])
+        refuse_unposed(functions[0])
         if span is None:
             _refuse_uncounted(case, functions[0])
     else:
@@ -135,17 +139,22 @@ def moved_by(case: Case, along: str) -> LoadFunction:
 
     Raises CaseError for what is neither, SceneError where it can't be moved so.
     """
+    if case.dynamic:
+        said = "with the inertia forces of its motion a mechanism does not rest: leave `dynamic` out."
+        raise SceneError(Status.UNSUPPORTED, said)
     if along in case.links:
         if along == case.ground:
             raise SceneError(Status.STRUCTURE, f"link {along} is the frame: it does not move.")
         return moving_functions(case, link=along)[0]
     path = find_number(case, along).path
     try:
-        return moving_functions(case, path=path)[0]
+        function = moving_functions(case, path=path)[0]
     except SceneError as error:
         if error.status != Status.UNSUPPORTED:
             raise
-        return written_function(case, path)
+        function = written_function(case, path)
+    refuse_unposed(function)
+    return function
 
 
 def _moving_from(case: Case, path: str, start: float) -> tuple[list[LoadFunction], bool]:
@@ -156,7 +165,7 @@ def _moving_from(case: Case, path: str, start: float) -> tuple[list[LoadFunction
     return functions, found.complete
 
 
-def _refuse_history(case: Case, function: LoadFunction) -> None:
+def refuse_history(case: Case, function: LoadFunction) -> None:
     """Refuse what counts from a position as written, on links that turn, where none is written."""
     turning = set(function.links)
     for what, link in _history(case):
@@ -411,6 +420,13 @@ def _probe(function: LoadFunction, value: float, on: str = "") -> tuple[float, s
         return answer, link
     assert refusal is not None
     raise refusal
+
+
+def balances(function: LoadFunction, value: float) -> bool:
+    """Whether the loads balance at a value, to what a figure written in decimals can tell."""
+    torque, _ = _probe(function, value)
+    units, frame = function.case.units, function.sheet.scene.frame
+    return abs(torque) * function.force_scale * frame.scale <= NEAR * units.torque_per_force_length
 
 
 def probes(function: LoadFunction, on: str = "") -> Iterator[tuple[str, Load]]:

@@ -15,8 +15,8 @@ from icsolve.errors import SceneError
 from icsolve.kinematics.speeds import joint_order
 from icsolve.scene import solve_scene
 from icsolve.solve.branches import Branches
-from icsolve.solve.load_function import LoadFunction, load_functions
-from icsolve.solve.positions import PROBE, scene_at, search_modes, whole_range
+from icsolve.solve.load_function import LoadFunction, load_functions, refuse_unposed
+from icsolve.solve.positions import PROBE, refuse_history, scene_at, search_modes, whole_range
 
 SAMPLES = 120
 
@@ -44,15 +44,20 @@ def find_ranges(case: Case, path: str, span: tuple[float, float] | None) -> Rang
     ends are closed in on to the last digit.
     """
     low, high = span or whole_range(case, path)
-    smooth = replace(case, joints=tuple(without_friction(joint) for joint in case.joints))
+    ropes = tuple(rope._replace(mu=(None,) * len(rope.mu)) for rope in case.ropes)
+    smooth = replace(case, joints=tuple(map(without_friction, case.joints)), ropes=ropes)
     functions, _ = load_functions(smooth, path, low, high)
+    refuse_history(smooth, functions[0])
+    refuse_unposed(functions[0])
     branches = Branches(functions, low, high)
     kept = branches.nearest(case) if case.near else None
     search = search_modes(functions, branches, kept, low, high, span is None)
     turns = span is None and path.startswith("angles.")
     found: list[Range] = []
     for n, function in enumerate(functions):
-        rough = function._replace(case=replace(function.case, joints=case.joints))
+        rough = function._replace(
+            case=replace(function.case, joints=case.joints, ropes=case.ropes)
+        )
         seeds = [p.value for m, p in search if m == n]
         values = sorted({*np.linspace(low, high, SAMPLES + 1).tolist(), *seeds})
         usable = [v for v in values if branches.on(n, v) >= 0 and (kept is None or branches.on(n, v) in kept)]

@@ -13,10 +13,10 @@ from icsolve.answer.equilibrium import Stiffness
 from icsolve.case import Case, ForceVector, Number
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
-from icsolve.solve.load_function import moving_functions
-from icsolve.solve.positions import Rest, described, moved_by
+from icsolve.scene.refusals import is_rough
+from icsolve.solve.positions import Rest, balances, described, moved_by
 from icsolve.statics.power import is_unknown
-from icsolve.sweep.numbers import find_number, numbers_of, with_numbers
+from icsolve.sweep.numbers import find_number, with_numbers
 
 CUTS = 32
 
@@ -27,6 +27,8 @@ def with_stability(case: Case, answer: Answer, of: str) -> Answer:
     ``of`` is a datum that poses the figure (``angles.AB``) or a link's name. Raises CaseError for what is
     neither, SceneError where the mechanism can't be moved by it.
     """
+    if answer.positions is not None:  # each has its own
+        return answer
     held = holding(case, answer)
     rest = rest_as_written(held, of)
     return replace(answer, stability=rest.stability, stiffness=rest.stiffness, why_no_stiffness=rest.why)
@@ -45,6 +47,9 @@ def holding(case: Case, answer: Answer) -> Case:
 
 def rest_as_written(case: Case, of: str) -> Rest:
     """The position as written of a case whose loads are all known and balance."""
+    if is_rough(case):
+        said = "with friction a position is one of a range, and has no stability: leave out the friction."
+        raise SceneError(Status.UNSUPPORTED, said)
     function = moved_by(case, of)
     value = 0.0 if of in case.links else find_number(case, of).value
     return described(function, value, 0.0)
@@ -64,43 +69,74 @@ def neutral_values(case: Case, path: str, low: float, high: float) -> list[Turni
 
     The case has to be in equilibrium as written for all of them.
     """
-    link = next(link for link in joint_order(case) if link != case.ground and _turns(case, link))
+    own = find_number(case, path).path
+    link = _driven(case)
 
     def stiffness(value: float) -> Stiffness:
-        found = rest_as_written(with_numbers(case, {path: value}), link).stiffness
-        if found is None:
+        rest = rest_as_written(with_numbers(case, {own: value}), link)
+        if rest.stiffness is None:
             raise SceneError(Status.DEAD_CENTRE, f"link {link} stands still as written.")
-        return found
+        if not balances(rest.function, 0.0):
+            raise SceneError(
+                Status.UNBALANCED,
+                f"the loads do not balance as written where {path} is {value:g}, so no stability is lost "
+                "there. Write the figure in a position of equilibrium, or let a datum of it be `unknown`.",
+            )
+        return rest.stiffness
 
     values = [low + (high - low) * k / CUTS for k in range(CUTS + 1)]
     both = zip(values, map(stiffness, values), strict=True)
     known = [(value, k) for value, k in both if abs(k.value) > (k.error or 0.0)]
     found = []
     for (a, at_a), (b, at_b) in pairwise(known):
-        if (at_a.value > 0.0) != (at_b.value > 0.0):  # the stiffness is linear in the number of a load
-            slope = (at_b.value - at_a.value) / (b - a)
-            value = a - at_a.value / slope
-            error = ((at_a.error or 0.0) + (at_b.error or 0.0)) / abs(slope) + 2.0 * math.ulp(value)
-            words = ("stable", "unstable") if at_a.value > 0.0 else ("unstable", "stable")
-            found.append(Turning(value, error, *words))
+        if (at_a.value > 0.0) != (at_b.value > 0.0):
+            found.append(_neutral_between(stiffness, (a, at_a), (b, at_b)))
     return found
 
 
-def _turns(case: Case, link: str) -> bool:
-    try:
-        return link in moving_functions(replace(case, expect=(), motion=()), link=link)[0].links
-    except SceneError:
-        return False
+def _neutral_between(
+    stiffness: Callable[[float], Stiffness], one: tuple[float, Stiffness], two: tuple[float, Stiffness]
+) -> Turning:
+    """Where the stiffness vanishes between two values: at once where it is linear in the number (a force, a
+    mass, a spring's own), else by going on so."""
+    words = ("stable", "unstable") if one[1].value > 0.0 else ("unstable", "stable")
+    while True:
+        (a, at_a), (b, at_b) = one, two
+        slope = (at_b.value - at_a.value) / (b - a)
+        value = a - at_a.value / slope
+        error = ((at_a.error or 0.0) + (at_b.error or 0.0)) / abs(slope) + 2.0 * math.ulp(value)
+        here = stiffness(value)
+        if abs(here.value) <= 2.0 * error * abs(slope) or not min(a, b) < value < max(a, b):
+            return Turning(value, error, *words)
+        middle = 0.5 * (a + b)  # cut so often that no side stands still
+        for at, k in ((value, here), (middle, stiffness(middle))):
+            if one[0] < at < two[0]:
+                one, two = ((at, k), two) if (k.value > 0.0) == (one[1].value > 0.0) else (one, (at, k))
+
+
+def _driven(case: Case) -> str:
+    """A link by which the mechanism can be turned.
+
+    Raises SceneError where there is none.
+    """
+    refusal = SceneError(Status.STRUCTURE, "nothing turns in this case, so it has no stability.")
+    for link in joint_order(case):
+        try:
+            if link != case.ground and link in moved_by(replace(case, expect=(), motion=()), link).links:
+                return link
+        except SceneError as error:
+            refusal = error
+    raise refusal
 
 
 def holding_values(case: Case, path: str, low: float, high: float) -> list[Turning]:
     """The values of a number at which a mechanism under known loads begins or ceases to hold still."""
     from icsolve.solve.resting import holds_as_written
 
-    number = numbers_of(case)[path]
+    own = find_number(case, path).path
 
     def kind(value: float) -> str:
-        return "holds" if holds_as_written(with_numbers(case, {number.path: value})) else "slips"
+        return "holds" if holds_as_written(with_numbers(case, {own: value})) else "slips"
 
     return _turnings(kind, low, high)
 

@@ -47,7 +47,8 @@ class Wrench(NamedTuple):
     brings the load's own unit to force units, or force times case length; ``measure`` is the power
     of two that brings case lengths into the normalised frame (for a torque, else 1), kept apart so
     that nothing overflows. ``root`` names the load whose number it takes, ``ratio`` times as large, and
-    ``source`` is that load.
+    ``source`` is that load. ``reach`` is the size of the terms of the gain, which for a spring are its
+    length and its free length.
     """
 
     load: Load
@@ -58,6 +59,7 @@ class Wrench(NamedTuple):
     ratio: Scalar
     measure: float
     source: Load
+    reach: float
 
 
 def wrenches(case: Case, frame: Frame, points: Points, arithmetic: Arithmetic) -> tuple[Wrench, ...]:
@@ -68,8 +70,17 @@ def wrenches(case: Case, frame: Frame, points: Points, arithmetic: Arithmetic) -
         source, ratio = _source(load, by_name, arithmetic)
         unit, gain = _unit_wrench(load, case, frame, points, arithmetic)
         measure = frame.scale if isinstance(load, Torque | TorsionSpring) else 1.0
-        result.append(Wrench(load, reacting(case, load), unit, gain, source.name, ratio, measure, source))
+        reach = magnitude(gain) + _beside(load, case)
+        on = reacting(case, load)
+        result.append(Wrench(load, on, unit, gain, source.name, ratio, measure, source, reach))
     return tuple(result)
+
+
+def _beside(load: Load, case: Case) -> float:
+    """What the gain of a spring is besides itself: twice the free length, a whole turn."""
+    if isinstance(load, TorsionSpring):
+        return 2.0 * math.pi / case.units.torque_per_force_length
+    return 2.0 * load.free.value if isinstance(load, Spring) else 0.0
 
 
 def reacting(case: Case, load: Load) -> str:
@@ -219,7 +230,7 @@ def _angle(load: TorsionSpring, points: Points, arithmetic: Arithmetic) -> Scala
         u, v = arm[0][0] - at[0], arm[0][1] - at[1]
         x, y = u * x + v * y, u * y - v * x
     counted = getattr(arithmetic, "turns", None)
-    angle = counted(x, y) if callable(counted) else arithmetic.angle(x, y)
+    angle = counted(x, y, arithmetic.given(load.free)) if callable(counted) else arithmetic.angle(x, y)
     whole = math.ceil((load.free.value - float(angle) - 180.0) / 360.0)
     return angle + 360.0 * whole if whole else angle
 
@@ -267,7 +278,7 @@ def balance(all_wrenches: Sequence[Wrench], twists: Mapping[str, Sequence[Triple
             on, off = twists[w.load.link][m], twists[w.against][m]
             relative = (on[0] - off[0], on[1] - off[1], on[2] - off[2])
             row.append(w.gain * pairing(w.unit, relative))
-            scale.append(magnitude(w.gain) * sum(map(magnitude, w.unit)) * fastest)
+            scale.append(w.reach * sum(map(magnitude, w.unit)) * fastest)
         factors.append(tuple(row))
         sizes.append(tuple(scale))
     return Balance(tuple(all_wrenches), tuple(factors), tuple(sizes))

@@ -78,6 +78,17 @@ def columns_of(
     return Columns(paths, links, names)
 
 
+def along_of(columns: Columns) -> str:
+    """The one number, or link, that varies.
+
+    Raises AskError where none does, or several do.
+    """
+    varying = [name for name, array in columns.arrays.items() if np.ptp(array) > 0.0]
+    if len(varying) != 1:
+        raise AskError("positions are found along one varied number")
+    return varying[0]
+
+
 @lru_cache(maxsize=256)
 def _path(case: Case, name: str) -> str:
     return find_number(case, name).path

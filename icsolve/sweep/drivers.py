@@ -30,7 +30,7 @@ from icsolve.assembly.driven.groups import Matrix, bases_of, jacobian, matrix, r
 from icsolve.assembly.driven.mechanism import Mechanism
 from icsolve.assembly.driven.poses import Rotation, Spot, Still, minus
 from icsolve.assembly.workspace import Workspace, normalised
-from icsolve.case import Case, Coordinates, Number
+from icsolve.case import Case, Coordinates, Number, Pin
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Scalar
@@ -55,12 +55,16 @@ def only_poses(mechanism: Mechanism, path: str, point: str, written: float) -> b
     return _leaves_shapes(mechanism, path, written)
 
 
-def turns_a_wheel(mechanism: Mechanism, path: str, moved: Collection[str], written: float) -> bool:
-    """Whether a number that moves these points turns what carries them: bodies that mesh, roll or bear a
-    belt and so turn others, all of which keep their shapes."""
-    wheels = {
-        b for bond in mechanism.top.bonds if isinstance(bond.joint, Rolling | Mesh) for b in (bond.a, bond.b)
-    }
+def turns_links(mechanism: Mechanism, path: str, moved: Collection[str], written: float) -> bool:
+    """Whether a number that moves these points turns the links that carry them: links whose direction no
+    joint's place tells, since they mesh, roll, bear a belt, or turn about one pivot alone; and all keep their
+    shapes."""
+    bonds = mechanism.top.bonds
+    wheels = {b for bond in bonds if isinstance(bond.joint, Rolling | Mesh) for b in (bond.a, bond.b)}
+    for body in range(len(mechanism.top.members)):
+        own = [bond.joint for bond in bonds if body in (bond.a, bond.b)]
+        if all(isinstance(joint, Pin) for joint in own) and len({j.at for j in own}) == 1:
+            wheels.add(body)
     carriers = {body for body, spots in mechanism.spots.items() if any(name in moved for _, name in spots)}
     if not carriers or not carriers <= wheels - {mechanism.top.ground}:
         return False

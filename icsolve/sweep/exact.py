@@ -17,7 +17,7 @@ from icsolve.assembly.driven.groups import NewtonGroup
 from icsolve.case import Case, Centroid, Coordinates, Number
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
-from icsolve.numbers.record import Node, Op, Root, Traced, operands
+from icsolve.numbers.record import Node, Op, Root, Traced, operands, terms_of
 from icsolve.numbers.replay import BINARY, live
 from icsolve.sweep.branches import live_roots
 from icsolve.sweep.numbers import numbers_of, with_numbers
@@ -26,6 +26,8 @@ from icsolve.sweep.program import Sheet
 DIGITS = 120
 ZERO = Decimal("1e-40")
 """What is below this fraction of its terms is zero."""
+VANISHED = Decimal("1e-60")
+"""What is divided by is zero below this fraction of its terms: fewer digits are lost on the way."""
 STEP = Decimal("1e-30")
 """Derivatives are differences over such steps: exact to twice as many digits as this has."""
 ROUNDS = 250
@@ -58,6 +60,8 @@ class ExactRecord:
         self.sheet, self.record = sheet, sheet.record
         self.still: Values = {}
         self.orders: dict[tuple[int, ...], tuple[list[Step], Values]] = {}
+        self.least: Values = {}
+        """by divisor what is zero beside its terms"""
         self.constants = self._decimals()
         self.last: tuple[Values, Values] | None = None
 
@@ -101,13 +105,19 @@ class ExactRecord:
         if key not in self.orders:
             order = [k for k in live(self.record, wanted, ()) if nodes[k].op != Op.INPUT]
             steps = [(k, nodes[k].op, *_pair(nodes[k])) for k in order]
+            divisors = [b for _, op, _, b in steps if op == Op.DIV and b not in self.least]
+            self.least |= {b: VANISHED * Decimal(terms_of(nodes, b)) for b in divisors}
             needed = {n for *_, a, b in steps for n in (a, b)} | set(wanted)
             still = {k: self._constant(k) for k in needed if not nodes[k].row}
             self.orders[key] = (steps, still)
         steps, still = self.orders[key]
         values = {**still, **given}
         for k, op, a, b in steps:
-            if k not in values:
+            if k in values:
+                continue
+            if op == Op.DIV and abs(values[b]) <= self.least[b]:
+                values[k] = Decimal("NaN")
+            else:
                 values[k] = _result(op, values[a], values[b])
         return values
 

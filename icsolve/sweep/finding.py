@@ -21,18 +21,17 @@ from icsolve.case import Case
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.jets import Ball, Cells, Jet
-from icsolve.numbers.record import Op, Record, Traced
+from icsolve.numbers.record import Op, Record, Traced, terms_of
 from icsolve.numbers.replay import Array
 from icsolve.numbers.tape import UNIT
 from icsolve.scene import solve_scene
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
-from icsolve.sweep.ask import AskError, columns_of
+from icsolve.sweep.ask import AskError, along_of, columns_of
 from icsolve.sweep.exact import CONTEXT, STEP, Unreached, as_written
 from icsolve.sweep.parts import Part, Parts
 from icsolve.sweep.program import Asked
 from icsolve.sweep.recheck import Recheck
-from icsolve.sweep.runner import terms_of
 from icsolve.sweep.seeking import Query, Scenes, Spot, Spots
 from icsolve.sweep.start import start_of
 
@@ -76,21 +75,19 @@ def find(
         Where several numbers vary, or the load is not an unknown one.
     """
     columns = columns_of(case, vary, drive)
-    names = [name for name, array in columns.arrays.items() if np.ptp(array) > 0.0]
-    if len(names) != 1:
-        raise AskError("positions are found along one varied number")
+    along = along_of(columns)
     if query.load not in {"", *(load.name for load in case.loads if is_unknown(load))}:
         raise AskError(f"{query.load} is no unknown load of this case")
-    by_itself = rubs(case) or (case.profiles is not None and bool(case.profiles.touches))
+    by_itself = rubs(case) or case.dynamic or (case.profiles is not None and bool(case.profiles.touches))
     start = None if by_itself else start_of(case, columns, Asked())
     if start is None or start.one_by_one:
-        return Scenes(case, columns, names[0], query).spots()
+        return Scenes(case, columns, along, query).spots()
     spots = Spots()
     if start.sheet().refusal is None:
         parts = Parts(start, columns)
         with localcontext(CONTEXT) as context:
             context.traps[InvalidOperation] = False  # what is not a number compares with nothing
-            search = _Search(parts, parts.whole(), names[0], query)
+            search = _Search(parts, parts.whole(), along, query)
             spots.extend(sorted(search.spots(), key=lambda spot: (spot.at, spot.kind)))
         spots.notes = tuple(search.notes)
     return spots
@@ -410,8 +407,8 @@ UNSHOWN = (
     "{count} parts of the range are left undecided: there the bounds are too wide to show what is there."
 )
 SEARCHED = (
-    "a group of links has to be placed by Newton's method: its range was searched at {count} places, and two "
-    "positions between two of them may be missed."
+    "a group of links has to be placed by Newton's method, or turns to be counted: the range was searched at "
+    "{count} places, and two positions between two of them may be missed."
 )
 
 Mask = npt.NDArray[np.bool_]

@@ -23,7 +23,7 @@ from icsolve.scene import refusals
 from icsolve.screws.plane import Point
 from icsolve.statics.power import points_of
 from icsolve.structure.topology import Topology, topology
-from icsolve.sweep.drivers import Drive, condition, drive_of, pose_of, turning, turns_a_wheel
+from icsolve.sweep.drivers import Drive, condition, drive_of, pose_of, turning, turns_links
 from icsolve.sweep.numbers import find_number, numbers_of
 from icsolve.sweep.rubbing import Rubbing, rubbing
 from icsolve.sweep.scene import (
@@ -144,7 +144,7 @@ def _drive(case: Case, top: Topology, figure: Figure, paths: Sequence[str], link
 
 def _poses(case: Case, figure: Figure, scratch: Mechanism, path: str) -> bool:
     """Whether a number of the figure places a joint, and not only points that links carry besides (but for
-    those of a wheel, which it turns); numbers that are only compared with the figure may."""
+    those of a wheel or a lever, which it turns); numbers that are only compared with the figure may."""
     record = Record()
     record.vary[path] = record.input(path, numbers_of(case)[path].value)
     placed = place(figure, case, record).points
@@ -153,7 +153,7 @@ def _poses(case: Case, figure: Figure, scratch: Mechanism, path: str) -> bool:
     held |= {p for rope in case.ropes for p, _ in zip(rope.points, rope.links, strict=False)}
     if not moved or held & moved:
         return True
-    return turns_a_wheel(scratch, path, moved, numbers_of(case)[path].value)
+    return turns_links(scratch, path, moved, numbers_of(case)[path].value)
 
 
 # --- the record -----------------------------------------------------------------------------------
@@ -184,6 +184,7 @@ def sheet_of(setting: Setting, asked: Asked, signs: Signs = ()) -> Sheet:
 def _sheet(setting: Setting, asked: Asked, nudge: float, signs: Signs) -> Sheet:
     case, record, frame = setting.case, Record(), setting.figure.frame
     numbers = numbers_of(case)
+    record.follows = setting.moves
     inputs: dict[str, int] = {}
     for path in setting.paths:
         if path not in setting.drive.moving:

@@ -17,7 +17,7 @@ import numpy.typing as npt
 
 from icsolve.numbers.backward import Backward
 from icsolve.numbers.noise import noise_of
-from icsolve.numbers.record import Node, Op, Record, varies
+from icsolve.numbers.record import Node, Op, Record, terms_of, varies
 from icsolve.numbers.replay import BLOCK, Array, Code, live
 from icsolve.sweep.branches import live_roots
 from icsolve.sweep.exact import RowScenes
@@ -243,14 +243,6 @@ def _living(sheet: Sheet, alive: Sequence[int]) -> list[int]:
 def column(array: Array, part: int) -> Array:
     """One part of an output's array."""
     return array if array.ndim == 1 else array[:, part]
-
-
-def terms_of(nodes: Sequence[Node], k: int) -> float:
-    """The size of the terms that a value is summed from, where the record was made."""
-    node = nodes[k]
-    if node.op in (Op.ADD, Op.SUB):
-        return terms_of(nodes, node.a) + terms_of(nodes, node.b)
-    return terms_of(nodes, node.a) if node.op == Op.NEG else abs(node.value)
 
 
 def _usual(record: Record, k: int) -> float:

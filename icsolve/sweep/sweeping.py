@@ -109,7 +109,8 @@ def _by_scenes(start: Start, columns: Columns, wanted: Wanted, progress: Progres
     work.run()
     table = Table(columns.rows, wanted.asked)
     table.codes[:] = work.codes
-    table.values |= {("points", p): work.values["points", p] for p in wanted.asked.points}
+    places = [("points", p) for p in wanted.asked.points]  # a spare point may have none
+    table.values |= {key: work.values[key] for key in places if key in work.values}
     by_scenes(table, np.flatnonzero(table.codes == 0).tolist(), work.case_of, progress)
     return table.sweep(start.case, _shown(columns), wanted.error, (*work.notes, BY_SCENES), work.case_of)
 

@@ -84,13 +84,16 @@ def loose(case: Case, names: list[str]) -> str:
     )
 
 
-def workless(load: str, link: str, at_rest: bool, others_work: bool, why: str) -> str:
-    """The unknown does no work: no value balances, or any value does."""
+def workless(load: str, link: str, at_rest: bool, others_work: bool, why: str, slack: bool = False) -> str:
+    """The unknown does no work: no value balances, or any value does; ``slack``: a spring that is neither
+    stretched nor wound."""
     clause = f" ({why})" if why else ""
     cause = (
-        f"link {link} stands still in this position{clause}, so it is a dead centre for {load}"
+        f"the spring {load} is as it is when free, and neither pulls nor turns"
+        if slack
+        else f"{link_words(link)} stands still in this position{clause}, so it is a dead centre for {load}"
         if at_rest
-        else f"{load} does no work on link {link}: where it acts, its line is square to the motion"
+        else f"{load} does no work on {link_words(link)}: where it acts, its line is square to the motion"
     )
     if others_work:
         return (
