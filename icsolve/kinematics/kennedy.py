@@ -86,7 +86,7 @@ class Kennedy:
         while self.missing:
             if self._settle_next():
                 continue
-            if self.partners is not None:
+            if self.partners is not None and len(self.bodies) <= WHOLE:
                 self.partners = None
                 for pair in tuple(self.known):
                     self._spread(pair)
@@ -159,6 +159,9 @@ class Kennedy:
             heapq.heappush(self.heap, (known.error, len(self.heap), pair, known))
 
 
+WHOLE = 64
+"""In a chain of more links a centre that those near it do not give (wheels in one line) is not looked for over
+all of them, which are as many as their square: it comes from the loop equations."""
 ENOUGH = 4
 """The best lines of a centre that are kept: on any two of them it is sought."""
 SAME = 64 * ROUNDING
