@@ -153,4 +153,3 @@ def _same(status: str, value: float, error: float, scene: Case) -> bool:
     except SceneError as refusal:
         return status == refusal.status
     return status == "ok" and abs(value - one.value) <= error + (one.error or 0.0)
-

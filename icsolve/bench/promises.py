@@ -12,6 +12,7 @@ import os
 import sys
 from collections.abc import Callable, Iterator
 from functools import partial
+from itertools import cycle
 from random import Random
 
 import numpy as np
@@ -19,6 +20,7 @@ import numpy as np
 from icsolve.bench.closed import FOUR_BAR, FOUR_BAR_CASE, Array
 from icsolve.bench.families import BUTTERFLY, Sheet, by_sides, chain, linkage
 from icsolve.bench.gates import Effort, Gate, Kept, ratio, table
+from icsolve.bench.speed import FRESH_CASES
 from icsolve.bench.timing import cpu_seconds, least, once
 from icsolve.case import Case
 from icsolve.files import scratch
@@ -213,16 +215,10 @@ def _set_up(links: int) -> Callable[[], object]:
 
 
 def _fresh_sweeps() -> Callable[[], object]:
-    """Sweeps of four-bars, none of which was seen before."""
-    count = iter(range(10**9))
-    turn = np.linspace(60.0, 420.0, POSITIONS // 10)
-
-    def call() -> object:
-        return sweep(
-            load(FOUR_BAR_CASE.replace("AB: 60", f"AB: {60.0 + next(count) * 1e-4:.4f}")), {"angles.AB": turn}
-        )
-
-    return call
+    """Sweeps of four-bars that take turns: more of them than are remembered."""
+    texts = (FOUR_BAR_CASE.replace("AB: 60", f"AB: {60.0 + k / 100.0}") for k in range(FRESH_CASES + 16))
+    cases, turn = cycle([load(text) for text in texts]), np.linspace(60.0, 420.0, POSITIONS // 10)
+    return lambda: sweep(next(cases), {"angles.AB": turn})
 
 
 # --- tables, folders and starts -------------------------------------------------------------------
