@@ -160,8 +160,8 @@ class Kennedy:
 
 
 WHOLE = 64
-"""In a chain of more links a centre that those near it do not give (wheels in one line) is not looked for over
-all of them, which are as many as their square: it comes from the loop equations."""
+"""In a chain of more links a centre that those near it do not give (of wheels in one line) is not looked for
+over all pairs: it comes from the loop equations."""
 ENOUGH = 4
 """The best lines of a centre that are kept: on any two of them it is sought."""
 SAME = 64 * ROUNDING
