@@ -251,6 +251,30 @@ dynamic: yes
     assert "= 9 N*m" in text
 
 
+ROLLER = """
+icsolve: 1
+points: {A: [0, 0], K: [1, 4], B: [1, 6]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {contact: [2, 4], at: K, normal: 90}
+  - {pin: [3, 4], at: B}
+  - {slide: [3, 1], at: B, along: 90}
+loads:
+  S: {spring: 50, link: 3, at: B, to: D, free: 2}
+  T: {torque: unknown, link: 2}
+"""
+
+
+def test_a_roller_follower_goes_by_lines_of_centres_and_a_spring_by_its_force() -> None:
+    """I23 lies where the line I12 I13, here y = 0, meets the common normal; a spring of 3, stretched by 1."""
+    case = icsolve.load(ROLLER.replace("A: [0, 0]", "A: [0, 0], D: [1, 9]"))
+    text = " ".join(explain(case, digits=DIGITS).split())
+    assert "I23 = (1, 0): on the line I12 I13 (links 1, 2, 3), and on the common normal at K" in text
+    assert "on which I24 and I34 lie (roller 4 turns freely)" in text and "loop equations" not in text
+    assert "F_S = S x s_S = 50 x 1 = 50 N" in text and "T = " in text
+    assert "The mechanical" not in text and "For one unit of the known load: T / F_S" in text
+
+
 def test_a_wrong_number_would_be_noticed() -> None:
     text = explain(icsolve.load(FILES["ch13/13_08_four_bar.yaml"]))
     assert check(text_equations(text), 3.0) >= 4

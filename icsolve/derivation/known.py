@@ -9,11 +9,11 @@ from typing import NamedTuple
 
 from icsolve.answer import Answer, Centre, by_load
 from icsolve.assembly import Frame, case_point, solve_figure
-from icsolve.case import Case, Coordinates, ForceVector, Like, Load, Pair
+from icsolve.case import Case, Contact, Coordinates, ForceVector, Like, Load, Pair, Pin
 from icsolve.case.figure import Unknown
 from icsolve.case.names import ordered_pair
 from icsolve.errors import SceneError
-from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers.arithmetic import FLOATS, turn_of
 from icsolve.scene.parts import Parts
 from icsolve.screws.plane import Point, Triple
 from icsolve.solve import attempt
@@ -58,7 +58,8 @@ class Known(NamedTuple):
         """The centre of two links, where one is known."""
         if self.whole is None:
             return None
-        return self.whole.centres.get(ordered_pair(self.case, a, b))
+        found = self.whole.centres.get(ordered_pair(self.case, a, b))
+        return _by_roller(self, found) if found is not None and found.by == "loop equations" else found
 
     def pair(self, a: str, b: str) -> Pair:
         """The pair of links as it is named."""
@@ -71,6 +72,34 @@ class Known(NamedTuple):
     def turns(self, link: str) -> bool:
         """Whether a link is known to turn."""
         return link in self.twists and self.twists[link][2] != 0.0
+
+
+ON_NORMAL = 1e-9
+"""A centre lies on a common normal where it is so near, of the figure's size."""
+
+
+def _by_roller(known: Known, centre: Centre) -> Centre:
+    """The centre of a cam and its follower, whose roller turns freely: the centres of the roller with both
+    lie on the common normal, so theirs does, and on the line of theirs with the frame."""
+    case, ground = known.case, known.case.ground
+    if centre.kind != "at" or ground in centre.pair or known.whole is None:
+        return centre
+    for touch in case.joints:
+        if not isinstance(touch, Contact) or touch.at not in known.points:
+            continue
+        for pin in case.joints:
+            if not isinstance(pin, Pin) or len({*touch.links} & {*pin.links}) != 1:
+                continue
+            both = {*touch.links} ^ {*pin.links}
+            own = [known.whole.centres.get(ordered_pair(case, ground, link)) for link in centre.pair]
+            (x, y), (u, v) = known.points[touch.at], turn_of(touch.normal.value)
+            places = (known.points[pin.at], centre.place)
+            near = all(abs((px - x) * v - (py - y) * u) <= ON_NORMAL * known.size for px, py in places)
+            if both == {*centre.pair} and near and all(c is not None and c.by == "inspection" for c in own):
+                frame = tuple(ordered_pair(case, ground, link) for link in centre.pair)
+                lines = (frame, (ordered_pair(case, *touch.links),))
+                return centre._replace(by="construction", lines=lines)
+    return centre
 
 
 def known_of(case: Case, *, reactions: bool = False) -> Known:

@@ -11,7 +11,7 @@ import shapely
 
 from icsolve.answer.bodies import Reaction
 from icsolve.derivation import Acting, acting_loads, pulls_on
-from icsolve.draw.frame import point_parts
+from icsolve.draw.frame import point_parts, rims
 from icsolve.draw.links import bars, body_of, link_part, wheel_parts
 from icsolve.draw.loads import ARC, axle, heads, hidden, ways
 from icsolve.draw.marks import Box, Disc, Group, Mark, Point, Run, Stroke, Text, arrow, bounds, moved, turning
@@ -164,7 +164,7 @@ def _panel(scene: Scene, link: str, pushes: Sequence[Push], largest: float) -> l
     alone = scene._replace(
         at={p: q for p, q in scene.at.items() if p in scene.case.carries.get(link, ())},
     )
-    parts = [*wheel_parts([body]), link_part(scene, body)]
+    parts = [*wheel_parts([body]), *rims(scene, link), link_part(scene, body)]
     parts += [_point(p) for p in dict.fromkeys(alone.at.values())]
     taken = solid
     for n, push in enumerate(

@@ -226,11 +226,11 @@ def _polar(centre: Point, radius: float, angle: float) -> Point:
     return (centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle))
 
 
-def rims(scene: Scene) -> list[Part]:
-    """The annuli of moving links."""
+def rims(scene: Scene, link: str = "") -> list[Part]:
+    """The annuli of moving links, or of one."""
     parts = []
     for wheel in scene.round.wheels:
-        if wheel.rim and wheel.link != scene.case.ground:
+        if wheel.rim and wheel.link != scene.case.ground and link in ("", wheel.link):
             centre, radius = scene.view.at(wheel.centre), wheel.radius * scene.view.scale
             marks = (Disc(centre, radius, "rim"), Disc(centre, radius + 7.0, "frame"))
             ring = shapely.Point(centre).buffer(radius + 3.0).boundary

@@ -88,6 +88,13 @@ def ordered_lines(known: Known, centre: Centre) -> list[tuple[Pair, ...]]:
 def _line(known: Known, centre: Centre, line: tuple[Pair, ...]) -> Iterable[Inline]:
     if len(line) == 1:
         yield f"the {_normal(known, line[0])}"
+        (roller,) = {*line[0]} - {*centre.pair} or {""}
+        if roller:  # a passive one
+            yield ", on which "
+            yield centre_name(known, known.pair(roller, centre.pair[0]))
+            yield " and "
+            yield centre_name(known, known.pair(roller, centre.pair[1]))
+            yield f" lie (roller {roller} turns freely)"
         return
     links = sorted({link for pair in (*line, centre.pair) for link in pair}, key=known.case.links.index)
     yield "the line "

@@ -30,7 +30,7 @@ from icsolve.case import (
     Weight,
 )
 from icsolve.case.names import pair_name
-from icsolve.case.profiles import Circle, Flat, Follower, Knife, Roller, Shape
+from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Knife, Polygon, Radii, Roller, Shape
 from icsolve.derivation import Known
 from icsolve.explain.document import Block, Inline, Items, Section, Table, words
 from icsolve.explain.formula import Name, Num, Quantity
@@ -227,8 +227,27 @@ def profile_words(figures: Figures, link: str, shape: Shape | Follower) -> str:
             return f"link {link}: a flat face through {at}"
         case Knife(at):
             return f"link {link}: a knife edge at {at}"
-    names = {"Polygon": "a polygon", "Arcs": "arcs and lines", "Radii": "a table of radii"}
-    return f"link {link}: {names.get(type(shape).__name__, 'a profile')}"
+        case Polygon(corners):
+            return f"link {link}: a polygon with the corners {listed(corners)}"
+        case Radii(about, _, table):
+            rows = "; ".join(f"{figures.number(a.value).digits} deg: {r.digits}" for a, r in table)
+            return f"link {link}: radii about {about} by angle, in {figures.units.length}: {rows}"
+        case Arcs(arcs):
+            return f"link {link}: {'; '.join(_arc_words(figures, arc) for arc in arcs)}; joined by lines"
+
+
+def _arc_words(figures: Figures, arc: Arc) -> str:
+    """An arc of a profile."""
+    size = (
+        ""
+        if arc.radius is None
+        else f" of radius {figures.number(arc.radius.value).digits} {figures.units.length}"
+    )
+    ends = [
+        end if isinstance(end, str) else f"{figures.number(end.value).digits} deg"
+        for end in (arc.start, arc.stop)
+    ]
+    return f"an arc{size} about {arc.centre} from {ends[0]} to {ends[1]}"
 
 
 def _points(known: Known, figures: Figures) -> list[Block]:

@@ -31,20 +31,21 @@ class End(NamedTuple):
 
 
 class Term(NamedTuple):
-    """A load with its ends; ``gain`` is what its own unit exerts, ``factor`` its power per unit of it while
-    the reference moves at 1, in the unit of the equation; ``numbers`` is that written out."""
+    """A load by ``name`` with its ends; ``gain`` is what its own unit exerts, ``factor`` its power per unit
+    of it while the reference moves at 1, in the unit of the equation; ``numbers`` is that written out."""
 
     acting: Acting
     ends: tuple[End, ...]
     gain: tuple[Expr, ...]
     numbers: Expr
     factor: float
+    name: Name
 
     def symbols(self, known: Known, over: str | None = None) -> Expr:
         """The load times its levers and speeds (over the speed of a link)."""
         parts = tuple((end.sign, _moving(known, end, over)) for end in self.ends)
         whole = parts[0][1] if len(parts) == 1 else Sum(parts)
-        return product(load_name(self.acting.load.name), *self.gain, whole)
+        return product(self.name, *self.gain, whole)
 
     @property
     def sign(self) -> int:
@@ -77,13 +78,31 @@ def term_of(
     if not ends:
         return None, said
     gain, value, more = _gain(known, figures, acting)
+    name = load_name(acting.load.name)
+    if isinstance(acting.load, Spring | TorsionSpring) and acting.value is not None and not acting.unknown:
+        name, acting, said_so = _sprung(known, figures, acting, gain, value)
+        more, gain, value = [*more, *said_so], (), 1.0
     scale = conversion(known, ratios, acting)
     parts = tuple((end.sign, product(end.number, figures.number(ratios.rates[end.link]))) for end in ends)
     whole = parts[0][1] if len(parts) == 1 else Sum(parts)
     numbers = product(*(() if not gain else (figures.number(value),)), whole, figures.number(scale))
     sign = ends[0].sign if len(ends) == 1 else 1
     total = sum(end.sign * end.value * ratios.rates[end.link] for end in ends)
-    return Term(acting, tuple(ends), gain, numbers, sign * total * value * scale), [*said, *more]
+    return Term(acting, tuple(ends), gain, numbers, sign * total * value * scale, name), [*said, *more]
+
+
+def _sprung(
+    known: Known, figures: Figures, acting: Acting, gain: tuple[Expr, ...], value: float
+) -> tuple[Name, Acting, list[Block]]:
+    """A spring as the force, or the moment, that it exerts."""
+    torsion, stiffness = isinstance(acting.load, TorsionSpring), acting.value or 0.0
+    unit = known.case.units.torque if torsion else known.case.units.force
+    name = Name("T" if torsion else "F", acting.load.name)
+    numbers = product(figures.number(stiffness), figures.number(value))
+    size = figures.quantity(stiffness * value, unit)
+    said = words("So its ", "moment" if torsion else "force", " is")
+    law = formula(name, product(load_name(acting.load.name), *gain), numbers, size)
+    return name, acting._replace(value=stiffness * value, unit=unit), [said, law]
 
 
 def links_of(known: Known, acting: Acting) -> list[tuple[int, str]]:
@@ -301,8 +320,7 @@ def _numbers(
 
 def _term(known: Known, figures: Figures, reference: str, term: Term, unit: str) -> Iterable[Block]:
     """The power of a known load; of the unknown one what it is multiplied by."""
-    symbols = term.symbols(known, over=reference)
-    name = load_name(term.acting.load.name)
+    symbols, name = term.symbols(known, over=reference), term.name
     if not term.acting.unknown:
         assert term.acting.value is not None
         power = figures.quantity(term.acting.value * term.factor, unit)
@@ -447,7 +465,8 @@ def _factor(
     dx, dy = acting.direction
     units = known.case.units.torque_per_force_length
     value = acting.gain * (v[0] * dx + v[1] * dy) * units
-    size = abs(acting.gain) * math.hypot(*v) * units
+    fastest = max(abs(c) for twist in motion.twists.values() for c in twist)
+    size = abs(acting.gain) * max(math.hypot(*v), NOTHING * fastest) * units
     if abs(value) <= NOTHING * size or size == 0.0:
         return 0.0, []
     angle = figures.number(math.degrees(math.atan2(dy, dx)) % 360.0)

@@ -6,12 +6,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from icsolve.answer import Answer, Found
-from icsolve.case import Torque
+from icsolve.case import Spring, Torque
 from icsolve.derivation import Known, Step, acting_loads, all_steps, answer_ratios, needed_steps
 from icsolve.errors import SceneError
 from icsolve.explain.centres import centre_sections, ratio_section, worked_speeds
 from icsolve.explain.document import Block, Document, Inline, Items, Section, Table, words
-from icsolve.explain.formula import Num, Quantity, Quotient
+from icsolve.explain.formula import Name, Num, Quantity, Quotient
 from icsolve.explain.given import (
     Figures,
     asked_section,
@@ -73,10 +73,13 @@ def _advantage(known: Known, figures: Figures) -> Iterable[Block]:
     top = next(iter(answer.answers))
     bottom = next(name for name in loads if name not in answer.answers)
     units = {term.load: term.unit for term in answer.terms}
-    kind = "The mechanical advantage" if units[top] == units[bottom] else "For one unit of the known load"
-    unit = "" if units[top] == units[bottom] else f"{units[top]} per {units[bottom]}"
-    ratio = Quotient(load_name(top), load_name(bottom))
-    yield words(f"{kind}: ", ratio, " = ", figures.quantity(answer.advantage, unit), ".")
+    under, unit, value = load_name(bottom), units[bottom], answer.advantage
+    acting = next(a for a in acting_loads(known) if a.load.name == bottom)
+    if isinstance(acting.load, Spring):  # its force, not its stiffness
+        under, unit, value = Name("F", bottom), known.case.units.force, value / acting.gain
+    kind = "The mechanical advantage" if units[top] == unit else "For one unit of the known load"
+    per = "" if units[top] == unit else f"{units[top]} per {unit}"
+    yield words(f"{kind}: ", Quotient(load_name(top), under), " = ", figures.quantity(value, per), ".")
 
 
 def rates_section(known: Known, figures: Figures) -> Iterable[Section]:
@@ -273,7 +276,8 @@ def _by_power(known: Known, figures: Figures) -> Iterable[Section]:
         yield Section("Power", (words(AT_REST),))
         return
     ratios = answer_ratios(known)
-    several = known.answer is not None and (known.answer.mobility or 0) > 1
+    asked = [load for load in known.case.loads if is_unknown(load)]
+    several = known.answer is not None and (known.answer.mobility or 0) > 1 and len(asked) > 1
     section = None if ratios is None or several else power_section(known, figures, ratios, loads)
     if ratios is None or section is None:
         section = motions_section(known, figures, loads)

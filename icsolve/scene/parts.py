@@ -332,7 +332,8 @@ def _redundancy(program: Program, motions: Motions) -> str:
     from icsolve.kinematics.second_order import goes_on
 
     bases = {k: tuple(map(floats, basis)) for k, basis in motions.bases.items()}
-    return sentences.redundant(motions.redundant, goes_on(program.top, bases), program.want.bodies)
+    top, want = program.top, program.want
+    return sentences.redundant(motions.redundant, goes_on(top, bases), want.bodies, top.wedges)
 
 
 def _skipped(program: Program, outcome: Outcome) -> tuple[str, ...]:

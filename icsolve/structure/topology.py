@@ -51,6 +51,18 @@ class Topology(NamedTuple):
         return 3 * (len(self.members) - 1) - self.constraints
 
     @property
+    def wedges(self) -> int:
+        """How many independent rings there are of bodies that slide on each other."""
+        group = list(range(len(self.members)))
+        rings = 0
+        for bond in self.bonds:
+            if bond.joint.keeps_direction:
+                a, b = group[bond.a], group[bond.b]
+                rings += a == b
+                group = [a if one == b else one for one in group]
+        return rings
+
+    @property
     def constraints(self) -> int:
         """What the joints and ropes take."""
         return sum(bond.constraints for bond in self.bonds) + len(self.ropes)

@@ -141,13 +141,18 @@ def wrong_count(mobility: int, unknowns: int, idle: int, ends: str = "") -> str:
     return f"{wrong} Add {plural(missing, 'unknown load')}, or {lock} to lock it."
 
 
-def redundant(count: int, goes_on: bool | None, bodies: bool) -> str:
+def redundant(count: int, goes_on: bool | None, bodies: bool, wedges: int = 0) -> str:
     """Redundant constraints, and whether the motion is more than a moment's (None: not known).
 
-    Without ``bodies`` nobody looked which reactions are unique.
+    Without ``bodies`` nobody looked which reactions are unique. ``wedges`` of the constraints are those of
+    rings of links that only slide on each other, which keep their directions whatever the numbers.
     """
     cause = f"the joints have {plural(count, 'redundant constraint')}"
     end = "." if bodies else "; reactions that share a load are not unique (`--reactions` tells which)."
+    if wedges == count:
+        return (
+            f"{cause}: links that only slide keep their direction by each of their guides, as wedges do{end}"
+        )
     if goes_on is False:
         return (
             f"{cause}: the links yield only for an instant, then they bind (second order), so the answer is "
