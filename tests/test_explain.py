@@ -260,7 +260,7 @@ joints:
   - {pin: [3, 4], at: B}
   - {slide: [3, 1], at: B, along: 90}
 loads:
-  S: {spring: 50, link: 3, at: B, to: D, free: 2}
+  S: {spring: 50, link: 3, at: B, to: D, free: 4}
   T: {torque: unknown, link: 2}
 """
 
@@ -271,7 +271,7 @@ def test_a_roller_follower_goes_by_lines_of_centres_and_a_spring_by_its_force() 
     text = " ".join(explain(case, digits=DIGITS).split())
     assert "I23 = (1, 0): on the line I12 I13 (links 1, 2, 3), and on the common normal at K" in text
     assert "on which I24 and I34 lie (roller 4 turns freely)" in text and "loop equations" not in text
-    assert "F_S = S x s_S = 50 x 1 = 50 N" in text and "T = " in text
+    assert "F_S = S x s_S = 50 x (-1) = -50 N" in text and "T = " in text
     assert "The mechanical" not in text and "For one unit of the known load: T / F_S" in text
 
 

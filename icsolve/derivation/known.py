@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from icsolve.answer import Answer, Centre, by_load
 from icsolve.assembly import Frame, case_point, solve_figure
-from icsolve.case import Case, Contact, Coordinates, ForceVector, Like, Load, Pair, Pin
+from icsolve.case import Case, Coordinates, ForceVector, Like, Load, Pair, Pin
 from icsolve.case.figure import Unknown
 from icsolve.case.names import ordered_pair
 from icsolve.errors import SceneError
@@ -85,14 +85,14 @@ def _by_roller(known: Known, centre: Centre) -> Centre:
     if centre.kind != "at" or ground in centre.pair or known.whole is None:
         return centre
     for touch in case.joints:
-        if not isinstance(touch, Contact) or touch.at not in known.points:
+        if touch.at not in known.points or touch.direction is None or not touch.only_pushes:
             continue
         for pin in case.joints:
             if not isinstance(pin, Pin) or len({*touch.links} & {*pin.links}) != 1:
                 continue
             both = {*touch.links} ^ {*pin.links}
             own = [known.whole.centres.get(ordered_pair(case, ground, link)) for link in centre.pair]
-            (x, y), (u, v) = known.points[touch.at], turn_of(touch.normal.value)
+            (x, y), (u, v) = known.points[touch.at or ""], turn_of(touch.direction.value)
             places = (known.points[pin.at], centre.place)
             near = all(abs((px - x) * v - (py - y) * u) <= ON_NORMAL * known.size for px, py in places)
             if both == {*centre.pair} and near and all(c is not None and c.by == "inspection" for c in own):
