@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 from dataclasses import replace
+from pathlib import Path
 from random import Random
 from typing import Any
 
@@ -20,6 +21,8 @@ from icsolve.case import Case, Contact, Inertia, KnownCentre, Motion, Number, Pi
 from icsolve.errors import CaseError, SceneError
 from reference import MANY, many, motions, points_of
 from sizes import MORE
+
+CASES = Path(__file__).parent.parent / "cases"
 
 
 def solved(text: str, **options: Any) -> Answer:
@@ -387,3 +390,72 @@ def test_rows_of_a_dynamic_sweep_are_the_scenes() -> None:
     assert again.answers["T"] == pytest.approx(rows.answers["T"])
     with pytest.raises(ValueError, match="dynamic"):
         icsolve.sweep(case, {"angles.AB": degrees}, ("accelerations",))
+
+
+# --- cams ------------------------------------------------------------------------------------------
+
+CAM = """
+points: {A: [0, 0], B: [%s, unknown]}
+lengths: {AC: 20}
+angles: {AC: 140}
+near: {B: [8, 60]}
+links: {4: {mass: 2 kg, centre: B}}
+profile:
+  2: {circle: C, radius: 40}
+  4: {%s}
+joints:
+  - {pin: [1, 2], at: A}
+  - {contact: [2, 4]}
+  - {slide: [4, 1], at: B, along: 90}
+loads: {T: {torque: unknown, link: 2}}
+motion: {link: 2, speed: 30, acceleration: 7}
+"""
+
+
+@pytest.mark.parametrize(
+    ("beside", "follower", "reach"),
+    [(8, "roller: B, radius: 10", 50), (8, "knife: B", 40), (0, "flat: B, along: 0", None)],
+    ids=["roller", "knife edge", "flat face"],
+)
+def test_a_follower_on_an_eccentric_disk_by_its_closed_form(
+    beside: int, follower: str, reach: int | None
+) -> None:
+    """s = e sin t + sqrt(r^2 - (e cos t - eps)^2), of a face s = e sin t + r, differentiated twice."""
+    t = many.radians(many.mpf(140))
+
+    def lift(t: Any) -> Any:
+        across = 20 * many.cos(t) - beside
+        return 20 * many.sin(t) + (many.sqrt(reach**2 - across**2) if reach else 40)
+
+    first, second = many.diff(lift, t), many.diff(lift, t, 2)
+    answer = solved("units: {length: mm, force: N, torque: N*m}" + CAM % (beside, follower), reactions=True)
+    assert answer.accelerations is not None
+    expected = float(second * 900 + first * 7)
+    assert answer.accelerations["B", "4"] == pytest.approx((0.0, expected), rel=1e-12)
+    assert answer.answers["T"].value == pytest.approx(2e-6 * expected * float(first), rel=1e-11)
+
+
+def test_followers_of_all_cases_by_differences_of_their_rates() -> None:
+    """By profiles of arcs, polygons and tables, turning and sliding followers."""
+    compared = 0
+    for path in sorted((CASES / "cams").glob("*.yaml")):
+        case = icsolve.load(str(path))
+        if case.profiles is None:
+            continue
+        turning, h = moved(case, case.links[1]), 1e-3
+        rows = icsolve.sweep(turning, want=("velocities", "rates"), drive={case.links[1]: [-h, h]})
+        answer = icsolve.solve(turning, dynamic=True)
+        assert answer.angular_accelerations is not None
+        assert answer.accelerations is not None
+        turns = {q: a for q, a in answer.angular_accelerations.items() if not isinstance(a, str)}
+        for link, found in turns.items():  # a roller that is free to spin has none
+            before, after = rows.rates[link]
+            rate = (after - before) / math.radians(2 * h)
+            assert found == pytest.approx(rate, rel=1e-5, abs=1e-6), path.name
+        for name, (before, after) in rows.velocities.items():
+            point, _, link = name.partition(" on ")
+            rate = tuple((after - before) / math.radians(2 * h))
+            if link in turns:
+                assert answer.accelerations[point, link] == pytest.approx(rate, rel=1e-5, abs=1e-5), path.name
+        compared += 1
+    assert compared >= 4

@@ -156,7 +156,8 @@ class ContactSearch:
             Number(value, 0.0, f"{path}.{key}", repr(value))
             for key, value in (("x", at[0]), ("y", at[1]), ("normal", degrees))
         )
-        joint = Contact(self.touch.links, self.hidden, normal, self.touch.friction)
+        radii = self.radii(curve, meeting)
+        joint = Contact(self.touch.links, self.hidden, normal, self.touch.friction, radii)
         joints = (*case.joints[: self.touch.place], joint, *case.joints[self.touch.place :])
         case = replace(case, joints=joints, points={**case.points, self.hidden: Coordinates(x, y)})
         said = left_open(self.shape, curve, meeting.foot, self.profile) if note else ""
@@ -164,6 +165,14 @@ class ContactSearch:
         trace = self.trace(at, (nx, ny))
         pressure = pressure_angle(guide, trace, (nx, ny)) if guide is not None else None
         return case, Touching(self.touch.links, at, degrees % 360.0, on, pressure, said)
+
+    def radii(self, curve: Curve, meeting: Meeting) -> tuple[Number | None, Number | None]:
+        """The radii of curvature where they touch, in the order of the links."""
+        own = self.follower.radius.value if isinstance(self.follower, Roller) else 0.0
+        pair = (curve.radius_at(meeting.foot), None if isinstance(self.follower, Flat) else own)
+        path = f"profile.{self.cam}.{self.link}.radius"
+        first, second = (None if r is None else Number(r, 0.0, path, repr(r)) for r in pair)
+        return (first, second) if self.touch.links[0] == self.cam else (second, first)
 
     def trace(self, at: Point, normal: Point) -> Point:
         """The point whose motion makes the pressure angle: a roller's centre, else the contact."""

@@ -85,6 +85,10 @@ class Curve(NamedTuple):
         tx, ty = self.pieces[piece].tangent(u)
         return (ty, -tx)
 
+    def radius_at(self, foot: Foot) -> float | None:
+        """Radius of curvature at a foot: 0 at a corner, negative where hollow, None where straight."""
+        return 0.0 if foot.is_corner else self.pieces[foot.piece].radius_at(foot.u)
+
     def nearest(self, p: Point) -> list[Foot]:
         """The feet of a point, nearest first: of the piece that shapely finds, and of those beside it."""
         from shapely import Point as ShapelyPoint

@@ -44,6 +44,10 @@ class Straight(NamedTuple):
         u = ((p[0] - self.a[0]) * dx + (p[1] - self.a[1]) * dy) / (dx * dx + dy * dy)
         return min(max(u, 0.0), 1.0)
 
+    def radius_at(self, u: float) -> float | None:
+        """None: it is straight."""
+        return None
+
     def farthest(self, way: Point, start: float) -> float:
         """Where the line reaches farthest in a direction."""
         rise = way[0] * (self.b[0] - self.a[0]) + way[1] * (self.b[1] - self.a[1])
@@ -87,6 +91,10 @@ class CircularArc(NamedTuple):
         if u <= 1.0:
             return u
         return min((0.0, 1.0), key=lambda end: math.dist(self.at(end), p))
+
+    def radius_at(self, u: float) -> float | None:
+        """Radius of curvature, negative where the outside of a profile is hollow."""
+        return math.copysign(self.radius, self.sweep)
 
     def farthest(self, way: Point, start: float) -> float:
         """Where the arc reaches farthest in a direction."""
@@ -141,6 +149,12 @@ class Polar(NamedTuple):
     def tangent(self, u: float) -> Point:
         """Unit vector along the curve."""
         return unit(*self.derivatives(u)[1])
+
+    def radius_at(self, u: float) -> float | None:
+        """Radius of curvature, negative where it is hollow; None where it is straight."""
+        _, (x, y), (bx, by) = self.derivatives(u)
+        bend = x * by - y * bx
+        return math.hypot(x, y) ** 3 / bend if bend else None
 
     def nearest(self, p: Point, start: float) -> float:
         """Where the curve is nearest to p, from a start near there."""

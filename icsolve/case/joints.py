@@ -84,6 +84,11 @@ class Kind:
         return None
 
     @property
+    def curvature(self) -> tuple[Number | None, Number | None] | None:
+        """The radii of curvature of links that slip on one another, where profiles tell (None: straight)."""
+        return None
+
+    @property
     def centres(self) -> tuple[JointCentre, ...]:
         """The centres that span its freedoms: one, or two on whose line its centre lies; none of a weld."""
         raise NotImplementedError
@@ -305,15 +310,25 @@ class _Contact(NamedTuple):
     at: str
     normal: Number
     friction: Friction | None = None
+    radii: tuple[Number | None, Number | None] | None = None
 
 
 class Contact(_Contact, Sliding):
-    """Contact that rolls and slips; the normal points from ``links[0]`` into ``links[1]``."""
+    """Contact that rolls and slips; the normal points from ``links[0]`` into ``links[1]``.
+
+    Where profiles place it ``radii`` are those of curvature of the two links (negative: hollow; None:
+    straight).
+    """
 
     @property
     def centres(self) -> tuple[JointCentre, ...]:
         """On the common normal; how it moves hangs on profiles that the joint does not know."""
         return CentreAt(self.at), CentreToward(self.normal)
+
+    @property
+    def curvature(self) -> tuple[Number | None, Number | None] | None:
+        """Where profiles place it."""
+        return self.radii
 
     @property
     def direction(self) -> Number:

@@ -14,7 +14,7 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from icsolve.assembly.workspace import Frame
-from icsolve.case import Case, Joint, Motion, Pin, Rope
+from icsolve.case import Case, Joint, Motion, Number, Pin, Rope
 from icsolve.case.joints import CentreAt, CentreSquareTo, JointCentre, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import NO_SPEED
@@ -270,6 +270,8 @@ def _changes(place: _Place, bond: Bond, basis: tuple[Triple, ...]) -> tuple[Trip
         return (p * ax + q * bx, p * ay + q * by_, 0.0), (ay - by_, bx - ax, 0.0)
     if isinstance(joint, Rolling):
         return (_moved(_contact_velocity(place, joint)),)
+    if joint.curvature is not None:
+        return _slipping(place, joint, joint.curvature)
     return tuple(_change(place, joint, centre) for centre in joint.centres)
 
 
@@ -296,6 +298,35 @@ def _turned(place: _Place, link: str, along: Point) -> Triple:
     """Rate of the basis twist of a guide that turns with its link."""
     omega = place.twists[link][2]
     return (-(omega * along[0]), -(omega * along[1]), 0.0)
+
+
+def _slipping(
+    place: _Place, joint: Joint, radii: tuple[Number | None, Number | None]
+) -> tuple[Triple, Triple]:
+    """How the point and the normal of a contact move, by the radii r, s of curvature of the two links.
+
+    The centres of curvature C = P - r n and D = P + s n are points of the links whose distance stays for two
+    derivatives. With t square to n, u the slip along t and w, o the links' rates, n turns at
+    (u + s o + r w) / (r + s) and the point goes with the first link and on by (r u + r s (o - w)) / (r + s).
+    A straight link is the limit of a large radius: each is a / b with b = 0 there.
+    """
+    assert joint.at is not None
+    assert joint.direction is not None
+    (one, two), p = joint.links, place.points[joint.at]
+    given, scale = place.arithmetic.given, place.frame.scale
+    (a, b), (c, d) = ((1.0, 0.0) if r is None else (given(r) * scale, 1.0) for r in radii)
+    nx, ny = place.arithmetic.turn(joint.direction)
+    tx, ty = 0.0 - ny, nx
+    (vx, vy), (ux, uy) = velocity(place.twists[one], p), velocity(place.twists[two], p)
+    w, o = place.twists[one][2], place.twists[two][2]
+    slip = (ux - vx) * tx + (uy - vy) * ty
+    whole = a * d + b * c
+    if not abs(whole) > 0.0:
+        said = f"the contact of links {listed(joint.links)} has no acceleration: it is one of two corners."
+        raise SceneError(Status.UNSUPPORTED, said)
+    turning = (b * d * slip + b * c * o + a * d * w) / whole
+    on = (a * d * slip + a * c * (o - w)) / whole
+    return (vx + on * tx, vy + on * ty, 0.0), (turning * tx, turning * ty, 0.0)
 
 
 def _contact_velocity(place: _Place, joint: Rolling) -> Point:

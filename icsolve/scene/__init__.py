@@ -38,11 +38,7 @@ def solve_scene(
     Inertia forces and contacts of profiles are worked out first: with them it is a case like any other.
     Raises SceneError where the scene has no answer.
     """
-    if without_inertia(case, dynamic):
-        from icsolve.scene.dynamics import solve_dynamic
-
-        asked = {"all_centres": all_centres, "rates": True, "examine": examine}
-        return solve_dynamic(case, solve_scene, **asked, bound=bound, reactions=reactions)
+    asked = {"all_centres": all_centres, "rates": rates, "examine": examine, "bound": bound}
     if case.space is not None:
         from icsolve.statics.space.solve import solve_space
 
@@ -50,8 +46,11 @@ def solve_scene(
     if case.profiles is not None and case.profiles.touches:
         from icsolve.cams.solving import solve_touching
 
-        asked = {"all_centres": all_centres, "rates": rates, "examine": examine}
-        return solve_touching(case, solve_scene, **asked, bound=bound, reactions=reactions)
+        return solve_touching(case, solve_scene, **asked, reactions=reactions, dynamic=dynamic)
+    if without_inertia(case, dynamic):
+        from icsolve.scene.dynamics import solve_dynamic
+
+        return solve_dynamic(case, solve_scene, **{**asked, "rates": True}, reactions=reactions)
     return _solved(case, wanted(case, Want(all_centres, rates, examine, reactions)), bound, reactions)
 
 

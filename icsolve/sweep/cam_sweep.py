@@ -218,8 +218,9 @@ def _fill(table: Table, part: Part, n: int, row: int, columns: Columns, seen: _S
 
 
 def _options(asked: Asked) -> Mapping[str, bool]:
-    options = {"rates": asked.rates, "all_centres": bool(asked.centres), "examine": bool(asked.points)}
-    return {**options, "bound": False}
+    rates = asked.rates or asked.velocities
+    more = {"all_centres": bool(asked.centres), "examine": bool(asked.points), "dynamic": asked.dynamic}
+    return {**more, "rates": rates, "bound": False}
 
 
 def _solved(case: Case, asked: Asked) -> Answer:
