@@ -14,7 +14,7 @@ from icsolve.case import LoadIs
 from icsolve.grade import tolerance as drawn
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
-from icsolve.grade.keys import Key
+from icsolve.grade.keys import NumberKey
 
 
 @pytest.fixture
@@ -28,7 +28,7 @@ DRAWN = "tolerance: {drawing: 0.01 in}\n"
 def widths(a_class: Class, question: str) -> tuple[float, float]:
     """The right value of a question of the press, and half the width of its band."""
     key = CaseStore(a_class.path("cases"), Course()).key(question)
-    return (key.value if isinstance(key, Key) else math.hypot(*key.place)), key.half
+    return (key.value if isinstance(key, NumberKey) else math.hypot(*key.place)), key.half
 
 
 def press_with(a_class: Class, extra: str) -> Path:

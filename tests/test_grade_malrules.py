@@ -13,7 +13,7 @@ from grade_shell import CASES, Class
 from icsolve.case import LoadIs
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
-from icsolve.grade.keys import Key
+from icsolve.grade.keys import NumberKey
 from icsolve.grade.mistakes import CODES, Wrong, WrongAnswers, Wrongs, message
 from icsolve.grade.mistakes import solved_for as solved
 from icsolve.grade.mistakes.engine import shares
@@ -139,7 +139,7 @@ def test_wrong_answers_wait_until_they_are_asked_for(monkeypatch: pytest.MonkeyP
     calls: list[str] = []
     monkeypatch.setattr(WrongAnswers, "of", lambda *given: calls.append("made") or [])
     key = CaseStore(CASES, Course()).key("13_08_four_bar")
-    assert isinstance(key, Key)
+    assert isinstance(key, NumberKey)
     assert calls == []
     assert key.wrongs.near(5.0) == ()
     assert calls == ["made"]

@@ -20,7 +20,7 @@ import pytest
 from grade_shell import CASES, PRESS, Class
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
-from icsolve.grade.keys import Key
+from icsolve.grade.keys import NumberKey
 from test_grade_verdict import ZERO
 
 ANSWERS = (
@@ -148,7 +148,7 @@ def test_the_autograder_gives_each_student_the_key_of_their_variant(a_class: Cla
     with zipfile.ZipFile(archive) as zipped:
         zipped.extractall(base / "source")
     key = CaseStore(cases, Course(seed="it's 2025")).key("press", "0017")
-    assert isinstance(key, Key)
+    assert isinstance(key, NumberKey)
     (base / "submission").mkdir()
     (base / "submission" / "answers.csv").write_text(f"case,answer\npress,{key.value:.6g}\n")
     (base / "submission_metadata.json").write_text(json.dumps({"users": [{"email": "ann@x.test"}]}))

@@ -11,7 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from icsolve.grade.written import Reader
+from icsolve.grade.written.answer import Reader
 from icsolve.grade.written.two_numbers import read_place, read_range
 
 CORPUS = Path(__file__).parent / "data" / "answers.tsv"

@@ -18,7 +18,7 @@ from icsolve.grade.mistakes import CODES
 from icsolve.grade.platforms.export import KINDS as QUESTIONS
 from icsolve.grade.platforms.write import KINDS as OUTPUTS
 from icsolve.grade.results import HEADER
-from icsolve.grade.written import Reader
+from icsolve.grade.written.answer import Reader
 from texts import PAGES, files
 
 SECTION = PAGES["grading"]

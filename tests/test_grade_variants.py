@@ -12,7 +12,7 @@ from grade_shell import PRESS, Class
 from icsolve.case import Variable
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
-from icsolve.grade.variants import Varied, drawn, label
+from icsolve.grade.variants.varied import Varied, drawn, label
 
 VARIABLES = (Variable("P", start="100", stop="500", step="10"), Variable("a", choices=("1.5", "2", "2.5")))
 

@@ -77,7 +77,7 @@ def table() -> Iterator[keys.Key]:
     """Every key of the table that the reader reads by."""
     for value in vars(keys).values():
         for entry in value.values() if isinstance(value, dict) else ():
-            if isinstance(entry, keys.Kind):
+            if isinstance(entry, keys.EntryKind):
                 yield entry.own
                 yield from entry.keys.values()
             elif isinstance(entry, keys.Key):

@@ -15,9 +15,9 @@ from icsolve.files import scratch
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.judge import judge
-from icsolve.grade.keys import Key
+from icsolve.grade.keys import NumberKey
 from icsolve.grade.solved import unknowns
-from icsolve.grade.written import Reader
+from icsolve.grade.written.answer import Reader
 from icsolve.manual import kinds, template
 from icsolve.read import load
 
@@ -32,7 +32,7 @@ def asked_of(folder: str, names: Sequence[str]) -> list[Asked]:
     """The questions of cases that have one number for an answer."""
     store = CaseStore(folder, Course())
     keys = [store.key(name) for name in names]
-    return [(key.question, key.value, key.unit_name) for key in keys if isinstance(key, Key)]
+    return [(key.question, key.value, key.unit_name) for key in keys if isinstance(key, NumberKey)]
 
 
 def write_class(path: str | os.PathLike[str], students: int, asked: Sequence[Asked], seed: int = 1) -> int:
@@ -67,7 +67,7 @@ def judging(path: str, folder: str) -> float:
     with open(path, encoding="utf-8", newline="") as file:
         rows = list(csv.reader(file))[1:]
     store, reader = CaseStore(folder, Course()), Reader()
-    keys = {name: key for name in {row[1] for row in rows} if isinstance(key := store.key(name), Key)}
+    keys = {name: key for name in {row[1] for row in rows} if isinstance(key := store.key(name), NumberKey)}
     for key in keys.values():
         key.wrongs.near(0.0)
     return min(once(lambda: [judge(keys[row[1]], reader.read(row[2])) for row in rows]) for _ in range(3))

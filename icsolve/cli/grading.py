@@ -72,7 +72,7 @@ def grade_command(**options: Any) -> int:
     Exit status: 0 all answers judged, 1 some could not be and are listed, 2 a file can't be used.
     """
     from icsolve.files import KeptError
-    from icsolve.grade.tables import HeaderError
+    from icsolve.grade.tables.columns import HeaderError
 
     try:
         from icsolve.grade.run import spare_collector

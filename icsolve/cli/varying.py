@@ -16,8 +16,8 @@ from icsolve.files import reading_text
 if TYPE_CHECKING:
     from icsolve.grade.case_store import CaseStore
     from icsolve.grade.roster import Person
-    from icsolve.grade.variants import Varied
     from icsolve.grade.variants.sheets import VariantTask
+    from icsolve.grade.variants.varied import Varied
 
 T = TypeVar("T")
 
@@ -54,7 +54,7 @@ def variants_command(
     from icsolve.files import KeptError
     from icsolve.grade.case_store import CaseStore
     from icsolve.grade.roster import read_roster
-    from icsolve.grade.tables import HeaderError
+    from icsolve.grade.tables.columns import HeaderError
 
     try:
         case_store = CaseStore(existing(cases), course_of(course, cases, quiet, {"seed": seed}))

@@ -15,12 +15,12 @@ from icsolve.case import CentreIs, DistanceIs, Load, RateIs, RatioIs, SpeedIs, T
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.importing import StoredAnswer
 from icsolve.grade.judge import WRONG, feedback, share_of
-from icsolve.grade.keys import Key, PlaceKey
+from icsolve.grade.keys import NumberKey, PlaceKey
 from icsolve.grade.mistakes import Wrong, WrongAnswers
 from icsolve.grade.mistakes.changed import Place
 from icsolve.grade.mistakes.engine import centres_of
 from icsolve.grade.results import Marked
-from icsolve.grade.solved import Solved, unknowns
+from icsolve.grade.solved import SolvedCase, unknowns
 from icsolve.grade.tolerance import NoKeyError
 
 Scales = Mapping[str, float]
@@ -171,7 +171,7 @@ class CarriedForward:
         solved = self._case_store.solved(entry.item.partition(":")[0], entry.student)
         key, name = solved.key(entry.item), getattr(solved.target(entry.item), "load", "")
         value = before.judged.value
-        if not isinstance(key, Key) or value is None:
+        if not isinstance(key, NumberKey) or value is None:
             return final
         for unscaled in carried(solved.wrongs, name, list(_steps(solved, wrong))):
             cause = unscaled._replace(value=unscaled.value * solved.scale)
@@ -180,7 +180,7 @@ class CarriedForward:
                 return entry, self._with_cause(key, before, cause)
         return final
 
-    def _with_cause(self, key: Key, before: Marked, cause: Wrong) -> Marked:
+    def _with_cause(self, key: NumberKey, before: Marked, cause: Wrong) -> Marked:
         others = (m for m in before.judged.mistakes if m.code != "near-miss")
         mistakes = (cause, *others)[:3]
         judged = before.judged._replace(
@@ -194,14 +194,14 @@ class CarriedForward:
         return again
 
 
-def _steps(solved: Solved, wrong: list[Found]) -> Iterator[Intermediate]:
+def _steps(solved: SolvedCase, wrong: list[Found]) -> Iterator[Intermediate]:
     """The wrong intermediate answers that have a value."""
     for entry, marked in wrong:
         try:
             key = solved.key(entry.item)
         except NoKeyError:
             continue
-        if not isinstance(key, Key | PlaceKey):
+        if not isinstance(key, NumberKey | PlaceKey):
             continue
         right = key.place if isinstance(key, PlaceKey) else (key.value,)
         if len(marked.given) == len(right):

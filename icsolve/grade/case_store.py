@@ -11,7 +11,7 @@ from icsolve.errors import CaseError, SceneError
 from icsolve.files import files_of, reading, reading_text
 from icsolve.grade.course import Course
 from icsolve.grade.keys import AnyKey
-from icsolve.grade.solved import Solved, asked_of, canonical, unknowns
+from icsolve.grade.solved import SolvedCase, asked_of, canonical, unknowns
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.varied import Varied
 
@@ -32,7 +32,7 @@ class CaseStore:
         self.varied = False
         """whether a case with variables has been met"""
         self._lower = {name.lower(): name for name in self.paths}
-        self._solved: dict[str, Solved | Varied | NoKeyError] = {}
+        self._solved: dict[str, SolvedCase | Varied | NoKeyError] = {}
         self._cases: dict[str, Case] = {}
         self.records: dict[str, VariantRecord] = {}
         """the numbers that were handed out, by case"""
@@ -96,7 +96,7 @@ class CaseStore:
         found = get_close_matches(name, list(self._lower), 1, 0.75)
         return self._lower[found[0]] if found else ""
 
-    def solved(self, name: str, student: str = "") -> Solved:
+    def solved(self, name: str, student: str = "") -> SolvedCase:
         """The case of that name, solved; with the student's own values, if it has variables.
 
         Raises NoKeyError where there is none, or it has no answer; the message says why.
@@ -106,13 +106,13 @@ class CaseStore:
             found = self._solved[name] = self._made(name)
         if isinstance(found, NoKeyError):
             raise found
-        return found if isinstance(found, Solved) else found.solved(student)
+        return found if isinstance(found, SolvedCase) else found.solved(student)
 
-    def _made(self, name: str) -> Solved | Varied | NoKeyError:
+    def _made(self, name: str) -> SolvedCase | Varied | NoKeyError:
         try:
             case = self.read(name)
             if not case.variables:
-                return Solved(case, self.course)
+                return SolvedCase(case, self.course)
             self.varied = True
             return Varied(name, self.text(name), self.paths[name], self.course)
         except SceneError as error:
@@ -125,7 +125,7 @@ class CaseStore:
         found = self._solved.get(name)
         if found is None:
             found = self._solved[name] = self._made(name)
-        return found if not isinstance(found, Solved | NoKeyError) else None
+        return found if not isinstance(found, SolvedCase | NoKeyError) else None
 
     def keep_to(self, records: dict[str, VariantRecord]) -> None:
         """Take the numbers that were handed out for those of the students."""

@@ -17,9 +17,10 @@ from icsolve.files import is_plain, reading, scratch
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.results import HEADER
 from icsolve.grade.roster import Roster
-from icsolve.grade.tables import Columns, HeaderError, Submission, Table, TableLayout, recognise
-from icsolve.grade.tables.columns import is_spoilt
+from icsolve.grade.tables.columns import HeaderError, Submission, TableColumns, TableLayout, is_spoilt
 from icsolve.grade.tables.hand_ins import METADATA, exported, submissions
+from icsolve.grade.tables.platforms import recognise
+from icsolve.grade.tables.text import AnswerTable
 from icsolve.grade.timestamps import order_of, year_first
 
 _LONGEST = 500
@@ -76,9 +77,9 @@ class Import:
             self.issues.note(path, 0, f"{student} handed in no file of answers")
             return
         with _opened(path) as file:
-            table = Table(file, lambda line, why: self.issues.note(path, line, why))
+            table = AnswerTable(file, lambda line, why: self.issues.note(path, line, why))
             near = self.case_store.near
-            columns = Columns(table.header, mapping, self.case_store.find, lambda text: bool(near(text)))
+            columns = TableColumns(table.header, mapping, self.case_store.find, lambda text: bool(near(text)))
             self._order = self._date_order(path, table.header)
             entries: Iterator[StoredAnswer]
             if student:
@@ -115,7 +116,7 @@ class Import:
             yield from some
             self._progress(f"reading {path}", file.tell() / size)
 
-    def _entries(self, table: Table, layout: TableLayout) -> Iterator[StoredAnswer]:
+    def _entries(self, table: AnswerTable, layout: TableLayout) -> Iterator[StoredAnswer]:
         if layout.cells_of is not None:
             yield from self._long_entries(table, layout, layout.cells_of)
             return
@@ -124,7 +125,7 @@ class Import:
                 yield self._entry(submission)
 
     def _long_entries(
-        self, table: Table, layout: TableLayout, cells_of: Callable[[list[str]], tuple[str, ...]]
+        self, table: AnswerTable, layout: TableLayout, cells_of: Callable[[list[str]], tuple[str, ...]]
     ) -> Iterator[StoredAnswer]:
         """Of a long table: quickly where student and question were met before and the row is whole."""
         people, items, width = self._people, self._items, len(table.header)

@@ -12,17 +12,17 @@ from icsolve.grade.keys import (
     NEITHER,
     AnyKey,
     ChoiceKey,
-    Key,
+    NumberKey,
     PlaceKey,
     RangeKey,
     unit_factor,
 )
 from icsolve.grade.mistakes import Wrong, message, together
 from icsolve.grade.tolerance import SLACK
-from icsolve.grade.written import MISSING, NO_NUMBER, UNREAD, Direction, Written, figures
-from icsolve.grade.written.answer import Combined, flagged
+from icsolve.grade.written.answer import MISSING, NO_NUMBER, Combined, WrittenAnswer, flagged
+from icsolve.grade.written.directions import WrittenDirection
 from icsolve.grade.written.directions import direction as direction_of
-from icsolve.grade.written.numerals import AMBIGUOUS, plain
+from icsolve.grade.written.numerals import AMBIGUOUS, UNREAD, figures, plain
 from icsolve.grade.written.two_numbers import WrittenPlace, WrittenRange, read_place, read_range
 from icsolve.grade.written.units import CASE, ENERGY, unit_word
 
@@ -62,7 +62,7 @@ _NO_PARTS = (False, False, False)
 _ALL_PARTS = (True, True, True)
 
 
-Read = Written | WrittenPlace | WrittenRange
+Read = WrittenAnswer | WrittenPlace | WrittenRange
 _GROUPED = re.compile(r"[-+]?[1-9]\d{0,2}\.\d{3}(?![\d.])")
 
 
@@ -93,12 +93,12 @@ def judge_answer(
     return judged, written
 
 
-def _as_heading(answer: str) -> Written | None:
+def _as_heading(answer: str) -> WrittenAnswer | None:
     """An angle that is written as a direction: ``at 30 deg``, ``30 deg above +x``."""
     found = direction_of(plain(answer))
     if found is None or not found.measured:
         return None
-    return flagged(found.flag) if found.flag else Written(found.value, unit_word("deg"), None)
+    return flagged(found.flag) if found.flag else WrittenAnswer(found.value, unit_word("deg"), None)
 
 
 def _judge_choice(
@@ -108,7 +108,7 @@ def _judge_choice(
     the first of which it shows a known mistake."""
     number, word, _, _, _, _ = combined.read(answer, unit, direction)
 
-    def off(one: Key | RangeKey) -> float:
+    def off(one: NumberKey | RangeKey) -> float:
         if isinstance(one, RangeKey):
             return 0.0
         return abs(one.nearest(number * (one.factor(word) or 1.0)) - one.value)
@@ -121,7 +121,7 @@ def _judge_choice(
     return found[0]
 
 
-def judge(key: Key, written: Written) -> Judgement:
+def judge(key: NumberKey, written: WrittenAnswer) -> Judgement:
     """The verdict on an answer to a question that is one number."""
     number, unit, way, _, flag, note = written
     if flag:
@@ -139,11 +139,13 @@ def judge(key: Key, written: Written) -> Judgement:
     return _in_full(key, written)
 
 
-def _has_size(key: Key, value: float) -> bool:
+def _has_size(key: NumberKey, value: float) -> bool:
     return -key.half <= abs(value) - abs(key.value) <= key.half
 
 
-def _wrong_size(key: Key, value: float, unit: bool, direction: bool, written: Written) -> Judgement:
+def _wrong_size(
+    key: NumberKey, value: float, unit: bool, direction: bool, written: WrittenAnswer
+) -> Judgement:
     """A wrong number, with the causes that were foreseen; without words it may be meant as a size only."""
     wrongs, digits, policy = key.wrongs, written.digits, key.policy
     mistakes = wrongs.near(value, digits)
@@ -170,7 +172,7 @@ def relative(off: float, size: float) -> float | None:
     return part if part < math.inf else None
 
 
-def _in_full(key: Key, written: Written) -> Judgement:
+def _in_full(key: NumberKey, written: WrittenAnswer) -> Judgement:
     """Number, unit and direction apart."""
     factor = key.factor(written.unit)
     sign = key.sign(_words(key, written))
@@ -201,12 +203,12 @@ def _unjudged(flag: str) -> Judgement:
     return Judgement(verdict, 0.0, _NO_PARTS, code=flag)
 
 
-def _words(key: Key, written: Written) -> Direction | None:
+def _words(key: NumberKey, written: WrittenAnswer) -> WrittenDirection | None:
     """The answer's direction in words, where those are looked at."""
     return written.direction if key.policy.direction != "ignored" and key.expected.any else None
 
 
-def _unit_is_right(key: Key, written: Written, factor: float | None) -> bool:
+def _unit_is_right(key: NumberKey, written: WrittenAnswer, factor: float | None) -> bool:
     if key.policy.unit == "ignored":
         return True
     if written.unit is None:
@@ -216,7 +218,7 @@ def _unit_is_right(key: Key, written: Written, factor: float | None) -> bool:
     return factor is not None and not (written.note and key.policy.strict_case)
 
 
-def _direction_is_right(key: Key, written: Written, value: float, sign: int | None) -> bool:
+def _direction_is_right(key: NumberKey, written: WrittenAnswer, value: float, sign: int | None) -> bool:
     """By the sign of the value; by words as well where the course wants them."""
     if not key.value or key.policy.direction == "ignored":
         return True
@@ -228,7 +230,7 @@ def _direction_is_right(key: Key, written: Written, value: float, sign: int | No
     return (value > 0.0) == (key.value > 0.0)
 
 
-def _right(key: Key, written: Written, value: float, off: float | None) -> Judgement:
+def _right(key: NumberKey, written: WrittenAnswer, value: float, off: float | None) -> Judgement:
     """Right, unless too few figures are written."""
     if key.policy.figures and written.digits and figures(written.digits)[1] < key.policy.figures:
         mistakes = (Wrong("figures", value),)
@@ -238,7 +240,7 @@ def _right(key: Key, written: Written, value: float, off: float | None) -> Judge
 
 
 def _seen(
-    key: Key, written: Written, value: float, parts: tuple[bool, bool, bool], sign: int | None
+    key: NumberKey, written: WrittenAnswer, value: float, parts: tuple[bool, bool, bool], sign: int | None
 ) -> tuple[Wrong, ...]:
     """What is wrong about a right number: its unit, its sense."""
     _, unit, direction = parts
@@ -248,14 +250,14 @@ def _seen(
     return tuple(found)
 
 
-def _unit_code(key: Key, written: Written) -> str:
+def _unit_code(key: NumberKey, written: WrittenAnswer) -> str:
     if written.unit is None:
         return "no-unit"
     factor = key.factor(written.unit) if written.note == CASE else None
     return "unit-case" if factor and _has_size(key, written.number * factor) else "unit"
 
 
-def _direction_code(key: Key, written: Written, sign: int | None) -> str:
+def _direction_code(key: NumberKey, written: WrittenAnswer, sign: int | None) -> str:
     if sign == NEITHER or sign is None:
         return "direction"
     if written.direction is None and sign != AGAINST and (written.number > 0.0) == (key.value > 0.0):
@@ -306,7 +308,7 @@ def feedback(key: AnyKey, judged: Judgement, reveal: bool = False) -> str:
         return f"Right: {key.accepted} is accepted.{noted}"
     band = f" Accepted is {key.accepted}." if reveal else f" Accepted is an answer {key.rule}."
     if judged.mistakes:
-        kind = key.kind if isinstance(key, Key) else _KINDS.get(type(key), "load")
+        kind = key.kind if isinstance(key, NumberKey) else _KINDS.get(type(key), "load")
         said = " Or: ".join(message(m.code, m.where, kind) for m in judged.mistakes)
         if judged.both:
             said = together(judged.mistakes[0], judged.mistakes[1], kind)
@@ -395,7 +397,7 @@ def judge_range(key: RangeKey, written: WrittenRange) -> Judgement:
         return _unjudged(written.flag)
     end = key.end
     factor, sign = end.factor(written.unit), end.sign(written.direction)
-    unit = _unit_is_right(end, Written(0.0, written.unit, written.direction), factor)
+    unit = _unit_is_right(end, WrittenAnswer(0.0, written.unit, written.direction), factor)
     if sign is None:
         return Judgement(IN_REVIEW, 0.0, _NO_PARTS, code=BY_ANGLE if end.expected.by_angle else SQUARE)
     values = [v if v is None else v * (factor or 1.0) * (sign or 1) for v in (written.low, written.high)]
@@ -408,7 +410,7 @@ def judge_range(key: RangeKey, written: WrittenRange) -> Judgement:
     return Judgement(WRONG, share_of(key, parts, mistakes), parts, None, None, _codes(mistakes), mistakes)
 
 
-def _is_end(key: Key | None, value: float | None) -> bool:
+def _is_end(key: NumberKey | None, value: float | None) -> bool:
     if key is None or value is None:
         return key is None and value is None
     return abs(value - key.value) <= key.half

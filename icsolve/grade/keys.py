@@ -45,7 +45,8 @@ from icsolve.grade.tolerance import (
     width_of,
     zero_width,
 )
-from icsolve.grade.written import Direction, UnitWord, factors_between
+from icsolve.grade.written.directions import WrittenDirection
+from icsolve.grade.written.units import UnitWord, factors_between
 from icsolve.units import Unit, UnitError
 
 _SQUARE = 5.0
@@ -82,7 +83,7 @@ class ExpectedDirection(NamedTuple):
         """Whether the answer has a direction at all."""
         return bool(self.turn or self.axial or self.heading is not None)
 
-    def sign(self, words: Direction, within: float) -> int | None:
+    def sign(self, words: WrittenDirection, within: float) -> int | None:
         """``WITH`` or ``AGAINST`` the positive sense, ``NEITHER``; None where a person must look."""
         if self.by_angle and not words.measured:
             return None if words.kind != "turn" else NEITHER
@@ -100,7 +101,7 @@ class ExpectedDirection(NamedTuple):
         found = _compared(degrees - self.heading, _DEGREE if self.asked else within)
         return NEITHER if self.asked and found is None else found
 
-    def _degrees(self, words: Direction) -> float | None:
+    def _degrees(self, words: WrittenDirection) -> float | None:
         """A direction in words as degrees; None for a point that the case does not have."""
         if words.kind == "line":
             return words.value
@@ -135,7 +136,7 @@ def expected_direction(load: Load, answer: Answer) -> ExpectedDirection:
     return ExpectedDirection(0.0, heading, axial, lambda: (place_of(load.at, answer), answer.points))
 
 
-class Key(NamedTuple):
+class NumberKey(NamedTuple):
     """A right answer that is one number.
 
     ``value`` is signed as the case signs it, in ``unit``; ``half`` half the width of the accepted band;
@@ -179,7 +180,7 @@ class Key(NamedTuple):
             self.factors[unit.name] = unit_factor(self, unit.unit)
         return self.factors[unit.name]
 
-    def sign(self, words: Direction | None) -> int | None:
+    def sign(self, words: WrittenDirection | None) -> int | None:
         """+1 or -1 for words with or against the positive sense, 0 for neither; None: a person must look."""
         if words is None:
             return 1
@@ -208,8 +209,8 @@ class RangeKey(NamedTuple):
     """A right answer that is a range: a key for each end, None for an open one."""
 
     question: str
-    low: Key | None
-    high: Key | None
+    low: NumberKey | None
+    high: NumberKey | None
     unit_name: str
     unit: Unit
     policy: Policy
@@ -217,7 +218,7 @@ class RangeKey(NamedTuple):
     rule: str
 
     @property
-    def end(self) -> Key:
+    def end(self) -> NumberKey:
         """An end that there is: it tells units and directions."""
         found = self.low or self.high
         assert found is not None
@@ -228,19 +229,19 @@ class ChoiceKey(NamedTuple):
     """A right answer that is one of several: a key for each position of equilibrium."""
 
     question: str
-    keys: tuple[Key | RangeKey, ...]
+    keys: tuple[NumberKey | RangeKey, ...]
     unit_name: str
     policy: Policy
     accepted: str
     rule: str
 
 
-AnyKey = Key | PlaceKey | RangeKey | ChoiceKey
+AnyKey = NumberKey | PlaceKey | RangeKey | ChoiceKey
 
 
 def scalar_key(
     question: str, target: Target, answer: Answer, policy: Policy, wrongs: Callable[[], Iterable[Wrong]]
-) -> Key:
+) -> NumberKey:
     """The key of a target that is one number; ``wrongs`` makes its wrong answers when they are needed.
 
     Raises NoKeyError where the answer has no such value, or the policy's tolerance does not fit it.
@@ -266,13 +267,13 @@ def scalar_key(
     return _key(question, value, (unit_name, unit), (half, width), expected, policy, wrongs, kind)
 
 
-def numbers_of(key: AnyKey) -> list[Key]:
+def numbers_of(key: AnyKey) -> list[NumberKey]:
     """The numbers of a right answer: one, the ends of a range, or those of which one will do."""
     if isinstance(key, ChoiceKey):
         return [number for one in key.keys for number in numbers_of(one)]
     if isinstance(key, RangeKey):
         return [end for end in (key.low, key.high) if end is not None]
-    return [key] if isinstance(key, Key) else []
+    return [key] if isinstance(key, NumberKey) else []
 
 
 def position_key(
@@ -295,7 +296,7 @@ def position_key(
     expected = ExpectedDirection(turn=1.0) if angle else ExpectedDirection()
     width = width_of(policy.tolerance, unit, unit_name)
 
-    def key(value: float, pose: Answer, own: Callable[[float], Iterable[Wrong]]) -> Key:
+    def key(value: float, pose: Answer, own: Callable[[float], Iterable[Wrong]]) -> NumberKey:
         widths = (half_width(policy.tolerance, value, width, zero_width(target, pose)), width)
         found = _key(question, value, (unit_name, unit), widths, expected, policy, tuple, "position")
         found = found._replace(period=period, plain=False)
@@ -307,7 +308,7 @@ def position_key(
         others = len(answer.positions or ()) - 1
         return found._replace(wrongs=Wrongs(within_a_turn, value, found.half, period, others))
 
-    keys: list[Key | RangeKey] = []
+    keys: list[NumberKey | RangeKey] = []
     for position in answer.positions or ():
         held = position.at[target.path]
         if isinstance(held, float):
@@ -337,24 +338,6 @@ def kind_of(target: Target) -> str:
     return "length"
 
 
-def simple_key(
-    question: str,
-    value: float,
-    unit_name: str,
-    policy: Policy,
-    expected: ExpectedDirection,
-    wrongs: Callable[[], Iterable[Wrong]],
-) -> Key:
-    """The key of a value other than zero, without a tolerance from the drawing.
-
-    Raises NoKeyError where the tolerance is in a unit of another kind.
-    """
-    unit = parsed_unit(unit_name)
-    width = width_of(policy.tolerance, unit, unit_name)
-    half = half_width(policy.tolerance, value, width, 0.0)
-    return _key(question, value, (unit_name, unit), (half, width), expected, policy, wrongs)
-
-
 def _key(
     question: str,
     value: float,
@@ -364,13 +347,13 @@ def _key(
     policy: Policy,
     wrongs: Callable[[], Iterable[Wrong]],
     kind: str = "load",
-) -> Key:
+) -> NumberKey:
     """A key with what follows from its value, unit, and half and own width."""
     half, width = widths
     accepted, rule = range_in_words(value, half, unit[0]), in_words(policy.tolerance)
     plain = _is_plain(policy) and value != 0.0 and expected.any and not expected.asked
     foreseen = Wrongs(wrongs, value, half)
-    return Key(
+    return NumberKey(
         question, value, *unit, half, expected, foreseen, policy, accepted, rule, {}, {}, width, kind, plain
     )
 
@@ -387,7 +370,7 @@ def range_key(question: str, target: LoadIs, answer: Answer, policy: Policy) -> 
     unit = parsed_unit(found.unit)
     width = width_of(policy.tolerance, unit, found.unit)
 
-    def end(value: float) -> Key | None:
+    def end(value: float) -> NumberKey | None:
         if not math.isfinite(value):
             return None
         value = 0.0 if abs(value) <= TRUE_ZERO / OF_LOADS * zero else value
@@ -400,7 +383,7 @@ def range_key(question: str, target: LoadIs, answer: Answer, policy: Policy) -> 
     return _range(question, low, high, policy)
 
 
-def _range(question: str, low: Key | None, high: Key | None, policy: Policy) -> RangeKey:
+def _range(question: str, low: NumberKey | None, high: NumberKey | None, policy: Policy) -> RangeKey:
     """The key of a range, one end of which may be open."""
     said = [f"from {low.value:.6g} to {high.value:.6g}"] if low and high else []
     said += [f"{low.value:.6g} or more"] if low and not high else []
@@ -412,7 +395,7 @@ def _range(question: str, low: Key | None, high: Key | None, policy: Policy) -> 
     return RangeKey(question, low, high, end.unit_name, end.unit, policy, accepted, rule)
 
 
-def scaled_key(key: Key, factor: float) -> Key:
+def scaled_key(key: NumberKey, factor: float) -> NumberKey:
     """The key where all loads are ``factor`` times as large; a width in units stays what it is."""
     value = key.value * factor
     tolerance = key.policy.tolerance
@@ -512,7 +495,7 @@ def place_key(
     )
 
 
-def unit_factor(key: Key | PlaceKey | RangeKey, unit: Unit) -> float | None:
+def unit_factor(key: NumberKey | PlaceKey | RangeKey, unit: Unit) -> float | None:
     """How many units of the key make one of the answer's; None for another kind."""
     try:
         return factors_between(unit, key.unit)

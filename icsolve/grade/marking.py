@@ -10,14 +10,13 @@ from typing import TYPE_CHECKING, NamedTuple
 from icsolve.grade.carried_forward import CarriedForward
 from icsolve.grade.importing import Issues, StoredAnswer
 from icsolve.grade.judge import IN_REVIEW, RIGHT, WRONG, Judgement, feedback, judge_answer
-from icsolve.grade.keys import AnyKey, Key, PlaceKey, unit_factor
+from icsolve.grade.keys import AnyKey, NumberKey, PlaceKey, unit_factor
 from icsolve.grade.mistakes import Wrong
 from icsolve.grade.results import OVERRIDE, Marked, Result
 from icsolve.grade.statistics import Counts, Tally
 from icsolve.grade.timestamps import NEVER, attempt_number, readings
 from icsolve.grade.tolerance import NoKeyError
-from icsolve.grade.written import MISSING, Reader, Written
-from icsolve.grade.written.answer import Combined
+from icsolve.grade.written.answer import MISSING, Combined, Reader, WrittenAnswer
 from icsolve.grade.written.two_numbers import WrittenPlace
 
 if TYPE_CHECKING:
@@ -239,7 +238,7 @@ class Marker:
     def _band(self, item: str) -> tuple[float, float] | None:
         """The right value and half-width of a question that has one for all students."""
         key = self._keys.get(item)
-        return (key.value, key.half) if isinstance(key, Key) else None
+        return (key.value, key.half) if isinstance(key, NumberKey) else None
 
     def _judged(self, entry: StoredAnswer) -> Marked:
         try:
@@ -250,11 +249,11 @@ class Marker:
         if self.case_store.varied and self._is_others(entry):
             return self._of_another(entry)
         judged, read = judge_answer(key, self.combined, entry.answer, entry.unit, entry.direction)
-        if self._neighbours is not None and isinstance(key, Key) and isinstance(read, Written):
+        if self._neighbours is not None and isinstance(key, NumberKey) and isinstance(read, WrittenAnswer):
             judged = self._beside_others(entry, judged, read)
         told = feedback(key, judged, self.course.reveal)
         marked = Marked(entry.item, entry.answer, judged, key.policy.points, told)
-        if isinstance(read, Written) and not read.flag:
+        if isinstance(read, WrittenAnswer) and not read.flag:
             marked.written = read
         elif isinstance(read, WrittenPlace) and not read.flag and read.toward is None:
             assert isinstance(key, PlaceKey)
@@ -263,7 +262,7 @@ class Marker:
             marked.place_unit = read.unit
         return marked
 
-    def _beside_others(self, entry: StoredAnswer, judged: Judgement, written: Written) -> Judgement:
+    def _beside_others(self, entry: StoredAnswer, judged: Judgement, written: WrittenAnswer) -> Judgement:
         """The verdict on an answer to a question with variables: it may be right for another's numbers."""
         if judged.value is None or not self.case_store.variant_of(entry.item, entry.student):
             return judged

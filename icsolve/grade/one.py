@@ -8,11 +8,10 @@ from typing import Any
 from icsolve.grade.case_store import CaseStore, case_name
 from icsolve.grade.course import Course
 from icsolve.grade.judge import feedback, judge_answer
-from icsolve.grade.keys import AnyKey, Key, PlaceKey
+from icsolve.grade.keys import AnyKey, NumberKey, PlaceKey
 from icsolve.grade.platforms.given import given
 from icsolve.grade.platforms.questions import asked, figure, sensible
-from icsolve.grade.written import Reader
-from icsolve.grade.written.answer import Combined
+from icsolve.grade.written.answer import Combined, Reader
 
 
 class Task:
@@ -43,7 +42,7 @@ class Task:
         key = self._key(what)
         if isinstance(key, PlaceKey):
             return f"({key.place[0]:.6g}, {key.place[1]:.6g}) {key.unit_name}"
-        return f"{sensible(key)} {key.unit_name}".strip() if isinstance(key, Key) else key.accepted
+        return f"{sensible(key)} {key.unit_name}".strip() if isinstance(key, NumberKey) else key.accepted
 
     def grade(self, what: str, answer: str) -> dict[str, Any]:
         """``verdict``, ``score`` from 0 to 1, ``code`` and ``feedback`` of an answer."""

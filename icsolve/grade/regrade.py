@@ -12,8 +12,8 @@ from icsolve.files import reading
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.results import OVERRIDE, ResultRow, read_results, safe, shown
 from icsolve.grade.roster import Roster
-from icsolve.grade.tables import Columns, Table
-from icsolve.grade.tables.columns import identifier
+from icsolve.grade.tables.columns import TableColumns, identifier
+from icsolve.grade.tables.text import AnswerTable
 
 REVIEW_HEADER = (
     "case", "variant", "answer", "verdict", "code", "count", "student_id", "score", "max_score", "comment",
@@ -47,8 +47,8 @@ def read_overrides(path: str, store: CaseStore, roster: Roster | None) -> dict[t
     """
     found: dict[tuple[str, str], Override] = {}
     with reading(path) as file:
-        table = Table(file, lambda line, why: None)
-        columns = Columns(table.header, (), lambda text: None)
+        table = AnswerTable(file, lambda line, why: None)
+        columns = TableColumns(table.header, (), lambda text: None)
         if not columns.has("student_id", "case", "score"):
             raise ValueError(f"{path}: it needs the columns student_id,case,score; it has {columns.listed()}")
         at = [columns.names.index(name) for name in ("student_id", "case", "score")]

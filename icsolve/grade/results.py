@@ -10,7 +10,8 @@ from itertools import groupby
 from typing import Any, NamedTuple
 
 from icsolve.grade.judge import OPEN, Judgement
-from icsolve.grade.written import UnitWord, Written
+from icsolve.grade.written.answer import WrittenAnswer
+from icsolve.grade.written.units import UnitWord
 
 
 class Marked:
@@ -29,7 +30,7 @@ class Marked:
         judged: Judgement,
         points: float,
         text: str,
-        written: Written | None = None,
+        written: WrittenAnswer | None = None,
     ) -> None:
         self.item = item
         self.raw = raw

@@ -7,8 +7,8 @@ from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
 from icsolve.files import reading
-from icsolve.grade.tables import Columns, HeaderError, Table
-from icsolve.grade.tables.columns import identifier
+from icsolve.grade.tables.columns import HeaderError, TableColumns, identifier
+from icsolve.grade.tables.text import AnswerTable
 
 Report = Callable[[int, str], None]
 
@@ -82,8 +82,8 @@ def read_roster(path: str | os.PathLike[str], report: Report) -> Roster:
 
 def _read(path: str | os.PathLike[str], report: Report) -> Roster:
     with reading(path) as file:
-        table = Table(file, report)
-        columns = Columns(table.header, (), lambda text: None)
+        table = AnswerTable(file, report)
+        columns = TableColumns(table.header, (), lambda text: None)
         at = _id_columns(columns)
         rest = [columns.field(name) for name in ("email", "first_name", "last_name", "section")]
         people: dict[str, Person] = {}
@@ -103,7 +103,7 @@ def _read(path: str | os.PathLike[str], report: Report) -> Roster:
     return Roster(people.values())
 
 
-def _id_columns(columns: Columns) -> list[int]:
+def _id_columns(columns: TableColumns) -> list[int]:
     """The columns that may hold an id, best first."""
     found = [
         columns.field("student_id"),

@@ -8,13 +8,13 @@ from typing import IO, TYPE_CHECKING, NamedTuple
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.importing import Import, Issue, Issues, Store, StoredAnswer, expand
-from icsolve.grade.keys import Key
+from icsolve.grade.keys import NumberKey
 from icsolve.grade.marking import GivenValue, Marker
 from icsolve.grade.results import HEADER, json_line, line
 from icsolve.grade.roster import Roster, read_roster
 from icsolve.grade.solved import unknowns
 from icsolve.grade.statistics import Counts
-from icsolve.grade.tables import HeaderError
+from icsolve.grade.tables.columns import HeaderError
 from icsolve.grade.tolerance import NoKeyError
 
 if TYPE_CHECKING:
@@ -259,7 +259,7 @@ def _marks(case_store: CaseStore, item: str, counts: Counts) -> Iterator[tuple[s
         key = case_store.key(item)
     except NoKeyError:
         return
-    if isinstance(key, Key) and key.value and not case_store.variant_of(item, ""):
+    if isinstance(key, NumberKey) and key.value and not case_store.variant_of(item, ""):
         for code, _ in counts.mistakes.most_common():
             found = [w.value / key.value for w in key.wrongs.all if w.code == code]
             if found:

@@ -11,7 +11,7 @@ from icsolve.errors import SceneError
 from icsolve.grade.course import Course
 from icsolve.grade.keys import (
     AnyKey,
-    Key,
+    NumberKey,
     RangeKey,
     place_key,
     position_key,
@@ -90,7 +90,7 @@ def _points(case: Case) -> set[str]:
     return {name for name in named if not name.startswith("@")}
 
 
-class Solved:
+class SolvedCase:
     """One case with its answer, and the keys that were asked of it."""
 
     def __init__(self, case: Case, course: Course, full: bool = False) -> None:
@@ -102,7 +102,7 @@ class Solved:
         self._answer = solved_for(case) if full else None
         self.plain = self._answer or solved_plainly(case)
         """the answers alone: enough for the key of a load"""
-        self._base: Solved | None = None
+        self._base: SolvedCase | None = None
         self._keys: dict[str, AnyKey] = {}
         self._with_bodies: WrongAnswers | None = None
         """those to what is asked of the forces in joints"""
@@ -115,7 +115,7 @@ class Solved:
             origin._answer = solved_for(self.case)
         return origin._answer
 
-    def scaled(self, factor: float) -> Solved:
+    def scaled(self, factor: float) -> SolvedCase:
         """The same with all loads ``factor`` times as large; it shares what was solved."""
         other = copy(self)
         other.scale, other._base, other._keys = factor, self, {}
@@ -168,7 +168,7 @@ class Solved:
 
     def _with_scale(self, key: AnyKey, target: Target) -> AnyKey:
         """Loads and reactions grow with the loads; ratios and places do not."""
-        if isinstance(key, Key) and isinstance(target, LoadIs | ReactionIs | TensionIs):
+        if isinstance(key, NumberKey) and isinstance(target, LoadIs | ReactionIs | TensionIs):
             return scaled_key(key, self.scale)
         return scaled_range(key, self.scale) if isinstance(key, RangeKey) else key
 

@@ -31,8 +31,7 @@ from icsolve.case import (
 from icsolve.check import value_of
 from icsolve.errors import IcsolveError
 from icsolve.grade.mistakes import solved_for
-from icsolve.grade.written import factors_between
-from icsolve.grade.written.units import unit_word
+from icsolve.grade.written.units import factors_between, unit_word
 from icsolve.scene.sensitivity import band
 from icsolve.units import DIMENSIONS, Unit, nearest, parse_unit, split_quantity
 

@@ -25,7 +25,7 @@ from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
 from icsolve.read.expect import read_expect
 from icsolve.read.figure import (
     FRAMES,
-    Figure,
+    FigureData,
     carried,
     check_frame,
     check_given,
@@ -81,7 +81,7 @@ def build(root: Mapping, problems: Problems, name: str, measured: Measures) -> C
     check_unknowns(reading, parts.loads)
     if readable(root, "points", "lengths", "angles"):
         check_given(reading)
-        figure = Figure(parts.joints, parts.lengths, parts.angles, parts.points, _shaped(parts))
+        figure = FigureData(parts.joints, parts.lengths, parts.angles, parts.points, _shaped(parts))
         if not reading.problems.found:
             reading.noticed += check_loads(reading, root, figure, parts.loads, parts.motion, ground)
     texts = {key: reading.text(root.items[key], key) for key in TEXTS if key in root.items}

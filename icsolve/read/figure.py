@@ -370,7 +370,7 @@ FRAMES = ("0", "frame", "ground", "base", "fixed", "gnd", "earth")
 """What books call the frame."""
 
 
-class Figure(NamedTuple):
+class FigureData(NamedTuple):
     """What tells to which link a point belongs."""
 
     joints: tuple[Joint, ...]
@@ -405,7 +405,7 @@ def _welded(link: str, welds: Iterable[tuple[str, ...]]) -> set[str]:
 def check_loads(
     reading: Reading,
     root: Mapping,
-    figure: Figure,
+    figure: FigureData,
     loads: tuple[Load, ...],
     motion: tuple[Motion, ...],
     ground: str,
@@ -475,7 +475,7 @@ def _mark(root: Mapping, *way: str | int) -> Mark:
 class _Owners:
     """To which links points belong, as joints, `links:` and dimensions tell."""
 
-    def __init__(self, figure: Figure, ground: str) -> None:
+    def __init__(self, figure: FigureData, ground: str) -> None:
         self.figure, self.ground = figure, ground
         welds = [joint.links for joint in figure.joints if not joint.freedom]
         self.own: dict[str, set[str]] = {}
@@ -523,7 +523,7 @@ def _on_joints(joints: Iterable[Joint]) -> Iterator[tuple[str, str]]:
             yield from ((link, point) for link in joint.links for point in joint.named)
 
 
-def _tied(figure: Figure, known: set[str]) -> Iterator[str]:
+def _tied(figure: FigureData, known: set[str]) -> Iterator[str]:
     """Points that two lengths or corners, or the mean of known points, fix to points that are known."""
     ties: dict[str, int] = {}
     sets = [{length.a, length.b} for length in figure.lengths]

@@ -26,7 +26,7 @@ from icsolve.case import (
     Weld,
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
-from icsolve.read.keys import HELICAL, JOINTS, SPACE_JOINTS, Kind
+from icsolve.read.keys import HELICAL, JOINTS, SPACE_JOINTS, EntryKind
 from icsolve.read.names import is_name, meant_by, shown, suggestion
 from icsolve.read.reading import Entry, Reading
 
@@ -70,7 +70,7 @@ NAMES = frozenset((*JOINTS, *SPACE_JOINTS))
 
 
 def read_list(
-    reading: Reading, section: Sequence, kinds: Table[str, Kind], builders: Builders[T], example: str
+    reading: Reading, section: Sequence, kinds: Table[str, EntryKind], builders: Builders[T], example: str
 ) -> tuple[T, ...]:
     """The joints that could be read."""
     shared = Counter(_at(item) for item in section.items)
@@ -92,7 +92,7 @@ def _at(item: Node) -> str:
 
 
 def _joint(
-    reading: Reading, node: Mapping, shared: Counter[str], kinds: Table[str, Kind], builders: Builders[T]
+    reading: Reading, node: Mapping, shared: Counter[str], kinds: Table[str, EntryKind], builders: Builders[T]
 ) -> T | None:
     kind = _kind(reading, node, kinds)
     if kind is None:
@@ -135,7 +135,7 @@ def _unlike(where: str, taken: Container[str]) -> str:
     return next(way for way in ways if way not in taken)
 
 
-def _kind(reading: Reading, node: Mapping, kinds: Table[str, Kind]) -> str | None:
+def _kind(reading: Reading, node: Mapping, kinds: Table[str, EntryKind]) -> str | None:
     found = [key for key in node.items if key in kinds]
     if len(found) == 1:
         return found[0]
@@ -162,7 +162,7 @@ def _kind(reading: Reading, node: Mapping, kinds: Table[str, Kind]) -> str | Non
     return None
 
 
-def _rewritten(node: Mapping, said: str, kinds: Table[str, Kind]) -> str:
+def _rewritten(node: Mapping, said: str, kinds: Table[str, EntryKind]) -> str:
     """A joint that was written with a key for its kind, as the format has it."""
     word, at = node.items[said], _at(node) or "A"
     links = next((value for value in node.items.values() if type(value) is Sequence), None)

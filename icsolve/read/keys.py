@@ -23,7 +23,7 @@ class Key(NamedTuple):
     bound: str = ""
 
 
-class Kind(NamedTuple):
+class EntryKind(NamedTuple):
     """One kind of joint, load or profile: its own key, and those that it takes besides."""
 
     says: str
@@ -108,7 +108,7 @@ HELICAL = (*_HELIX, "bearing span")
 """What gears take besides where their teeth are helical."""
 
 JOINTS = {
-    "pin": Kind(
+    "pin": EntryKind(
         "a revolute: its links turn about one point",
         Key("the links that it joins, two or more", "links", True),
         {
@@ -118,7 +118,7 @@ JOINTS = {
         },
         "a `hinge` with its `axis`",
     ),
-    "slide": Kind(
+    "slide": EntryKind(
         "a prismatic: the block, named first, on a guide of the second link",
         _LINKS,
         {
@@ -130,13 +130,13 @@ JOINTS = {
         },
         "bearings with their `axis`",
     ),
-    "slot": Kind(
+    "slot": EntryKind(
         "a pin of the first link in a slot of the second",
         _LINKS,
         {"at": _needed(_AT, "the pin's point"), "along": _ALONG, "through": _THROUGH, "mu": _MU},
         "an unknown force along the normal",
     ),
-    "roll": Kind(
+    "roll": EntryKind(
         "rolling without slip; a rack and its pinion",
         _LINKS,
         {
@@ -151,7 +151,7 @@ JOINTS = {
         },
         "an unknown force along each direction",
     ),
-    "gears": Kind(
+    "gears": EntryKind(
         "a mesh; their pivots are the pins of both to one carrier",
         _LINKS,
         {
@@ -167,7 +167,7 @@ JOINTS = {
             "bearing span": _quantity("the distance of each shaft's bearings", "length", "positive"),
         },
     ),
-    "belt": Kind(
+    "belt": EntryKind(
         "a belt or chain over two pulleys that are pinned to one carrier",
         _LINKS,
         {
@@ -177,7 +177,7 @@ JOINTS = {
         },
         "a load for the pull of each strand",
     ),
-    "contact": Kind(
+    "contact": EntryKind(
         "a contact that rolls and slips, as of a cam; without `at` and `normal` by the links' profiles",
         _LINKS,
         {
@@ -187,7 +187,7 @@ JOINTS = {
         },
         "an unknown force along the normal",
     ),
-    "centre": Kind(
+    "centre": EntryKind(
         "a relative centre that is known, without the joints between",
         _LINKS,
         {
@@ -196,10 +196,10 @@ JOINTS = {
         },
         "the joints themselves",
     ),
-    "weld": Kind(
+    "weld": EntryKind(
         "two links that move as one", _LINKS, {"at": Key("the point that its reaction is given for")}
     ),
-    "rope": Kind(
+    "rope": EntryKind(
         "a rope: fixed at its ends, over pulleys in between",
         Key("the points that it runs through, as in [A, P, B]", "points of a rope", True),
         {
@@ -215,7 +215,7 @@ JOINTS = {
         },
         "loads for its pull on each link",
     ),
-    "screw": Kind(
+    "screw": EntryKind(
         "a screw: the second link moves on the first along its axis, as far as a torque load turns it",
         _LINKS,
         {
@@ -242,20 +242,20 @@ def _axis(says: str) -> Key:
 _CENTRE = Key("the point through which its force acts", "name", True)
 
 
-def _bearing(says: str, axis: str) -> Kind:
-    return Kind(says, _LINKS, {"at": _CENTRE, "axis": _axis(axis)})
+def _bearing(says: str, axis: str) -> EntryKind:
+    return EntryKind(says, _LINKS, {"at": _CENTRE, "axis": _axis(axis)})
 
 
 SPACE_JOINTS = {
-    "ball": Kind("a spherical joint: it carries a force and no couple", _LINKS, {"at": _CENTRE}),
+    "ball": EntryKind("a spherical joint: it carries a force and no couple", _LINKS, {"at": _CENTRE}),
     "radial": _bearing("a bearing that carries force square to its axis only", "the direction of the shaft"),
     "thrust": _bearing("a bearing that carries force along its axis too", "the direction of the shaft"),
     "hinge": _bearing(
         "a hinge: it carries a force, and couples square to its axis",
         "the direction about which its links turn",
     ),
-    "weld": Kind("a rigid joint: it carries a force and a couple", _LINKS, {"at": _CENTRE}),
-    "gears": Kind(
+    "weld": EntryKind("a rigid joint: it carries a force and a couple", _LINKS, {"at": _CENTRE}),
+    "gears": EntryKind(
         "a mesh of gears with parallel axes",
         _LINKS,
         {
@@ -306,12 +306,12 @@ def _size(what: str, dimension: str, form: str = "load", bound: str = "") -> Key
 _TORQUE = "its number, 'unknown', or {like: M2}"
 _STIFFNESS = "its force per length, a number, 'unknown' or {like: S}"
 LOADS = {
-    "force": Kind(
+    "force": EntryKind(
         "a force",
         _size("a number, 'unknown', or two components [Fx, Fy]", "force", "load or vector"),
         {"link": _BEARER, "at": _PLACE, **DIRECTION, "against": _AGAINST, "turns_with": _TURNS_WITH},
     ),
-    "torque": Kind(
+    "torque": EntryKind(
         "a torque, positive counterclockwise or as it `turns`",
         _size(_TORQUE, "torque"),
         {
@@ -321,13 +321,13 @@ LOADS = {
             "screw": Key("in place of a link the screw that it turns, by its two links, as in 2-3", "text"),
         },
     ),
-    "weight": Kind("a weight, along -y", _size(_TORQUE, "force"), {"link": _BEARER, "at": _PLACE}),
-    "mass": Kind(
+    "weight": EntryKind("a weight, along -y", _size(_TORQUE, "force"), {"link": _BEARER, "at": _PLACE}),
+    "mass": EntryKind(
         "a weight by its mass, with its unit",
         _size(_TORQUE, "mass", "load with unit", "not negative"),
         {"link": _BEARER, "at": _PLACE},
     ),
-    "spring": Kind(
+    "spring": EntryKind(
         "a spring: it pulls when longer than `free`",
         _size(_STIFFNESS, "stiffness", "load", "not negative"),
         {
@@ -338,7 +338,7 @@ LOADS = {
             "to": _needed(_PLACE, "the point of its other end, or [x, y]"),
         },
     ),
-    "torsion spring": Kind(
+    "torsion spring": EntryKind(
         "a torsion spring: it pushes its link with stiffness times (free - angle)",
         _size(
             "its torque per angle, a number, 'unknown' or {like: S}",
@@ -358,7 +358,7 @@ LOADS = {
         },
         key="spring",
     ),
-    "pressure": Kind(
+    "pressure": EntryKind(
         "a pressure on an area, along a line as a force",
         _size(_TORQUE, "pressure"),
         {
@@ -372,7 +372,7 @@ LOADS = {
             "turns_with": _TURNS_WITH,
         },
     ),
-    "distributed": Kind(
+    "distributed": EntryKind(
         "a force per length along a line, uniform or linear",
         _size(
             "a number, 'unknown', or those at both ends, as in [0, 200 N/m]",
@@ -388,7 +388,7 @@ LOADS = {
             "turns_with": _TURNS_WITH,
         },
     ),
-    "power": Kind(
+    "power": EntryKind(
         "the torque that transmits a power at a speed",
         _size("the power, with its unit", "torque", "with unit"),
         {"speed": _SPEED, "link": _LINK, "turns": _SENSE, "against": _AGAINST},
@@ -404,12 +404,12 @@ SPACE_DIRECTION = {
 }
 """One of these gives a force in space its direction."""
 SPACE_LOADS = {
-    "force": Kind(
+    "force": EntryKind(
         "a force",
         _size("a number, 'unknown', or three components [x, y, z]", "force", "load or triple"),
         {"link": _LINK, "at": _SPOT, **SPACE_DIRECTION, "against": _AGAINST},
     ),
-    "torque": Kind(
+    "torque": EntryKind(
         "a torque about an axis",
         _size("a number, 'unknown', or three components [x, y, z]", "torque", "load or triple"),
         {
@@ -418,13 +418,13 @@ SPACE_LOADS = {
             "against": _AGAINST,
         },
     ),
-    "weight": Kind("a weight, along -z", _size(_TORQUE, "force"), {"link": _LINK, "at": _SPOT}),
-    "mass": Kind(
+    "weight": EntryKind("a weight, along -z", _size(_TORQUE, "force"), {"link": _LINK, "at": _SPOT}),
+    "mass": EntryKind(
         "a weight by its mass, with its unit",
         _size(_TORQUE, "mass", "load with unit", "not negative"),
         {"link": _LINK, "at": _SPOT},
     ),
-    "spring": Kind(
+    "spring": EntryKind(
         "a spring: it pulls when longer than `free`",
         _size(_STIFFNESS, "stiffness", "load", "not negative"),
         {
@@ -435,7 +435,7 @@ SPACE_LOADS = {
             "to": _needed(_SPOT, "the point of its other end, or [x, y, z]"),
         },
     ),
-    "power": Kind(
+    "power": EntryKind(
         "the torque that transmits a power at a speed",
         _size("the power, with its unit", "torque", "with unit"),
         {
@@ -451,23 +451,22 @@ SPACE_LOADS = {
 # Profiles
 _RADIUS = Key("its radius", "quantity", True, "length", "positive")
 _OWN = Key("a point, or [x, y] in this position", "place", True)
-_CENTRE_OF = _OWN._replace(says="its centre, a point or [x, y]")
 _FACE = Key("the direction of the face in degrees, or two of its points as in [D, E]", "line", True, "angle")
 PROFILES = {
-    "polygon": Kind(
+    "polygon": EntryKind(
         "corners joined by straight edges, back to the first",
         Key("three or more corners, as in [A, B, C]", "corners", True),
         {},
     ),
-    "arcs": Kind(
+    "arcs": EntryKind(
         "arcs one after the other, joined by straight lines where their ends are apart",
         Key("a list of arcs, as in [{centre: C, from: P, to: Q}]", "arcs", True),
         {},
     ),
-    "circle": Kind(
+    "circle": EntryKind(
         "a circle", _OWN._replace(says="its centre"), {"radius": _needed(_RADIUS, "that of the circle")}
     ),
-    "radii": Kind(
+    "radii": EntryKind(
         "radius against angle: a periodic cubic spline",
         Key("radii by angle, as in {0: 20, 30: 21.5}; four or more", "table", True, "length", "positive"),
         {
@@ -481,11 +480,11 @@ PROFILES = {
             "turns": Key("the sense in which the angles run, ccw or cw", "sense"),
         },
     ),
-    "flat": Kind("a flat face", _OWN._replace(says="a point of the face"), {"along": _FACE}),
-    "roller": Kind(
+    "flat": EntryKind("a flat face", _OWN._replace(says="a point of the face"), {"along": _FACE}),
+    "roller": EntryKind(
         "a roller", _OWN._replace(says="its centre"), {"radius": _needed(_RADIUS, "that of the roller")}
     ),
-    "knife": Kind("a knife edge", _OWN._replace(says="where the edge is"), {}),
+    "knife": EntryKind("a knife edge", _OWN._replace(says="where the edge is"), {}),
 }
 """Profiles of cams, and of their followers."""
 _END = Key("where it ends: a point, or a direction from its centre in degrees", "end", True, "angle")

@@ -8,7 +8,7 @@ from typing import Generic, NamedTuple, TypeVar
 
 from icsolve.case import Like, Magnitude, Mark, Number
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
-from icsolve.read.keys import LIKE, LOADS, Kind
+from icsolve.read.keys import LIKE, LOADS, EntryKind
 from icsolve.read.names import is_name, shown, suggestion, why_no_name
 from icsolve.read.reading import Entry, Reading
 from icsolve.units import exactly, nearest, quotient, split_quantity
@@ -25,7 +25,7 @@ T = TypeVar("T")
 class Forms(NamedTuple, Generic[T]):
     """The kinds of load and what reads each, an example; and why a key has no place here."""
 
-    kinds: Table[str, Kind]
+    kinds: Table[str, EntryKind]
     build: Table[str, Callable[[Entry, str, str, Likes], T | list[T] | None]]
     example: str
     elsewhere: Table[str, str]

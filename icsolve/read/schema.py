@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 from icsolve.read import keys
-from icsolve.read.keys import Key, Kind
+from icsolve.read.keys import EntryKind, Key
 
 Schema = dict[str, Any]
 ID = "icsolve.schema.json"
@@ -78,12 +78,12 @@ def _keyed(table: dict[str, Key], *needed: str) -> Schema:
     return {**form, "required": required} if required else form
 
 
-def _of_kind(name: str, kind: Kind) -> Schema:
+def _of_kind(name: str, kind: EntryKind) -> Schema:
     """A mapping of one kind of joint, load or profile."""
     return {**_keyed({kind.key or name: kind.own, **kind.keys}), "description": kind.says}
 
 
-def _one(table: dict[str, Kind], **more: Schema) -> list[Schema]:
+def _one(table: dict[str, EntryKind], **more: Schema) -> list[Schema]:
     """The kinds of a table, each with what only code can tell of it."""
     return [{**_of_kind(name, kind), **more.get(name, {})} for name, kind in table.items()]
 

@@ -301,7 +301,7 @@ Shares = dict[str, float]
 """The part of an unknown that each known load asks for; they add up to it."""
 
 
-class Step(NamedTuple):
+class WrongStep(NamedTuple):
     """A wrong step: its code, by what it changes the share of a load, and where it sits."""
 
     code: str
@@ -336,7 +336,7 @@ def step_wrongs(answer: Answer, unknown: str) -> Iterator[Wrong]:
         yield Wrong(code, value / factor, where)
 
 
-def _of_ratio(answer: Answer, load: Load, own: Load) -> Iterator[Step]:
+def _of_ratio(answer: Answer, load: Load, own: Load) -> Iterator[WrongStep]:
     """The ratio of the two links' rates, or of the two loads' factors, upside down, taken as 1, without one
     of its stages, or by another centre or one distance alone.
 
@@ -346,9 +346,9 @@ def _of_ratio(answer: Answer, load: Load, own: Load) -> Iterator[Step]:
     ratio = factors.get(load.name, 0.0) / factors[own.name]
     if same_kind(load, own) and ratio:
         both = f"{own.name} and {load.name}"
-        yield Step("inverse-ratio", ratio**-2, both)
-        yield Step("ratio-one", 1.0 / ratio, both)
-        yield Step("ratio-one", -1.0 / ratio, both)
+        yield WrongStep("inverse-ratio", ratio**-2, both)
+        yield WrongStep("ratio-one", 1.0 / ratio, both)
+        yield WrongStep("ratio-one", -1.0 / ratio, both)
     if load.link == own.link:
         return
     where = f"links {own.link} and {load.link}"
@@ -360,32 +360,32 @@ def _of_ratio(answer: Answer, load: Load, own: Load) -> Iterator[Step]:
         return
     above, below = (math.dist(common, c) if c is not None else 0.0 for c in (first, second))
     if above and below:
-        yield Step("one-arm", below, where)
-        yield Step("one-arm", 1.0 / above, where)
+        yield WrongStep("one-arm", below, where)
+        yield WrongStep("one-arm", 1.0 / above, where)
     right = _quotient(common, first, second)
     for centres, link in ((its, load.link), (mine, own.link)) if first or second else ():
         for other, centre in centres.items():
             wrong = _quotient(centre, first, second)
             if right and wrong and {other, link} != {load.link, own.link} and other != ground:
-                yield Step("wrong-ic", wrong / right, f"I{pair_name(answer.case, (link, other))}")
+                yield WrongStep("wrong-ic", wrong / right, f"I{pair_name(answer.case, (link, other))}")
 
 
-def _of_rates(answer: Answer, link: str, own: str, where: str) -> Iterator[Step]:
+def _of_rates(answer: Answer, link: str, own: str, where: str) -> Iterator[WrongStep]:
     """The ratio of the rates of two links taken otherwise."""
     rates = answer.rates or {}
     first, second = rates.get(link), rates.get(own)
     if not isinstance(first, float) or not isinstance(second, float) or not first or not second:
         return
-    yield Step("inverse-ratio", (second / first) ** 2, where)
-    yield Step("ratio-one", second / first, where)
-    yield Step("ratio-one", -second / first, where)
+    yield WrongStep("inverse-ratio", (second / first) ** 2, where)
+    yield WrongStep("ratio-one", second / first, where)
+    yield WrongStep("ratio-one", -second / first, where)
     for name, rate in rates.items():
         if name in (link, own, answer.case.ground) or not isinstance(rate, float) or not rate:
             continue
         for stage in (rate / first, second / rate):
             if min(abs(abs(stage) - 1.0), abs(stage - second / first)) > _SAME:
-                yield Step("missed-stage", stage, f"link {name}")
-                yield Step("missed-stage", -stage, f"link {name}")
+                yield WrongStep("missed-stage", stage, f"link {name}")
+                yield WrongStep("missed-stage", -stage, f"link {name}")
 
 
 def _quotient(centre: Place, first: Place | None, second: Place | None) -> float | None:
@@ -396,7 +396,7 @@ def _quotient(centre: Place, first: Place | None, second: Place | None) -> float
     return above / below if below else None
 
 
-def _of_force(answer: Answer, load: Load) -> Iterator[Step]:
+def _of_force(answer: Answer, load: Load) -> Iterator[WrongStep]:
     """The moment of a force about another centre of its link, or by one of its components alone."""
     at, heading = place_of(getattr(load, "at", ""), answer), heading_of(load, answer)
     against, centres = reacting(answer.case, load), centres_of(answer, load.link)
@@ -409,10 +409,10 @@ def _of_force(answer: Answer, load: Load) -> Iterator[Step]:
         for other, centre in centres.items():
             wrong = sum(_moments(at, heading, centre))
             if other != against and wrong:
-                yield Step("wrong-ic", wrong / right, f"I{pair_name(answer.case, (load.link, other))}")
+                yield WrongStep("wrong-ic", wrong / right, f"I{pair_name(answer.case, (load.link, other))}")
     if min(abs(by_x), abs(by_y), abs(right)) > 1e-6 * size:
-        yield Step("one-component", by_x / right, load.name)
-        yield Step("one-component", by_y / right, load.name)
+        yield WrongStep("one-component", by_x / right, load.name)
+        yield WrongStep("one-component", by_y / right, load.name)
 
 
 def _moments(at: Place, heading: float, centre: Place) -> tuple[float, float]:

@@ -16,11 +16,11 @@ from icsolve.case import Case
 from icsolve.files import reading_text, write_whole
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
-from icsolve.grade.keys import Key, RangeKey
+from icsolve.grade.keys import NumberKey, RangeKey
 from icsolve.grade.platforms.given import given
 from icsolve.grade.platforms.questions import SMALLEST, Question, asked, figure, gift, moodle_xml, qti_zip
 from icsolve.grade.roster import read_roster
-from icsolve.grade.solved import Solved, unknowns
+from icsolve.grade.solved import SolvedCase, unknowns
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.record import KEYS, VALUES, read_records
 
@@ -159,7 +159,7 @@ def questions(order: ExportOrder, complain: Complain) -> Iterator[Question]:
             complain(f"{order.case_store.paths.get(name, name)}: {error}")
 
 
-def _of_case(solved: Solved, case: Case, name: str, order: ExportOrder, title: str) -> Iterator[Question]:
+def _of_case(solved: SolvedCase, case: Case, name: str, order: ExportOrder, title: str) -> Iterator[Question]:
     names = unknowns(case)
     if not names:
         raise NoKeyError("no unknown load, so no question")
@@ -167,7 +167,7 @@ def _of_case(solved: Solved, case: Case, name: str, order: ExportOrder, title: s
     for what in names:
         own = case.name if len(names) == 1 else f"{case.name}:{what}"
         key = solved.key(own)
-        if not isinstance(key, Key):
+        if not isinstance(key, NumberKey):
             why = "holds over a range" if isinstance(key, RangeKey) else "has several right values"
             raise NoKeyError(f"{what} {why}, for which no such question can ask")
         if key.expected.asked:

@@ -20,10 +20,10 @@ from html import escape
 from typing import NamedTuple
 
 from icsolve.case import Case, LoadIs, PositionIs, Target
-from icsolve.grade.keys import AnyKey, Key, PlaceKey, RangeKey
+from icsolve.grade.keys import AnyKey, NumberKey, PlaceKey, RangeKey
 from icsolve.grade.mistakes import Wrong, message
 from icsolve.grade.mistakes.lookup import ORDER
-from icsolve.grade.written import factors_between
+from icsolve.grade.written.units import factors_between
 from icsolve.units import parse_unit
 
 
@@ -49,7 +49,7 @@ def asked(key: AnyKey, target: Target) -> str:
         return f"In which position is the mechanism in equilibrium? Find {told} {datum}{unit}{ccw}."
     if isinstance(key, RangeKey):
         return f"Over which range of {name}{unit} does the mechanism hold still? Give both ends."
-    assert isinstance(key, Key)
+    assert isinstance(key, NumberKey)
     sign = ""
     if key.expected.turn:
         sign = f" ({'counterclockwise' if key.expected.turn > 0 else 'clockwise'} positive)"
@@ -84,7 +84,7 @@ class Question(NamedTuple):
     name: str
     given: tuple[tuple[str, str], ...]
     asked: str
-    key: Key
+    key: NumberKey
     picture: str = ""
     title: str = ""
 
@@ -152,7 +152,7 @@ def _answer(fraction: float, value: float, tolerance: float, feedback: str) -> s
     )
 
 
-def wrong_rows(key: Key) -> Iterator[tuple[Wrong, float, float]]:
+def wrong_rows(key: NumberKey) -> Iterator[tuple[Wrong, float, float]]:
     """Known wrong answers, simplest first, with their shares in percent and absolute tolerances.
 
     Moodle takes the first row that matches, so the right answer stands before them.
@@ -176,7 +176,7 @@ def _decades(wrong: float, right: float) -> float:
     return 0.5 if abs(powers - 3.0) < 1e-9 else powers
 
 
-def _units(key: Key) -> str:
+def _units(key: NumberKey) -> str:
     """Units with how many of each make one of the question's own; how a missing one counts."""
     if not key.unit_name:
         return (
@@ -194,7 +194,7 @@ def _units(key: Key) -> str:
     )
 
 
-def unit_rows(key: Key) -> Iterator[tuple[str, float]]:
+def unit_rows(key: NumberKey) -> Iterator[tuple[str, float]]:
     """The question's own unit first, then others of its kind, each with the number that makes one of it."""
     yield key.unit_name, 1.0
     for names in _UNITS.values():
@@ -240,19 +240,19 @@ def number(value: float) -> str:
     return f"{value:.12g}"
 
 
-def rights(key: Key) -> list[float]:
+def rights(key: NumberKey) -> list[float]:
     """The right answer, and what a whole turn makes of it."""
     value = float(sensible(key))
     turned = (value - math.copysign(key.period, value),) if key.period else ()
     return [value, *turned]
 
 
-def _half(key: Key) -> float:
+def _half(key: NumberKey) -> float:
     """Half the accepted band, as large a part of the answer as it is shown as of the answer itself."""
     return key.half * abs(float(sensible(key)) / key.value) if key.value else key.half
 
 
-def sensible(key: Key) -> str:
+def sensible(key: NumberKey) -> str:
     """The right answer with six digits, and more where its tolerance asks for them."""
     ratio = key.half / abs(key.value) if key.value else 1.0
     digits = 6 if ratio >= 1e-3 else min(17, 4 - math.floor(math.log10(ratio))) if ratio > 0.0 else 17
@@ -399,7 +399,7 @@ def _item(question: Question) -> str:
     )
 
 
-def _right_condition(key: Key, turned: float) -> str:
+def _right_condition(key: NumberKey, turned: float) -> str:
     """What is accepted, ``turned`` by nothing or a whole turn."""
     middle = sensible(key) if not turned else number(key.value + turned)
     low, high = (number(key.value + turned + side) for side in (-key.half, key.half))

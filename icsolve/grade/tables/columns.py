@@ -115,7 +115,7 @@ def plain_name(text: str) -> str:
     return " ".join(text.replace("\ufeff", "").lower().split())
 
 
-class Columns:
+class TableColumns:
     """The columns of a header, and the user's own mapping of them."""
 
     def __init__(

@@ -8,16 +8,16 @@ import re
 from collections.abc import Iterator
 
 from icsolve.files import is_plain, reading_text
-from icsolve.grade.tables.columns import Columns, Submission, identifier
+from icsolve.grade.tables.columns import Submission, TableColumns, identifier
 from icsolve.grade.tables.platforms import fields_of, padded
-from icsolve.grade.tables.text import Table
+from icsolve.grade.tables.text import AnswerTable
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, parse
 from icsolve.read.names import Problems, Stop
 
 _LINE = re.compile(r"\s*(?:[-*] )?([^=\s][^=]*?)(?:\s*=\s*|:(?:\s+|$))(\S.*?)?\s*$")
 
 
-def submissions(table: Table, columns: Columns, student: str) -> Iterator[Submission]:
+def submissions(table: AnswerTable, columns: TableColumns, student: str) -> Iterator[Submission]:
     """All answers of a file, as one student's."""
     who = (identifier(student),)
     if columns.field("case") is not None and columns.field("answer") is not None:

@@ -9,9 +9,9 @@ from operator import itemgetter
 
 from icsolve.grade.tables.columns import (
     FIELDS,
-    Columns,
     HeaderError,
     Submission,
+    TableColumns,
     TableLayout,
     candidates,
     identifier,
@@ -51,7 +51,7 @@ _META = re.compile(
 """Columns that platforms add and that are no question."""
 
 
-def recognise(columns: Columns) -> TableLayout:
+def recognise(columns: TableColumns) -> TableLayout:
     """The layout of a table.
 
     Raises HeaderError where no student's id, or no question, can be told from the columns.
@@ -65,7 +65,7 @@ def recognise(columns: Columns) -> TableLayout:
     )
 
 
-def fields_of(columns: Columns) -> Callable[[list[str]], tuple[str, ...]]:
+def fields_of(columns: TableColumns) -> Callable[[list[str]], tuple[str, ...]]:
     """Of a row with an empty cell added: student, case, answer, unit, direction, attempt, variant, time."""
     wanted = ("student_id", "case", "answer", "unit", "direction", "attempt", "variant", "submitted_at")
     at = [columns.field(name) for name in wanted]
@@ -77,7 +77,7 @@ def fields_of(columns: Columns) -> Callable[[list[str]], tuple[str, ...]]:
     return itemgetter(*(len(columns.header) if i is None else i for i in at))
 
 
-def _long(columns: Columns, kind: str) -> TableLayout:
+def _long(columns: TableColumns, kind: str) -> TableLayout:
     """One answer a row."""
     cells_of, width = fields_of(columns), len(columns.header)
 
@@ -106,7 +106,7 @@ def _wrong_width(cells: Sequence[str], width: int) -> str:
     return f"this row has {len(cells)} cells under {width} columns: is it cut short?"
 
 
-def _wide(columns: Columns, kind: str) -> TableLayout:
+def _wide(columns: TableColumns, kind: str) -> TableLayout:
     """A column a question."""
     ids = [i for name in _IDS.get(kind, _ANY_ID) if (i := _id_column(columns, name)) is not None]
     if not ids:
@@ -154,15 +154,15 @@ def _wide_reader(
     return read
 
 
-def _id_column(columns: Columns, name: str) -> int | None:
+def _id_column(columns: TableColumns, name: str) -> int | None:
     return columns.field(name) if name in FIELDS else _index(columns, name)
 
 
-def _index(columns: Columns, name: str) -> int | None:
+def _index(columns: TableColumns, name: str) -> int | None:
     return columns.names.index(name) if name in columns.names else None
 
 
-def _questions(columns: Columns, kind: str, ids: set[int]) -> tuple[dict[int, str], list[int]]:
+def _questions(columns: TableColumns, kind: str, ids: set[int]) -> tuple[dict[int, str], list[int]]:
     """Questions by column, and the columns that seem to be questions but name no case."""
     asked, strange = {}, []
     taken = ids | set(columns.fields.values())
@@ -225,7 +225,7 @@ _IDS = {
 """Columns by which a platform's students are known, best first."""
 
 
-def _prairielearn(columns: Columns, kind: str) -> TableLayout:
+def _prairielearn(columns: TableColumns, kind: str) -> TableLayout:
     """A question a row; its answers are JSON."""
     uid, qid, answers = (columns.names.index(name) for name in ("uid", "qid", "submitted_answer"))
     number = _index(columns, "submission_id")
@@ -272,17 +272,17 @@ def _json_text(value: object) -> str:
     )
 
 
-def _is_long(columns: Columns) -> bool:
+def _is_long(columns: TableColumns) -> bool:
     who = any(columns.field(name) is not None for name in _ANY_ID)
     return who and all(columns.field(name) is not None for name in ("case", "answer"))
 
 
-def _by_text(columns: Columns, text: str) -> str:
+def _by_text(columns: TableColumns, text: str) -> str:
     """The question that a text in a cell is about; the text itself where it names none."""
     return next((q for c in candidates(text) if (q := columns.find(c)) is not None), text)
 
 
-def _long_by_text(columns: Columns, kind: str) -> TableLayout:
+def _long_by_text(columns: TableColumns, kind: str) -> TableLayout:
     """One answer a row, whose question stands there in its own words (Blackboard, Brightspace)."""
     plain = _long(columns, kind)
 
@@ -292,7 +292,7 @@ def _long_by_text(columns: Columns, kind: str) -> TableLayout:
     return TableLayout(kind, read)
 
 
-def _blackboard(columns: Columns, kind: str) -> TableLayout:
+def _blackboard(columns: TableColumns, kind: str) -> TableLayout:
     """A row a student, with the words of each question beside its answer."""
     pairs = [
         (columns.names.index(f"question {name.removeprefix('answer ')}"), index)
@@ -319,7 +319,7 @@ _STAMPS = ("timestamp", "zeitstempel", "horodateur", "marca temporal", "informaz
 _FORMS = ("start time", "startzeit", "heure de début", "hora de inicio", "ora di inizio")
 
 
-def _is_wide(columns: Columns) -> bool:
+def _is_wide(columns: TableColumns) -> bool:
     named = columns.fields.keys() & {"student_id", "email"}
     return (
         bool(named)
@@ -328,7 +328,7 @@ def _is_wide(columns: Columns) -> bool:
     )
 
 
-def _is_gradebook(columns: Columns) -> bool:
+def _is_gradebook(columns: TableColumns) -> bool:
     """Of Canvas: ids and sections beside names, in one column or two; a long export has SIS ids, not a
     short.
     """
@@ -336,7 +336,7 @@ def _is_gradebook(columns: Columns) -> bool:
     return named and columns.has("id", "section") and columns.names[0] in ("student", "lastname")
 
 
-_KINDS: tuple[tuple[str, Callable[[Columns], bool], Callable[[Columns, str], TableLayout]], ...] = (
+_KINDS: tuple[tuple[str, Callable[[TableColumns], bool], Callable[[TableColumns, str], TableLayout]], ...] = (
     ("prairielearn", lambda c: c.has("uid", "qid", "submitted_answer"), _prairielearn),
     ("brightspace", lambda c: c.has("q title", "answer"), _long_by_text),
     ("blackboard", lambda c: c.has("question 1", "answer 1"), _blackboard),

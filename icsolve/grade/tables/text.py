@@ -58,7 +58,7 @@ def encoding_of(sample: bytes) -> str:
     return "utf-8-sig"
 
 
-class Table:
+class AnswerTable:
     """The rows of an open file, after its header.
 
     ``header`` has the names of the columns, ``delimiter`` what divides them. ``report`` is told of lines that

@@ -12,13 +12,13 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, NamedTuple
 
 from icsolve.files import is_plain, reading
-from icsolve.grade.keys import Key
+from icsolve.grade.keys import NumberKey
 from icsolve.grade.roster import Roster
-from icsolve.grade.tables import Columns, Table
-from icsolve.grade.tables.columns import identifier
+from icsolve.grade.tables.columns import TableColumns, identifier
+from icsolve.grade.tables.text import AnswerTable
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.varied import Varied
-from icsolve.grade.written import figures
+from icsolve.grade.written.numerals import figures
 
 if TYPE_CHECKING:
     from icsolve.grade.case_store import CaseStore
@@ -102,7 +102,7 @@ def _read(path: str, store: CaseStore, roster: Roster | None) -> tuple[str, Vari
     return name, VariantRecord(path, handed, dict(_keys(os.path.join(os.path.dirname(path), KEYS), roster)))
 
 
-def _case_of(path: str, columns: Columns, store: CaseStore) -> str:
+def _case_of(path: str, columns: TableColumns, store: CaseStore) -> str:
     """The case of a record: that of its folder's name, else the only one with these variables."""
     folder = os.path.basename(os.path.dirname(os.path.abspath(path)))
     if folder in store.paths:
@@ -133,11 +133,11 @@ def _keys(path: str, roster: Roster | None) -> Iterator[tuple[tuple[str, str], t
             raise ValueError(f"{KEYS} beside it has a value that is no number: {cells[value]!r}") from None
 
 
-def _table(path: str) -> tuple[Columns, list[list[str]]]:
+def _table(path: str) -> tuple[TableColumns, list[list[str]]]:
     troubles: list[str] = []
     with reading(path) as file:
-        table = Table(file, lambda line, why: troubles.append(f"line {line}: {why}"))
-        columns = Columns(table.header, (), lambda text: None)
+        table = AnswerTable(file, lambda line, why: troubles.append(f"line {line}: {why}"))
+        columns = TableColumns(table.header, (), lambda text: None)
         rows = []
         for row in table.rows():
             if row.trouble or len(row.cells) != len(table.header):
@@ -260,7 +260,7 @@ class Neighbours:
                 key = varied.key(question, student)
             except NoKeyError:
                 continue
-            if isinstance(key, Key):
+            if isinstance(key, NumberKey):
                 found[draw.label] = key.value
         ordered = sorted((value, label) for label, value in found.items())
         return [value for value, _ in ordered], [label for _, label in ordered]
@@ -284,4 +284,4 @@ def _is_right(varied: Varied, one: GivenValue) -> bool:
         key = varied.key(one.question, one.student)
     except NoKeyError:
         return False
-    return isinstance(key, Key) and abs(one.value - key.value) <= key.half
+    return isinstance(key, NumberKey) and abs(one.value - key.value) <= key.half

@@ -8,13 +8,13 @@ from collections.abc import Iterable, Iterator
 from html import escape
 from typing import NamedTuple
 
-from icsolve.grade.keys import AnyKey, Key, numbers_of
+from icsolve.grade.keys import AnyKey, NumberKey, numbers_of
 from icsolve.grade.platforms.given import given
 from icsolve.grade.platforms.questions import asked
 from icsolve.grade.platforms.questions import figure as drawn
 from icsolve.grade.results import safe
 from icsolve.grade.roster import Person
-from icsolve.grade.solved import Solved, unknowns
+from icsolve.grade.solved import SolvedCase, unknowns
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.varied import Draw, Varied
 
@@ -68,7 +68,7 @@ def questions(varied: Varied) -> list[str]:
     return [varied.name] if len(names) == 1 else [f"{varied.name}:{name}" for name in names]
 
 
-def sense(varied: Varied, draw: Draw, key: Key) -> str:
+def sense(varied: Varied, draw: Draw, key: NumberKey) -> str:
     """The answer's sense in words."""
     if key.expected.turn:
         return "ccw" if key.value * key.expected.turn > 0.0 else "cw"
@@ -105,7 +105,7 @@ def sheet(varied: Varied, task: VariantTask, picture: str) -> str:
     )
 
 
-def _keys(varied: Varied, solved: Solved) -> list[AnyKey]:
+def _keys(varied: Varied, solved: SolvedCase) -> list[AnyKey]:
     return [solved.key(question) for question in questions(varied)]
 
 

@@ -18,7 +18,7 @@ from icsolve.grade.keys import (
 )
 from icsolve.grade.mistakes import WrongAnswers
 from icsolve.grade.mistakes.changed import without_friction
-from icsolve.grade.solved import Solved
+from icsolve.grade.solved import SolvedCase
 from icsolve.grade.tolerance import NoKeyError, size_of
 from icsolve.read.document import Mapping as Tree
 from icsolve.read.document import Node, Scalar, parse
@@ -240,8 +240,8 @@ class Varied:
         self.magnitudes = Magnitudes(text, self.case)
         self.record: VariantRecord | None = None
         self._first = first_values(self.case.variables)
-        self._solved: OrderedDict[tuple[str, ...], Solved | None] = OrderedDict()
-        self._tasks: OrderedDict[tuple[str, ...], Solved] = OrderedDict()
+        self._solved: OrderedDict[tuple[str, ...], SolvedCase | None] = OrderedDict()
+        self._tasks: OrderedDict[tuple[str, ...], SolvedCase] = OrderedDict()
         self._draws: OrderedDict[str, Draw] = OrderedDict()
         self._seen: OrderedDict[tuple[str, ...], Seen | None] = OrderedDict()
         self._inherent: frozenset[tuple[str, str, str]] | None = None
@@ -292,7 +292,7 @@ class Varied:
                 found.append(student)
         return found
 
-    def solved(self, student: str) -> Solved:
+    def solved(self, student: str) -> SolvedCase:
         """The student's own task, solved.
 
         Raises NoKeyError.
@@ -307,7 +307,7 @@ class Varied:
         draw = self.draw(student)
         return self.task(draw).key(question)
 
-    def task(self, draw: Draw) -> Solved:
+    def task(self, draw: Draw) -> SolvedCase:
         """A variant, solved.
 
         Raises NoKeyError.
@@ -331,7 +331,7 @@ class Varied:
 
     # --- tasks ------------------------------------------------------------------------------------
 
-    def _task(self, values: Texts) -> Solved:
+    def _task(self, values: Texts) -> SolvedCase:
         """The case with values that suit, solved.
 
         Where they only make all loads larger alike, the solution of another task is scaled.
@@ -348,16 +348,16 @@ class Varied:
         """These values, and the first ones of variables that only scale loads."""
         return {n: self._first[n] if n in self.magnitudes.names else v for n, v in values.items()}
 
-    def _exactly(self, values: Texts, full: bool = False) -> Solved | None:
+    def _exactly(self, values: Texts, full: bool = False) -> SolvedCase | None:
         """The case with these values; None where it has no answer."""
         key = tuple(values.values())
         if key not in self._solved:
             _keep(self._solved, key, self._made(values, full), _KEPT)
         return self._solved[key]
 
-    def _made(self, values: Texts, full: bool) -> Solved | None:
+    def _made(self, values: Texts, full: bool) -> SolvedCase | None:
         try:
-            return Solved(self.read(values), self.course, full=full)
+            return SolvedCase(self.read(values), self.course, full=full)
         except (CaseError, SceneError, IcsolveError, ArithmeticError):
             return None
 

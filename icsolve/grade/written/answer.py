@@ -9,9 +9,9 @@ import re
 from typing import NamedTuple
 
 from icsolve.grade.written.directions import AMBIGUOUS as AMBIGUOUS_DIRECTION
-from icsolve.grade.written.directions import Direction, direction
+from icsolve.grade.written.directions import WrittenDirection, direction
 from icsolve.grade.written.numerals import AMBIGUOUS as AMBIGUOUS_NUMBER
-from icsolve.grade.written.numerals import UNREAD, Numeral, numeral, plain
+from icsolve.grade.written.numerals import UNREAD, WrittenNumber, numeral, plain
 from icsolve.grade.written.units import AMBIGUOUS as AMBIGUOUS_UNIT
 from icsolve.grade.written.units import UnitWord, unit_word
 from icsolve.units import DIMENSIONS
@@ -26,7 +26,7 @@ _MOST = 4096
 """Texts that are remembered with their reading."""
 
 
-class Written(NamedTuple):
+class WrittenAnswer(NamedTuple):
     """What an answer says.
 
     ``number`` is signed, in ``unit`` (None: none was given); ``digits`` carries its significant figures;
@@ -36,15 +36,15 @@ class Written(NamedTuple):
 
     number: float
     unit: UnitWord | None
-    direction: Direction | None
+    direction: WrittenDirection | None
     digits: str = ""
     flag: str = ""
     note: str = ""
 
 
-def flagged(flag: str) -> Written:
+def flagged(flag: str) -> WrittenAnswer:
     """An answer that is not to be judged."""
-    return Written(0.0, None, None, "", flag)
+    return WrittenAnswer(0.0, None, None, "", flag)
 
 
 _NOTHING = {"", "-", "--", "---", ".", "n/a", "na", "none", "null", "nil"} | {
@@ -114,9 +114,9 @@ class Reader:
 
     def __init__(self, decimal: str = "either") -> None:
         self.decimal = decimal
-        self._rests: dict[str, Written] = {}
+        self._rests: dict[str, WrittenAnswer] = {}
 
-    def read(self, text: str) -> Written:
+    def read(self, text: str) -> WrittenAnswer:
         """The reading of an answer's text."""
         if text[-1:].isdigit() and "_" not in text and self.decimal != "comma":
             try:
@@ -124,23 +124,23 @@ class Reader:
             except ValueError:
                 return self.slowly(text)
             if number - number == 0.0:
-                return Written(number, None, None, text)
+                return WrittenAnswer(number, None, None, text)
         quick = _QUICK.match(text)
         if quick is not None and self.decimal != "comma":
             digits, rest = quick.groups()
             after = self._rests.get(rest) or self._remember(rest)
             number = float(digits)
             if not after.flag and (number >= 0.0 or after.direction is None):
-                return Written(number, after.unit, after.direction, digits, "", after.note)
+                return WrittenAnswer(number, after.unit, after.direction, digits, "", after.note)
         return self.slowly(text)
 
-    def _remember(self, rest: str) -> Written:
+    def _remember(self, rest: str) -> WrittenAnswer:
         if len(self._rests) >= _MOST:
             self._rests.clear()
-        found = self._rests[rest] = tail(plain(rest), Written(0.0, None, None))
+        found = self._rests[rest] = tail(plain(rest), WrittenAnswer(0.0, None, None))
         return found
 
-    def slowly(self, text: str) -> Written:
+    def slowly(self, text: str) -> WrittenAnswer:
         """As ``read``, of any text."""
         words, flag = words_of(text)
         return flagged(flag) if flag else _answer(words, self.decimal)
@@ -164,7 +164,7 @@ def words_of(text: str) -> tuple[str, str]:
     return words, ""
 
 
-def _answer(text: str, decimal: str) -> Written:
+def _answer(text: str, decimal: str) -> WrittenAnswer:
     text = unwrapped(text)
     before, start = _before(text)
     if start is None:
@@ -180,7 +180,7 @@ def _answer(text: str, decimal: str) -> Written:
         return flagged(UNREAD)
     if found.flag:
         return flagged(found.flag)
-    read = tail(_closed(before, text[found.end :]).strip(), Written(0.0, None, None))
+    read = tail(_closed(before, text[found.end :]).strip(), WrittenAnswer(0.0, None, None))
     if angle:
         read = tail("deg", read)
     return _joined(read, _leading(before), found, sign)
@@ -191,10 +191,10 @@ def holds_digits(text: str) -> bool:
     return any(c.isdigit() for c in _LABEL.sub("", text))
 
 
-def _sexagesimal(parts: re.Match[str]) -> Numeral:
+def _sexagesimal(parts: re.Match[str]) -> WrittenNumber:
     """Degrees, minutes and seconds."""
     degrees, minutes, seconds = (float(part or 0) for part in parts.groups())
-    return Numeral(degrees + minutes / 60.0 + seconds / 3600.0, parts.end(), "")
+    return WrittenNumber(degrees + minutes / 60.0 + seconds / 3600.0, parts.end(), "")
 
 
 def unwrapped(text: str) -> str:
@@ -254,7 +254,7 @@ def _sign(before: str) -> tuple[str, str]:
     return "", before.rstrip()
 
 
-def _leading(before: str) -> Direction | str | None:
+def _leading(before: str) -> WrittenDirection | str | None:
     """The direction that stands before the number; a flag where the words are not understood."""
     words = before.strip(" ,;:=~([{")
     if not words or not _INTRODUCE.sub("", words).strip(" ,"):
@@ -273,7 +273,7 @@ def _closed(before: str, rest: str) -> str:
 # --- what follows the number ------------------------------------------------------------------------
 
 
-def tail(text: str, read: Written) -> Written:
+def tail(text: str, read: WrittenAnswer) -> WrittenAnswer:
     """What follows the number: a unit, a direction, both in this order, or nothing."""
     text = re.sub(r"[.!]+$", "", text).strip(" ,;") if text not in ('"', "'") else text
     text = text if "(" in text else text.strip(") ")
@@ -292,15 +292,15 @@ def tail(text: str, read: Written) -> Written:
     return _parted(text, read)
 
 
-def _doubted(note: str) -> Written | None:
+def _doubted(note: str) -> WrittenAnswer | None:
     """A reading that is flagged for a unit of two meanings."""
     return flagged(AMBIGUOUS_UNIT) if note == AMBIGUOUS_UNIT else None
 
 
-def _parted(text: str, read: Written) -> Written:
+def _parted(text: str, read: WrittenAnswer) -> WrittenAnswer:
     """A unit and a direction: the longest unit after which a direction stands."""
     words = _pieces(text)
-    fitting: list[Written] = []
+    fitting: list[WrittenAnswer] = []
     for cut in range(len(words), -1, -1):
         unit_text, rest = " ".join(words[:cut]).strip("[](){},; "), words[cut:]
         unit = _unit(unit_text)
@@ -323,7 +323,7 @@ def _unit(text: str) -> UnitWord | None:
     return (unit_word(text[3:].strip("[]() ")) if _PREPOSITION.match(text) else None) or unit_word(text)
 
 
-def _agrees(read: Written) -> bool:
+def _agrees(read: WrittenAnswer) -> bool:
     """Whether a unit goes with its direction: ``lbf in cw`` is a torque, ``N in tension`` a force."""
     if read.unit is None or read.direction is None:
         return False
@@ -337,7 +337,7 @@ def _pieces(text: str) -> list[str]:
     return spaced.split()
 
 
-def _checked(read: Written) -> Written:
+def _checked(read: WrittenAnswer) -> WrittenAnswer:
     """Flags of its parts."""
     if read.direction is not None and read.direction.flag:
         return flagged(read.direction.flag)
@@ -349,7 +349,9 @@ def _why_unread(text: str) -> str:
     return TWO_VALUES if re.search(r"(?<![A-Za-z^\d.,])\d", text) else UNREAD
 
 
-def _joined(read: Written, leading: Direction | str | None, found: Numeral, sign: str) -> Written:
+def _joined(
+    read: WrittenAnswer, leading: WrittenDirection | str | None, found: WrittenNumber, sign: str
+) -> WrittenAnswer:
     """Number, sign, and the directions before and after it as one reading."""
     if read.flag or isinstance(leading, str):
         return read if read.flag else flagged(UNREAD)
@@ -373,9 +375,9 @@ class Combined:
     def __init__(self, reader: Reader) -> None:
         self.reader = reader
         self._units: dict[str, UnitWord | str | None] = {}
-        self._directions: dict[str, Direction | str | None] = {}
+        self._directions: dict[str, WrittenDirection | str | None] = {}
 
-    def read(self, answer: str, unit: str = "", way: str = "") -> Written:
+    def read(self, answer: str, unit: str = "", way: str = "") -> WrittenAnswer:
         """The reading of all of it; what one column says against another is flagged."""
         written = self.reader.read(answer)
         if (not unit and not way) or written.flag:
@@ -387,7 +389,7 @@ class Combined:
             return flagged(flag)
         if word is not None:
             own_unit, note = word, note or word.note  # type: ignore[assignment, union-attr]
-        return Written(number, own_unit, direction or own_way, digits, "", note)  # type: ignore[arg-type]
+        return WrittenAnswer(number, own_unit, direction or own_way, digits, "", note)  # type: ignore[arg-type]
 
     def _unit(self, text: str) -> UnitWord | str | None:
         """The unit of its own column; a flag where it is none."""
@@ -400,7 +402,7 @@ class Combined:
             self._units[text] = None if words.lower() in _NO_UNIT else unit_word(words) or UNREAD
         return self._units[text]
 
-    def _direction(self, text: str) -> Direction | str | None:
+    def _direction(self, text: str) -> WrittenDirection | str | None:
         if not text:
             return None
         if text not in self._directions:
@@ -423,7 +425,7 @@ def _unit_flag(own: UnitWord | None, word: UnitWord | str | None) -> str:
     return ""
 
 
-def _direction_flag(number: float, own: Direction | None, way: Direction | str | None) -> str:
+def _direction_flag(number: float, own: WrittenDirection | None, way: WrittenDirection | str | None) -> str:
     if way is None:
         return ""
     if isinstance(way, str):

@@ -9,7 +9,7 @@ from typing import NamedTuple
 AMBIGUOUS = "ambiguous-direction"
 
 
-class Direction(NamedTuple):
+class WrittenDirection(NamedTuple):
     """A direction in words.
 
     ``kind`` is ``turn`` (``value`` +1 ccw, -1 cw), ``line`` (``value`` in degrees ccw from +x),
@@ -26,17 +26,17 @@ class Direction(NamedTuple):
     """Whether it is an angle in degrees, and not words."""
 
 
-def _line(degrees: float) -> Direction:
+def _line(degrees: float) -> WrittenDirection:
     degrees = round(degrees, 9) % 360.0
     named = {0.0: "right", 90.0: "up", 180.0: "left", 270.0: "down"}.get(degrees)
-    return Direction("line", degrees, named or f"at {degrees:.10g} deg")
+    return WrittenDirection("line", degrees, named or f"at {degrees:.10g} deg")
 
 
-CCW = Direction("turn", 1.0, "ccw")
-CW = Direction("turn", -1.0, "cw")
-PULL = Direction("axial", 1.0, "pull")
-PUSH = Direction("axial", -1.0, "push")
-DOUBTFUL = Direction("line", 0.0, "", "", AMBIGUOUS)
+CCW = WrittenDirection("turn", 1.0, "ccw")
+CW = WrittenDirection("turn", -1.0, "cw")
+PULL = WrittenDirection("axial", 1.0, "pull")
+PUSH = WrittenDirection("axial", -1.0, "push")
+DOUBTFUL = WrittenDirection("line", 0.0, "", "", AMBIGUOUS)
 
 _PHRASES = """\
 ccw | ccw, acw, c.c.w, counterclockwise, counter clockwise, counterclock wise, counter clock wise
@@ -65,7 +65,7 @@ down | vertical downward, unten, abwärts, bas, abajo, basso, -y, negative y, mi
 _NAMED = {"ccw": CCW, "cw": CW, "pull": PULL, "push": PUSH} | {
     name: _line(degrees) for name, degrees in (("right", 0.0), ("up", 90.0), ("left", 180.0), ("down", 270.0))
 }
-_WORDS: dict[str, Direction] = {
+_WORDS: dict[str, WrittenDirection] = {
     phrase: _NAMED[name.strip()]
     for name, _, phrases in (line.partition("|") for line in _PHRASES.splitlines())
     for phrase in phrases.strip().split(", ")
@@ -109,7 +109,7 @@ _TOWARD = re.compile(
 )
 
 
-def direction(text: str) -> Direction | None:
+def direction(text: str) -> WrittenDirection | None:
     """The direction that a text in plain characters says; None where it says none, or more than that."""
     bare = _bare(text)
     if not bare:
@@ -126,7 +126,7 @@ def _bare(text: str) -> str:
     return " ".join(text.split())
 
 
-def _toward(text: str) -> Direction | None:
+def _toward(text: str) -> WrittenDirection | None:
     found = _TOWARD.match(text)
     if found is None:
         return None
@@ -136,14 +136,14 @@ def _toward(text: str) -> Direction | None:
     if name.lower() in ("the", "positive", "negative", "uhrzeigersinn") or _FILLER.fullmatch(name):
         return None
     kind = "away" if re.fullmatch(_FROM, word, re.IGNORECASE) else "toward"
-    return Direction(kind, 0.0, f"{kind} {name}" if kind == "toward" else f"away from {name}", name)
+    return WrittenDirection(kind, 0.0, f"{kind} {name}" if kind == "toward" else f"away from {name}", name)
 
 
 _AXIS = re.compile(r"(?<!tive )(?<!plus )(?<!minus )(?<![-+])(?<![-+] )\b([xy]) (?:axis )?direction")
 """``in x direction``, not after a sign of its own."""
 
 
-def _spelled(lower: str) -> Direction | None:
+def _spelled(lower: str) -> WrittenDirection | None:
     """With words around that say nothing, ``in the clockwise sense``; two sides, ``up and left``."""
     hyphenless = re.sub(r"(?<=[a-z])-(?=[a-z])", " ", lower)
     hyphenless = _AXIS.sub(r"+\1", hyphenless)
@@ -154,7 +154,7 @@ def _spelled(lower: str) -> Direction | None:
     return _WORDS.get(joined) or _corner(words) or _turn_after_words(words)
 
 
-def _turn_after_words(words: str) -> Direction | None:
+def _turn_after_words(words: str) -> WrittenDirection | None:
     """The same direction said twice: ``clockwise cw``."""
     parts = [_WORDS.get(part) for part in words.split()]
     if len(parts) > 1 and None not in parts:
@@ -162,13 +162,13 @@ def _turn_after_words(words: str) -> Direction | None:
     return None
 
 
-def _clash(parts: list[Direction | None]) -> Direction | None:
+def _clash(parts: list[WrittenDirection | None]) -> WrittenDirection | None:
     """Opposite words (``left right``, ``cw ccw``) have two readings."""
     kinds = {part.kind for part in parts if part is not None}
     return DOUBTFUL if len(kinds) == 1 else None
 
 
-def _corner(words: str) -> Direction | None:
+def _corner(words: str) -> WrittenDirection | None:
     """``down left`` and the like, half way between two sides."""
     parts = [_WORDS.get(part) for part in words.split()]
     sides = [_SIDES[part.words] for part in parts if part is not None and part.words in _SIDES]
@@ -178,7 +178,7 @@ def _corner(words: str) -> Direction | None:
     return _line(math.degrees(math.atan2(y, x))) if x and y else None
 
 
-def _angle(lower: str) -> Direction | None:
+def _angle(lower: str) -> WrittenDirection | None:
     """``at 30 deg``, ``30° above -x``, ``at 30 deg cw from +y``."""
     match = _ANGLE.match(lower)
     if match is None:
@@ -193,7 +193,7 @@ def _angle(lower: str) -> Direction | None:
     return found._replace(measured=True) if found is not None else None
 
 
-def _from_axis(degrees: float, rest: str) -> Direction | None:
+def _from_axis(degrees: float, rest: str) -> WrittenDirection | None:
     """An angle reckoned from an axis; from one with two ends it is doubtful."""
     rest = " ".join(re.sub(r"\b(?:the|axis|direction|measured)\b|-axis\b", " ", rest).split())
     if _DOUBTFUL_AXIS.fullmatch(rest):
@@ -206,7 +206,7 @@ def _from_axis(degrees: float, rest: str) -> Direction | None:
     return _line(base + _sign(way, base) * degrees) if base is not None else None
 
 
-def _turned_only(degrees: float, rest: str) -> Direction | None:
+def _turned_only(degrees: float, rest: str) -> WrittenDirection | None:
     """``30 deg ccw``: from +x."""
     turn = _WORDS.get(rest)
     return _line(turn.value * degrees) if turn is not None and turn.kind == "turn" else None

@@ -25,7 +25,7 @@ _PI = re.compile(r"(?: ?[*·×x]? ?)pi(?![a-z])", re.IGNORECASE)
 _MOST_DIGITS = 400
 
 
-class Numeral(NamedTuple):
+class WrittenNumber(NamedTuple):
     """A number as written: its value, where it ends in the text, the digits that carry it, and a flag.
 
     ``digits`` is the part that counts for significant figures. With a ``flag`` the value is not to be used.
@@ -37,7 +37,7 @@ class Numeral(NamedTuple):
     flag: str = ""
 
 
-def numeral(text: str, start: int = 0, decimal: str = "either") -> Numeral | None:
+def numeral(text: str, start: int = 0, decimal: str = "either") -> WrittenNumber | None:
     """The unsigned number that starts at ``start``; None where none starts there.
 
     ``decimal`` says what a comma or point before three digits is: ``point``, ``comma``, or ``either``
@@ -55,14 +55,14 @@ def numeral(text: str, start: int = 0, decimal: str = "either") -> Numeral | Non
     return _exponent(text, found) or _fraction(text, found, decimal)
 
 
-def _leading_factor(text: str, start: int) -> Numeral | None:
+def _leading_factor(text: str, start: int) -> WrittenNumber | None:
     """A root or pi that no numeral stands before: ``√2``, ``pi``."""
     if text[start : start + 1] not in "√spSP" or not text[start : start + 1]:
         return None
-    return _factor(text, Numeral(1.0, start, ""))
+    return _factor(text, WrittenNumber(1.0, start, ""))
 
 
-def _simple(text: str, start: int, decimal: str) -> Numeral | None:
+def _simple(text: str, start: int, decimal: str) -> WrittenNumber | None:
     """Digits with their decimal mark and groups."""
     found = _RUN.match(text, start)
     if found is None:
@@ -72,26 +72,26 @@ def _simple(text: str, start: int, decimal: str) -> Numeral | None:
     if run[-1] in ".," and len(run) > 1:
         run, end = run[:-1], end - (run[-1] == ",")
     if len(run) > _MOST_DIGITS:
-        return Numeral(0.0, end, "", UNREAD)
+        return WrittenNumber(0.0, end, "", UNREAD)
     return _classified(run, end, decimal)
 
 
-def _classified(run: str, end: int, decimal: str) -> Numeral:
+def _classified(run: str, end: int, decimal: str) -> WrittenNumber:
     """The value of a run of digits and marks."""
     if run.isdigit() or (run.replace(".", "", 1).isdigit() and decimal != "comma"):
-        return Numeral(float(run), end, run)
+        return WrittenNumber(float(run), end, run)
     marks = {c for c in run if not c.isdigit()}
     grouping = marks & {" ", "'", "_"}
     if len(grouping) > 1:
-        return Numeral(0.0, end, run, UNREAD)
+        return WrittenNumber(0.0, end, run, UNREAD)
     whole, mark, part, flag = _split(run, marks & {".", ","}, decimal)
     for group in grouping:
         whole, part, good = _ungrouped(whole, part, group)
         flag = flag or ("" if good else UNREAD)
     if flag or not (whole + part).isdigit():
-        return Numeral(0.0, end, run, flag or UNREAD)
+        return WrittenNumber(0.0, end, run, flag or UNREAD)
     digits = whole + ("." if mark else "") + part
-    return Numeral(float(digits), end, digits)
+    return WrittenNumber(float(digits), end, digits)
 
 
 def _split(run: str, marks: set[str], decimal: str) -> tuple[str, str, str, str]:
@@ -134,7 +134,7 @@ def _ungrouped(whole: str, part: str, mark: str) -> tuple[str, str, bool]:
     return whole.replace(mark, ""), part.replace(mark, ""), good
 
 
-def _exponent(text: str, found: Numeral) -> Numeral | None:
+def _exponent(text: str, found: WrittenNumber) -> WrittenNumber | None:
     """The number times its power of ten, where one follows."""
     power = _EXPONENT.match(text, found.end) or _TIMES_TEN.match(text, found.end)
     if power is not None:
@@ -144,20 +144,20 @@ def _exponent(text: str, found: Numeral) -> Numeral | None:
     return None
 
 
-def _scaled(digits: str, power: re.Match[str]) -> Numeral:
+def _scaled(digits: str, power: re.Match[str]) -> WrittenNumber:
     """Digits times the power of ten that was matched."""
     value = float(f"{digits}e{power.group(1)}") if len(power.group(1)) <= 5 else math.inf
     flag = UNREAD if math.isinf(value) else ""
-    return Numeral(value, power.end(), digits, flag)
+    return WrittenNumber(value, power.end(), digits, flag)
 
 
-def _fraction(text: str, found: Numeral, decimal: str) -> Numeral:
+def _fraction(text: str, found: WrittenNumber, decimal: str) -> WrittenNumber:
     """``1/3``, ``1 1/2``, ``3√2/2``, ``2pi``: else the number itself."""
     mixed = _mixed(text, found)
     return mixed or _over(text, _factor(text, found) or found, decimal)
 
 
-def _mixed(text: str, found: Numeral) -> Numeral | None:
+def _mixed(text: str, found: WrittenNumber) -> WrittenNumber | None:
     """A whole number and a fraction: ``1 1/2``."""
     parts = _MIXED.match(text, found.end)
     if parts is None or not found.digits.isdigit():
@@ -165,19 +165,19 @@ def _mixed(text: str, found: Numeral) -> Numeral | None:
     top, bottom = int(parts.group(1)), int(parts.group(2))
     if bottom == 0 or top >= bottom:
         return found._replace(flag=UNREAD)
-    return Numeral(found.value + top / bottom, parts.end(), "")
+    return WrittenNumber(found.value + top / bottom, parts.end(), "")
 
 
-def _factor(text: str, found: Numeral) -> Numeral | None:
+def _factor(text: str, found: WrittenNumber) -> WrittenNumber | None:
     """The number times a root or pi."""
     root = _ROOT.match(text, found.end)
     if root is not None:
-        return Numeral(found.value * math.sqrt(float(root.group(1))), root.end(), "")
+        return WrittenNumber(found.value * math.sqrt(float(root.group(1))), root.end(), "")
     pi = _PI.match(text, found.end)
-    return Numeral(found.value * math.pi, pi.end(), "") if pi is not None else None
+    return WrittenNumber(found.value * math.pi, pi.end(), "") if pi is not None else None
 
 
-def _over(text: str, found: Numeral, decimal: str) -> Numeral:
+def _over(text: str, found: WrittenNumber, decimal: str) -> WrittenNumber:
     """The number over another one, where a ``/`` and digits follow."""
     slash = _OF.match(text, found.end)
     if slash is None:
@@ -187,7 +187,7 @@ def _over(text: str, found: Numeral, decimal: str) -> Numeral:
         return found._replace(flag=UNREAD)
     if below.flag or below.value == 0.0:
         return found._replace(end=below.end, flag=below.flag or UNREAD)
-    return Numeral(found.value / below.value, below.end, "")
+    return WrittenNumber(found.value / below.value, below.end, "")
 
 
 def figures(digits: str) -> tuple[int, int]:

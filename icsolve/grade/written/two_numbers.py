@@ -13,8 +13,8 @@ from icsolve.grade.written.answer import (
     tail,
     words_of,
 )
-from icsolve.grade.written.directions import Direction
-from icsolve.grade.written.numerals import AMBIGUOUS, UNREAD, Numeral, numeral
+from icsolve.grade.written.directions import WrittenDirection
+from icsolve.grade.written.numerals import AMBIGUOUS, UNREAD, WrittenNumber, numeral
 from icsolve.grade.written.units import UnitWord, unit_word
 
 _SIGNED = r"(?<![\w{before}])[-+]? ?(?:\d+(?:{mark}\d*)?|{mark}\d+)(?:[eE][-+]?\d+)?(?: ?/ ?\d+)?(?![\d/])"
@@ -97,7 +97,7 @@ def _near(words: str) -> WrittenPlace | None:
     return None
 
 
-def _value(text: str, decimal: str) -> Numeral | None:
+def _value(text: str, decimal: str) -> WrittenNumber | None:
     """A number with its sign."""
     found = numeral(text.lstrip("-+ "), 0, decimal)
     return found._replace(value=-found.value) if found is not None and text.startswith("-") else found
@@ -157,7 +157,7 @@ class WrittenRange(NamedTuple):
     low: float | None = None
     high: float | None = None
     unit: UnitWord | None = None
-    direction: Direction | None = None
+    direction: WrittenDirection | None = None
     flag: str = ""
 
 
@@ -179,9 +179,9 @@ def read_range(text: str, decimal: str = "either") -> WrittenRange:
     return _two(words, found) if len(found) == 2 else WrittenRange(flag=TWO_VALUES)
 
 
-def _numbers(words: str, decimal: str) -> list[tuple[int, Numeral]]:
+def _numbers(words: str, decimal: str) -> list[tuple[int, WrittenNumber]]:
     """The numbers of a text without their signs, each with where it starts."""
-    found: list[tuple[int, Numeral]] = []
+    found: list[tuple[int, WrittenNumber]] = []
     at = _NUMBER.search(words)
     while at is not None:
         number = numeral(words, at.start(), decimal)
@@ -198,7 +198,7 @@ def _end_of(text: str) -> WrittenRange:
     return WrittenRange(None, None, read.unit, read.direction, read.flag)
 
 
-def _two(words: str, found: list[tuple[int, Numeral]]) -> WrittenRange:
+def _two(words: str, found: list[tuple[int, WrittenNumber]]) -> WrittenRange:
     (start, first), (second_start, second) = found
     sign, before = _sign(words[:start])
     between = _SEPARATOR.fullmatch(words[first.end : second_start].strip())
@@ -215,7 +215,7 @@ def _two(words: str, found: list[tuple[int, Numeral]]) -> WrittenRange:
     return end._replace(low=min(values), high=max(values), unit=unit)
 
 
-def _one(words: str, start: int, number: Numeral) -> WrittenRange:
+def _one(words: str, start: int, number: WrittenNumber) -> WrittenRange:
     """One value, or a range with one open end."""
     after = words[number.end :]
     more = _MORE.search(after)
