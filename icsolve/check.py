@@ -56,7 +56,7 @@ class Row(NamedTuple):
     text: str = ""
 
 
-class Wanted(NamedTuple):
+class WantedValue(NamedTuple):
     """What a case's published values ask of the solver, beyond its unknowns."""
 
     all_centres: bool
@@ -72,10 +72,10 @@ class _MissingError(Exception):
         self.verdict = verdict
 
 
-def wanted(case: Case) -> Wanted:
+def wanted(case: Case) -> WantedValue:
     """What must be solved for, so that every published value can be compared."""
     targets = [expected.target for expected in case.expect]
-    return Wanted(
+    return WantedValue(
         all_centres=any(isinstance(t, CentreIs | DistanceIs) for t in targets),
         rates=any(isinstance(t, RatioIs | RateIs | SpeedIs) for t in targets),
         reactions=any(isinstance(t, OfBodies) for t in targets),

@@ -13,7 +13,7 @@ from zlib import crc32
 import icsolve
 from icsolve.derivation import Known, known_of, needed_steps
 from icsolve.page import page_html
-from icsolve.page.motion import Motion, motion_of
+from icsolve.page.motion import PageMotion, motion_of
 from sizes import FULL
 
 LIBRARY = Path(__file__).parent.parent / "cases"
@@ -40,7 +40,7 @@ def page_of(name: str) -> str:
 
 
 @cache
-def motion(name: str) -> Motion:
+def motion(name: str) -> PageMotion:
     found = motion_of(known(name), [step.centre.pair for step in needed_steps(known(name))])
     assert found is not None
     return found

@@ -29,7 +29,7 @@ from icsolve.bench.accuracy import (
 from icsolve.bench.closed import (
     FOUR_BAR,
     MECHANISMS,
-    Turning,
+    CrankTurning,
     compiled,
     componentwise,
     four_bar,
@@ -95,7 +95,7 @@ def test_what_is_close_to_singular_is_answered_by_its_decimals_and_not_failed() 
 
 
 @pytest.mark.parametrize("mechanism", MECHANISMS, ids=lambda m: m.name)
-def test_the_closed_form_by_hand_is_what_solve_gives(mechanism: Turning) -> None:
+def test_the_closed_form_by_hand_is_what_solve_gives(mechanism: CrankTurning) -> None:
     for degrees in (60.0, 61.5, 75.0):
         case = icsolve.load(mechanism.case.replace("AB: 60", f"AB: {degrees}"))
         by_hand = mechanism.by_hand(np.array([math.radians(degrees)]))[0]
@@ -104,7 +104,7 @@ def test_the_closed_form_by_hand_is_what_solve_gives(mechanism: Turning) -> None
 
 @pytest.mark.skipif(not (shutil.which("cc") or shutil.which("gcc")), reason="no C compiler")
 @pytest.mark.parametrize("mechanism", MECHANISMS, ids=lambda m: m.name)
-def test_the_closed_form_in_c_is_that_by_hand(mechanism: Turning, tmp_path: Path) -> None:
+def test_the_closed_form_in_c_is_that_by_hand(mechanism: CrankTurning, tmp_path: Path) -> None:
     library = compiled(str(tmp_path))
     assert library is not None
     angle, out = np.linspace(0.0, 6.0, 100), np.empty(100)

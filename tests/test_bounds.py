@@ -20,7 +20,7 @@ import transcribe
 from figures import from_lengths, without_order
 from icsolve.errors import SceneError
 from icsolve.report.text import answer_text
-from icsolve.scene.bounds import Scene, unknown_values
+from icsolve.scene.bounds import EvaluatedScene, unknown_values
 from icsolve.scene.program import Want, evaluate, prepare
 from more_digits import SixtyDigits
 from sizes import FULL
@@ -35,7 +35,7 @@ def pessimism(text: str) -> float:
     """Bound over true error; the law itself is asserted here."""
     program = prepare(icsolve.load(text), Want())
     _, exact = evaluate(program, SixtyDigits(), rounds=5)
-    scene = Scene(program, certain=True).ask(unknown_values)
+    scene = EvaluatedScene(program, certain=True).ask(unknown_values)
     worst = 1.0
     for w in exact.balance.wrenches:
         if w.root not in exact.solution.values:

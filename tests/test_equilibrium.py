@@ -21,7 +21,7 @@ import pytest
 
 import icsolve
 from equilibrium_cases import POTENTIALS
-from icsolve.answer.equilibrium import Position
+from icsolve.answer.equilibrium import EquilibriumPosition
 from icsolve.cli import main
 from icsolve.errors import SceneError
 from icsolve.numbers.intervals import Interval, enclose
@@ -46,7 +46,7 @@ def pendulum(load: str, free: str = "unknown", weight: str = "10", more: str = "
     return PENDULUM.format(load=load, free=free, weight=weight, more=more, friction=friction)
 
 
-def positions(text: str) -> tuple[Position, ...]:
+def positions(text: str) -> tuple[EquilibriumPosition, ...]:
     """Where a case rests."""
     found = icsolve.solve(icsolve.load(text)).positions
     assert found is not None

@@ -25,7 +25,7 @@ from icsolve.scene.program import Want, evaluate, prepare
 from icsolve.scene.sensitivity import influences
 from icsolve.statics import error_bound
 from icsolve.statics.equilibrium import refuse_apart
-from icsolve.statics.error_bound import Exact, Sliding, Weights, step
+from icsolve.statics.error_bound import Exact, SlidingSolution, Weights, step
 from icsolve.statics.friction_interface import rubs_of
 from icsolve.statics.reaction_basis import Position, ties_of
 from more_digits import SixtyDigits
@@ -47,15 +47,15 @@ class Seen:
     """The solutions of which a bound was asked, caught on their way."""
 
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
-        self.found: list[Sliding] = []
+        self.found: list[SlidingSolution] = []
         monkeypatch.setattr(error_bound, "step", self.step)
 
-    def step(self, found: Sliding, weights: Weights, exact: Exact) -> Any:
+    def step(self, found: SlidingSolution, weights: Weights, exact: Exact) -> Any:
         self.found.append(found)
         return step(found, weights, exact)
 
 
-def many_digits(case: icsolve.Case, found: Sliding) -> Exact:
+def many_digits(case: icsolve.Case, found: SlidingSolution) -> Exact:
     """The scene in sixty digits, at the values of a solution."""
     program = prepare(case, Want(bodies=True))
     digits = SixtyDigits()
@@ -66,7 +66,7 @@ def many_digits(case: icsolve.Case, found: Sliding) -> Exact:
     return Exact(ties, rubs_of(position, ties), outcome.balance.wrenches, values, digits)
 
 
-def units(case: icsolve.Case, found: Sliding, exact: Exact) -> list[Weights]:
+def units(case: icsolve.Case, found: SlidingSolution, exact: Exact) -> list[Weights]:
     """Weights that pick each residual."""
     none = {link: ((0.0, 0.0), (0.0, 0.0, 0.0)) for link in case.links if link != case.ground}
     rubs = (0.0,) * len(exact.rubs)
@@ -77,7 +77,7 @@ def units(case: icsolve.Case, found: Sliding, exact: Exact) -> list[Weights]:
     ]
 
 
-def rubbed(found: Sliding, exact: Exact, values: dict[int, Any], k: int) -> Any:
+def rubbed(found: SlidingSolution, exact: Exact, values: dict[int, Any], k: int) -> Any:
     """What is left of a friction: against its sense, as large as its coefficient times its force."""
     rub = exact.rubs[k]
     first = found.statics.first[rub.tie]
@@ -86,7 +86,7 @@ def rubbed(found: Sliding, exact: Exact, values: dict[int, Any], k: int) -> Any:
     return values[found.statics.rub(k)] + found.senses[k] * rub.limit * size
 
 
-def true_load(case: icsolve.Case, found: Sliding) -> Any:
+def true_load(case: icsolve.Case, found: SlidingSolution) -> Any:
     """The first unknown load (case units) in sixty digits, after Newton's method on all equations."""
     exact = many_digits(case, found)
     picked = units(case, found, exact)

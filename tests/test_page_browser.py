@@ -22,7 +22,7 @@ from icsolve.draw import Drawing, draw
 from icsolve.draw.words import figure_number, unit_word
 from icsolve.page import page_html
 from icsolve.page.figure import figure_of
-from icsolve.page.motion import Motion
+from icsolve.page.motion import PageMotion
 from library import FILES, PAGED, motion, page_of, sample
 from pictures import parsed
 from test_page import hostile, ten_links
@@ -94,7 +94,7 @@ def drawn_at(window: Browser, point: str) -> tuple[float, float]:
 TRANSFORM = "return document.getElementById(arguments[0]).getAttribute('transform')"
 
 
-def crank_end(name: str, found: Motion) -> str:
+def crank_end(name: str, found: PageMotion) -> str:
     """A pin of the driven link that moves."""
     case = icsolve.load(FILES[name])
     return next(

@@ -17,7 +17,7 @@ import pytest
 
 import icsolve
 from icsolve.cli import main
-from icsolve.draw.plot import Curve, Shade, asymptotes, limits, plot_svg, sweep_svg
+from icsolve.draw.plot import PlottedCurve, Shade, asymptotes, limits, plot_svg, sweep_svg
 from pictures import SVG, Picture, coordinates, outside, overlaps, parsed
 from test_draw import HOSTILE
 
@@ -89,10 +89,10 @@ def test_where_the_links_do_not_meet_is_a_shade_and_a_gap() -> None:
 
 def test_the_axis_shows_what_can_be_seen_beside_an_asymptote() -> None:
     values = [1.0 / math.sin(math.radians(a - 40.001)) for a in DEGREES]
-    low, high = limits([Curve("F", values, "N")], DEGREES)
+    low, high = limits([PlottedCurve("F", values, "N")], DEGREES)
     assert -20.0 < low < -4.0 and 4.0 < high < 20.0
     peak = [1.0 / (1.0 + (a - 180.0) ** 2) for a in DEGREES]
-    assert limits([Curve("F", peak, "N")], DEGREES)[1] > 1.0, "a peak without asymptote is shown whole"
+    assert limits([PlottedCurve("F", peak, "N")], DEGREES)[1] > 1.0, "a peak without asymptote is shown whole"
 
 
 def test_answers_of_one_unit_share_an_axis_and_others_have_their_own() -> None:
@@ -101,7 +101,9 @@ def test_answers_of_one_unit_share_an_axis_and_others_have_their_own() -> None:
     assert [t for t in picture.texts("t-axis") if t.startswith("T1")] == ["T12, N·m", "T15, N·m"]
     axis = "link 2, degrees from the position as written"
     assert picture.texts("t-axis").count(axis) == 1
-    two = parsed(plot_svg([0.0, 1.0], [Curve("F", [1, 2], "N"), Curve("T", [3, 4], "N*m")], "a", ""))
+    two = parsed(
+        plot_svg([0.0, 1.0], [PlottedCurve("F", [1, 2], "N"), PlottedCurve("T", [3, 4], "N*m")], "a", "")
+    )
     assert overlaps(two) == [] and two.texts("t-axis").count("a") == 2
 
 
@@ -136,7 +138,7 @@ def test_what_holds_over_a_range_is_drawn_as_its_two_ends() -> None:
     ],
 )  # fmt: skip
 def test_values_of_any_size_have_axes_that_can_be_read(values: list[float]) -> None:
-    picture = parsed(plot_svg([0.0, 1.0, 2.0], [Curve("T12", values, "N*m")], "loads.P", "title"))
+    picture = parsed(plot_svg([0.0, 1.0, 2.0], [PlottedCurve("T12", values, "N*m")], "loads.P", "title"))
     assert overlaps(picture) == [] and outside(picture) == []
     ticks = [t for t in picture.texts("t-axis") if re.fullmatch("[−0-9.×⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+", t)]
     assert len(ticks) >= 6
@@ -144,7 +146,7 @@ def test_values_of_any_size_have_axes_that_can_be_read(values: list[float]) -> N
 
 
 def test_one_row_is_a_point() -> None:
-    assert len(curves(parsed(plot_svg([3.0], [Curve("P", [1.0], "N")], "angles.AB", "")))) == 1
+    assert len(curves(parsed(plot_svg([3.0], [PlottedCurve("P", [1.0], "N")], "angles.AB", "")))) == 1
 
 
 @pytest.mark.parametrize("text", HOSTILE)
@@ -153,7 +155,7 @@ def test_text_stays_text(text: str) -> None:
     dead = [float(k) for k in range(9)]
     svg = plot_svg(
         DEGREES,
-        [Curve(words[:80], DEGREES, words[:20], dead), Curve("B", DEGREES, "N")],
+        [PlottedCurve(words[:80], DEGREES, words[:20], dead), PlottedCurve("B", DEGREES, "N")],
         words[:60],
         words,
         [Shade(10.0, 20.0, words[:70])],

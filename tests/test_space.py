@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from icsolve import Answer, load, solve
-from icsolve.answer.space import Reaction
+from icsolve.answer.space import SpatialReaction
 from icsolve.check import AGREES, compare
 from icsolve.cli import main
 from icsolve.derivation import known_of
@@ -22,7 +22,7 @@ from icsolve.report.text import answer_text
 CHAPTER = Path(__file__).parent.parent / "cases" / "ch13"
 
 
-def reaction(answer: Answer, name: str) -> Reaction:
+def reaction(answer: Answer, name: str) -> SpatialReaction:
     """A reaction by its name, either way round."""
     assert answer.spatial is not None
     return answer.spatial.reactions[name]

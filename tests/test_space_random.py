@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from icsolve import Answer, Case, load, solve
-from icsolve.answer.space import Reaction
+from icsolve.answer.space import SpatialReaction
 from space_statics import load_wrench, place
 from space_statics import solve as solve_apart
 
@@ -77,7 +77,7 @@ def held(dice: Dice) -> str:
     return text_of(points, joints, loads)
 
 
-def components(reaction: Reaction) -> list[float | None]:
+def components(reaction: SpatialReaction) -> list[float | None]:
     return [*reaction.force, *reaction.couple]
 
 

@@ -12,11 +12,11 @@ from icsolve.case import Case, Pair
 from icsolve.errors import SceneError
 
 if TYPE_CHECKING:
-    from icsolve.answer.bodies import Friction, Reactions, Tension, Witness
+    from icsolve.answer.bodies import FrictionFound, Reactions, Tension, Witness
     from icsolve.answer.contacts import Touching
-    from icsolve.answer.equilibrium import Position, Stiffness
+    from icsolve.answer.equilibrium import EquilibriumPosition, Stiffness
     from icsolve.answer.space import Spatial
-    from icsolve.scene.parts import Parts
+    from icsolve.scene.parts import AnswerBuilder
 
 
 class Found(NamedTuple):
@@ -212,10 +212,10 @@ class Answer:
     """the pulls of ropes, where reactions were asked"""
     witnesses: tuple[Witness, ...] = ()
     """the unknown loads by power and by free bodies, where reactions were asked"""
-    friction: Friction | None = None
+    friction: FrictionFound | None = None
     touching: tuple[Touching, ...] = ()
     """the contacts that profiles gave"""
-    positions: tuple[Position, ...] | None = None
+    positions: tuple[EquilibriumPosition, ...] | None = None
     """where it rests, of a case with an unknown datum of the figure; None of any other"""
     stability: str | None = None
     """of the position as written, where it was asked; with its stiffness, or why there is none"""
@@ -223,7 +223,7 @@ class Answer:
     why_no_stiffness: str = ""
     spatial: Spatial | None = None
     """reactions and points of a case in space, which has no others"""
-    scene: Parts | None = None
+    scene: AnswerBuilder | None = None
     """the solved scene, from which pictures and explanations are laid out; it stays in its own process"""
 
     def __repr__(self) -> str:

@@ -13,7 +13,7 @@ from icsolve.errors import SceneError
 
 if TYPE_CHECKING:
     from icsolve.answer import Answer, Centre, Found, Term, space
-    from icsolve.answer.bodies import Friction, Reaction, Rubbing, Tension, Witness
+    from icsolve.answer.bodies import FrictionFound, Reaction, Rubbing, Tension, Witness
 
 SCHEMA = "icsolve/solve/1"
 
@@ -235,7 +235,7 @@ def _tension(tension: Tension) -> dict[str, Any]:
     return entry if tension.tension is not None else {**entry, "undetermined": tension.why}
 
 
-def _friction(friction: Friction) -> dict[str, Any]:
+def _friction(friction: FrictionFound) -> dict[str, Any]:
     if friction.possible is not None:
         ends = [end if math.isfinite(end) else None for end in friction.possible]
         return {"possible": ends, "how": friction.unique}
@@ -262,7 +262,7 @@ def _space_dict(spatial: space.Spatial) -> dict[str, Any]:
     return shown
 
 
-def _reaction_in_space(reaction: space.Reaction) -> dict[str, Any]:
+def _reaction_in_space(reaction: space.SpatialReaction) -> dict[str, Any]:
     x, y, z = reaction.force
     entry: dict[str, Any] = {
         "x": x,

@@ -107,7 +107,7 @@ class Rubbing(NamedTuple):
     radius: float | None = None
 
 
-class Friction(NamedTuple):
+class FrictionFound(NamedTuple):
     """How friction was solved.
 
     ``rubbing`` has every place that rubs (empty where a range was found, as there nothing moves yet);

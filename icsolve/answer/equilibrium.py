@@ -23,7 +23,7 @@ class Stiffness(NamedTuple):
     error: float | None
 
 
-class Position(NamedTuple):
+class EquilibriumPosition(NamedTuple):
     """One position: the free data by their paths, how surely, and what becomes of a small push.
 
     ``stability`` is ``stable``, ``unstable`` or ``neutral``; None with friction, which holds over a range.
@@ -38,7 +38,7 @@ class Position(NamedTuple):
     answer: Answer
 
 
-def position_dict(position: Position) -> dict[str, Any]:
+def position_dict(position: EquilibriumPosition) -> dict[str, Any]:
     """The object of a position under ``positions``; what was asked of the scene stands beside."""
     entry: dict[str, Any] = {
         "at": {path: _held(value) for path, value in position.at.items()},

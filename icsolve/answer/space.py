@@ -10,7 +10,7 @@ from icsolve.answer.bodies import Witness, names_of
 Parts = tuple[float | None, float | None, float | None]
 
 
-class Reaction(NamedTuple):
+class SpatialReaction(NamedTuple):
     """The force of link ``by`` on link ``on`` at a joint, with its couple about ``at``.
 
     ``force`` and ``couple`` are along x, y, z; a component that equilibrium leaves open is None, and ``why``
@@ -38,7 +38,7 @@ class Reaction(NamedTuple):
         """Size of the couple."""
         return _size(self.couple)
 
-    def reversed(self) -> Reaction:
+    def reversed(self) -> SpatialReaction:
         """The force of ``on`` on ``by``: equal and opposite."""
         force, couple = _negative(self.force), _negative(self.couple)
         return self._replace(by=self.on, on=self.by, force=force, couple=couple)
@@ -54,10 +54,10 @@ def _negative(parts: Parts) -> Parts:
     return (x, y, z)
 
 
-class Reactions(dict[str, Reaction]):
+class SpatialReactions(dict[str, SpatialReaction]):
     """Reactions by name; ``F43`` finds the opposite of ``F34``."""
 
-    def __missing__(self, name: str) -> Reaction:
+    def __missing__(self, name: str) -> SpatialReaction:
         for reaction in self.values():
             if name in names_of(reaction.on, reaction.by, reaction.where):
                 return reaction.reversed()
@@ -71,9 +71,9 @@ class Spatial(NamedTuple):
     """
 
     points: dict[str, tuple[float, float, float]]
-    reactions: Reactions
+    reactions: SpatialReactions
     witnesses: tuple[Witness, ...] = ()
     residual: float = 0.0
 
 
-__all__ = ["Parts", "Reaction", "Reactions", "Spatial", "Witness"]
+__all__ = ["Parts", "Spatial", "SpatialReaction", "SpatialReactions", "Witness"]

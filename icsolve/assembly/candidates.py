@@ -7,7 +7,7 @@ from itertools import combinations, pairwise
 from typing import TYPE_CHECKING
 
 from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, ROPE, Datum, X, Y
-from icsolve.assembly.loci import Arc, Axis, Circle, Line, Locus, Shifted, Tether, is_round
+from icsolve.assembly.loci import ArcLocus, Axis, CircleLocus, LineLocus, Locus, Shifted, Tether, is_round
 from icsolve.assembly.steps import Mean, Meet, Polar, Step, Transfer, Turned
 from icsolve.assembly.workspace import Apart, LineDirection
 
@@ -58,7 +58,7 @@ def _circle(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:
     a, b = datum.points
     centre = b if a == point else a
     if centre in cluster.placed:
-        yield BY_LENGTH, Circle(cluster.key(centre), datum)
+        yield BY_LENGTH, CircleLocus(cluster.key(centre), datum)
 
 
 def _seen(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:
@@ -68,9 +68,9 @@ def _seen(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:
         return
     ends = cluster.key(a), cluster.key(b)
     if datum in cluster.drawing.facts.flat:
-        yield BY_ARC, Line(ends[0], LineDirection(Apart(*ends)), False)
+        yield BY_ARC, LineLocus(ends[0], LineDirection(Apart(*ends)), False)
     else:
-        yield BY_ARC, Arc(*ends, datum)
+        yield BY_ARC, ArcLocus(*ends, datum)
 
 
 def _guided(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:
@@ -78,7 +78,7 @@ def _guided(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:
     at, through = datum.points
     other = through if point == at else at
     if other in cluster.placed:
-        yield EXACT, Line(cluster.key(other), LineDirection(datum), False)
+        yield EXACT, LineLocus(cluster.key(other), LineDirection(datum), False)
 
 
 def _lined(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:
@@ -96,7 +96,7 @@ def _lined(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:
         if direction is None and a in cluster.placed and b in cluster.placed:
             direction = LineDirection(Apart(cluster.key(a), cluster.key(b)))
         if direction is not None and base in cluster.placed:
-            yield EXACT, Line(cluster.key(base), direction, False)
+            yield EXACT, LineLocus(cluster.key(base), direction, False)
 
 
 def _tethered(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:
@@ -137,7 +137,7 @@ def _rays(cluster: Cluster, point: str) -> Iterator[Candidate]:
     for other in others:
         direction = cluster.directions.get((other, point))
         if other in cluster.placed and direction is not None:
-            yield BY_ANGLE + len(direction.turns), Line(cluster.key(other), direction, True)
+            yield BY_ANGLE + len(direction.turns), LineLocus(cluster.key(other), direction, True)
 
 
 def _derived(cluster: Cluster, point: str) -> Iterator[Candidate]:
@@ -155,7 +155,7 @@ def _derived(cluster: Cluster, point: str) -> Iterator[Candidate]:
                 cost = max(BY_LENGTH, lender.placed[point][0], lender.placed[other][0])
                 span = Apart(lender.key(other), lender.key(point))
                 lengths.add(other)
-                yield cost, Circle(cluster.key(other), span)
+                yield cost, CircleLocus(cluster.key(other), span)
 
 
 def _shared(cluster: Cluster, lender: Cluster) -> list[str]:
@@ -240,12 +240,12 @@ def _meet(cluster: Cluster, point: str, one: Locus, two: Locus) -> Step | None:
     if frozenset((one, two)) in cluster.drawing.banned:
         return None
     line, other = (two, one) if is_round(one) and not is_round(two) else (one, two)
-    if isinstance(line, Line) and isinstance(other, Circle):
+    if isinstance(line, LineLocus) and isinstance(other, CircleLocus):
         if line.ray and line.through == other.centre:
             return Polar(cluster.key(point), line.through, other.radius, line.direction)
-    elif isinstance(one, Circle) and isinstance(two, Circle) and one.centre == two.centre:
+    elif isinstance(one, CircleLocus) and isinstance(two, CircleLocus) and one.centre == two.centre:
         return None
-    elif isinstance(line, Line) and isinstance(other, Line):
+    elif isinstance(line, LineLocus) and isinstance(other, LineLocus):
         h, k = line.direction, other.direction
         if h.root == k.root and h.turns == k.turns:
             return None

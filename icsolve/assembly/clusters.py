@@ -13,7 +13,7 @@ from collections.abc import Iterable
 
 from icsolve.assembly.candidates import Cost, best_step
 from icsolve.assembly.data import LENGTH, LINE, MEAN, RAY, ROPE, Facts
-from icsolve.assembly.loci import Circle, Line, Shifted
+from icsolve.assembly.loci import CircleLocus, LineLocus, Shifted
 from icsolve.assembly.steps import Given, Meet, Polar, Step, Transfer, Turned
 from icsolve.assembly.workspace import Apart, Key, LineDirection
 
@@ -21,7 +21,7 @@ NOBODY, LOOSE_CLUSTERS, ALL_CLUSTERS = 0, 1, 2
 """Which clusters lend their distances to loose ones."""
 
 
-class Drawing:
+class LooseFigure:
     """All clusters of a figure, and the steps so far in the order in which they can run.
 
     ``lenders`` says which clusters lend distances to loose ones; ``holding`` which clusters hold a
@@ -63,7 +63,7 @@ class Cluster:
 
     __slots__ = ("carried", "committed", "directions", "dirty", "drawing", "heap", "number", "placed", "turn")
 
-    def __init__(self, drawing: Drawing) -> None:
+    def __init__(self, drawing: LooseFigure) -> None:
         self.drawing = drawing
         self.number = len(drawing.clusters)
         self.placed: dict[str, Cost] = {}
@@ -183,7 +183,7 @@ class Cluster:
             self.committed.add(step.shape[0][0])  # type: ignore[arg-type]
         elif isinstance(step, Meet):
             for locus in (step.first, step.second):
-                if isinstance(locus, Circle) and isinstance(locus.radius, Apart):
+                if isinstance(locus, CircleLocus) and isinstance(locus.radius, Apart):
                     key = locus.radius.a
                     self.committed.add(key[0] if isinstance(key, tuple) else 0)
 
@@ -222,5 +222,7 @@ def _aimed_from(step: Step) -> set[Key]:
     if isinstance(step, Polar):
         return {step.base}
     if isinstance(step, Meet):
-        return {locus.through for locus in (step.first, step.second) if isinstance(locus, Line) and locus.ray}
+        return {
+            locus.through for locus in (step.first, step.second) if isinstance(locus, LineLocus) and locus.ray
+        }
     return set()

@@ -29,7 +29,7 @@ class Placed(Protocol):
         """The step."""
 
 
-class _Run(NamedTuple):
+class _Decision(NamedTuple):
     """A construction on balls of some digits: what put each point, and the points that these digits lose."""
 
     workspace: Workspace
@@ -46,7 +46,7 @@ class Decimals:
 
     def __init__(self, workspace: Workspace, placed: Mapping[Key, Placed]) -> None:
         self.workspace, self.placed = workspace, placed
-        self.runs: dict[int, _Run] = {}
+        self.runs: dict[int, _Decision] = {}
 
     def decided(self, step: Step, question: Callable[[Workspace], T]) -> T | None:
         """The answer to a question about a step; None where the digits leave it open."""
@@ -56,7 +56,7 @@ class Decimals:
             if digits not in self.runs:
                 balls = Balls(digits, highest=digits >= PRECISIONS[-1])
                 exact = Workspace(self.workspace.case, self.workspace.frame, balls)
-                self.runs[digits] = _Run(exact, {}, {})
+                self.runs[digits] = _Decision(exact, {}, {})
             run = self.runs[digits]
             try:
                 if not self._place(step.needs(), run):
@@ -68,7 +68,7 @@ class Decimals:
                 continue
         return None
 
-    def _place(self, keys: Iterable[Key], run: _Run) -> bool:
+    def _place(self, keys: Iterable[Key], run: _Decision) -> bool:
         """Put points and all that they need; False where a start of Newton's method is being tried."""
         from icsolve.numbers.balls import BelowZero, MoreDigits
 

@@ -41,7 +41,7 @@ UNBOUNDED = 50.0
 """Half the width, over the group's size, of the search for points that no lengths hold."""
 
 
-class Solutions(NamedTuple):
+class FigureSolutions(NamedTuple):
     """The points of each solution; whether these are shown to be all; how many boxes were searched."""
 
     places: list[dict[str, Point]]
@@ -82,17 +82,17 @@ class _Link(NamedTuple):
     square: float
 
 
-def every_solution(group: Group, workspace: Workspace) -> Solutions:
+def every_solution(group: Group, workspace: Workspace) -> FigureSolutions:
     """All solutions of a group, each once."""
     unknowns = group.unknowns()
     system = _quadratics(group, workspace, unknowns)
     low, high, bounded = _bounds(group, workspace)
-    search = _Search(system, _links(group, workspace), low, high)
+    search = _Exclusion(system, _links(group, workspace), low, high)
     search.run()
     places = [
         {t: (float(z[2 * k]), float(z[2 * k + 1])) for k, t in enumerate(group.targets)} for z in search.found
     ]
-    return Solutions(places, bounded and search.complete, search.boxes)
+    return FigureSolutions(places, bounded and search.complete, search.boxes)
 
 
 def _quadratics(group: Group, workspace: Workspace, unknowns: list[Unknown]) -> _Quadratics:
@@ -190,7 +190,7 @@ def _distances(anchor: str, reach: Mapping[tuple[str, ...], float], own: set[str
     return far
 
 
-class _Search:
+class _Exclusion:
     """Boxes still to be searched, and the solutions found."""
 
     def __init__(self, system: _Quadratics, links: list[_Link], low: Array, high: Array) -> None:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
-from icsolve.assembly.clusters import Drawing
+from icsolve.assembly.clusters import LooseFigure
 from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, ROPE, Datum, X, Y
 from icsolve.assembly.loci import length_of
 from icsolve.assembly.steps import told
@@ -23,14 +23,14 @@ Unknown = tuple[str, int]
 """A coordinate: the point and 0 for x, 1 for y."""
 
 
-class Row(NamedTuple):
+class JacobianRow(NamedTuple):
     """An equation at the points on a workspace: its value and its derivatives by the coordinates."""
 
     value: Scalar
     by: dict[Unknown, Scalar]
 
 
-class Equation(NamedTuple):
+class FigureEquation(NamedTuple):
     """A datum, or one coordinate of a centroid."""
 
     datum: Datum
@@ -44,21 +44,21 @@ class Equation(NamedTuple):
         parts = (self.part,) if kind == MEAN else (0, 1)
         return [(p, part) for p in dict.fromkeys(points) for part in parts]
 
-    def row(self, workspace: Workspace) -> Row:
+    def row(self, workspace: Workspace) -> JacobianRow:
         """Value and derivatives at the points on a workspace."""
         return ROWS[self.datum.kind](workspace, self)
 
 
-def _sum(value: Scalar, *parts: tuple[str, Scalar, Scalar]) -> Row:
+def _sum(value: Scalar, *parts: tuple[str, Scalar, Scalar]) -> JacobianRow:
     """A row whose points may repeat."""
     by: dict[Unknown, Scalar] = {}
     for point, dx, dy in parts:
         by[point, 0] = by[point, 0] + dx if (point, 0) in by else dx
         by[point, 1] = by[point, 1] + dy if (point, 1) in by else dy
-    return Row(value, by)
+    return JacobianRow(value, by)
 
 
-def _length(workspace: Workspace, equation: Equation) -> Row:
+def _length(workspace: Workspace, equation: FigureEquation) -> JacobianRow:
     """(d^2 - l^2) / 2."""
     a, b = equation.datum.points
     (ax, ay), (bx, by), length = workspace.points[a], workspace.points[b], workspace.length(equation.datum)
@@ -66,14 +66,14 @@ def _length(workspace: Workspace, equation: Equation) -> Row:
     return _sum((dx * dx + dy * dy - length * length) / 2.0, (a, -dx, -dy), (b, dx, dy))
 
 
-def _along(workspace: Workspace, equation: Equation) -> Row:
+def _along(workspace: Workspace, equation: FigureEquation) -> JacobianRow:
     """The second point lies along a known direction from the first, or against it."""
     a, b = equation.datum.points
     (ax, ay), (bx, by), (c, s) = workspace.points[a], workspace.points[b], workspace.turn(equation.datum)
     return _sum(c * (by - ay) - s * (bx - ax), (a, s, -c), (b, -s, c))
 
 
-def _corner(workspace: Workspace, equation: Equation) -> Row:
+def _corner(workspace: Workspace, equation: FigureEquation) -> JacobianRow:
     """The first arm, turned by the angle, lies along the second."""
     a, v, b = equation.datum.points
     (ax, ay), (vx, vy), (bx, by) = (workspace.points[p] for p in equation.datum.points)
@@ -84,7 +84,7 @@ def _corner(workspace: Workspace, equation: Equation) -> Row:
     return _sum(tx * qy - ty * qx, (a, dax, day), (b, -ty, tx), (v, ty - dax, -tx - day))
 
 
-def _line(workspace: Workspace, equation: Equation) -> Row:
+def _line(workspace: Workspace, equation: FigureEquation) -> JacobianRow:
     """From through to at is parallel to from e1 to e2."""
     at, through, a, b = equation.datum.points
     (x, y), (tx, ty), (ax, ay), (bx, by) = (workspace.points[p] for p in equation.datum.points)
@@ -92,7 +92,7 @@ def _line(workspace: Workspace, equation: Equation) -> Row:
     return _sum(dx * wy - dy * wx, (at, -dy, dx), (through, dy, -dx), (a, -wy, wx), (b, wy, -wx))
 
 
-def _mean(workspace: Workspace, equation: Equation) -> Row:
+def _mean(workspace: Workspace, equation: FigureEquation) -> JacobianRow:
     """n times a coordinate of the centroid less the sum of the points'."""
     part = equation.part
     whole, *of = equation.datum.points
@@ -102,10 +102,10 @@ def _mean(workspace: Workspace, equation: Equation) -> Row:
     for p in of:
         value = value - workspace.points[p][part]
         by[p, part] = by.get((p, part), 0.0) - 1.0
-    return Row(value, by)
+    return JacobianRow(value, by)
 
 
-def _rope(workspace: Workspace, equation: Equation) -> Row:
+def _rope(workspace: Workspace, equation: FigureEquation) -> JacobianRow:
     """The rope's length less the given one; its pull at each place is the derivative by it."""
     rope = workspace.case.ropes[equation.datum.ref]  # type: ignore[index]
     parts = rope_parts(rope, workspace.points, workspace.frame.scale, workspace.arithmetic)  # type: ignore[arg-type]
@@ -116,12 +116,14 @@ def _rope(workspace: Workspace, equation: Equation) -> Row:
     return _sum(length_of(workspace, equation.datum) - workspace.length(equation.datum), *pulls)
 
 
-def _axis(workspace: Workspace, equation: Equation) -> Row:
+def _axis(workspace: Workspace, equation: FigureEquation) -> JacobianRow:
     ((point, part),) = equation.unknowns()
-    return Row(workspace.points[point][part] - workspace.coordinate(equation.datum), {(point, part): 1.0})
+    return JacobianRow(
+        workspace.points[point][part] - workspace.coordinate(equation.datum), {(point, part): 1.0}
+    )
 
 
-ROWS: dict[str, Callable[[Workspace, Equation], Row]] = {
+ROWS: dict[str, Callable[[Workspace, FigureEquation], JacobianRow]] = {
     LENGTH: _length, RAY: _along, GUIDE: _along, CORNER: _corner,
     LINE: _line, MEAN: _mean, X: _axis, Y: _axis, ROPE: _rope,
 }  # fmt: skip
@@ -194,7 +196,7 @@ class System(NamedTuple):
     coordinate and ``solves`` the coordinate of an equation; ``free`` what is not determined.
     """
 
-    equations: list[Equation]
+    equations: list[FigureEquation]
     reach: list[list[Unknown]]
     of: dict[Unknown, list[int]]
     matched: dict[Unknown, int]
@@ -205,7 +207,7 @@ def system_of(data: Iterable[Datum], placed: Iterable[str], wanted: Iterable[str
     """Match every condition on points not in place to one of their coordinates."""
     known = set(placed)
     equations = [
-        Equation(datum, part)
+        FigureEquation(datum, part)
         for datum in data
         for part in ((0, 1) if datum.kind == MEAN else (0,))
         if not known.issuperset(datum.points)
@@ -375,7 +377,7 @@ class Group(NamedTuple):
     """
 
     targets: tuple[str, ...]
-    equations: tuple[Equation, ...]
+    equations: tuple[FigureEquation, ...]
     start: tuple[tuple[float, float], ...] = ()
     order: tuple[Pivot, ...] = ()
 
@@ -444,7 +446,7 @@ def _moved(move: dict[Unknown, Scalar], target: str, part: int) -> Scalar:
     return move.get((target, part), 0.0)
 
 
-def _counting(drawing: Drawing) -> list[Datum]:
+def _counting(drawing: LooseFigure) -> list[Datum]:
     """The data without those that only repeat the shape of a loose cluster: they hold nothing more."""
     used = {datum for step in drawing.steps for datum in step.data()}
     shapes = [cluster.placed.keys() for cluster in drawing.clusters[1:]]
@@ -457,7 +459,7 @@ def _counting(drawing: Drawing) -> list[Datum]:
     ]
 
 
-def next_group(drawing: Drawing, case: Case, wanted: Iterable[str]) -> tuple[Group, tuple[str, ...]]:
+def next_group(drawing: LooseFigure, case: Case, wanted: Iterable[str]) -> tuple[Group, tuple[str, ...]]:
     """The smallest group that leads to the wanted points.
 
     Raises

@@ -94,7 +94,7 @@ def meet_lines(p: Values, q: Values) -> Crossing:
     return Crossing((px + t * ux, py + t * uy), None, (), sine)
 
 
-class Circle(NamedTuple):
+class CircleLocus(NamedTuple):
     """The circle about a point."""
 
     centre: Key
@@ -113,7 +113,7 @@ class Circle(NamedTuple):
         return (self.centre, *ends_of(self.radius))
 
 
-class Arc(NamedTuple):
+class ArcLocus(NamedTuple):
     """The circle from which two points are seen under a corner's angle (Euclid III 21)."""
 
     a: Key
@@ -138,7 +138,7 @@ class Arc(NamedTuple):
         return (self.a, self.b)
 
 
-class Line(NamedTuple):
+class LineLocus(NamedTuple):
     """A line through a point; with ``ray`` only the half of it that lies ahead."""
 
     through: Key
@@ -212,7 +212,7 @@ def length_of(workspace: Workspace, datum: Datum, without: str = "") -> Scalar:
 class Shifted(NamedTuple):
     """The locus of another point, moved by the known vector from this point to that one."""
 
-    base: Circle | Arc | Tether | Line | Axis | Shifted
+    base: CircleLocus | ArcLocus | Tether | LineLocus | Axis | Shifted
     span: Span
     direction: LineDirection
 
@@ -232,28 +232,28 @@ class Shifted(NamedTuple):
         return (*self.base.needs(), *ends_of(self.span), *self.direction.needs())
 
 
-Locus = Circle | Arc | Tether | Line | Axis | Shifted
+Locus = CircleLocus | ArcLocus | Tether | LineLocus | Axis | Shifted
 
 
 def is_round(locus: Locus) -> bool:
     """Whether it is a circle, not a line."""
     while type(locus) is Shifted:
         locus = locus.base
-    return type(locus) in (Circle, Arc, Tether)
+    return type(locus) in (CircleLocus, ArcLocus, Tether)
 
 
 def is_ray(locus: Locus) -> bool:
     """Whether only the half of a line that lies ahead will do."""
     while type(locus) is Shifted:
         locus = locus.base
-    return type(locus) is Line and locus.ray
+    return type(locus) is LineLocus and locus.ray
 
 
 def directions_of(locus: Locus) -> list[LineDirection]:
     """The directions that a locus goes by."""
     if isinstance(locus, Shifted):
         return [locus.direction, *directions_of(locus.base)]
-    return [locus.direction] if isinstance(locus, Line) else []
+    return [locus.direction] if isinstance(locus, LineLocus) else []
 
 
 def crossing(first: Locus, second: Locus, workspace: Workspace, tangent: bool = False) -> Crossing:

@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping
 from itertools import islice, product
 from typing import NamedTuple
 
-from icsolve.assembly.clusters import Drawing
+from icsolve.assembly.clusters import LooseFigure
 from icsolve.assembly.data import CORNER, LENGTH, LINE, ROPE, facts_of
 from icsolve.assembly.groups import Group, Unknown, pivots, solved
 from icsolve.assembly.order import grow
@@ -44,7 +44,7 @@ CLOSE_WORK = 60_000
 """The same once a solution was found from `near` itself."""
 
 
-def every(group: Group, workspace: Workspace) -> Found:
+def every(group: Group, workspace: Workspace) -> Converged:
     """Every solution of a group, by exclusion; ``complete`` where they are shown to be all."""
     if any(equation.datum.kind == ROPE for equation in group.equations):
         raise SceneError(Status.UNSUPPORTED, ROPED)
@@ -56,7 +56,7 @@ def every(group: Group, workspace: Workspace) -> Found:
         start = tuple(place[t] for t in group.targets)
         groups.append(_polished(group, workspace, place) or group._replace(start=start))
     miss = None if groups else _unreached(group, workspace, {})
-    return Found(groups, miss, {}, found.complete)
+    return Converged(groups, miss, {}, found.complete)
 
 
 ROPED = (
@@ -65,7 +65,7 @@ ROPED = (
 )
 
 
-class Found(NamedTuple):
+class Converged(NamedTuple):
     """What a search for the solutions of a group found: the nearest to `near` first.
 
     ``miss`` says why there is none, or none about `near`; ``closest`` is then the place about `near` where
@@ -87,11 +87,11 @@ class Descent(NamedTuple):
     steps: int
 
 
-def solutions(group: Group, workspace: Workspace, near: Mapping[str, Spot]) -> Found:
+def solutions(group: Group, workspace: Workspace, near: Mapping[str, Spot]) -> Converged:
     """The solutions found of a group: from `near` itself first, then from other starts."""
     if not any(p in near for p in group.targets):
-        return Found([], _needs_near(group), {}, False)
-    search = _Search(group, workspace, near)
+        return Converged([], _needs_near(group), {}, False)
+    search = _NewtonSearch(group, workspace, near)
     search.run()
     held = [t for t in group.targets if t in near]
     search.found.sort(key=lambda end: math.hypot(*(math.dist(end[t], near[t]) for t in held)))
@@ -100,16 +100,16 @@ def solutions(group: Group, workspace: Workspace, near: Mapping[str, Spot]) -> F
     if settled:
         first = dict(zip(group.targets, settled[0].start, strict=True))
         if not search.leaves(first):
-            return Found(settled, None, {}, search.complete)
-        return Found(settled, _unreached(group, workspace, search.beside), search.beside, False)
+            return Converged(settled, None, {}, search.complete)
+        return Converged(settled, _unreached(group, workspace, search.beside), search.beside, False)
     if polished:
-        return Found([], _flat(group), {}, False)
+        return Converged([], _flat(group), {}, False)
     closest = search.closest.end
     miss = _unfinished(group) if search.spent else _unreached(group, workspace, closest)
-    return Found([], miss, search.beside, False)
+    return Converged([], miss, search.beside, False)
 
 
-class _Search:
+class _NewtonSearch:
     """Starts one after another, until it is shown that nothing nearer is left, or the work is spent."""
 
     def __init__(self, group: Group, workspace: Workspace, near: Mapping[str, Spot]) -> None:
@@ -327,7 +327,7 @@ def _constructed(
     group: Group, workspace: Workspace, near: Mapping[str, Spot], held: list[str], reach: float
 ) -> Iterator[Start]:
     """Starts by closed forms, with points held where `near` puts them, one of them also about there."""
-    drawing = Drawing(facts_of(workspace.case, group.data()), frozenset())
+    drawing = LooseFigure(facts_of(workspace.case, group.data()), frozenset())
     ground, goal = drawing.ground, set(group.targets)
     ground.begin([p for p in group.needs() if isinstance(p, str)] + held)
     ground.run(goal)

@@ -8,7 +8,7 @@ points that only all their data together determine.
 from collections.abc import Collection
 from typing import NamedTuple
 
-from icsolve.assembly.clusters import ALL_CLUSTERS, LOOSE_CLUSTERS, NOBODY, Cluster, Drawing
+from icsolve.assembly.clusters import ALL_CLUSTERS, LOOSE_CLUSTERS, NOBODY, Cluster, LooseFigure
 from icsolve.assembly.data import LENGTH, Datum, Facts, facts_of, given_points
 from icsolve.assembly.steps import Base, Step, leading_to, points_of
 from icsolve.case import Case
@@ -45,7 +45,7 @@ def order_of(
     SceneError
         ``underdetermined``, ``ambiguous`` (a group without ``near``).
     """
-    drawing = Drawing(facts_of(case), banned)
+    drawing = LooseFigure(facts_of(case), banned)
     ground, wanted = drawing.ground, set(goal)
     ground.begin(given_points(case))
     ground.run(wanted)
@@ -57,7 +57,7 @@ def order_of(
     return Order(steps, points_of(steps), drawing.facts)
 
 
-def grow(drawing: Drawing) -> bool:
+def grow(drawing: LooseFigure) -> bool:
     """Draw the shapes of loose links, by no more than is needed; whether the ground may go on.
 
     First by their own data alone, then by distances that they lend one another, then point by point
@@ -75,7 +75,7 @@ def grow(drawing: Drawing) -> bool:
     return False
 
 
-def _extend(drawing: Drawing, most: int | None) -> None:
+def _extend(drawing: LooseFigure, most: int | None) -> None:
     """Let every loose cluster take what is within its reach; with ``most``, the first that can."""
     for cluster in drawing.clusters[1:]:
         for point in list(cluster.placed):
@@ -84,7 +84,7 @@ def _extend(drawing: Drawing, most: int | None) -> None:
             return
 
 
-def _start(drawing: Drawing) -> None:
+def _start(drawing: LooseFigure) -> None:
     """A loose cluster for every length that no cluster holds."""
     for datum in drawing.facts.data:
         if datum.kind != LENGTH:
@@ -98,7 +98,7 @@ def _start(drawing: Drawing) -> None:
         cluster.run()
 
 
-def _group(drawing: Drawing, case: Case, goal: Collection[str], best_effort: bool) -> bool:
+def _group(drawing: LooseFigure, case: Case, goal: Collection[str], best_effort: bool) -> bool:
     """The smallest group that its data determine together becomes one step; else say what is free."""
     if best_effort:
         return False

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from typing import NamedTuple
 
 from icsolve.assembly.data import CORNER, LENGTH, LINE, MEAN, RAY, ROPE, Datum, X, Y, number_of
-from icsolve.assembly.loci import Circle, is_round
+from icsolve.assembly.loci import CircleLocus, is_round
 from icsolve.assembly.steps import Meet, Polar, Step, Turned
 from icsolve.assembly.words import datum_words, joined, locus_words, plain, span_words
 from icsolve.assembly.workspace import Workspace, case_point
@@ -41,7 +41,7 @@ def bare(workspace: Workspace, length: float) -> str:
 def too_far(step: Meet, workspace: Workspace, gaps: list[float]) -> Miss:
     """Two loci that do not meet."""
     gap = -min(gaps)
-    if isinstance(step.first, Circle) and isinstance(step.second, Circle):
+    if isinstance(step.first, CircleLocus) and isinstance(step.second, CircleLocus):
         return Miss(Status.CANNOT_ASSEMBLE, _circles(step, step.first, step.second, workspace, gaps), gap)
     message = (
         f"the figure cannot be assembled at {plain(step.target)}: {locus_words(step.first)} and "
@@ -50,7 +50,7 @@ def too_far(step: Meet, workspace: Workspace, gaps: list[float]) -> Miss:
     return Miss(Status.CANNOT_ASSEMBLE, message, gap)
 
 
-def _circles(step: Meet, one: Circle, two: Circle, workspace: Workspace, gaps: list[float]) -> str:
+def _circles(step: Meet, one: CircleLocus, two: CircleLocus, workspace: Workspace, gaps: list[float]) -> str:
     a, b, at = plain(one.centre), plain(two.centre), plain(step.target)
     gap = -min(gaps)
     apart = math.dist(workspace.points[one.centre], workspace.points[two.centre])
@@ -68,7 +68,7 @@ def concentric(step: Meet, workspace: Workspace) -> Miss:
     """Two circles about one centre."""
     (_, _, a), (_, _, b) = step.first.values(workspace), step.second.values(workspace)
     at = plain(step.target)
-    centres = " and ".join(plain(c.centre) for c in (step.first, step.second) if isinstance(c, Circle))
+    centres = " and ".join(plain(c.centre) for c in (step.first, step.second) if isinstance(c, CircleLocus))
     if math.isclose(a, b, rel_tol=1e-12, abs_tol=1e-300):
         message = (
             f"{at} may lie anywhere about {centres}: they coincide and their distances to {at} are equal, "

@@ -27,7 +27,7 @@ DIGITS = 6
 """Significant digits of `near`, where these tell the ways apart."""
 
 
-class Way(NamedTuple):
+class AssemblyWay(NamedTuple):
     """One way: the points in case units, and the `near` that picks it."""
 
     points: dict[str, Place]
@@ -37,7 +37,7 @@ class Way(NamedTuple):
 class Ways(NamedTuple):
     """All ways that were found, whether these are shown to be all, and what else is to be said."""
 
-    ways: tuple[Way, ...]
+    ways: tuple[AssemblyWay, ...]
     complete: bool
     notes: tuple[str, ...]
 
@@ -130,7 +130,7 @@ def _ways(case: Case, walk: Walk, order: Order, loose: list[str]) -> Ways:
     for mode in modes:
         places = {p: case_point(frame, mode.points[p]) for p in order.points}
         near = {p: (round(places[p][0], digits), round(places[p][1], digits)) for p in picked}
-        ways.append(Way({p: at for p, at in places.items() if not p.startswith("@")}, near))
+        ways.append(AssemblyWay({p: at for p, at in places.items() if not p.startswith("@")}, near))
     return Ways(tuple(ways), walk.complete and not walk.gave_up, tuple(notes))
 
 

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, ROPE, Datum
-from icsolve.assembly.loci import Arc, Axis, Circle, Shifted, Tether, is_round
+from icsolve.assembly.loci import ArcLocus, Axis, CircleLocus, Shifted, Tether, is_round
 
 if TYPE_CHECKING:
     from icsolve.assembly.groups import Group
@@ -60,11 +60,11 @@ def direction_words(direction: LineDirection) -> str:
 
 def locus_words(locus: Locus) -> str:
     """A locus by what makes it."""
-    if isinstance(locus, Circle):
+    if isinstance(locus, CircleLocus):
         return f"the circle about {plain(locus.centre)} of radius {span_words(locus.radius)}"
     if isinstance(locus, Tether):
         return f"the circle about {plain(locus.centre)} that the {datum_words(locus.rope)} leaves"
-    if isinstance(locus, Arc):
+    if isinstance(locus, ArcLocus):
         return f"the circle of {datum_words(locus.corner)}"
     if isinstance(locus, Axis):
         return f"the line of its given {locus.datum.kind}"

@@ -10,7 +10,7 @@ from statistics import median
 from typing import Any, NamedTuple
 
 from icsolve.bench.families import ALL_JOINTS, BOUNDED, EXACT, SIX_BARS, Draw, Family, scaled
-from icsolve.bench.rivals import Drawn, Failed, Method, OtherData, drawn
+from icsolve.bench.rivals import Failed, Method, OtherData, RivalFigure, drawn
 from icsolve.case import Case, Coordinates, Force, Number
 from icsolve.errors import SceneError
 from icsolve.read import load
@@ -160,26 +160,26 @@ class Score(NamedTuple):
     scenes: int
 
 
-class Known(NamedTuple):
+class KnownAnswer(NamedTuple):
     """A scene and what is true of it."""
 
-    scene: Drawn
+    scene: RivalFigure
     truth: Truth
 
 
-def scenes(family: Family, count: int) -> Iterator[Known]:
+def scenes(family: Family, count: int) -> Iterator[KnownAnswer]:
     """Scenes of a family that have an answer in exact arithmetic."""
     for k in range(count):
         case = load(family.draw(Random(f"{family.name} {k}")))
         try:
-            known = Known(drawn(case), truth(case))
+            known = KnownAnswer(drawn(case), truth(case))
         except SceneError:
             continue
         if known.truth.value != 0:
             yield known
 
 
-def scored(method: Method, family: Family, known: Iterable[Known]) -> Score:
+def scored(method: Method, family: Family, known: Iterable[KnownAnswer]) -> Score:
     """Run a method on the scenes of a family; where it is made for other data it has no scenes."""
     errors, units, times, lost = [], [], [], []
     refused = 0
@@ -210,7 +210,7 @@ class Tried(NamedTuple):
     refused: bool
 
 
-def _tried(method: Method, scene: Drawn) -> Tried:
+def _tried(method: Method, scene: RivalFigure) -> Tried:
     """The better time of two runs, of this thread alone (matrix routines may wake others that wait);
     one that ends without an answer takes time too.
 

@@ -23,7 +23,7 @@ Closed = Callable[[Array], Array]
 """Torque on the crank for its angles in radians."""
 
 
-class Turning(NamedTuple):
+class CrankTurning(NamedTuple):
     """A mechanism that makes a full turn: its case, and the numbers of its closed form."""
 
     name: str
@@ -120,9 +120,9 @@ loads: {T6: {torque: 10, link: 6}, T2: {torque: unknown, link: 2}}
 """
 
 MECHANISMS = (
-    Turning("four-bar", FOUR_BAR_CASE, FOUR_BAR, "four_bar", four_bar),
-    Turning("slider-crank", SLIDER_CRANK_CASE, SLIDER_CRANK, "slider_crank", slider_crank),
-    Turning("Stephenson six-bar", STEPHENSON_CASE, STEPHENSON, "stephenson", stephenson),
+    CrankTurning("four-bar", FOUR_BAR_CASE, FOUR_BAR, "four_bar", four_bar),
+    CrankTurning("slider-crank", SLIDER_CRANK_CASE, SLIDER_CRANK, "slider_crank", slider_crank),
+    CrankTurning("Stephenson six-bar", STEPHENSON_CASE, STEPHENSON, "stephenson", stephenson),
 )
 
 
@@ -155,7 +155,7 @@ def compiled(folder: str) -> ctypes.CDLL | None:
         return None
 
 
-def in_c(library: ctypes.CDLL, mechanism: Turning, angle: Array, out: Array) -> Callable[[], object]:
+def in_c(library: ctypes.CDLL, mechanism: CrankTurning, angle: Array, out: Array) -> Callable[[], object]:
     """A call of the C function on arrays that are there."""
     data = (ctypes.c_double * len(mechanism.data))(*mechanism.data)
     pointers = [array.ctypes.data_as(ctypes.c_void_p) for array in (angle, out)]

@@ -18,7 +18,7 @@ REACH = 4.0
 Spot = tuple[float, float]
 
 
-class Sheet:
+class FamilySheet:
     """A case that is being written; links from 1, the frame."""
 
     def __init__(self, rng: Random) -> None:
@@ -114,7 +114,7 @@ def linkage(edges: str, places: Iterable[Spot] | None = None) -> Draw:
     """Links pinned in the pattern of a graph, numbered from 0 there and from 1 in the case."""
 
     def draw(rng: Random) -> str:
-        sheet = Sheet(rng)
+        sheet = FamilySheet(rng)
         given = iter(places) if places is not None else None
         pairs = [(int(edge[0], 36) + 1, int(edge[1], 36) + 1) for edge in edges.split()]
         for i, j in pairs:
@@ -136,7 +136,7 @@ def chain(loops: int) -> Draw:
     """Four-bars in series: the rocker of one is the crank of the next."""
 
     def draw(rng: Random) -> str:
-        sheet = Sheet(rng)
+        sheet = FamilySheet(rng)
         sheet.pin(1, 2, (0.0, 0.0))
         end = (round(rng.uniform(-0.5, 0.5), 4), round(rng.uniform(0.8, 1.6), 4))
         for k in range(1, loops + 1):
@@ -156,7 +156,7 @@ def near_toggle(delta: float) -> Draw:
     """Coupler and rocker within delta of one line: the crank near its limit."""
 
     def draw(rng: Random) -> str:
-        sheet = Sheet(rng)
+        sheet = FamilySheet(rng)
         direction = rng.uniform(0.0, math.tau)
         c, s = math.cos(direction), math.sin(direction)
         one, two = rng.uniform(1.0, 3.0), rng.uniform(1.0, 3.0)
@@ -174,7 +174,7 @@ def nearly_parallel(delta: float) -> Draw:
     """Crank and rocker parallel but for an angle delta: the coupler's centre is far away."""
 
     def draw(rng: Random) -> str:
-        sheet = Sheet(rng)
+        sheet = FamilySheet(rng)
         direction = rng.uniform(0.0, math.pi)
         ground, far = sheet.spot(), sheet.spot()
         one, two = rng.uniform(1.0, 3.0), rng.uniform(1.0, 3.0)
@@ -263,7 +263,7 @@ def by_sides(draw: Draw, angle: tuple[int, int], ground: int = 1) -> Draw:
 
 def all_joints(rng: Random) -> str:
     """A crank or a block, and two groups on it by joints of any kind: four to eight links."""
-    sheet = Sheet(rng)
+    sheet = FamilySheet(rng)
     if rng.random() < 0.7:
         sheet.pin(1, sheet.link())
     else:
@@ -273,14 +273,14 @@ def all_joints(rng: Random) -> str:
     return sheet.text(torques(sheet.links, 2) if rng.random() < 0.5 else _forces(sheet))
 
 
-def _forces(sheet: Sheet) -> str:
+def _forces(sheet: FamilySheet) -> str:
     """A known force on the last link, a force to find on the first that moves."""
     at, to = sheet.spot(), sheet.spot()
     known = f"K: {{force: 7.5, link: {sheet.links}, at: [{at[0]}, {at[1]}], angle: {sheet.angle()}}}"
     return f"{known}, U: {{force: unknown, link: 2, at: [{to[0]}, {to[1]}], angle: {sheet.angle()}}}"
 
 
-def _slide(sheet: Sheet, i: int, j: int) -> None:
+def _slide(sheet: FamilySheet, i: int, j: int) -> None:
     one, two = sheet.rng.sample((i, j), 2)
     at = sheet.point()
     sheet.joints.append(f"  - {{slide: [{one}, {two}], at: {at}, along: {sheet.angle()}}}")
@@ -288,7 +288,7 @@ def _slide(sheet: Sheet, i: int, j: int) -> None:
 
 def mixed(rng: Random) -> str:
     """Two or three groups of any kind, welds and pins of several links among them, loads between links."""
-    sheet = Sheet(rng)
+    sheet = FamilySheet(rng)
     first = sheet.pin(1, sheet.link())
     for _ in range(rng.randint(2, 3)):
         rng.choice([_dyad, _lever, _wheel, _weld])(sheet)
@@ -304,13 +304,13 @@ def mixed(rng: Random) -> str:
     )
 
 
-def _weld(sheet: Sheet) -> None:
+def _weld(sheet: FamilySheet) -> None:
     """A link that moves as one with another."""
     i, a = sheet.rng.randint(2, sheet.links), sheet.link()
     sheet.joints.append(f"  - {{weld: [{i}, {a}]}}")
 
 
-def _on_a_pin(sheet: Sheet, point: str) -> None:
+def _on_a_pin(sheet: FamilySheet, point: str) -> None:
     """A dyad whose first link hangs on a pin that is there."""
     j, a, b = sheet.rng.randint(2, sheet.links), sheet.link(), sheet.link()
     sheet.joints.append(f"  - {{pin: [2, {a}], at: {point}}}")
@@ -318,7 +318,7 @@ def _on_a_pin(sheet: Sheet, point: str) -> None:
     _full(sheet, b, j)
 
 
-def _full(sheet: Sheet, i: int, j: int) -> None:
+def _full(sheet: FamilySheet, i: int, j: int) -> None:
     """A joint that leaves one freedom."""
     kind = sheet.rng.choice(("pin", "pin", "slide", "roll", "centre"))
     if kind == "slide":
@@ -329,7 +329,7 @@ def _full(sheet: Sheet, i: int, j: int) -> None:
         sheet.joints.append(f"  - {{{kind}: [{i}, {j}], at: {sheet.point()}}}")
 
 
-def _half(sheet: Sheet, i: int, j: int) -> None:
+def _half(sheet: FamilySheet, i: int, j: int) -> None:
     """A joint that leaves two."""
     one, two = sheet.rng.sample((i, j), 2)
     at = sheet.point()
@@ -339,12 +339,12 @@ def _half(sheet: Sheet, i: int, j: int) -> None:
         sheet.joints.append(f"  - {{contact: [{one}, {two}], at: {at}, normal: {sheet.angle()}}}")
 
 
-def _two(sheet: Sheet) -> tuple[int, int]:
+def _two(sheet: FamilySheet) -> tuple[int, int]:
     i, j = sheet.rng.sample(range(1, sheet.links + 1), 2)
     return i, j
 
 
-def _dyad(sheet: Sheet) -> None:
+def _dyad(sheet: FamilySheet) -> None:
     """Two links by three full joints, the first of them a pin."""
     (i, j), a, b = _two(sheet), sheet.link(), sheet.link()
     sheet.pin(i, a)
@@ -352,14 +352,14 @@ def _dyad(sheet: Sheet) -> None:
     _full(sheet, b, j)
 
 
-def _lever(sheet: Sheet) -> None:
+def _lever(sheet: FamilySheet) -> None:
     """One link on another, driven by a third through a slot or a contact."""
     (i, j), a = _two(sheet), sheet.link()
     _full(sheet, i, a)
     _half(sheet, j, a)
 
 
-def _wheel(sheet: Sheet) -> None:
+def _wheel(sheet: FamilySheet) -> None:
     """Two wheels on the frame, the first driven by a link through a rod."""
     rng, a, rod, b = sheet.rng, sheet.link(), sheet.link(), sheet.link()
     sheet.pin(1, a)
@@ -378,7 +378,7 @@ def _wheel(sheet: Sheet) -> None:
 
 def geared_five_bar(rng: Random) -> str:
     """Two cranks that gears on the frame join, and two rods."""
-    sheet = Sheet(rng)
+    sheet = FamilySheet(rng)
     for i, j in ((1, 2), (2, 3), (3, 4), (4, 5), (5, 1)):
         sheet.pin(i, j)
     teeth = f"{rng.randrange(12, 60)}, {rng.choice((1, -1)) * rng.randrange(61, 120)}"
@@ -393,7 +393,7 @@ def near(draw: Callable[[float], Draw]) -> Draw:
 
 def coupler_slot(rng: Random) -> str:
     """A four-bar with a slot in its coupler that drives a lever's pin."""
-    sheet = Sheet(rng)
+    sheet = FamilySheet(rng)
     for i, j in ((1, 2), (2, 3), (3, 4), (4, 1)):
         sheet.pin(i, j)
     sheet.joints.append(f"  - {{slot: [5, 3], at: {sheet.point()}, along: {sheet.angle()}}}")

@@ -18,7 +18,7 @@ from random import Random
 import numpy as np
 
 from icsolve.bench.closed import FOUR_BAR, FOUR_BAR_CASE, Array
-from icsolve.bench.families import BUTTERFLY, Sheet, by_sides, chain, linkage
+from icsolve.bench.families import BUTTERFLY, FamilySheet, by_sides, chain, linkage
 from icsolve.bench.gates import Effort, Gate, Kept, ratio, table
 from icsolve.bench.speed import FRESH_CASES
 from icsolve.bench.timing import cpu_seconds, least, once
@@ -196,7 +196,7 @@ def _gears(wheels: int) -> Callable[[Random], str]:
     """Wheels in a row, each in mesh with the next."""
 
     def draw(rng: Random) -> str:
-        sheet, at = Sheet(rng), 0.0
+        sheet, at = FamilySheet(rng), 0.0
         teeth = [rng.randrange(15, 40) for _ in range(wheels)]
         for k, n in enumerate(teeth):
             at += (n + teeth[k - 1]) / 20.0 if k else 0.0

@@ -33,7 +33,7 @@ class OtherData(Exception):
     """A method for figures that are given in another way."""
 
 
-class Drawn(NamedTuple):
+class RivalFigure(NamedTuple):
     """A case to be solved by any method: its points as they were read; empty where lengths are given."""
 
     program: Program
@@ -58,17 +58,17 @@ class Posed(NamedTuple):
     wrenches: tuple[power.Wrench, ...]
 
 
-def drawn(case: Case) -> Drawn:
+def drawn(case: Case) -> RivalFigure:
     """A case by coordinates, or a four-bar by its lengths."""
     program = prepare(case, Want(centres=True))
     raw = {}
     for name, place in case.points.items():
         assert isinstance(place, Coordinates) and place.x is not None and place.y is not None
         raw[name] = (place.x.value, place.y.value)
-    return Drawn(program, {} if case.lengths else raw)
+    return RivalFigure(program, {} if case.lengths else raw)
 
 
-def posed(scene: Drawn, normalised: bool) -> Posed:
+def posed(scene: RivalFigure, normalised: bool) -> Posed:
     """The scene in raw coordinates, or moved to an input pin and scaled by a power of two."""
     ox, oy, scale = scene.program.figure.frame if normalised else (0.0, 0.0, 1.0)
     raw = scene.raw or by_cosines(scene.case)
@@ -130,7 +130,7 @@ class Algebra(Protocol):
         """Twists to one scale from the centres."""
 
 
-def closed(scene: Drawn, algebra: Algebra, normalised: bool) -> float:
+def closed(scene: RivalFigure, algebra: Algebra, normalised: bool) -> float:
     """The unknown load by centres, each by the first two lines that pass through it."""
     pose = posed(scene, normalised)
     centres = _centres(pose, algebra)
@@ -270,13 +270,13 @@ class Cartesian:
 Matrix = npt.NDArray[np.float64]
 
 
-def by_svd(scene: Drawn, normalised: bool) -> float:
+def by_svd(scene: RivalFigure, normalised: bool) -> float:
     """Twists as the last right singular vector of the joints' conditions."""
     pose = posed(scene, normalised)
     return balanced(pose, _twists(pose, np.linalg.svd(_conditions(pose))[2][-1]))
 
 
-def by_lu(scene: Drawn, normalised: bool) -> float:
+def by_lu(scene: RivalFigure, normalised: bool) -> float:
     """Twists by LU with the rate of one joint at the frame fixed to 1."""
     pose = posed(scene, normalised)
     rows = _conditions(pose)
@@ -293,7 +293,7 @@ def by_lu(scene: Drawn, normalised: bool) -> float:
     return balanced(pose, _twists(pose, _solved(np.vstack([rows, drive]), right)))
 
 
-def by_free_bodies(scene: Drawn, normalised: bool) -> float:
+def by_free_bodies(scene: RivalFigure, normalised: bool) -> float:
     """The wrenches of all joints and the unknown load from the equilibrium of every body, by LU."""
     pose = posed(scene, normalised)
     rows, columns = _conditions(pose), _columns(pose)
@@ -316,7 +316,7 @@ def by_free_bodies(scene: Drawn, normalised: bool) -> float:
     return float(_solved(matrix, -known)[-1]) / measure
 
 
-def by_newton(scene: Drawn, normalised: bool) -> float:
+def by_newton(scene: RivalFigure, normalised: bool) -> float:
     """The pins of a four-bar from its lengths by Newton's method, started at ``near``; then SVD."""
     if scene.raw:
         raise OtherData("only for figures that are given by lengths")
@@ -384,16 +384,16 @@ class Method(NamedTuple):
     """A method by its name in tables and pictures."""
 
     name: str
-    run: Callable[[Drawn], float]
+    run: Callable[[RivalFigure], float]
     as_written: bool = False
     """whether it answers for the decimals of the file; the others for the doubles nearest to them"""
 
 
-def _icsolve(scene: Drawn) -> float:
+def _icsolve(scene: RivalFigure) -> float:
     return solve(scene.case, bound=False).answers["U"].value
 
 
-def _bounded(scene: Drawn) -> float:
+def _bounded(scene: RivalFigure) -> float:
     return solve(scene.case).answers["U"].value
 
 

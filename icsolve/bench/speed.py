@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from icsolve.bench.accuracy import FORWARD, Score, Truth, truth
-from icsolve.bench.closed import FOUR_BAR, FOUR_BAR_CASE, MECHANISMS, Array, Turning, compiled, in_c
+from icsolve.bench.closed import FOUR_BAR, FOUR_BAR_CASE, MECHANISMS, Array, CrankTurning, compiled, in_c
 from icsolve.bench.gates import Effort, Gate, Kept, lawful, ratio, table
 from icsolve.bench.peers import POSITIONS
 from icsolve.bench.timing import least, peak_memory
@@ -53,7 +53,7 @@ def full_turns(positions: int, seconds: float) -> dict[str, dict[str, Timed]]:
 
 
 def _timed(
-    mechanism: Turning, positions: int, seconds: float, library: ctypes.CDLL | None
+    mechanism: CrankTurning, positions: int, seconds: float, library: ctypes.CDLL | None
 ) -> dict[str, Timed]:
     degrees: Array = np.linspace(60.0, 420.0, positions, endpoint=False)
     calls = _calls(mechanism, degrees, library)
@@ -69,7 +69,7 @@ def _timed(
     return result
 
 
-def _calls(mechanism: Turning, degrees: Array, library: ctypes.CDLL | None) -> dict[str, Torque]:
+def _calls(mechanism: CrankTurning, degrees: Array, library: ctypes.CDLL | None) -> dict[str, Torque]:
     case = load(mechanism.case)
     radians, out = np.asarray(np.radians(degrees), dtype=np.float64), np.empty(len(degrees))
     calls: dict[str, Torque] = {
@@ -88,7 +88,7 @@ def _calls(mechanism: Turning, degrees: Array, library: ctypes.CDLL | None) -> d
     return calls
 
 
-def _known(mechanism: Turning, degrees: Array) -> dict[int, Truth]:
+def _known(mechanism: CrankTurning, degrees: Array) -> dict[int, Truth]:
     """The torque at some positions, on the doubles; but where `near` picks the other way to assemble."""
     known = {}
     for k in range(0, len(degrees), max(1, len(degrees) // SAMPLE)):

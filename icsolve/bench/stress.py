@@ -16,7 +16,7 @@ UNREADABLE = "unreadable"
 """The word for a case that the reader refuses."""
 
 
-class Value(NamedTuple):
+class TrueValue(NamedTuple):
     """An unknown load: its value, how near it must come (a fraction), the largest bound that will do."""
 
     value: float
@@ -24,7 +24,7 @@ class Value(NamedTuple):
     error: float = math.inf
 
 
-class Asked(NamedTuple):
+class StressQuestion(NamedTuple):
     """A verdict: one of the ``status`` words, values and centres, and what the sentences must say.
 
     ``centres`` are ``(x, y)``, a direction in degrees, or the word of a centre without a place.
@@ -32,7 +32,7 @@ class Asked(NamedTuple):
     """
 
     status: tuple[str, ...] = ("ok",)
-    values: Mapping[str, Value] = {}
+    values: Mapping[str, TrueValue] = {}
     centres: Mapping[Pair, tuple[float, float] | float | str] = {}
     rates: Mapping[str, float] = {}
     says: tuple[str, ...] = ()
@@ -48,7 +48,7 @@ class Asked(NamedTuple):
         return ", ".join(parts + ([f"a centre by {self.by}"] if self.by else []))
 
 
-class Turned(NamedTuple):
+class TurnedScene(NamedTuple):
     """A sweep: one number from ``first`` by whole ``step`` over ``rows`` rows; ``status`` where it is
     not ok, by the value of that number."""
 
@@ -68,8 +68,8 @@ class Stress(NamedTuple):
     number: str
     title: str
     case: str | Callable[[], str]
-    asked: Asked
-    turned: Turned | None = None
+    asked: StressQuestion
+    turned: TurnedScene | None = None
 
 
 class Judged(NamedTuple):
@@ -81,15 +81,15 @@ class Judged(NamedTuple):
     seconds: float
 
 
-def refused(*status: str, says: Iterable[str] = ()) -> Asked:
+def refused(*status: str, says: Iterable[str] = ()) -> StressQuestion:
     """A refusal with one of these words, whose message has these parts."""
-    return Asked(status, says=tuple(says))
+    return StressQuestion(status, says=tuple(says))
 
 
-def answered(values: Mapping[str, Value | float], **more: Any) -> Asked:
+def answered(values: Mapping[str, TrueValue | float], **more: Any) -> StressQuestion:
     """An answer with these values (and centres, rates, notes)."""
-    given = {name: v if isinstance(v, Value) else Value(v) for name, v in values.items()}
-    return Asked(("ok",), given)._replace(**more)
+    given = {name: v if isinstance(v, TrueValue) else TrueValue(v) for name, v in values.items()}
+    return StressQuestion(("ok",), given)._replace(**more)
 
 
 def judge(stress: Stress) -> Judged:
@@ -107,7 +107,7 @@ def judge(stress: Stress) -> Judged:
     return Judged(stress, got, tuple(faults), time.perf_counter() - start)
 
 
-def _solved(text: str, asked: Asked) -> tuple[str, list[str]]:
+def _solved(text: str, asked: StressQuestion) -> tuple[str, list[str]]:
     from icsolve.read import load
     from icsolve.solve import solve
 
@@ -115,7 +115,7 @@ def _solved(text: str, asked: Asked) -> tuple[str, list[str]]:
     return _of_answer(answer, asked)
 
 
-def _swept(text: str, turned: Turned, asked: Asked) -> tuple[str, list[str]]:
+def _swept(text: str, turned: TurnedScene, asked: StressQuestion) -> tuple[str, list[str]]:
     """Every row has the status asked, and where it is ok the values asked."""
     from icsolve.read import load
     from icsolve.sweep import sweep
@@ -135,16 +135,16 @@ def _swept(text: str, turned: Turned, asked: Asked) -> tuple[str, list[str]]:
     return ", ".join(f"{count} rows {word}" for word, count in counts.items()), faults
 
 
-def _of_refusal(status: str, message: str, asked: Asked) -> tuple[str, list[str]]:
+def _of_refusal(status: str, message: str, asked: StressQuestion) -> tuple[str, list[str]]:
     faults = [] if status in asked.status else [f"refused as {status}"]
     return f"{status}: {message}", faults + _unsaid(message, asked)
 
 
-def _unsaid(text: str, asked: Asked) -> list[str]:
+def _unsaid(text: str, asked: StressQuestion) -> list[str]:
     return [f"does not say {words!r}" for words in asked.says if words not in text]
 
 
-def _of_answer(answer: Answer, asked: Asked) -> tuple[str, list[str]]:
+def _of_answer(answer: Answer, asked: StressQuestion) -> tuple[str, list[str]]:
     faults = [] if "ok" in asked.status else ["answered"]
     for name, value in asked.values.items():
         faults += _value_faults(answer, name, value)
@@ -161,7 +161,7 @@ def _of_answer(answer: Answer, asked: Asked) -> tuple[str, list[str]]:
     return _told(answer), faults + _unsaid(" ".join(answer.notes), asked)
 
 
-def _value_faults(answer: Answer, name: str, asked: Value) -> list[str]:
+def _value_faults(answer: Answer, name: str, asked: TrueValue) -> list[str]:
     """What is wrong with a value: it, its bound, or that the bound does not hold."""
     value, error = answer.answers[name].value, answer.answers[name].error
     off = abs(value - asked.value)

@@ -37,7 +37,7 @@ CLEARLY = 0.9
 """A way is meant where it is nearer to `near` than this fraction of the distance of the next."""
 
 
-class Found(NamedTuple):
+class FoundContacts(NamedTuple):
     """The case with plain contacts, and what was found of each."""
 
     case: Case
@@ -46,7 +46,7 @@ class Found(NamedTuple):
     """the points that profiles name"""
 
 
-def found(case: Case) -> Found:
+def found(case: Case) -> FoundContacts:
     """The contacts of a case with profiles.
 
     Raises SceneError where a profile crosses itself, a follower never meets it or does so in several ways,
@@ -59,7 +59,7 @@ def found(case: Case) -> Found:
         current, one = ContactSearch(case, case.profiles, touch, current).found()
         touching.append(one)
     used = (name for shape in case.profiles.shapes.values() for name in points_of(shape))
-    return Found(current, tuple(touching), frozenset(used))
+    return FoundContacts(current, tuple(touching), frozenset(used))
 
 
 class ContactSearch:
@@ -211,7 +211,7 @@ def _moved(freedom: Freedom, by: float, p: Point) -> Point:
 Places = dict[str, Point]
 
 
-class Guided(NamedTuple):
+class FollowerGuide(NamedTuple):
     """A follower's freedom, and the link against which it has it."""
 
     freedom: Freedom
@@ -235,7 +235,7 @@ def carrier(case: Case, link: str, follower: Follower) -> str:
     return link
 
 
-def guided(case: Case, link: str) -> Guided | None:
+def guided(case: Case, link: str) -> FollowerGuide | None:
     """How a link is guided: by a slide, or by a pin whose place is known; None where neither is.
 
     The frame guides it where it can.
@@ -248,7 +248,7 @@ def guided(case: Case, link: str) -> Guided | None:
             freedom = _freedom(case, joint)
         except SceneError:
             continue
-        return Guided(freedom, against)
+        return FollowerGuide(freedom, against)
     return None
 
 

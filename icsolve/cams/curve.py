@@ -9,7 +9,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from icsolve.cams.pieces import TURN, CircularArc, Piece, Point, Polar, Spline, Straight, spline, unit
+from icsolve.cams.pieces import TURN, CircularArc, Piece, Point, PolarPiece, Spline, Straight, spline, unit
 from icsolve.case import Number
 from icsolve.case.profiles import (
     Arc,
@@ -72,7 +72,7 @@ class Curve(NamedTuple):
         """A point of a piece with its normals; an end that is a corner has two."""
         at = self.pieces[piece].at(u)
         own = self.normal(piece, u)
-        if isinstance(self.pieces[piece], Polar) or 0.0 < u < 1.0:
+        if isinstance(self.pieces[piece], PolarPiece) or 0.0 < u < 1.0:
             return Foot(at, piece, u, (own,))
         other = (piece - 1 if u <= 0.0 else piece + 1) % len(self.pieces)
         beside = self.normal(other, 1.0 if u <= 0.0 else 0.0)
@@ -133,7 +133,7 @@ def curve_of(pieces: Sequence[Piece]) -> Curve | None:
         if len(points) < 3 or not LinearRing(points).is_simple:
             return None
     if _area(points) < 0.0:
-        return curve_of([piece.reversed() for piece in reversed(joined) if not isinstance(piece, Polar)])
+        return curve_of([piece.reversed() for piece in reversed(joined) if not isinstance(piece, PolarPiece)])
     lines = linestrings([[p, points[(n + 1) % len(points)]] for n, p in enumerate(points)])
     inside = Polygon(points)
     prepare([inside, inside.exterior])
@@ -274,11 +274,11 @@ def _bearing(end: Number | str, arc: Arc, places: Places, what: str) -> float:
     return math.atan2(y, x)
 
 
-def _polar(shape: Radii, places: Places, what: str) -> Polar:
+def _polar(shape: Radii, places: Places, what: str) -> PolarPiece:
     x, y = direction(shape.zero, places, f"the zero of {what}")
     turn = 1.0 if shape.turns == "ccw" else -1.0
     radius = table_spline([(angle.value, r.value) for angle, r in shape.table])
-    curve = Polar(places[shape.about], math.atan2(y, x), turn, radius)
+    curve = PolarPiece(places[shape.about], math.atan2(y, x), turn, radius)
     if min(radius.at(curve.angle(k / 720.0))[0] for k in range(720)) <= 0.0:
         raise SceneError(
             Status.INCONSISTENT,

@@ -116,7 +116,7 @@ class CircularArc(NamedTuple):
         return max(2, math.ceil(abs(self.sweep) / TURN * 180.0))
 
 
-class Polar(NamedTuple):
+class PolarPiece(NamedTuple):
     """A closed curve: the radius about a point as a spline of the angle (rad) from the direction ``zero``.
 
     ``turn`` is 1 where the angle is ccw, -1 where it is cw; u runs ccw in both cases.
@@ -196,7 +196,7 @@ class Polar(NamedTuple):
         return max(540, 8 * len(self.radius.places))
 
 
-Piece = Straight | CircularArc | Polar
+Piece = Straight | CircularArc | PolarPiece
 
 
 def unit(x: float, y: float) -> Point:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from icsolve.cams.curve import Curve, Foot, table_spline
-from icsolve.cams.pieces import CircularArc, Point, Polar
+from icsolve.cams.pieces import CircularArc, Point, PolarPiece
 from icsolve.case import Number
 from icsolve.case.profiles import Arcs, Circle, Polygon, Radii, Shape
 from icsolve.wording.sentences import listed, plural
@@ -71,7 +71,7 @@ def piece_words(shape: Shape, curve: Curve, foot: Foot) -> str:
 def left_open(shape: Shape, curve: Curve, foot: Foot, what: str) -> str:
     """What the interpolation of a table leaves open at a place; '' for exact profiles."""
     piece = curve.pieces[foot.piece]
-    if not isinstance(shape, Radii) or not isinstance(piece, Polar):
+    if not isinstance(shape, Radii) or not isinstance(piece, PolarPiece):
         return ""
     angle = piece.angle(foot.u)
     table = [(a.value, r.value) for a, r in shape.table]
@@ -87,7 +87,7 @@ def left_open(shape: Shape, curve: Curve, foot: Foot, what: str) -> str:
     )
 
 
-def _apart(one: Polar, other: Polar, u: float) -> tuple[float, float]:
+def _apart(one: PolarPiece, other: PolarPiece, u: float) -> tuple[float, float]:
     """How far two curves are apart at a place, and the angle between them there, degrees."""
     off = math.dist(one.at(u), other.at(u))
     return off, math.degrees(abs(_angle(one.tangent(u), other.tangent(u))))

@@ -45,7 +45,7 @@ class CentreToward(NamedTuple):
 JointCentre = CentreAt | CentreSquareTo | CentreToward
 
 
-class Kind:
+class JointKind:
     """What a kind of joint answers where it says nothing else."""
 
     @property
@@ -146,7 +146,7 @@ class Kind:
         return (*self.points, *((through,) if through is not None else ()))
 
 
-class Sliding(Kind):
+class Sliding(JointKind):
     """Surfaces that slide on each other at the point ``at``, and press square to that."""
 
     at: str
@@ -174,14 +174,14 @@ class Guided(Sliding):
         return ((self.links[0], self.at), *((self.links[1], point) for point in on))
 
 
-class Rolling(Kind):
+class Rolling(JointKind):
     """Links that roll on each other without slip at the point ``at``."""
 
     at: str
     radii: tuple[Number, Number] | None
 
 
-class Mesh(Kind):
+class Mesh(JointKind):
     """Two wheels that are pinned to one carrier; their pitch point divides the line of the pivots."""
 
     carrier: str | None
@@ -248,7 +248,7 @@ class _Pin(NamedTuple):
     friction: Friction | None = None
 
 
-class Pin(_Pin, Kind):
+class Pin(_Pin, JointKind):
     """A revolute of two or more links about the point ``at``."""
 
     @property
@@ -450,7 +450,7 @@ class _KnownCentre(NamedTuple):
     toward: Number | None = None
 
 
-class KnownCentre(_KnownCentre, Kind):
+class KnownCentre(_KnownCentre, JointKind):
     """A relative centre that the case gives: at a point, or at infinity toward a direction."""
 
     @property
@@ -482,7 +482,7 @@ class _Weld(NamedTuple):
     at: str | None = None
 
 
-class Weld(_Weld, Kind):
+class Weld(_Weld, JointKind):
     """Two links that move as one; ``at`` serves only its reaction."""
 
     @property

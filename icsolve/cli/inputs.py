@@ -20,7 +20,7 @@ _LARGEST = 1 << 23
 """Bytes that are read of a stream; the reader refuses far fewer as too large for a case."""
 
 
-class Source(NamedTuple):
+class InputSource(NamedTuple):
     """One file: its name as the user gave or would write it, and the folder in which it was found."""
 
     path: str
@@ -49,7 +49,7 @@ class Source(NamedTuple):
             return True
 
 
-def sources(argument: str) -> Iterator[Source]:
+def sources(argument: str) -> Iterator[InputSource]:
     """The files that one argument means, remembered as read; of a folder its YAML files and those of the
     folders in it."""
     for source in _sources(argument):
@@ -57,13 +57,13 @@ def sources(argument: str) -> Iterator[Source]:
         yield source
 
 
-def _sources(argument: str) -> Iterator[Source]:
+def _sources(argument: str) -> Iterator[InputSource]:
     if argument == "-":
-        yield Source(STDIN)
+        yield InputSource(STDIN)
     elif os.path.isdir(argument):
-        yield from (Source(path, argument) for path in files_of(argument, YAML))
+        yield from (InputSource(path, argument) for path in files_of(argument, YAML))
     elif os.path.lexists(argument) or not set("*?[") & set(argument):
-        yield Source(argument)
+        yield InputSource(argument)
     else:
         for path in sorted(set(_matches(argument))):
             if is_plain(path) or os.path.isdir(path):

@@ -11,7 +11,7 @@ import click
 
 from icsolve.cli import BUG
 from icsolve.cli.faults import bug_report
-from icsolve.cli.inputs import Source, sources
+from icsolve.cli.inputs import InputSource, sources
 from icsolve.errors import CaseError, NotACase, SceneError
 
 if TYPE_CHECKING:
@@ -101,7 +101,7 @@ def _outcomes(
         return
     from icsolve.forked import started
 
-    def share(some: list[Source]) -> list[Outcome]:
+    def share(some: list[InputSource]) -> list[Outcome]:
         return [_outcome(source, work, settings) for source in some]
 
     with started([(share, (every[k::count],)) for k in range(1, count)]) as others:
@@ -115,7 +115,7 @@ def _processes(files: int) -> int:
     return (os.cpu_count() or 1) if files >= MANY and can_fork() else 1
 
 
-def _outcome(source: Source, work: Work[T], settings: Mapping[str, str] | None) -> Outcome:
+def _outcome(source: InputSource, work: Work[T], settings: Mapping[str, str] | None) -> Outcome:
     try:
         case = _case(source, settings)
         if case is None:
@@ -132,7 +132,7 @@ def _outcome(source: Source, work: Work[T], settings: Mapping[str, str] | None) 
         return "said", (bug_report(source.path, error), BUG)
 
 
-def _case(source: Source, settings: Mapping[str, str] | None) -> Case | None:
+def _case(source: InputSource, settings: Mapping[str, str] | None) -> Case | None:
     """The case of a file; None for a file of a folder that is none."""
     if source.folder is None:
         return source.read(settings)

@@ -10,7 +10,7 @@ import click
 
 from icsolve.cli import BUG
 from icsolve.cli.faults import bug_report
-from icsolve.cli.inputs import STDIN, Source, sources
+from icsolve.cli.inputs import STDIN, InputSource, sources
 from icsolve.cli.output import write_output
 from icsolve.cli.progress import watched
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain
@@ -25,7 +25,7 @@ INDEX = "index"
 class Item(NamedTuple):
     """A file to show, and the name of its files in the gallery."""
 
-    source: Source
+    source: InputSource
     name: str
 
 
@@ -80,7 +80,7 @@ def _title(arguments: Iterable[str]) -> str:
     return f"Gallery of {', '.join(names)}"
 
 
-def _stem(source: Source) -> str:
+def _stem(source: InputSource) -> str:
     """What the files of a case are called: its own name, below the folder that was named."""
     if source.path == STDIN:
         return "stdin"

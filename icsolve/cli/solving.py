@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from icsolve.report.mechanism import Report
 
 
-class Length(click.FloatRange):
+class LengthOption(click.FloatRange):
     """A finite number above zero: neither nan nor inf is the width of a pencil line."""
 
     def __init__(self) -> None:
@@ -63,7 +63,7 @@ class Options(NamedTuple):
 @click.option("--sensitivity", is_flag=True, help="How the answer depends on every number of the case.")
 @click.option(
     "--tolerance",
-    type=Length(),
+    type=LengthOption(),
     help="The band of the answer where each point of the drawing may be off by this, in case units.",
 )
 @SET

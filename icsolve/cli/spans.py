@@ -23,7 +23,7 @@ LONGEST = 60
 """Decimals of more places are no range of a mechanism."""
 
 
-class Span(click.ParamType):  # type: ignore[type-arg]
+class SweepSpan(click.ParamType):  # type: ignore[type-arg]
     """A path and its values."""
 
     name = "PATH=FROM:TO:STEP"

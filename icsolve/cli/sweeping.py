@@ -14,7 +14,7 @@ import click
 from icsolve.cli.options import DIGITS, SET
 from icsolve.cli.output import OUTPUT, one_source, write_output
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, for_each, on_stderr
-from icsolve.cli.spans import MOST_ROWS, Span
+from icsolve.cli.spans import MOST_ROWS, SweepSpan
 
 if TYPE_CHECKING:
     from icsolve.case import Case
@@ -27,7 +27,7 @@ WRITTEN = (".csv", ".jsonl", ".npz")
 MORE = ("error", "points", "centres", "rates", "velocities", "accelerations")
 
 
-class Asked(NamedTuple):
+class SweepOptions(NamedTuple):
     """What `icsolve sweep` was asked for."""
 
     case: str
@@ -49,8 +49,12 @@ class Asked(NamedTuple):
 
 @click.command("sweep")
 @click.argument("case", metavar="CASE")
-@click.option("--vary", type=Span(), multiple=True, help="A number and its values; several are a product.")
-@click.option("--drive", type=Span(), metavar="LINK=SPAN", multiple=True, help="A link, degrees: 2=0:360:1.")
+@click.option(
+    "--vary", type=SweepSpan(), multiple=True, help="A number and its values; several are a product."
+)
+@click.option(
+    "--drive", type=SweepSpan(), metavar="LINK=SPAN", multiple=True, help="A link, degrees: 2=0:360:1."
+)
 @OUTPUT
 @click.option("--error", is_flag=True, help="Bounds on the rounding errors of all numbers too.")
 @click.option("--points", is_flag=True, help="The places of the points too.")
@@ -78,7 +82,7 @@ def sweep_command(case: str, settings: dict[str, str], **options: Any) -> int:
     value, to the last digit. Exit status: 1 where no row has an answer.
     """
     want = ("answers", "status", *(word for word in MORE if options.pop(word)))
-    asked = Asked(case, want=want, **options)
+    asked = SweepOptions(case, want=want, **options)
     wrong = _wrong(asked)
     if wrong is not None:
         complain(f"icsolve sweep: {wrong}")
@@ -90,7 +94,7 @@ def sweep_command(case: str, settings: dict[str, str], **options: Any) -> int:
     return for_each([case], lambda read, path: _readable(work, read, path, asked), refuse, settings=settings)
 
 
-def _wrong(asked: Asked) -> str | None:
+def _wrong(asked: SweepOptions) -> str | None:
     """What is wrong with the options together."""
     ranges = (*asked.vary, *asked.drive)
     if not ranges:
@@ -119,7 +123,9 @@ def _unplottable(path: str, ranges: int) -> str | None:
     return None
 
 
-def _readable(work: Callable[[Case, str, Asked], int], read: Case, path: str, asked: Asked) -> int:
+def _readable(
+    work: Callable[[Case, str, SweepOptions], int], read: Case, path: str, asked: SweepOptions
+) -> int:
     """The work; what is asked that makes no sense for this case is said."""
     from icsolve.sweep.ask import AskError
 
@@ -131,7 +137,7 @@ def _readable(work: Callable[[Case, str, Asked], int], read: Case, path: str, as
         return UNREADABLE
 
 
-def _table(read: Case, path: str, asked: Asked) -> int:
+def _table(read: Case, path: str, asked: SweepOptions) -> int:
     """All rows, as a table or a picture."""
     from icsolve.cli.progress import Progress
     from icsolve.sweep import sweep
@@ -157,13 +163,13 @@ def _table(read: Case, path: str, asked: Asked) -> int:
     return code or (DONE if (found.status == "ok").any() else NO_ANSWER)
 
 
-def _pictured(found: Sweep, asked: Asked) -> int:
+def _pictured(found: Sweep, asked: SweepOptions) -> int:
     from icsolve.draw.plot import sweep_svg
 
     return _written(sweep_svg(found), asked.plot, asked)
 
 
-def _written(content: str | Iterable[bytes], path: str | None, asked: Asked) -> int:
+def _written(content: str | Iterable[bytes], path: str | None, asked: SweepOptions) -> int:
     """Write a table or a picture; that a file was there is said."""
     there = path is not None and os.path.isfile(path)
     code = write_output("sweep", content, path, [asked.case])
@@ -172,7 +178,7 @@ def _written(content: str | Iterable[bytes], path: str | None, asked: Asked) -> 
     return code
 
 
-def _find(read: Case, path: str, asked: Asked) -> int:
+def _find(read: Case, path: str, asked: SweepOptions) -> int:
     """Positions that are looked for."""
     from icsolve.cli.resting import WORDS, equilibrium_text
     from icsolve.cli.seeking import as_json, as_text, query_of
@@ -205,7 +211,7 @@ def _refuse_json(case: Case, path: str, error: SceneError) -> None:
     click.echo(refusal(case, error), nl=False)
 
 
-def _columns(asked: Asked) -> tuple[Mapping[str, Values], Mapping[str, Values]]:
+def _columns(asked: SweepOptions) -> tuple[Mapping[str, Values], Mapping[str, Values]]:
     """The product of all ranges, the last the fastest: what is varied, and which links are turned."""
     import numpy as np
 

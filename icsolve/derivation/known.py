@@ -14,7 +14,7 @@ from icsolve.case.figure import Unknown
 from icsolve.case.names import ordered_pair
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS, turn_of
-from icsolve.scene.parts import Parts
+from icsolve.scene.parts import AnswerBuilder
 from icsolve.screws.plane import Point, Triple
 from icsolve.solve import attempt
 from icsolve.statics.power import Wrench, known_value, place_of, points_of, wrenches
@@ -39,7 +39,7 @@ class Known(NamedTuple):
     size: float
 
     @property
-    def scene(self) -> Parts | None:
+    def scene(self) -> AnswerBuilder | None:
         """The solved scene; None where nothing is known to move."""
         return None if self.whole is None else self.whole.scene
 
@@ -149,7 +149,7 @@ def _somewhere(unknown: Unknown) -> float:
     return sum(ends) / len(ends) if ends else 1.0
 
 
-def _points(case: Case, answer: Answer | None, scene: Parts | None) -> dict[str, Point]:
+def _points(case: Case, answer: Answer | None, scene: AnswerBuilder | None) -> dict[str, Point]:
     """Every point that can be placed, in case units: those of the answer, and what the figure has beside."""
     names = list(dict.fromkeys((*case.points, *(p for ps in case.carries.values() for p in ps))))
     found = {} if answer is None else dict(answer.points)

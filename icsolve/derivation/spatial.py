@@ -9,9 +9,9 @@ from icsolve.case import Case
 from icsolve.case.space import SpatialTorque, TorqueVector
 from icsolve.derivation.known import Known
 from icsolve.errors import SceneError
-from icsolve.statics.space.figure import Figure, Vec, figure_of, in_case, times
+from icsolve.statics.space.figure import SpatialFigure, Vec, figure_of, in_case, times
 from icsolve.statics.space.power import wrenched
-from icsolve.statics.space.reaction_basis import Tie, ties_of
+from icsolve.statics.space.reaction_basis import SpatialTie, ties_of
 from icsolve.statics.space.report import unit_of
 
 
@@ -37,11 +37,11 @@ class InSpace(NamedTuple):
 
     case: Case
     places: Mapping[str, Vec]
-    ties: tuple[Tie, ...]
+    ties: tuple[SpatialTie, ...]
     loads: tuple[Push, ...]
-    figure: Figure | None
+    figure: SpatialFigure | None
 
-    def at(self, tie: Tie) -> Vec:
+    def at(self, tie: SpatialTie) -> Vec:
         """The place of a joint, case units."""
         return tie.at if self.figure is None else self.figure.frame.shown(tie.at)
 
@@ -76,7 +76,7 @@ def in_space(known: Known) -> InSpace:
     return InSpace(case, figure.places, ties, _loads(known, figure), figure)
 
 
-def _loads(known: Known, figure: Figure) -> tuple[Push, ...]:
+def _loads(known: Known, figure: SpatialFigure) -> tuple[Push, ...]:
     try:
         loads = wrenched(known.case, figure)
     except SceneError:

@@ -14,7 +14,20 @@ from icsolve.derivation import Acting, acting_loads, pulls_on
 from icsolve.draw.frame import point_parts, rims
 from icsolve.draw.links import bars, body_of, link_part, wheel_parts
 from icsolve.draw.loads import ARC, axle, heads, hidden, ways
-from icsolve.draw.marks import Box, Disc, Group, Mark, Point, Run, Stroke, Text, arrow, bounds, moved, turning
+from icsolve.draw.marks import (
+    Box,
+    Disc,
+    Mark,
+    MarkGroup,
+    Point,
+    Stroke,
+    TextMark,
+    TextRun,
+    arrow,
+    bounds,
+    moved,
+    turning,
+)
 from icsolve.draw.place import Label, Soft, joined, nearest
 from icsolve.draw.scene import Part, Scene, around, together, with_labels
 from icsolve.draw.words import force_runs, name_runs, quantity
@@ -34,11 +47,11 @@ NOTHING = 1e-9
 """A force below this, of the largest, is none."""
 
 
-class Push(NamedTuple):
+class DrawnPush(NamedTuple):
     """A force or couple on a link at a point (picture units), with the words beside it."""
 
     name: str
-    words: tuple[Run, ...]
+    words: tuple[TextRun, ...]
     kind: str
     at: Point
     force: Point
@@ -57,7 +70,7 @@ def body_panels(scene: Scene, left: float, top: float, width: float) -> list[Mar
     largest = max((math.hypot(*push.force) for some in pushes.values() for push in some), default=0.0)
     panels = [_panel(scene, link, some, largest) for link, some in pushes.items()]
     return [
-        Text((left, top + 4.0), (Run("Free bodies, forces to one scale"),), "t-note", 12.5, "start"),
+        TextMark((left, top + 4.0), (TextRun("Free bodies, forces to one scale"),), "t-note", 12.5, "start"),
         *rows_of(panels, left, top + 24.0, width),
     ]
 
@@ -92,7 +105,7 @@ def rows_of(panels: Iterable[list[Mark]], left: float, top: float, width: float)
         x, lowest = x + (c - a) + GAP, max(lowest, y + (d - b))
 
 
-def _pushes(scene: Scene, link: str) -> Iterable[Push]:
+def _pushes(scene: Scene, link: str) -> Iterable[DrawnPush]:
     """All that acts on a link."""
     answer = scene.known.answer
     assert answer is not None
@@ -107,48 +120,54 @@ def _pushes(scene: Scene, link: str) -> Iterable[Push]:
             yield _load(scene, acting, 1.0 if link == acting.link else -1.0)
 
 
-def _pulls(scene: Scene, link: str) -> Iterable[Push]:
+def _pulls(scene: Scene, link: str) -> Iterable[DrawnPush]:
     """The pulls of ropes; those of several parts along one line as one."""
     for n, pull in enumerate(pulls_on(scene.known, link), 1):
-        times = (Run(f"{pull.strands} "),) if pull.strands > 1 else ()
-        low = (Run(pull.symbol[1], True),) if pull.symbol[1] else ()
+        times = (TextRun(f"{pull.strands} "),) if pull.strands > 1 else ()
+        low = (TextRun(pull.symbol[1], True),) if pull.symbol[1] else ()
         (x, y), unit = pull.force, scene.case.units.force
-        words = (*times, Run(pull.symbol[0]), *low, Run(f" = {quantity(math.hypot(x, y), unit)}"))
-        yield Push(f"body-rope-{n}-on-{link}", words, "reaction", scene.view.at(pull.at), (x, -y), 0.0, True)
+        words = (*times, TextRun(pull.symbol[0]), *low, TextRun(f" = {quantity(math.hypot(x, y), unit)}"))
+        yield DrawnPush(
+            f"body-rope-{n}-on-{link}", words, "reaction", scene.view.at(pull.at), (x, -y), 0.0, True
+        )
 
 
-def _reaction(scene: Scene, name: str, reaction: Reaction) -> Push:
+def _reaction(scene: Scene, name: str, reaction: Reaction) -> DrawnPush:
     at = scene.view.at(reaction.at)
     runs = force_runs(name, reaction.by, reaction.on, reaction.where)
     words = f"reaction-{name}-on-{reaction.on}"
     if reaction.x is None or reaction.y is None:
         axis, part = ("y", reaction.y) if reaction.x is None else ("x", reaction.x)
         if part is None:
-            return Push(words, (*runs, Run(" = ?")), "reaction", at, (0.0, 0.0), 0.0)
+            return DrawnPush(words, (*runs, TextRun(" = ?")), "reaction", at, (0.0, 0.0), 0.0)
         low = runs[1]._replace(text=runs[1].text + axis)
-        known = Run(f" = {quantity(abs(part), scene.case.units.force)}")
+        known = TextRun(f" = {quantity(abs(part), scene.case.units.force)}")
         force = (0.0, -part) if axis == "y" else (part, 0.0)
-        return Push(words, (runs[0], low, known), "reaction", at, force, 0.0)
+        return DrawnPush(words, (runs[0], low, known), "reaction", at, force, 0.0)
     size = math.hypot(reaction.x, reaction.y)
-    text: tuple[Run, ...] = (*runs, Run(f" = {quantity(size, scene.case.units.force)}"))
+    text: tuple[TextRun, ...] = (*runs, TextRun(f" = {quantity(size, scene.case.units.force)}"))
     if reaction.moment and abs(reaction.moment) > NOTHING * size * scene.known.size:
-        couple = (Run(", M"), runs[1], Run(f" = {quantity(abs(reaction.moment), scene.case.units.torque)}"))
+        couple = (
+            TextRun(", M"),
+            runs[1],
+            TextRun(f" = {quantity(abs(reaction.moment), scene.case.units.torque)}"),
+        )
         text = (*text, *couple)
-    return Push(words, text, "reaction", at, (reaction.x, -reaction.y), reaction.moment or 0.0)
+    return DrawnPush(words, text, "reaction", at, (reaction.x, -reaction.y), reaction.moment or 0.0)
 
 
-def _load(scene: Scene, acting: Acting, sign: float) -> Push:
+def _load(scene: Scene, acting: Acting, sign: float) -> DrawnPush:
     kind = "unknown" if acting.unknown else "known"
     name = f"body-load-{acting.load.name}-on-{acting.link if sign > 0 else acting.against}"
     x, y = acting.force
     value = abs(acting.value or 0.0) if acting.at is None else math.hypot(x, y)
     unit = scene.case.units.torque if acting.at is None else scene.case.units.force
-    words = (*name_runs(acting.load.name), Run(f" = {quantity(value, unit)}"))
+    words = (*name_runs(acting.load.name), TextRun(f" = {quantity(value, unit)}"))
     place = acting.at if acting.at is None or sign > 0.0 else _other_end(scene, acting)
     if place is None:
         link = acting.link if sign > 0 else acting.against
-        return Push(name, words, kind, axle(scene, link) or (0.0, 0.0), (0.0, 0.0), sign * acting.couple)
-    return Push(name, words, kind, scene.view.at(place), (sign * x, -sign * y), 0.0)
+        return DrawnPush(name, words, kind, axle(scene, link) or (0.0, 0.0), (0.0, 0.0), sign * acting.couple)
+    return DrawnPush(name, words, kind, scene.view.at(place), (sign * x, -sign * y), 0.0)
 
 
 def _other_end(scene: Scene, acting: Acting) -> Point | None:
@@ -158,7 +177,7 @@ def _other_end(scene: Scene, acting: Acting) -> Point | None:
     return scene.known.points.get(name, acting.at) if name else acting.at
 
 
-def _panel(scene: Scene, link: str, pushes: Sequence[Push], largest: float) -> list[Mark]:
+def _panel(scene: Scene, link: str, pushes: Sequence[DrawnPush], largest: float) -> list[Mark]:
     body = body_of(scene, link)
     solid = bars(body)
     alone = scene._replace(
@@ -177,13 +196,13 @@ def _panel(scene: Scene, link: str, pushes: Sequence[Push], largest: float) -> l
     left, top, right, bottom = bounds(together(parts).marks)
     window: Box = (left - ROUND, top - ROUND, right + ROUND, bottom + ROUND)
     marks = [_renamed(link, mark) for mark in with_labels(together(parts), window)]
-    return [Group(f"body-{link}", "", tuple(marks), f"link {link} by itself")]
+    return [MarkGroup(f"body-{link}", "", tuple(marks), f"link {link} by itself")]
 
 
 def _renamed(link: str, mark: Mark) -> Mark:
     """Ids stand once: those that the figure has too get a prefix."""
     own = ("reaction-", "body-", "label-reaction", "label-body")
-    if isinstance(mark, Group) and mark.name and not mark.name.startswith(own):
+    if isinstance(mark, MarkGroup) and mark.name and not mark.name.startswith(own):
         return mark._replace(name=f"free-{link}-{mark.name}")
     return mark
 
@@ -193,7 +212,7 @@ def _point(p: Point) -> Part:
 
 
 def _drawn(
-    scene: Scene, push: Push, largest: float, solid: shapely.Geometry, n: int, taken: shapely.Geometry
+    scene: Scene, push: DrawnPush, largest: float, solid: shapely.Geometry, n: int, taken: shapely.Geometry
 ) -> Iterable[Part]:
     """A force or couple with its words; of two places for its arrow the one that hides less of ``taken``."""
     size = math.hypot(*push.force)
@@ -220,4 +239,4 @@ def _drawn(
     soft += heads(marks)
     label = Label(f"label-{push.name}", push.words, f"t-{push.kind}", 12.5, tuple(anchors), 6.0)
     title = "".join(run.text for run in push.words)
-    yield Part((Group(push.name, "", tuple(marks), title),) if marks else (), tuple(soft), (), (label,))
+    yield Part((MarkGroup(push.name, "", tuple(marks), title),) if marks else (), tuple(soft), (), (label,))

@@ -17,15 +17,15 @@ from icsolve.case.names import link_order, pair_name
 from icsolve.derivation import Known, Step
 from icsolve.draw.links import guide_in_picture
 from icsolve.draw.marks import (
-    Area,
+    AreaMark,
     Box,
     Disc,
-    Group,
     Mark,
+    MarkGroup,
     Point,
-    Run,
     Stroke,
-    Text,
+    TextMark,
+    TextRun,
     along,
     arrow,
     direction,
@@ -40,7 +40,7 @@ BEYOND = 16.0
 """How far a line of centres goes on beyond the last of them."""
 
 
-class Spot(NamedTuple):
+class CentreSpot(NamedTuple):
     """Where a centre is: in the picture (``far`` where that is outside the window), or only a direction
     (``toward``, a unit vector)."""
 
@@ -50,12 +50,12 @@ class Spot(NamedTuple):
     far: bool
 
 
-def spot_of(scene: Scene, centre: Centre) -> Spot:
+def spot_of(scene: Scene, centre: Centre) -> CentreSpot:
     """A centre in the picture."""
     if centre.kind == "toward":
-        return Spot(centre, None, direction(centre.place[0]), True)
+        return CentreSpot(centre, None, direction(centre.place[0]), True)
     at = scene.view.at((centre.place[0], centre.place[1]))
-    return Spot(centre, at, None, not scene.view.holds(at))
+    return CentreSpot(centre, at, None, not scene.view.holds(at))
 
 
 def centre_parts(scene: Scene, steps: Sequence[Step]) -> list[Part]:
@@ -69,7 +69,7 @@ def _name(known: Known, pair: Pair) -> str:
     return pair_name(known.case, pair)
 
 
-def _lines(scene: Scene, spots: dict[Pair, Spot], step: Step) -> Iterable[Part]:
+def _lines(scene: Scene, spots: dict[Pair, CentreSpot], step: Step) -> Iterable[Part]:
     """The lines on which a centre was found."""
     target = spots[step.centre.pair]
     for number, ends in enumerate(step.centre.lines, 1):
@@ -84,10 +84,10 @@ def _lines(scene: Scene, spots: dict[Pair, Spot], step: Step) -> Iterable[Part]:
         name = f"line-{_name(scene.known, step.centre.pair)}-{number}"
         soft = tuple(Soft(shapely.LineString(piece), 0.7) for piece in pieces)
         data = (("data-step", str(step.number)),)
-        yield Part((Group(name, "", marks, title, data),), soft)
+        yield Part((MarkGroup(name, "", marks, title, data),), soft)
 
 
-def _chain(places: Sequence[Spot], scene: Scene) -> tuple[Point, ...]:
+def _chain(places: Sequence[CentreSpot], scene: Scene) -> tuple[Point, ...]:
     """The line from the first to the last of the places on it, a little longer; to the edge if one is far."""
     finite = [spot.at for spot in places if spot.at is not None]
     infinite = [spot.toward for spot in places if spot.toward is not None]
@@ -108,7 +108,7 @@ def _chain(places: Sequence[Spot], scene: Scene) -> tuple[Point, ...]:
     return (along(finite[0], u, max(first, -limit)), along(finite[0], u, min(last, limit)))
 
 
-def _normal(scene: Scene, pair: Pair, target: Spot) -> tuple[Point, ...]:
+def _normal(scene: Scene, pair: Pair, target: CentreSpot) -> tuple[Point, ...]:
     """The common normal of a slot or contact, from its point to the centre (or to the edge)."""
     for joint in scene.joints():
         if isinstance(joint, Sliding) and joint.freedom > 1 and set(joint.links) == set(pair):
@@ -126,9 +126,9 @@ def _normal(scene: Scene, pair: Pair, target: Spot) -> tuple[Point, ...]:
     return ()
 
 
-def _near(scene: Scene, spots: Iterable[Spot]) -> Iterable[Part]:
+def _near(scene: Scene, spots: Iterable[CentreSpot]) -> Iterable[Part]:
     """Centres in the window; those in one place share a mark and a label."""
-    places: dict[tuple[int, int], list[Spot]] = {}
+    places: dict[tuple[int, int], list[CentreSpot]] = {}
     for spot in spots:
         if not spot.far and spot.at is not None:
             places.setdefault((round(spot.at[0]), round(spot.at[1])), []).append(spot)
@@ -140,31 +140,35 @@ def _near(scene: Scene, spots: Iterable[Spot]) -> Iterable[Part]:
         marks: Mark = disc
         for spot in together:
             name = _name(scene.known, spot.centre.pair)
-            marks = Group(f"centre-{name}", "", (marks,), f"I{name}")
+            marks = MarkGroup(f"centre-{name}", "", (marks,), f"I{name}")
         label = _label(scene, together, _names(together), (at,), 8.0)
         yield Part((marks,), (), (around(at, disc.radius + 1.0),), (label,))
 
 
 def _label(
-    scene: Scene, together: Sequence[Spot], runs: tuple[Run, ...], anchors: tuple[Point, ...], gap: float
+    scene: Scene,
+    together: Sequence[CentreSpot],
+    runs: tuple[TextRun, ...],
+    anchors: tuple[Point, ...],
+    gap: float,
 ) -> Label:
     """The label of centres in one place, under the id of the first."""
     return Label(f"name-{_name(scene.known, together[0].centre.pair)}", runs, "t-centre", 13.0, anchors, gap)
 
 
-def _names(together: Sequence[Spot]) -> tuple[Run, ...]:
-    runs: list[Run] = []
+def _names(together: Sequence[CentreSpot]) -> tuple[TextRun, ...]:
+    runs: list[TextRun] = []
     for spot in together:
-        runs += [Run(", ")] if runs else []
+        runs += [TextRun(", ")] if runs else []
         runs += centre_runs(*spot.centre.pair)
     return tuple(runs)
 
 
-def _far(scene: Scene, spots: Iterable[Spot]) -> Iterable[Part]:
+def _far(scene: Scene, spots: Iterable[CentreSpot]) -> Iterable[Part]:
     """Arrows at the edge; those at infinity in one direction share one."""
     left, top, right, bottom = scene.view.window
     middle = ((left + right) / 2.0, (top + bottom) / 2.0)
-    ways: dict[tuple[float, bool], list[Spot]] = {}
+    ways: dict[tuple[float, bool], list[CentreSpot]] = {}
     for spot in spots:
         if spot.far:
             key = (round(spot.centre.place[0], 6), True) if spot.at is None else (float(len(ways)), False)
@@ -185,8 +189,8 @@ def _far(scene: Scene, spots: Iterable[Spot]) -> Iterable[Part]:
         group: Mark | None = None
         for spot in together:
             name = _name(scene.known, spot.centre.pair)
-            group = Group(f"centre-{name}", "", marks if group is None else (group,), f"I{name}, {text}")
-        runs = (*_names(together), Run(f" {text}" if first.at is None else f", {text}"))
+            group = MarkGroup(f"centre-{name}", "", marks if group is None else (group,), f"I{name}, {text}")
+        runs = (*_names(together), TextRun(f" {text}" if first.at is None else f", {text}"))
         label = _label(scene, together, runs, (along(tip, u, -15.0), tail, tip), 6.0)
         soft = (Soft(shapely.LineString([tail, tip]).buffer(5.0, quad_segs=1), 4.0),)
         yield Part((group,) if group else (), soft, (), (label,))
@@ -231,11 +235,11 @@ def circle_marks(
         solid=tuple(around(p, node) for p in places.values()),
         labels=tuple(_order(places, step) for step in steps if step.number),
     )
-    title = Text((centre[0], at[1] + 6.0), (Run("Kennedy circle"),), "t-note", 12.0)
+    title = TextMark((centre[0], at[1] + 6.0), (TextRun("Kennedy circle"),), "t-note", 12.0)
     window: Box = (at[0], at[1], at[0] + 2.0 * (radius + node), at[1] + 2.0 * (radius + node) + 22.0)
     nodes = [mark for link, p in places.items() for mark in _node(link, p, node)]
     marks = [title, *triangles, *with_labels(chords, window), *nodes, *with_labels(numbers, window)]
-    return [Group("circle", "", tuple(marks), "Kennedy circle diagram")]
+    return [MarkGroup("circle", "", tuple(marks), "Kennedy circle diagram")]
 
 
 def _inspected(known: Known, steps: Sequence[Step]) -> list[Step]:
@@ -263,7 +267,7 @@ def _chord(known: Known, places: dict[str, Point], step: Step) -> list[Mark]:
     name = pair_name(known.case, step.centre.pair)
     found = f", found as number {step.number}" if step.number else ", by inspection"
     data = (("data-step", str(step.number)),)
-    return [Group(f"chord-{name}", "", (Stroke((places[a], places[b]), kind),), f"I{name}{found}", data)]
+    return [MarkGroup(f"chord-{name}", "", (Stroke((places[a], places[b]), kind),), f"I{name}{found}", data)]
 
 
 def _triangles(places: dict[str, Point], step: Step) -> list[Mark]:
@@ -272,20 +276,22 @@ def _triangles(places: dict[str, Point], step: Step) -> list[Mark]:
     for line in step.centre.lines:
         corners = sorted({link for pair in (*line, step.centre.pair) for link in pair})
         if len(corners) == 3:
-            marks.append(Area((tuple(places[link] for link in corners),), "lit"))
+            marks.append(AreaMark((tuple(places[link] for link in corners),), "lit"))
     return marks
 
 
-def _of_step(name: str, step: Step, marks: Sequence[Mark]) -> Group:
-    return Group(name, "", tuple(marks), "", (("data-step", str(step.number)),))
+def _of_step(name: str, step: Step, marks: Sequence[Mark]) -> MarkGroup:
+    return MarkGroup(name, "", tuple(marks), "", (("data-step", str(step.number)),))
 
 
 def _order(places: dict[str, Point], step: Step) -> Label:
     """The number of a found chord, near its middle."""
     a, b = (places[link] for link in step.centre.pair)
     anchors = tuple((a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1])) for t in ALONG)
-    return Label(f"order-{step.number}", (Run(str(step.number)),), "t-centre", SIZE, anchors, 1.0, True, True)
+    return Label(
+        f"order-{step.number}", (TextRun(str(step.number)),), "t-centre", SIZE, anchors, 1.0, True, True
+    )
 
 
 def _node(link: str, p: Point, reach: float) -> list[Mark]:
-    return [Disc(p, reach, "node"), Text(p, (Run(link),), "t-link", SIZE)]
+    return [Disc(p, reach, "node"), TextMark(p, (TextRun(link),), "t-link", SIZE)]

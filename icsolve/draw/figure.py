@@ -14,7 +14,7 @@ from icsolve.case import Case, Pin
 from icsolve.derivation import Known, Step, all_steps, known_of, needed_steps
 from icsolve.draw.centres import centre_parts, circle_marks
 from icsolve.draw.frame import frame_parts, joint_parts, point_parts, rims, threads
-from icsolve.draw.links import Body, bars, body_of, inside_plate, link_part, outline, wheel_parts
+from icsolve.draw.links import DrawnBody, bars, body_of, inside_plate, link_part, outline, wheel_parts
 from icsolve.draw.loads import legend, load_parts, velocity_parts
 from icsolve.draw.marks import HEIGHT, WIDTH, Box, Mark, bounds, view_of
 from icsolve.draw.place import joined
@@ -108,7 +108,7 @@ def _supports(scene: Scene, links: shapely.Geometry) -> list[Part]:
     return support_parts(scene, links)
 
 
-def _hides_its_foot(scene: Scene, body: Body) -> bool:
+def _hides_its_foot(scene: Scene, body: DrawnBody) -> bool:
     """Whether a link is so large around its pin on the frame that the foot is drawn above it."""
     plate, both = inside_plate(body), {body.link, scene.case.ground}
     pins = [scene.at[j.at] for j in scene.joints() if isinstance(j, Pin) and both <= set(j.links)]
@@ -120,7 +120,7 @@ def _filled(links: shapely.Geometry, parts: Iterable[Part]) -> shapely.Geometry:
     return joined([links, *(soft.geometry for part in parts for soft in part.soft)])
 
 
-def _depth(body: Body) -> tuple[int, float]:
+def _depth(body: DrawnBody) -> tuple[int, float]:
     """Rods under blocks, large plates under small ones."""
     return (len(body.blocks), -float(shapely.area(outline(body))))
 

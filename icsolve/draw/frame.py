@@ -11,7 +11,7 @@ import shapely
 from icsolve.case import Belt, Contact, Gears, Joint, KnownCentre, Pin, Roll, Slide, Slot, Weld
 from icsolve.case.joints import Guided
 from icsolve.draw.links import ROD, block_place, guide_in_picture
-from icsolve.draw.marks import Disc, Group, Mark, Point, Run, Stroke, along, unit
+from icsolve.draw.marks import Disc, Mark, MarkGroup, Point, Stroke, TextRun, along, unit
 from icsolve.draw.place import Label, Soft, area, bar, hatched, joined
 from icsolve.draw.scene import (
     BLOCK,
@@ -53,12 +53,12 @@ def frame_parts(scene: Scene, links: shapely.Geometry, *, following: bool = Fals
     anchors = tuple(a for part in parts for a in part.labels[0].anchors)[:6]
     bare = [part._replace(labels=()) for part in parts]
     for n, data in enumerate(held if following else ()):
-        bare[n] = bare[n]._replace(marks=(Group("", "", bare[n].marks, "", (data,)),))
+        bare[n] = bare[n]._replace(marks=(MarkGroup("", "", bare[n].marks, "", (data,)),))
     if anchors:
-        runs = (Run(ground),)
+        runs = (TextRun(ground),)
         bare.append(Part(labels=(Label(f"number-{ground}", runs, "t-link", 12.0, anchors, 5.0, badge=True),)))
     marks = tuple(mark for part in bare for mark in part.marks)
-    group = Group(f"link-{ground}", "", marks, f"frame {ground}")
+    group = MarkGroup(f"link-{ground}", "", marks, f"frame {ground}")
     return [*(part._replace(marks=()) for part in bare), Part((group,) if marks else ())]
 
 
@@ -181,7 +181,7 @@ def threads(scene: Scene) -> list[Part]:
                 middle = along(start, way, (n + 0.5) * PITCH)
                 lean = tuple(along(along(middle, v, s * ROD), u, s * PITCH / 2.0) for s in (-1.0, 1.0))
                 marks.append(Stroke(lean, "hatch"))
-        parts.append(Part((Group(f"screw-{'-'.join(joint.links)}", "", tuple(marks), "screw"),)))
+        parts.append(Part((MarkGroup(f"screw-{'-'.join(joint.links)}", "", tuple(marks), "screw"),)))
     return parts
 
 
@@ -235,8 +235,10 @@ def rims(scene: Scene, link: str = "") -> list[Part]:
             marks = (Disc(centre, radius, "rim"), Disc(centre, radius + 7.0, "frame"))
             ring = shapely.Point(centre).buffer(radius + 3.0).boundary
             spots = tuple(_polar(centre, radius + 7.0, a) for a in (-0.8, -2.3, 0.8, 2.3))
-            label = Label(f"number-{wheel.link}", (Run(wheel.link),), "t-link", 12.0, spots, 4.0, badge=True)
-            group = Group(f"rim-{wheel.link}", "", marks, f"link {wheel.link}")
+            label = Label(
+                f"number-{wheel.link}", (TextRun(wheel.link),), "t-link", 12.0, spots, 4.0, badge=True
+            )
+            group = MarkGroup(f"rim-{wheel.link}", "", marks, f"link {wheel.link}")
             parts.append(Part((group,), (Soft(ring, 2.0),), (), (label,)))
     return parts
 
@@ -249,7 +251,7 @@ def joint_parts(scene: Scene) -> list[Part]:
         if marks:
             at = scene.at[joint.at or ""]
             reach = PIN + 1.0 if isinstance(joint, Pin | Guided) else 4.0
-            parts.append(Part((Group(joint_name(joint), "", tuple(marks)),), (), (around(at, reach),)))
+            parts.append(Part((MarkGroup(joint_name(joint), "", tuple(marks)),), (), (around(at, reach),)))
     return parts
 
 

@@ -10,7 +10,7 @@ import shapely
 
 from icsolve.case import Pin
 from icsolve.case.joints import Guided
-from icsolve.draw.marks import Disc, Group, Mark, Point, Run, along, unit
+from icsolve.draw.marks import Disc, Mark, MarkGroup, Point, TextRun, along, unit
 from icsolve.draw.place import Label, Soft, area, bar, joined, nearest, plate, tilted
 from icsolve.draw.scene import BLOCK, HALF, PIN, RAIL, SLOT, Part, Scene, normal_of, outlines
 from icsolve.numbers.arithmetic import FLOATS
@@ -28,7 +28,7 @@ OUTLINE = 0.4
 """What it costs a label to cover a unit of a link's outline."""
 
 
-class Body(NamedTuple):
+class DrawnBody(NamedTuple):
     """A link's own outline (None where it has none but wheels), its blocks above it, holes in it, and where
     its number may stand."""
 
@@ -41,13 +41,13 @@ class Body(NamedTuple):
     dashed: bool = False
 
 
-def body_of(scene: Scene, link: str) -> Body:
+def body_of(scene: Scene, link: str) -> DrawnBody:
     """The outline of a link that moves (or of a black box, dashed)."""
     points = _own_points(scene, link)
     wedge = _wedge(scene, link)
     if wedge is not None:
         inside = wedge.representative_point()
-        return Body(link, wedge, (), (), (), ((inside.x, inside.y),))
+        return DrawnBody(link, wedge, (), (), (), ((inside.x, inside.y),))
     blocks = tuple(_blocks(scene, link))
     levers = list(_slots(scene, link))
     rods = list(_rods(scene, link))
@@ -66,7 +66,7 @@ def body_of(scene: Scene, link: str) -> Body:
         parts = [plate(points, 4.0)] if len(points) != 2 else [bar(points, 0.01)]
     shape = joined(parts) if parts else None
     holes = tuple(bar(_inside(ends), PIN + 0.8) for ends in levers)
-    return Body(link, shape, wheels, blocks, holes, _anchors(points, rods, wheels, shape), dashed)
+    return DrawnBody(link, shape, wheels, blocks, holes, _anchors(points, rods, wheels, shape), dashed)
 
 
 def _only_slides(scene: Scene, link: str) -> bool:
@@ -303,13 +303,13 @@ def _between(p: Point, q: Point, share: float) -> Point:
     return (p[0] + share * (q[0] - p[0]), p[1] + share * (q[1] - p[1]))
 
 
-def wheel_parts(bodies: Iterable[Body]) -> list[Part]:
+def wheel_parts(bodies: Iterable[DrawnBody]) -> list[Part]:
     """The wheels of all links, large ones under small ones, all under bars and feet."""
     discs = [(disc, body.link) for body in bodies for disc in body.wheels]
     discs.sort(key=lambda found: -found[0].radius)
     return [
         Part(
-            (Group(f"wheel-{link}" if n == 0 else "", "", (disc,), f"link {link}"),),
+            (MarkGroup(f"wheel-{link}" if n == 0 else "", "", (disc,), f"link {link}"),),
             (Soft(shapely.Point(disc.centre).buffer(disc.radius).boundary, 1.5),),
         )
         for n, disc, link in _counted(discs)
@@ -324,7 +324,7 @@ def _counted(discs: list[tuple[Disc, str]]) -> Iterable[tuple[int, Disc, str]]:
         seen[link] = seen.get(link, 0) + 1
 
 
-def link_part(scene: Scene, body: Body) -> Part:
+def link_part(scene: Scene, body: DrawnBody) -> Part:
     """A link's bars, plates and blocks, and its number."""
     marks: list[Mark] = []
     if body.shape is not None:
@@ -335,28 +335,30 @@ def link_part(scene: Scene, body: Body) -> Part:
     inside = inside_plate(body)
     soft = [Soft(shape.difference(inside), 0.3 if body.dashed else COVER) for shape in solids]
     soft += [Soft(shape.boundary, OUTLINE) for shape in solids] + [Soft(inside, PLATE)]
-    group = Group(f"link-{body.link}", "", tuple(marks), f"link {body.link}")
+    group = MarkGroup(f"link-{body.link}", "", tuple(marks), f"link {body.link}")
     rim = any(wheel.rim and wheel.link == body.link for wheel in scene.round.wheels)
     middle = shapely.centroid(inside)
     on = not inside.is_empty and bool(shapely.contains(inside, middle))
     anchors = ((middle.x, middle.y),) if on else body.anchors
-    number = Label(f"number-{body.link}", (Run(body.link),), "t-link", 12.0, anchors, 10.0, badge=True, on=on)
+    number = Label(
+        f"number-{body.link}", (TextRun(body.link),), "t-link", 12.0, anchors, 10.0, badge=True, on=on
+    )
     return Part((group,) if marks else (), tuple(soft), (), (number,) if body.anchors and not rim else ())
 
 
-def inside_plate(body: Body) -> shapely.Geometry:
+def inside_plate(body: DrawnBody) -> shapely.Geometry:
     """The part of a plate where a number has room."""
     if body.shape is None or body.dashed or body.wheels:
         return shapely.Polygon()
     return shapely.buffer(body.shape, -RIM, quad_segs=1)
 
 
-def bars(body: Body) -> shapely.Geometry:
+def bars(body: DrawnBody) -> shapely.Geometry:
     """What a link fills beside its wheels."""
     shapes = [shape for shape in (body.shape, *body.blocks) if shape is not None]
     return joined(shapes) if shapes else shapely.Polygon()
 
 
-def outline(body: Body) -> shapely.Geometry:
+def outline(body: DrawnBody) -> shapely.Geometry:
     """All that a link fills."""
     return joined([bars(body), *(shapely.Point(w.centre).buffer(w.radius) for w in body.wheels)])

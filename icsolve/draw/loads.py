@@ -13,13 +13,13 @@ from icsolve.case import Load, Number, Pin, Screw, Spring, Stretch, TorsionSprin
 from icsolve.derivation import Acting, acting_loads
 from icsolve.draw.links import guide_in_picture
 from icsolve.draw.marks import (
-    Area,
-    Group,
+    AreaMark,
     Mark,
+    MarkGroup,
     Point,
-    Run,
     Stroke,
-    Text,
+    TextMark,
+    TextRun,
     along,
     arrow,
     leaves,
@@ -67,22 +67,22 @@ def kind_of(acting: Acting) -> str:
     return "unknown" if acting.unknown else "known"
 
 
-def load_words(acting: Acting) -> tuple[Run, ...]:
+def load_words(acting: Acting) -> tuple[TextRun, ...]:
     """``T_12 = 33.76 lbf·in cw``."""
     name = name_runs(acting.load.name)
     if acting.holds is not None:
         limits = (figure_number(end) if math.isfinite(end) else "∞" for end in acting.holds)
-        return (*name, Run(f": {' to '.join(limits)} {unit_word(acting.unit)}"))
+        return (*name, TextRun(f": {' to '.join(limits)} {unit_word(acting.unit)}"))
     if acting.value is None:
-        return (*name, Run(" = ?"))
+        return (*name, TextRun(" = ?"))
     text = f" = {quantity(abs(acting.value), acting.unit)}"
     if ends := _intensities(acting.load):
         text = f" = {figure_number(min(ends))} to {quantity(max(ends), acting.unit)}"
     if acting.at is None and acting.value:
         text += f" {sense_as(acting.load, acting.value, acting.gain, 0.0)}"
     if isinstance(acting.load, Spring | TorsionSpring):
-        return (*name, Run(f": k = {quantity(abs(acting.value), acting.unit)}"))
-    return (*name, Run(text))
+        return (*name, TextRun(f": k = {quantity(abs(acting.value), acting.unit)}"))
+    return (*name, TextRun(text))
 
 
 def _heading(acting: Acting) -> Point:
@@ -112,7 +112,7 @@ def _force(scene: Scene, acting: Acting, links: shapely.Geometry) -> Part | None
         sheaf = [mark for line, size in spread for mark in arrow(*line, kind, size)]
         tails = tuple(line[0] for line, _ in spread)
         rail = (Stroke(tails, kind),) if isinstance(getattr(acting.load, "over", None), Stretch) else ()
-        marks = (Group("", "", (*(sheaf or marks), *hung)), Group("", "", rail))
+        marks = (MarkGroup("", "", (*(sheaf or marks), *hung)), MarkGroup("", "", rail))
     if acting.against != scene.case.ground:
         partner = _partner(scene, acting.load)
         lines.append((along(partner, u, -8.0), along(partner, u, -8.0 - ARROW)))
@@ -283,12 +283,16 @@ def _with_label(
 ) -> Part:
     runs, name = load_words(acting), acting.load.name
     label = Label(f"label-{name}", runs, f"t-{kind_of(acting)}", 14.0, anchors, gap)
-    return Part((Group(f"load-{name}", "", marks, plain_text(runs)),), (*soft, *heads(marks)), (), (label,))
+    return Part(
+        (MarkGroup(f"load-{name}", "", marks, plain_text(runs)),), (*soft, *heads(marks)), (), (label,)
+    )
 
 
 def heads(marks: Iterable[Mark]) -> list[Soft]:
     """The heads of arrows, which no label should cover."""
-    return [Soft(shapely.Polygon(m.rings[0]).buffer(2.0), 6.0) for m in leaves(marks) if isinstance(m, Area)]
+    return [
+        Soft(shapely.Polygon(m.rings[0]).buffer(2.0), 6.0) for m in leaves(marks) if isinstance(m, AreaMark)
+    ]
 
 
 # --- velocities of the points, on a scale of their own ---------------------------------------------------
@@ -339,12 +343,12 @@ def _arrow(scene: Scene, point: str, link: str, u: Point, length: float, several
     name = f"velocity-{point}-{link}"
     marks = arrow(tail, tip, "velocity", 10.0)
     low = f"{point}{link}" if several and len(link) == 1 else f"{point} on {link}" if several else point
-    label = Label(f"label-{name}", (Run("v"), Run(low, True)), "t-velocity", 13.0, (tip,), 6.0)
+    label = Label(f"label-{name}", (TextRun("v"), TextRun(low, True)), "t-velocity", 13.0, (tip,), 6.0)
     soft = (Soft(shapely.LineString([tail, tip]).buffer(3.0, quad_segs=1), 4.0),)
-    return Part((Group(name, "", marks, f"velocity of {point} on link {link}"),), soft, (), (label,))
+    return Part((MarkGroup(name, "", marks, f"velocity of {point} on link {link}"),), soft, (), (label,))
 
 
-def legend(scene: Scene, at: Point) -> Group | None:
+def legend(scene: Scene, at: Point) -> MarkGroup | None:
     """A bar as long as a round speed, and what the speeds are relative to."""
     found = _velocities(scene)
     fastest = max((math.hypot(*v) for v in found.values()), default=0.0)
@@ -354,8 +358,8 @@ def legend(scene: Scene, at: Point) -> Group | None:
     end = along(at, (1.0, 0.0), LONGEST * speed / fastest)
     unit_name = f"{scene.case.units.length}/s"
     text = f"{quantity(speed, unit_name)} ({_reference(scene)})"
-    words = Text((end[0] + 10.0, end[1]), (Run(text),), "t-velocity", 12.0, "start")
-    return Group("velocity-scale", "", (*arrow(at, end, "velocity", 8.0), words), text)
+    words = TextMark((end[0] + 10.0, end[1]), (TextRun(text),), "t-velocity", 12.0, "start")
+    return MarkGroup("velocity-scale", "", (*arrow(at, end, "velocity", 8.0), words), text)
 
 
 def _round(value: float) -> float:

@@ -14,7 +14,7 @@ Box = tuple[float, float, float, float]
 """Left, top, right, bottom."""
 
 
-class Area(NamedTuple):
+class AreaMark(NamedTuple):
     """A filled region: an outer ring and its holes."""
 
     rings: tuple[tuple[Point, ...], ...]
@@ -36,7 +36,7 @@ class Disc(NamedTuple):
     kind: str
 
 
-class Arc(NamedTuple):
+class ArcMark(NamedTuple):
     """Part of a circle, from one direction (degrees, counterclockwise as seen) through ``sweep``."""
 
     centre: Point
@@ -54,24 +54,24 @@ class Arc(NamedTuple):
         )
 
 
-class Run(NamedTuple):
+class TextRun(NamedTuple):
     """A piece of a text; ``low`` sets it as a subscript."""
 
     text: str
     low: bool = False
 
 
-class Text(NamedTuple):
+class TextMark(NamedTuple):
     """A text on one line, centred at ``at``; ``size`` is its font size, ``anchor`` start, middle or end."""
 
     at: Point
-    runs: tuple[Run, ...]
+    runs: tuple[TextRun, ...]
     kind: str
     size: float
     anchor: str = "middle"
 
 
-class Group(NamedTuple):
+class MarkGroup(NamedTuple):
     """Marks that belong together, under an id and with a title that a reader can call up.
 
     ``data`` are further attributes.
@@ -84,43 +84,43 @@ class Group(NamedTuple):
     data: tuple[tuple[str, str], ...] = ()
 
 
-Mark = Area | Stroke | Disc | Arc | Text | Group
+Mark = AreaMark | Stroke | Disc | ArcMark | TextMark | MarkGroup
 
 
 def moved(mark: Mark, dx: float, dy: float) -> Mark:
     """A mark in another place."""
     match mark:
-        case Area():
+        case AreaMark():
             rings = tuple(tuple((x + dx, y + dy) for x, y in ring) for ring in mark.rings)
             return mark._replace(rings=rings)
         case Stroke():
             return mark._replace(points=tuple((x + dx, y + dy) for x, y in mark.points))
-        case Disc() | Arc():
+        case Disc() | ArcMark():
             return mark._replace(centre=(mark.centre[0] + dx, mark.centre[1] + dy))
-        case Text():
+        case TextMark():
             return mark._replace(at=(mark.at[0] + dx, mark.at[1] + dy))
-        case Group():
+        case MarkGroup():
             return mark._replace(marks=tuple(moved(m, dx, dy) for m in mark.marks))
 
 
-def leaves(marks: Iterable[Mark]) -> Iterator[Area | Stroke | Disc | Arc | Text]:
+def leaves(marks: Iterable[Mark]) -> Iterator[AreaMark | Stroke | Disc | ArcMark | TextMark]:
     """The marks in all groups, in order."""
     for mark in marks:
-        if isinstance(mark, Group):
+        if isinstance(mark, MarkGroup):
             yield from leaves(mark.marks)
         else:
             yield mark
 
 
-def box_of(mark: Area | Stroke | Disc | Arc | Text) -> Box:
+def box_of(mark: AreaMark | Stroke | Disc | ArcMark | TextMark) -> Box:
     """The upright rectangle around a mark (that of an arc is its whole circle's)."""
     match mark:
-        case Disc() | Arc():
+        case Disc() | ArcMark():
             (x, y), r = mark.centre, mark.radius
             return (x - r, y - r, x + r, y + r)
-        case Text():
+        case TextMark():
             return text_box(mark)
-        case Area():
+        case AreaMark():
             points: Iterable[Point] = mark.rings[0]
         case Stroke():
             points = mark.points
@@ -158,7 +158,7 @@ def _advance(character: str) -> float:
     return 0.64 if ord(character) < 0x2E80 else 1.1
 
 
-def text_box(text: Text) -> Box:
+def text_box(text: TextMark) -> Box:
     """The rectangle that a text fills: cap height above its middle, subscripts below."""
     width = sum(text_width(run.text, text.size * (LOW if run.low else 1.0)) for run in text.runs)
     left = {"start": 0.0, "middle": -width / 2.0, "end": -width}[text.anchor]
@@ -167,7 +167,7 @@ def text_box(text: Text) -> Box:
     return (x + left, y - 0.52 * text.size, x + left + width, y + below * text.size)
 
 
-def plain_text(runs: Iterable[Run]) -> str:
+def plain_text(runs: Iterable[TextRun]) -> str:
     """The characters of a text."""
     return "".join(run.text for run in runs)
 
@@ -246,10 +246,10 @@ HEAD = 11.0
 """Length of an arrow's head; it is 0.8 times as wide."""
 
 
-def head(tip: Point, u: Point, kind: str, size: float = HEAD) -> Area:
+def head(tip: Point, u: Point, kind: str, size: float = HEAD) -> AreaMark:
     """A head that ends at ``tip``, pointing along u."""
     back, v = along(tip, u, -size), (-u[1], u[0])
-    return Area(
+    return AreaMark(
         ((tip, along(back, v, 0.4 * size), along(tip, u, -0.75 * size), along(back, v, -0.4 * size)),), kind
     )
 
@@ -268,7 +268,7 @@ def turning(
     """An arc with a head, counterclockwise or clockwise as seen, from a direction in degrees."""
     sign = 1.0 if ccw else -1.0
     lean = math.degrees(0.75 * HEAD / radius)
-    arc = Arc(centre, radius, start, sign * (sweep - lean), kind)
+    arc = ArcMark(centre, radius, start, sign * (sweep - lean), kind)
     tip = arc.at(sign * sweep)
     tail = arc.at(sign * (sweep - lean * 1.25))
     return (arc, head(tip, unit(tip[0] - tail[0], tip[1] - tail[1]), f"{kind}-head"))

@@ -17,15 +17,15 @@ import shapely
 
 from icsolve.draw.marks import LOW as LOW_SIZE
 from icsolve.draw.marks import (
-    Area,
+    AreaMark,
     Box,
     Disc,
-    Group,
     Mark,
+    MarkGroup,
     Point,
-    Run,
     Stroke,
-    Text,
+    TextMark,
+    TextRun,
     along,
     plain_text,
     text_width,
@@ -72,11 +72,11 @@ def nearest(shape: shapely.Geometry, p: Point) -> Point:
     return (x, y)
 
 
-def area(shape: shapely.Geometry, kind: str) -> Area:
+def area(shape: shapely.Geometry, kind: str) -> AreaMark:
     """A shape with all its rings (of several parts too)."""
     parts = getattr(shape, "geoms", (shape,))
     rings = [ring for part in parts for ring in (part.exterior, *part.interiors)]
-    return Area(tuple(tuple(map(tuple, ring.coords[:-1])) for ring in rings), kind)
+    return AreaMark(tuple(tuple(map(tuple, ring.coords[:-1])) for ring in rings), kind)
 
 
 def clipped(points: Sequence[Point], window: Box) -> tuple[tuple[Point, ...], ...]:
@@ -136,7 +136,7 @@ class Label(NamedTuple):
     """
 
     name: str
-    runs: tuple[Run, ...]
+    runs: tuple[TextRun, ...]
     kind: str
     size: float
     anchors: tuple[Point, ...]
@@ -162,14 +162,14 @@ class Placer:
         self.tree = shapely.STRtree(self.geometries) if soft else None
         self.window = window
 
-    def put(self, label: Label) -> Group:
+    def put(self, label: Label) -> MarkGroup:
         """The label at its place; what is placed later keeps off it."""
         width, height = label_size(label)
         spot = self._best(label, width, height)
         x, y, anchor = spot
         half = (width / 2.0, height / 2.0)
         self.solid.append((x - half[0], y - half[1], x + half[0], y + half[1]))
-        return Group(label.name, "", tuple(_marks(label, (x, y), anchor, half)))
+        return MarkGroup(label.name, "", tuple(_marks(label, (x, y), anchor, half)))
 
     def _best(self, label: Label, width: float, height: float) -> tuple[float, float, Point]:
         """The cheapest place: candidates by what their place costs, until no later one can be cheaper."""
@@ -280,7 +280,7 @@ def _marks(label: Label, at: Point, anchor: Point, half: Point) -> list[Mark]:
         marks.append(Stroke((anchor, nearest), "leader"))
     if label.badge:
         marks.append(_badge(at, half))
-    marks.append(Text(at, label.runs, label.kind, label.size))
+    marks.append(TextMark(at, label.runs, label.kind, label.size))
     return marks
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING, NamedTuple
 
-from icsolve.draw.marks import Area, Group, Mark, Point, Run, Stroke, Text, bounds, text_width
+from icsolve.draw.marks import AreaMark, Mark, MarkGroup, Point, Stroke, TextMark, TextRun, bounds, text_width
 from icsolve.draw.svg import document
 from icsolve.draw.words import figure_number, name_runs, unit_word, wrapped
 from icsolve.errors import SceneError, Status
@@ -30,7 +30,7 @@ SAME = 1e-5
 """Values that differ by less, of their size, are one value: more digits than an axis shows."""
 
 
-class Curve(NamedTuple):
+class PlottedCurve(NamedTuple):
     """Values over the range, not a number where there is none; ``unit`` stands at the axis, ``dead`` are
     its dead centres (None: they are judged by how the values grow)."""
 
@@ -40,7 +40,7 @@ class Curve(NamedTuple):
     dead: Sequence[float] | None = None
 
 
-class Frame(NamedTuple):
+class PlotFrame(NamedTuple):
     """Where a plot's axes are: picture units of its corners, and the values there."""
 
     left: float
@@ -57,19 +57,19 @@ class Frame(NamedTuple):
         return (self.left + across * (self.right - self.left), self.bottom - up * (self.bottom - self.top))
 
 
-class Row(NamedTuple):
+class PlotRow(NamedTuple):
     """A value of a curve."""
 
     x: float
     y: float
 
 
-def rows_of(x: Sequence[float], values: Sequence[float]) -> list[Row]:
+def rows_of(x: Sequence[float], values: Sequence[float]) -> list[PlotRow]:
     """The rows that have a value."""
-    return [Row(a, v) for a, v in zip(x, values, strict=True) if math.isfinite(v)]
+    return [PlotRow(a, v) for a, v in zip(x, values, strict=True) if math.isfinite(v)]
 
 
-def poles(x: Sequence[float], curve: Curve) -> list[float]:
+def poles(x: Sequence[float], curve: PlottedCurve) -> list[float]:
     """Where a curve runs off to infinity."""
     return asymptotes(x, curve.values) if curve.dead is None else sorted(curve.dead)
 
@@ -98,7 +98,7 @@ def asymptotes(x: Sequence[float], values: Sequence[float], dead: Sequence[float
     return sorted(dict.fromkeys(places))
 
 
-def _grows(row: Row, behind: Row | None, usual: float, pace: float) -> bool:
+def _grows(row: PlotRow, behind: PlotRow | None, usual: float, pace: float) -> bool:
     """Whether a curve grows from the row behind to this one as toward a pole; at an end: whether it is large.
 
     Toward a pole 1 / y goes down evenly, at ``pace``; at a jump (friction that turns round) it hardly does.
@@ -110,7 +110,7 @@ def _grows(row: Row, behind: Row | None, usual: float, pace: float) -> bool:
     return abs(1.0 / behind.y - 1.0 / row.y) >= EVEN * pace * abs(row.x - behind.x)
 
 
-def limits(curves: Sequence[Curve], x: Sequence[float]) -> tuple[float, float]:
+def limits(curves: Sequence[PlottedCurve], x: Sequence[float]) -> tuple[float, float]:
     """The values that an axis shows: all; of curves that run off to infinity, what can be seen beside."""
     values = sorted(v for curve in curves for v in curve.values if math.isfinite(v))
     if not values:
@@ -126,7 +126,7 @@ def limits(curves: Sequence[Curve], x: Sequence[float]) -> tuple[float, float]:
     return (low - pad, high + pad)
 
 
-def pieces(frame: Frame, x: Sequence[float], curve: Curve) -> Iterator[tuple[Point, ...]]:
+def pieces(frame: PlotFrame, x: Sequence[float], curve: PlottedCurve) -> Iterator[tuple[Point, ...]]:
     """The stretches of a curve between gaps and asymptotes, cut off at the frame."""
     breaks = poles(x, curve)
     for stretch in _stretches(x, curve.values, breaks):
@@ -136,21 +136,23 @@ def pieces(frame: Frame, x: Sequence[float], curve: Curve) -> Iterator[tuple[Poi
         yield from _inside(frame, stretch)
 
 
-def _stretches(x: Sequence[float], values: Sequence[float], breaks: Sequence[float]) -> Iterable[list[Row]]:
+def _stretches(
+    x: Sequence[float], values: Sequence[float], breaks: Sequence[float]
+) -> Iterable[list[PlotRow]]:
     """Rows without a gap or an asymptote between them."""
-    stretch: list[Row] = []
+    stretch: list[PlotRow] = []
     for a, v in zip(x, values, strict=True):
         broken = bool(stretch) and any(stretch[-1].x <= place <= a for place in breaks)
         if stretch and (broken or not math.isfinite(v)):
             yield stretch
             stretch = []
         if math.isfinite(v):
-            stretch.append(Row(a, v))
+            stretch.append(PlotRow(a, v))
     if stretch:
         yield stretch
 
 
-def _inside(frame: Frame, stretch: Sequence[Row]) -> Iterable[tuple[Point, ...]]:
+def _inside(frame: PlotFrame, stretch: Sequence[PlotRow]) -> Iterable[tuple[Point, ...]]:
     """The parts of a stretch between the frame's lower and upper edge."""
     chain: list[Point] = []
     for n in range(len(stretch) - 1):
@@ -167,7 +169,7 @@ def _inside(frame: Frame, stretch: Sequence[Row]) -> Iterable[tuple[Point, ...]]
         yield tuple(chain)
 
 
-def _clipped(frame: Frame, a: Row, b: Row) -> tuple[Row, Row] | None:
+def _clipped(frame: PlotFrame, a: PlotRow, b: PlotRow) -> tuple[PlotRow, PlotRow] | None:
     """What of the line between two rows is within the frame's values; None where nothing is."""
     low, high = frame.y
     if max(a.y, b.y) < low or min(a.y, b.y) > high:
@@ -175,12 +177,12 @@ def _clipped(frame: Frame, a: Row, b: Row) -> tuple[Row, Row] | None:
     return _pulled(a, b, low, high), _pulled(b, a, low, high)
 
 
-def _pulled(row: Row, other: Row, low: float, high: float) -> Row:
+def _pulled(row: PlotRow, other: PlotRow, low: float, high: float) -> PlotRow:
     """A row, or where the line to the other one enters the limits."""
     if low <= row.y <= high:
         return row
     edge = low if row.y < low else high
-    return Row(row.x + (edge - row.y) / (other.y - row.y) * (other.x - row.x), edge)
+    return PlotRow(row.x + (edge - row.y) / (other.y - row.y) * (other.x - row.x), edge)
 
 
 # --- a plot as a picture ---------------------------------------------------------------------------------
@@ -203,19 +205,19 @@ class Shade(NamedTuple):
     words: str
 
 
-class Entry(NamedTuple):
+class LegendEntry(NamedTuple):
     """A line of the legend: a sample (of a line, or of a shade) and what it is."""
 
     kind: str
-    runs: tuple[Run, ...]
+    runs: tuple[TextRun, ...]
 
 
 def plot_svg(
-    x: Sequence[float], curves: Sequence[Curve], x_name: str, title: str, shades: Sequence[Shade] = ()
+    x: Sequence[float], curves: Sequence[PlottedCurve], x_name: str, title: str, shades: Sequence[Shade] = ()
 ) -> str:
     """Curves over ``x`` (at least one value) as an SVG document; curves of one unit share their axis."""
     marks: list[Mark] = [
-        Text((0.0, 21.0 * n), (Run(line),), "t-title", 16.0, "start")
+        TextMark((0.0, 21.0 * n), (TextRun(line),), "t-title", 16.0, "start")
         for n, line in enumerate(wrapped(title, 16.0, WIDTH))
     ]
     top = bounds(marks)[3] + 18.0
@@ -232,12 +234,12 @@ def plot_svg(
 
 def plot_marks(
     x: Sequence[float],
-    curves: Sequence[Curve],
+    curves: Sequence[PlottedCurve],
     x_name: str,
     corner: Point,
     size: Point,
     shades: Sequence[Shade] = (),
-) -> tuple[Frame, list[Mark]]:
+) -> tuple[PlotFrame, list[Mark]]:
     """Axes, curves, asymptotes and a legend, in a box below and right of a corner (the legend may make it
     higher)."""
     low, high = limits(curves, x)
@@ -249,12 +251,12 @@ def plot_marks(
     legend = list(_legend(_entries(curves, dead, shades), (left, corner[1] + 4.0), size[0] - gutter))
     top = bounds(legend)[3] + 10.0
     span = (x[0], x[-1]) if x[-1] > x[0] else (x[0] - 1.0, x[0] + 1.0)
-    frame = Frame(left, top, corner[0] + size[0], top + size[1] - 60.0, span, (low, high))
+    frame = PlotFrame(left, top, corner[0] + size[0], top + size[1] - 60.0, span, (low, high))
     marks = [*_shaded(frame, shades), *_across(frame, ticks, texts), *_along(frame, x_name), *legend]
     marks += [_asymptote(frame, place) for place in dead]
     for kind, curve in zip(_kinds(), curves, strict=False):
         lines = tuple(Stroke(piece, kind) for piece in pieces(frame, x, curve))
-        marks.append(Group(f"curve-{curve.name}", "", lines, curve.name))
+        marks.append(MarkGroup(f"curve-{curve.name}", "", lines, curve.name))
     return frame, marks
 
 
@@ -272,25 +274,25 @@ def _ticks(low: float, high: float) -> list[float]:
     return [k * step for k in range(first, math.floor(high / step) + 1)]
 
 
-def _across(frame: Frame, ticks: Sequence[float], texts: Sequence[str]) -> Iterable[Mark]:
+def _across(frame: PlotFrame, ticks: Sequence[float], texts: Sequence[str]) -> Iterable[Mark]:
     for tick, text in zip(ticks, texts, strict=True):
         y = frame.at(frame.x[0], tick)[1]
         yield Stroke(((frame.left, y), (frame.right, y)), "faint" if tick == 0.0 else "grid")
-        yield Text((frame.left - 6.0, y), (Run(text),), "t-axis", 11.0, "end")
+        yield TextMark((frame.left - 6.0, y), (TextRun(text),), "t-axis", 11.0, "end")
 
 
-def _along(frame: Frame, x_name: str) -> Iterable[Mark]:
+def _along(frame: PlotFrame, x_name: str) -> Iterable[Mark]:
     first, last = frame.x
     ticks = _degrees(first, last) or _ticks(first, last)
     for tick in ticks:
         p = frame.at(tick, frame.y[0])
         yield Stroke((p, (p[0], p[1] + 5.0)), "frame")
-        yield Text((p[0], p[1] + 14.0), (Run(figure_number(tick, 6)),), "t-axis", 11.0)
+        yield TextMark((p[0], p[1] + 14.0), (TextRun(figure_number(tick, 6)),), "t-axis", 11.0)
     corner = (frame.left, frame.bottom)
     yield Stroke(((frame.left, frame.top), corner, (frame.right, frame.bottom)), "frame")
     for n, line in enumerate(wrapped(x_name, 12.0, frame.right - frame.left)):
         at = ((frame.left + frame.right) / 2.0, frame.bottom + 33.0 + 16.0 * n)
-        yield Text(at, (Run(line),), "t-axis", 12.0)
+        yield TextMark(at, (TextRun(line),), "t-axis", 12.0)
 
 
 def _degrees(first: float, last: float) -> list[float]:
@@ -301,20 +303,22 @@ def _degrees(first: float, last: float) -> list[float]:
     return [k * step for k in range(math.ceil(first / step), math.floor(last / step) + 1)]
 
 
-def _entries(curves: Sequence[Curve], dead: Sequence[float], shades: Sequence[Shade]) -> Iterable[Entry]:
+def _entries(
+    curves: Sequence[PlottedCurve], dead: Sequence[float], shades: Sequence[Shade]
+) -> Iterable[LegendEntry]:
     """What the legend says."""
     for kind, curve in zip(_kinds(), curves, strict=False):
         unit = f", {unit_word(curve.unit)}" if curve.unit else ""
-        yield Entry(kind, (*name_runs(curve.name), Run(unit)) if unit else name_runs(curve.name))
+        yield LegendEntry(kind, (*name_runs(curve.name), TextRun(unit)) if unit else name_runs(curve.name))
     if dead:
         places = ", ".join(figure_number(place) for place in dead)
         words = f"dead centre at {places}" if len(dead) <= NAMED else f"{len(dead)} dead centres"
-        yield Entry("asymptote", (Run(words),))
+        yield LegendEntry("asymptote", (TextRun(words),))
     for words in dict.fromkeys(shade.words for shade in shades):
-        yield Entry("shade", (Run(words),))
+        yield LegendEntry("shade", (TextRun(words),))
 
 
-def _legend(entries: Iterable[Entry], at: Point, width: float) -> Iterable[Mark]:
+def _legend(entries: Iterable[LegendEntry], at: Point, width: float) -> Iterable[Mark]:
     """Samples with their words in rows above the axes."""
     x, y = at
     for entry in entries:
@@ -325,28 +329,28 @@ def _legend(entries: Iterable[Entry], at: Point, width: float) -> Iterable[Mark]
             yield _box((x, y - 5.0, x + 26.0, y + 5.0))
         else:
             yield Stroke(((x, y), (x + 26.0, y)), entry.kind)
-        yield Text((x + 32.0, y), entry.runs, "t-axis", 12.0, "start")
+        yield TextMark((x + 32.0, y), entry.runs, "t-axis", 12.0, "start")
         x += wide + 20.0
 
 
-def _box(box: tuple[float, float, float, float]) -> Area:
+def _box(box: tuple[float, float, float, float]) -> AreaMark:
     left, top, right, bottom = box
-    return Area((((left, top), (right, top), (right, bottom), (left, bottom)),), "shade")
+    return AreaMark((((left, top), (right, top), (right, bottom), (left, bottom)),), "shade")
 
 
-def _shaded(frame: Frame, shades: Iterable[Shade]) -> Iterable[Mark]:
+def _shaded(frame: PlotFrame, shades: Iterable[Shade]) -> Iterable[Mark]:
     """The parts without values, a line's width at least."""
     for shade in shades:
         left, right = frame.at(shade.first, 0.0)[0], frame.at(shade.last, 0.0)[0]
         box = _box((left, frame.top, max(right, left + 1.0), frame.bottom))
         part = f"{figure_number(shade.first)} to {figure_number(shade.last)}"
-        yield Group("", "", (box,), f"{shade.words}: {part}")
+        yield MarkGroup("", "", (box,), f"{shade.words}: {part}")
 
 
-def _asymptote(frame: Frame, place: float) -> Mark:
+def _asymptote(frame: PlotFrame, place: float) -> Mark:
     at = frame.at(place, 0.0)[0]
     line = Stroke(((at, frame.top), (at, frame.bottom)), "asymptote")
-    return Group("", "", (line,), f"dead centre at {figure_number(place)}")
+    return MarkGroup("", "", (line,), f"dead centre at {figure_number(place)}")
 
 
 # --- a sweep as curves -----------------------------------------------------------------------------------
@@ -366,7 +370,9 @@ def sweep_svg(found: Sweep) -> str:
     order = values.argsort(kind="stable").tolist()
     x = [float(values[row]) for row in order]
     status = [str(found.status[row]) for row in order]
-    curves = list(_curves(found, order, x, status)) or [Curve("no unknown load", [math.nan] * len(x), "")]
+    curves = list(_curves(found, order, x, status)) or [
+        PlottedCurve("no unknown load", [math.nan] * len(x), "")
+    ]
     driven = path in found.case.links
     axis = f"link {path}, degrees from the position as written" if driven else path
     return plot_svg(x, curves, axis, found.case.title or found.case.name, list(_shades(x, status)))
@@ -384,7 +390,9 @@ def sweep_markdown(found: Sweep) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _curves(found: Sweep, order: Sequence[int], x: Sequence[float], status: Sequence[str]) -> Iterator[Curve]:
+def _curves(
+    found: Sweep, order: Sequence[int], x: Sequence[float], status: Sequence[str]
+) -> Iterator[PlottedCurve]:
     """A curve an unknown; where it holds over a range, its two ends."""
     found_dead = dead_centres(found.case, found.vary)
     rows = [a for a, word in zip(x, status, strict=True) if word in DEAD]
@@ -393,10 +401,10 @@ def _curves(found: Sweep, order: Sequence[int], x: Sequence[float], status: Sequ
         values = [float(column[row]) for row in order]
         if any(map(math.isfinite, values)) or name not in found.holds:
             dead = asymptotes(x, values, rows) if found_dead is None else sorted({*found_dead, *rows})
-            yield Curve(name, values, units[name], dead)
+            yield PlottedCurve(name, values, units[name], dead)
         for end, words in ((0, "least"), (1, "most")) if name in found.holds else ():
             ends = [float(found.holds[name][row][end]) for row in order]
-            yield Curve(f"{name}, {words} that holds", ends, units[name])
+            yield PlottedCurve(f"{name}, {words} that holds", ends, units[name])
 
 
 def dead_centres(case: Case, varied: Mapping[str, npt.ArrayLike]) -> list[float] | None:

@@ -15,9 +15,9 @@ import shapely
 
 from icsolve.case import Case, Rope
 from icsolve.derivation import tension_name
-from icsolve.draw.marks import Box, Disc, Group, Mark, Point, Run, Stroke
+from icsolve.draw.marks import Box, Disc, Mark, MarkGroup, Point, Stroke, TextRun
 from icsolve.draw.place import Label, Soft
-from icsolve.draw.scene import Loop, Part, Scene, around
+from icsolve.draw.scene import BeltLoop, Part, Scene, around
 from icsolve.draw.words import quantity
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS
@@ -32,7 +32,7 @@ CHORD = math.radians(6.0)
 """Of an arc the part that is drawn straight."""
 
 
-class Course(NamedTuple):
+class RopeCourse(NamedTuple):
     """A rope as it is drawn (picture units): its straight parts, its whole line, its loose pulleys."""
 
     rope: Rope
@@ -41,13 +41,13 @@ class Course(NamedTuple):
     pulleys: tuple[Disc, ...]
 
 
-def courses(scene: Scene) -> list[Course]:
+def courses(scene: Scene) -> list[RopeCourse]:
     """The ropes of a case whose points are known."""
     ropes = [rope for rope in scene.case.ropes if set(rope.points) <= scene.known.points.keys()]
     return [course for rope in ropes if (course := _course(scene, rope)) is not None]
 
 
-def _course(scene: Scene, rope: Rope) -> Course | None:
+def _course(scene: Scene, rope: Rope) -> RopeCourse | None:
     for one in (
         _with_pulleys(scene, rope),
         rope,
@@ -94,7 +94,7 @@ def _number(value: float) -> Number:
     return Number(value, 0.0, "", repr(value))
 
 
-def _laid(scene: Scene, rope: Rope) -> Course:
+def _laid(scene: Scene, rope: Rope) -> RopeCourse:
     """A rope round its circles; raises SceneError where it has no straight part between two of them."""
     straight, points = [], scene.known.points
     if rope.is_free:
@@ -111,7 +111,7 @@ def _laid(scene: Scene, rope: Rope) -> Course:
         if radius is not None and rope.mu[k] is None:
             pulleys.append(Disc(scene.view.at(centre), radius.value * scene.view.scale, "body"))
     parts = tuple((scene.view.at(a), scene.view.at(b)) for a, b in straight)
-    return Course(rope, parts, tuple(map(scene.view.at, line)), tuple(pulleys))
+    return RopeCourse(rope, parts, tuple(map(scene.view.at, line)), tuple(pulleys))
 
 
 def _arc(centre: Point, start: Point, end: Point, ccw: bool) -> Iterable[Point]:
@@ -135,30 +135,32 @@ def rope_boxes(case: Case, points: Mapping[str, Point]) -> list[Box]:
     ]
 
 
-def filled(ropes: Sequence[Course]) -> list[shapely.Geometry]:
+def filled(ropes: Sequence[RopeCourse]) -> list[shapely.Geometry]:
     """What ropes and their pulleys fill: feet and arrows keep off them."""
     lines = [shapely.LineString(rope.line).buffer(3.0, quad_segs=1) for rope in ropes]
     return [*lines, *(shapely.Point(d.centre).buffer(d.radius) for rope in ropes for d in rope.pulleys)]
 
 
-def rope_marks(scene: Scene, ropes: Sequence[Course]) -> list[Part]:
+def rope_marks(scene: Scene, ropes: Sequence[RopeCourse]) -> list[Part]:
     """The pulleys, the ropes above them, and the tensions."""
     discs = sorted({disc for rope in ropes for disc in rope.pulleys}, key=lambda disc: -disc.radius)
     pulleys: list[Mark] = [mark for d in discs for mark in (d, Disc(d.centre, AXLE, "pin"))]
-    parts = [Part((Group("pulleys", "", tuple(pulleys), "pulleys"),))] if pulleys else []
+    parts = [Part((MarkGroup("pulleys", "", tuple(pulleys), "pulleys"),))] if pulleys else []
     for rope in ropes:
-        group = Group(f"rope-{rope.rope.name}", "", (Stroke(rope.line, "rope"),), f"rope {rope.rope.name}")
+        group = MarkGroup(
+            f"rope-{rope.rope.name}", "", (Stroke(rope.line, "rope"),), f"rope {rope.rope.name}"
+        )
         solid = tuple(around(disc.centre, AXLE) for disc in rope.pulleys)
         soft = (Soft(shapely.LineString(rope.line), 3.0), *(Soft(ring, 1.5) for ring in _rims(rope)))
         parts.append(Part((group,), soft, solid, tuple(_tensions(scene, rope))))
     return parts
 
 
-def _rims(rope: Course) -> Iterable[shapely.Geometry]:
+def _rims(rope: RopeCourse) -> Iterable[shapely.Geometry]:
     return (shapely.Point(disc.centre).buffer(disc.radius).boundary for disc in rope.pulleys)
 
 
-def _tensions(scene: Scene, course: Course) -> Iterable[Label]:
+def _tensions(scene: Scene, course: RopeCourse) -> Iterable[Label]:
     """The tension beside the longest part, of a rope that slips beside every part."""
     answer, name = scene.known.answer, course.rope.name
     found = next((t for t in (answer.tensions if answer else ()) if t.rope == name), None)
@@ -170,7 +172,7 @@ def _tensions(scene: Scene, course: Course) -> Iterable[Label]:
         shown = [(n, *one) for n, one in enumerate(zip(found.parts, course.parts, strict=True), 1)]
     for n, pull, ((ax, ay), (bx, by)) in shown:
         base, low = tension_name(scene.case, course.rope, n)
-        runs = (Run(base), Run(low, True), Run(f" = {quantity(pull, scene.case.units.force)}"))
+        runs = (TextRun(base), TextRun(low, True), TextRun(f" = {quantity(pull, scene.case.units.force)}"))
         spots = tuple((ax + s * (bx - ax), ay + s * (by - ay)) for s in (0.5, 0.35, 0.65))
         yield Label(f"tension-{name}-{n}", tuple(r for r in runs if r.text), "t-reaction", 13.0, spots, 6.0)
 
@@ -182,11 +184,11 @@ def belts(scene: Scene) -> list[Part]:
         strands = [Stroke(ends, "rope") for ends in _strands(scene, loop)]
         soft = tuple(Soft(shapely.LineString(strand.points), 2.0) for strand in strands)
         name = f"belt-{loop.first.link}-{loop.second.link}"
-        parts.append(Part((Group(name, "", tuple(strands), "belt"),), soft))
+        parts.append(Part((MarkGroup(name, "", tuple(strands), "belt"),), soft))
     return parts
 
 
-def _strands(scene: Scene, loop: Loop) -> Iterable[tuple[Point, Point]]:
+def _strands(scene: Scene, loop: BeltLoop) -> Iterable[tuple[Point, Point]]:
     """A belt is a rope to the second wheel and back."""
     points = {"A": loop.first.centre, "B": loop.second.centre}
     radii = tuple(_number(wheel.radius) for wheel in (loop.first, loop.second, loop.first))

@@ -48,7 +48,7 @@ class Edge(NamedTuple):
     normal: Point
 
 
-class Loop(NamedTuple):
+class BeltLoop(NamedTuple):
     """A belt over two wheels."""
 
     first: Wheel
@@ -61,7 +61,7 @@ class Round(NamedTuple):
 
     wheels: tuple[Wheel, ...]
     edges: tuple[Edge, ...]
-    loops: tuple[Loop, ...]
+    loops: tuple[BeltLoop, ...]
     cams: tuple[Sliding, ...]
 
 
@@ -69,14 +69,14 @@ def round_things(case: Case, points: Mapping[str, Point]) -> Round:
     """The wheels, edges, belts and cams whose places are known."""
     wheels: list[Wheel] = []
     edges: list[Edge] = []
-    loops: list[Loop] = []
+    loops: list[BeltLoop] = []
     cams: list[Sliding] = []
     for bond in _meshes(case):
         if set(bond.pivots) <= set(points):
             both = _mesh(bond, points)
             wheels += both
             if isinstance(bond.joint, Mesh) and bond.joint.pulls:
-                loops.append(Loop(both[0], both[1], not bond.joint.turns_alike))
+                loops.append(BeltLoop(both[0], both[1], not bond.joint.turns_alike))
     for joint in case.joints:
         if isinstance(joint, Rolling) and joint.at in points:
             rolled = _rolled(case, joint, points)

@@ -16,15 +16,15 @@ from icsolve.derivation import Known
 from icsolve.derivation.spatial import InSpace, Push, in_space
 from icsolve.draw.bodies import GAP, rows_of
 from icsolve.draw.marks import (
-    Area,
+    AreaMark,
     Box,
     Disc,
-    Group,
     Mark,
+    MarkGroup,
     Point,
-    Run,
     Stroke,
-    Text,
+    TextMark,
+    TextRun,
     View,
     along,
     arrow,
@@ -38,7 +38,7 @@ from icsolve.draw.place import Label, Soft, area, bar, hatched, joined, plate, t
 from icsolve.draw.scene import HALF, PIN, Part, around, together, with_labels
 from icsolve.draw.words import force_runs, name_runs, quantity
 from icsolve.statics.space.figure import AXES, Vec, add, cross, dot, size, sub, times
-from icsolve.statics.space.reaction_basis import Tie, kind_of
+from icsolve.statics.space.reaction_basis import SpatialTie, kind_of
 
 TURN, RISE = math.radians(32.0), math.radians(24.0)
 """Where the picture is seen from: turned about z, and raised."""
@@ -144,19 +144,19 @@ def outline_of(sketch: Sketch, link: str) -> shapely.Geometry:
 def body_part(sketch: Sketch, link: str) -> Part:
     shape = outline_of(sketch, link)
     wheels = [ring for (owner, _), ring in _rings(sketch.scene).items() if owner == link]
-    marks: list[Mark] = [Area((tuple(sketch.at(p) for p in ring),), "wheel") for ring in wheels]
+    marks: list[Mark] = [AreaMark((tuple(sketch.at(p) for p in ring),), "wheel") for ring in wheels]
     marks += [] if shape.is_empty else [area(shape, "body")]
     soft = [] if shape.is_empty else [Soft(shape, 1.6)]
     soft += [Soft(shapely.LinearRing([sketch.at(p) for p in ring]), 1.5) for ring in wheels]
     bones = [(sketch.at(a), sketch.at(b)) for a, b in _bones(sketch.scene, link)]
     anchors = [((a[0] + b[0]) / 2.0, (a[1] + b[1]) / 2.0) for a, b in bones]
     anchors += [sketch.at(p) for p in sketch.scene.carried(link)]
-    group = Group(f"link-{link}", "", tuple(marks), f"link {link}")
-    label = Label(f"number-{link}", (Run(link),), "t-link", 12.0, tuple(anchors[:8]), 10.0, badge=True)
+    group = MarkGroup(f"link-{link}", "", tuple(marks), f"link {link}")
+    label = Label(f"number-{link}", (TextRun(link),), "t-link", 12.0, tuple(anchors[:8]), 10.0, badge=True)
     return Part((group,) if marks else (), tuple(soft), (), (label,) if anchors else ())
 
 
-def _joint(sketch: Sketch, tie: Tie) -> Iterable[Part]:
+def _joint(sketch: Sketch, tie: SpatialTie) -> Iterable[Part]:
     """A bearing as a sleeve along its axis, a ball as a ring, a weld as a square; the frame's are hatched."""
     if tie.mesh is not None:
         return
@@ -175,7 +175,7 @@ def _joint(sketch: Sketch, tie: Tie) -> Iterable[Part]:
         marks += hatched(ends[0], ends[1], 1.0)
         soft.append(Soft(shapely.box(p[0] - 15.0, p[1] + 8.0, p[0] + 15.0, p[1] + 20.0), 1.5))
     yield Part(
-        (Group(name, "", tuple(marks), f"{kind_of(tie.joint)} of {tie.by} and {tie.on}"),),
+        (MarkGroup(name, "", tuple(marks), f"{kind_of(tie.joint)} of {tie.by} and {tie.on}"),),
         tuple(soft),
         (around(p, 8.0),),
     )
@@ -192,11 +192,11 @@ def _load(sketch: Sketch, push: Push, solid: shapely.Geometry, n: int) -> Part:
     sign = -1.0 if (push.value or 0.0) < 0.0 else 1.0
     at = _acts_at(sketch, push)
     value = "?" if push.value is None else quantity(abs(push.value), push.unit)
-    runs = (*name_runs(push.name), Run(f" = {value}"))
+    runs = (*name_runs(push.name), TextRun(f" = {value}"))
     marks, far = vector(at, times(sign, push.direction), ARROW, kind, solid, double=push.at is None)
     soft = (along_arrow(at, far),)
     label = Label(f"label-{push.name}", runs, f"t-{kind}", 14.0, (far, at), 7.0)
-    return Part((Group(f"load-{push.name}", "", marks, plain_text(runs)),), soft, (), (label,))
+    return Part((MarkGroup(f"load-{push.name}", "", marks, plain_text(runs)),), soft, (), (label,))
 
 
 def along_arrow(at: Point, far: Point) -> Soft:
@@ -259,7 +259,7 @@ def _letters(sketch: Sketch) -> list[Part]:
     return parts
 
 
-def _triad(box: Box) -> Group:
+def _triad(box: Box) -> MarkGroup:
     """The directions of the axes, at the lower left of the figure."""
     origin = (box[0] + 8.0, box[3] + 56.0)
     marks: list[Mark] = []
@@ -267,8 +267,8 @@ def _triad(box: Box) -> Group:
         u = _seen(axis)
         tip = (origin[0] + 34.0 * u[0], origin[1] + 34.0 * u[1])
         marks += arrow(origin, tip, "far", 7.0)
-        marks.append(Text(along(tip, unit(*u), 9.0), (Run(name),), "t-note", 12.0))
-    return Group("axes", "", tuple(marks), "the axes")
+        marks.append(TextMark(along(tip, unit(*u), 9.0), (TextRun(name),), "t-note", 12.0))
+    return MarkGroup("axes", "", tuple(marks), "the axes")
 
 
 # --- free bodies -----------------------------------------------------------------------------------------
@@ -282,11 +282,13 @@ def space_panels(known: Known, sketch: Sketch, left: float, top: float, width: f
     pushes = {link: list(_pushes(sketch, known, link)) for link in moving_links(sketch.scene)}
     largest = max((size(f) for some in pushes.values() for _, _, f, _, _ in some), default=0.0) or 1.0
     panels = [_panel(sketch, link, some, largest) for link, some in pushes.items()]
-    title = Text((left, top + 4.0), (Run("Free bodies, forces to one scale"),), "t-note", 12.5, "start")
+    title = TextMark(
+        (left, top + 4.0), (TextRun("Free bodies, forces to one scale"),), "t-note", 12.5, "start"
+    )
     return [title, *rows_of(panels, left, top + GAP, width)]
 
 
-On = tuple[str, tuple[Run, ...], Vec, Vec, tuple[str, Vec]]
+On = tuple[str, tuple[TextRun, ...], Vec, Vec, tuple[str, Vec]]
 
 
 def _pushes(sketch: Sketch, known: Known, link: str) -> Iterable[On]:
@@ -301,16 +303,16 @@ def _pushes(sketch: Sketch, known: Known, link: str) -> Iterable[On]:
         words = "?" if r.magnitude is None else quantity(r.magnitude, units.force)
         force = (r.force[0] or 0.0, r.force[1] or 0.0, r.force[2] or 0.0)
         couple = (r.couple[0] or 0.0, r.couple[1] or 0.0, r.couple[2] or 0.0)
-        text: tuple[Run, ...] = (*low, Run(f" = {words}"))
+        text: tuple[TextRun, ...] = (*low, TextRun(f" = {words}"))
         if r.moment:
-            text = (*text, Run(f", M = {quantity(r.moment, units.torque)}"))
+            text = (*text, TextRun(f", M = {quantity(r.moment, units.torque)}"))
         yield f"reaction-{name}-on-{r.on}", text, force, couple, ("reaction", r.at)
     for push in sketch.scene.loads:
         if link in (push.link, push.against):
             sign = 1.0 if link == push.link else -1.0
             runs = (
                 *name_runs(push.name),
-                Run(" = ?" if push.value is None else f" = {quantity(abs(push.value), push.unit)}"),
+                TextRun(" = ?" if push.value is None else f" = {quantity(abs(push.value), push.unit)}"),
             )
             carried = sketch.scene.carried(link)
             place = push.at or (carried[0] if carried else (0.0, 0.0, 0.0))
@@ -341,15 +343,15 @@ def _panel(sketch: Sketch, link: str, pushes: Sequence[On], largest: float) -> l
             marks, far = (*marks, *more), (far if far != at else end)
             soft.append(along_arrow(at, end))
         label = Label(f"label-{name}", words, f"t-{kind}", 12.5, (far, at), 7.0)
-        group = (Group(name, "", marks, plain_text(words)),) if marks else ()
+        group = (MarkGroup(name, "", marks, plain_text(words)),) if marks else ()
         parts.append(Part(group, tuple(soft), (around(at, 2.8),), (label,)))
     window = bounds(together(parts).marks)
     found = [_renamed(link, mark) for mark in with_labels(together(parts), window)]
-    return [Group(f"body-{link}", "", tuple(found), f"link {link} by itself")]
+    return [MarkGroup(f"body-{link}", "", tuple(found), f"link {link} by itself")]
 
 
 def _renamed(link: str, mark: Mark) -> Mark:
     own = ("reaction-", "body-", "label-reaction", "label-body")
-    if isinstance(mark, Group) and mark.name and not mark.name.startswith(own):
+    if isinstance(mark, MarkGroup) and mark.name and not mark.name.startswith(own):
         return mark._replace(name=f"free-{link}-{mark.name}")
     return mark

@@ -11,7 +11,19 @@ import re
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from icsolve.draw.marks import LOW, Arc, Area, Box, Disc, Group, Mark, Run, Stroke, Text, leaves
+from icsolve.draw.marks import (
+    LOW,
+    ArcMark,
+    AreaMark,
+    Box,
+    Disc,
+    Mark,
+    MarkGroup,
+    Stroke,
+    TextMark,
+    TextRun,
+    leaves,
+)
 
 
 class Ink(NamedTuple):
@@ -188,7 +200,7 @@ def _kinds(marks: Iterable[Mark]) -> Iterable[str]:
 def element(mark: Mark, *, halo: bool = False) -> str:
     """One mark; with ``halo`` a label's letters stand on a stroke of the paper's colour."""
     match mark:
-        case Area():
+        case AreaMark():
             rings = " ".join(f"M{_chain(ring)}Z" for ring in mark.rings)
             return f'<path class="{mark.kind}" fill-rule="evenodd" d="{rings}"/>'
         case Stroke():
@@ -196,12 +208,12 @@ def element(mark: Mark, *, halo: bool = False) -> str:
         case Disc():
             x, y = map(number, mark.centre)
             return f'<circle class="{mark.kind}" cx="{x}" cy="{y}" r="{number(mark.radius)}"/>'
-        case Arc():
+        case ArcMark():
             return _arc(mark)
-        case Text():
+        case TextMark():
             under = _text(mark, " halo") + "\n" if halo and mark.kind in _HALOED else ""
             return under + _text(mark)
-        case Group():
+        case MarkGroup():
             return _group(mark, halo)
 
 
@@ -209,14 +221,14 @@ def _chain(points: Iterable[tuple[float, float]]) -> str:
     return " ".join(f"{number(x)},{number(y)}" for x, y in points)
 
 
-def _arc(arc: Arc) -> str:
+def _arc(arc: ArcMark) -> str:
     r = number(arc.radius)
     large, turn = int(abs(arc.sweep) > 180.0), int(arc.sweep < 0.0)
     ends = (_chain((arc.at(0.0),)), _chain((arc.at(arc.sweep),)))
     return f'<path class="{arc.kind}" d="M{ends[0]} A{r},{r} 0 {large} {turn} {ends[1]}"/>'
 
 
-def _text(text: Text, more: str = "") -> str:
+def _text(text: TextMark, more: str = "") -> str:
     x, y = number(text.at[0]), number(text.at[1] + 0.35 * text.size)
     anchor = "" if text.anchor == "start" else f' text-anchor="{text.anchor}"'
     size = number(text.size)
@@ -225,7 +237,7 @@ def _text(text: Text, more: str = "") -> str:
     return f'<text class="{text.kind}{more}" {place}>{_runs(text)}</text>'
 
 
-def _runs(text: Text) -> str:
+def _runs(text: TextMark) -> str:
     parts = []
     lowered = False
     drop, small = number(0.25 * text.size), number(LOW * text.size)
@@ -238,7 +250,7 @@ def _runs(text: Text) -> str:
     return "".join(parts)
 
 
-def _group(group: Group, halo: bool) -> str:
+def _group(group: MarkGroup, halo: bool) -> str:
     name = f' id="{escaped(identifier(group.name))}"' if group.name else ""
     kind = f' class="{group.kind}"' if group.kind else ""
     data = "".join(f' {key}="{escaped(value)}"' for key, value in group.data)
@@ -247,7 +259,7 @@ def _group(group: Group, halo: bool) -> str:
     return f"<g{name}{kind}{data}>{title}{body}\n</g>"
 
 
-def runs_of(text: str) -> tuple[Run, ...]:
+def runs_of(text: str) -> tuple[TextRun, ...]:
     """``I_{24} = 3`` as runs: what stands in ``_{}`` is set low."""
     parts = re.split(r"_\{([^}]*)\}", text)
-    return tuple(Run(part, bool(n % 2)) for n, part in enumerate(parts) if part)
+    return tuple(TextRun(part, bool(n % 2)) for n, part in enumerate(parts) if part)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 
-from icsolve.draw.marks import Arc, Area, Disc, Group, Mark, Run, Stroke, Text, leaves
+from icsolve.draw.marks import ArcMark, AreaMark, Disc, Mark, MarkGroup, Stroke, TextMark, TextRun, leaves
 from icsolve.draw.svg import RULES, TEXTS, Ink
 
 UNIT = 0.75
@@ -109,22 +109,22 @@ def picture(marks: Iterable[Mark]) -> str:
 
 def _lines(mark: Mark) -> Iterable[str]:
     match mark:
-        case Group():
+        case MarkGroup():
             if mark.title:
                 yield f"% {re.sub(r'[^ -~]', ' ', mark.title)}"
             for one in mark.marks:
                 yield from _lines(one)
-        case Area():
+        case AreaMark():
             rings = " ".join(f"{_chain(ring)} -- cycle" for ring in mark.rings)
             yield f"\\path[ic {mark.kind},even odd rule] {rings};"
         case Stroke():
             yield f"\\path[ic {mark.kind}] {_chain(mark.points)};"
         case Disc():
             yield f"\\path[ic {mark.kind}] {_at(mark.centre)} circle[radius={mark.radius * UNIT:.2f}pt];"
-        case Arc():
+        case ArcMark():
             ends = f"start angle={mark.start:.2f},delta angle={mark.sweep:.2f}"
             yield f"\\path[ic {mark.kind}] {_at(mark.at(0.0))} arc[{ends},radius={mark.radius * UNIT:.2f}pt];"
-        case Text():
+        case TextMark():
             yield _text(mark)
 
 
@@ -136,13 +136,13 @@ def _at(p: tuple[float, float]) -> str:
     return f"({p[0] + 0.0:.2f},{p[1] + 0.0:.2f})"
 
 
-def _text(text: Text) -> str:
+def _text(text: TextMark) -> str:
     anchor = {"start": "west", "middle": "center", "end": "east"}[text.anchor]
     size = next(command for least, command in SIZES if text.size >= least)
     return f"\\node[ic {text.kind},anchor={anchor}] at {_at(text.at)} {{{size} {runs(text.runs)}}};"
 
 
-def runs(parts: Iterable[Run]) -> str:
+def runs(parts: Iterable[TextRun]) -> str:
     """A text with its subscripts."""
     return "".join(
         rf"\textsubscript{{{escaped(run.text)}}}" if run.low else escaped(run.text) for run in parts

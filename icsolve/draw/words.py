@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 
 from icsolve.case.names import pair_name
 from icsolve.derivation import Known, Step
-from icsolve.draw.marks import Group, Mark, Run, Text, bounds, text_width
+from icsolve.draw.marks import Mark, MarkGroup, TextMark, TextRun, bounds, text_width
 from icsolve.draw.svg import runs_of
 from icsolve.report.text import positions_text
 from icsolve.wording.senses import holding, spelt
@@ -44,25 +44,25 @@ def quantity(value: float, unit: str, digits: int = DIGITS) -> str:
     return f"{figure_number(value, digits)} {unit_word(unit)}".rstrip()
 
 
-def name_runs(name: str) -> tuple[Run, ...]:
+def name_runs(name: str) -> tuple[TextRun, ...]:
     """``T12`` as a T with 12 set low, ``B'`` as it is."""
     found = re.fullmatch(r"([^\W\d_]+)_?(\d+)('*)", name)
     if found is None:
-        return (Run(name),)
+        return (TextRun(name),)
     letters, digits, primes = found.groups()
-    return (Run(letters + primes), Run(digits, True))
+    return (TextRun(letters + primes), TextRun(digits, True))
 
 
-def centre_runs(a: str, b: str) -> tuple[Run, ...]:
+def centre_runs(a: str, b: str) -> tuple[TextRun, ...]:
     """I with the pair of links set low: ``24``, or ``crank,rod``."""
     low = a + b if len(a) == len(b) == 1 else f"{a},{b}"
-    return (Run("I"), Run(low, True))
+    return (TextRun("I"), TextRun(low, True))
 
 
-def force_runs(name: str, by: str, on: str, where: str) -> tuple[Run, Run]:
+def force_runs(name: str, by: str, on: str, where: str) -> tuple[TextRun, TextRun]:
     """F with the links low, and the joint's point where the pair has several joints."""
     low = centre_runs(by, on)[1].text
-    return (Run("F"), Run(f"{low}@{where}" if "@" in name else low, True))
+    return (TextRun("F"), TextRun(f"{low}@{where}" if "@" in name else low, True))
 
 
 def wrapped(text: str, size: float, width: float) -> list[str]:
@@ -108,17 +108,17 @@ def captioned(known: Known, marks: Sequence[Mark], steps: Sequence[Step], step: 
     left = min(left, (left + right - width) / 2.0)
     title = wrapped(known.title, TITLE, width)
     above = [
-        Text((left, top - 16.0 - TITLE * 1.3 * n), (Run(line),), "t-title", TITLE, "start")
+        TextMark((left, top - 16.0 - TITLE * 1.3 * n), (TextRun(line),), "t-title", TITLE, "start")
         for n, line in enumerate(reversed(title))
     ]
     below: list[Mark] = []
     y = bottom + 20.0
     for kind, text in _below(known, steps, step):
         for line in wrapped(text, NOTE, width):
-            runs = runs_of(line) if kind == "t-axis" else (Run(line),)
-            below.append(Text((left, y), runs, kind, NOTE, "start"))
+            runs = runs_of(line) if kind == "t-axis" else (TextRun(line),)
+            below.append(TextMark((left, y), runs, kind, NOTE, "start"))
             y += NOTE * 1.45
-    return [Group("title", "", tuple(reversed(above))), *marks, Group("caption", "", tuple(below))]
+    return [MarkGroup("title", "", tuple(reversed(above))), *marks, MarkGroup("caption", "", tuple(below))]
 
 
 def _below(known: Known, steps: Sequence[Step], step: int | None) -> Iterable[tuple[str, str]]:

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 from icsolve.answer.bodies import Reaction
 from icsolve.derivation import Acting, Known, acting_loads, rope_pulls
-from icsolve.explain.document import Block, Inline, Items, Section, Table, formula, words
+from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Sum, product
 from icsolve.explain.given import Figures, load_name
 from icsolve.screws.plane import Point
@@ -50,7 +50,7 @@ def _reactions(known: Known, figures: Figures, reactions: dict[str, Reaction]) -
     heading = ("force", "joint", f"x, {units.force}", f"y, {units.force}", "size", f"couple, {units.torque}")
     blocks: list[Block] = [
         words("The force of the first link on the second, with the couple about the joint:"),
-        Table(heading, tuple(rows)),
+        ShownTable(heading, tuple(rows)),
     ]
     if open_ones:
         blocks.append(Items(tuple((f"? : {why}",) for why in open_ones)))

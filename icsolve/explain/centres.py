@@ -13,7 +13,19 @@ from icsolve.case.names import pair_name
 from icsolve.derivation import Known, Ratio, Ratios, Step
 from icsolve.derivation.ratios import ratios_of
 from icsolve.explain.document import Block, Inline, Items, Section, formula, words
-from icsolve.explain.formula import Expr, Name, Num, Quotient, Root, Span, Square, Sum, Trig, minus, product
+from icsolve.explain.formula import (
+    Expr,
+    Name,
+    Num,
+    Quotient,
+    RootOf,
+    Spanned,
+    Square,
+    Sum,
+    Trig,
+    minus,
+    product,
+)
 from icsolve.explain.given import Figures, centre_name, place_words, rate_name
 from icsolve.explain.levers import difference, motion_name, place
 from icsolve.explain.ropes import rope_ratio, screw_ratio
@@ -146,7 +158,7 @@ def _blocks(known: Known, figures: Figures, ratios: Ratios, ratio: Ratio) -> Ite
                 f" is a point of links {ratio.of} and {ratio.link}, with one velocity; {_sense(ratio)}.",
             )
             yield from _distances(known, figures, (own, common, other), ratio)
-            spans: Expr = Quotient(Span(own, common), Span(other, common))
+            spans: Expr = Quotient(Spanned(own, common), Spanned(other, common))
             numbers = Quotient(*(_measured(known, figures, ratio, n) for n in (0, 1)))
             yield formula(left, _signed(spans, ratio), _signed(numbers, ratio), value)
         case "slides":
@@ -156,7 +168,7 @@ def _blocks(known: Known, figures: Figures, ratios: Ratios, ratio: Ratio) -> Ite
                 f" does: {_heading(figures, ratios, ratio.link)}.",
             )
             yield from _distances(known, figures, (own, common), ratio)
-            yield formula(left, _signed(Span(own, common), ratio), figures.distance(ratio.value))
+            yield formula(left, _signed(Spanned(own, common), ratio), figures.distance(ratio.value))
         case "drives":
             yield words(
                 "",
@@ -164,7 +176,7 @@ def _blocks(known: Known, figures: Figures, ratios: Ratios, ratio: Ratio) -> Ite
                 f" of link {ratio.link} moves as link {ratio.of}: {_heading(figures, ratios, ratio.of)}.",
             )
             yield from _distances(known, figures, (other, common), ratio)
-            spans = Quotient(Num("1"), Span(other, common))
+            spans = Quotient(Num("1"), Spanned(other, common))
             numbers = Quotient(Num("1"), _measured(known, figures, ratio, 1))
             yield formula(left, _signed(spans, ratio), _signed(numbers, ratio), value)
         case "glides":
@@ -197,13 +209,13 @@ def _distances(known: Known, figures: Figures, names: tuple[Name, ...], ratio: R
     common = names[1]
     for end in (names[0], *names[2:]):
         a, b = place(known, pairs[end]), place(known, pairs[common])
-        yield formula(Span(end, common), distance(figures, a, b), figures.distance(math.dist(a, b)))
+        yield formula(Spanned(end, common), distance(figures, a, b), figures.distance(math.dist(a, b)))
 
 
 def distance(figures: Figures, a: tuple[float, float], b: tuple[float, float]) -> Expr:
     """The root of the squares of the differences."""
     squares = tuple((1, Square(difference(figures, q, p))) for p, q in zip(a, b, strict=True))
-    return Root(Sum(squares))
+    return RootOf(Sum(squares))
 
 
 def _gliding(known: Known, figures: Figures, ratios: Ratios, ratio: Ratio, left: Expr) -> Iterable[Block]:
@@ -269,11 +281,11 @@ def _by_distances(known: Known, ratio: Ratio) -> Expr:
     own, other, common = (centre_name(known, pair) for pair in ratio.pairs)
     match ratio.kind:
         case "turns":
-            return _signed(Quotient(Span(own, common), Span(other, common)), ratio)
+            return _signed(Quotient(Spanned(own, common), Spanned(other, common)), ratio)
         case "slides":
-            return _signed(Span(own, common), ratio)
+            return _signed(Spanned(own, common), ratio)
         case "drives":
-            return _signed(Quotient(Num("1"), Span(other, common)), ratio)
+            return _signed(Quotient(Num("1"), Spanned(other, common)), ratio)
     return (
         Num("1")
         if ratio.value == 1.0
@@ -300,7 +312,7 @@ def _of_points(known: Known, figures: Figures) -> Iterable[Block]:
             if point.startswith("@") or point in said or gap <= 1e-9 * known.size:
                 continue
             said.add(point)
-            arm = Span(centre_name(known, pair), Name(point))
+            arm = Spanned(centre_name(known, pair), Name(point))
             numbers = product(figures.number(rate), figures.number(gap))
             speed = figures.quantity(rate * gap, f"{known.case.units.length}/s")
             yield formula(Name("v", point), product(rate_name(link), arm), numbers, speed)

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from itertools import pairwise
 from typing import NamedTuple
 
-from icsolve.explain.formula import LATEX, PLAIN, Equation, Expr, Notation, Quantity
+from icsolve.explain.formula import LATEX, PLAIN, Expr, Notation, Quantity, ShownEquation
 
 Inline = str | Expr
 """A piece of a paragraph: words, or a symbol or short formula."""
@@ -25,7 +25,7 @@ class Words(NamedTuple):
 class Formula(NamedTuple):
     """A displayed formula."""
 
-    equation: Equation
+    equation: ShownEquation
 
 
 class Items(NamedTuple):
@@ -35,14 +35,14 @@ class Items(NamedTuple):
     numbered: bool = False
 
 
-class Table(NamedTuple):
+class ShownTable(NamedTuple):
     """Rows of cells under a heading."""
 
     heading: tuple[str, ...]
     rows: tuple[tuple[tuple[Inline, ...], ...], ...]
 
 
-Block = Words | Formula | Items | Table
+Block = Words | Formula | Items | ShownTable
 
 
 class Section(NamedTuple):
@@ -68,7 +68,7 @@ def words(*parts: Inline) -> Words:
 def formula(*sides: Expr) -> Formula:
     """A displayed formula; a side that the next one only repeats is left out."""
     kept = [one for one, after in pairwise(sides) if not _repeats(after, one)]
-    return Formula(Equation((*kept, sides[-1])))
+    return Formula(ShownEquation((*kept, sides[-1])))
 
 
 def _repeats(after: Expr, before: Expr) -> bool:
@@ -104,7 +104,7 @@ class Layout(ABC):
         """Words and symbols on one line."""
         return "".join(self.text(p) if isinstance(p, str) else self.symbol(p) for p in parts)
 
-    def cells(self, table: Table) -> list[list[str]]:
+    def cells(self, table: ShownTable) -> list[list[str]]:
         """The heading and the rows of a table."""
         rows = [[self.inline(cell) for cell in row] for row in table.rows]
         return [[self.text(cell) for cell in table.heading], *rows]
@@ -141,7 +141,7 @@ class AsText(Layout):
                     yield from textwrap.wrap(
                         self.inline(entry), self.width, initial_indent=mark, subsequent_indent="     "
                     )
-            case Table():
+            case ShownTable():
                 rows = self.cells(block)
                 widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
                 for row in rows:
@@ -183,7 +183,7 @@ class AsMarkdown(Layout):
                 marks = (f"{n}." if block.numbered else "-" for n in range(1, len(block.entries) + 1))
                 entries = zip(marks, block.entries, strict=True)
                 return "\n".join(f"{mark} {self.inline(entry)}" for mark, entry in entries)
-            case Table():
+            case ShownTable():
                 heading, *rows = self.cells(block)
                 rows = [heading, ["---"] * len(heading), *rows]
                 return "\n".join(f"| {' | '.join(row)} |" for row in rows)

@@ -25,7 +25,7 @@ class Name(NamedTuple):
     low: str = ""
 
 
-class Span(NamedTuple):
+class Spanned(NamedTuple):
     """The distance between two points or centres."""
 
     a: Name
@@ -58,7 +58,7 @@ class Trig(NamedTuple):
     angle: Expr
 
 
-class Root(NamedTuple):
+class RootOf(NamedTuple):
     """A square root."""
 
     of: Expr
@@ -83,10 +83,10 @@ class Quantity(NamedTuple):
     unit: str
 
 
-Expr = Num | Name | Span | Product | Quotient | Sum | Trig | Root | Square | Exp | Quantity
+Expr = Num | Name | Spanned | Product | Quotient | Sum | Trig | RootOf | Square | Exp | Quantity
 
 
-class Equation(NamedTuple):
+class ShownEquation(NamedTuple):
     """Expressions that are equal."""
 
     sides: tuple[Expr, ...]
@@ -136,7 +136,7 @@ class Notation(ABC):
     """a quotient stands on the line, so that its parts need brackets"""
     equals = " = "
 
-    def equation(self, equation: Equation) -> str:
+    def equation(self, equation: ShownEquation) -> str:
         """All sides with the sign of equality between."""
         return self.equals.join(self.side(side) for side in equation.sides)
 
@@ -153,10 +153,10 @@ class Notation(ABC):
                 return self.quantity(self.number(expression.number.digits), expression.unit)
             case Name():
                 return self.name(expression)
-            case Span():
+            case Spanned():
                 return self.span(self.name(expression.a), self.name(expression.b))
             case Product():
-                symbols = all(isinstance(f, Name | Span) for f in expression.factors)
+                symbols = all(isinstance(f, Name | Spanned) for f in expression.factors)
                 return self.product([self._factor(f, n) for n, f in enumerate(expression.factors)], symbols)
             case Quotient():
                 return self.quotient(*self._over_and_under(expression))
@@ -166,7 +166,7 @@ class Notation(ABC):
                 wide = isinstance(expression.angle, Sum) or is_negative(expression.angle)
                 degrees = not _symbols(expression.angle)
                 return self.trig(expression.function, self.expression(expression.angle), wide, degrees)
-            case Root():
+            case RootOf():
                 return self.root(self.expression(expression.of))
             case Exp():
                 return self.exp(self.expression(expression.of))

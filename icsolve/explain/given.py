@@ -32,7 +32,7 @@ from icsolve.case import (
 from icsolve.case.names import pair_name
 from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Knife, Polygon, Radii, Roller, Shape
 from icsolve.derivation import Known
-from icsolve.explain.document import Block, Inline, Items, Section, Table, words
+from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, words
 from icsolve.explain.formula import Name, Num, Quantity
 from icsolve.statics.power import is_unknown, reacting
 from icsolve.wording.joints import joint_words
@@ -263,7 +263,7 @@ def _points(known: Known, figures: Figures) -> list[Block]:
         x, y = (figures.length(c).digits for c in place)
         rows.append(((name,), (x,), (y,), ("given" if given else "from the figure's data",)))
     unit = known.case.units.length
-    return [Table(("point", f"x, {unit}", f"y, {unit}", ""), tuple(rows))] if rows else []
+    return [ShownTable(("point", f"x, {unit}", f"y, {unit}", ""), tuple(rows))] if rows else []
 
 
 def _load(known: Known, figures: Figures, load: Load) -> tuple[Inline, ...]:

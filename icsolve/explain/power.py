@@ -20,7 +20,7 @@ from icsolve.screws.plane import velocity
 from icsolve.wording.sentences import listed
 
 
-class End(NamedTuple):
+class TermEnd(NamedTuple):
     """A load at one of its two links: ``lever`` as a symbol (None for a torque) and as a number."""
 
     sign: int
@@ -30,12 +30,12 @@ class End(NamedTuple):
     value: float
 
 
-class Term(NamedTuple):
+class ShownTerm(NamedTuple):
     """A load by ``name`` with its ends; ``gain`` is what its own unit exerts, ``factor`` its power per unit
     of it while the reference moves at 1, in the unit of the equation; ``numbers`` is that written out."""
 
     acting: Acting
-    ends: tuple[End, ...]
+    ends: tuple[TermEnd, ...]
     gain: tuple[Expr, ...]
     numbers: Expr
     factor: float
@@ -53,7 +53,7 @@ class Term(NamedTuple):
         return self.ends[0].sign if len(self.ends) == 1 else 1
 
 
-def _moving(known: Known, end: End, over: str | None) -> Expr:
+def _moving(known: Known, end: TermEnd, over: str | None) -> Expr:
     motion: Expr = motion_name(known, end.link)
     if over is not None:
         motion = Num("1") if end.link == over else Quotient(motion, motion_name(known, over))
@@ -62,7 +62,7 @@ def _moving(known: Known, end: End, over: str | None) -> Expr:
 
 def term_of(
     known: Known, figures: Figures, ratios: Ratios, acting: Acting
-) -> tuple[Term | None, list[Block]]:
+) -> tuple[ShownTerm | None, list[Block]]:
     """A load's term and the formulas of its levers; None where all its links stand still."""
     said: list[Block] = []
     ends = []
@@ -88,7 +88,7 @@ def term_of(
     numbers = product(*(() if not gain else (figures.number(value),)), whole, figures.number(scale))
     sign = ends[0].sign if len(ends) == 1 else 1
     total = sum(end.sign * end.value * ratios.rates[end.link] for end in ends)
-    return Term(acting, tuple(ends), gain, numbers, sign * total * value * scale, name), [*said, *more]
+    return ShownTerm(acting, tuple(ends), gain, numbers, sign * total * value * scale, name), [*said, *more]
 
 
 def _sprung(
@@ -151,14 +151,14 @@ def _gain(known: Known, figures: Figures, acting: Acting) -> tuple[tuple[Expr, .
 
 def _end(
     known: Known, figures: Figures, ratios: Ratios, acting: Acting, sign: int, link: str
-) -> tuple[End, list[Block]]:
+) -> tuple[TermEnd, list[Block]]:
     if acting.at is None:
-        return End(sign, link, None, Num("1"), 1.0), []
+        return TermEnd(sign, link, None, Num("1"), 1.0), []
     low = "".join(load_name(acting.load.name))
     low = low if len(links_of(known, acting)) == 1 else f"{low},{link}"
     force = (load_name(acting.load.name),)
     found, said = lever(known, figures, ratios.headings, force, low, link, acting.at, acting.direction)
-    return End(sign, link, *found), said
+    return TermEnd(sign, link, *found), said
 
 
 # --- the sum of power ------------------------------------------------------------------------------------
@@ -271,7 +271,7 @@ def power_section(known: Known, figures: Figures, ratios: Ratios, loads: Sequenc
     """The sum of power and the unknown load that makes it zero; None where the centres are not sharp enough
     to give it."""
     blocks: list[Block] = []
-    terms: list[Term] = []
+    terms: list[ShownTerm] = []
     for acting in loads:
         term, said = term_of(known, figures, ratios, acting)
         blocks += said
@@ -289,7 +289,7 @@ def power_section(known: Known, figures: Figures, ratios: Ratios, loads: Sequenc
     return Section("Power", tuple(blocks))
 
 
-def _agrees(known: Known, terms: Sequence[Term], friction: Sequence[Rubbed]) -> bool:
+def _agrees(known: Known, terms: Sequence[ShownTerm], friction: Sequence[Rubbed]) -> bool:
     """Whether the terms give the answer (centres that contradict each other a little do not)."""
     roots = [term for term in terms if term.acting.unknown and _is_root(term.acting)]
     if len(roots) != 1 or roots[0].acting.value is None:
@@ -299,7 +299,7 @@ def _agrees(known: Known, terms: Sequence[Term], friction: Sequence[Rubbed]) -> 
 
 
 def _numbers(
-    known: Known, figures: Figures, ratios: Ratios, terms: Sequence[Term], friction: Sequence[Rubbed]
+    known: Known, figures: Figures, ratios: Ratios, terms: Sequence[ShownTerm], friction: Sequence[Rubbed]
 ) -> Iterable[Block]:
     """A load at a time over the reference's speed, then the unknown from their sum."""
     units, reference = known.case.units, ratios.reference
@@ -318,7 +318,7 @@ def _numbers(
     yield from _solved(known, figures, terms, friction)
 
 
-def _term(known: Known, figures: Figures, reference: str, term: Term, unit: str) -> Iterable[Block]:
+def _term(known: Known, figures: Figures, reference: str, term: ShownTerm, unit: str) -> Iterable[Block]:
     """The power of a known load; of the unknown one what it is multiplied by."""
     symbols, name = term.symbols(known, over=reference), term.name
     if not term.acting.unknown:
@@ -331,7 +331,7 @@ def _term(known: Known, figures: Figures, reference: str, term: Term, unit: str)
 
 
 def _solved(
-    known: Known, figures: Figures, terms: Sequence[Term], friction: Sequence[Rubbed]
+    known: Known, figures: Figures, terms: Sequence[ShownTerm], friction: Sequence[Rubbed]
 ) -> Iterable[Block]:
     """The unknown load: the powers of the others with the other sign, over its factor."""
     unknown = [term for term in terms if term.acting.unknown]

@@ -24,7 +24,7 @@ from icsolve.wording.sentences import listed
 Headings = Mapping[str, float]
 
 
-class Part(NamedTuple):
+class RopeLine(NamedTuple):
     """What a link has to do with a rope: sign, factor in symbols and in numbers."""
 
     sign: int
@@ -35,18 +35,18 @@ class Part(NamedTuple):
 def rope_ratio(known: Known, figures: Figures, ratios: Ratios, ratio: Ratio) -> Iterable[Block]:
     """How two links move that a rope ties: the pulls of its parts do no work."""
     assert ratio.rope is not None
-    parts: dict[str, list[Part]] = {ratio.of: [], ratio.link: []}
+    parts: dict[str, list[RopeLine]] = {ratio.of: [], ratio.link: []}
     yield words(f"The rope {ratio.rope.name} keeps its length, so the pulls of its parts do no work.")
     for pull in rope_pulls(known, ratio.rope):
         if pull.link == ratio.rope.end:  # pulled toward the last pulley
             angle = math.radians(ratios.headings[pull.link])
             toward = math.cos(angle) * pull.direction[0] + math.sin(angle) * pull.direction[1]
-            parts[pull.link].append(Part(1 if toward > 0.0 else -1, Num("1"), Num("1")))
+            parts[pull.link].append(RopeLine(1 if toward > 0.0 else -1, Num("1"), Num("1")))
         elif pull.link in parts:
             found, said = _pulled(known, figures, ratios.headings, pull)
             yield from said
             both = (product(Num(str(pull.strands)), one) for one in (found.name, found.number))
-            parts[pull.link].append(Part(1, *both))
+            parts[pull.link].append(RopeLine(1, *both))
     moves = {link: motion_name(known, link) for link in parts}
     work = tuple((p.sign, product(p.symbol, moves[link])) for link, some in parts.items() for p in some)
     yield formula(Sum(tuple(sorted(work, key=lambda term: -term[0]))), Num("0"))
@@ -57,7 +57,7 @@ def rope_ratio(known: Known, figures: Figures, ratios: Ratios, ratio: Ratio) -> 
     yield formula(Quotient(moves[ratio.link], moves[ratio.of]), symbols, numbers, figures.number(ratio.value))
 
 
-def _sum(parts: Sequence[Part], sign: int = 1, *, numbers: bool = False) -> Expr:
+def _sum(parts: Sequence[RopeLine], sign: int = 1, *, numbers: bool = False) -> Expr:
     """The sum of parts, each with its sign times another."""
     terms = tuple((sign * p.sign, p.number if numbers else p.symbol) for p in parts)
     return terms[0][1] if len(terms) == 1 and terms[0][0] > 0 else Sum(terms)
@@ -188,7 +188,7 @@ def _drawn(known: Known, figures: Figures, rope: Rope, found: set[str]) -> Itera
     found |= {rope.name, f"end of {rope.name}"}
     last = len(rope.points) - 1
     parts = [
-        Part(
+        RopeLine(
             1,
             product(load_name(a.load.name), *_gain(a)),
             product(figures.number(a.value or 0.0), *_gain_number(figures, a)),
@@ -220,7 +220,7 @@ def _alone(known: Known, link: str) -> bool:
     return link != case.ground and bool(joints) and plain and simple and not turned
 
 
-class Work(NamedTuple):
+class RopeWork(NamedTuple):
     """The work of a load or pull on a link: its symbol, what stands beside it in symbols and in numbers, its
     number, and whether it is asked for."""
 
@@ -247,7 +247,7 @@ def _by_itself(
     about = pivot(known, link) is not None
     if not pulls or len(names - found) != 1 or not (about or link in headings):
         return
-    terms: list[Work] = []
+    terms: list[RopeWork] = []
     blocks: list[Block] = []
     for acting in loads:
         work, said = _of_load(known, figures, headings, acting, found, shown)
@@ -258,7 +258,7 @@ def _by_itself(
         beside: tuple[Name, Num] = (one.name, Num(str(pull.strands)))
         new = pull.rope.name not in found
         number = figures.quantity(pull.tension or 0.0, known.case.units.force)
-        terms.append(Work(1, Name(*pull.symbol), beside, (beside[1], one.number), number, new))
+        terms.append(RopeWork(1, Name(*pull.symbol), beside, (beside[1], one.number), number, new))
         blocks += [] if one.name in shown else said
     arms = "have no arm about its centre" if about else "do no work as it slides"
     yield words(f"Link {link} by itself: the forces of the frame {arms}.")
@@ -268,7 +268,7 @@ def _by_itself(
     asked = [w for w in terms if w.asked]
     first = float(asked[0].number.number.digits) or 1.0
     shares = [figures.number(float(w.number.number.digits) / first) for w in asked]
-    parts = [Part(w.sign, w.name, product(s, *w.factors)) for w, s in zip(asked, shares, strict=True)]
+    parts = [RopeLine(w.sign, w.name, product(s, *w.factors)) for w, s in zip(asked, shares, strict=True)]
     over: Expr = Sum(rest) if rest else Num("0")
     yield formula(asked[0].name, Quotient(over, _sum(parts, numbers=True)), asked[0].number)
     found |= names
@@ -276,21 +276,21 @@ def _by_itself(
 
 def _of_load(
     known: Known, figures: Figures, headings: Headings, acting: Acting, found: set[str], shown: set[Expr]
-) -> tuple[Work | None, list[Block]]:
+) -> tuple[RopeWork | None, list[Block]]:
     name, new = load_name(acting.load.name), acting.load.name not in found
     number = figures.quantity(acting.value or 0.0, acting.unit)
     if acting.at is not None:
         low = "".join(name)
         one, said = lever(known, figures, headings, (name,), low, acting.link, acting.at, acting.direction)
         factors = (*_gain_number(figures, acting), one.number)
-        return Work(
+        return RopeWork(
             1, name, (one.name, *_gain(acting)), factors, number, new
         ), [] if one.name in shown else said
     if pivot(known, acting.link) is None:
         return None, []
     turn = -1 if isinstance(acting.load, Torque) and acting.load.turns == "cw" else 1
     per = figures.number(1.0 / known.case.units.torque_per_force_length)
-    return Work(turn, name, (Num("1"),), (per,), number, new), []
+    return RopeWork(turn, name, (Num("1"),), (per,), number, new), []
 
 
 # --- screws ------------------------------------------------------------------------------------------------

@@ -10,7 +10,7 @@ from icsolve.case import Spring, Torque
 from icsolve.derivation import Known, Step, acting_loads, all_steps, answer_ratios, needed_steps
 from icsolve.errors import SceneError
 from icsolve.explain.centres import centre_sections, ratio_section, worked_speeds
-from icsolve.explain.document import Block, Document, Inline, Items, Section, Table, words
+from icsolve.explain.document import Block, Document, Inline, Items, Section, ShownTable, words
 from icsolve.explain.formula import Name, Num, Quantity, Quotient
 from icsolve.explain.given import (
     Figures,
@@ -95,7 +95,7 @@ def rates_section(known: Known, figures: Figures) -> Iterable[Section]:
         rows.append(((rate_name(link),), (value,)))
     yield from worked_speeds(known, figures)
     blocks: list[Block] = [
-        Table(("link", f"angular velocity, {unit}, counterclockwise positive"), tuple(rows))
+        ShownTable(("link", f"angular velocity, {unit}, counterclockwise positive"), tuple(rows))
     ]
     blocks += _velocities(known, figures, timed)
     yield Section("Speeds", tuple(blocks))
@@ -112,7 +112,7 @@ def _velocities(known: Known, figures: Figures, timed: bool) -> Iterable[Block]:
             continue
         rows.append(((f"{point} on {link}",), (figures.number(v[0]),), (figures.number(v[1]),)))
     if rows:
-        yield Table(("point", f"x, {unit}", f"y, {unit}"), tuple(rows))
+        yield ShownTable(("point", f"x, {unit}", f"y, {unit}"), tuple(rows))
 
 
 def check_section(known: Known, figures: Figures) -> Iterable[Section]:

@@ -8,11 +8,11 @@ from typing import NamedTuple
 from icsolve.derivation import Known
 from icsolve.derivation.spatial import InSpace, Push, in_space
 from icsolve.explain.bodies import NOTHING, open_number
-from icsolve.explain.document import Block, Inline, Items, Section, Table, formula, words
+from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Sum, product
 from icsolve.explain.given import Figures, load_name
 from icsolve.statics.space.figure import Vec, size, sub
-from icsolve.statics.space.reaction_basis import Tie, kind_of
+from icsolve.statics.space.reaction_basis import SpatialTie, kind_of
 from icsolve.statics.space.report import direction_words
 from icsolve.wording.sentences import listed
 
@@ -34,7 +34,7 @@ def given_in_space(known: Known, figures: Figures) -> Section:
         if not name.startswith("@"):
             rows.append(((name,), *((figures.length(c).digits,) for c in place)))
     if rows:
-        blocks.append(Table(("point", *(f"{axis}, {unit}" for axis in AXES)), tuple(rows)))
+        blocks.append(ShownTable(("point", *(f"{axis}, {unit}" for axis in AXES)), tuple(rows)))
     loads = [push for push in scene.loads if not push.unknown]
     if loads:
         blocks.append(words("Loads:"))
@@ -51,7 +51,7 @@ def asked_in_space(known: Known, figures: Figures) -> Section:
     return Section("Asked", (said, Items(tuple(_load(figures, push) for push in unknown))))
 
 
-def _joint(tie: Tie) -> str:
+def _joint(tie: SpatialTie) -> str:
     kind = {
         "ball": "ball joint",
         "radial": "radial bearing",
@@ -109,10 +109,10 @@ def _reactions(known: Known, figures: Figures) -> Section:
     forces = tuple(f"F{axis}, {units.force}" for axis in AXES)
     couples = tuple(f"M{axis}, {units.torque}" for axis in AXES)
     said = words("The force of the first link on the second, with the couple about the joint:")
-    return Section("Reactions", (said, Table(("force", "joint", *forces, *couples), tuple(rows))))
+    return Section("Reactions", (said, ShownTable(("force", "joint", *forces, *couples), tuple(rows))))
 
 
-class On(NamedTuple):
+class SpatialOn(NamedTuple):
     """A force and a couple on a link, in force and force times length."""
 
     name: str
@@ -145,7 +145,7 @@ def _link(known: Known, figures: Figures, scene: InSpace, link: str) -> Section:
     return Section(title, tuple(blocks))
 
 
-def _acting(known: Known, scene: InSpace, link: str) -> Iterable[On | None]:
+def _acting(known: Known, scene: InSpace, link: str) -> Iterable[SpatialOn | None]:
     """All reactions and loads on a link; None for a reaction that is open."""
     assert known.answer is not None and known.answer.spatial is not None
     per = known.case.units.torque_per_force_length
@@ -160,20 +160,20 @@ def _acting(known: Known, scene: InSpace, link: str) -> Iterable[On | None]:
         low = r.by + r.on if len(r.by) == len(r.on) == 1 else f"{r.by}-{r.on}"
         x, y, z, mx, my, mz = numbers
         low = f"{low}@{r.where}," if "@" in title else low
-        yield On("F", low, r.at, (x, y, z), (mx / per, my / per, mz / per))
+        yield SpatialOn("F", low, r.at, (x, y, z), (mx / per, my / per, mz / per))
     for push in scene.loads:
         if link in (push.link, push.against):
             sign = 1.0 if link == push.link else -1.0
             name = load_name(push.name)
             force, couple = (_scaled(sign, v) for v in (push.force, push.couple))
-            yield On(name.base, name.low, push.at, force, couple)
+            yield SpatialOn(name.base, name.low, push.at, force, couple)
 
 
 def _scaled(s: float, v: Vec) -> Vec:
     return (s * v[0], s * v[1], s * v[2])
 
 
-def _forces(figures: Figures, forces: Sequence[On], k: int, largest: float) -> Block:
+def _forces(figures: Figures, forces: Sequence[SpatialOn], k: int, largest: float) -> Block:
     kept = [on for on in forces if abs(on.force[k]) > NOTHING * largest]
     if not kept:
         return words("No force acts that way.")
@@ -181,7 +181,7 @@ def _forces(figures: Figures, forces: Sequence[On], k: int, largest: float) -> B
     return formula(symbols, Sum(tuple((1, figures.number(on.force[k])) for on in kept)), Num("0"))
 
 
-def _moments(figures: Figures, forces: Sequence[On], about: Vec, k: int, largest: float) -> Block:
+def _moments(figures: Figures, forces: Sequence[SpatialOn], about: Vec, k: int, largest: float) -> Block:
     """Arms times components, and couples: M_x = y F_z - z F_y and so on round."""
     i, j = (k + 1) % 3, (k + 2) % 3
     terms: list[tuple[int, Expr]] = []

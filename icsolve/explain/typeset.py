@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from icsolve.draw import tikz
 from icsolve.draw.marks import Mark
 from icsolve.draw.svg import escaped
-from icsolve.explain.document import Block, Document, Formula, Items, Layout, Table, Words, dotted
+from icsolve.explain.document import Block, Document, Formula, Items, Layout, ShownTable, Words, dotted
 from icsolve.explain.formula import LATEX, MATHML, Expr
 
 STYLE = """
@@ -67,7 +67,7 @@ class AsHtml(Layout):
                 tag = "ol" if block.numbered else "ul"
                 entries = "".join(f"<li>{self.inline(entry)}</li>" for entry in block.entries)
                 return f"<{tag}>{entries}</{tag}>\n"
-            case Table():
+            case ShownTable():
                 heading, *rows = self.cells(block)
                 head = "".join(f'<th scope="col">{cell}</th>' for cell in heading)
                 body = "".join(f"<tr>{''.join(f'<td>{cell}</td>' for cell in row)}</tr>" for row in rows)
@@ -120,7 +120,7 @@ class AsTex(Layout):
                 kind = "enumerate" if block.numbered else "itemize"
                 entries = "".join(f"\\item {self.inline(entry)}\n" for entry in block.entries)
                 return f"\\begin{{{kind}}}\n{entries}\\end{{{kind}}}\n"
-            case Table():
+            case ShownTable():
                 heading, *rows = (" & ".join(row) + " \\\\\n" for row in self.cells(block))
                 columns = "l" * len(block.heading)
                 body = f"{heading}\\hline\n{''.join(rows)}"

@@ -16,7 +16,7 @@ from icsolve.assembly.workspace import Frame
 from icsolve.case import Case, Pair
 from icsolve.case.joints import Mesh
 from icsolve.case.names import ordered_pair
-from icsolve.kinematics.kennedy import BodyPair, Kennedy, Known, ordered, sine_between, unit
+from icsolve.kinematics.kennedy import BodyPair, Kennedy, LocatedCentre, ordered, sine_between, unit
 from icsolve.numbers.arithmetic import ROUNDING_NOISE, Arithmetic, Showing, all_vanish
 from icsolve.numbers.null_space import ROUNDING
 from icsolve.screws.joints import Points, freedoms, joint_freedoms, joint_points, pitch_point
@@ -112,7 +112,7 @@ class CentreFinder:
         own = self._own(pair)
         if own is not None or (bodies in primaries and bodies in moving):
             point, by = own or primaries[bodies]
-            return self._placed(pair, point, Known(point, ROUNDING, by))
+            return self._placed(pair, point, LocatedCentre(point, ROUNDING, by))
         if i == j or (bodies not in moving and self.relative(*bodies) == REST):
             return Centre(pair, "undefined", why=f"{pair[0]} and {pair[1]} move as one")
         if bodies not in moving:
@@ -120,7 +120,7 @@ class CentreFinder:
             return Centre(pair, "undetermined", why=why)
         known = search.known[bodies]
         if known.error > TRUSTED or not _agree(known, moving[bodies], slack):
-            known = Known(unit(moving[bodies]), ROUNDING, "loop equations")
+            known = LocatedCentre(unit(moving[bodies]), ROUNDING, "loop equations")
         twist = self.relative(*bodies)
         assert twist is not None
         return self._placed(pair, twist, known)
@@ -137,7 +137,7 @@ class CentreFinder:
                 return joint_freedoms(joint, self.points, self.arithmetic)[0], by
         return None
 
-    def _placed(self, pair: Pair, at: Triple, known: Known) -> Centre:
+    def _placed(self, pair: Pair, at: Triple, known: LocatedCentre) -> Centre:
         """The centre at a homogeneous point, found in a way that is known."""
         a, (x, y, w), (ox, oy, scale) = self.arithmetic, at, self.frame
         lines = tuple(tuple(self._names(end) for end in line.ends) for line in known.lines)
@@ -203,7 +203,7 @@ def own_centre(top: Topology, pair: Pair, points: Points, arithmetic: Arithmetic
     return None
 
 
-def _agree(known: Known, twist: Triple, slack: float) -> bool:
+def _agree(known: LocatedCentre, twist: Triple, slack: float) -> bool:
     """Whether a construction and the loop equations give one place, as far as its digits go."""
     return sine_between(known.point, twist) <= max(1e-12, 1e3 * known.error, 10.0 * slack)
 

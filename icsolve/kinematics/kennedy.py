@@ -19,7 +19,7 @@ from icsolve.screws.plane import Triple, cross
 BodyPair = tuple[int, int]
 
 
-class Line(NamedTuple):
+class CentreLine(NamedTuple):
     """A line on which a centre lies: through the centres ``ends``, or the common normal of a joint
     between the pair itself (one entry)."""
 
@@ -28,13 +28,13 @@ class Line(NamedTuple):
     error: float
 
 
-class Known(NamedTuple):
+class LocatedCentre(NamedTuple):
     """A centre as it was found: a homogeneous point of unit length and the estimated error (sine)."""
 
     point: Triple
     error: float
     by: str
-    lines: tuple[Line, ...] = ()
+    lines: tuple[CentreLine, ...] = ()
 
 
 _error = attrgetter("error")
@@ -63,20 +63,20 @@ class Kennedy:
         self.bodies = frozenset(bodies)
         self.twists = twists
         self.hub = hub
-        self.known: dict[BodyPair, Known] = {}
+        self.known: dict[BodyPair, LocatedCentre] = {}
         self.missing: set[BodyPair] = set()
-        self.lines: dict[BodyPair, list[Line]] = {}
-        self.heap: list[tuple[float, int, BodyPair, Known]] = []
+        self.lines: dict[BodyPair, list[CentreLine]] = {}
+        self.heap: list[tuple[float, int, BodyPair, LocatedCentre]] = []
         self.partners: dict[int, frozenset[int]] | None = None
         self.joined: dict[int, set[int]] = {body: set() for body in self.bodies}
         for i, j in (*primaries, *normals):
             self.joined[i].add(j)
             self.joined[j].add(i)
         for pair, (point, by) in primaries.items():
-            self._offer(pair, Known(unit(point), ROUNDING, by))
+            self._offer(pair, LocatedCentre(unit(point), ROUNDING, by))
         for pair, normal in normals.items():
             for line in normal:
-                self._draw(pair, Line((pair,), unit(line), ROUNDING))
+                self._draw(pair, CentreLine((pair,), unit(line), ROUNDING))
 
     def find(self, wanted: Iterable[BodyPair]) -> None:
         """Construct until every wanted pair that moves is known."""
@@ -92,7 +92,7 @@ class Kennedy:
                     self._spread(pair)
                 continue
             seed = self._seed(self.missing)
-            self._offer(seed, Known(unit(self.twists[seed]), ROUNDING, "loop equations"))
+            self._offer(seed, LocatedCentre(unit(self.twists[seed]), ROUNDING, "loop equations"))
 
     def _near(self, centre: set[int]) -> dict[int, frozenset[int]]:
         """For every body those with which its centre is sought: ``centre``, and those two joints away at
@@ -136,12 +136,12 @@ class Kennedy:
         error = p.error + q.error
         if sine <= SAME + error:
             point = p if p.error <= q.error else q
-            through = Line((one, two), point.point, error)
-            self._offer(target, Known(point.point, error, "construction", (through,)))
+            through = CentreLine((one, two), point.point, error)
+            self._offer(target, LocatedCentre(point.point, error, "construction", (through,)))
             return
-        self._draw(target, Line((one, two), line, ROUNDING + error / sine))
+        self._draw(target, CentreLine((one, two), line, ROUNDING + error / sine))
 
-    def _draw(self, pair: BodyPair, line: Line) -> None:
+    def _draw(self, pair: BodyPair, line: CentreLine) -> None:
         lines = self.lines.setdefault(pair, [])
         if len(lines) == ENOUGH:
             if line.error >= lines[-1].error:
@@ -151,10 +151,12 @@ class Kennedy:
             point, sine = _meet(line.line, other.line)
             error = line.error + other.error
             if sine > SAME + error:
-                self._offer(pair, Known(point, ROUNDING + error / sine, "construction", (other, line)))
+                self._offer(
+                    pair, LocatedCentre(point, ROUNDING + error / sine, "construction", (other, line))
+                )
         insort(lines, line, key=_error)
 
-    def _offer(self, pair: BodyPair, known: Known) -> None:
+    def _offer(self, pair: BodyPair, known: LocatedCentre) -> None:
         if pair not in self.known:
             heapq.heappush(self.heap, (known.error, len(self.heap), pair, known))
 

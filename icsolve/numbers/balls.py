@@ -494,7 +494,7 @@ class HalfUnits(Balls):
         return near + 0.0, (value.radius + math.ulp(near)) * UP
 
 
-class Moved(Balls):
+class MovedBalls(Balls):
     """The numbers of a case, one of them moved by a step."""
 
     def __init__(self, path: str, step: Decimal, digits: int) -> None:

@@ -21,52 +21,54 @@ ROUNDED = 2.0**-51
 RADIAN = float(np.pi / 180.0)
 
 
-class Ball(NamedTuple):
+class BallArray(NamedTuple):
     """Numbers between ``mid - rad`` and ``mid + rad``, (cells,)."""
 
     mid: Array
     rad: Array
 
-    def __add__(self, other: Ball) -> Ball:  # type: ignore[override]
+    def __add__(self, other: BallArray) -> BallArray:  # type: ignore[override]
         mid = self.mid + other.mid
-        return Ball(mid, self.rad + other.rad + ROUNDED * np.abs(mid))
+        return BallArray(mid, self.rad + other.rad + ROUNDED * np.abs(mid))
 
-    def __sub__(self, other: Ball) -> Ball:
+    def __sub__(self, other: BallArray) -> BallArray:
         mid = self.mid - other.mid
-        return Ball(mid, self.rad + other.rad + ROUNDED * np.abs(mid))
+        return BallArray(mid, self.rad + other.rad + ROUNDED * np.abs(mid))
 
-    def __mul__(self, other: Ball) -> Ball:  # type: ignore[override]
+    def __mul__(self, other: BallArray) -> BallArray:  # type: ignore[override]
         mid, one, two = self.mid * other.mid, np.abs(self.mid), np.abs(other.mid)
         rad = one * other.rad + self.rad * (two + other.rad)
-        return Ball(mid, rad * (1.0 + ROUNDED) + ROUNDED * np.abs(mid))
+        return BallArray(mid, rad * (1.0 + ROUNDED) + ROUNDED * np.abs(mid))
 
-    def __neg__(self) -> Ball:
-        return Ball(-self.mid, self.rad)
+    def __neg__(self) -> BallArray:
+        return BallArray(-self.mid, self.rad)
 
-    def times(self, factor: float) -> Ball:
+    def times(self, factor: float) -> BallArray:
         """A multiple."""
         mid = self.mid * factor
-        return Ball(mid, self.rad * abs(factor) * (1.0 + ROUNDED) + ROUNDED * np.abs(mid))
+        return BallArray(mid, self.rad * abs(factor) * (1.0 + ROUNDED) + ROUNDED * np.abs(mid))
 
-    def inverse(self) -> Ball:
+    def inverse(self) -> BallArray:
         """Of numbers that have zero among them: all numbers."""
         size = np.abs(self.mid)
         low = size - self.rad
         mid = 1.0 / self.mid
         rad = self.rad / (size * low)
-        return Ball(mid, np.where(low > 0.0, rad * (1.0 + 4.0 * ROUNDED) + ROUNDED * np.abs(mid), np.inf))
+        return BallArray(
+            mid, np.where(low > 0.0, rad * (1.0 + 4.0 * ROUNDED) + ROUNDED * np.abs(mid), np.inf)
+        )
 
-    def root(self) -> Ball:
+    def root(self) -> BallArray:
         """Square root of those that are not negative."""
         high = np.sqrt(np.maximum(self.mid + self.rad, 0.0))
         low = np.sqrt(np.maximum(self.mid - self.rad, 0.0))
         mid = 0.5 * (high + low)
-        return Ball(mid, 0.5 * (high - low) + 4.0 * ROUNDED * mid)
+        return BallArray(mid, 0.5 * (high - low) + 4.0 * ROUNDED * mid)
 
-    def narrower(self, other: Ball) -> Ball:
+    def narrower(self, other: BallArray) -> BallArray:
         """Of each two that hold the same number, the narrower."""
         mine = ~(other.rad < self.rad)
-        return Ball(np.where(mine, self.mid, other.mid), np.where(mine, self.rad, other.rad))
+        return BallArray(np.where(mine, self.mid, other.mid), np.where(mine, self.rad, other.rad))
 
     @property
     def excludes_zero(self) -> np.typing.NDArray[np.bool_]:
@@ -77,9 +79,9 @@ class Ball(NamedTuple):
 class Jet(NamedTuple):
     """A value and its first two derivatives by the input."""
 
-    value: Ball
-    first: Ball
-    second: Ball
+    value: BallArray
+    first: BallArray
+    second: BallArray
 
     def __add__(self, other: Jet) -> Jet:  # type: ignore[override]
         return Jet(*(a + b for a, b in zip(self, other, strict=True)))
@@ -106,8 +108,8 @@ class Jet(NamedTuple):
         """The narrower of these bounds and those about the middles of the cells."""
         bend = np.abs(self.second.mid) + self.second.rad
         slope = np.abs(middle.first.mid) + middle.first.rad
-        value = Ball(middle.value.mid, middle.value.rad + slope * half + bend * half * half)
-        first = Ball(middle.first.mid, middle.first.rad + bend * half * (1.0 + ROUNDED))
+        value = BallArray(middle.value.mid, middle.value.rad + slope * half + bend * half * half)
+        first = BallArray(middle.first.mid, middle.first.rad + bend * half * (1.0 + ROUNDED))
         return Jet(self.value.narrower(value), self.first.narrower(first), self.second)
 
     def root(self) -> Jet:
@@ -124,14 +126,13 @@ class Jet(NamedTuple):
         c, s = np.cos(x.mid), np.sin(x.mid)
         wide = np.minimum(x.rad, 4.0)
         rad = wide * wide * 0.5 + 4.0 * ROUNDED
-        cos = Ball(c, np.minimum(np.abs(s) * wide + rad, 2.0))
-        sin = Ball(s, np.minimum(np.abs(c) * wide + rad, 2.0))
+        cos = BallArray(c, np.minimum(np.abs(s) * wide + rad, 2.0))
+        sin = BallArray(s, np.minimum(np.abs(c) * wide + rad, 2.0))
         square = x1 * x1
         return (
             Jet(cos, -(sin * x1), -(cos * square) - sin * x2),
             Jet(sin, cos * x1, cos * x2 - sin * square),
         )
-
 
     def direction(self, other: Jet) -> Jet:
         """Direction of a vector (self, other), degrees in (-180, 180]."""
@@ -143,15 +144,15 @@ class Jet(NamedTuple):
         off, far = np.hypot(x.rad, y.rad), np.hypot(x.mid, y.mid)
         rad = np.where(off < far, np.degrees(np.arcsin(off / far)), np.inf)
         rad = np.where(np.abs(mid) + rad < 180.0, rad, rad + 360.0) + 360.0 * ROUNDED
-        return Jet(Ball(mid, rad), turned.times(1.0 / RADIAN), bent.times(1.0 / RADIAN))
+        return Jet(BallArray(mid, rad), turned.times(1.0 / RADIAN), bent.times(1.0 / RADIAN))
 
     def nearest(self) -> Jet:
         """The nearest whole number, which is the same in a cell or has no derivative there."""
         mid, rad = np.rint(self.value.mid), self.value.rad
         same = np.rint(self.value.mid - rad) == np.rint(self.value.mid + rad)
         nothing = np.zeros_like(mid)
-        open_ = Ball(nothing, np.where(same, 0.0, np.inf))
-        return Jet(Ball(mid, np.where(same, 0.0, rad + 1.0)), open_, open_)
+        open_ = BallArray(nothing, np.where(same, 0.0, np.inf))
+        return Jet(BallArray(mid, np.where(same, 0.0, rad + 1.0)), open_, open_)
 
 
 class Cells:
@@ -169,11 +170,11 @@ class Cells:
         """
         whole: dict[int, Jet] = {}
         middle: dict[int, Jet] = {}
-        nothing = Ball(np.zeros_like(mid), np.zeros_like(mid))
-        one = Ball(np.ones_like(mid), np.zeros_like(mid))
+        nothing = BallArray(np.zeros_like(mid), np.zeros_like(mid))
+        one = BallArray(np.ones_like(mid), np.zeros_like(mid))
 
         def still(value: float, noise: float) -> Jet:
-            return Jet(Ball(np.full_like(mid, value), np.full_like(mid, noise)), nothing, nothing)
+            return Jet(BallArray(np.full_like(mid, value), np.full_like(mid, noise)), nothing, nothing)
 
         def of(jets: dict[int, Jet], k: int) -> Jet:
             if k not in jets:
@@ -190,8 +191,8 @@ class Cells:
                     whole[k] = still(number, ROUNDED * abs(number))
                     middle[k] = whole[k]
                     if k == self.main:
-                        whole[k] = Jet(Ball(mid, half + noise), one, nothing)
-                        middle[k] = Jet(Ball(mid, noise), one, nothing)
+                        whole[k] = Jet(BallArray(mid, half + noise), one, nothing)
+                        middle[k] = Jet(BallArray(mid, noise), one, nothing)
                     continue
                 narrow = {Op.SQRT: node.a, Op.DIV: node.b}.get(node.op)
                 if narrow is not None:

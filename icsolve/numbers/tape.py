@@ -152,7 +152,7 @@ def _is_power_of_two(value: float) -> bool:
     return abs(math.frexp(value)[0]) == 0.5
 
 
-class Pass(NamedTuple):
+class BackwardPass(NamedTuple):
     """What one backward pass says of a result: its error bound, and its derivatives by path."""
 
     bound: float
@@ -237,13 +237,15 @@ class Tape:
         """Bound on the absolute error of a value."""
         return self._swept(value.index)[0] if type(value) is Taped else 0.0
 
-    def back(self, result: Operand) -> Pass:
+    def back(self, result: Operand) -> BackwardPass:
         """The backward pass from a result."""
         if type(result) is not Taped:
-            return Pass(0.0, {})
+            return BackwardPass(0.0, {})
         bound, weights = self._swept(result.index)
         last = result.index
-        return Pass(bound, {p: weights[leaf.index] for p, leaf in self.inputs.items() if leaf.index <= last})
+        return BackwardPass(
+            bound, {p: weights[leaf.index] for p, leaf in self.inputs.items() if leaf.index <= last}
+        )
 
     def _swept(self, last: int) -> tuple[float, list[float]]:
         """Sum of the effects of all roundings on the value at ``last``, and its derivative by every value

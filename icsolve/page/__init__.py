@@ -7,7 +7,7 @@ from icsolve.case import Case
 from icsolve.derivation import Known, known_of, needed_steps
 from icsolve.draw.svg import sheet
 from icsolve.explain.solution import solution
-from icsolve.page.document import Parts, html_of
+from icsolve.page.document import PageParts, html_of
 
 DIGITS = 6
 """Significant digits of the worked solution."""
@@ -23,17 +23,19 @@ def page_html(case: Case | Known) -> str:
     return html_of(_in_space(known) if known.case.space is not None else _in_plane(known))
 
 
-def _in_space(known: Known) -> Parts:
+def _in_space(known: Known) -> PageParts:
     from icsolve.page.motion import why_still
     from icsolve.page.pictures import kinds_of, still_svg
 
     picture, marks = still_svg(known)
     model = {"window": [0, 0, 1, 1], "steps": 0, "centres": [], "loads": {}, "anchors": {}, "answers": []}
     rules = sheet(kinds_of(marks))
-    return Parts(known, (), picture, "", (), None, solution(known, DIGITS), why_still(known), model, rules)
+    return PageParts(
+        known, (), picture, "", (), None, solution(known, DIGITS), why_still(known), model, rules
+    )
 
 
-def _in_plane(known: Known) -> Parts:
+def _in_plane(known: Known) -> PageParts:
     from icsolve.page.document import equation_of
     from icsolve.page.figure import figure_of
     from icsolve.page.live import live_of
@@ -55,7 +57,7 @@ def _in_plane(known: Known) -> Parts:
     used = kinds_of((*figure.marks, *chords, *(mark for plot in plots for mark in plot.marks)))
     still = why_still(known) if motion is None and known.answer is not None else ""
     drawn = tuple((plot.heading, plot_svg(plot, n)) for n, plot in enumerate(plots))
-    return Parts(
+    return PageParts(
         known,
         steps,
         figure_svg(known, figure),

@@ -24,11 +24,11 @@ from icsolve.explain.typeset import AsHtml
 from icsolve.page.fields import section
 from icsolve.page.live import Live, why_presolved
 from icsolve.page.model import gain_rows
-from icsolve.page.motion import Array, Motion, exact, script_json
+from icsolve.page.motion import Array, PageMotion, exact, script_json
 from icsolve.page.pictures import track_svg
 
 
-class Equation(NamedTuple):
+class PageEquation(NamedTuple):
     """The equation in MathML, its rows as names and units, and the columns behind them.
 
     ``rows``: for each known load what it exerts, its ratio of speeds (MathML both), the unit of that and of
@@ -46,7 +46,7 @@ class Equation(NamedTuple):
     gain: dict[str, Any]
 
 
-def equation_of(known: Known, motion: Motion | None) -> Equation | None:
+def equation_of(known: Known, motion: PageMotion | None) -> PageEquation | None:
     """The equation of one unknown load and the known ones; None where it has no such simple form."""
     acting = acting_loads(known)
     unknown = [a for a in acting if a.unknown]
@@ -71,10 +71,10 @@ def equation_of(known: Known, motion: Motion | None) -> Equation | None:
     )
     own = (_math(exerted(root)), unit_exerted(known, root))
     exerts = exact((turn_of(root) * gain).tolist())
-    return Equation(symbols, ratio, shown, own, data, turn_of(root), exerts)
+    return PageEquation(symbols, ratio, shown, own, data, turn_of(root), exerts)
 
 
-def _term(known: Known, motion: Motion, acting: Acting, rows: slice, root: Array) -> dict[str, Any]:
+def _term(known: Known, motion: PageMotion, acting: Acting, rows: slice, root: Array) -> dict[str, Any]:
     """A known load in every position: what it exerts, and its speed over that of the unknown.
 
     ``shares`` are in units of the loads themselves, ``root`` is what a unit of the unknown exerts, signed.
@@ -179,7 +179,7 @@ FEW = 4
 """With so many steps at most there is room for the equation of power beside the figure."""
 
 
-class Parts(NamedTuple):
+class PageParts(NamedTuple):
     """All that a page shows; ``still`` says why nothing moves ('' where it does)."""
 
     known: Known
@@ -187,7 +187,7 @@ class Parts(NamedTuple):
     figure: str
     circle: str
     plots: tuple[tuple[str, str], ...]
-    equation: Equation | None
+    equation: PageEquation | None
     solution: Document
     still: str
     model: dict[str, Any]
@@ -195,7 +195,7 @@ class Parts(NamedTuple):
     live: Live | None = None
 
 
-def html_of(parts: Parts) -> str:
+def html_of(parts: PageParts) -> str:
     """The whole document."""
     styles = style() + parts.sheet
     title = escape(_clean(parts.known.title))
@@ -222,7 +222,7 @@ def _text(text: str) -> str:
     return escape(_clean(text))
 
 
-def _body(parts: Parts) -> Iterable[str]:
+def _body(parts: PageParts) -> Iterable[str]:
     known, case = parts.known, parts.known.case
     yield f"<header><h1>{_text(known.title)}</h1>"
     if case.source:
@@ -248,7 +248,7 @@ def _body(parts: Parts) -> Iterable[str]:
     yield "</div>"
 
 
-def _stage(parts: Parts) -> str:
+def _stage(parts: PageParts) -> str:
     """The figure, the answer, and the slider."""
     return "\n".join(
         part
@@ -266,7 +266,7 @@ def _stage(parts: Parts) -> str:
     )
 
 
-def _see(parts: Parts) -> str:
+def _see(parts: PageParts) -> str:
     """What can be shown in the figure besides, each by a box to tick."""
     if parts.live is None:
         return ""
@@ -299,7 +299,7 @@ def _see(parts: Parts) -> str:
     )
 
 
-def _answers(parts: Parts) -> str:
+def _answers(parts: PageParts) -> str:
     """Each unknown load with its value, kept up to date by the script."""
     if parts.known.answer is None:
         return ""
@@ -314,7 +314,7 @@ def _answers(parts: Parts) -> str:
     return f'<ul class="answers" id="answers" aria-live="polite">{items}</ul>'
 
 
-def _value(parts: Parts, name: str) -> str:
+def _value(parts: PageParts, name: str) -> str:
     """An answer in full precision; '' where it is a range."""
     assert parts.known.answer is not None
     value = parts.known.answer.answers[name].value
@@ -325,7 +325,7 @@ def _name(name: str) -> str:
     return "".join(f"<sub>{_text(run.text)}</sub>" if run.low else _text(run.text) for run in name_runs(name))
 
 
-def _controls(parts: Parts) -> str:
+def _controls(parts: PageParts) -> str:
     motion = parts.model["motion"]
     driver = _text(motion["driver"])
     last = motion["first"] + motion["step"] * (motion["rows"] - 0.5)
@@ -346,7 +346,7 @@ def _controls(parts: Parts) -> str:
     )
 
 
-def _step_buttons(parts: Parts) -> str:
+def _step_buttons(parts: PageParts) -> str:
     """The construction a step at a time, beside the figure; the script says which step it is."""
     if not _count(parts):
         return ""
@@ -359,12 +359,12 @@ def _step_buttons(parts: Parts) -> str:
     )
 
 
-def _count(parts: Parts) -> int:
+def _count(parts: PageParts) -> int:
     """How many centres are found by construction."""
     return max((step.number for step in parts.steps), default=0)
 
 
-def _construction(parts: Parts) -> str:
+def _construction(parts: PageParts) -> str:
     """The circle diagram, and all steps as buttons."""
     if not parts.steps:
         return ""
@@ -378,7 +378,7 @@ def _construction(parts: Parts) -> str:
     )
 
 
-def _sentence(parts: Parts, n: int) -> str:
+def _sentence(parts: PageParts, n: int) -> str:
     if n:
         return _unbroken(step_sentence(parts.known, parts.steps, n))
     first = [step.centre.pair for step in parts.steps if step.number == 0]
@@ -391,7 +391,7 @@ def _unbroken(sentence: str) -> str:
     return re.sub(r"(?<=\w)-(?=\w)", "\N{NON-BREAKING HYPHEN}", sentence)
 
 
-def _power(parts: Parts) -> str:
+def _power(parts: PageParts) -> str:
     """The equation of power, and a table of its terms."""
     equation, known = parts.equation, parts.known
     if equation is None or known.answer is None:
@@ -416,7 +416,7 @@ def _power(parts: Parts) -> str:
     )
 
 
-def _plots(parts: Parts) -> str:
+def _plots(parts: PageParts) -> str:
     if not parts.plots:
         return ""
     items = "".join(
@@ -425,7 +425,7 @@ def _plots(parts: Parts) -> str:
     return f'<section class="wide" aria-label="Plots"><div class="pair">{items}</div></section>'
 
 
-def _solution(parts: Parts) -> str:
+def _solution(parts: PageParts) -> str:
     """The worked solution of the position as written."""
     opened = "" if "motion" in parts.model else " open"
     return (

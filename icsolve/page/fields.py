@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from icsolve.assembly.data import LENGTH, RAY, Datum, X, number_of
-from icsolve.assembly.loci import Axis, Circle, Locus
+from icsolve.assembly.loci import Axis, CircleLocus, Locus
 from icsolve.assembly.steps import Given, Meet, Polar, Step
 from icsolve.case import Case, Load, Number, Pin, TorsionSpring
 from icsolve.case.names import pair_name
@@ -44,14 +44,14 @@ class Field(NamedTuple):
     bound: str
 
 
-class Line(NamedTuple):
+class FieldLine(NamedTuple):
     """Fields that are told in one line, after words."""
 
     words: str
     fields: tuple[Field, ...]
 
 
-def lines_of(case: Case) -> list[tuple[str, list[Line]]]:
+def lines_of(case: Case) -> list[tuple[str, list[FieldLine]]]:
     """All numbers of a case by section, in lines as one would say them."""
     held = numbers_of(case)
     sections = (
@@ -70,24 +70,24 @@ def _field(number: Number, before: str, unit: str, said: str, bound: str = "") -
     return Field(number.path, text, before, unit, said, bound)
 
 
-def _points(case: Case, held: Mapping[str, Number]) -> Iterable[Line]:
+def _points(case: Case, held: Mapping[str, Number]) -> Iterable[FieldLine]:
     unit = unit_word(case.units.length)
     for name in case.points:
         axes = [axis for axis in "xy" if f"points.{name}.{axis}" in held]
         fields = [_field(held[f"points.{name}.{axis}"], axis, unit, f"{axis} of {name}") for axis in axes]
         if fields:
-            yield Line(name.lstrip("@"), tuple(fields))
+            yield FieldLine(name.lstrip("@"), tuple(fields))
 
 
-def _plain(case: Case, held: Mapping[str, Number], section: str, unit: str) -> Iterable[Line]:
+def _plain(case: Case, held: Mapping[str, Number], section: str, unit: str) -> Iterable[FieldLine]:
     bound = "not negative" if section == "lengths" else ""
     for path, number in held.items():
         if path.startswith(f"{section}."):
             name = path.partition(".")[2]
-            yield Line("", (_field(number, f"{name} =", unit, name, bound),))
+            yield FieldLine("", (_field(number, f"{name} =", unit, name, bound),))
 
 
-def _joints(case: Case, held: Mapping[str, Number]) -> Iterable[Line]:
+def _joints(case: Case, held: Mapping[str, Number]) -> Iterable[FieldLine]:
     for joint in case.joints:
         own = [n for n in _numbers(joint) if n.path in held]
         if own:
@@ -95,7 +95,7 @@ def _joints(case: Case, held: Mapping[str, Number]) -> Iterable[Line]:
             at = getattr(joint, "at", None)
             words = f"{kind} {pair_name(case, joint.links[:2]) if len(joint.links) == 2 else ''}"
             words += f" at {at.lstrip('@')}" if at and not isinstance(joint, Pin) else ""
-            yield Line(words, tuple(_of_joint(case, n, words) for n in own))
+            yield FieldLine(words, tuple(_of_joint(case, n, words) for n in own))
 
 
 def _of_joint(case: Case, number: Number, words: str) -> Field:
@@ -117,13 +117,13 @@ def _key(path: str, after: int) -> tuple[str, str]:
     return (parts[-2], parts[-1]) if parts[-1].isdigit() and len(parts) > 1 else (parts[-1], "")
 
 
-def _loads(case: Case, held: Mapping[str, Number]) -> Iterable[Line]:
+def _loads(case: Case, held: Mapping[str, Number]) -> Iterable[FieldLine]:
     for one in case.loads:
         own = [n for n in _numbers(one) if n.path in held]
         if own:
-            yield Line(one.name, tuple(_of_load(case, one, n) for n in own))
+            yield FieldLine(one.name, tuple(_of_load(case, one, n) for n in own))
     if "gravity" in held and any(getattr(one, "mass", False) for one in case.loads):
-        yield Line("", (_field(held["gravity"], "gravity", "m/s²", "gravity", "not negative"),))
+        yield FieldLine("", (_field(held["gravity"], "gravity", "m/s²", "gravity", "not negative"),))
 
 
 _LOAD_UNITS = {"angle": DEGREES, "slope": "", "times": "", "mass": "kg"}
@@ -143,7 +143,7 @@ def _of_load(case: Case, one: Load, number: Number) -> Field:
     return _field(number, shown, unit, f"{shown} of {one.name}", _BOUNDS.get(name, ""))
 
 
-def _motion(case: Case, held: Mapping[str, Number]) -> Iterable[Line]:
+def _motion(case: Case, held: Mapping[str, Number]) -> Iterable[FieldLine]:
     for given in case.motion:
         fields = []
         for number, name in ((given.speed, "speed"), (given.angle, "angle")):
@@ -153,7 +153,7 @@ def _motion(case: Case, held: Mapping[str, Number]) -> Iterable[Line]:
                 fields.append(_field(number, name, unit, f"{name} of link {given.link}", "positive"))
         if fields:
             point = f", point {given.point}" if given.point else ""
-            yield Line(f"link {given.link}{point}", tuple(fields))
+            yield FieldLine(f"link {given.link}{point}", tuple(fields))
 
 
 def _numbers(value: Any) -> Iterable[Number]:
@@ -201,7 +201,7 @@ def _turning(step: Polar, number: Callable[[Datum], int]) -> Iterable[list[Any]]
 
 def _along(locus: Locus, number: Callable[[Datum], int]) -> Iterable[list[Any]]:
     """The length or coordinate that moves a locus."""
-    if isinstance(locus, Circle) and isinstance(locus.radius, Datum) and locus.radius.kind == LENGTH:
+    if isinstance(locus, CircleLocus) and isinstance(locus.radius, Datum) and locus.radius.kind == LENGTH:
         yield ["span", number(locus.radius), locus.centre]
     elif isinstance(locus, Axis):
         yield ["x" if locus.datum.kind == X else "y", number(locus.datum)]
@@ -259,7 +259,7 @@ def section(case: Case) -> str:
     )
 
 
-def _line(one: Line) -> str:
+def _line(one: FieldLine) -> str:
     words = f'<span class="what">{escape(one.words)}</span> ' if one.words else ""
     return f"<li>{words}{' '.join(map(_input, one.fields))}</li>"
 

@@ -17,20 +17,20 @@ from icsolve.case import Force, Pin, Spring
 from icsolve.case.joints import Guided
 from icsolve.derivation import Acting, Known, Step, acting_loads
 from icsolve.draw.frame import frame_parts, joint_name, joint_parts, point_parts, rims
-from icsolve.draw.links import Body, bars, body_of, guide_in_picture, link_part, outline
+from icsolve.draw.links import DrawnBody, bars, body_of, guide_in_picture, link_part, outline
 from icsolve.draw.loads import load_parts
-from icsolve.draw.marks import Box, Group, Mark, Point, Stroke, Text, bounds, view_of
+from icsolve.draw.marks import Box, Mark, MarkGroup, Point, Stroke, TextMark, bounds, view_of
 from icsolve.draw.place import Label, Placer, joined
 from icsolve.draw.ropes import belts
 from icsolve.draw.scene import ORDER, Part, Scene, Wheel, outlines, round_things, together
-from icsolve.page.motion import Array, Motion, moved
+from icsolve.page.motion import Array, PageMotion, moved
 
 ROOM = (430.0, 350.0)
 """The largest that the mechanism is drawn, through all its positions."""
 Data = tuple[tuple[str, str], ...]
 
 
-class Figure(NamedTuple):
+class PageFigure(NamedTuple):
     """The marks of a page's figure, its scene and its window."""
 
     scene: Scene
@@ -38,7 +38,7 @@ class Figure(NamedTuple):
     window: Box
 
 
-def figure_of(known: Known, steps: Sequence[Step], motion: Motion | None) -> Figure:
+def figure_of(known: Known, steps: Sequence[Step], motion: PageMotion | None) -> PageFigure:
     """The figure in its position as written, without its centres, which the script of the page draws."""
     scene = scene_over(known, steps, motion)
     bodies = [body_of(scene, link) for link in scene.case.links if link != scene.case.ground]
@@ -59,17 +59,17 @@ def figure_of(known: Known, steps: Sequence[Step], motion: Motion | None) -> Fig
     labels = sorted(whole.labels, key=lambda label: ORDER.index(label.kind) if label.kind in ORDER else 9)
     placed = [_told(scene, label, placer.put(label)) for label in labels if label.runs]
     layers = (
-        Group("mechanism", "", under.marks),
-        Group("centres", "", ()),
-        Group("loads", "", over.marks),
-        Group("labels", "", tuple(placed)),
+        MarkGroup("mechanism", "", under.marks),
+        MarkGroup("centres", "", ()),
+        MarkGroup("loads", "", over.marks),
+        MarkGroup("labels", "", tuple(placed)),
     )
     left, top, right, bottom = bounds(layers)
     a, b, c, d = scene.view.window
-    return Figure(scene, layers, (min(a, left), min(b, top), max(c, right), max(d, bottom)))
+    return PageFigure(scene, layers, (min(a, left), min(b, top), max(c, right), max(d, bottom)))
 
 
-def scene_over(known: Known, steps: Sequence[Step], motion: Motion | None) -> Scene:
+def scene_over(known: Known, steps: Sequence[Step], motion: PageMotion | None) -> Scene:
     """The scene in a view that holds all positions, and the centres as written that are not far."""
     shapes = round_things(known.case, known.points)
     used = {name for names in known.case.carries.values() for name in names}
@@ -91,7 +91,7 @@ def scene_over(known: Known, steps: Sequence[Step], motion: Motion | None) -> Sc
     return scene if motion is None else scene._replace(travel=travel_of(scene, motion))
 
 
-def _way(motion: Motion, point: str) -> tuple[Array, Array]:
+def _way(motion: PageMotion, point: str) -> tuple[Array, Array]:
     places = motion.found.points[point][motion.first : motion.last + 1]
     return places[:, 0], places[:, 1]
 
@@ -100,12 +100,12 @@ def _box(x: Array, y: Array) -> Box:
     return (float(x.min()), float(y.min()), float(x.max()), float(y.max()))
 
 
-def _around(wheel: Wheel, known: Known, motion: Motion | None) -> Box:
+def _around(wheel: Wheel, known: Known, motion: PageMotion | None) -> Box:
     """The rectangle around a wheel in all its positions."""
     return _swept(known, motion, wheel.link, wheel.centre, wheel.radius)
 
 
-def _swept(known: Known, motion: Motion | None, link: str, p: Point, reach: float) -> Box:
+def _swept(known: Known, motion: PageMotion | None, link: str, p: Point, reach: float) -> Box:
     """The rectangle around a place of a link in all its positions, and so much more."""
     box = (*p, *p)
     pose = None if motion is None else motion.poses.get(link)
@@ -116,7 +116,7 @@ def _swept(known: Known, motion: Motion | None, link: str, p: Point, reach: floa
     return (box[0] - reach, box[1] - reach, box[2] + reach, box[3] + reach)
 
 
-def travel_of(scene: Scene, motion: Motion) -> dict[tuple[str, Point], tuple[float, float]]:
+def travel_of(scene: Scene, motion: PageMotion) -> dict[tuple[str, Point], tuple[float, float]]:
     """How far each joint's place goes along its guide, in picture units (see `Scene`)."""
     found: dict[tuple[str, Point], tuple[float, float]] = {}
     for joint in scene.joints():
@@ -133,7 +133,7 @@ def travel_of(scene: Scene, motion: Motion) -> dict[tuple[str, Point], tuple[flo
     return found
 
 
-def _along(scene: Scene, motion: Motion, link: str, point: str, u: Point) -> tuple[float, float]:
+def _along(scene: Scene, motion: PageMotion, link: str, point: str, u: Point) -> tuple[float, float]:
     """The least and largest way of a point along a direction of a link, from its place as written."""
     rows = slice(motion.first, motion.last + 1)
     x, y = motion.found.points[point][rows].T
@@ -158,7 +158,8 @@ def _rim_links(scene: Scene) -> list[str]:
 def _following(part: Part, name: str, data: tuple[str, str]) -> Part:
     """A part whose group of this name follows something."""
     marks = tuple(
-        m._replace(data=(*m.data, data)) if isinstance(m, Group) and m.name == name else m for m in part.marks
+        m._replace(data=(*m.data, data)) if isinstance(m, MarkGroup) and m.name == name else m
+        for m in part.marks
     )
     return part._replace(marks=marks)
 
@@ -167,7 +168,7 @@ def _turning(part: Part, link: str) -> Part:
     return _following(part, f"link-{link}", ("data-turn", link))
 
 
-def _wheels(bodies: Sequence[Body]) -> Iterable[Part]:
+def _wheels(bodies: Sequence[DrawnBody]) -> Iterable[Part]:
     """Wheels, each with a spoke that shows how it turns."""
     discs = [(disc, body.link, n) for body in bodies for n, disc in enumerate(body.wheels)]
     discs.sort(key=lambda found: -found[0].radius)
@@ -175,7 +176,7 @@ def _wheels(bodies: Sequence[Body]) -> Iterable[Part]:
         (x, y), r = disc.centre, disc.radius
         spokes = [Stroke(((x - r, y), (x + r, y)), "faint"), Stroke(((x, y - r), (x, y + r)), "faint")]
         name = f"wheel-{link}" if n == 0 else f"wheel-{link}-{n}"
-        yield Part((Group(name, "", (disc, *spokes), f"link {link}", (("data-turn", link),)),))
+        yield Part((MarkGroup(name, "", (disc, *spokes), f"link {link}", (("data-turn", link),)),))
 
 
 def _belts(scene: Scene) -> Iterable[Part]:
@@ -202,14 +203,14 @@ def _pinned(scene: Scene, link: str, wheel: Wheel) -> bool:
 def _joints(scene: Scene) -> Iterable[Part]:
     names = {joint_name(joint): str(getattr(joint, "at", "")) for joint in scene.joints()}
     for part in joint_parts(scene):
-        name = part.marks[0].name if isinstance(part.marks[0], Group) else ""
+        name = part.marks[0].name if isinstance(part.marks[0], MarkGroup) else ""
         yield _following(part, name, ("data-at", names[name]))
 
 
 def _points(scene: Scene) -> Iterable[Part]:
     for part in point_parts(scene):
         name = part.labels[0].name.removeprefix("point-")
-        dot = (Group("", "", part.marks, "", (("data-at", name),)),) if part.marks else ()
+        dot = (MarkGroup("", "", part.marks, "", (("data-at", name),)),) if part.marks else ()
         yield part._replace(marks=dot)
 
 
@@ -219,23 +220,23 @@ def _loads(scene: Scene, links: shapely.Geometry) -> Iterable[Part]:
     for part in load_parts(scene, links):
         name = part.labels[0].name.removeprefix("label-")
         group = part.marks[0]
-        assert isinstance(group, Group)
+        assert isinstance(group, MarkGroup)
         yield part._replace(marks=(group._replace(marks=tuple(_arrows(acting[name], group.marks))),))
 
 
 def _arrows(acting: Acting, marks: Sequence[Mark]) -> Iterable[Mark]:
     load = acting.load
     if isinstance(load, Spring):
-        yield Group("", "", tuple(marks), "", (("data-span", load.name),))
+        yield MarkGroup("", "", tuple(marks), "", (("data-span", load.name),))
         return
     name = load.name
-    yield Group("", "", tuple(marks[:2]), "", (("data-load", name),))
+    yield MarkGroup("", "", tuple(marks[:2]), "", (("data-load", name),))
     if len(marks) > 2:
         other = str(getattr(load.heading, "point", load.at)) if isinstance(load, Force) else ""
-        yield Group("", "", tuple(marks[2:]), "", (("data-load", name), ("data-end", other)))
+        yield MarkGroup("", "", tuple(marks[2:]), "", (("data-load", name), ("data-end", other)))
 
 
-def _told(scene: Scene, label: Label, group: Group) -> Group:
+def _told(scene: Scene, label: Label, group: MarkGroup) -> MarkGroup:
     """A label that knows what it follows."""
     kind, _, name = label.name.partition("-")
     x, y = _middle(group)
@@ -245,6 +246,6 @@ def _told(scene: Scene, label: Label, group: Group) -> Group:
     return group._replace(name=own, data=((key, name), *data), kind="label")
 
 
-def _middle(group: Group) -> Point:
-    text = next(mark for mark in group.marks if isinstance(mark, Text))
+def _middle(group: MarkGroup) -> Point:
+    text = next(mark for mark in group.marks if isinstance(mark, TextMark))
     return text.at

@@ -44,7 +44,7 @@ class Live(NamedTuple):
     data: dict[str, Any]
 
 
-class Written(NamedTuple):
+class WrittenProgram(NamedTuple):
     """A step of the construction on the record: the expressions that it gives, the first of them its points,
     and what the others are; ``start`` and ``end`` are the nodes that it made."""
 
@@ -79,12 +79,12 @@ def live_of(known: Known) -> Live | None:
     if why_presolved(known):
         return None
     try:
-        return _Writer(known.case).live()
+        return _ProgramWriter(known.case).live()
     except SceneError:
         return None
 
 
-class _Writer:
+class _ProgramWriter:
     """A case on a record whose inputs are its numbers."""
 
     def __init__(self, case: Case) -> None:
@@ -118,7 +118,7 @@ class _Writer:
 
     # --- the figure -------------------------------------------------------------------------------
 
-    def _written(self, step: Step, needed: Sequence[Step]) -> Written:
+    def _written(self, step: Step, needed: Sequence[Step]) -> WrittenProgram:
         """A step, its branch an input."""
         start, ws = len(self.record.nodes), self.workspace
         told: dict[str, Any] = {} if step in needed or isinstance(step, Given) else {"spare": True}
@@ -133,7 +133,7 @@ class _Writer:
         told["p"] = [self._number(key) for key in step.targets]
         told["apart"] = len(apart)
         places = [part for key in step.targets for part in ws.points[key]]
-        return Written((*places, *apart, *more), told, start, len(self.record.nodes))
+        return WrittenProgram((*places, *apart, *more), told, start, len(self.record.nodes))
 
     def _number(self, key: Key) -> int:
         if key not in self.order:
@@ -206,7 +206,7 @@ class _Writer:
 
     # --- the program ------------------------------------------------------------------------------
 
-    def _source(self, steps: Sequence[Written], parts: list[Any]) -> str:
+    def _source(self, steps: Sequence[WrittenProgram], parts: list[Any]) -> str:
         """The program: a function a step, and one for the rest."""
         flat = [v for step in steps for v in step.values] + list(_leaves(parts))
         wanted = [self.record.lifted(v).index for v in flat]
@@ -227,7 +227,7 @@ class _Writer:
             f"return {{ steps: [{steps_text}],\nscene: () => {{{body}}} }};\n}};\n"
         )
 
-    def _data(self, steps: Sequence[Written], tree: Tree, bases: Bases) -> dict[str, Any]:
+    def _data(self, steps: Sequence[WrittenProgram], tree: Tree, bases: Bases) -> dict[str, Any]:
         case, top, frame = self.case, self.top, self.setting.figure.frame
         numbers = numbers_of(case)
         ground = [key for key in self.order if isinstance(key, str)]

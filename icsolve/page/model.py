@@ -24,16 +24,16 @@ from icsolve.draw.scene import Scene
 from icsolve.draw.svg import identifier
 from icsolve.draw.words import centre_runs, figure_number, name_runs, unit_word
 from icsolve.errors import SceneError, Status
-from icsolve.page.figure import Figure
+from icsolve.page.figure import PageFigure
 from icsolve.page.live import Live
-from icsolve.page.motion import FINE, Array, Motion, compact, exact, moved, moves
+from icsolve.page.motion import FINE, Array, PageMotion, compact, exact, moved, moves
 from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.wording.senses import holding, sense_as, spelt, unit_of
 
 # --- loads through a motion ------------------------------------------------------------------------------
 
 
-def place_rows(known: Known, motion: Motion, link: str, p: Point) -> tuple[Array, Array]:
+def place_rows(known: Known, motion: PageMotion, link: str, p: Point) -> tuple[Array, Array]:
     """Where a place of a link is in every row, case units."""
     pose = motion.poses.get(link)
     if pose is None:
@@ -41,7 +41,7 @@ def place_rows(known: Known, motion: Motion, link: str, p: Point) -> tuple[Array
     return moved(pose, known.points[pose.point], p)
 
 
-def heading_rows(known: Known, motion: Motion, acting: Acting) -> Array:
+def heading_rows(known: Known, motion: PageMotion, acting: Acting) -> Array:
     """Direction of the positive force in every row, degrees."""
     load = acting.load
     written = math.degrees(math.atan2(acting.direction[1], acting.direction[0]))
@@ -60,13 +60,13 @@ def heading_rows(known: Known, motion: Motion, acting: Acting) -> Array:
     return level + motion.poses[turner].angle if turner in motion.poses else level
 
 
-def _target(known: Known, motion: Motion, acting: Acting, name: str) -> tuple[Array, Array]:
+def _target(known: Known, motion: PageMotion, acting: Acting, name: str) -> tuple[Array, Array]:
     if name in motion.found.points:
         return motion.found.points[name][:, 0], motion.found.points[name][:, 1]
     return place_rows(known, motion, acting.against, known.points[name])
 
 
-def senses(known: Known, motion: Motion, acting: Acting, values: Array) -> list[str]:
+def senses(known: Known, motion: PageMotion, acting: Acting, values: Array) -> list[str]:
     """The sense of the load's value in every row, in words; '' where it has none."""
     rows = zip(
         np.nan_to_num(values).tolist(),
@@ -77,7 +77,7 @@ def senses(known: Known, motion: Motion, acting: Acting, values: Array) -> list[
     return [spelt(sense_as(acting.load, *row), figure_number) for row in rows]
 
 
-def gain_rows(known: Known, motion: Motion, acting: Acting) -> Array:
+def gain_rows(known: Known, motion: PageMotion, acting: Acting) -> Array:
     """The force or torque that one unit of a load exerts in every row: a mass g, a spring its stretch."""
     load = acting.load
     if isinstance(load, Spring) and acting.at is not None:
@@ -90,7 +90,7 @@ def gain_rows(known: Known, motion: Motion, acting: Acting) -> Array:
     return np.full(len(motion.degrees), acting.gain if counts else 1.0)
 
 
-def _slack_rows(known: Known, motion: Motion, acting: Acting, load: TorsionSpring) -> Array:
+def _slack_rows(known: Known, motion: PageMotion, acting: Acting, load: TorsionSpring) -> Array:
     """By how much a torsion spring is turned in every row, rad; turns count from the position as written."""
     *arm, at, end = load.corner
     x, y = place_rows(known, motion, acting.link, known.points[at])
@@ -103,7 +103,7 @@ def _slack_rows(known: Known, motion: Motion, acting: Acting, load: TorsionSprin
     return np.asarray(written - (angle - angle[motion.zero]))
 
 
-def load_data(scene: Scene, motion: Motion | None, acting: Acting) -> dict[str, Any]:
+def load_data(scene: Scene, motion: PageMotion | None, acting: Acting) -> dict[str, Any]:
     """What the script of the page reads of a load: its place on its link and how its arrow turns."""
     load = acting.load
     place = axle(scene, acting.link) if acting.at is None else scene.view.at(acting.at)
@@ -151,7 +151,11 @@ HINTS = {
 
 
 def model_of(
-    known: Known, steps: Sequence[Step], figure: Figure, motion: Motion | None, live: Live | None = None
+    known: Known,
+    steps: Sequence[Step],
+    figure: PageFigure,
+    motion: PageMotion | None,
+    live: Live | None = None,
 ) -> dict[str, Any]:
     """The data of a page, ready to be written as JSON."""
     view = figure.scene.view
@@ -176,7 +180,7 @@ def model_of(
     return data
 
 
-def _drive(known: Known, motion: Motion | None, live: Live) -> dict[str, int]:
+def _drive(known: Known, motion: PageMotion | None, live: Live) -> dict[str, int]:
     """The number that turns the input, where one does: its place among the inputs of the program."""
     driven = live.data["links"].get(motion.driver, ()) if motion is not None else ()
     for point in driven:
@@ -187,7 +191,7 @@ def _drive(known: Known, motion: Motion | None, live: Live) -> dict[str, int]:
     return {}
 
 
-def _is_the_turn(known: Known, motion: Motion, path: str) -> bool:
+def _is_the_turn(known: Known, motion: PageMotion, path: str) -> bool:
     """Whether the case with another number at a path is the mechanism turned so far, and not one of another
     shape."""
     ends = (motion.first, motion.last)
@@ -206,7 +210,7 @@ def _is_the_turn(known: Known, motion: Motion, path: str) -> bool:
     return True
 
 
-def motion_data(known: Known, view: View, motion: Motion, fine: int = FINE["px"]) -> dict[str, Any]:
+def motion_data(known: Known, view: View, motion: PageMotion, fine: int = FINE["px"]) -> dict[str, Any]:
     """Degrees, poses of links and places of points (in steps of 1 / ``fine``) in the rows that assemble."""
     rows = slice(motion.first, motion.last + 1)
     degrees = motion.degrees
@@ -235,7 +239,7 @@ def motion_data(known: Known, view: View, motion: Motion, fine: int = FINE["px"]
     }
 
 
-def _contacts(known: Known, motion: Motion, rows: slice) -> dict[str, Array]:
+def _contacts(known: Known, motion: PageMotion, rows: slice) -> dict[str, Array]:
     """Where profiles touch in every row, by the hidden point that the figure has there."""
     found = {}
     for pair, places in motion.found.touching.items():
@@ -249,7 +253,7 @@ def _round(value: float) -> float:
     return float(format(value, ".9g"))
 
 
-def _hints(motion: Motion) -> list[list[Any]]:
+def _hints(motion: PageMotion) -> list[list[Any]]:
     """First row, last row, sentence and status of every stretch that has no answer."""
     status = motion.status[motion.first : motion.last + 1]
     found: list[list[Any]] = []
@@ -260,7 +264,7 @@ def _hints(motion: Motion) -> list[list[Any]]:
     return found
 
 
-def _links(known: Known, view: View, motion: Motion, rows: slice) -> dict[str, Any]:
+def _links(known: Known, view: View, motion: PageMotion, rows: slice) -> dict[str, Any]:
     """The poses of the links that move, and the place of their point as written."""
     found = {}
     for link, pose in motion.poses.items():
@@ -281,7 +285,7 @@ def _place(view: View, x: Array, y: Array, fine: int = FINE["px"]) -> dict[str, 
     return {"x": compact(across, fine), "y": compact(down, fine)}
 
 
-def _anchors(known: Known, steps: Sequence[Step], figure: Figure) -> dict[str, list[float]]:
+def _anchors(known: Known, steps: Sequence[Step], figure: PageFigure) -> dict[str, list[float]]:
     """The points that lines of centres start from (common normals), as written."""
     single = [line[0] for step in steps for line in step.centre.lines if len(line) == 1]
     names = {_joint(known, pair) for pair in single}
@@ -294,13 +298,15 @@ def _joint(known: Known, pair: Pair) -> str:
     return next((at for j in joints if (at := getattr(j, "at", None))), "")
 
 
-def _centres(known: Known, steps: Sequence[Step], view: View, motion: Motion | None) -> list[dict[str, Any]]:
+def _centres(
+    known: Known, steps: Sequence[Step], view: View, motion: PageMotion | None
+) -> list[dict[str, Any]]:
     numbers = {step.centre.pair: n for n, step in enumerate(steps)}
     return [_centre(known, step, view, motion, numbers) for step in steps]
 
 
 def _centre(
-    known: Known, step: Step, view: View, motion: Motion | None, numbers: Mapping[Pair, int]
+    known: Known, step: Step, view: View, motion: PageMotion | None, numbers: Mapping[Pair, int]
 ) -> dict[str, Any]:
     centre = step.centre
     name = pair_name(known.case, centre.pair)
@@ -323,7 +329,7 @@ def _centre(
     }
 
 
-def _places(centre: Centre, name: str, view: View, motion: Motion | None) -> tuple[Array, Array]:
+def _places(centre: Centre, name: str, view: View, motion: PageMotion | None) -> tuple[Array, Array]:
     """Picture units in every row; beyond INFINITE a direction; not a number where there is none."""
     if motion is not None and name in motion.found.centres:
         rows = motion.found.centres[name][motion.first : motion.last + 1]
@@ -339,7 +345,7 @@ def _places(centre: Centre, name: str, view: View, motion: Motion | None) -> tup
     return across, down
 
 
-def _written_centre(centre: Centre, motion: Motion | None) -> Array:
+def _written_centre(centre: Centre, motion: PageMotion | None) -> Array:
     """A centre as written; of a motion in which the sweep does not know it, in that one row."""
     if centre.kind == "at":
         row = [centre.place[0], centre.place[1], 1.0]
@@ -353,7 +359,7 @@ def _written_centre(centre: Centre, motion: Motion | None) -> Array:
     return rows
 
 
-def _answers(known: Known, motion: Motion | None, loads: Sequence[Acting]) -> list[dict[str, Any]]:
+def _answers(known: Known, motion: PageMotion | None, loads: Sequence[Acting]) -> list[dict[str, Any]]:
     """Each unknown load: name, unit, values and senses of all positions, or its range in words."""
     if known.answer is None:
         return []
@@ -373,7 +379,7 @@ def _answers(known: Known, motion: Motion | None, loads: Sequence[Acting]) -> li
     return found
 
 
-def _through(known: Known, motion: Motion, one: dict[str, Any], name: str, acting: Acting) -> None:
+def _through(known: Known, motion: PageMotion, one: dict[str, Any], name: str, acting: Acting) -> None:
     """The columns of an unknown load."""
     rows = slice(motion.first, motion.last + 1)
     values = motion.found.answers[name]

@@ -36,7 +36,7 @@ from icsolve.sweep import Sweep, sweep
 Array = np.ndarray
 
 
-class Pose(NamedTuple):
+class PagePose(NamedTuple):
     """Where a link is in every row: the place of one of its points, and its angle from the position as
     written, degrees counterclockwise."""
 
@@ -46,10 +46,10 @@ class Pose(NamedTuple):
     angle: Array
 
 
-def poses_of(known: Known, driver: str, degrees: Array, zero: int, found: Sweep) -> dict[str, Pose]:
+def poses_of(known: Known, driver: str, degrees: Array, zero: int, found: Sweep) -> dict[str, PagePose]:
     """The pose of every link that carries a point."""
     case = known.case
-    poses: dict[str, Pose] = {}
+    poses: dict[str, PagePose] = {}
     waiting = [link for link in case.links if link != case.ground]
     for attempt in (_by_points, _by_guide, _by_rate):
         for link in list(waiting):
@@ -65,8 +65,14 @@ def _carried(known: Known, link: str, found: Sweep) -> list[str]:
 
 
 def _by_points(
-    known: Known, link: str, driver: str, degrees: Array, zero: int, found: Sweep, poses: Mapping[str, Pose]
-) -> Pose | None:
+    known: Known,
+    link: str,
+    driver: str,
+    degrees: Array,
+    zero: int,
+    found: Sweep,
+    poses: Mapping[str, PagePose],
+) -> PagePose | None:
     """By two points of the link that lie apart."""
     names = _carried(known, link, found)
     if len(names) < 2:
@@ -78,7 +84,7 @@ def _by_points(
         return None
     p, q = found.points[a], found.points[b]
     angle = np.degrees(np.arctan2(q[:, 1] - p[:, 1], q[:, 0] - p[:, 0]))
-    return Pose(a, p[:, 0], p[:, 1], _from(angle, zero))
+    return PagePose(a, p[:, 0], p[:, 1], _from(angle, zero))
 
 
 def _from(angle: Array, zero: int) -> Array:
@@ -88,8 +94,14 @@ def _from(angle: Array, zero: int) -> Array:
 
 
 def _by_guide(
-    known: Known, link: str, driver: str, degrees: Array, zero: int, found: Sweep, poses: Mapping[str, Pose]
-) -> Pose | None:
+    known: Known,
+    link: str,
+    driver: str,
+    degrees: Array,
+    zero: int,
+    found: Sweep,
+    poses: Mapping[str, PagePose],
+) -> PagePose | None:
     """As the link turns on which it slides."""
     names = _carried(known, link, found)
     for joint in known.case.joints:
@@ -97,15 +109,21 @@ def _by_guide(
             other = joint.links[1 - joint.links.index(link)]
             place = found.points[names[0]]
             if other == known.case.ground:
-                return Pose(names[0], place[:, 0], place[:, 1], np.zeros(len(degrees)))
+                return PagePose(names[0], place[:, 0], place[:, 1], np.zeros(len(degrees)))
             if other in poses:
-                return Pose(names[0], place[:, 0], place[:, 1], poses[other].angle)
+                return PagePose(names[0], place[:, 0], place[:, 1], poses[other].angle)
     return None
 
 
 def _by_rate(
-    known: Known, link: str, driver: str, degrees: Array, zero: int, found: Sweep, poses: Mapping[str, Pose]
-) -> Pose | None:
+    known: Known,
+    link: str,
+    driver: str,
+    degrees: Array,
+    zero: int,
+    found: Sweep,
+    poses: Mapping[str, PagePose],
+) -> PagePose | None:
     """By its rate beside the driver's, summed from row to row (a gear of which nothing else shows)."""
     names = _carried(known, link, found)
     if not names:
@@ -117,10 +135,10 @@ def _by_rate(
     steps = 0.5 * (ratio[1:] + ratio[:-1]) * np.diff(degrees)
     total = np.concatenate(([0.0], np.cumsum(steps)))
     place = found.points[names[0]]
-    return Pose(names[0], place[:, 0], place[:, 1], total - total[zero])
+    return PagePose(names[0], place[:, 0], place[:, 1], total - total[zero])
 
 
-def moved(pose: Pose, start: tuple[float, float], p: tuple[float, float]) -> tuple[Array, Array]:
+def moved(pose: PagePose, start: tuple[float, float], p: tuple[float, float]) -> tuple[Array, Array]:
     """Where a point of a link is in every row; ``start`` is the place of the pose's point as written."""
     turn = np.radians(pose.angle)
     dx, dy = p[0] - start[0], p[1] - start[1]
@@ -137,7 +155,7 @@ ROWS = 50
 """Positions to either side of the one as written where everything slides."""
 
 
-class Input(NamedTuple):
+class PageInput(NamedTuple):
     """A link, and where it slides, for each coordinate that then changes (by its path) its number as written
     and its change by one unit of the link's way; ``unit`` and ``senses`` say how a position is told."""
 
@@ -165,7 +183,7 @@ class Input(NamedTuple):
         return {path: start + pace * rows for path, (start, pace) in self.slides.items()}
 
 
-def sliding(known: Known) -> tuple[Case, Input] | None:
+def sliding(known: Known) -> tuple[Case, PageInput] | None:
     """The case with all points by coordinates, and its input, where every link only slides; None elsewhere.
 
     No guide turns then, so that every link goes straight on at the velocity of the position as written.
@@ -219,7 +237,7 @@ def _by_coordinates(known: Known) -> Case:
     return replace(known.case, points=points, lengths=(), angles=(), near={})
 
 
-def _input(known: Known, driver: str, moved: Mapping[str, Point]) -> Input:
+def _input(known: Known, driver: str, moved: Mapping[str, Point]) -> PageInput:
     """The input; its way is positive to the right, straight up where it goes neither right nor left."""
     t = known.twists[driver]
     angle = math.degrees(math.atan2(-t[0], t[1]))
@@ -232,10 +250,10 @@ def _input(known: Known, driver: str, moved: Mapping[str, Point]) -> Input:
         if pace[n] != 0.0
     }
     senses = (f"at {figure_number(toward % 360.0)}°", f"at {figure_number((toward + 180.0) % 360.0)}°")
-    return Input(driver, slides, f" {unit_word(known.case.units.length)}", senses)
+    return PageInput(driver, slides, f" {unit_word(known.case.units.length)}", senses)
 
 
-def places(known: Known, by: Input, rows: Array) -> dict[str, Array]:
+def places(known: Known, by: PageInput, rows: Array) -> dict[str, Array]:
     """Where every point is, in positions too in which nothing can be solved."""
     now = by.varied(rows)
 
@@ -272,7 +290,7 @@ SHORT = 90.0
 """A range of fewer degrees than this gets finer steps."""
 
 
-class Motion(NamedTuple):
+class PageMotion(NamedTuple):
     """Rows of positions: ``degrees`` by which the input's link is turned from the position as written (row
     ``zero``; where everything slides its way, case length), the sweep's arrays, and for each moving link its
     pose.
@@ -280,13 +298,13 @@ class Motion(NamedTuple):
     The links assemble, without a break from the position as written, in the rows ``first`` to ``last``.
     """
 
-    by: Input
+    by: PageInput
     degrees: Array
     zero: int
     first: int
     last: int
     found: Sweep
-    poses: Mapping[str, Pose]
+    poses: Mapping[str, PagePose]
     shares: Mapping[str, Array]
     """for each known load the power that it does while the unknown load does 1 (where there is one)"""
     dead: list[float]
@@ -309,7 +327,7 @@ class Motion(NamedTuple):
         return bool(not self.by.slides and span > 359.99)
 
 
-def motion_of(known: Known, pairs: Sequence[Pair]) -> Motion | None:
+def motion_of(known: Known, pairs: Sequence[Pair]) -> PageMotion | None:
     """The motion of a case over the whole range of its input, with these centres; None where none is known.
 
     Of the links that may drive it is the first that turns fully, else that with the longest range.
@@ -336,13 +354,13 @@ def motion_of(known: Known, pairs: Sequence[Pair]) -> Motion | None:
         return None
     poses = poses_of(known, by.link, degrees, zero, found)
     dead = _dead(case, by, degrees, (float(degrees[first]), float(degrees[last])), found)
-    return Motion(by, degrees, zero, first, last, found, poses, _shares(case, by, degrees, found), dead)
+    return PageMotion(by, degrees, zero, first, last, found, poses, _shares(case, by, degrees, found), dead)
 
 
 DEAD = (Status.DEAD_CENTRE, Status.NO_VALUE)
 
 
-def _dead(case: Case, by: Input, degrees: Array, reach: tuple[float, float], found: Sweep) -> list[float]:
+def _dead(case: Case, by: PageInput, degrees: Array, reach: tuple[float, float], found: Sweep) -> list[float]:
     """The dead centres within reach, each to its last digit; where they can't be looked for, the rows that
     are, and with them the places where an answer runs off to infinity (a jump of friction is none)."""
     some = None if by.slides else dead_centres(case, by.driven(degrees))
@@ -375,14 +393,14 @@ def why_still(known: Known) -> str:
     return "The links leave no room to move from the position as written."
 
 
-def _widest(known: Known, want: Sequence[str]) -> tuple[Input, Array, Sweep] | None:
+def _widest(known: Known, want: Sequence[str]) -> tuple[PageInput, Array, Sweep] | None:
     """The first input that turns fully, else that with the longest range."""
     assert known.answer is not None
     case = known.answer.case
     step = COARSE if rubs(case) else STEP if case.profiles is None else MIDDLE
     turn = np.arange(-180.0, 180.0 + 0.5 * step, step)
-    best: tuple[float, Input, Array, Sweep] | None = None
-    for driver in map(Input, inputs(known)[:TRIES]):
+    best: tuple[float, PageInput, Array, Sweep] | None = None
+    for driver in map(PageInput, inputs(known)[:TRIES]):
         found = _swept(case, driver, turn, want)
         if found is None:
             continue
@@ -426,7 +444,7 @@ def _run(found: Sweep, zero: int) -> tuple[int, int]:
     return int(before[-1]) + 1 if len(before) else 0, int(after[0]) - 1 if len(after) else len(placed) - 1
 
 
-def _swept(case: Case, by: Input, degrees: Array, want: Sequence[str]) -> Sweep | None:
+def _swept(case: Case, by: PageInput, degrees: Array, want: Sequence[str]) -> Sweep | None:
     vary, drive = by.varied(degrees), by.driven(degrees)
     try:
         found = sweep(case, vary, want, drive=drive)
@@ -465,7 +483,7 @@ def inputs(known: Known) -> list[str]:
     return sorted(quick, key=lambda link: link not in pinned)
 
 
-def _shares(case: Case, by: Input, degrees: Array, found: Sweep) -> dict[str, Array]:
+def _shares(case: Case, by: PageInput, degrees: Array, found: Sweep) -> dict[str, Array]:
     """The power of each known load per unit, while the unknown one does 1: by that load alone (the equation
     of power is linear), for one unknown and no friction."""
     if len(found.answers) != 1 or rubs(case) or not any(map(is_unknown, case.loads)):
@@ -486,7 +504,9 @@ def _shares(case: Case, by: Input, degrees: Array, found: Sweep) -> dict[str, Ar
     return shares
 
 
-def _one_by_one(case: Case, by: Input, degrees: Array, name: str, known: Sequence[str]) -> dict[str, Array]:
+def _one_by_one(
+    case: Case, by: PageInput, degrees: Array, name: str, known: Sequence[str]
+) -> dict[str, Array]:
     """All positions once for each known load, which alone is there and is 1, in one sweep."""
     ones = np.eye(len(known)).repeat(len(degrees), axis=1)
     vary = {f"loads.{load}": row for load, row in zip(known, ones, strict=True)}

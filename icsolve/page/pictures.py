@@ -12,12 +12,12 @@ import numpy as np
 from icsolve.derivation import Known, Step
 from icsolve.draw.centres import circle_marks
 from icsolve.draw.marks import Box, Mark, bounds, leaves
-from icsolve.draw.plot import Curve, Frame, plot_marks
+from icsolve.draw.plot import PlotFrame, PlottedCurve, plot_marks
 from icsolve.draw.svg import element, escaped, number
 from icsolve.draw.words import description, figure_number
 from icsolve.errors import Status
-from icsolve.page.figure import Figure
-from icsolve.page.motion import FINE, Array, Motion, compact
+from icsolve.page.figure import PageFigure
+from icsolve.page.motion import FINE, Array, PageMotion, compact
 from icsolve.wording.senses import unit_of
 
 SIZE = (440.0, 250.0)
@@ -32,11 +32,11 @@ class Plot(NamedTuple):
     heading: str
     marks: tuple[Mark, ...]
     view: tuple[float, float, float, float]
-    frame: Frame
-    curves: tuple[Curve, ...]
+    frame: PlotFrame
+    curves: tuple[PlottedCurve, ...]
 
 
-def plots_of(known: Known, motion: Motion) -> list[Plot]:
+def plots_of(known: Known, motion: PageMotion) -> list[Plot]:
     """The answer and the mechanical advantage; without an unknown load the ratios of the rates."""
     x = motion.degrees[motion.first : motion.last + 1].tolist()
     dead = motion.dead
@@ -51,26 +51,26 @@ def plots_of(known: Known, motion: Motion) -> list[Plot]:
     return [_plot(heading, x, curves, axis) for heading, curves in found]
 
 
-def _rows(motion: Motion, column: Array) -> list[float]:
+def _rows(motion: PageMotion, column: Array) -> list[float]:
     return [float(v) for v in column[motion.first : motion.last + 1]]
 
 
-def _answers(known: Known, motion: Motion, dead: Sequence[float]) -> list[list[Curve]]:
+def _answers(known: Known, motion: PageMotion, dead: Sequence[float]) -> list[list[PlottedCurve]]:
     """The curves of the unknown loads, those of one unit together."""
     units = {load.name: unit_of(load, known.case) for load in known.case.loads}
     curves = []
     for name, column in motion.found.answers.items():
         if name in motion.found.holds:
             low, high = motion.found.holds[name].T
-            curves.append(Curve(f"{name}, least", _rows(motion, low), units[name]))
-            curves.append(Curve(f"{name}, most", _rows(motion, high), units[name]))
+            curves.append(PlottedCurve(f"{name}, least", _rows(motion, low), units[name]))
+            curves.append(PlottedCurve(f"{name}, most", _rows(motion, high), units[name]))
         else:
-            curves.append(Curve(name, _rows(motion, column), units[name], dead))
+            curves.append(PlottedCurve(name, _rows(motion, column), units[name], dead))
     kinds = dict.fromkeys(curve.unit for curve in curves)
     return [[c for c in curves if c.unit == unit][:MOST] for unit in kinds]
 
 
-def _advantage(known: Known, motion: Motion, dead: Sequence[float]) -> list[Curve]:
+def _advantage(known: Known, motion: PageMotion, dead: Sequence[float]) -> list[PlottedCurve]:
     """The unknown load over each known one: what a unit of it asks."""
     if len(motion.found.answers) != 1:
         return []
@@ -79,22 +79,22 @@ def _advantage(known: Known, motion: Motion, dead: Sequence[float]) -> list[Curv
     curves = []
     for other, share in motion.shares.items():
         unit = "" if units[name] == units[other] else f"{units[name]} per {units[other]}"
-        curves.append(Curve(f"{name}/{other}", _rows(motion, -share), unit, dead))
+        curves.append(PlottedCurve(f"{name}/{other}", _rows(motion, -share), unit, dead))
     same = [curve for curve in curves if curve.unit == curves[0].unit]
     return same[:MOST]
 
 
-def _rates(known: Known, motion: Motion) -> list[Curve]:
+def _rates(known: Known, motion: PageMotion) -> list[PlottedCurve]:
     rates = motion.found.rates
     with np.errstate(all="ignore"):
         return [
-            Curve(f"w{link}/w{motion.driver}", _rows(motion, rates[link] / rates[motion.driver]), "")
+            PlottedCurve(f"w{link}/w{motion.driver}", _rows(motion, rates[link] / rates[motion.driver]), "")
             for link in known.case.links
             if link in rates and link not in (known.case.ground, motion.driver) and np.any(rates[link])
         ][:MOST]
 
 
-def _plot(heading: str, x: Sequence[float], curves: Sequence[Curve], axis: str) -> Plot:
+def _plot(heading: str, x: Sequence[float], curves: Sequence[PlottedCurve], axis: str) -> Plot:
     frame, marks = plot_marks(x, curves, axis, (0.0, 0.0), SIZE)
     left, top, right, bottom = bounds(marks)
     view = (left - 8.0, top - 8.0, right + 8.0, bottom + 8.0)
@@ -111,7 +111,7 @@ def plot_data(plot: Plot) -> dict[str, Any]:
     }
 
 
-def _heights(frame: Frame, curve: Curve) -> dict[str, Any]:
+def _heights(frame: PlotFrame, curve: PlottedCurve) -> dict[str, Any]:
     """Where the cursor's dot is on a curve, picture units; beyond the frame it is not shown."""
     low, high = frame.y
     values = np.array(curve.values, float)
@@ -142,7 +142,7 @@ def svg(marks: Iterable[Mark], box: Box, name: str, title: str, more: str = "", 
     )
 
 
-def figure_svg(known: Known, figure: Figure) -> str:
+def figure_svg(known: Known, figure: PageFigure) -> str:
     """The figure; what the script draws is clipped to its window."""
     left, top, right, bottom = figure.window
     width, height = number(right - left), number(bottom - top)

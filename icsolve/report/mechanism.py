@@ -10,8 +10,8 @@ from icsolve.answer import Answer
 from icsolve.case import Case, Pin
 from icsolve.case.joints import Guided
 from icsolve.structure.grashof import (
+    AngleRange,
     Crank,
-    Range,
     Side,
     grashof_excess,
     limits_in_slider_crank,
@@ -37,7 +37,7 @@ class Input(NamedTuple):
 
     link: str
     at: str
-    transmission: Range
+    transmission: AngleRange
     limits: tuple[float, ...]
 
 

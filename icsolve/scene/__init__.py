@@ -17,8 +17,8 @@ from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.balls import is_long
 from icsolve.scene import refusals
-from icsolve.scene.bounds import Evaluation, Scene
-from icsolve.scene.parts import Parts
+from icsolve.scene.bounds import EvaluatedScene, Evaluation
+from icsolve.scene.parts import AnswerBuilder
 from icsolve.scene.program import Want, prepare
 from icsolve.statics.power import is_unknown
 
@@ -76,11 +76,11 @@ def _solved(case: Case, want: Want, bound: bool, reactions: bool) -> Answer:
     """Position, centres, power: the answer of a planar case whose contacts are given."""
     program = prepare(case, want)  # the steps that are needed, and the figure in its position
     try:  # the twist of every link, and the power of the loads on them
-        return judged(Parts(Scene(program, bound)), reactions)
+        return judged(AnswerBuilder(EvaluatedScene(program, bound)), reactions)
     except SceneError as refusal:
         if bound and refusal.status in INEXACT and _has_long_numbers(case):
             try:
-                return judged(Parts(Scene(program, bound, explained=True)), reactions)
+                return judged(AnswerBuilder(EvaluatedScene(program, bound, explained=True)), reactions)
             except SceneError as other:
                 if other.status not in INEXACT or refusals.rubs(case):
                     raise
@@ -102,7 +102,7 @@ def _has_long_numbers(case: Case) -> bool:
     return any(map(is_long, numbers_of(case).values()))
 
 
-def judged(parts: Parts, reactions: bool) -> Answer:
+def judged(parts: AnswerBuilder, reactions: bool) -> Answer:
     """The answer of an evaluated scene; refused where power does not determine it."""
     rubs = parts.program.want.bodies and refusals.rubs(parts.case)
     if not (rubs and refusals.is_workless(parts.outcome.motions, parts.outcome.solution)):
@@ -119,7 +119,7 @@ def judged(parts: Parts, reactions: bool) -> Answer:
     return parts.answer()
 
 
-def _refuse_unbalanced(parts: Parts) -> None:
+def _refuse_unbalanced(parts: AnswerBuilder) -> None:
     """Refuse unknown loads that power does not determine."""
 
     def refuse(found: Evaluation) -> None:

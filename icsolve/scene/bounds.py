@@ -33,7 +33,7 @@ class Evaluation(NamedTuple):
     arithmetic: Showing
 
 
-class Scene:
+class EvaluatedScene:
     """A program, evaluated in more digits as questions need them; ``certain`` False: in floats alone.
 
     With ``explained`` what half a unit of the last digits of long numbers may make zero is zero.

@@ -7,18 +7,18 @@ from collections.abc import Mapping
 from icsolve.answer import Answer
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS
-from icsolve.scene.bounds import Evaluation, Scene, plain, points_shown
-from icsolve.scene.parts import Parts
+from icsolve.scene.bounds import EvaluatedScene, Evaluation, plain, points_shown
+from icsolve.scene.parts import AnswerBuilder
 from icsolve.scene.program import Program, evaluate_still
 from icsolve.statics.free_bodies import FreeBodies, free_bodies
-from icsolve.statics.friction import Scene as Rubbing
+from icsolve.statics.friction import FrictionScene as Rubbing
 from icsolve.statics.friction import solved
 from icsolve.statics.friction_interface import has_friction
 from icsolve.statics.power import Value, is_unknown
 from icsolve.statics.reaction_basis import Position, rope_ties
 
 
-def with_bodies(parts: Parts, reactions: bool) -> Answer:
+def with_bodies(parts: AnswerBuilder, reactions: bool) -> Answer:
     """The answer with the reactions, and with the unknown loads as free bodies give them."""
     by_power = {root: (value.value, value.error or 0.0) for root, value in parts.unknowns.items()}
     found = parts.scene.ask(lambda evaluated: _bodies(evaluated, by_power))
@@ -32,7 +32,7 @@ def _bodies(found: Evaluation, power: Mapping[str, tuple[float, float]]) -> Free
     return free_bodies(_position(found), frame, balance, power, found.arithmetic)
 
 
-def with_friction(parts: Parts, reactions: bool) -> Answer:
+def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
     """The answer with friction, from free bodies; its motion or the range in which it holds."""
 
     def answer_with(values: Mapping[str, Value]) -> Answer:
@@ -63,7 +63,7 @@ def structure(program: Program, bound: bool, refusal: SceneError) -> Answer:
         said = str(refusal).partition(" Take out")[0]
         remedy = "Any value of the unknown load is carried: give it a number, or take out a joint or a link."
         raise SceneError(refusal.status, f"{said} {remedy}")
-    scene = Scene(program, bound, run=evaluate_still)
+    scene = EvaluatedScene(program, bound, run=evaluate_still)
     points = scene.ask(points_shown)
     said = "the links form a structure: nothing moves, and statics alone gives the reactions."
     if has_friction(case):

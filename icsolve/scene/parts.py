@@ -17,10 +17,10 @@ from icsolve.kinematics import speeds
 from icsolve.kinematics.centres import CentreFinder
 from icsolve.kinematics.motion import Motions
 from icsolve.numbers.arithmetic import Scalar
-from icsolve.numbers.balls import PRECISIONS, BelowZero, MoreDigits, Moved
+from icsolve.numbers.balls import PRECISIONS, BelowZero, MoreDigits, MovedBalls
 from icsolve.scene.bounds import (
+    EvaluatedScene,
     Evaluation,
-    Scene,
     evaluate_bounded,
     floats,
     plain,
@@ -40,10 +40,10 @@ from icsolve.wording.senses import sense_of, unit_of
 Velocities = dict[tuple[str, str], tuple[float, float] | str]
 
 
-class Parts:
+class AnswerBuilder:
     """What was found of a scene, and what an answer shows of it."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: EvaluatedScene) -> None:
         self.scene = scene
         self.first = scene.ask(lambda found: found)
         self.program, self.case = self.first.program, self.first.program.case
@@ -121,7 +121,7 @@ class Parts:
             if not self.case.motion:
                 raise
             bare = self.program._replace(case=replace(self.case, motion=()))
-            return Parts(Scene(bare, self.scene.certain, self.scene.explained)).moving()
+            return AnswerBuilder(EvaluatedScene(bare, self.scene.certain, self.scene.explained)).moving()
         return Answer(
             case=self.case,
             centres=Deferred(self.plain_centres),
@@ -178,7 +178,7 @@ class Parts:
 
     def _with(self, number: Number, step: Decimal) -> dict[str, Scalar]:
         """The unknown loads with a number moved by a step."""
-        outcome = evaluate(self.program, Moved(number.path, step, PRECISIONS[-1]))[1]
+        outcome = evaluate(self.program, MovedBalls(number.path, step, PRECISIONS[-1]))[1]
         values = outcome.solution.values
         return {w.load.name: w.ratio * values[w.root] for w in outcome.balance.wrenches if w.root in values}
 
@@ -204,7 +204,9 @@ class Parts:
         for sign in (1, -1):
             with suppress(SceneError, ZeroDivisionError, BelowZero, MoreDigits, KeyError):
                 half = Decimal(repr(sign * number.half))  # 5e-26 as it is written
-                values = evaluate(self.program, Moved(number.path, half, PRECISIONS[1]))[1].solution.values
+                values = evaluate(self.program, MovedBalls(number.path, half, PRECISIONS[1]))[
+                    1
+                ].solution.values
                 for load, value in self.first.outcome.solution.values.items():
                     change, own = (x if float(x) > 0.0 else -x for x in (values[load] - value, value))
                     size = float(own)  # doubles may not tell a change from the value itself

@@ -14,8 +14,8 @@ from icsolve.answer import Answer
 from icsolve.case import Case, Coordinates, Number
 from icsolve.errors import SceneError, Status
 from icsolve.scene import judged, solve_scene, wanted, without_inertia
-from icsolve.scene.bounds import Scene
-from icsolve.scene.parts import Parts
+from icsolve.scene.bounds import EvaluatedScene
+from icsolve.scene.parts import AnswerBuilder
 from icsolve.scene.program import Want, prepare
 from icsolve.statics.power import is_unknown
 
@@ -85,7 +85,7 @@ class Attempt(NamedTuple):
 
     answer: Answer | None
     refusal: SceneError | None
-    scene: Parts | None
+    scene: AnswerBuilder | None
 
 
 def attempt(case: Case, *, reactions: bool = False) -> Attempt:
@@ -96,7 +96,7 @@ def attempt(case: Case, *, reactions: bool = False) -> Attempt:
         return _touching(case, reactions)
     want = wanted(case, Want(True, True, False, reactions))
     try:
-        parts = Parts(Scene(prepare(case, want), certain=True))
+        parts = AnswerBuilder(EvaluatedScene(prepare(case, want), certain=True))
     except SceneError:  # of a link or point that the answer does not need, it may be
         return _tried(case, reactions)
     try:

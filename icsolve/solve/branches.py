@@ -157,7 +157,7 @@ POINTLIKE = 1e-3
 """Open cells that together take less than this fraction of the range lie about single points."""
 
 
-class Found(NamedTuple):
+class Enclosed(NamedTuple):
     """Brackets with one position each; clusters of cells that stay open; what the search gave up on."""
 
     brackets: list[tuple[float, float]]
@@ -165,7 +165,7 @@ class Found(NamedTuple):
     complete: bool
 
 
-def isolate(function: LoadFunction, low: float, high: float) -> Found:
+def isolate(function: LoadFunction, low: float, high: float) -> Enclosed:
     """The zeros of a mode's power from ``low`` to ``high``."""
     edges = np.linspace(low, high, CELLS + 1)
     edges[1:-1] += (high - low) / CELLS * 0.0137  # not on the round numbers where symmetric figures rest
@@ -189,7 +189,7 @@ def isolate(function: LoadFunction, low: float, high: float) -> Found:
             np.concatenate([np.where(inside, middle, cells.high), cells.high[inside]]),
         )
     order = np.argsort(cells.low)
-    return Found(sorted(brackets), _clusters(cells.low[order], cells.high[order]), complete)
+    return Enclosed(sorted(brackets), _clusters(cells.low[order], cells.high[order]), complete)
 
 
 def _pass(function: LoadFunction, cells: Interval) -> tuple[Interval, list[tuple[float, float]]]:

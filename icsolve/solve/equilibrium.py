@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 
 from icsolve.answer import Answer
-from icsolve.answer.equilibrium import Position
+from icsolve.answer.equilibrium import EquilibriumPosition
 from icsolve.assembly import solve_figure
 from icsolve.case import Case, Coordinates, Unknown
 from icsolve.errors import SceneError, Status
@@ -41,7 +41,7 @@ def solve_positions(
     for one in search.positions:
         scene = with_scene(one, all_centres=all_centres, rates=rates, reactions=reactions)
         at, error = {search.path: one.value}, {search.path: one.error}
-        found.append(Position(at, error, one.stability, one.stiffness, one.why, scene))
+        found.append(EquilibriumPosition(at, error, one.stability, one.stiffness, one.why, scene))
     return Answer(case, positions=tuple(found), mobility=1, notes=(*case.noticed, *search.notes))
 
 
@@ -156,7 +156,9 @@ def _resting(case: Case, unknown: Unknown, all_centres: bool, rates: bool, react
         )
 
     found = [
-        Position({unknown.path: one.held}, {unknown.path: one.error}, None, None, "", scene_of(one))
+        EquilibriumPosition(
+            {unknown.path: one.held}, {unknown.path: one.error}, None, None, "", scene_of(one)
+        )
         for one in search.ranges
     ]
     return Answer(case, positions=tuple(found), mobility=1, notes=(*case.noticed, *search.notes))

@@ -34,7 +34,7 @@ from icsolve.structure.topology import Topology, topology
 from icsolve.sweep.drivers import Drive
 from icsolve.sweep.numbers import with_numbers
 from icsolve.sweep.program import Asked, Setting, Sheet, setting_of, sheet_of, wanted_points
-from icsolve.sweep.scene import Scene, motions_of
+from icsolve.sweep.scene import RecordedScene, motions_of
 
 Steps = tuple[Step, ...]
 
@@ -260,7 +260,7 @@ def _turning(twists: Mapping[str, tuple[tuple[Scalar, Scalar, Scalar], ...]]) ->
 
 
 def _rate(
-    scene: Scene, twists: Mapping[str, tuple[tuple[Scalar, Scalar, Scalar], ...]], given: int
+    scene: RecordedScene, twists: Mapping[str, tuple[tuple[Scalar, Scalar, Scalar], ...]], given: int
 ) -> tuple[Scalar, bool]:
     """The rate of the free number in the motion: that with which a point goes along its path, over how
     far it goes along that path for each unit of the number; and whether all points go along such paths."""

@@ -55,7 +55,7 @@ def rest_as_written(case: Case, of: str) -> Rest:
     return described(function, value, 0.0)
 
 
-class Turning(NamedTuple):
+class TurningPower(NamedTuple):
     """A value at which something ceases to be one thing and becomes another."""
 
     value: float
@@ -64,7 +64,7 @@ class Turning(NamedTuple):
     after: str
 
 
-def neutral_values(case: Case, path: str, low: float, high: float) -> list[Turning]:
+def neutral_values(case: Case, path: str, low: float, high: float) -> list[TurningPower]:
     """The values of a load's number at which the position as written changes its stability.
 
     The case has to be in equilibrium as written for all of them.
@@ -96,7 +96,7 @@ def neutral_values(case: Case, path: str, low: float, high: float) -> list[Turni
 
 def _neutral_between(
     stiffness: Callable[[float], Stiffness], one: tuple[float, Stiffness], two: tuple[float, Stiffness]
-) -> Turning:
+) -> TurningPower:
     """Where the stiffness vanishes between two values: at once where it is linear in the number (a force, a
     mass, a spring's own), else by going on so."""
     words = ("stable", "unstable") if one[1].value > 0.0 else ("unstable", "stable")
@@ -107,7 +107,7 @@ def _neutral_between(
         error = ((at_a.error or 0.0) + (at_b.error or 0.0)) / abs(slope) + 2.0 * math.ulp(value)
         here = stiffness(value)
         if abs(here.value) <= 2.0 * error * abs(slope) or not min(a, b) < value < max(a, b):
-            return Turning(value, error, *words)
+            return TurningPower(value, error, *words)
         middle = 0.5 * (a + b)  # cut so often that no side stands still
         for at, k in ((value, here), (middle, stiffness(middle))):
             if one[0] < at < two[0]:
@@ -129,7 +129,7 @@ def _driven(case: Case) -> str:
     raise refusal
 
 
-def holding_values(case: Case, path: str, low: float, high: float) -> list[Turning]:
+def holding_values(case: Case, path: str, low: float, high: float) -> list[TurningPower]:
     """The values of a number at which a mechanism under known loads begins or ceases to hold still."""
     from icsolve.solve.resting import holds_as_written
 
@@ -141,7 +141,7 @@ def holding_values(case: Case, path: str, low: float, high: float) -> list[Turni
     return _turnings(kind, low, high)
 
 
-def _turnings(kind: Callable[[float], str], low: float, high: float) -> list[Turning]:
+def _turnings(kind: Callable[[float], str], low: float, high: float) -> list[TurningPower]:
     """Where a word changes over a range: between the ends of many parts, then halved to the last digit."""
     values = [low + (high - low) * k / CUTS for k in range(CUTS + 1)]
     found = []
@@ -151,8 +151,8 @@ def _turnings(kind: Callable[[float], str], low: float, high: float) -> list[Tur
         a, b = start, stop
         while (middle := 0.5 * (a + b)) not in (a, b):
             a, b = (middle, b) if kind(middle) == before else (a, middle)
-        found.append(Turning(b, abs(b - a), before, after))
+        found.append(TurningPower(b, abs(b - a), before, after))
     return found
 
 
-__all__ = ["Turning", "holding_values", "neutral_values", "rest_as_written", "with_stability"]
+__all__ = ["TurningPower", "holding_values", "neutral_values", "rest_as_written", "with_stability"]

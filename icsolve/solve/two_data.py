@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from icsolve.answer.equilibrium import Position, Stiffness
+from icsolve.answer.equilibrium import EquilibriumPosition, Stiffness
 from icsolve.assembly import Figure, place
 from icsolve.assembly.workspace import frame_of
 from icsolve.case import Case
@@ -54,20 +54,20 @@ class Surface(NamedTuple):
     force_scale: float
 
 
-class Found(NamedTuple):
+class FoundPairs(NamedTuple):
     """Positions by rising values of the first datum, and what was searched."""
 
-    positions: tuple[Position, ...]
+    positions: tuple[EquilibriumPosition, ...]
     notes: tuple[str, ...]
 
 
-def find_pairs(case: Case, paths: Sequence[str], spans: Sequence[Span | None]) -> Found:
+def find_pairs(case: Case, paths: Sequence[str], spans: Sequence[Span | None]) -> FoundPairs:
     """Every combination of two data at which the loads balance, as far as Newton's method finds them.
 
     Raises SceneError where the mechanism has not two freedoms, or the figure assembles for no start.
     """
     limits = [span or whole_range(case, path) for path, span in zip(paths, spans, strict=True)]
-    found: list[Position] = []
+    found: list[EquilibriumPosition] = []
     surfaces = _surfaces(case, paths, limits)
     if case.near:
         surfaces = [min(surfaces, key=lambda surface: _distance(surface, case, limits))]
@@ -79,7 +79,7 @@ def find_pairs(case: Case, paths: Sequence[str], spans: Sequence[Span | None]) -
     found.sort(key=lambda one: [float(one.at[path]) for path in paths])  # type: ignore[arg-type]
     where = " and ".join(f"{p} from {a:g} to {b:g}" for p, (a, b) in zip(paths, limits, strict=True))
     note = f"{where} were searched by Newton's method from {GRID} x {GRID} starts in each way of assembling."
-    return Found(tuple(found), (note,))
+    return FoundPairs(tuple(found), (note,))
 
 
 def _surfaces(case: Case, paths: Sequence[str], limits: Sequence[Span]) -> list[Surface]:
@@ -214,7 +214,7 @@ def _zeros(
     return found
 
 
-def _described(surface: Surface, paths: Sequence[str], values: tuple[float, float]) -> Position:
+def _described(surface: Surface, paths: Sequence[str], values: tuple[float, float]) -> EquilibriumPosition:
     """A position to the last digits, with its stiffness matrix and stability."""
     values, off = _polished(surface, values)
     slopes, rates = _derivatives(surface, values)
@@ -243,7 +243,7 @@ def _described(surface: Surface, paths: Sequence[str], values: tuple[float, floa
     scene = solve_scene(_scene(surface, paths, values), rates=False)
     shown = replace(scene, centres={}, rates=None, velocities=None)
     at, errors = dict(zip(paths, values, strict=True)), dict(zip(paths, off, strict=True))
-    return Position(at, errors, kind, stiffness, "", shown)
+    return EquilibriumPosition(at, errors, kind, stiffness, "", shown)
 
 
 def _derivatives(surface: Surface, values: Sequence[float]) -> tuple[Any, Any]:
@@ -288,7 +288,7 @@ def _polished(
     return (x, y), (float(off[0]) + 2.0 * math.ulp(x), float(off[1]) + 2.0 * math.ulp(y))
 
 
-def _same(one: Position, other: Position) -> bool:
+def _same(one: EquilibriumPosition, other: EquilibriumPosition) -> bool:
     """Whether two modes share a position."""
     near = all(abs(float(one.at[p]) - float(other.at[p])) <= SAME for p in one.at)  # type: ignore[arg-type]
     theirs = other.answer.points

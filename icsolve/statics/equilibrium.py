@@ -95,7 +95,7 @@ def equilibrium(
     rubs: Sequence[Rub] = (),
 ) -> Statics:
     """Solve the equilibrium of every link but the frame for what the joints transmit."""
-    rows = _Rows(position, ties)
+    rows = _BodyRows(position, ties)
     first = []
     column = 0
     for tie in ties:
@@ -156,7 +156,7 @@ def _share(
     return known, number_of(w, arithmetic) * scale * w.ratio
 
 
-class _Rows:
+class _BodyRows:
     """Three equations a link: forces along x and y, moments about the link's first point."""
 
     def __init__(self, position: Position, ties: Iterable[Tie]) -> None:
@@ -230,7 +230,7 @@ def terms_of(
 
 def equations_of(position: Position, statics: Statics, balance: Balance) -> Equations:
     """The equations of every link, by the columns of the statics."""
-    rows = _Rows(position, statics.ties)
+    rows = _BodyRows(position, statics.ties)
     for t, tie in enumerate(statics.ties):
         for n in range(len(tie.units)):
             rows.tie(tie, n, statics.first[t] + n)

@@ -58,7 +58,7 @@ def error_bounds(
     """Bounds of the loads of a solution, whose rubs all have these senses."""
     if traced is None:
         return ErrorBounds({}, {}, UNBOUND)
-    found = Sliding(solved.statics, solved.statics.filled(solved.parameters), tuple(senses))
+    found = SlidingSolution(solved.statics, solved.statics.filled(solved.parameters), tuple(senses))
     weights = weights_of(position, balance, found, outputs_of(found))
     why = _doubt(position, traced)
     if weights is None or why:
@@ -70,7 +70,7 @@ def error_bounds(
 
 
 def _swept(
-    found: Sliding, solved: Solved, weights: Sequence[Weights], exact: Exact, traced: Bounded
+    found: SlidingSolution, solved: Solved, weights: Sequence[Weights], exact: Exact, traced: Bounded
 ) -> tuple[list[float] | None, dict[str, dict[str, float]]]:
     """Bounds of the unknown loads (scaled; None: without limit), and slopes where nothing has a kink."""
     rests = [step(found, by, exact) for by in weights]
@@ -114,7 +114,7 @@ def _doubt(position: Position, traced: Bounded) -> str:
     return TOO_CLOSE if max(traced.tape.doubts(SMALL), default=0.0) else ""
 
 
-def _exact(position: Position, solved: Solved, found: Sliding, traced: Bounded) -> Exact:
+def _exact(position: Position, solved: Solved, found: SlidingSolution, traced: Bounded) -> Exact:
     """The scene on the tape."""
     tape, outcome = traced.tape, traced.outcome
     placed = position._replace(points=outcome.points, arithmetic=tape)
@@ -144,7 +144,7 @@ OPEN = 1e-9
 """What is left of a unit of an unknown load below this is rounding."""
 
 
-class Sliding(NamedTuple):
+class SlidingSolution(NamedTuple):
     """A solution with friction: values of all columns of its statics (scaled), the senses of the rubs."""
 
     statics: Statics
@@ -185,7 +185,7 @@ Output = dict[int, float]
 """A combination of columns whose error is asked for."""
 
 
-def outputs_of(found: Sliding) -> list[Output]:
+def outputs_of(found: SlidingSolution) -> list[Output]:
     """The unknown loads, then the components of the forces that press at kinks."""
     statics = found.statics
     loads: list[Output] = [{statics.root(q): 1.0} for q in range(len(statics.roots))]
@@ -196,7 +196,7 @@ def outputs_of(found: Sliding) -> list[Output]:
 
 
 def weights_of(
-    position: Position, balance: Balance, found: Sliding, outputs: Sequence[Output]
+    position: Position, balance: Balance, found: SlidingSolution, outputs: Sequence[Output]
 ) -> list[Weights] | None:
     """The weights of every output; None where the equations do not determine one."""
     equations = equations_of(position, found.statics, balance)
@@ -226,7 +226,7 @@ def _weights(about: Mapping[str, Point], values: Sequence[float]) -> Weights:
     return Weights(links, tuple(values[3 * len(about) :]))
 
 
-def _frictions(found: Sliding) -> list[Row]:
+def _frictions(found: SlidingSolution) -> list[Row]:
     """Derivatives of each friction's residual: itself, and its coefficient times the size of its force."""
     rows, kinks = [], found.kinks
     for k, rub in enumerate(found.statics.rubs):
@@ -253,7 +253,7 @@ def _sum(terms: Iterable[Scalar]) -> Scalar:
     return total
 
 
-def step(found: Sliding, weights: Weights, exact: Exact) -> Scalar:
+def step(found: SlidingSolution, weights: Weights, exact: Exact) -> Scalar:
     """The weighted sum of all residuals (scaled): the unknown load is too large by so much."""
     links = _sum(_of_tie(found.statics, weights, exact, t) for t in range(len(exact.ties)))
     links = links + _sum(_of_rope(found.statics, weights, exact, n) for n in range(len(exact.ropes)))
@@ -295,7 +295,7 @@ def _number(statics: Statics, exact: Exact, w: Wrench) -> Scalar:
     return number_of(w, exact.numbers) * statics.scale
 
 
-def _of_rub(found: Sliding, weights: Weights, exact: Exact, k: int) -> Scalar:
+def _of_rub(found: SlidingSolution, weights: Weights, exact: Exact, k: int) -> Scalar:
     """A friction, which is against its sense and as large as its coefficient makes it."""
     rub = exact.rubs[k]
     if k in found.kinks:
@@ -326,7 +326,9 @@ def _pairing(force: Force, apart: Force) -> Scalar:
     return _sum(f * a for f, a in zip(force, apart, strict=True))
 
 
-def open_frictions(found: Sliding, outputs: Sequence[Weights], bounds: Sequence[float]) -> list[float] | None:
+def open_frictions(
+    found: SlidingSolution, outputs: Sequence[Weights], bounds: Sequence[float]
+) -> list[float] | None:
     """What the frictions at kinks can be at most (scaled), in the order of the kinks; None without a limit.
 
     ``outputs`` and ``bounds`` are the weights and the errors of the forces that press there, without

@@ -11,7 +11,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from icsolve.answer import Answer
-from icsolve.answer.bodies import Friction, Reactions, Tension, Witness
+from icsolve.answer.bodies import FrictionFound, Reactions, Tension, Witness
 from icsolve.assembly import Frame
 from icsolve.case import ForceVector, Number
 from icsolve.errors import SceneError, Status
@@ -42,7 +42,7 @@ class FreeBodies(NamedTuple):
     reactions: Reactions
     witnesses: tuple[Witness, ...] = ()
     notes: tuple[str, ...] = ()
-    friction: Friction | None = None
+    friction: FrictionFound | None = None
     tensions: tuple[Tension, ...] = ()
 
     def added_to(self, answer: Answer, reactions: bool = True) -> Answer:

@@ -11,7 +11,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 from icsolve.answer import Answer, Deferred, Found
-from icsolve.answer.bodies import Friction, Rubbing, Tension, Witness
+from icsolve.answer.bodies import FrictionFound, Rubbing, Tension, Witness
 from icsolve.assembly import Frame
 from icsolve.case import Rope
 from icsolve.case.joints import Mesh
@@ -48,7 +48,7 @@ from icsolve.statics.static_range import IMPENDING, End, StaticRange, end_of, pr
 from icsolve.wording.sentences import listed, plural
 
 
-def in_motion(scene: Scene) -> tuple[dict[str, float], FreeBodies, ErrorBounds]:
+def in_motion(scene: FrictionScene) -> tuple[dict[str, float], FreeBodies, ErrorBounds]:
     """The unknown loads (case units) that keep up the given motion, the free bodies, and bounds.
 
     Raises SceneError where no value does, where several do without one to prefer, and where the sense
@@ -68,11 +68,11 @@ def in_motion(scene: Scene) -> tuple[dict[str, float], FreeBodies, ErrorBounds]:
     return solved.unknowns, _bodies(scene, solved, slides[-1], workless), sure
 
 
-def _certain(scene: Scene, solved: Solved, senses: Sequence[float]) -> ErrorBounds:
+def _certain(scene: FrictionScene, solved: Solved, senses: Sequence[float]) -> ErrorBounds:
     return error_bounds(scene.position, scene.balance, solved, senses, scene.traced, scene.speed)
 
 
-def at_rest(scene: Scene) -> tuple[StaticRange, float | None, str]:
+def at_rest(scene: FrictionScene) -> tuple[StaticRange, float | None, str]:
     """The range of the one unknown load in which the mechanism holds still.
 
     With it the bound of its ends (case units), None with the reason where none is proven.
@@ -98,7 +98,7 @@ def at_rest(scene: Scene) -> tuple[StaticRange, float | None, str]:
     return found, None if why else max(bounds), why
 
 
-def slipping(scene: Scene, direction: float = 1.0) -> Scene:
+def slipping(scene: FrictionScene, direction: float = 1.0) -> FrictionScene:
     """The scene with the pulls of its ropes as they slip in the motion that is meant, or in its opposite."""
     if not any(rope.slips for rope in scene.position.case.ropes):
         return scene
@@ -113,7 +113,7 @@ def _signs(rates: Sequence[float]) -> list[float]:
     return [math.copysign(1.0, rate) if rate else 0.0 for rate in rates]
 
 
-def rope_rates(scene: Scene) -> list[tuple[float, ...]]:
+def rope_rates(scene: FrictionScene) -> list[tuple[float, ...]]:
     """How fast each rope runs on over what it goes round, in the motion that is meant (normalised).
 
     Raises SceneError where a freedom that no motion fixes moves one that slips.
@@ -143,7 +143,7 @@ def _open_rope(rope: Rope) -> str:
     )
 
 
-def _range_with_ropes(scene: Scene) -> StaticRange:
+def _range_with_ropes(scene: FrictionScene) -> StaticRange:
     """The range where ropes slip: about to move one way and the other, with the pulls that go with each.
 
     Where a rope would have to push, the mechanism never moves that way: the range has no end there, on the
@@ -191,13 +191,13 @@ def _nothing_slips(statics: Statics) -> str:
 PRESSED = "no bound is proven of a range whose ends no motion sets"
 
 
-def _certain_end(scene: Scene, statics: Statics, end: End) -> ErrorBounds:
+def _certain_end(scene: FrictionScene, statics: Statics, end: End) -> ErrorBounds:
     """The bound of an end, at which the mechanism is about to move."""
     (root,) = statics.roots
     return _certain(scene, Solved(statics, {root: end.value}, end.friction), end.senses)
 
 
-def _flanks(scene: Scene, ties: Sequence[Tie], workless: bool) -> Mapping[int, float]:
+def _flanks(scene: FrictionScene, ties: Sequence[Tie], workless: bool) -> Mapping[int, float]:
     """The flanks of the teeth that carry without friction: friction seldom turns them."""
     if not reaction_basis.meshes(ties):
         return {}
@@ -210,7 +210,7 @@ def _flanks(scene: Scene, ties: Sequence[Tie], workless: bool) -> Mapping[int, f
     return carrying_flanks(scene.position, ties, frictionless(scene.position, scene.balance, ties))
 
 
-def _is_workless(scene: Scene) -> bool:
+def _is_workless(scene: FrictionScene) -> bool:
     """Whether the one unknown load does no work: then only friction can balance the known ones.
 
     What draws a rope that slips is as good as one that works.
@@ -219,7 +219,7 @@ def _is_workless(scene: Scene) -> bool:
     return scene.solution.verdict in ("no value", "any value") and not slips
 
 
-def _statics(scene: Scene, ties: Sequence[Tie]) -> Statics:
+def _statics(scene: FrictionScene, ties: Sequence[Tie]) -> Statics:
     """Statics with the rubs of the ties.
 
     Raises SceneError where the joints leave a rubbing force open.
@@ -250,7 +250,7 @@ def _shared(tie: Tie, ties: Sequence[Tie]) -> str:
     )
 
 
-def _bodies(scene: Scene, solved: Solved, found: Slid, workless: bool) -> FreeBodies:
+def _bodies(scene: FrictionScene, solved: Solved, found: Slid, workless: bool) -> FreeBodies:
     position, statics, parameters = scene.position, solved.statics, solved.parameters
     terms = terms_of(position, statics, scene.balance, parameters)
     senses = senses_of(scene, statics)
@@ -265,13 +265,13 @@ def _bodies(scene: Scene, solved: Solved, found: Slid, workless: bool) -> FreeBo
     rubbing = (*rubbing_of(scene, solved, found, senses), *_ropes_rubbing(scene, statics, pulls))
     refuse_power(rubbing)
     error, losses = found.error if math.isfinite(found.error) else None, sum(r.loss for r in rubbing)
-    friction = Friction(rubbing, residual(terms), error, found.unique, losses)
+    friction = FrictionFound(rubbing, residual(terms), error, found.unique, losses)
     notes = notes_of(statics, reactions, names_by_tie(position.case, statics.ties))
     notes = (*notes, *notes_in_motion(scene, statics, found, senses))
     return FreeBodies(reactions, shown, notes, friction, pulls)
 
 
-def _ropes_rubbing(scene: Scene, statics: Statics, pulls: Sequence[Tension]) -> Iterator[Rubbing]:
+def _ropes_rubbing(scene: FrictionScene, statics: Statics, pulls: Sequence[Tension]) -> Iterator[Rubbing]:
     """Where ropes slip: the difference of the two pulls, and the power that it takes."""
     for tie, rates, pull in zip(statics.ropes, rope_rates(scene), pulls, strict=True):
         for k, rate in enumerate(rates, start=1):
@@ -284,7 +284,7 @@ def _ropes_rubbing(scene: Scene, statics: Statics, pulls: Sequence[Tension]) -> 
             yield Rubbing(pull.name, tie.rope.points[k], "rope", value, apart, speed, loss)
 
 
-def _by_power(scene: Scene, solved: Solved) -> Mapping[str, float]:
+def _by_power(scene: FrictionScene, solved: Solved) -> Mapping[str, float]:
     """The unknown loads from the sums of power, the losses of friction counted."""
     statics, parameters = solved.statics, solved.parameters
     columns = [statics.tension(n) for n in range(len(statics.ropes))]
@@ -292,7 +292,9 @@ def _by_power(scene: Scene, solved: Solved) -> Mapping[str, float]:
     return unknowns_by_power(scene.position, scene.balance, statics, solved.friction, pulls)
 
 
-def solved(scene: Scene, answer_with: Callable[[Mapping[str, Value]], Answer], reactions: bool) -> Answer:
+def solved(
+    scene: FrictionScene, answer_with: Callable[[Mapping[str, Value]], Answer], reactions: bool
+) -> Answer:
     """The answer with friction; ``answer_with`` makes the rest of it from values of the unknown loads.
 
     Raises SceneError as `in_motion` and `at_rest` do.
@@ -304,19 +306,21 @@ def solved(scene: Scene, answer_with: Callable[[Mapping[str, Value]], Answer], r
     answer = answer_with({root: Value(0.0, bound, why)})
     answers = {name: _held(scene, name, found, shown) for name, shown in answer.answers.items()}
     notes = (*answer.notes, *notes_at_rest(root, found))
-    friction = Friction((), 0.0, 0.0, found.how, possible=found.possible)
+    friction = FrictionFound((), 0.0, 0.0, found.how, possible=found.possible)
     bare = replace(answer, answers=answers, terms=(), advantage=None, sensitivities=Deferred(_no_slopes))
     return replace(bare, notes=notes, friction=friction)
 
 
-def _moving(scene: Scene, answer_with: Callable[[Mapping[str, Value]], Answer], reactions: bool) -> Answer:
+def _moving(
+    scene: FrictionScene, answer_with: Callable[[Mapping[str, Value]], Answer], reactions: bool
+) -> Answer:
     unknowns, bodies, sure = in_motion(scene)
     values = {root: Value(value, sure.bounds.get(root), sure.why) for root, value in unknowns.items()}
     answer = replace(answer_with(values), sensitivities=Deferred(lambda: _slopes(scene, sure)))
     return bodies.added_to(answer, reactions)
 
 
-def _slopes(scene: Scene, sure: ErrorBounds) -> dict[str, dict[str, float]]:
+def _slopes(scene: FrictionScene, sure: ErrorBounds) -> dict[str, dict[str, float]]:
     """Slopes of every unknown load and of those like it, friction included."""
     if not sure.slopes:
         raise SceneError(Status.UNSUPPORTED, f"{NO_SLOPES}: {sure.why}.")
@@ -335,14 +339,14 @@ def _no_slopes() -> dict[str, dict[str, float]]:
     raise SceneError(Status.UNSUPPORTED, f"{NO_SLOPES}: {said}")
 
 
-def _held(scene: Scene, name: str, found: StaticRange, shown: Found) -> Found:
+def _held(scene: FrictionScene, name: str, found: StaticRange, shown: Found) -> Found:
     """The range of a load that is the unknown, or a multiple of it; ``shown`` has its bound."""
     ratio = next(float(w.ratio) for w in scene.balance.wrenches if w.load.name == name)
     ends = sorted((ratio * found.least, ratio * found.most))
     return shown._replace(value=math.nan, sense="", holds=(ends[0], ends[1]), self_locking=found.self_locking)
 
 
-class Scene(NamedTuple):
+class FrictionScene(NamedTuple):
     """What is known of a scene before its friction: position, sum of power, and the motion that is meant."""
 
     position: Position
@@ -365,7 +369,7 @@ class Sense(NamedTuple):
         return tuple(math.copysign(1.0, rate) if rate else 0.0 for rate in self.rates)
 
 
-def senses_of(scene: Scene, statics: Statics) -> Sense:
+def senses_of(scene: FrictionScene, statics: Statics) -> Sense:
     """Rates of all rubs in the motion that is meant.
 
     Raises SceneError where a freedom that no motion fixes moves one.
@@ -393,7 +397,7 @@ def place_of(tie: Tie) -> str:
     return f" at {tie.where}" if tie.where else ""
 
 
-def rubbing_of(scene: Scene, solved: Solved, found: Slid, senses: Sense) -> tuple[Rubbing, ...]:
+def rubbing_of(scene: FrictionScene, solved: Solved, found: Slid, senses: Sense) -> tuple[Rubbing, ...]:
     statics, case = solved.statics, scene.position.case
     names = names_by_tie(case, statics.ties)
     rows = []
@@ -416,7 +420,7 @@ def refuse_power(rubbing: Sequence[Rubbing]) -> None:
             raise AssertionError(f"friction at {rub.joint} gives power")
 
 
-def notes_in_motion(scene: Scene, statics: Statics, found: Slid, senses: Sense) -> Sequence[str]:
+def notes_in_motion(scene: FrictionScene, statics: Statics, found: Slid, senses: Sense) -> Sequence[str]:
     notes = []
     still = [statics.ties[rub.tie] for rub, rate in zip(statics.rubs, senses.rates, strict=True) if not rate]
     if still:

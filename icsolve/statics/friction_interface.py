@@ -160,7 +160,7 @@ def efficiency(terms: Sequence[Term]) -> float | None:
     return out / into if into else None
 
 
-def friction_terms(friction: bodies.Friction, case: Case) -> Iterable[Term]:
+def friction_terms(friction: bodies.FrictionFound, case: Case) -> Iterable[Term]:
     """One term of the sum of power for each rub."""
     for rub in friction.rubbing:
         unit = case.units.torque if rub.kind == "pin" else case.units.force

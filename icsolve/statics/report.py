@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 
 from icsolve.answer import Answer
-from icsolve.answer.bodies import Friction, Reaction, Rubbing, Witness
+from icsolve.answer.bodies import FrictionFound, Reaction, Rubbing, Witness
 from icsolve.case import Units
 
 Format = Callable[[float], str]
@@ -59,7 +59,7 @@ def _rest(reaction: Reaction, show: Format) -> str:
     return f"{place}{couple}{parts}"
 
 
-def friction_lines(friction: Friction, units: Units, show: Format, table: Table) -> list[str]:
+def friction_lines(friction: FrictionFound, units: Units, show: Format, table: Table) -> list[str]:
     """A line for each rub, what friction takes, and the efficiency."""
     rows = [_rub(rub, units, show) for rub in friction.rubbing]
     lines = ["Friction", *table(*(list(column) for column in zip(*rows, strict=True)))] if rows else []

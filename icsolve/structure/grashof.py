@@ -13,7 +13,7 @@ _EVEN = 1e-9
 """Relative to the sum of the lengths: closer than this, two sums of lengths are equal."""
 
 
-class Range(NamedTuple):
+class AngleRange(NamedTuple):
     """Transmission angle in degrees: in this position, and between what it moves."""
 
     now: float
@@ -53,7 +53,7 @@ def grashof_excess(lengths: tuple[float, float, float, float]) -> float:
     return 0.0 if abs(excess) <= _EVEN * sum(lengths) else excess
 
 
-def transmission_of(side: Side) -> Range:
+def transmission_of(side: Side) -> AngleRange:
     """Angle between coupler and output: the diagonal opposite to it is longest with the input stretched out.
 
     cos mu = (b^2 + c^2 - f^2) / 2bc, with f^2 = a^2 + d^2 - 2ad cos(turned).
@@ -61,7 +61,7 @@ def transmission_of(side: Side) -> Range:
     a, b, c, d, turned = side
     diagonal = math.sqrt(max(a * a + d * d - 2.0 * a * d * math.cos(math.radians(turned)), 0.0))
     least, greatest = max(abs(d - a), abs(b - c)), min(d + a, b + c)
-    return Range(*(_angle_opposite(f, b, c) for f in (diagonal, least, greatest)))
+    return AngleRange(*(_angle_opposite(f, b, c) for f in (diagonal, least, greatest)))
 
 
 def limits_of(side: Side) -> tuple[float, ...]:
@@ -79,12 +79,12 @@ def limits_of(side: Side) -> tuple[float, ...]:
     return () if near is None else (near, 360.0 - near)
 
 
-def transmission_in_slider_crank(crank: Crank) -> Range:
+def transmission_in_slider_crank(crank: Crank) -> AngleRange:
     """Angle between the rod and the normal of the guide: cos mu = |e - r sin(turned)| / l."""
     r, rod, e, turned = crank
     now = abs(e - r * math.sin(math.radians(turned)))
     most, fewest = min(r + abs(e), rod), max(abs(e) - r, 0.0)
-    return Range(*(_arccos(height / rod) for height in (now, most, fewest)))
+    return AngleRange(*(_arccos(height / rod) for height in (now, most, fewest)))
 
 
 def limits_in_slider_crank(crank: Crank) -> tuple[float, ...]:

@@ -18,7 +18,7 @@ Constraint = tuple[int, int]
 """A bond and one of its constraints."""
 
 
-class Part(NamedTuple):
+class GroupPart(NamedTuple):
     """Bodies that determine one another, and the other bodies that they need to be known first."""
 
     bodies: set[int]
@@ -35,7 +35,7 @@ class Matching:
     def __init__(self, top: Topology, known: set[int]) -> None:
         self.top = top
         self.known = known
-        self.parts: list[Part] = []
+        self.parts: list[GroupPart] = []
         self.load: dict[int, list[Constraint]] = {
             body: [] for body in range(len(top.members)) if body not in known
         }
@@ -60,14 +60,14 @@ class Matching:
         placed = [self._place(row) for row in freed]
         return any(placed)
 
-    def _determined(self) -> list[Part]:
+    def _determined(self) -> list[GroupPart]:
         """The parts that no body with too few constraints bears on."""
         needs = {body: self._needs(body, rows) for body, rows in self.load.items()}
         loose = [body for body, rows in self.load.items() if len(rows) < 3]
         reaching = _reach_back(needs, loose)
         held = {body: others for body, others in needs.items() if body not in reaching}
         return [
-            Part(set(members), {other for body in members for other in held[body]} - set(members))
+            GroupPart(set(members), {other for body in members for other in held[body]} - set(members))
             for members in strongly_connected(held)
         ]
 

@@ -16,7 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.cams.curve import CORNER, Body, Curve
-from icsolve.cams.pieces import TURN, CircularArc, Piece, Polar, Spline, Straight
+from icsolve.cams.pieces import TURN, CircularArc, Piece, PolarPiece, Spline, Straight
 from icsolve.numbers.replay import Array
 
 CLOSE = 1e-4
@@ -235,7 +235,7 @@ class _Line:
         self.x, self.y, self.nx, self.ny = self.at(self.piece, self.u)
         self.square = self.x**2 + self.y**2
         self.step = 1.0 / np.array(counts)
-        self.whole = np.array([isinstance(piece, Polar) for piece in self.pieces])
+        self.whole = np.array([isinstance(piece, PolarPiece) for piece in self.pieces])
         self.ends = (self.u == 0.0) | (self.u == 1.0)
         self.beside = (np.arange(len(self.u)) + np.where(self.u == 0.0, -1, 1)) % len(self.u)
         turned = np.abs(self.nx * self.ny[self.beside] - self.ny * self.nx[self.beside])

@@ -78,7 +78,7 @@ class Follow(NamedTuple):
         """The driver's values for motions along the freedom."""
         return np.degrees(by) if isinstance(self.freedom, Turn) else self.start + by
 
-    def met(self, pose: Pose) -> Candidate | None:
+    def met(self, pose: LinkPose) -> Candidate | None:
         """Where the follower meets the cam first, in this pose of the cam; as the cam sees it."""
         body, freedom = pose.body_back(self.body), pose.freedom_back(self.freedom)
         return outermost(self.curve, body, freedom, self.side, self.sense)
@@ -133,7 +133,7 @@ class Follow(NamedTuple):
             roller = (follower.at, off * follower.radius.value)
         return Resting(touch.place, joint, (place.x.value, place.y.value), roller)
 
-    def contact(self, case: Case, pose: Pose, way: Candidate) -> tuple[Case, Touching]:
+    def contact(self, case: Case, pose: LinkPose, way: Candidate) -> tuple[Case, Touching]:
         """A row's case with this contact."""
         meeting = meeting_of(self.curve, way.body, self.side, self.seeking.what)
         return self.seeking.contact(case, self.curve, pose.meeting(meeting), self.freedom, note=False)
@@ -222,7 +222,7 @@ class Rows:
     def __init__(self, course: CamMotion, columns: Columns) -> None:
         self.course, self.columns = course, columns
         self.codes: Codes = np.zeros(columns.rows, dtype=np.int8)
-        self.ways: dict[tuple[int, int], tuple[Pose, Candidate] | None] = {}
+        self.ways: dict[tuple[int, int], tuple[LinkPose, Candidate] | None] = {}
         self.frames: list[tuple[Array, Array]] = []
         self.rested: list[Met] = []
         """where each follower touches in every row, in the figure"""
@@ -262,7 +262,7 @@ class Rows:
         by = np.where(turned & placed & np.isfinite(rested.by), rested.by, 0.0)
         self.drivers[follow.driver] = follow.driven(by)
 
-    def _way(self, k: int, row: int) -> tuple[Pose, Candidate] | None:
+    def _way(self, k: int, row: int) -> tuple[LinkPose, Candidate] | None:
         """Where a follower meets its cam in a row, with every rule of a single scene."""
         if (k, row) not in self.ways:
             first, second = self.frames[k]
@@ -338,7 +338,7 @@ def _point(place: Array) -> Point:
     return (float(place[0]), float(place[1]))
 
 
-class Pose(NamedTuple):
+class LinkPose(NamedTuple):
     """``turn`` is (cos, sin) of the turning; ``written`` and ``now`` are the places of one of its points."""
 
     turn: Point
@@ -382,14 +382,14 @@ class Pose(NamedTuple):
         return Meeting(meeting.gap, turned, tuple(map(self.out, meeting.normals)))
 
 
-def pose_of(written: tuple[Point, Point], now: tuple[Point, Point]) -> Pose:
+def pose_of(written: tuple[Point, Point], now: tuple[Point, Point]) -> LinkPose:
     """The pose of a link by two of its points."""
     (ax, ay), (bx, by) = written
     (cx, cy), (dx, dy) = now
     ux, uy, vx, vy = bx - ax, by - ay, dx - cx, dy - cy
     c, s = ux * vx + uy * vy, ux * vy - uy * vx
     size = math.hypot(c, s)
-    return Pose((c / size, s / size), written[0], now[0])
+    return LinkPose((c / size, s / size), written[0], now[0])
 
 
 def anchored(case: Case) -> Case:

@@ -37,7 +37,7 @@ SAID = "in every row the contacts are found on the profiles."
 SHAPING = ("points", "lengths", "angles", "profile", "joints")
 
 
-class Part(NamedTuple):
+class CamRows(NamedTuple):
     """Rows of one figure: what they are run by; None where no link moves."""
 
     case: Case
@@ -135,13 +135,13 @@ def _moving(course: CamMotion, columns: Columns) -> set[str]:
     return {path for path in setting.drive.moving if path in columns.paths}
 
 
-def _parts(case: Case, columns: Columns, moving: set[str], table: Table) -> Iterator[Part]:
+def _parts(case: Case, columns: Columns, moving: set[str], table: Table) -> Iterator[CamRows]:
     """The rows by figures: those whose reshaping numbers are the same."""
     shaping = [p for p in columns.paths if p not in moving and p.split(".")[0] in SHAPING]
     for values, rows in _alike(columns, shaping):
         try:
             changed = with_numbers(case, values) if values else case
-            yield Part(changed, rows, _run(changed, columns, rows, moving, shaping))
+            yield CamRows(changed, rows, _run(changed, columns, rows, moving, shaping))
         except SceneError as error:
             if not shaping:
                 raise
@@ -174,7 +174,7 @@ def _written(case: Case, columns: Columns, row: int) -> Case:
     return with_numbers(case, {path: float(a[row]) for path, a in columns.paths.items()})
 
 
-def _together(table: Table, part: Part, error: bool, seen: _Seen) -> Mask:
+def _together(table: Table, part: CamRows, error: bool, seen: _Seen) -> Mask:
     """Fill in the rows of a part that one record solves all at once; which these are."""
     case, run = part.case, part.run
     teeth = any(isinstance(joint, Mesh) and joint.pressure_angle is not None for joint in case.joints)
@@ -196,7 +196,7 @@ def _together(table: Table, part: Part, error: bool, seen: _Seen) -> Mask:
     return done
 
 
-def _fill(table: Table, part: Part, n: int, row: int, columns: Columns, seen: _Seen) -> None:
+def _fill(table: Table, part: CamRows, n: int, row: int, columns: Columns, seen: _Seen) -> None:
     """Solve one row."""
     asked = table.asked
     if part.run is not None and part.run.codes[n]:

@@ -20,7 +20,7 @@ import numpy.typing as npt
 from icsolve.case import Case
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import Scalar
-from icsolve.numbers.jets import Ball, Cells, Jet
+from icsolve.numbers.jets import BallArray, Cells, Jet
 from icsolve.numbers.record import Op, Record, Traced, terms_of
 from icsolve.numbers.replay import Array
 from icsolve.numbers.tape import UNIT
@@ -29,7 +29,7 @@ from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.ask import AskError, along_of, columns_of
 from icsolve.sweep.exact import CONTEXT, STEP, Unreached, as_written
-from icsolve.sweep.parts import Part, Parts
+from icsolve.sweep.parts import SweepPart, SweepParts
 from icsolve.sweep.program import Asked
 from icsolve.sweep.recheck import Recheck
 from icsolve.sweep.seeking import Query, Scenes, Spot, Spots
@@ -84,7 +84,7 @@ def find(
         return Scenes(case, columns, along, query).spots()
     spots = Spots()
     if start.sheet().refusal is None:
-        parts = Parts(start, columns)
+        parts = SweepParts(start, columns)
         with localcontext(CONTEXT) as context:
             context.traps[InvalidOperation] = False  # what is not a number compares with nothing
             search = _Search(parts, parts.whole(), along, query)
@@ -96,7 +96,7 @@ def find(
 class _Search:
     """Positions in a sweep."""
 
-    def __init__(self, parts: Parts, part: Part, name: str, query: Query) -> None:
+    def __init__(self, parts: SweepParts, part: SweepPart, name: str, query: Query) -> None:
         self.part, self.query, self.name = part, query, name
         self.along = Recheck(parts, part)
         self.sheet = part.runner.sheet
@@ -445,7 +445,7 @@ def _decided_peak(whole: Sequence[Jet], points: Sequence[Jet], half: Array) -> t
     return empty, single, np.zeros_like(single)
 
 
-def _wronskian(top: Jet, bottom: Jet) -> tuple[Ball, Ball]:
+def _wronskian(top: Jet, bottom: Jet) -> tuple[BallArray, BallArray]:
     """``n' d - n d'``, which is zero where n / d has no slope, and its derivative."""
     first = top.first * bottom.value - top.value * bottom.first
     return first, top.second * bottom.value - top.value * bottom.second

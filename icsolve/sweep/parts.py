@@ -29,7 +29,7 @@ GLANCES = 96
 """Places on the straight way to a row at which its branches are glanced at."""
 
 
-class Part(NamedTuple):
+class SweepPart(NamedTuple):
     """Rows that are run together; ``places`` on the way along which they are followed, if they are."""
 
     runner: Runner
@@ -39,7 +39,7 @@ class Part(NamedTuple):
     ordered: bool = False
     """whether these are all rows in their order"""
 
-    def some(self, which: Rows) -> Part:
+    def some(self, which: Rows) -> SweepPart:
         """Some of its rows, by their place among them."""
         return self._replace(
             rows=self.rows[which],
@@ -48,14 +48,14 @@ class Part(NamedTuple):
         )
 
 
-class Parts:
+class SweepParts:
     """The rows of a sweep in parts."""
 
     def __init__(self, start: Start, columns: Columns) -> None:
         self.start, self.columns = start, columns
         self.arrays = columns.arrays
 
-    def given(self, part: Part) -> tuple[dict[int, Array], Mask]:
+    def given(self, part: SweepPart) -> tuple[dict[int, Array], Mask]:
         """The inputs of a part's rows, and which of the rows are reached."""
         inputs = part.runner.sheet.inputs
         every = slice(None) if part.ordered else part.rows
@@ -65,13 +65,13 @@ class Parts:
         along, good = part.followed.track.given(part.places)
         return {**along, **given}, good
 
-    def all(self) -> Iterator[Part]:
+    def all(self) -> Iterator[SweepPart]:
         """Every row in some part."""
         runner = self.start.runner()
         sheet, rows = runner.sheet, np.arange(self.columns.rows)
         bearing = [name for name in runner.bearing if name in self.arrays]
         if not bearing:
-            yield Part(runner, rows, ordered=True)
+            yield SweepPart(runner, rows, ordered=True)
             return
         moving = (*self.start.links, *self.start.setting.drive.moving)
         main = next(name for name in (*moving, *bearing) if name in bearing)
@@ -82,25 +82,27 @@ class Parts:
         for alike in self._alike(left, others):
             yield self._followed(sheet, main, others, alike)
 
-    def whole(self) -> Part:
+    def whole(self) -> SweepPart:
         """All rows in one part, on their way, where one number varies."""
         runner = self.start.runner()
         bearing = [name for name in runner.bearing if name in self.arrays]
         rows = np.arange(self.columns.rows)
         if not bearing:
-            return Part(runner, rows)
+            return SweepPart(runner, rows)
         main = max(bearing, key=lambda name: float(np.ptp(self.arrays[name])))
         return self._followed(runner.sheet, main, [name for name in bearing if name != main], rows)
 
     # --- at once ----------------------------------------------------------------------------------
 
-    def _at_once(self, runner: Runner, rows: Rows, main: str, others: list[str]) -> tuple[Part | None, Rows]:
+    def _at_once(
+        self, runner: Runner, rows: Rows, main: str, others: list[str]
+    ) -> tuple[SweepPart | None, Rows]:
         """What can be run at once, and the rows that are left."""
         if others:
             clear = self._clear(runner.sheet, main, others)
-            return (Part(runner, rows[clear]) if clear.any() else None), rows[~clear]
+            return (SweepPart(runner, rows[clear]) if clear.any() else None), rows[~clear]
         if self._meets_nothing(runner.sheet, main):
-            return Part(runner, rows, ordered=True), rows[:0]
+            return SweepPart(runner, rows, ordered=True), rows[:0]
         return None, rows
 
     def _meets_nothing(self, sheet: Sheet, main: str) -> bool:
@@ -168,7 +170,7 @@ class Parts:
     def _is_angle(self, name: str) -> bool:
         return name in self.start.links or name.startswith("angles.")
 
-    def _followed(self, sheet: Sheet, main: str, others: list[str], rows: Rows) -> Part:
+    def _followed(self, sheet: Sheet, main: str, others: list[str], rows: Rows) -> SweepPart:
         """Rows on one way: first the other inputs go to their values, then the main one."""
         state = written_state(sheet)
         here = {name: float(self.arrays[name][rows[0]]) for name in others}
@@ -179,7 +181,7 @@ class Parts:
             state = first.track.end(1.0)
         places, way = self.arrays[main][rows], self._way(sheet, main, here)
         followed = follow(self.start.sheet, self.start.sheet(_changed(sheet, state)), way, state, places)
-        return Part(self.start.runner(signs_of(followed.sheet)), rows, followed, places)
+        return SweepPart(self.start.runner(signs_of(followed.sheet)), rows, followed, places)
 
     def _way(self, sheet: Sheet, main: str, here: dict[str, float]) -> Way:
         """The way of the main input, the others being at some values, or as written."""

@@ -13,7 +13,7 @@ from icsolve.assembly import Figure, place, placed_figure
 from icsolve.assembly.data import names_of, number_of
 from icsolve.assembly.driven.constraints import Constraint, Turning
 from icsolve.assembly.driven.mechanism import Mechanism, mechanism
-from icsolve.assembly.driven.motion import Motion, order_of, set_moving
+from icsolve.assembly.driven.motion import DrivenMotion, order_of, set_moving
 from icsolve.assembly.residuals import refuse_misfit
 from icsolve.case import Case, Pair
 from icsolve.errors import SceneError, Status
@@ -25,11 +25,11 @@ from icsolve.statics.power import points_of
 from icsolve.structure.topology import Topology, topology
 from icsolve.sweep.drivers import Drive, condition, drive_of, pose_of, turning, turns_links
 from icsolve.sweep.numbers import find_number, numbers_of
-from icsolve.sweep.rubbing import Rubbing, rubbing
+from icsolve.sweep.rubbing import RubbingRows, rubbing
 from icsolve.sweep.scene import (
+    RecordedScene,
+    RecordedStatics,
     Resting,
-    Scene,
-    Statics,
     centre,
     moved_scene,
     pressing,
@@ -89,14 +89,14 @@ class Sheet(NamedTuple):
     record: Record
     inputs: dict[str, int]
     outputs: dict[tuple[str, str], tuple[Scalar, ...]]
-    motion: Motion | None
-    scene: Scene
+    motion: DrivenMotion | None
+    scene: RecordedScene
     refusal: SceneError | None
     margins: tuple[int, ...] = ()
     """of the figure as written, where it is another in each row: none may be negative"""
     delicate: bool = False
     """whether the mechanism moves only because its data are exact, or nearly so"""
-    rubbing: Rubbing | None = None
+    rubbing: RubbingRows | None = None
     """of a case with friction whose unknown loads can be had in all rows at once"""
     rests: bool = False
     """whether contacts are told row by row"""
@@ -199,7 +199,7 @@ def _sheet(setting: Setting, asked: Asked, nudge: float, signs: Signs) -> Sheet:
         motion = _motion(setting, record, names, nudge, inputs, signs)
         scene = moved_scene(motion.mechanism, motion.moved)
     else:
-        motion, scene = None, Scene(case, setting.top, frame, record, names)
+        motion, scene = None, RecordedScene(case, setting.top, frame, record, names)
     scene = rested(scene, asked.contacts, inputs)
     outputs, found = _outputs(scene, asked)
     sheet = Sheet(setting, record, inputs, outputs, motion, scene, None, margins, rests=bool(asked.contacts))
@@ -218,7 +218,7 @@ def _motion(
     nudge: float,
     inputs: dict[str, int],
     signs: Signs,
-) -> Motion:
+) -> DrivenMotion:
     """The mechanism driven by the inputs."""
     case, numbers, drive = setting.case, numbers_of(setting.case), setting.drive
     held: Mechanism = mechanism(case, setting.top, setting.figure.frame, record, ref)
@@ -250,7 +250,9 @@ def _not_together(path: str, paths: Sequence[str]) -> SceneError:
     return SceneError(Status.UNSUPPORTED, f"{only}: vary one at a time.")
 
 
-def _outputs(scene: Scene, asked: Asked) -> tuple[dict[tuple[str, str], tuple[Scalar, ...]], Statics | None]:
+def _outputs(
+    scene: RecordedScene, asked: Asked
+) -> tuple[dict[tuple[str, str], tuple[Scalar, ...]], RecordedStatics | None]:
     """Expressions of all that is asked, in case units; the statics by which they were found."""
     ox, oy, scale = scene.frame
     out: dict[tuple[str, str], tuple[Scalar, ...]] = {}

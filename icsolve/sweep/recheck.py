@@ -19,7 +19,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.record import Root
 from icsolve.numbers.replay import Array
 from icsolve.sweep.exact import APART, CONTEXT, STEP, ZERO, RowScenes, Unreached, as_written
-from icsolve.sweep.parts import Part, Parts
+from icsolve.sweep.parts import SweepPart, SweepParts
 
 CLEAR = 2.0**-12
 """A row farther from a change point than this part of the longest step is on the side that floats say."""
@@ -34,7 +34,7 @@ AROUND = 2.0**-10
 class Recheck:
     """Rows of one part of a sweep, in high precision."""
 
-    def __init__(self, parts: Parts, part: Part) -> None:
+    def __init__(self, parts: SweepParts, part: SweepPart) -> None:
         self.parts, self.part = parts, part
         self.sheet = part.runner.sheet
         self.scenes: RowScenes = part.runner.cases

@@ -22,7 +22,7 @@ from icsolve.numbers.replay import BLOCK, Array, Code, live
 from icsolve.sweep.branches import live_roots
 from icsolve.sweep.exact import RowScenes
 from icsolve.sweep.program import Sheet
-from icsolve.sweep.rubbing import Rubbing
+from icsolve.sweep.rubbing import RubbingRows
 
 SHALLOW = 1e-9
 """A radicand below this fraction of its terms makes its row doubtful."""
@@ -47,7 +47,7 @@ Progress = Callable[[int], None]
 """Called with a number of rows that were done."""
 
 
-class Found(NamedTuple):
+class RowsFound(NamedTuple):
     """Arrays by output; rows to look at again."""
 
     values: dict[Key, Array]
@@ -168,7 +168,7 @@ class Runner:
             column(values[key], part)[:] = value
         return values
 
-    def run(self, given: Mapping[int, Array], rows: int, progress: Progress | None = None) -> Found:
+    def run(self, given: Mapping[int, Array], rows: int, progress: Progress | None = None) -> RowsFound:
         """All rows; ``given`` has an array or one number for every input."""
         values, doubtful = self.empty(rows), []
         for start in range(0, rows, BLOCK):
@@ -186,10 +186,10 @@ class Runner:
                 doubtful.append(again + start)
             if progress is not None:
                 progress(stop - start)
-        return Found(values, np.concatenate(doubtful) if doubtful else np.empty(0, np.int64))
+        return RowsFound(values, np.concatenate(doubtful) if doubtful else np.empty(0, np.int64))
 
     def _rub(
-        self, by: Rubbing, found: list[Array], rows: slice, values: dict[Key, Array], again: Rows
+        self, by: RubbingRows, found: list[Array], rows: slice, values: dict[Key, Array], again: Rows
     ) -> Rows:
         """Fill in what friction gives; the rows of a block that are to be looked at again."""
         count = rows.stop - rows.start

@@ -45,7 +45,7 @@ from icsolve.structure.topology import Topology, topology
 Points = dict[str, Point]
 
 
-class Scene(NamedTuple):
+class RecordedScene(NamedTuple):
     """A case whose points, guides and headings are expressions on a record (normalised)."""
 
     case: Case
@@ -55,7 +55,7 @@ class Scene(NamedTuple):
     points: Points
 
 
-class Statics(NamedTuple):
+class RecordedStatics(NamedTuple):
     """Expressions of the unknown loads by name; of twists by link, one a freedom; or why there are none."""
 
     answers: dict[str, Scalar]
@@ -153,19 +153,21 @@ def _mean(places: Sequence[Point]) -> Point:
     return (x / float(len(places)), y / float(len(places)))
 
 
-def moved_scene(mechanism: Mechanism, moved: Moved) -> Scene:
+def moved_scene(mechanism: Mechanism, moved: Moved) -> RecordedScene:
     """The case with each point told by the link that carries it, and directions that links carry."""
     write, case = _Writer(mechanism, moved), mechanism.case
     joints = tuple(write.joint(i, joint) for i, joint in enumerate(case.joints))
     loads = tuple(map(write.load, case.loads))
     rewritten = replace(case, joints=joints, loads=loads, ropes=write.ropes)
-    scene = Scene(rewritten, topology(rewritten), mechanism.frame, mechanism.shape.record, write.points)
+    scene = RecordedScene(
+        rewritten, topology(rewritten), mechanism.frame, mechanism.shape.record, write.points
+    )
     if not any(given.point for given in case.motion):
         return scene
     return scene._replace(case=replace(rewritten, motion=_going_on(scene)))
 
 
-def _going_on(scene: Scene) -> tuple[Motion, ...]:
+def _going_on(scene: RecordedScene) -> tuple[Motion, ...]:
     """The given motions: a point's direction goes on along its path, where there is one freedom."""
     found = motions_of(scene)
     turned = []
@@ -204,7 +206,7 @@ class Resting(NamedTuple):
         return tuple(f"{self.joint.at} {part}" for part in ("x", "y", "across", "up"))
 
 
-def rested(scene: Scene, contacts: Sequence[Resting], inputs: dict[str, int]) -> Scene:
+def rested(scene: RecordedScene, contacts: Sequence[Resting], inputs: dict[str, int]) -> RecordedScene:
     """The scene with these contacts; the inputs of the record are noted."""
     if not contacts:
         return scene
@@ -230,7 +232,7 @@ def rested(scene: Scene, contacts: Sequence[Resting], inputs: dict[str, int]) ->
 # --- statics --------------------------------------------------------------------------------------
 
 
-def statics(scene: Scene, everything: bool) -> Statics:
+def statics(scene: RecordedScene, everything: bool) -> RecordedStatics:
     """Unknown loads and twists of the scene on the record; with ``everything`` the twist of every link."""
     case, top = scene.case, scene.top
     links = {link for load in case.loads for link in (load.link, power.reacting(case, load))}
@@ -244,12 +246,12 @@ def statics(scene: Scene, everything: bool) -> Statics:
     try:
         refusals.refuse_unbalanced(case, top, motions, balance, solution)
     except SceneError as error:
-        return Statics({}, motions, error, balance)
+        return RecordedStatics({}, motions, error, balance)
     answers = {w.load.name: w.ratio * solution.values[w.root] for w in wrenches if w.root in solution.values}
-    return Statics(answers, motions, None, balance)
+    return RecordedStatics(answers, motions, None, balance)
 
 
-def motions_of(scene: Scene, wanted: Collection[int] | None = None) -> motion.Motions:
+def motions_of(scene: RecordedScene, wanted: Collection[int] | None = None) -> motion.Motions:
     """The motions of the wanted bodies (None: of all), by the plan or by all loop equations at once."""
     top = scene.top
     plan = make_plan(top, wanted if wanted is not None else range(len(top.members)))
@@ -261,7 +263,9 @@ def motions_of(scene: Scene, wanted: Collection[int] | None = None) -> motion.Mo
     return motion.with_ends(found, scene.case, scene.points, scene.frame.scale, scene.record)
 
 
-def pressing(scene: Scene, found: Statics, contacts: Sequence[Resting]) -> Iterator[tuple[str, Scalar]]:
+def pressing(
+    scene: RecordedScene, found: RecordedStatics, contacts: Sequence[Resting]
+) -> Iterator[tuple[str, Scalar]]:
     """The normal force of contacts (scaled), by their points; of those that equilibrium determines."""
     frame, twists = scene.frame, found.motions.twists
     position = Position(scene.case, scene.top, scene.points, frame.scale, twists, arithmetic=scene.record)
@@ -284,7 +288,7 @@ def pressing(scene: Scene, found: Statics, contacts: Sequence[Resting]) -> Itera
 # --- rates and centres ----------------------------------------------------------------------------
 
 
-def rates(scene: Scene, found: motion.Motions) -> dict[str, Scalar]:
+def rates(scene: RecordedScene, found: motion.Motions) -> dict[str, Scalar]:
     """Angular velocity of every link in rad/s, scaled as in one scene; those left open are not there."""
     if found.mobility > 1:
         speed = speeds.speed_of(scene.case, found.twists, scene.frame, scene.points)
@@ -299,7 +303,7 @@ def rates(scene: Scene, found: motion.Motions) -> dict[str, Scalar]:
     return shown
 
 
-def _scale(scene: Scene, twists: Mapping[str, tuple[Triple, ...]]) -> tuple[Scalar, float]:
+def _scale(scene: RecordedScene, twists: Mapping[str, tuple[Triple, ...]]) -> tuple[Scalar, float]:
     """What the rates are divided by, and what they are scaled to."""
     floats = {link: tuple((float(x), float(y), float(w)) for x, y, w in ts) for link, ts in twists.items()}
     places = {name: (float(x), float(y)) for name, (x, y) in scene.points.items()}
@@ -323,12 +327,12 @@ def _plain(case: Case) -> Case:
     return replace(case, motion=tuple(m._replace(angle=None) if m.point else m for m in case.motion))
 
 
-def _signed(scene: Scene, v: Point, forward: bool) -> Scalar:
+def _signed(scene: RecordedScene, v: Point, forward: bool) -> Scalar:
     size = scene.record.sqrt(v[0] * v[0] + v[1] * v[1])
     return size if forward else -size
 
 
-def centre(scene: Scene, found: motion.Motions, pair: Pair) -> Triple | None:
+def centre(scene: RecordedScene, found: motion.Motions, pair: Pair) -> Triple | None:
     """Relative centre in case units, homogeneous; None where the pair has no one centre."""
     own = _own(scene, pair)
     if own is None:
@@ -343,7 +347,7 @@ def centre(scene: Scene, found: motion.Motions, pair: Pair) -> Triple | None:
     return (x / scale + ox * w, y / scale + oy * w, w)
 
 
-def _own(scene: Scene, pair: Pair) -> Triple | None:
+def _own(scene: RecordedScene, pair: Pair) -> Triple | None:
     """The centre of a joint between the two links."""
     bodies = {scene.top.body_of[link] for link in pair}
     for bond in scene.top.bonds:

@@ -21,7 +21,7 @@ Step = tuple[float, Array, Array]
 """A place on the way, the unknowns of the groups there, and the counted turns."""
 
 
-class Stretch(NamedTuple):
+class WayStretch(NamedTuple):
     """Steps without a break: places in order, and the state at each."""
 
     s: Array
@@ -44,10 +44,10 @@ def counts(turns: Array, found: Array) -> bool:
     return bool(np.all(np.abs(found - turns) < COUNTED))
 
 
-def stretch_of(steps: Sequence[Step]) -> Stretch:
+def stretch_of(steps: Sequence[Step]) -> WayStretch:
     """Steps, in order of their places, as arrays."""
     places, states, turns = zip(*steps, strict=True)
-    return Stretch(np.array(places), np.array(states), np.array(turns))
+    return WayStretch(np.array(places), np.array(states), np.array(turns))
 
 
 def cubic(known: Array, values: Array, at: Array) -> Array:

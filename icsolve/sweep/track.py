@@ -16,7 +16,7 @@ from icsolve.assembly.driven.groups import ROUNDS, NewtonGroup, Solver
 from icsolve.numbers.record import Op
 from icsolve.numbers.replay import Array, Code
 from icsolve.sweep.program import Sheet
-from icsolve.sweep.stretch import Step, Stretch, counts, cubic, goes_on, stretch_of
+from icsolve.sweep.stretch import Step, WayStretch, counts, cubic, goes_on, stretch_of
 from icsolve.sweep.way import State, Touches, Way
 
 FIRST = 2.0**-5
@@ -149,7 +149,7 @@ class Track:
             turns = np.stack([np.broadcast_to(v, rows) for v in values], axis=1)
         return found, turns, good
 
-    def _followed(self, reach: tuple[float, float]) -> list[Stretch]:
+    def _followed(self, reach: tuple[float, float]) -> list[WayStretch]:
         """Stretches from the start to both ends of the reach."""
         at = np.array([self.way.start])
         q, turns, good = self._solved(self._plain(at), self.start.q[None, :], self.start.turns[None, :])
@@ -180,7 +180,7 @@ class Track:
             up = self._steps(first, max(reach[1], down[-1][0] + self.way.period))
         return down, up
 
-    def _beyond(self, last: Step, end: float, known: Sequence[Step]) -> Iterator[Stretch]:
+    def _beyond(self, last: Step, end: float, known: Sequence[Step]) -> Iterator[WayStretch]:
         """Stretches beyond a limit, where it is as it was a turn before."""
         while abs(last[0] - end) > self.way.widest * SHORTEST:
             again = self._again(last, end, known)

@@ -10,9 +10,9 @@ from icsolve.numbers.replay import BLOCK, Array
 from icsolve.numbers.tape import UNIT
 from icsolve.sweep.ask import Columns
 from icsolve.sweep.numbers import with_numbers
-from icsolve.sweep.parts import Part, Parts
+from icsolve.sweep.parts import SweepPart, SweepParts
 from icsolve.sweep.recheck import Recheck
-from icsolve.sweep.runner import Found, Key, Progress, Rows, column
+from icsolve.sweep.runner import Key, Progress, Rows, RowsFound, column
 from icsolve.sweep.scenes import by_scenes
 from icsolve.sweep.start import Start
 from icsolve.sweep.table import CODE, Codes, Table
@@ -31,10 +31,10 @@ class Work:
         self.start, self.columns, self.error = start, columns, error
         self.running = None if error else progress
         self.bounding = progress if error else None
-        self.parts = Parts(start, columns)
+        self.parts = SweepParts(start, columns)
         self.notes: list[str] = [start.note] if start.note else []
         self.table = Table(columns.rows, start.asked)
-        self.done: list[Part] = []
+        self.done: list[SweepPart] = []
 
     @property
     def codes(self) -> Codes:
@@ -82,7 +82,7 @@ class Work:
         for array in self.values.values():
             array[:] = np.nan
 
-    def _run(self, part: Part) -> None:
+    def _run(self, part: SweepPart) -> None:
         """Run the rows of a part in chunks, and put what is found into the table."""
         self.table.values = self.values or part.runner.empty(self.columns.rows)
         for start in range(0, len(part.rows), CHUNK):
@@ -97,7 +97,7 @@ class Work:
             self._settle(chunk, found.doubtful)
         self._passed(part)
 
-    def _settle(self, part: Part, doubtful: Rows) -> None:
+    def _settle(self, part: SweepPart, doubtful: Rows) -> None:
         """Solve doubtful rows as scenes."""
         doubtful = doubtful[self.codes[part.rows[doubtful]] == 0]
         if not doubtful.size:
@@ -132,7 +132,7 @@ class Work:
                 return Recheck(self.parts, part).case(row)
         raise IndexError(row)
 
-    def _bounds(self, part: Part) -> None:
+    def _bounds(self, part: SweepPart) -> None:
         """Bounds of all that is found of a part's rows."""
         if not self.error:
             return
@@ -153,14 +153,14 @@ class Work:
         if not done:
             self._told(part, 0, len(part.rows))
 
-    def _told(self, part: Part, done: int, more: int) -> int:
+    def _told(self, part: SweepPart, done: int, more: int) -> int:
         """Tell of rows whose bounds are found: each takes as many passes as there are outputs."""
         passes = max(1, len(part.runner.moving))
         if self.bounding is not None:
             self.bounding((done + more) // passes - done // passes)
         return done + more
 
-    def _passed(self, part: Part) -> None:
+    def _passed(self, part: SweepPart) -> None:
         """Say where change points were passed, and what was not reached."""
         if part.followed is None:
             return
@@ -204,7 +204,7 @@ class Work:
                 array[none if kind == "answers" else apart] = np.nan
 
 
-def _with_singular(part: Part, found: Found) -> Found:
+def _with_singular(part: SweepPart, found: RowsFound) -> RowsFound:
     """Rows beside a singular position of a group are doubtful, too."""
     if part.followed is None:
         return found

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from icsolve.assembly.data import Datum
 from icsolve.assembly.driven.poses import Places, Rotation, Shape, Spot, dot, minus, square
-from icsolve.assembly.groups import Equation
+from icsolve.assembly.groups import FigureEquation
 from icsolve.assembly.workspace import Workspace
 from icsolve.case import Rope
 from icsolve.errors import SceneError
@@ -343,7 +343,7 @@ class ConditionRows:
         owners = {name: (body, name) for body, name in c.owners}
         for name, spot in owners.items():
             self.workspace.points[name] = self.places.place(spot)
-        row = Equation(c.datum).row(self.workspace)
+        row = FigureEquation(c.datum).row(self.workspace)
         by: dict[tuple[int, int], Scalar] = {}
         for (name, axis), value in row.by.items():
             w = (value, 0.0) if axis == 0 else (0.0, value)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 from icsolve.assembly.driven import rolling
 from icsolve.assembly.driven.constraints import BodyLine, Constraint, Immovable, OnLine, Roped, Turning
 from icsolve.assembly.driven.poses import Shape, Spot, dot, minus, square
-from icsolve.assembly.driven.rolling import ROUNDED, Side
+from icsolve.assembly.driven.rolling import ROUNDED, RollingSide
 from icsolve.assembly.workspace import Frame
 from icsolve.case import (
     Case,
@@ -193,14 +193,16 @@ def _guided(joint: Guided, line: BodyLine, top: Topology, ref: Mapping[str, Poin
     return on
 
 
-def _sides(joint: Rolling, case: Case, top: Topology, frame: Frame, record: Record) -> tuple[Side, Side]:
+def _sides(
+    joint: Rolling, case: Case, top: Topology, frame: Frame, record: Record
+) -> tuple[RollingSide, RollingSide]:
     pins = frozenset(pin.at for pin in case.joints if isinstance(pin, Pin))
     sides = []
     for k, link in enumerate(joint.links):
         body = top.body_of[link]
         points = tuple(dict.fromkeys(p for name in top.members[body] for p in case.carries.get(name, ())))
         radius = record.given(joint.radii[k]) * frame.scale if joint.radii else 0.0
-        sides.append(Side(link, body, radius, points, pins))
+        sides.append(RollingSide(link, body, radius, points, pins))
     return sides[0], sides[1]
 
 

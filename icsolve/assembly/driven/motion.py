@@ -35,7 +35,7 @@ from icsolve.numbers.record import Traced, varies
 from icsolve.screws.plane import Point
 
 
-class Motion(NamedTuple):
+class DrivenMotion(NamedTuple):
     """A mechanism whose places are expressions on a record.
 
     ``branches`` has for each root of the record the name by which its sign is set, ``written`` that
@@ -71,12 +71,12 @@ def order_of(mechanism: Mechanism, drivers: list[Constraint]) -> ClosingOrder:
         order.take(smallest(mechanism, order, left))
 
 
-def set_moving(mechanism: Mechanism, order: ClosingOrder, signs: Mapping[str, Scalar]) -> Motion:
+def set_moving(mechanism: Mechanism, order: ClosingOrder, signs: Mapping[str, Scalar]) -> DrivenMotion:
     """Run the closings; ``signs`` has those of branches that change on the way, by name."""
-    run = _Run(mechanism, signs)
+    run = _Following(mechanism, signs)
     for step in order.steps:
         run.take(step)
-    return Motion(
+    return DrivenMotion(
         mechanism,
         run.moved,
         tuple(order.steps),
@@ -87,7 +87,7 @@ def set_moving(mechanism: Mechanism, order: ClosingOrder, signs: Mapping[str, Sc
     )
 
 
-class _Run:
+class _Following:
     """The closings on a record."""
 
     def __init__(self, mechanism: Mechanism, signs: Mapping[str, Scalar]) -> None:

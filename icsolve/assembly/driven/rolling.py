@@ -57,7 +57,7 @@ class Rolled(NamedTuple):
     centres: dict[str, Point]
 
 
-class Side(NamedTuple):
+class RollingSide(NamedTuple):
     """A link of a rolling joint: its body, its signed radius (normalised), the points it carries."""
 
     link: str
@@ -67,7 +67,7 @@ class Side(NamedTuple):
     pins: frozenset[str]
 
 
-def rolling(joint: Rolling, sides: tuple[Side, Side], ref: Mapping[str, Point]) -> Rolled:
+def rolling(joint: Rolling, sides: tuple[RollingSide, RollingSide], ref: Mapping[str, Point]) -> Rolled:
     """The conditions of a rolling joint (``ref``: places as written).
 
     Raises SceneError where the radii are not given, or no point lies at a radius from the contact.
@@ -96,8 +96,8 @@ def rolling(joint: Rolling, sides: tuple[Side, Side], ref: Mapping[str, Point]) 
 
 
 def _on_flank(
-    a: Side,
-    b: Side,
+    a: RollingSide,
+    b: RollingSide,
     spots: tuple[Spot, Spot],
     normal: Point,
     contact: Point,
@@ -120,7 +120,9 @@ def _on_flank(
     return Rolled(conditions, RollingContact(centre, offset, line, None), kept)
 
 
-def _on_round(sides: tuple[Side, Side], spots: tuple[Spot, Spot], centres: dict[str, Point]) -> Rolled:
+def _on_round(
+    sides: tuple[RollingSide, RollingSide], spots: tuple[Spot, Spot], centres: dict[str, Point]
+) -> Rolled:
     radii = (sides[0].radius, sides[1].radius)
     whole = radii[0] + radii[1]
     distance = whole if float(whole) > 0.0 else -whole
@@ -129,7 +131,7 @@ def _on_round(sides: tuple[Side, Side], spots: tuple[Spot, Spot], centres: dict[
 
 
 def _centres(
-    joint: Rolling, sides: tuple[Side, Side], ref: Mapping[str, Point]
+    joint: Rolling, sides: tuple[RollingSide, RollingSide], ref: Mapping[str, Point]
 ) -> tuple[str | None, str | None]:
     """A point of each round link that lies at its radius from the contact; None where there is none."""
     at = ref[joint.at]
@@ -146,7 +148,7 @@ def _centres(
     raise _refusal(joint, f"{off}. Name its centre, under `links`")
 
 
-def _only(joint: Rolling, side: Side, options: list[str]) -> str:
+def _only(joint: Rolling, side: RollingSide, options: list[str]) -> str:
     """The one point that can be the centre; a pin before others."""
     named = [name for name in options if name in side.pins] or options
     if len(named) == 1:
@@ -158,7 +160,7 @@ def _only(joint: Rolling, side: Side, options: list[str]) -> str:
     )
 
 
-def _options(side: Side, contact: str, at: Point, ref: Mapping[str, Point]) -> list[str]:
+def _options(side: RollingSide, contact: str, at: Point, ref: Mapping[str, Point]) -> list[str]:
     """The points of a link at its radius from the contact, the nearest to it first."""
     r = abs(float(side.radius))
     if r == 0.0:
@@ -179,7 +181,10 @@ def _bend(at: Point, p: Point, q: Point) -> float:
 
 
 def _normal(
-    joint: Rolling, sides: tuple[Side, Side], found: tuple[str | None, str | None], ref: Mapping[str, Point]
+    joint: Rolling,
+    sides: tuple[RollingSide, RollingSide],
+    found: tuple[str | None, str | None],
+    ref: Mapping[str, Point],
 ) -> Point:
     """Unit normal out of the first link into the second."""
     for side, name, sense in zip(sides, found, (-1.0, 1.0), strict=True):

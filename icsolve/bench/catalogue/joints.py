@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from icsolve.bench.stress import Stress, Turned, Value, answered, refused
+from icsolve.bench.stress import Stress, TrueValue, TurnedScene, answered, refused
 
 FOUR_PINS = """\
 joints:
@@ -124,7 +124,7 @@ FLIER = eight_bar(
 )
 
 PINNED = (
-    Stress("1", "generic four-bar", GENERIC, answered({"M1": Value(-7 / 13, error=1e-15)})),
+    Stress("1", "generic four-bar", GENERIC, answered({"M1": TrueValue(-7 / 13, error=1e-15)})),
     Stress(
         "2",
         "cranks parallel, unequal",
@@ -154,7 +154,7 @@ PINNED = (
             f"6{letter}",
             f"the same + {delta:g}",
             near_toggle(f".{'0' * (places - 1)}1", torques(3, 1)),
-            answered({"M1": Value(-0.5 / delta, 10.0**-digits, 0.5 / delta * 10.0**-digits)}),
+            answered({"M1": TrueValue(-0.5 / delta, 10.0**-digits, 0.5 / delta * 10.0**-digits)}),
         )
         for letter, places, delta, digits in (("a", 6, 1e-6, 9), ("b", 9, 1e-9, 6), ("c", 12, 1e-12, 3))
     ),
@@ -162,7 +162,7 @@ PINNED = (
         "6d",
         "the same + 1e-15",
         near_toggle(".000000000000001", torques(3, 1)),
-        answered({"M1": Value(-5e14, 0.0, 0.1)}),
+        answered({"M1": TrueValue(-5e14, 0.0, 0.1)}),
     ),
     Stress(
         "7",
@@ -193,7 +193,7 @@ PINNED = (
         "20b",
         "two bars in line between two fixed pins",
         TRUSS,
-        answered({"M1": Value(1 / 3)}, says=("only for an instant",)),
+        answered({"M1": TrueValue(1 / 3)}, says=("only for an instant",)),
     ),
     Stress(
         "21",
@@ -205,7 +205,7 @@ PINNED = (
         "22a",
         "turned by a program, to 16 digits",
         turned_cranks(0.3),
-        answered({"M1": Value(-1.0, 1e-9)}, says=["half a unit of the last digit"]),
+        answered({"M1": TrueValue(-1.0, 1e-9)}, says=["half a unit of the last digit"]),
     ),
     Stress(
         "22b",
@@ -328,14 +328,14 @@ TURNING = (
         "a parallelogram swept through its change points",
         PARALLELOGRAM,
         answered({"M1": -1.0}),
-        Turned("angles.A0-A", 60, 1, 361, {180: "change-point", 360: "change-point"}),
+        TurnedScene("angles.A0-A", 60, 1, 361, {180: "change-point", 360: "change-point"}),
     ),
     Stress(
         "35",
         "a sweep beyond what the links reach",
         SHORT_REACH,
         answered({}),
-        Turned("angles.A0-A", 60, 1, 61, dict.fromkeys(range(81, 121), "cannot-assemble")),
+        TurnedScene("angles.A0-A", 60, 1, 61, dict.fromkeys(range(81, 121), "cannot-assemble")),
     ),
 )
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from random import Random
 
 from icsolve.bench.catalogue.joints import FOUR_PINS, GENERIC, four_bar, known, scene, torques
-from icsolve.bench.stress import UNREADABLE, Stress, Value, answered, refused
+from icsolve.bench.stress import UNREADABLE, Stress, TrueValue, answered, refused
 
 
 def scaled(exponent: int) -> str:
@@ -83,12 +83,12 @@ FIGURES = (
             f"24{letter}",
             f"scale 1e{exponent}",
             scaled(exponent),
-            answered({"M1": Value(-7 / 13, error=1e-14)}),
+            answered({"M1": TrueValue(-7 / 13, error=1e-14)}),
         )
         for letter, exponent in (("a", -300), ("b", -12), ("c", 12), ("d", 300))
     ),
-    Stress("25a", "offset 1e6", moved("1000000"), answered({"M1": Value(-7 / 13, 1e-9, 1e-8)})),
-    Stress("25b", "offset 1e12", moved("1000000000000"), answered({"M1": Value(-7 / 13, 1e-3, 1e-2)})),
+    Stress("25a", "offset 1e6", moved("1000000"), answered({"M1": TrueValue(-7 / 13, 1e-9, 1e-8)})),
+    Stress("25b", "offset 1e12", moved("1000000000000"), answered({"M1": TrueValue(-7 / 13, 1e-3, 1e-2)})),
     Stress(
         "25c",
         "offset 1e17",
@@ -152,7 +152,7 @@ FIGURES = (
         "31a",
         "the same stretched by 1e-12",
         stretched("2.000000000001", "near: {B: [1.1999988, 1.6000009]}\n"),
-        answered({"M1": Value(-361478.4056460647, 1e-4, 361.0)}),
+        answered({"M1": TrueValue(-361478.4056460647, 1e-4, 361.0)}),
     ),
     Stress(
         "31b",
@@ -202,7 +202,7 @@ LARGE = (
         "34",
         f"chain of {LOOPS} four-bars",
         long_chain,
-        answered({"U": Value(-11.522422276394837, 1e-15, 1e-14)}),
+        answered({"U": TrueValue(-11.522422276394837, 1e-15, 1e-14)}),
     ),
 )
 

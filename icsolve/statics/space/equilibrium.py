@@ -18,7 +18,7 @@ from icsolve.numbers.sparse import General, Row, eliminate
 from icsolve.statics.equilibrium import ROUNDINGS, independent
 from icsolve.statics.space.figure import Vec, add, cross, sub, times
 from icsolve.statics.space.power import (
-    Balance,
+    SpatialBalance,
     Twist,
     Wrenched,
     acting,
@@ -27,20 +27,20 @@ from icsolve.statics.space.power import (
     scale_of,
     velocity,
 )
-from icsolve.statics.space.reaction_basis import Tie, Wrench
+from icsolve.statics.space.reaction_basis import SpatialTie, Wrench
 
 SPENT_TRIES = (1e-13, 1e-12, 1e-11, 1e-10, 1e-14)
 """Below these fractions of its size the largest entry of a row counts as rounding: the usual one first."""
 
 
-class Statics(NamedTuple):
+class SpatialStatics(NamedTuple):
     """The general solution of the equilibrium of all bodies but the frame.
 
     Column numbers: the units of the ties from ``first[t]`` on, then the parameters: the known loads
     together (``known``, times ``scale``), then the unknown loads ``roots`` (theirs times ``scale``).
     """
 
-    ties: tuple[Tie, ...]
+    ties: tuple[SpatialTie, ...]
     first: tuple[int, ...]
     known: int
     roots: tuple[str, ...]
@@ -66,8 +66,8 @@ class Statics(NamedTuple):
 
 
 def statics_of(
-    links: Sequence[str], ties: tuple[Tie, ...], loads: Sequence[Wrenched], freedoms: int
-) -> Statics:
+    links: Sequence[str], ties: tuple[SpatialTie, ...], loads: Sequence[Wrenched], freedoms: int
+) -> SpatialStatics:
     """Solve the equilibrium of ``links`` for what the ties transmit.
 
     ``freedoms`` is how many equations have to lose all joints: rounding that hides it is seen through.
@@ -83,10 +83,10 @@ def statics_of(
             break
         other = eliminate(rows, known, spent)
         general = other if len(other.left) == freedoms else general
-    return Statics(ties, first, known, roots, scale, general, equations)
+    return SpatialStatics(ties, first, known, roots, scale, general, equations)
 
 
-def _columns(ties: Sequence[Tie]) -> tuple[tuple[int, ...], int]:
+def _columns(ties: Sequence[SpatialTie]) -> tuple[tuple[int, ...], int]:
     """The first column of each tie, and their number."""
     first, column = [], 0
     for tie in ties:
@@ -97,7 +97,7 @@ def _columns(ties: Sequence[Tie]) -> tuple[tuple[int, ...], int]:
 
 def _equations(
     links: Sequence[str],
-    ties: Sequence[Tie],
+    ties: Sequence[SpatialTie],
     first: Sequence[int],
     loads: Sequence[Wrenched],
     roots: Sequence[str],
@@ -105,7 +105,7 @@ def _equations(
     scale: float,
 ) -> dict[str, tuple[Vec, tuple[Row, ...]]]:
     """Six equations a link; the moments are taken about a point of its own."""
-    rows = _Rows(links, ties)
+    rows = _SpatialRows(links, ties)
     for tie, column in zip(ties, first, strict=True):
         for n, wrench in enumerate(tie.units):
             rows.between(tie.on, tie.by, tie.at, wrench, column + n)
@@ -118,10 +118,10 @@ def _equations(
     return {link: (rows.about[link], six) for link, six in rows.rows.items()}
 
 
-class _Rows:
+class _SpatialRows:
     """The equations while they are summed."""
 
-    def __init__(self, links: Sequence[str], ties: Sequence[Tie]) -> None:
+    def __init__(self, links: Sequence[str], ties: Sequence[SpatialTie]) -> None:
         self.about: dict[str, Vec] = {}
         for tie in ties:
             self.about.setdefault(tie.on, tie.at)
@@ -156,7 +156,10 @@ class Bounds(NamedTuple):
 
 
 def bounds_of(
-    statics: Statics, motions: Sequence[Mapping[str, Twist]], loads: Sequence[Wrenched], balance: Balance
+    statics: SpatialStatics,
+    motions: Sequence[Mapping[str, Twist]],
+    loads: Sequence[Wrenched],
+    balance: SpatialBalance,
 ) -> Bounds:
     """How far rounding can have moved each unknown load."""
     terms = _terms(statics, balance)
@@ -174,7 +177,7 @@ def bounds_of(
     return Bounds(dict(zip(statics.roots, errors, strict=True)), residual)
 
 
-def _terms(statics: Statics, balance: Balance) -> Terms:
+def _terms(statics: SpatialStatics, balance: SpatialBalance) -> Terms:
     """What the equations of every link are summed from, in the solution."""
     parameters = statics.parameters(balance.unknowns)
     x = {c: statics.value(c, parameters) for c in range(statics.known)} | parameters
@@ -195,7 +198,7 @@ def _summed(rows: Sequence[Sequence[float]]) -> tuple[tuple[float, float], ...]:
 
 
 def _row(
-    statics: Statics, motion: Mapping[str, Twist], loads: Sequence[Wrenched], terms: Terms
+    statics: SpatialStatics, motion: Mapping[str, Twist], loads: Sequence[Wrenched], terms: Terms
 ) -> list[float]:
     """Powers of the unknown loads on a motion, and that of all residuals and roundings."""
     powers = dict.fromkeys(statics.roots, 0.0)

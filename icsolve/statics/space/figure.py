@@ -17,7 +17,7 @@ Vec = tuple[float, float, float]
 Places = Mapping[str, Vec]
 
 
-class Frame(NamedTuple):
+class SpatialFrame(NamedTuple):
     """Normalised points are (p - origin) * scale; ``scale`` is a power of two, so that it rounds nothing."""
 
     origin: Vec
@@ -33,15 +33,15 @@ class Frame(NamedTuple):
         return (x, y, z)
 
 
-class Figure(NamedTuple):
+class SpatialFigure(NamedTuple):
     """Every point of a case: in case units and normalised."""
 
     places: Places
     points: Places
-    frame: Frame
+    frame: SpatialFrame
 
 
-def figure_of(space: Space) -> Figure:
+def figure_of(space: Space) -> SpatialFigure:
     """The points of a case in space.
 
     Raises SceneError where centroids are of each other, and where coordinates cannot resolve the figure.
@@ -50,7 +50,7 @@ def figure_of(space: Space) -> Figure:
     for name in space.points:
         _place(space, name, places, ())
     frame = frame_of(places)
-    return Figure(places, {name: frame.normalised(p) for name, p in places.items()}, frame)
+    return SpatialFigure(places, {name: frame.normalised(p) for name, p in places.items()}, frame)
 
 
 def _place(space: Space, name: str, places: dict[str, Vec], below: tuple[str, ...]) -> Vec:
@@ -68,7 +68,7 @@ def _place(space: Space, name: str, places: dict[str, Vec], below: tuple[str, ..
     return places[name]
 
 
-def frame_of(places: Places) -> Frame:
+def frame_of(places: Places) -> SpatialFrame:
     """The frame about the first point; the farthest point is 1/2 to 1 from it along an axis.
 
     Raises SceneError (``near-singular``) where doubles there are farther apart than a thousandth of that.
@@ -82,7 +82,7 @@ def frame_of(places: Places) -> Frame:
             "the points lie so far from the origin that doubles cannot resolve the figure: move the origin.",
         )
     exponent = math.frexp(reach)[1] if reach else 0
-    return Frame(origin, math.ldexp(1.0, -exponent))
+    return SpatialFrame(origin, math.ldexp(1.0, -exponent))
 
 
 def direction(axis: Axis, places: Places, what: str) -> Vec:

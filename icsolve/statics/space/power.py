@@ -17,7 +17,7 @@ from icsolve.case.space import Load, SpatialForce, SpatialForceVector, SpatialTo
 from icsolve.numbers.sparse import Row, eliminate
 from icsolve.statics.space.figure import (
     ZERO,
-    Figure,
+    SpatialFigure,
     Vec,
     add,
     between,
@@ -33,7 +33,7 @@ from icsolve.statics.space.figure import (
     unit,
     vector_of,
 )
-from icsolve.statics.space.reaction_basis import Tie, Wrench
+from icsolve.statics.space.reaction_basis import SpatialTie, Wrench
 
 
 class Wrenched(NamedTuple):
@@ -59,7 +59,7 @@ class Wrenched(NamedTuple):
         return abs(self.gain * self.ratio)
 
 
-def wrenched(case: Case, figure: Figure) -> tuple[Wrenched, ...]:
+def wrenched(case: Case, figure: SpatialFigure) -> tuple[Wrenched, ...]:
     """All loads of a case in space.
 
     Raises SceneError where a load has no direction.
@@ -69,7 +69,7 @@ def wrenched(case: Case, figure: Figure) -> tuple[Wrenched, ...]:
     return tuple(_wrenched(case, figure, load, by_name) for load in loads)
 
 
-def _wrenched(case: Case, figure: Figure, load: Load, by_name: Mapping[str, Load]) -> Wrenched:
+def _wrenched(case: Case, figure: SpatialFigure, load: Load, by_name: Mapping[str, Load]) -> Wrenched:
     root, ratio = _root(load, by_name)
     unit_wrench, gain = _unit(case, figure, load)
     at = figure.points[load.at] if not isinstance(load, SpatialTorque | TorqueVector) else ZERO
@@ -93,7 +93,7 @@ def _number(load: Load) -> float | None:
     return None if load.value is None else load.value.value
 
 
-def _unit(case: Case, figure: Figure, load: Load) -> tuple[Wrench, float]:
+def _unit(case: Case, figure: SpatialFigure, load: Load) -> tuple[Wrench, float]:
     places, name = figure.places, f"load {load.name}"
     per_torque = figure.frame.scale / case.units.torque_per_force_length
     match load:
@@ -147,7 +147,7 @@ NEARLY = 1e-5
 """Known loads that balance to this fraction of their own size are taken as balanced, and it is said."""
 
 
-def motions_of(links: Sequence[str], ties: Sequence[Tie]) -> tuple[dict[str, Twist], ...]:
+def motions_of(links: Sequence[str], ties: Sequence[SpatialTie]) -> tuple[dict[str, Twist], ...]:
     """A basis of the motions of ``links``, each scaled to a largest component of 1."""
     place = {link: 6 * n for n, link in enumerate(links)}
     rows = [_row(tie, wrench, place) for tie in ties for wrench in tie.units]
@@ -161,7 +161,7 @@ def motions_of(links: Sequence[str], ties: Sequence[Tie]) -> tuple[dict[str, Twi
     return tuple(motions)
 
 
-def _row(tie: Tie, wrench: tuple[Vec, Vec], place: Mapping[str, int]) -> Row:
+def _row(tie: SpatialTie, wrench: tuple[Vec, Vec], place: Mapping[str, int]) -> Row:
     """The power of a unit of a tie, in the components of all twists."""
     force, couple = wrench
     row: Row = {}
@@ -215,7 +215,7 @@ def combined(motions: Sequence[Mapping[str, Twist]], shares: Sequence[float]) ->
     return total
 
 
-class Balance(NamedTuple):
+class SpatialBalance(NamedTuple):
     """The unknown loads by power, in case units; ``free`` are those that it leaves open.
 
     ``left`` is, for each motion, the power that is not balanced, and what it is summed from.
@@ -239,14 +239,14 @@ class Balance(NamedTuple):
 
 def balance_of(
     motions: Sequence[Mapping[str, Twist]], loads: Sequence[Wrenched], roots: Sequence[str]
-) -> Balance:
+) -> SpatialBalance:
     """The unknown loads that make the power of all loads zero on every motion."""
     table = [[power_of(w, motion) for w in loads] for motion in motions]
     rows = [_equation(powers, loads, roots) for powers in table]
     general = eliminate(rows, len(roots))
     values = {root: general.of(n).get(len(roots), 0.0) for n, root in enumerate(roots)}
     free = tuple(roots[n] for n in general.free)
-    return Balance(values, free, tuple(_left(powers, loads, values) for powers in table))
+    return SpatialBalance(values, free, tuple(_left(powers, loads, values) for powers in table))
 
 
 def _equation(powers: Sequence[Power], loads: Sequence[Wrenched], roots: Sequence[str]) -> Row:

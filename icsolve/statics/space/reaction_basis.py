@@ -21,8 +21,8 @@ from icsolve.errors import SceneError, Status
 from icsolve.statics.space.figure import (
     AXES,
     ZERO,
-    Figure,
     Places,
+    SpatialFigure,
     Vec,
     add,
     cross,
@@ -41,7 +41,7 @@ Wrench = tuple[Vec, Vec]
 """Force, and couple about the tie's own point (normalised lengths)."""
 
 
-class Tie(NamedTuple):
+class SpatialTie(NamedTuple):
     """A joint between two links: ``units`` act on link ``on`` at ``at``, their opposites on ``by``.
 
     ``at`` is normalised; ``axis`` is that of a bearing, hinge or mesh; ``where`` names the joint's point.
@@ -54,10 +54,10 @@ class Tie(NamedTuple):
     where: str
     units: tuple[Wrench, ...]
     axis: Vec = ZERO
-    mesh: Mesh | None = None
+    mesh: SpatialMesh | None = None
 
 
-def ties_of(case: Case, figure: Figure) -> tuple[Tie, ...]:
+def ties_of(case: Case, figure: SpatialFigure) -> tuple[SpatialTie, ...]:
     """Every joint of a case in space.
 
     Raises SceneError where an axis has no direction, gears do not fit, or hinges are out of line.
@@ -74,7 +74,7 @@ def kind_of(joint: Joint) -> str:
     return words.get(type(joint)) or type(joint).__name__.lower()
 
 
-def _tie(joint: Joint, figure: Figure, line: int) -> Tie:
+def _tie(joint: Joint, figure: SpatialFigure, line: int) -> SpatialTie:
     by, on = joint.links
     where = f" (line {line})" if line else ""
     if isinstance(joint, GearPair):
@@ -83,7 +83,7 @@ def _tie(joint: Joint, figure: Figure, line: int) -> Tie:
     axis = ZERO
     if isinstance(joint, Radial | Thrust | Hinge):
         axis = direction(joint.axis, figure.places, f"the axis of {what}")
-    return Tie(joint, by, on, figure.points[joint.at], joint.at, _units(joint, axis), axis)
+    return SpatialTie(joint, by, on, figure.points[joint.at], joint.at, _units(joint, axis), axis)
 
 
 def _units(joint: Joint, axis: Vec) -> tuple[Wrench, ...]:
@@ -102,16 +102,16 @@ def _units(joint: Joint, axis: Vec) -> tuple[Wrench, ...]:
     raise TypeError(type(joint).__name__)
 
 
-def _meshing(joint: GearPair, figure: Figure, what: str) -> Tie:
+def _meshing(joint: GearPair, figure: SpatialFigure, what: str) -> SpatialTie:
     """The tangential part alone; which flank carries shows the rest (`flanked`)."""
     axis = direction(joint.axis, figure.places, f"the axis of {what}")
     mesh = mesh_of(joint, axis, figure.places, what)
     at = figure.frame.normalised(mesh.at)
     where = joint.centres[joint.links.index(mesh.on)] if joint.toward is None else joint.centres[0]
-    return Tie(joint, mesh.by, mesh.on, at, where, ((mesh.tangent, ZERO),), axis, mesh)
+    return SpatialTie(joint, mesh.by, mesh.on, at, where, ((mesh.tangent, ZERO),), axis, mesh)
 
 
-def flanked(ties: tuple[Tie, ...], flanks: Mapping[int, float]) -> tuple[Tie, ...]:
+def flanked(ties: tuple[SpatialTie, ...], flanks: Mapping[int, float]) -> tuple[SpatialTie, ...]:
     """The ties with the whole tooth force of each mesh, on the flank that ``flanks`` has for it."""
     return tuple(
         tie._replace(units=((tie.mesh.force(flanks[t]), ZERO),)) if tie.mesh and t in flanks else tie
@@ -124,7 +124,7 @@ ALIGNED = 2e-3
 EXACT = 1e-12
 
 
-def _refuse_out_of_line(ties: Iterable[Tie], figure: Figure) -> None:
+def _refuse_out_of_line(ties: Iterable[SpatialTie], figure: SpatialFigure) -> None:
     """Refuse hinges of one pair of links that nearly share an axis: they would bind in the model alone."""
     hinges = [tie for tie in ties if isinstance(tie.joint, Hinge)]
     for n, a in enumerate(hinges):
@@ -138,7 +138,7 @@ def _refuse_out_of_line(ties: Iterable[Tie], figure: Figure) -> None:
                 )
 
 
-def _nearly_one_axis(a: Tie, b: Tie) -> bool:
+def _nearly_one_axis(a: SpatialTie, b: SpatialTie) -> bool:
     apart = sub(a.at, b.at)
     off = size(cross(a.axis, b.axis))
     beside = size(cross(apart, b.axis)) / (size(apart) or 1.0)
@@ -151,7 +151,7 @@ MISFIT = 2e-3
 """Centres may miss the distance of the pitch radii by this fraction of it."""
 
 
-class Mesh(NamedTuple):
+class SpatialMesh(NamedTuple):
     """Where two gears touch, and the parts of the force there on the link ``on`` (an external gear).
 
     ``tangent`` is along the motion of ``on`` for positive turning about ``axis``, ``inward`` toward its own
@@ -199,7 +199,7 @@ def transverse_module(teeth: Teeth) -> float | None:
     return module / math.cos(helix(teeth)) if teeth.normal_pitch else module
 
 
-def mesh_of(joint: GearPair, axis: Vec, places: Places, what: str) -> Mesh:
+def mesh_of(joint: GearPair, axis: Vec, places: Places, what: str) -> SpatialMesh:
     """The mesh of a joint.
 
     Raises SceneError where the wheels do not lie in one plane square to the axis, or do not fit each other.
@@ -219,7 +219,7 @@ def mesh_of(joint: GearPair, axis: Vec, places: Places, what: str) -> Mesh:
     return _mesh(joint, base, at, unit(sub(at, (first, second)[base])), axis, radii)
 
 
-def _alone(joint: GearPair, axis: Vec, places: Places, what: str) -> Mesh:
+def _alone(joint: GearPair, axis: Vec, places: Places, what: str) -> SpatialMesh:
     """A gear with a mate that the case does not show."""
     assert joint.toward is not None
     centre = joint.centres[0]
@@ -234,7 +234,9 @@ def _alone(joint: GearPair, axis: Vec, places: Places, what: str) -> Mesh:
     return _mesh(joint, 0, at, outward, axis, (radius,))
 
 
-def _mesh(joint: GearPair, base: int, at: Vec, outward: Vec, axis: Vec, radii: tuple[float, ...]) -> Mesh:
+def _mesh(
+    joint: GearPair, base: int, at: Vec, outward: Vec, axis: Vec, radii: tuple[float, ...]
+) -> SpatialMesh:
     """The mesh with its force on the gear ``base``, which has external teeth."""
     hand = 1.0 if joint.teeth.hand == "right" else -1.0
     axial = -hand * math.tan(helix(joint.teeth))
@@ -242,7 +244,7 @@ def _mesh(joint: GearPair, base: int, at: Vec, outward: Vec, axis: Vec, radii: t
     tangent = cross(axis, outward)
     on, by = joint.links[base], joint.links[1 - base]
     apart = math.tan(transverse_angle(joint.teeth))
-    return Mesh(by, on, at, axis, tangent, times(-1.0, outward), apart, axial, radii)
+    return SpatialMesh(by, on, at, axis, tangent, times(-1.0, outward), apart, axial, radii)
 
 
 def _refuse_oblique(line: Vec, axis: Vec, what: str) -> None:

@@ -10,16 +10,24 @@ from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 
 from icsolve.answer.bodies import names_of
-from icsolve.answer.space import Parts, Reaction, Reactions
+from icsolve.answer.space import Parts, SpatialReaction, SpatialReactions
 from icsolve.case import Case
 from icsolve.case.names import ordered_pair
 from icsolve.case.space import GearPair, Hinge, Radial, Thrust
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.sparse import Row
-from icsolve.statics.space.equilibrium import Statics
-from icsolve.statics.space.figure import AXES, Figure, Frame, Vec, dot, square_to
-from icsolve.statics.space.power import NEARLY, Balance, Twist, Wrenched, combined, is_unknown, power_of
-from icsolve.statics.space.reaction_basis import Tie, kind_of
+from icsolve.statics.space.equilibrium import SpatialStatics
+from icsolve.statics.space.figure import AXES, SpatialFigure, SpatialFrame, Vec, dot, square_to
+from icsolve.statics.space.power import (
+    NEARLY,
+    SpatialBalance,
+    Twist,
+    Wrenched,
+    combined,
+    is_unknown,
+    power_of,
+)
+from icsolve.statics.space.reaction_basis import SpatialTie, kind_of
 from icsolve.statics.space.report import motion_words, moving
 from icsolve.wording.sentences import listed, plural, wrong_count
 
@@ -32,16 +40,18 @@ ROUNDING = 1e-15
 OPEN = "the joints share the load in a way that equilibrium alone does not determine"
 
 
-def reactions_of(case: Case, frame: Frame, statics: Statics, parameters: Mapping[int, float]) -> Reactions:
+def reactions_of(
+    case: Case, frame: SpatialFrame, statics: SpatialStatics, parameters: Mapping[int, float]
+) -> SpatialReactions:
     """Every joint's reaction; ``parameters`` are the known loads and the unknown ones."""
     reader = _Reader(case, frame, statics, parameters)
-    found = Reactions()
+    found = SpatialReactions()
     for t, name in enumerate(names_by_tie(case, statics.ties)):
         found[name] = reader.reaction(t)
     return found
 
 
-def names_by_tie(case: Case, ties: Sequence[Tie]) -> list[str]:
+def names_by_tie(case: Case, ties: Sequence[SpatialTie]) -> list[str]:
     """``F34``, ``F3-14``, ``Fcrank-rod``; with the place where a pair has several joints: ``F1-2@B``."""
     pairs = [ordered_pair(case, tie.by, tie.on) for tie in ties]
     shared = Counter(pairs)
@@ -53,7 +63,7 @@ def names_by_tie(case: Case, ties: Sequence[Tie]) -> list[str]:
     return names
 
 
-def open_sizes(statics: Statics) -> dict[int, float]:
+def open_sizes(statics: SpatialStatics) -> dict[int, float]:
     """For each free column the largest share that any joint unknown has in it."""
     sizes = dict.fromkeys(statics.general.free, 1.0)
     for row in statics.general.solved.values():
@@ -63,7 +73,7 @@ def open_sizes(statics: Statics) -> dict[int, float]:
     return sizes
 
 
-def is_determined(statics: Statics, row: Row, sizes: Mapping[int, float]) -> bool:
+def is_determined(statics: SpatialStatics, row: Row, sizes: Mapping[int, float]) -> bool:
     """Whether equilibrium determines a combination of the joints' unknowns."""
     return all(abs(row.get(c, 0.0)) <= UNIQUE * size for c, size in sizes.items())
 
@@ -71,7 +81,9 @@ def is_determined(statics: Statics, row: Row, sizes: Mapping[int, float]) -> boo
 class _Reader:
     """Reads forces and couples along given directions off the general solution."""
 
-    def __init__(self, case: Case, frame: Frame, statics: Statics, parameters: Mapping[int, float]) -> None:
+    def __init__(
+        self, case: Case, frame: SpatialFrame, statics: SpatialStatics, parameters: Mapping[int, float]
+    ) -> None:
         self.case, self.frame, self.statics, self.parameters = case, frame, statics, parameters
         self.sizes = open_sizes(statics)
         values = [abs(statics.value(c, parameters)) for c in range(statics.known)]
@@ -103,18 +115,18 @@ class _Reader:
         x, y, z = (self.shown(self.along(t, which, axis), which) for axis in AXES)
         return (x, y, z)
 
-    def reaction(self, t: int) -> Reaction:
+    def reaction(self, t: int) -> SpatialReaction:
         """The reaction of a tie, in the order of its links' names."""
         tie = self.statics.ties[t]
         force, couple = self.triple(t, 0), self.triple(t, 1)
         at = self.frame.shown(tie.at)
         why = OPEN if None in (*force, *couple) else ""
         parts = tuple((name, value) for name, value in self.parts(t, tie))
-        found = Reaction(tie.by, tie.on, kind_of(tie.joint), tie.where, at, force, couple, why, parts)
+        found = SpatialReaction(tie.by, tie.on, kind_of(tie.joint), tie.where, at, force, couple, why, parts)
         ordered = ordered_pair(self.case, tie.by, tie.on) == (tie.by, tie.on)
         return found if ordered else found.reversed()
 
-    def parts(self, t: int, tie: Tie) -> list[tuple[str, float | None]]:
+    def parts(self, t: int, tie: SpatialTie) -> list[tuple[str, float | None]]:
         """Shares of the force that the joint is about."""
         if isinstance(tie.joint, GearPair):
             return self.tooth_parts(t, tie)
@@ -128,7 +140,7 @@ class _Reader:
             parts.append(("thrust", None if thrust is None else abs(thrust)))
         return parts
 
-    def tooth_parts(self, t: int, tie: Tie) -> list[tuple[str, float | None]]:
+    def tooth_parts(self, t: int, tie: SpatialTie) -> list[tuple[str, float | None]]:
         """Shares of a tooth force, the couples of its axial share, and what bearings carry of them."""
         mesh = tie.mesh
         assert mesh is not None
@@ -144,7 +156,7 @@ class _Reader:
             parts += self.axial_couples(tie, axial)
         return parts
 
-    def axial_couples(self, tie: Tie, axial: float) -> list[tuple[str, float | None]]:
+    def axial_couples(self, tie: SpatialTie, axial: float) -> list[tuple[str, float | None]]:
         """The couple that the axial share makes about each wheel's centre, and its load on two bearings."""
         assert isinstance(tie.joint, GearPair) and tie.mesh is not None
         parts: list[tuple[str, float | None]] = []
@@ -171,7 +183,7 @@ class _Reader:
 Motions = Sequence[Mapping[str, Twist]]
 
 
-def refuse_loose(case: Case, ties: Iterable[Tie]) -> None:
+def refuse_loose(case: Case, ties: Iterable[SpatialTie]) -> None:
     """Refuse links that no chain of joints ties to the frame."""
     beside: dict[str, set[str]] = {}
     for tie in ties:
@@ -189,7 +201,9 @@ def refuse_loose(case: Case, ties: Iterable[Tie]) -> None:
         raise SceneError(Status.LOOSE, said)
 
 
-def refuse_unbalanced(figure: Figure, motions: Motions, loads: Sequence[Wrenched], balance: Balance) -> None:
+def refuse_unbalanced(
+    figure: SpatialFigure, motions: Motions, loads: Sequence[Wrenched], balance: SpatialBalance
+) -> None:
     """Refuse unknown loads that have no value, or any, and known loads that nothing balances."""
     unknowns = [w for w in loads if is_unknown(w.load)]
     if unknowns and not motions:
@@ -206,7 +220,7 @@ def refuse_unbalanced(figure: Figure, motions: Motions, loads: Sequence[Wrenched
 
 
 def _undetermined(
-    motions: Motions, unknowns: Sequence[Wrenched], balance: Balance, unbalanced: bool
+    motions: Motions, unknowns: Sequence[Wrenched], balance: SpatialBalance, unbalanced: bool
 ) -> SceneError:
     """An unknown that does no work, or more of them than motions that they work on."""
     idle = next((w for w in unknowns if not any(power_of(w, motion).value for motion in motions)), None)
@@ -222,7 +236,9 @@ def _undetermined(
     return SceneError(Status.ANY_VALUE, f"{said} The joints carry it; ask for another load.")
 
 
-def _driven(figure: Figure, motions: Motions, loads: Sequence[Wrenched], balance: Balance) -> str:
+def _driven(
+    figure: SpatialFigure, motions: Motions, loads: Sequence[Wrenched], balance: SpatialBalance
+) -> str:
     words = driven_motion(figure, motions, loads, balance)
     return (
         f"the joints leave {plural(len(motions), 'degree')} of freedom and the loads do not balance: they "
@@ -231,7 +247,9 @@ def _driven(figure: Figure, motions: Motions, loads: Sequence[Wrenched], balance
     )
 
 
-def driven_motion(figure: Figure, motions: Motions, loads: Sequence[Wrenched], balance: Balance) -> str:
+def driven_motion(
+    figure: SpatialFigure, motions: Motions, loads: Sequence[Wrenched], balance: SpatialBalance
+) -> str:
     """The motion that the loads drive most, by that of the first loaded link that takes part."""
     rests = zip(balance.unbalanced, balance.left, strict=True)
     shares = [rest / most if rest else 0.0 for rest, (_, most) in rests]
@@ -241,7 +259,7 @@ def driven_motion(figure: Figure, motions: Motions, loads: Sequence[Wrenched], b
     return motion_words(link, motion, figure)
 
 
-def refuse_huge(statics: Statics, parameters: Mapping[int, float]) -> None:
+def refuse_huge(statics: SpatialStatics, parameters: Mapping[int, float]) -> None:
     """Refuse forces that only a figure out of true by its last digits would make."""
     loads = max((abs(value) for value in parameters.values()), default=0.0)
     values = [abs(statics.value(column, parameters)) for column in range(statics.known)]
@@ -258,12 +276,12 @@ HUGE = 1e6
 
 
 def notes_of(
-    figure: Figure,
+    figure: SpatialFigure,
     motions: Motions,
     loads: Sequence[Wrenched],
-    balance: Balance,
-    statics: Statics,
-    reactions: Reactions,
+    balance: SpatialBalance,
+    statics: SpatialStatics,
+    reactions: SpatialReactions,
 ) -> tuple[str, ...]:
     """All that a reader of the answer should know."""
     working, notes = len(balance.unknowns), []
@@ -281,7 +299,7 @@ def notes_of(
     return (*notes, *_not_unique(statics, reactions))
 
 
-def _not_unique(statics: Statics, reactions: Reactions) -> Iterable[str]:
+def _not_unique(statics: SpatialStatics, reactions: SpatialReactions) -> Iterable[str]:
     named = [part for name, reaction in reactions.items() for part in _open_parts(name, reaction)]
     if not named:
         return
@@ -292,7 +310,7 @@ def _not_unique(statics: Statics, reactions: Reactions) -> Iterable[str]:
     )
 
 
-def _open_parts(name: str, reaction: Reaction) -> Iterable[str]:
+def _open_parts(name: str, reaction: SpatialReaction) -> Iterable[str]:
     force = "".join(axis for axis, part in zip("xyz", reaction.force, strict=True) if part is None)
     couple = "".join(axis for axis, part in zip("xyz", reaction.couple, strict=True) if part is None)
     if force:

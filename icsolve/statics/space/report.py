@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from icsolve.answer import Answer, Term
-from icsolve.answer.space import Parts, Reaction, Spatial
+from icsolve.answer.space import Parts, Spatial, SpatialReaction
 from icsolve.case import ArmIs, Case, DistanceIs, Like, LoadIs, ReactionIs, Spring, Target, Toward, Weight
 from icsolve.case.space import (
     Along,
@@ -26,7 +26,7 @@ from icsolve.case.space import (
 from icsolve.statics.report import witness_table
 from icsolve.statics.space.figure import (
     AXES,
-    Figure,
+    SpatialFigure,
     Vec,
     cross,
     dot,
@@ -140,11 +140,11 @@ def _triple(parts: Parts, show: Format) -> str:
     return f"({', '.join('?' if part is None else show(part) for part in parts)})"
 
 
-def _has_couple(reaction: Reaction) -> bool:
+def _has_couple(reaction: SpatialReaction) -> bool:
     return any(part is None or part != 0.0 for part in reaction.couple)
 
 
-def _rest(reaction: Reaction, show: Format) -> str:
+def _rest(reaction: SpatialReaction, show: Format) -> str:
     size = "" if reaction.magnitude is None else f"= {show(reaction.magnitude)}; "
     couple = f", couple {_triple(reaction.couple, show)}" if _has_couple(reaction) else ""
     parts = "".join(f", {name} {'?' if p is None else show(p)}" for name, p in reaction.parts)
@@ -155,7 +155,7 @@ SMALL = 1e-9
 """A part of a twist that is below this fraction of the whole is none (rounding)."""
 
 
-def motion_words(link: str, motion: Mapping[str, Twist], figure: Figure) -> str:
+def motion_words(link: str, motion: Mapping[str, Twist], figure: SpatialFigure) -> str:
     """How a link moves: `link 2 turns about the line through A along z`."""
     v, w = motion.get(link, STILL)
     fastest = max((size(p) + size(q) for p, q in motion.values()), default=0.0)
@@ -169,7 +169,7 @@ def motion_words(link: str, motion: Mapping[str, Twist], figure: Figure) -> str:
     return f"link {link} {verb} about the line {_line(on_axis, axis, figure)}"
 
 
-def _line(p: Vec, axis: Vec, figure: Figure) -> str:
+def _line(p: Vec, axis: Vec, figure: SpatialFigure) -> str:
     """A line by the named points on it, or by a point and its direction."""
     shown = [(name, point) for name, point in figure.points.items() if not name.startswith("@")]
     named = [(name, point) for name, point in shown if _is_on(point, p, axis)]
@@ -253,7 +253,7 @@ def _share(spatial: Spatial, target: ReactionIs) -> float:
     return value
 
 
-def _part(reaction: Reaction, part: str) -> float | None:
+def _part(reaction: SpatialReaction, part: str) -> float | None:
     """Size or component of the force or couple, or a share of it."""
     if part == "":
         return reaction.magnitude
@@ -269,7 +269,7 @@ def _part(reaction: Reaction, part: str) -> float | None:
     return shares[part]
 
 
-def _reaction_between(spatial: Spatial, by: str, on: str, at: str | None) -> Reaction:
+def _reaction_between(spatial: Spatial, by: str, on: str, at: str | None) -> SpatialReaction:
     """The one reaction between two links (at a point, where they have several joints)."""
     both = [r for r in spatial.reactions.values() if {r.by, r.on} == {by, on}]
     found = both if at is None else [r for r in both if r.where == at]
@@ -282,7 +282,7 @@ def _reaction_between(spatial: Spatial, by: str, on: str, at: str | None) -> Rea
     return found[0] if (found[0].by, found[0].on) == (by, on) else found[0].reversed()
 
 
-def _arm(answer: Answer, spatial: Spatial, reaction: Reaction, point: str) -> float:
+def _arm(answer: Answer, spatial: Spatial, reaction: SpatialReaction, point: str) -> float:
     """Arm of a force about a point: the size of its moment there, with its couple, over its own size."""
     if point not in spatial.points:
         raise LookupError(f"the point {point} was not found")

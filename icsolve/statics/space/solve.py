@@ -18,10 +18,18 @@ from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.linear import solve_square
 from icsolve.statics.equilibrium import independent
-from icsolve.statics.space.equilibrium import Bounds, Statics, bounds_of, statics_of
-from icsolve.statics.space.figure import Figure, figure_of, in_case
-from icsolve.statics.space.power import Balance, Twist, Wrenched, balance_of, is_unknown, motions_of, wrenched
-from icsolve.statics.space.reaction_basis import Tie, flanked, ties_of
+from icsolve.statics.space.equilibrium import Bounds, SpatialStatics, bounds_of, statics_of
+from icsolve.statics.space.figure import SpatialFigure, figure_of, in_case
+from icsolve.statics.space.power import (
+    SpatialBalance,
+    Twist,
+    Wrenched,
+    balance_of,
+    is_unknown,
+    motions_of,
+    wrenched,
+)
+from icsolve.statics.space.reaction_basis import SpatialTie, flanked, ties_of
 from icsolve.statics.space.reactions import (
     notes_of,
     reactions_of,
@@ -35,12 +43,12 @@ MOST_TURNS = 4
 """The flanks that carry are tried again so often, where a separating force turns a tangential one."""
 
 
-class Solved(NamedTuple):
+class SpatialSolution(NamedTuple):
     """Motions, unknown loads by power, and the equilibrium of all bodies."""
 
     motions: tuple[Mapping[str, Twist], ...]
-    balance: Balance
-    statics: Statics
+    balance: SpatialBalance
+    statics: SpatialStatics
 
 
 def solve_space(case: Case) -> Answer:
@@ -64,7 +72,9 @@ def solve_space(case: Case) -> Answer:
     return _answer(case, solved, loads, bounds, spatial, notes)
 
 
-def _on_carrying_flanks(case: Case, ties: tuple[Tie, ...], loads: Sequence[Wrenched]) -> Solved:
+def _on_carrying_flanks(
+    case: Case, ties: tuple[SpatialTie, ...], loads: Sequence[Wrenched]
+) -> SpatialSolution:
     """The tangential forces alone show which flanks of the teeth carry; the other parts go with them."""
     solved = _solved(case, ties, loads)
     flanks: dict[int, float] = {t: 0.0 for t, tie in enumerate(ties) if tie.mesh}
@@ -77,20 +87,20 @@ def _on_carrying_flanks(case: Case, ties: tuple[Tie, ...], loads: Sequence[Wrenc
     return solved
 
 
-def _carrying(solved: Solved, t: int) -> float:
+def _carrying(solved: SpatialSolution, t: int) -> float:
     """Sign of the force in a mesh along its unit."""
     value = solved.statics.value(solved.statics.first[t], solved.statics.parameters(solved.balance.unknowns))
     return 0.0 if value == 0.0 else math.copysign(1.0, value)
 
 
-def _solved(case: Case, ties: tuple[Tie, ...], loads: Sequence[Wrenched]) -> Solved:
+def _solved(case: Case, ties: tuple[SpatialTie, ...], loads: Sequence[Wrenched]) -> SpatialSolution:
     links = [link for link in case.links if link != case.ground]
     motions = motions_of(links, ties)
     roots = [w.root for w in loads if is_unknown(w.load)]
     statics = statics_of(links, ties, loads, len(motions))
     if len(statics.general.left) != len(motions):
         raise SceneError(Status.NEAR_SINGULAR, _doubtful(len(motions), len(statics.general.left)))
-    return Solved(motions, balance_of(motions, loads, roots), statics)
+    return SpatialSolution(motions, balance_of(motions, loads, roots), statics)
 
 
 def _doubtful(motions: int, left: int) -> str:
@@ -100,7 +110,7 @@ def _doubtful(motions: int, left: int) -> str:
     )
 
 
-def _witnesses(solved: Solved, bounds: Bounds) -> tuple[Witness, ...]:
+def _witnesses(solved: SpatialSolution, bounds: Bounds) -> tuple[Witness, ...]:
     """The unknown loads by the equilibrium of the bodies alone, beside those from power.
 
     Raises SceneError where they disagree by more than rounding explains.
@@ -130,13 +140,13 @@ def _apart(w: Witness) -> str:
     )
 
 
-def _named(figure: Figure) -> dict[str, tuple[float, float, float]]:
+def _named(figure: SpatialFigure) -> dict[str, tuple[float, float, float]]:
     return {name: place for name, place in figure.places.items() if not name.startswith("@")}
 
 
 def _answer(
     case: Case,
-    solved: Solved,
+    solved: SpatialSolution,
     loads: Sequence[Wrenched],
     bounds: Bounds,
     spatial: Spatial,
