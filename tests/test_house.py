@@ -6,6 +6,7 @@ Imports are read with `ast`, those inside functions too; what only the type chec
 from __future__ import annotations
 
 import ast
+from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
 from typing import get_args
@@ -80,6 +81,17 @@ def test_no_module_comes_back_to_itself() -> None:
     while ordered := {name for name, others in left.items() if not others & left.keys()}:
         left = {name: others for name, others in left.items() if name not in ordered}
     assert not left, f"a circle of imports: {sorted(left)}"
+
+
+def test_no_class_has_its_name_from_another() -> None:
+    """One word, one meaning; `Group` is that of the theory in the plan and in the assembly."""
+    names = Counter(
+        node.name
+        for file in modules().values()
+        for node in ast.parse(file.read_text()).body
+        if isinstance(node, ast.ClassDef)
+    )
+    assert {name for name, count in names.items() if count > 1} <= {"Group"}
 
 
 KINDS = [kind.__name__ for kind in get_args(Joint)]
