@@ -244,6 +244,50 @@ def test_the_numbers_follow_the_turn_and_the_turn_the_numbers(name: str, shown: 
     assert dict(zip(*page.run(FIELDS), strict=True)) == written
 
 
+TURNED = {
+    "linkages/four_bar": ("points.C.x", "5.5", "turn", "2"),
+    "linkages/jansen_leg": ("lengths.UV", "41", "turn", "2"),
+    "sliders/inverted_slider_crank": ("loads", "", "turn", ""),
+    "gears/epicyclic_train": ("loads", "", "turn", ""),
+    "linkages/five_bar": ("points.E.x", "480", "turn-5", "5"),
+}
+"""A number that is changed, and what then turns which link (the input of the page where that is not said)."""
+
+
+@pytest.mark.parametrize("name", TURNED)
+def test_a_changed_mechanism_is_turned_as_the_sweep_turns_it(name: str, shown: Any) -> None:
+    """Forth and back, to 1e-7: the fields have ten digits."""
+    path, (number, text, slider, link) = ROOT / f"{name}.yaml", TURNED[name]
+    page = shown(path, moves=True)
+    written = dict(zip(*page.run(FIELDS), strict=True))
+    if number not in written:
+        number = next(p for p in written if p.startswith(number))
+        text = repr(1.5 * float(written[number]) or 1.5)
+    page.run(
+        """const field = document.getElementById('number-' + arguments[0]);
+        field.value = arguments[1]; field.dispatchEvent(new Event('input'));""",
+        number,
+        text,
+    )
+    driver = link or page.run("return JSON.parse(document.getElementById('data').textContent).motion.driver")
+    degrees = [12.0, 3.0, -8.0]
+    found = page.run(
+        """return arguments[1].map((degrees) => {
+        const slider = document.getElementById(arguments[0]);
+        slider.value = degrees; slider.dispatchEvent(new Event('input'));
+        return Object.fromEntries([...document.querySelectorAll('[id^="answer-"]')]
+          .map((e) => [e.id.slice(7), [e.dataset.value, e.dataset.status]])); })""",
+        slider,
+        degrees,
+    )
+    drive = {driver: degrees, **({"2": [0.0] * 3} if link == "5" else {})}
+    rows = icsolve.sweep(icsolve.load(path, {number: text}), drive=drive, want=("answers", "status"))
+    for n, row in enumerate(found):
+        for load, (value, status) in row.items():
+            assert status == rows.status[n]
+            assert float(value) == pytest.approx(rows.answers[load][n], rel=1e-7, abs=1e-9)
+
+
 def test_a_crank_is_turned_by_its_handle_and_by_keys(shown: Any) -> None:
     page = shown(LENGTHS)
     page.press("#handle-B", "left", "left", "up")

@@ -137,7 +137,7 @@ def ratio_unit(known: Known, root: Acting, of: Acting) -> str:
 
 
 HERE = Path(__file__).parent
-PARTS = tuple("data scene live moving centres labels words position construction fields see".split())
+PARTS = tuple("data scene live moving centres labels words position construction turn fields see".split())
 """The parts of the script, in the order in which they run: each uses those before it."""
 
 
@@ -340,7 +340,7 @@ def _controls(parts: PageParts) -> str:
         f' step="{motion["step"]}" value="0" autocomplete="off">{track_svg(motion)}</div>\n'
         + (f'<p class="key">{keys}</p>\n' if keys else "")
         + endless
-        + '<p class="hint" id="hint" role="status"></p>\n'
+        + '<p class="hint" id="hint" role="status"></p>\n<div id="inputs" class="row"></div>\n'
         '<div class="row"><button type="button" id="play">Play</button>'
         '<button type="button" id="written">As written</button></div>'
     )

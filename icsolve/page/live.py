@@ -10,12 +10,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
-from icsolve.assembly.data import LINE, MEAN, data_of, number_of
+from icsolve.assembly.data import CORNER, LENGTH, LINE, MEAN, RAY, data_of, number_of
 from icsolve.assembly.groups import Group
 from icsolve.assembly.loci import is_round
 from icsolve.assembly.steps import Given, Mean, Meet, Step, aims, leading_to
 from icsolve.assembly.workspace import Key, Workspace, normalised
-from icsolve.case import Case, Motion, Number
+from icsolve.case import Case, Coordinates, Motion, Number, Pin
 from icsolve.case.joints import Guided, Mesh
 from icsolve.derivation import Known
 from icsolve.draw.words import unit_word
@@ -262,6 +262,11 @@ class _ProgramWriter:
             "given": any(joint.stands_in for joint in case.joints),
             "loads": [self._load(w) for w in self._wrenches()],
             "moves": self._by_points(),
+            "kinds": [type(bond.joint).__name__ for bond in top.bonds],
+            "pivots": [list(bond.pivots) if bond.pivots[0] else None for bond in top.bonds],
+            "turning": self._turning(),
+            "owner": self._owners(),
+            "measures": self._measures(place),
             "at": [bond.joint.at for bond in top.bonds],
             "units": [unit_word(unit) for unit in (case.units.force, case.units.torque)],
             "torque": case.units.torque_per_force_length,
@@ -285,6 +290,53 @@ class _ProgramWriter:
                 path = None if datum.kind in (MEAN, LINE) else number_of(self.case, datum).path
                 number = None if path is None else self.paths.index(path)
                 yield [datum.kind, [place[p] for p in datum.points], number]
+
+    def _owners(self) -> dict[str, str]:
+        """The link that takes each point along: of a pin any, of a block or a pin in a slot its own."""
+        case = self.case
+        found: dict[str, list[str]] = {}
+        for joint in case.joints:
+            at = getattr(joint, "at", None)
+            if at is not None:
+                found.setdefault(at, []).extend(joint.links if isinstance(joint, Pin) else joint.links[:1])
+        for link, names in case.carries.items():
+            for name in names:
+                found.setdefault(name, [link])
+        return {name: case.ground if case.ground in links else links[0] for name, links in found.items()}
+
+    def _turning(self) -> list[str]:
+        """The links that are pinned to the frame."""
+        pins = [joint for joint in self.case.joints if isinstance(joint, Pin)]
+        found = [link for pin in pins if self.case.ground in pin.links for link in pin.links]
+        return [link for link in dict.fromkeys(found) if link != self.case.ground]
+
+    def _measures(self, place: Mapping[Key, int]) -> list[list[Any]] | None:
+        """How each number that a motion changes is measured: kind, number, points or the link it turns with;
+        None where one can't be."""
+        case, found = self.case, list[list[Any]]()
+        number = {path: n for n, path in enumerate(self.paths)}
+        for name, at in case.points.items():
+            if isinstance(at, Coordinates) and name in place:
+                found += [
+                    [axis, number[given.path], place[name]]
+                    for axis, given in (("x", at.x), ("y", at.y))
+                    if given is not None
+                ]
+        for datum in data_of(case):
+            if datum.kind in (LENGTH, RAY, CORNER) and all(p in place for p in datum.points):
+                path = number_of(case, datum).path
+                found.append([datum.kind, number[path], *(place[p] for p in datum.points)])
+        for bond in self.top.bonds:
+            guide = getattr(bond.joint, "guide", None)
+            if guide is not None and guide.angle is not None:
+                found.append(["link", number[guide.angle.path], bond.links[1]])
+        for load in case.loads:
+            turner = getattr(load, "turns_with", None)
+            if turner and not isinstance(getattr(load, "heading", None), Number):
+                return None
+            if turner:
+                found.append(["link", number[load.heading.path], turner])  # type: ignore[union-attr]
+        return found
 
     def _by_points(self) -> bool:
         """Whether the places of the points tell all of a position: they are given, and no guide turns."""

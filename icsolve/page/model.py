@@ -7,14 +7,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from itertools import groupby
 from typing import Any
 
 import numpy as np
 
 from icsolve.answer import Centre, Found
-from icsolve.assembly import case_point, solve_figure
 from icsolve.case import Force, Pair, Spring, TorsionSpring, Toward, Weight
 from icsolve.case.names import pair_name
 from icsolve.derivation import Acting, Known, Step, acting_loads
@@ -23,11 +21,10 @@ from icsolve.draw.marks import Point, View
 from icsolve.draw.scene import Scene
 from icsolve.draw.svg import identifier
 from icsolve.draw.words import centre_runs, figure_number, name_runs, unit_word
-from icsolve.errors import SceneError, Status
+from icsolve.errors import Status
 from icsolve.page.figure import PageFigure
 from icsolve.page.live import Live
 from icsolve.page.motion import FINE, Array, PageMotion, compact, exact, moved, moves
-from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.wording.senses import holding, sense_as, spelt, unit_of
 
 # --- loads through a motion ------------------------------------------------------------------------------
@@ -175,39 +172,9 @@ def model_of(
         told = live is not None and live.data["moves"]
         data["motion"] = motion_data(known, view, motion, FINE["told"] if told else FINE["px"])
     if live is not None:
-        data["live"] = {**live.data, **_drive(known, motion, live)}
+        data["live"] = live.data
         data |= {"view": [view.scale, *view.origin], "statuses": HINTS}
     return data
-
-
-def _drive(known: Known, motion: PageMotion | None, live: Live) -> dict[str, int]:
-    """The number that turns the input, where one does: its place among the inputs of the program."""
-    driven = live.data["links"].get(motion.driver, ()) if motion is not None else ()
-    for point in driven:
-        for kind, number, *rest in live.data["handles"].get(point, ()):
-            turns = kind == "turn" and rest[0] in driven and rest[1] == 1
-            if motion is not None and turns and _is_the_turn(known, motion, live.data["paths"][number]):
-                return {"drive": number}
-    return {}
-
-
-def _is_the_turn(known: Known, motion: PageMotion, path: str) -> bool:
-    """Whether the case with another number at a path is the mechanism turned so far, and not one of another
-    shape."""
-    ends = (motion.first, motion.last)
-    for row in {(motion.zero + end) // 2 for end in ends} | {(3 * motion.zero + end) // 4 for end in ends}:
-        value = numbers_of(known.case)[path].value + float(motion.degrees[row])
-        places = {name: column[row] for name, column in motion.found.points.items()}
-        near = {name: (float(places[name][0]), float(places[name][1])) for name in known.case.near}
-        turned = replace(with_numbers(known.case, {path: value}), near=near)
-        try:
-            figure = solve_figure(turned, list(places))
-        except SceneError:
-            return False
-        found = {name: case_point(figure.frame, figure.points[name]) for name in places}
-        if any(math.dist(found[name], at) > 1e-6 * known.size for name, at in places.items()):
-            return False
-    return True
 
 
 def motion_data(known: Known, view: View, motion: PageMotion, fine: int = FINE["px"]) -> dict[str, Any]:

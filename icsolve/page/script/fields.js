@@ -19,6 +19,9 @@ function leave() {
   scene.changed = false;
   byId("mechanism").classList.remove("stale");
   writtenNumbers();
+  laboratory.typed();
+  scene.solved = scene.first;
+  rested();
   fit([]);
 }
 function writtenNumbers() {
@@ -42,32 +45,75 @@ function changed(dragged, driven = false, pulled = null) {
   if (hint) hint.textContent = "";
   const words = data.statuses[scene.status] || "";
   liveHint.textContent = scene.status === "ok" ? "" : `No answer (${scene.status}): ${scene.words ? scene.words + "." : words}`;
-  const drives = motion && live.drive !== undefined;
-  if (slider) slider.value = String(drives ? numbers[live.drive] - live.numbers[live.drive] : 0);
-  if (hint && !drives) hint.textContent = "The slider turns the mechanism as it is written.";
+  if (!driven) rested();
   byId("mechanism").classList.toggle("stale", scene.status !== "ok" && !scene.placed);
   if (!dragged) fitNow();
   render();
   placeHandles();
 }
 const fitNow = () => fit(row === LIVE ? Object.keys(live.points).map((name) => [points[name].x[row], points[name].y[row]]) : []);
-/* The input turned, with the other numbers as they are. */
-function drive(degrees) {
-  const n = live.drive;
-  enter(n, tidy(live.numbers[n] + degrees, 1e-6), 0.05, number(live.numbers[n] + degrees, 8).replace("−", "-"));
+/* From here the sliders count. */
+function rested() {
+  for (const e of all('[id^="turn"]')) e.value = "0";
+  if (!mover) {
+    if (hint) hint.textContent = "The slider turns the mechanism as it is written.";
+  } else if (scene.placed && scene.solved) {
+    restHere();
+    chooseInputs(live.input);
+  }
+}
+/* An input turned, with the other numbers as they are. */
+function drive(degrees, link = live.input) {
+  const some = numbersMoved({ [link]: degrees });
+  if (!some) {
+    if (hint) hint.textContent = `The links do not meet beyond ${number(mover.at[link] || 0, 4)}.`;
+    return;
+  }
+  enterAll(some);
   changed(true, true);
+  const own = link === live.input ? slider : byId(`turn-${link}`);
+  if (own) own.value = String(degrees);
+  if (link === live.input && byId("angle")) byId("angle").textContent = `${number(Math.abs(degrees), 5)}${motion ? motion.unit : "°"} ${motion ? motion.senses[degrees >= 0 ? 0 : 1] : ""}`;
+}
+function enterAll(some) {
+  some.forEach((value, n) => {
+    const shown = Number(value.toPrecision(10));
+    if (shown !== numbers[n]) enter(n, shown, 0, String(shown));
+  });
+}
+/* The choice of the input, and a slider for every other freedom. */
+function inputs() {
+  const room = byId("inputs");
+  if (!mover || !room) return;
+  const label = (text, e) => {
+    const own = document.createElement("label");
+    own.append(text, " ", e);
+    room.append(own);
+  };
+  if (motion.verb === "turned" && live.turning.length > 1) {
+    const select = document.createElement("select");
+    select.id = "input";
+    for (const link of live.turning) select.append(new Option(link, link, false, link === live.input));
+    select.addEventListener("change", () => {
+      live.input = select.value;
+      document.querySelector("label.turn").firstChild.data = `Link ${live.input} turned: `;
+      changed(true);
+    });
+    label("Input: link", select);
+  }
+  for (const link of mover.inputs.slice(1)) {
+    const range = document.createElement("input");
+    Object.assign(range, { type: "range", id: `turn-${link}`, min: -180, max: 180, step: 1, value: 0 });
+    range.addEventListener("input", () => drive(Number(range.value), link));
+    label(`Link ${link} turned`, range);
+  }
 }
 /* The fields tell the position that the turn shows, where numbers of the case can. */
 function follow(r) {
   const some = numbersAt(r);
   if (!some) return;
-  some.forEach((value, n) => {
-    if (r === zero) enter(n, live.numbers[n], live.firstHalves[n], live.texts[n]);
-    else if (value !== live.numbers[n]) {
-      const shown = Number(value.toPrecision(7));
-      enter(n, shown, 0, String(shown));
-    }
-  });
+  if (r === zero) live.numbers.forEach((value, n) => enter(n, value, live.firstHalves[n], live.texts[n]));
+  else enterAll(some);
   try {
     laboratory.followed();
   } catch (refusal) {
@@ -265,6 +311,9 @@ if (live) {
   make("g", { id: "handles" }, figure);
   for (const [name, moves] of Object.entries(live.handles)) if (own(live.points, name) !== undefined) handles.push(grip(name, moves));
   placeHandles();
+  live.input = motion ? motion.driver : live.turning[0];
+  rested();
+  inputs();
   if (location.hash.length > 1) fromAddress();
   window.addEventListener("hashchange", fromAddress);
 }

@@ -45,7 +45,7 @@ function hintOf(r, beyond) {
   return found ? found[2] : "";
 }
 function moveTo(r, beyond = "") {
-  if (live && scene.changed && live.drive !== undefined) {
+  if (live && scene.changed && mover) {
     drive(degreesOf(r));
     return;
   }

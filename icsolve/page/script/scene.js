@@ -370,6 +370,12 @@ function figureOf(program, told, x) {
     points,
     scene,
     near,
+    /* Branches, and where Newton's method stands. */
+    state: () => [[...s], [...q]],
+    adopt([branches, starts]) {
+      s.splice(0, s.length, ...branches);
+      q.splice(0, q.length, ...starts);
+    },
     /* As the case with these numbers is solved; points that nothing needs may be missing. */
     typed() {
       try {

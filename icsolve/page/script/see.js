@@ -27,10 +27,10 @@ function shadowed(numbersNow) {
 }
 /* The numbers in a position of the turn; null where they do not tell it. */
 function numbersAt(r) {
-  const some = [...(scene.changed ? numbers : live.numbers)];
-  if (live.drive !== undefined) some[live.drive] = live.numbers[live.drive] + degreesOf(r);
-  else if (r !== zero && (!live.moves || scene.changed)) return null;
-  else if (r !== zero)
+  if (mover) return r === zero && !scene.changed ? live.numbers : numbersMoved({ [live.input]: degreesOf(r) });
+  if (r !== zero && (!live.moves || scene.changed)) return null;
+  const some = [...live.numbers];
+  if (r !== zero)
     for (const [name, moves] of Object.entries(live.handles))
       for (const [kind, n] of moves) some[n] = inCase([points[name].x[r], points[name].y[r]])[kind === "x" ? 0 : 1];
   return some;
@@ -43,12 +43,21 @@ function stateAt(r) {
 /* All positions of the turn, every other one; solved once for the same numbers. */
 function turnTable() {
   if (!motion) return [];
-  const key = scene.changed ? numbers.filter((_, n) => n !== live.drive).join() : "written";
+  const key = mover ? `${live.input} ${mover.numbers.join()}` : String(scene.changed);
   if (shadow.key !== key) {
     shadow.key = key;
-    shadow.list = [];
     const pace = Math.max(1, Math.round(rows / 180));
-    for (let r = 0; r < rows; r += pace) shadow.list.push(numbersAt(r) && stateAt(r));
+    const some = [...Array(rows).keys()].filter((r) => r % pace === 0);
+    const held = mover && [{ ...mover.at }, [...mover.pose]];
+    const home = () => { if (held) [mover.at, mover.pose] = [{ ...held[0] }, [...held[1]]]; };
+    const middle = some.findIndex((r) => r >= zero);
+    shadow.figure.adopt(laboratory.state());
+    const up = some.slice(middle).map(stateAt);
+    home();
+    shadow.figure.adopt(laboratory.state());
+    const down = some.slice(0, middle).reverse().map(stateAt);
+    home();
+    shadow.list = [...down.reverse(), ...up];
   }
   return shadow.list;
 }
@@ -74,7 +83,7 @@ function drawVelocities(state) {
     const t = state.solved.twists[live.body[link]];
     for (const name of t ? names : []) {
       const v = velocity(t, state.frame[live.points[name]]);
-      if (!name.startsWith("@") && !some.some((one) => one.name === name && apart(one.v, v) < 1e-9)) some.push({ name, link, v });
+      if (!name.startsWith("@") && Math.hypot(...v) > 0 && !some.some((one) => one.name === name && apart(one.v, v) < 1e-9)) some.push({ name, link, v });
     }
   }
   const most = Math.max(...some.map(({ v }) => Math.hypot(...v)));

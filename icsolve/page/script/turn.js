@@ -1,0 +1,147 @@
+/* The mechanism with its present numbers moved: every body rigid, its place by Newton's method on the joints and
+   the inputs, from one position to the next. What the numbers of the case then are is measured. */
+const PLAIN = ["Pin", "Slide", "Slot", "Gears", "Belt"];
+const mover = live && live.kinds.every((kind) => PLAIN.includes(kind)) && live.measures ? { inputs: [], at: {} } : null;
+const perp = ([x, y]) => [-y, x];
+
+/* Bodies at rest: where the mechanism now is. */
+function restHere() {
+  if (!mover) return;
+  mover.rest = laboratory.points.map((p) => [...p]);
+  mover.numbers = [...numbers];
+  mover.own = ownOf(live, laboratory.scene()[3]);
+  mover.bodies = [...Array(live.bodies).keys()].filter((b) => b !== live.ground);
+  mover.pose = Array(3 * mover.bodies.length).fill(0);
+  mover.twists = scene.solved.motions.twists;
+  mover.at = {};
+  mover.of = new Map(Object.entries(live.owner).map(([name, link]) => [live.points[name], live.body[link]]));
+}
+const slotOf = (body) => 3 * mover.bodies.indexOf(body);
+/* A place of a body now, and how it goes with x, y and angle of the body. */
+function carriedBy(body, p) {
+  if (body === live.ground) return { at: p, arm: [0, 0] };
+  const [x, y, a] = mover.pose.slice(slotOf(body), slotOf(body) + 3);
+  const arm = [Math.cos(a) * p[0] - Math.sin(a) * p[1], Math.sin(a) * p[0] + Math.cos(a) * p[1]];
+  return { at: [arm[0] + x, arm[1] + y], arm };
+}
+const angleOf = (body) => (body === live.ground ? 0 : mover.pose[slotOf(body) + 2]);
+/* Conditions: [value, [place among the unknowns, derivative]...]. */
+function conditions() {
+  const found = [];
+  const point = (body, { arm }, n, factor) =>
+    body === live.ground ? [] : [[[slotOf(body), n === 0 ? factor : 0], [slotOf(body) + 1, n === 1 ? factor : 0], [slotOf(body) + 2, factor * perp(arm)[n]]]].flat();
+  const along = (body, place, u, factor) => [...point(body, place, 0, u[0] * factor), ...point(body, place, 1, u[1] * factor)];
+  const angle = (body, factor) => (body === live.ground ? [] : [[slotOf(body) + 2, factor]]);
+  live.bonds.forEach(([one, two], k) => {
+    const [a, b] = [live.body[one], live.body[two]];
+    const kind = live.kinds[k];
+    if (kind === "Gears" || kind === "Belt") {
+      const [p, q, c] = mover.meshes[k];
+      found.push([q * (angleOf(a) - angleOf(c)) + p * (angleOf(b) - angleOf(c)), ...angle(a, q), ...angle(b, p), ...angle(c, -p - q)]);
+      return;
+    }
+    const home = mover.rest[live.points[live.at[k]]];
+    const [here, there] = [carriedBy(a, home), carriedBy(b, home)];
+    const off = [here.at[0] - there.at[0], here.at[1] - there.at[1]];
+    if (kind === "Pin") {
+      for (const n of [0, 1]) found.push([off[n], ...point(a, here, n, 1), ...point(b, there, n, -1)]);
+      return;
+    }
+    if (kind === "Slide") found.push([angleOf(a) - angleOf(b), ...angle(a, 1), ...angle(b, -1)]);
+    const guide = carriedBy(b, perp(guideOf(k, mover.own))).arm;
+    const across = b === live.ground ? perp(guideOf(k, mover.own)) : guide;
+    found.push([dot(across, off), ...along(a, here, across, 1), ...along(b, there, across, -1), ...angle(b, dot(perp(across), off))]);
+  });
+  for (const link of mover.inputs) {
+    const body = live.body[link];
+    const target = mover.at[link] || 0;
+    const [t] = mover.twists[body];
+    if (live.turning.includes(link)) found.push([angleOf(body) - (target * Math.PI) / 180, ...angle(body, 1)]);
+    else {
+      const size = Math.hypot(t[0], t[1]) || 1;
+      const way = [t[1] / size, -t[0] / size];
+      const sign = way[0] < -1e-9 || (Math.abs(way[0]) <= 1e-9 && way[1] < 0) ? -1 : 1;
+      const c = slotOf(body);
+      found.push([sign * (way[0] * mover.pose[c] + way[1] * mover.pose[c + 1]) - target * live.frame[2], [c, sign * way[0]], [c + 1, sign * way[1]]]);
+    }
+  }
+  return found;
+}
+/* What the meshes keep: weights of both wheels, and the body that carries them. */
+function meshesOf() {
+  mover.meshes = live.bonds.map(([one, two], k) => {
+    if (!live.pivots[k]) return null;
+    const [a, b] = live.pivots[k].map((name) => mover.rest[live.points[name]]);
+    const [x, y, w] = mover.own[k];
+    const arm = [b[0] - a[0], b[1] - a[1]];
+    const q = dot([x - w * a[0], y - w * a[1]], arm) / (dot(arm, arm) || NaN);
+    const pinned = (at) => live.bonds.flatMap((bond, n) => (live.kinds[n] === "Pin" && live.at[n] === at ? bond.slice(0, 2) : []));
+    const carrier = pinned(live.pivots[k][0]).find((link) => link !== one && link !== two && pinned(live.pivots[k][1]).includes(link));
+    return [w - q, q, live.body[carrier]];
+  });
+}
+function arrive() {
+  const count = mover.pose.length;
+  for (let round = 0; round < 25; round++) {
+    const found = conditions();
+    const normal = [...Array(count)].map(() => Array(count + 1).fill(0));
+    for (const [value, ...parts] of found)
+      for (const [i, d] of parts) {
+        for (const [j, e] of parts) normal[i][j] += d * e;
+        normal[i][count] += d * value;
+      }
+    const { basis } = nullSpace(normal, count + 1, 1e-13);
+    if (basis.length !== 1 || !(Math.abs(basis[0][count]) > 1e-12)) return false;
+    const step = basis[0].slice(0, count).map((v) => v / basis[0][count]);
+    if (!step.every(Number.isFinite)) return false;
+    step.forEach((v, n) => (mover.pose[n] += v));
+    if (largest(step) < 1e-13) return largest(conditions().map(([value]) => value)) < 1e-9;
+  }
+  return largest(conditions().map(([value]) => value)) < 1e-9;
+}
+/* The numbers of the case with inputs turned (or moved) so far from rest; null where the links do not meet. */
+function numbersMoved(targets) {
+  meshesOf();
+  const from = { ...mover.at };
+  const way = Math.max(...Object.entries(targets).map(([link, v]) => Math.abs(v - (from[link] || 0)) / (live.turning.includes(link) ? 4 : 0.02 / live.frame[2])));
+  const steps = Math.max(1, Math.ceil(way));
+  const pose = [...mover.pose];
+  for (let n = 1; n <= steps; n++) {
+    for (const [link, v] of Object.entries(targets)) mover.at[link] = (from[link] || 0) + ((v - (from[link] || 0)) * n) / steps;
+    if (!arrive()) {
+      [mover.at, mover.pose] = [from, pose];
+      return null;
+    }
+  }
+  return measured();
+}
+function measured() {
+  const some = [...mover.numbers];
+  const now = (k) => (mover.of.has(k) ? carriedBy(mover.of.get(k), mover.rest[k]).at : mover.rest[k]);
+  const change = (p, q) => turned([mover.rest[q][0] - mover.rest[p][0], mover.rest[q][1] - mover.rest[p][1]], [now(q)[0] - now(p)[0], now(q)[1] - now(p)[1]]);
+  const put = (n, value) => { if (Math.abs(value - some[n]) > 1e-9 * Math.max(1, Math.abs(some[n]))) some[n] = value; };
+  for (const [kind, n, ...what] of live.measures) {
+    if (kind === "x" || kind === "y") put(n, fromFrame(now(what[0]))[kind === "x" ? 0 : 1]);
+    else if (kind === "length") put(n, apart(now(what[0]), now(what[1])) / live.frame[2]);
+    else if (kind === "ray") put(n, some[n] + change(what[0], what[1]));
+    else if (kind === "corner") put(n, some[n] + change(what[1], what[2]) - change(what[1], what[0]));
+    else put(n, some[n] + (angleOf(live.body[what[0]]) * 180) / Math.PI);
+  }
+  return some;
+}
+/* Inputs: one a freedom, the one that is chosen first, and those whose rates are not tied to it. */
+function chooseInputs(first) {
+  const { twists, mobility } = mover.twists && { twists: mover.twists, mobility: mover.twists[0].length };
+  const wish = [first, ...live.turning, ...Object.keys(live.links)].filter((link) => link && live.body[link] !== live.ground);
+  const chosen = [];
+  const rows = [];
+  for (const link of wish) {
+    const ts = twists[live.body[link]];
+    const row = live.turning.includes(link) ? ts.map((t) => t[2]) : ts.map((t) => t[1] + 0.618 * t[0]);
+    if (chosen.length < mobility && nullSpace([...rows, row], mobility, 1e-9, largest(twists.flat(2))).rank === rows.length + 1) {
+      rows.push(row);
+      chosen.push(link);
+    }
+  }
+  mover.inputs = chosen;
+}
