@@ -15,23 +15,23 @@ from icsolve.assembly.groups import Group
 from icsolve.assembly.loci import is_round
 from icsolve.assembly.steps import Given, Mean, Meet, Step, aims, leading_to
 from icsolve.assembly.workspace import Key, Workspace, normalised
-from icsolve.case import Case, Coordinates, Motion, Number, Pin
+from icsolve.case import Coordinates, Motion, Number, Pin
 from icsolve.case.joints import Guided, Mesh
 from icsolve.derivation import Known
 from icsolve.draw.words import unit_word
-from icsolve.errors import SceneError
 from icsolve.kinematics.loops import ORIGIN, Bases, Tree, loop_rows, span
 from icsolve.kinematics.speeds import joint_order
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record
 from icsolve.numbers.source import JAVASCRIPT, JAVASCRIPT_FUNCTIONS, straight_line
 from icsolve.page.fields import handles_of, text_data
+from icsolve.scene.program import Program
 from icsolve.scene.refusals import rubs
 from icsolve.screws.joints import freedoms
 from icsolve.statics import power
-from icsolve.structure.topology import Bond, Topology
+from icsolve.structure.topology import Bond
 from icsolve.sweep.numbers import numbers_of
-from icsolve.sweep.program import Setting, setting_of, wanted_points
+from icsolve.sweep.program import wanted_points
 
 SECTIONS = ("points", "lengths", "angles", "joints", "loads", "motion", "gravity")
 """What is an input of the program."""
@@ -76,23 +76,20 @@ def why_presolved(known: Known) -> str:
 
 def live_of(known: Known) -> Live | None:
     """The scene of a case as a program; None where it has to be solved beforehand."""
-    if why_presolved(known):
+    if why_presolved(known) or known.scene is None:
         return None
-    try:
-        return _ProgramWriter(known.case).live()
-    except SceneError:
-        return None
+    return _ProgramWriter(known.scene.program).live()
 
 
 class _ProgramWriter:
     """A case on a record whose inputs are its numbers."""
 
-    def __init__(self, case: Case) -> None:
+    def __init__(self, program: Program) -> None:
+        case = program.case
         self.case, self.record = case, Record()
-        self.setting: Setting = setting_of(case, (), ())
-        self.top: Topology = self.setting.top
+        self.figure, self.top = program.figure, program.top
         self.names: dict[int, str] = {}
-        self.workspace = Workspace(case, self.setting.figure.frame, self.record)
+        self.workspace = Workspace(case, self.figure.frame, self.record)
         numbers = numbers_of(case)
         self.paths = [path for path in numbers if path.partition(".")[0] in SECTIONS]
         for n, path in enumerate(self.paths):
@@ -104,7 +101,7 @@ class _ProgramWriter:
 
     def live(self) -> Live:
         """The program, and the data about it."""
-        placing = self.setting.figure.steps
+        placing = self.figure.steps
         needed = leading_to(wanted_points(self.case)[1], placing)
         steps = [self._written(step, needed) for step in placing]
         bases = {k: freedoms(bond, self._points(), self.record) for k, bond in enumerate(self.top.bonds)}
@@ -228,7 +225,7 @@ class _ProgramWriter:
         )
 
     def _data(self, steps: Sequence[WrittenProgram], tree: Tree, bases: Bases) -> dict[str, Any]:
-        case, top, frame = self.case, self.top, self.setting.figure.frame
+        case, top, frame = self.case, self.top, self.figure.frame
         numbers = numbers_of(case)
         ground = [key for key in self.order if isinstance(key, str)]
         place = {key: n for n, key in enumerate(self.order)}
@@ -249,7 +246,7 @@ class _ProgramWriter:
             "paths": self.paths,
             "numbers": [numbers[path].value for path in self.paths],
             "halves": [numbers[path].half for path in self.paths],
-            "handles": handles_of(case, self.setting.figure.steps, self.paths),
+            "handles": handles_of(case, self.figure.steps, self.paths),
             "text": text_data(case, self.paths),
             "links": {link: [p for p in names if p in place] for link, names in case.carries.items()},
             "aims": [
@@ -340,7 +337,7 @@ class _ProgramWriter:
 
     def _by_points(self) -> bool:
         """Whether the places of the points tell all of a position: they are given, and no guide turns."""
-        drawn = all(isinstance(step, Given | Mean) for step in self.setting.figure.steps)
+        drawn = all(isinstance(step, Given | Mean) for step in self.figure.steps)
         guides = [bond for bond in self.top.bonds if getattr(bond.joint, "guide", None) is not None]
         held = all(bond.joint.guide.angle is None or self.case.ground in bond.links for bond in guides)  # type: ignore[union-attr]
         return drawn and held and not any(getattr(load, "turns_with", None) for load in self.case.loads)
