@@ -451,6 +451,16 @@ loads: {{W: {{weight: 10, link: 3, at: C}}, V: {{weight: 30, link: 2, at: B}}}}
     assert position.stability == "unstable"
 
 
+def test_a_jib_rests_where_the_torque_on_its_drum_holds_it() -> None:
+    """By the law of the triangle of mast, jib and rope: pull = W (rope / mast)."""
+    text = (CASES.parent / "icsolve" / "manual" / "templates" / "crane.yaml").read_text(encoding="utf-8")
+    rope = math.sqrt(7**2 + 6**2 - 2 * 7 * 6 * math.sin(math.radians(40)))
+    text = text.replace("AB: 40", "AB: {unknown: [10, 70], from: 40}")
+    text = text.replace("torque: unknown", f"torque: {20 * rope / 6 * 0.25!r}")
+    (position,) = icsolve.solve(icsolve.load(text)).positions
+    assert position.at["angles.AB"] == pytest.approx(40, abs=1e-9)
+
+
 def test_a_screw_turns_by_its_lead_in_every_row() -> None:
     case = icsolve.load(str(CASES / "tools" / "scissor_jack.yaml"))
     rows = icsolve.sweep(case, want=("answers", "points"), drive={"2": np.linspace(-20.0, 20.0, 9)})

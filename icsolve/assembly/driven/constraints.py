@@ -162,13 +162,24 @@ class Roped(NamedTuple):
             return None
         return next(iter(others)), len(own)
 
-    def longer(self, places: Places, record: Record, turned: Turn, without: Spot | None = None) -> Scalar:
-        """By how much it is longer than as written; ``without`` the parts at a spot.
+    def drums(self) -> list[tuple[int, Scalar]]:
+        """The bodies on which its ends are wound, and by how much each rad of theirs makes it longer."""
+        ends = [(0, -1.0), (len(self.written), 1.0)]
+        return [(self.spots[k][0], sign * self.offsets[k]) for k, sign in ends if self.is_round(k)]
+
+    def longer(
+        self,
+        places: Places,
+        record: Record,
+        turned: Turn,
+        without: Spot | None = None,
+        still: int | None = None,
+    ) -> Scalar:
+        """By how much it is longer than as written; ``without`` the parts at a spot, a body ``still``.
 
         On a drum it is wound by as much as that turns, and by as much as its part does.
         """
         more: Scalar = 0.0
-        count = len(self.written)
         for k, then in enumerate(self.written):
             more = more - then.length
             if without in self.spots[k : k + 2]:
@@ -178,9 +189,9 @@ class Roped(NamedTuple):
             if self.is_round(k) or self.is_round(k + 1):
                 angle = turned(dot(then.along, now.along), dot(square(then.along), now.along))
                 more = more + (self.offsets[k] - self.offsets[k + 1]) * angle * RADIAN
-        for k, sign in ((0, -1.0), (count, 1.0)):
-            if self.is_round(k) and self.spots[k] != without:
-                more = more + sign * self.offsets[k] * places.degrees(self.spots[k][0]) * RADIAN
+        for body, gain in self.drums():
+            if body != still:
+                more = more + gain * places.degrees(body) * RADIAN
         return more
 
 

@@ -12,6 +12,7 @@ from icsolve.assembly.driven.constraints import (
     Pointed,
     RolledRound,
     RolledStraight,
+    Roped,
     Turning,
 )
 from icsolve.assembly.driven.groups import NewtonGroup, settled, smallest
@@ -147,7 +148,7 @@ class _Following:
 
     # --- rotations --------------------------------------------------------------------------------
 
-    def _rotation(self, body: int, by: Turning | Pointed | RolledStraight | RolledRound) -> Rotation:
+    def _rotation(self, body: int, by: Turning | Pointed | RolledStraight | RolledRound | Roped) -> Rotation:
         match by:
             case Pointed():
                 return by.rotation
@@ -155,7 +156,17 @@ class _Following:
                 return self._from_others(body, by)
             case RolledStraight():
                 return self._turned(self._on_flank(body, by))
+            case Roped():
+                return self._turned(self._wound(body, by))
         return self._turned(self._on_round(body, by))
+
+    def _wound(self, body: int, by: Roped) -> Scalar:
+        """A drum takes up what the rope has become longer elsewhere."""
+        gain: Scalar = 0.0
+        for drum, each in by.drums():
+            gain = gain + each if drum == body else gain
+        more = by.longer(self.moved, self.record, self.record.turns, still=body)
+        return -more / gain / RADIAN
 
     def _turned(self, degrees: Scalar) -> Rotation:
         return Rotation(self.record.turned(degrees), (1.0, 0.0), degrees)

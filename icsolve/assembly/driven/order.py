@@ -103,7 +103,7 @@ class RotateWith(NamedTuple):
     condition where several were taken train_ratios."""
 
     body: int
-    by: Turning | Pointed | RolledStraight | RolledRound
+    by: Turning | Pointed | RolledStraight | RolledRound | Roped
     instead: Turning | None = None
 
 
@@ -217,8 +217,9 @@ class ClosingOrder:
 
     def _turns(self) -> Iterator[RotateWith]:
         for c in self.constraints:
-            left = [body for body in c.bodies if body not in self.turned]
-            if len(left) != 1 or not isinstance(c, Turning | Pointed | RolledStraight | RolledRound):
+            wheels = {body for body, _ in c.drums()} if isinstance(c, Roped) else c.bodies
+            left = [body for body in wheels if body not in self.turned]
+            if len(left) != 1 or not isinstance(c, Turning | Pointed | RolledStraight | RolledRound | Roped):
                 continue
             if id(c) in self.used:
                 continue
@@ -232,8 +233,10 @@ class ClosingOrder:
         if found is not None:
             yield RotateWith(*found)
 
-    def _tells(self, c: Turning | Pointed | RolledStraight | RolledRound) -> bool:
+    def _tells(self, c: Turning | Pointed | RolledStraight | RolledRound | Roped) -> bool:
         """Whether a condition tells the one rotation in it that is not known."""
+        if isinstance(c, Roped):
+            return all(map(self.known, c.spots))
         if isinstance(c, RolledStraight):
             return c.line.body in self.full and self.known(c.centre)
         return not isinstance(c, RolledRound) or (self.known(c.one) and self.known(c.two))
