@@ -76,8 +76,14 @@ def grow(drawing: LooseFigure) -> bool:
 
 
 def _extend(drawing: LooseFigure, most: int | None) -> None:
-    """Let every loose cluster take what is within its reach; with ``most``, the first that can."""
+    """Let every loose cluster take what is within its reach; with ``most``, the first that can.
+
+    One of which two points are on the ground is part of it: what it could take the ground takes.
+    """
+    ground = drawing.ground.placed
     for cluster in drawing.clusters[1:]:
+        if sum(point in ground for point in cluster.placed) > 1:
+            continue
         for point in list(cluster.placed):
             cluster.reach_from(point)
         if cluster.run(most=most) and most is not None:
