@@ -71,6 +71,21 @@ def test_every_case_has_a_card_with_its_answer_its_figure_and_its_files(gallery:
         assert {"".join(Path(f).suffixes) for f in files} == set(ENDINGS)
 
 
+def test_the_index_of_the_whole_library_stays_small(gallery: Path) -> None:
+    """What a card takes, times the cases of the library: under 300 kB."""
+    index = gallery / "index.html"
+    cards = sum(1 for _ in page(index).iter("article"))
+    assert index.stat().st_size / cards * len(list(LIBRARY.rglob("*.yaml"))) < 300_000
+
+
+@pytest.mark.parametrize(
+    ("case", "kind"),
+    [("ropes/capstan", "Ropes"), ("tools/vice", "Screws"), ("dynamics/rolling_disk", "Inertia")],
+)
+def test_cases_stand_under_their_kind(case: str, kind: str) -> None:
+    assert exhibit(icsolve.load(LIBRARY / f"{case}.yaml"), case, case, exercise=True).kind.startswith(kind)
+
+
 def test_every_link_leads_to_a_file_and_every_file_is_linked(gallery: Path) -> None:
     linked = {gallery / address for address in addresses(page(gallery / "index.html"))}
     files = {path for path in gallery.rglob("*") if path.is_file()} - {gallery / "index.html"}

@@ -76,8 +76,8 @@ def _items(arguments: Iterable[str]) -> Iterator[Item]:
 
 def _title(arguments: Iterable[str]) -> str:
     """What the gallery is called: the folders or files that it was made of."""
-    names = (os.path.basename(os.path.abspath(argument)) for argument in arguments)
-    return f"Gallery of {', '.join(names)}"
+    names = [os.path.basename(os.path.abspath(argument)) for argument in arguments]
+    return f"Gallery of {', '.join(names)}" if len(names) <= 3 else "Gallery"
 
 
 def _stem(source: InputSource) -> str:

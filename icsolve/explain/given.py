@@ -263,7 +263,7 @@ def _points(known: Known, figures: Figures) -> list[Block]:
         x, y = (figures.length(c).digits for c in place)
         rows.append(((name,), (x,), (y,), ("given" if given else "from the figure's data",)))
     unit = known.case.units.length
-    return [ShownTable(("point", f"x, {unit}", f"y, {unit}", ""), tuple(rows))] if rows else []
+    return [ShownTable(("point", f"x, {unit}", f"y, {unit}", "how"), tuple(rows))] if rows else []
 
 
 def _load(known: Known, figures: Figures, load: Load) -> tuple[Inline, ...]:

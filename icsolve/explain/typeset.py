@@ -17,8 +17,8 @@ STYLE = """
 body{font:1rem/1.55 'Helvetica Neue',Helvetica,Arial,'Liberation Sans',sans-serif;color:var(--ink);
 background:var(--paper);max-width:46rem;margin:2rem auto;padding:0 1rem}
 h1{font-size:1.5rem;line-height:1.25}h2{font-size:1.15rem;margin-top:1.8em}
-.lead{font-style:italic}math[display=block]{margin:.5em 0;overflow-x:auto;overflow-y:hidden}
-table{border-collapse:collapse;display:block;overflow-x:auto}
+.lead{font-style:italic}math[display=block]{margin:.5em 0}
+section{overflow-x:auto;overflow-y:hidden}table{border-collapse:collapse}
 th,td{text-align:left;padding:.2em .8em .2em 0;border-bottom:1px solid var(--line)}
 figure{margin:1rem 0}svg{max-width:100%;height:auto}
 """
@@ -50,9 +50,11 @@ class AsHtml(Layout):
         )
 
     def sections(self, document: Document) -> str:
-        """The sections alone, to stand in another page."""
+        """The sections alone, to stand in another page; where a formula is wider than the window its section
+        scrolls, by the keyboard too."""
         return "".join(
-            f"<section><h2>{escaped(section.title)}</h2>\n{''.join(map(self._block, section.blocks))}"
+            f'<section tabindex="0" role="group" aria-label="{escaped(section.title)}">'
+            f"<h2>{escaped(section.title)}</h2>\n{''.join(map(self._block, section.blocks))}"
             "</section>\n"
             for section in document.sections
         )

@@ -32,6 +32,9 @@ KINDS = (
     "Sliders and slots",
     "Gears, belts and rolling wheels",
     "Cams",
+    "Ropes and pulleys",
+    "Screws",
+    "Inertia forces",
     "Friction",
     "Springs",
     "Given centres",
@@ -106,6 +109,9 @@ def kind_of(known: Known) -> str:
         ("Structures", known.structure),
         ("Given centres", any(joint.stands_in for joint in joints)),
         ("Cams", bool(case.profiles) or any(joint.only_pushes for joint in joints)),
+        ("Ropes and pulleys", bool(case.ropes)),
+        ("Screws", bool(case.screws)),
+        ("Inertia forces", case.dynamic),
         ("Friction", any(joint.friction is not None for joint in joints)),
         ("Springs", any(isinstance(load, Spring) for load in case.loads)),
         ("Gears, belts and rolling wheels", any(isinstance(joint, Mesh | Rolling) for joint in joints)),
@@ -147,9 +153,9 @@ body{font:1rem/1.5 'Helvetica Neue',Helvetica,Arial,'Liberation Sans',sans-serif
 background:var(--paper);max-width:84rem;margin:2rem auto;padding:0 1rem;overflow-wrap:anywhere}
 h1{font-size:1.6rem;line-height:1.25;margin-bottom:.2em}h2{font-size:1.2rem;margin:2em 0 .8em}
 h3{font-size:1rem;line-height:1.3;margin:0}a{color:var(--link)}p{margin:.35em 0}
-.cards{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(16rem,100%),1fr));gap:1rem;padding:0}
+.cards{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(19rem,100%),1fr));gap:1rem;padding:0}
 .card{border:1px solid var(--line);border-radius:6px;padding:.9rem;display:flex;flex-direction:column}
-.card img{width:100%;height:11rem;object-fit:contain;margin:.5rem 0}
+.card img{width:100%;height:14rem;object-fit:contain;margin:.5rem 0}
 .kinds{display:flex;flex-wrap:wrap;gap:.4em 1.2em;padding:0;list-style:none}
 iframe{width:100%;height:34rem;border:1px solid var(--line);border-radius:6px}
 .answer{font-weight:600}.bad{color:var(--bad);font-weight:600}.soft{color:var(--soft);font-size:.9rem}

@@ -135,8 +135,9 @@ def svg(marks: Iterable[Mark], box: Box, name: str, title: str, more: str = "", 
     view = " ".join(map(number, (left, top, right - left, bottom - top)))
     body = "\n".join(element(mark) for mark in marks)
     width, height = number(largest * (right - left)), number(largest * (bottom - top))
+    role = "group" if name == "figure" else "img"  # the figure has handles
     return (
-        f'<svg class="ic" id="{name}" viewBox="{view}" width="{width}" height="{height}" role="img"'
+        f'<svg class="ic" id="{name}" viewBox="{view}" width="{width}" height="{height}" role="{role}"'
         f' aria-label="{escaped(title)}">'
         f"{more}\n{body}\n</svg>"
     )

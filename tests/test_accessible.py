@@ -1,0 +1,108 @@
+"""What a screen reader and a keyboard need of worked solutions, pages and galleries: names, headings in
+order, headers of tables; all that axe-core finds, where AXE_CORE is its axe.min.js (npm install axe-core)."""
+
+from __future__ import annotations
+
+import os
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+
+import icsolve
+from browser import browser
+from icsolve.explain import explain
+from icsolve.page import page_html
+from icsolve.page.gallery import exhibit, index_html
+
+CASES = Path(__file__).parent.parent / "cases"
+AXE = os.environ.get("AXE_CORE", "")
+VOID = {"br", "hr", "img", "input", "link", "meta"}
+
+
+class Outline(HTMLParser):
+    """Headings, tables' headers, ids, pictures and fields of a document, and whether each has a name."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.levels: list[int] = []
+        self.ids: list[str] = []
+        self.labelled: set[str] = set()
+        self.nameless: list[str] = []
+        self.open: list[tuple[str, list[str]]] = []
+        self.language = ""
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        given = dict(attrs)
+        self.language = given.get("lang") or self.language
+        self.ids += [given["id"]] if given.get("id") else []
+        self.labelled |= {given["for"]} if tag == "label" and given.get("for") else set()
+        if len(tag) == 2 and tag[0] == "h" and tag[1].isdigit():
+            self.levels.append(int(tag[1]))
+        named = given.get("aria-label") or given.get("aria-labelledby") or given.get("alt") is not None
+        inside = any(name == "label" for name, _ in self.open)
+        hidden = given.get("type") == "hidden" or given.get("aria-hidden") == "true"
+        if tag in ("img", "input", "select") and not (hidden or inside or named):
+            self.nameless.append(given.get("id") or tag)
+        self.handle_data(given.get("alt") or "")
+        if tag not in VOID:
+            self.open.append((tag, [given.get("aria-label") or ""]))
+
+    def handle_data(self, data: str) -> None:
+        for _, words in self.open:
+            words.append(data.strip())
+
+    def handle_endtag(self, tag: str) -> None:
+        while self.open:
+            name, words = self.open.pop()
+            if name in ("th", "button", "a", "h1", "h2", "h3") and not "".join(words):
+                self.nameless.append(f"empty {name}")
+            if name == tag:
+                return
+
+
+def documents() -> dict[str, str]:
+    four = icsolve.load(CASES / "ch13" / "13_08_four_bar.yaml")
+    rope = icsolve.load(CASES / "ropes" / "capstan.yaml")
+    return {
+        "explain": explain(four, "html", bodies=True),
+        "rope": explain(rope, "html"),
+        "page": page_html(four),
+        "gallery": index_html(
+            [exhibit(one, one.name, "a.yaml", exercise=True) for one in (four, rope)], "Week 3"
+        ),
+    }
+
+
+DOCUMENTS = documents()
+
+
+@pytest.mark.parametrize("name", DOCUMENTS)
+def test_all_has_a_name_and_headings_come_in_order(name: str) -> None:
+    outline = Outline()
+    outline.feed(DOCUMENTS[name])
+    fields = [one for one in outline.nameless if one not in outline.labelled]
+    assert outline.language == "en" and not fields
+    assert len(outline.ids) == len(set(outline.ids))
+    assert outline.levels[0] == 1 and all(
+        b <= a + 1 for a, b in zip(outline.levels, outline.levels[1:], strict=False)
+    )
+
+
+@pytest.mark.skipif(not AXE, reason="no AXE_CORE")
+@pytest.mark.parametrize("width", [320, 1200])
+def test_axe_finds_nothing(width: int, tmp_path: Path) -> None:
+    script = Path(AXE).read_text(encoding="utf-8")
+    with browser() as chromium:
+        chromium.size(width, 900)
+        for name, html in DOCUMENTS.items():
+            path = tmp_path / f"{name}.html"
+            path.write_text(html, encoding="utf-8")
+            chromium.open(path)
+            chromium.run(script)
+            chromium.run("document.querySelectorAll('details').forEach(d => d.open = true)")
+            found = chromium.run(
+                "return axe.run(document).then(r => r.violations.map(v => v.id + ': ' + v.nodes[0].html))"
+            )
+            assert found == [], name
+            assert chromium.run("return document.documentElement.scrollWidth") <= width
