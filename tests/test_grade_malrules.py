@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import random
 from pathlib import Path
 
 import pytest
@@ -13,10 +14,12 @@ from grade_shell import CASES, Class
 from icsolve.case import LoadIs
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
+from icsolve.grade.judge import judge_answer
 from icsolve.grade.keys import NumberKey
 from icsolve.grade.mistakes import CODES, Wrong, WrongAnswers, Wrongs, message
 from icsolve.grade.mistakes import solved_for as solved
 from icsolve.grade.mistakes.engine import shares
+from icsolve.grade.written.answer import Combined, Reader
 
 CAM = """\
 icsolve: 1
@@ -289,8 +292,6 @@ def test_two_mistakes_at_once_are_named_by_both(a_class: Class) -> None:
 
 def test_a_random_number_seldom_gets_a_cause(a_class: Class) -> None:
     """Of numbers even up to three times the right one at most 8 %."""
-    import random
-
     rng = random.Random(5)
     a_class.case("crank", CRANKS)
     right = moments(25.0, -70.0)
@@ -432,3 +433,21 @@ def test_32_of_33_kinds_of_mistakes_are_named(a_class: Class) -> None:
         if not (wanted <= given[n] if "," in kind else wanted & given[n]):
             missed.append(kind)
     assert len(kinds) - len(missed) >= 32, missed
+
+
+def test_random_numbers_seldom_get_a_cause_in_the_library() -> None:
+    """Numbers even up to three times the right one, and even in their powers of ten: at most 8 % get one."""
+    rng, case_store, combined = random.Random(7), CaseStore(CASES, Course()), Combined(Reader())
+    names = "13_08_four_bar 13_11_vice_grip five_bar:T12 geneva lamp_arm compound_epicyclic bolt_cutter wedge"
+    named = wrong = 0
+    for name in names.split():
+        key = case_store.key(name)
+        assert isinstance(key, NumberKey)
+        sizes = [rng.uniform(-3.0, 3.0) for _ in range(60)]
+        sizes += [rng.choice((-1.0, 1.0)) * 10.0 ** rng.uniform(-3.0, 3.0) for _ in range(60)]
+        for factor in sizes:
+            judged, _ = judge_answer(key, combined, f"{key.value * factor:.4g}")
+            wrong += judged.verdict == "wrong"
+            named += judged.verdict == "wrong" and bool(judged.code)
+    assert wrong > 900
+    assert named <= 0.08 * wrong

@@ -114,7 +114,7 @@ def test_a_kind_of_joint_is_told_in_few_places(kind: str) -> None:
     contacts = {"icsolve.cams.contact_search", "icsolve.sweep.scene", "icsolve.sweep.cam_motion"}
     assert told <= {
         "Contact": contacts,
-        "Slide": {"icsolve.statics.reaction_basis", "icsolve.grade.mistakes.ropes_and_masses"},
+        "Slide": {"icsolve.statics.reaction_basis", "icsolve.grade.mistakes.changed"},
     }.get(kind, set())
 
 

@@ -40,7 +40,7 @@ from icsolve.read.figure import (
 )
 from icsolve.read.joints import mention_links, read_joints
 from icsolve.read.keys import JOINTS, SECTIONS, SPACE_JOINTS
-from icsolve.read.loads import read_loads, read_motion
+from icsolve.read.loads import driven, read_loads, read_motion
 from icsolve.read.names import Problems, shown
 from icsolve.read.reading import Measures, Reading, number
 
@@ -112,8 +112,6 @@ def _parts(reading: Reading, root: Mapping) -> _Parts:
     reading.profiled = set(section.items) if type(section) is Mapping else set()
     listed = root.items.get("joints")
     if type(listed) is Sequence and any("screw" in n.items for n in listed.items if type(n) is Mapping):
-        from icsolve.read.screws import driven
-
         reading.driven = driven(root.items.get("loads"))
     joints, ropes = _joints(reading, root)
     profiles = _profiles(reading, root) if section is not None else None

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 from icsolve.case import (
     Area,
     Force,
@@ -22,7 +24,7 @@ from icsolve.case import (
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.keys import DIRECTION, LOADS, MOTION
 from icsolve.read.load_forms import Forms, Likes, bearer, magnitude, read_section, torque_number, word_at
-from icsolve.read.names import point_key
+from icsolve.read.names import point_key, shown
 from icsolve.read.reading import Entry, Reading
 from icsolve.units import exact_ratio, times
 
@@ -212,9 +214,7 @@ def _slope(entry: Entry) -> Slope | None:
 
 def _torque(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
     if entry.has("screw"):
-        from icsolve.read.screws import read_turning
-
-        return read_turning(entry, name, kind, likes)
+        return _turning(entry, name, kind, likes)
     link, against, good = bearer(entry)
     turns = entry.sense()
     read, value = magnitude(entry, name, kind, likes)
@@ -325,3 +325,42 @@ def _of_point(entry: Entry, link: str | None) -> Motion | None:
     more = _acceleration(entry, "path acceleration")
     good = link and point and speed is not None and angle is not None
     return Motion(link, speed, None, point, angle, more) if good and link else None
+
+
+def driven(loads: Node | None) -> set[frozenset[str]]:
+    """The pairs of links whose screws torques turn."""
+    return {frozenset(pair) for pair in _pairs(loads)}
+
+
+def _pairs(loads: Node | None) -> Iterator[tuple[str, str]]:
+    for node in loads.items.values() if type(loads) is Mapping else ():
+        if type(node) is Mapping and "torque" in node.items and "screw" in node.items:
+            pair = _pair(node.items["screw"])
+            if pair is not None:
+                yield pair
+
+
+def _pair(node: Node) -> tuple[str, str] | None:
+    """Two links: ``2-3``, or ``23`` where each is one character."""
+    text = node.text.strip() if type(node) is Scalar else ""
+    parts = [part.strip() for part in text.split("-")] if "-" in text else list(text)
+    return (parts[0], parts[1]) if len(parts) == 2 and all(parts) else None
+
+
+def _turning(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
+    """A torque that turns a screw: positive where it drives the second link along the axis."""
+    node = entry.node.items["screw"]
+    pair = _pair(node)
+    for key in ("link", "against", "turns"):
+        if entry.has(key):
+            said = f"{entry.what} turns a screw and has no '{key}': it is positive clockwise as one looks"
+            entry.refuse(entry.mark(key), f"{said} along the axis")
+            return None
+    screw = next((s for s in entry.reading.screws if pair and {*s.links} == {*pair}), None)
+    if screw is None:
+        what = shown(node.text) if type(node) is Scalar else "that"
+        said = f"{entry.what} should turn a screw by its two links, as in 2-3, and no screw joins {what}"
+        entry.refuse(node.mark, said)
+        return None
+    read, value = magnitude(entry, name, kind, likes)
+    return Torque(name, screw.rotor, value) if read else None
