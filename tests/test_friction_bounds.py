@@ -6,6 +6,7 @@ link, nor of any friction; the load that it ends at is the true one.
 
 from __future__ import annotations
 
+import math
 from fractions import Fraction
 from random import Random
 from statistics import median
@@ -242,3 +243,36 @@ def test_power_and_free_bodies_that_disagree_are_refused() -> None:
     with pytest.raises(icsolve.SceneError, match="they should be one number") as caught:
         refuse_apart([near, far], 0.0)
     assert caught.value.status == "near-singular"
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_loads_with_friction_are_exact_and_rounded_once(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Within a unit in the last place, with an error of two at most: the solution is enclosed on balls."""
+    seen = Seen(monkeypatch)
+    text, load = SCENES[name]
+    case = icsolve.load("icsolve: 1\n" + text)
+    answer = icsolve.solve(case).answers[load]
+    unit = math.ulp(answer.value)
+    assert answer.error is not None
+    assert answer.error <= 2.0 * unit
+    assert abs(true_load(case, seen.found[-1]) - mpf(answer.value)) <= min(unit, answer.error)
+
+
+@pytest.mark.parametrize("mu", ["0.1", "0.3"])
+@pytest.mark.parametrize("slope", ["10", "31.7"])
+def test_the_ends_of_a_range_are_exact_too(mu: str, slope: str) -> None:
+    """A block on a slope: it moves up at P = W (sin a + mu cos a), down at W (sin a - mu cos a)."""
+    scene = icsolve.load(f"""
+icsolve: 1
+points: {{A: [1, 2]}}
+joints: [{{slide: [2, 1], at: A, along: {slope}, mu: {mu}}}]
+loads: {{W: {{weight: 100, link: 2, at: A}}, P: {{force: unknown, link: 2, at: A, angle: {slope}}}}}
+""")
+    found = icsolve.solve(scene).answers["P"]
+    turn = mp.radians(mpf(slope))
+    ends = sorted(100 * (mp.sin(turn) + s * mpf(mu) * mp.cos(turn)) for s in (-1, 1))
+    assert found.holds is not None
+    assert found.error is not None
+    for shown, true in zip(found.holds, ends, strict=True):
+        assert abs(mpf(shown) - true) <= min(found.error, math.ulp(shown))
+    assert found.error <= 2.0 * max(map(math.ulp, found.holds))

@@ -8,11 +8,12 @@ from icsolve.answer import Answer
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.scene.bounds import EvaluatedScene, Evaluation, plain, points_shown
-from icsolve.scene.parts import AnswerBuilder
+from icsolve.scene.parts import AnswerBuilder, speed_of
 from icsolve.scene.program import Program, evaluate_still
+from icsolve.statics.enclosed_friction import SceneOnBalls
 from icsolve.statics.free_bodies import FreeBodies, free_bodies
+from icsolve.statics.friction import Enclose, solved
 from icsolve.statics.friction import FrictionScene as Rubbing
-from icsolve.statics.friction import solved
 from icsolve.statics.friction_interface import has_friction
 from icsolve.statics.power import Value, is_unknown
 from icsolve.statics.reaction_basis import Position, rope_ties
@@ -42,7 +43,17 @@ def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
     outcome = parts.outcome
     position = _position(parts.first._replace(outcome=outcome, arithmetic=FLOATS))
     scene = Rubbing(position, parts.figure.frame, outcome.balance, outcome.solution, parts.speed)
-    return solved(scene._replace(traced=parts.traced), answer_with, reactions)
+    return solved(scene._replace(traced=parts.traced, enclose=_enclose(parts)), answer_with, reactions)
+
+
+def _enclose(parts: AnswerBuilder) -> Enclose:
+    """Asks the scene on balls."""
+
+    def placed(found: Evaluation) -> SceneOnBalls:
+        speed = speed_of(found)
+        return SceneOnBalls(_position(found), found.outcome.balance, speed.particular, found.arithmetic)
+
+    return lambda question: parts.scene.ask(lambda found: question(placed(found)))
 
 
 def _position(found: Evaluation) -> Position:

@@ -90,7 +90,7 @@ class AnswerBuilder:
         balance, motions = self.first.outcome.balance, self.first.outcome.motions
         rates, errors, velocities = self.scene.ask(_moving) if self.program.want.rates else (None, {}, None)
         if self.case.motion and rates is None:
-            self.scene.ask(_speed)
+            self.scene.ask(speed_of)
         answers = _directed(self.case, _found(self.case, balance, self.unknowns))
         return Answer(
             case=self.case,
@@ -216,10 +216,10 @@ class AnswerBuilder:
         return reach
 
     def _terms(self, found: Evaluation) -> tuple[Term, ...]:
-        return tuple(power_terms(found, self._values(found), _speed(found)))
+        return tuple(power_terms(found, self._values(found), speed_of(found)))
 
 
-def _speed(found: Evaluation) -> speeds.Speed:
+def speed_of(found: Evaluation) -> speeds.Speed:
     """Which motion is meant, and how fast."""
     twists, points = found.outcome.motions.twists, found.outcome.points
     frame = found.program.figure.frame
@@ -229,7 +229,7 @@ def _speed(found: Evaluation) -> speeds.Speed:
 def _moving(found: Evaluation) -> tuple[dict[str, float | str], dict[str, float], Velocities]:
     """Link rates, bounds of their errors, and point velocities."""
     case, twists, frame = found.program.case, found.outcome.motions.twists, found.program.figure.frame
-    speed, a = _speed(found), found.arithmetic
+    speed, a = speed_of(found), found.arithmetic
     rates: dict[str, float | str] = {}
     errors: dict[str, float] = {}
     for link, rate in speeds.link_rates(case, twists, speed).items():
@@ -250,7 +250,7 @@ def _centres(found: Evaluation) -> dict[Pair, Centre]:
     program, motions = found.program, found.outcome.motions
     case, twists = program.case, motions.twists
     if case.motion and motions.mobility > 1:
-        speed = _speed(found)
+        speed = speed_of(found)
         twists = {link: speeds.meant(twists, speed, link) for link in twists}
     finder = CentreFinder(
         case, program.top, twists, program.figure.frame, found.outcome.points, found.arithmetic

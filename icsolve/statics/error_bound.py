@@ -16,6 +16,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from types import MappingProxyType
 from typing import NamedTuple
 
 from icsolve.case.joints import Mesh
@@ -45,6 +46,8 @@ class ErrorBounds(NamedTuple):
     bounds: Mapping[str, float]
     slopes: Mapping[str, Mapping[str, float]]
     why: str = ""
+    values: Mapping[str, float] = MappingProxyType({})
+    """the loads themselves, where they were enclosed"""
 
 
 def error_bounds(

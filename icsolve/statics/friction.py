@@ -20,6 +20,7 @@ from icsolve.kinematics.speeds import STILL, Speed
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.ropes import slip_rates, tension_ratios
 from icsolve.statics import reaction_basis
+from icsolve.statics.enclosed_friction import SceneOnBalls, enclosed, is_smooth
 from icsolve.statics.equilibrium import (
     Statics,
     bounds_of,
@@ -29,7 +30,7 @@ from icsolve.statics.equilibrium import (
     terms_of,
     witnesses,
 )
-from icsolve.statics.error_bound import UNSURE, ErrorBounds, error_bounds
+from icsolve.statics.error_bound import TOO_CLOSE, UNSURE, ErrorBounds, error_bounds
 from icsolve.statics.free_bodies import (
     FreeBodies,
     Solved,
@@ -65,11 +66,21 @@ def in_motion(scene: FrictionScene) -> tuple[dict[str, float], FreeBodies, Error
 
     solved = on_flanks(scene.position, ties, _flanks(scene, ties, workless), solve)
     sure = _certain(scene, solved, senses_of(scene, solved.statics).signs)
-    return solved.unknowns, _bodies(scene, solved, slides[-1], workless), sure
+    return {**solved.unknowns, **sure.values}, _bodies(scene, solved, slides[-1], workless), sure
 
 
 def _certain(scene: FrictionScene, solved: Solved, senses: Sequence[float]) -> ErrorBounds:
-    return error_bounds(scene.position, scene.balance, solved, senses, scene.traced, scene.speed)
+    found = error_bounds(scene.position, scene.balance, solved, senses, scene.traced, scene.speed)
+    if scene.enclose is None or scene.traced is None or not is_smooth(scene.position, solved):
+        return found
+    try:
+        both = scene.enclose(lambda placed: enclosed(placed, solved, senses))
+    except SceneError:  # no digits show that the solution stands alone
+        return found
+    if both is None:
+        return ErrorBounds({}, {}, TOO_CLOSE)
+    bounds, values = ({root: two[n] for root, two in both.items()} for n in (1, 0))
+    return found._replace(bounds=bounds, values=values)
 
 
 def at_rest(scene: FrictionScene) -> tuple[StaticRange, float | None, str]:
@@ -95,6 +106,10 @@ def at_rest(scene: FrictionScene) -> tuple[StaticRange, float | None, str]:
     sure = [_certain_end(scene, statics, end) for end in found.ends]
     bounds = [bound for each in sure for bound in each.bounds.values()]
     why = next((each.why for each in sure if not each.bounds), "" if bounds else PRESSED)
+    both = zip(found.ends, sure, strict=True)
+    exact = {end.value: value for end, each in both for value in each.values.values()}
+    least, most, *possible = (exact.get(v, v) for v in (found.least, found.most, *found.possible))
+    found = found._replace(least=least, most=most, possible=(possible[0], possible[1]))
     return found, None if why else max(bounds), why
 
 
@@ -315,7 +330,9 @@ def _moving(
     scene: FrictionScene, answer_with: Callable[[Mapping[str, Value]], Answer], reactions: bool
 ) -> Answer:
     unknowns, bodies, sure = in_motion(scene)
-    values = {root: Value(value, sure.bounds.get(root), sure.why) for root, value in unknowns.items()}
+    bounds = {root: sure.bounds.get(root) for root in unknowns}
+    why = {root: sure.why if bounds[root] is None else "" for root in unknowns}
+    values = {root: Value(value, bounds[root], why[root]) for root, value in unknowns.items()}
     answer = replace(answer_with(values), sensitivities=Deferred(lambda: _slopes(scene, sure)))
     return bodies.added_to(answer, reactions)
 
@@ -346,6 +363,10 @@ def _held(scene: FrictionScene, name: str, found: StaticRange, shown: Found) -> 
     return shown._replace(value=math.nan, sense="", holds=(ends[0], ends[1]), self_locking=found.self_locking)
 
 
+Both = Mapping[str, tuple[float, float]] | None
+Enclose = Callable[[Callable[[SceneOnBalls], Both]], Both]
+
+
 class FrictionScene(NamedTuple):
     """What is known of a scene before its friction: position, sum of power, and the motion that is meant."""
 
@@ -356,6 +377,8 @@ class FrictionScene(NamedTuple):
     speed: Speed
     traced: Bounded | None = None
     """the same on a tape, where bounds are asked for"""
+    enclose: Enclose | None = None
+    """the same on balls, of as many digits as that takes"""
 
 
 class Sense(NamedTuple):
