@@ -241,6 +241,9 @@ def _pointed(mechanism: Mechanism, spots: Sequence[Spot], number: Number, value:
     (p, q), shape = spots, mechanism.shape
     x, y = shape.between(p, q)
     length = shape.span(p, q)
+    if not float(length):
+        said = f"{p[1]} and {q[1]} lie at one place, so no direction from one to the other moves anything."
+        raise SceneError(Status.UNSUPPORTED, said)
     found = math.degrees(math.atan2(float(y), float(x)))
     off = math.remainder(found - number.value, 360.0)
     written = number.value if abs(off) <= ALIGNED else number.value + off

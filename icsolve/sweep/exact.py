@@ -259,9 +259,15 @@ class RowScenes:
             raise SceneError(Status.CHANGE_POINT, ANYWHERE)
 
     def case(self, given: Mapping[int, Decimal], values: Mapping[str, Decimal]) -> Case:
-        """The case of a row: ``given`` has its inputs by node, ``values`` its varied numbers."""
+        """The case of a row: ``given`` has its inputs by node, ``values`` its varied numbers.
+
+        Raises SceneError where nothing says where a point is.
+        """
         ox, oy, scale = map(Decimal, self.scene.frame)
-        found = iter(self.exact.values(self._flat(), given))
+        flat = self.exact.values(self._flat(), given)
+        if any(value.is_nan() for value in flat):
+            raise SceneError(Status.CHANGE_POINT, ANYWHERE)
+        found = iter(flat)
         points: dict[str, Coordinates | Centroid] = {}
         with localcontext(CONTEXT):
             for name in self.points:
