@@ -1,7 +1,8 @@
 """icsolve: instant centres, and the force or torque that holds a planar mechanism in equilibrium.
 
 ``load`` a case, ``solve`` it, read the ``Answer``. Nothing is imported before it is asked for, so
-that ``import icsolve`` costs next to nothing.
+that ``import icsolve`` costs next to nothing. In a notebook a case shows its figure, an answer its worked
+solution, a sweep its curve: the values know nothing of it, and are given these methods from here.
 """
 
 from __future__ import annotations
@@ -58,9 +59,7 @@ class _Package(ModuleType):
     def __setattr__(self, name: str, value: Any) -> None:
         if isinstance(value, ModuleType):
             if name in ("case", "answer", "sweep"):  # what they hold is shown in notebooks
-                from icsolve.notebook import register
-
-                register(value)
+                _register(value)
             if name in ("solve", "sweep"):
                 value = getattr(value, name)
         super().__setattr__(name, value)
@@ -82,3 +81,54 @@ def __getattr__(name: str) -> Any:
 
 def __dir__() -> list[str]:
     return sorted(__all__)
+
+
+# --- what notebooks ask for: `_repr_svg_` and `_repr_markdown_`, of which they prefer the second ---
+
+
+def _register(room: ModuleType) -> None:
+    """Give the kinds of values of a room what notebooks ask for."""
+    for (module, kind), methods in _SHOWN.items():
+        if module == room.__name__:
+            for name, method in methods.items():
+                setattr(getattr(room, kind), name, method)
+
+
+def _case_figure(case: Case) -> str:
+    """The figure of a case as far as it is known."""
+    from icsolve.draw import draw
+
+    return draw(case)
+
+
+def _answer_figure(answer: Answer) -> str:
+    """The figure of an answer."""
+    return _case_figure(answer.case)
+
+
+def _worked_solution(answer: Answer) -> str:
+    """The worked solution with LaTeX formulas."""
+    from icsolve.explain import explain
+
+    return explain(answer.case, "md")
+
+
+def _sweep_curve(found: Sweep) -> str | None:
+    """The answers over the range; None where there is not one range to draw them over."""
+    from icsolve.draw.plot import sweep_svg
+
+    return sweep_svg(found) if len(found.vary) == 1 and len(found) else None
+
+
+def _sweep_table(found: Sweep) -> str | None:
+    """A table of the answers' ranges; None where there is a picture."""
+    from icsolve.draw.plot import sweep_markdown
+
+    return sweep_markdown(found) if len(found.vary) != 1 or not len(found) else None
+
+
+_SHOWN: dict[tuple[str, str], dict[str, Any]] = {
+    ("icsolve.case", "Case"): {"_repr_svg_": _case_figure},
+    ("icsolve.answer", "Answer"): {"_repr_svg_": _answer_figure, "_repr_markdown_": _worked_solution},
+    ("icsolve.sweep", "Sweep"): {"_repr_svg_": _sweep_curve, "_repr_markdown_": _sweep_table},
+}

@@ -11,9 +11,9 @@ from pathlib import Path
 from zlib import crc32
 
 import icsolve
-from icsolve.derivation import Known, known_of, needed_steps
 from icsolve.page import page_html
 from icsolve.page.motion import PageMotion, motion_of
+from icsolve.report.derivation import Known, known_of, needed_steps
 from sizes import FULL
 
 LIBRARY = Path(__file__).parent.parent / "cases"

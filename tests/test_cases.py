@@ -31,7 +31,7 @@ from icsolve.case import (
     Weight,
     Weld,
 )
-from icsolve.check import AGREES, DISAGREES, ERRATUM, compare, wanted
+from icsolve.report.check import AGREES, DISAGREES, ERRATUM, compare, wanted
 from icsolve.solve import solve
 
 LIBRARY = Path(__file__).parent.parent / "cases"

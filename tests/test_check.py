@@ -29,8 +29,8 @@ from icsolve.case import (
     Toward,
     Weight,
 )
-from icsolve.check import Row, compare, wanted
 from icsolve.read import load
+from icsolve.report.check import Row, compare, wanted
 from icsolve.solve import solve
 from made import four_bar_answer, four_bar_case, number, published
 

@@ -22,8 +22,8 @@ import mechanisms
 import transcribe
 from growth import random_mechanism
 from icsolve.case import Case
-from icsolve.derivation import known_of, needed_steps
 from icsolve.draw import Drawing, draw
+from icsolve.report.derivation import known_of, needed_steps
 from library import FILES, LIBRARY, sample
 from pictures import Picture, on_arrows, outside, overlaps, parsed, shapes
 from sizes import FULL

@@ -22,8 +22,8 @@ import mechanisms
 import transcribe
 from growth import random_mechanism
 from icsolve.case import Case
-from icsolve.derivation import known_of
 from icsolve.explain import explain
+from icsolve.report.derivation import known_of
 from test_draw import DEAD_CENTRE, FOUR_BAR, HOSTILE
 
 ROOT = Path(__file__).parent.parent

@@ -14,9 +14,9 @@ import pytest
 
 import icsolve
 from icsolve.cli import main
-from icsolve.derivation import known_of
 from icsolve.draw.words import answer_sentences
 from icsolve.page.gallery import ENDINGS, KINDS, exhibit, index_html
+from icsolve.report.derivation import known_of
 from pictures import parsed
 from test_draw import DEAD_CENTRE, FOUR_BAR, HOSTILE
 

@@ -17,8 +17,8 @@ from icsolve.case import Joint
 
 PACKAGE = Path(__file__).parent.parent / "icsolve"
 ROOMS = (
-    "errors units files forked numbers case wording answer structure screws assembly kinematics statics cams "
-    "read scene sweep solve check report derivation draw explain page notebook grade manual bench cli"
+    "errors units files numbers case wording answer structure screws assembly kinematics statics cams "
+    "read scene sweep solve report draw explain page grade manual bench cli"
 ).split()
 """In the order in which they may lean on one another: each only on those before it."""
 

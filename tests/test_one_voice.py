@@ -22,13 +22,13 @@ import mechanisms
 import transcribe
 from icsolve.answer import Answer
 from icsolve.case import Case, RatioIs, Torque
-from icsolve.check import value_of
-from icsolve.derivation import Known, answer_ratios, known_of
 from icsolve.draw import draw
 from icsolve.draw.words import figure_number
 from icsolve.errors import SceneError
 from icsolve.explain import explain
 from icsolve.page import page_html
+from icsolve.report.check import value_of
+from icsolve.report.derivation import Known, answer_ratios, known_of
 from icsolve.report.text import answer_text
 from icsolve.statics.power import reacting
 from icsolve.sweep.finding import Query, find

@@ -24,9 +24,9 @@ import pytest
 
 import icsolve
 from icsolve.cli import main
-from icsolve.derivation import known_of
 from icsolve.page import page_html
 from icsolve.page.motion import motion_of
+from icsolve.report.derivation import known_of
 from icsolve.scene.refusals import rubs
 from library import FILES, LIBRARY, PAGED, motion, page_of
 from test_profile_sweep import CAMS

@@ -17,12 +17,12 @@ import pytest
 
 import icsolve
 from browser import REQUIRED, Browser, NoBrowserError, browser, required
-from icsolve.derivation import known_of, needed_steps
 from icsolve.draw import Drawing, draw
 from icsolve.draw.words import figure_number, unit_word
 from icsolve.page import page_html
 from icsolve.page.figure import figure_of
 from icsolve.page.motion import PageMotion
+from icsolve.report.derivation import known_of, needed_steps
 from library import FILES, PAGED, motion, page_of, sample
 from pictures import parsed
 from test_page import hostile, ten_links

@@ -14,8 +14,8 @@ import pytest
 
 import icsolve
 from icsolve.cli import main
-from icsolve.derivation import known_of
 from icsolve.draw.words import answer_sentences
+from icsolve.report.derivation import known_of
 from pictures import parsed
 from test_draw import DEAD_CENTRE, FOUR_BAR
 

@@ -7,8 +7,8 @@ import math
 import pytest
 
 import icsolve
-from icsolve.check import compare
 from icsolve.errors import CaseError
+from icsolve.report.check import compare
 
 ARM = """\
 icsolve: 1

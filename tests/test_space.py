@@ -13,10 +13,10 @@ import pytest
 
 from icsolve import Answer, load, solve
 from icsolve.answer.space import SpatialReaction
-from icsolve.check import AGREES, compare
 from icsolve.cli import main
-from icsolve.derivation import known_of
 from icsolve.errors import CaseError, SceneError
+from icsolve.report.check import AGREES, compare
+from icsolve.report.derivation import known_of
 from icsolve.report.text import answer_text
 
 CHAPTER = Path(__file__).parent.parent / "cases" / "ch13"

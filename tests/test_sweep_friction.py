@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import icsolve
-from icsolve.forked import can_fork
+from icsolve.files import can_fork
 from icsolve.solve import attempt
 from icsolve.sweep import scenes
 

@@ -8,9 +8,19 @@ from typing import TYPE_CHECKING
 
 import click
 
-from icsolve.check import AGREES, DISAGREES, ERRATUM, HEADER, NOT_EXAMINED, Row, compare, table_row, wanted
 from icsolve.cli.options import CASES, JOBS, JSON, SET
 from icsolve.cli.run import DONE, NO_ANSWER, complain, for_each, on_stderr
+from icsolve.report.check import (
+    AGREES,
+    DISAGREES,
+    ERRATUM,
+    HEADER,
+    NOT_EXAMINED,
+    Row,
+    compare,
+    table_row,
+    wanted,
+)
 from icsolve.wording.sentences import plural
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, for_each, on_
 
 if TYPE_CHECKING:
     from icsolve.case import Case
-    from icsolve.derivation import Known
+    from icsolve.report.derivation import Known
 
 DRAWN = {".svg": "svg", ".tex": "tex"}
 EXPLAINED = {
@@ -161,8 +161,8 @@ def sheet_command(
         found: list[Exercise] = []
 
         def work(case: Case, path: str, given: Values = values, to: list[Exercise] = found) -> int:
-            from icsolve.derivation import known_of
             from icsolve.read import load
+            from icsolve.report.derivation import known_of
 
             own = {f"variables.{v.name}": given[v.name] for v in case.variables if v.name in given}
             known = known_of(load(path, own) if own else case)
@@ -226,7 +226,7 @@ def laid_out(
         return UNREADABLE
 
     def work(case: Case, path: str) -> int:
-        from icsolve.derivation import known_of
+        from icsolve.report.derivation import known_of
 
         known = known_of(case, reactions=reactions)
         code = write_output(verb, made(known), output, [argument])

@@ -99,7 +99,7 @@ def _outcomes(
     if count < 2:
         yield from (_outcome(source, work, settings) for source in every)
         return
-    from icsolve.forked import started
+    from icsolve.files import started
 
     def share(some: list[InputSource]) -> list[Outcome]:
         return [_outcome(source, work, settings) for source in some]
@@ -110,7 +110,7 @@ def _outcomes(
 
 
 def _processes(files: int) -> int:
-    from icsolve.forked import can_fork
+    from icsolve.files import can_fork
 
     return (os.cpu_count() or 1) if files >= MANY and can_fork() else 1
 

@@ -145,8 +145,7 @@ def _one(varied: Varied, people: list[Person], folder: str, figures: bool, force
 
 def _figures(varied: Varied, found: list[VariantTask], folder: str, force: bool, quiet: bool) -> None:
     """A figure for each variant, and a sheet for each student; by two processes where that pays."""
-    from icsolve.files import check_free
-    from icsolve.forked import can_fork, started
+    from icsolve.files import can_fork, check_free, started
 
     start = time.perf_counter()
     by_label: dict[str, list[VariantTask]] = {}

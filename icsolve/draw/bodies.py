@@ -10,7 +10,6 @@ from typing import NamedTuple
 import shapely
 
 from icsolve.answer.bodies import Reaction
-from icsolve.derivation import Acting, acting_loads, pulls_on
 from icsolve.draw.frame import point_parts, rims
 from icsolve.draw.links import bars, body_of, link_part, wheel_parts
 from icsolve.draw.loads import ARC, axle, heads, hidden, ways
@@ -31,6 +30,7 @@ from icsolve.draw.marks import (
 from icsolve.draw.place import Label, Soft, joined, nearest
 from icsolve.draw.scene import Part, Scene, around, together, with_labels
 from icsolve.draw.words import force_runs, name_runs, quantity
+from icsolve.report.derivation import Acting, acting_loads, pulls_on
 
 LONGEST = 78.0
 """The largest force of all links."""

@@ -14,7 +14,6 @@ from icsolve.answer import Centre
 from icsolve.case import Pair
 from icsolve.case.joints import Guided, Sliding
 from icsolve.case.names import link_order, pair_name
-from icsolve.derivation import Known, Step
 from icsolve.draw.links import guide_in_picture
 from icsolve.draw.marks import (
     AreaMark,
@@ -35,6 +34,7 @@ from icsolve.draw.marks import (
 from icsolve.draw.place import Label, Soft, clipped
 from icsolve.draw.scene import Part, Scene, around, with_labels
 from icsolve.draw.words import centre_runs, quantity
+from icsolve.report.derivation import Known, Step
 
 BEYOND = 16.0
 """How far a line of centres goes on beyond the last of them."""

@@ -11,7 +11,6 @@ from typing import NamedTuple
 import shapely
 
 from icsolve.case import Case, Pin
-from icsolve.derivation import Known, Step, all_steps, known_of, needed_steps
 from icsolve.draw.centres import centre_parts, circle_marks
 from icsolve.draw.frame import frame_parts, joint_parts, point_parts, rims, threads
 from icsolve.draw.links import DrawnBody, bars, body_of, inside_plate, link_part, outline, wheel_parts
@@ -23,6 +22,7 @@ from icsolve.draw.scene import Part, Round, Scene, outline_boxes, round_things, 
 from icsolve.draw.svg import document
 from icsolve.draw.tikz import standalone
 from icsolve.draw.words import captioned, description
+from icsolve.report.derivation import Known, Step, all_steps, known_of, needed_steps
 
 SHORT, LARGER = 52.0, 1.5
 """A mechanism with a link that would be shorter is drawn so many times larger at most."""

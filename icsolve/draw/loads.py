@@ -10,7 +10,6 @@ import shapely
 
 from icsolve.case import Area as Face
 from icsolve.case import Load, Number, Pin, Screw, Spring, Stretch, TorsionSpring, Weight
-from icsolve.derivation import Acting, acting_loads
 from icsolve.draw.links import guide_in_picture
 from icsolve.draw.marks import (
     AreaMark,
@@ -30,6 +29,7 @@ from icsolve.draw.marks import (
 from icsolve.draw.place import Label, Soft, area, joined
 from icsolve.draw.scene import BLOCK, HALF, RAIL, Part, Scene
 from icsolve.draw.words import figure_number, name_runs, quantity, unit_word
+from icsolve.report.derivation import Acting, acting_loads
 from icsolve.wording.senses import sense_as
 
 ARROW = 56.0

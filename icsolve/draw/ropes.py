@@ -14,7 +14,6 @@ from typing import NamedTuple
 import shapely
 
 from icsolve.case import Case, Rope
-from icsolve.derivation import tension_name
 from icsolve.draw.marks import Box, Disc, Mark, MarkGroup, Point, Stroke, TextRun
 from icsolve.draw.place import Label, Soft
 from icsolve.draw.scene import BeltLoop, Part, Scene, around
@@ -22,6 +21,7 @@ from icsolve.draw.words import quantity
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.numbers.given import Number
+from icsolve.report.derivation import tension_name
 from icsolve.screws.ropes import rope_parts
 
 SMALL, LARGER = 10.0, 6.0

@@ -18,11 +18,11 @@ from icsolve.case import (
 )
 from icsolve.case.joints import Mesh, Rolling, Sliding
 from icsolve.case.profiles import Circle, Flat, Knife, Roller, points_of
-from icsolve.derivation import Known
 from icsolve.draw.marks import Box, Mark, Point, View, along
 from icsolve.draw.place import Label, Placer, Soft
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS, turn_of
+from icsolve.report.derivation import Known
 from icsolve.screws.joints import mesh_weights
 from icsolve.structure.topology import Bond, topology
 

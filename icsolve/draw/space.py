@@ -12,8 +12,6 @@ from typing import NamedTuple
 
 import shapely
 
-from icsolve.derivation import Known
-from icsolve.derivation.spatial import InSpace, Push, in_space
 from icsolve.draw.bodies import GAP, rows_of
 from icsolve.draw.marks import (
     AreaMark,
@@ -37,6 +35,8 @@ from icsolve.draw.marks import (
 from icsolve.draw.place import Label, Soft, area, bar, hatched, joined, plate, tilted
 from icsolve.draw.scene import HALF, PIN, Part, around, together, with_labels
 from icsolve.draw.words import force_runs, name_runs, quantity
+from icsolve.report.derivation import Known
+from icsolve.report.derivation.spatial import InSpace, Push, in_space
 from icsolve.statics.space.figure import AXES, Vec, add, cross, dot, size, sub, times
 from icsolve.statics.space.reaction_basis import SpatialTie, kind_of
 

@@ -7,9 +7,9 @@ import re
 from collections.abc import Iterable, Sequence
 
 from icsolve.case.names import pair_name
-from icsolve.derivation import Known, Step
 from icsolve.draw.marks import Mark, MarkGroup, TextMark, TextRun, bounds, text_width
 from icsolve.draw.svg import runs_of
+from icsolve.report.derivation import Known, Step
 from icsolve.report.text import positions_text
 from icsolve.wording.senses import holding, spelt
 

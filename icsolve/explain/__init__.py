@@ -4,9 +4,9 @@ the equation of power, the answer, its check by free bodies. As text, Markdown w
 from __future__ import annotations
 
 from icsolve.case import Case
-from icsolve.derivation import Known, known_of
 from icsolve.explain.document import AsMarkdown, AsText
 from icsolve.explain.solution import solution
+from icsolve.report.derivation import Known, known_of
 
 FORMATS = ("text", "md", "html", "tex")
 

@@ -7,10 +7,10 @@ from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
 from icsolve.answer.bodies import Reaction
-from icsolve.derivation import Acting, Known, acting_loads, rope_pulls
 from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Sum, product
 from icsolve.explain.given import Figures, load_name
+from icsolve.report.derivation import Acting, Known, acting_loads, rope_pulls
 from icsolve.screws.plane import Point
 
 NOTHING = 1e-13

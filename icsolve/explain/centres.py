@@ -10,8 +10,6 @@ from icsolve.answer import Centre
 from icsolve.case import Pair
 from icsolve.case.joints import Sliding
 from icsolve.case.names import pair_name
-from icsolve.derivation import Known, Ratio, Ratios, Step
-from icsolve.derivation.ratios import ratios_of
 from icsolve.explain.document import Block, Inline, Items, Section, formula, words
 from icsolve.explain.formula import (
     Expr,
@@ -29,6 +27,8 @@ from icsolve.explain.formula import (
 from icsolve.explain.given import Figures, centre_name, place_words, rate_name
 from icsolve.explain.levers import difference, motion_name, place
 from icsolve.explain.ropes import rope_ratio, screw_ratio
+from icsolve.report.derivation import Known, Ratio, Ratios, Step
+from icsolve.report.derivation.ratios import ratios_of
 from icsolve.wording.joints import centre_words, normal_words
 from icsolve.wording.sentences import link_words
 

@@ -31,9 +31,9 @@ from icsolve.case import (
 )
 from icsolve.case.names import pair_name
 from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Knife, Polygon, Radii, Roller, Shape
-from icsolve.derivation import Known
 from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, words
 from icsolve.explain.formula import Name, Num, Quantity
+from icsolve.report.derivation import Known
 from icsolve.statics.power import is_unknown, reacting
 from icsolve.wording.joints import joint_words
 from icsolve.wording.senses import SPELT, unit_of
@@ -74,7 +74,7 @@ def figures_of(known: Known, digits: int) -> Figures:
     """The digits of a scene."""
     size = known.size
     if known.case.space is not None:
-        from icsolve.derivation.spatial import in_space
+        from icsolve.report.derivation.spatial import in_space
 
         places = in_space(known).places.values()
         size = max((abs(c) for place in places for c in place), default=0.0)

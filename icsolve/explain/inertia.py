@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from icsolve.case import ForceVector, Like, Torque
-from icsolve.derivation import Known
 from icsolve.explain.document import Block, Section, formula, words
 from icsolve.explain.formula import Name, Product, minus, product
 from icsolve.explain.given import Figures, load_name
+from icsolve.report.derivation import Known
 
 DALEMBERT = (
     "With the inertia forces of its motion among the loads a mechanism counts as in equilibrium "

@@ -7,10 +7,10 @@ import math
 from collections.abc import Mapping
 from typing import NamedTuple
 
-from icsolve.derivation import Known
 from icsolve.explain.document import Block, Inline, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Sum, Trig, product
 from icsolve.explain.given import Figures, centre_name, rate_name, speed_name
+from icsolve.report.derivation import Known
 from icsolve.screws.plane import Point
 from icsolve.wording.sentences import link_words
 

@@ -10,12 +10,12 @@ from typing import NamedTuple
 from icsolve.answer.bodies import Rubbing
 from icsolve.case import Area, Force, ForceVector, Joint, Pin, Spring, Torque, TorsionSpring, Weight
 from icsolve.case.joints import Friction
-from icsolve.derivation import Acting, Known, Ratios
-from icsolve.derivation.ratios import OneMotion, independent_motions, speed_words
 from icsolve.explain.document import Block, Items, Section, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Quotient, Sum, Trig, product
 from icsolve.explain.given import Figures, load_name
 from icsolve.explain.levers import lever, motion_name
+from icsolve.report.derivation import Acting, Known, Ratios
+from icsolve.report.derivation.ratios import OneMotion, independent_motions, speed_words
 from icsolve.screws.plane import velocity
 from icsolve.wording.sentences import listed
 

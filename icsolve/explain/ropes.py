@@ -10,12 +10,21 @@ from typing import NamedTuple
 
 from icsolve.answer.bodies import Reaction
 from icsolve.case import Rope, Screw, Torque, Weight
-from icsolve.derivation import Acting, Known, Pull, Ratio, Ratios, acting_loads, rope_pulls, tension_name
 from icsolve.explain.document import Block, Formula, Section, formula, words
 from icsolve.explain.formula import Exp, Expr, Name, Num, Quantity, Quotient, Sum, Trig, minus, product
 from icsolve.explain.given import Figures, load_name
 from icsolve.explain.levers import Lever, lever, motion_name, pivot
 from icsolve.numbers.arithmetic import FLOATS
+from icsolve.report.derivation import (
+    Acting,
+    Known,
+    Pull,
+    Ratio,
+    Ratios,
+    acting_loads,
+    rope_pulls,
+    tension_name,
+)
 from icsolve.screws.joints import guide_direction
 from icsolve.screws.plane import velocity
 from icsolve.screws.ropes import rope_parts, wrap_angle

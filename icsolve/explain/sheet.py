@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from icsolve.derivation import Known
 from icsolve.draw import tikz
 from icsolve.draw.figure import Drawing, drawn
 from icsolve.draw.marks import Mark
@@ -13,6 +12,7 @@ from icsolve.draw.words import answer_sentences
 from icsolve.explain.document import Block
 from icsolve.explain.given import asked_section, figures_of, given_section
 from icsolve.explain.typeset import AsTex, picture_tex
+from icsolve.report.derivation import Known
 
 ASKED = Drawing(centres="none", captions=False)
 DIGITS = 6

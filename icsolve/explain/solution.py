@@ -7,7 +7,6 @@ from collections.abc import Iterable, Sequence
 
 from icsolve.answer import Answer, Found
 from icsolve.case import Spring, Torque
-from icsolve.derivation import Known, Step, acting_loads, all_steps, answer_ratios, needed_steps
 from icsolve.errors import SceneError
 from icsolve.explain.centres import centre_sections, ratio_section, worked_speeds
 from icsolve.explain.document import Block, Document, Inline, Items, Section, ShownTable, words
@@ -24,6 +23,7 @@ from icsolve.explain.given import (
 from icsolve.explain.inertia import inertia_section
 from icsolve.explain.power import friction_section, motions_section, power_section
 from icsolve.explain.ropes import ropes_section, screws_section
+from icsolve.report.derivation import Known, Step, acting_loads, all_steps, answer_ratios, needed_steps
 from icsolve.report.text import positions_text
 from icsolve.statics.power import is_unknown
 from icsolve.wording.senses import holding, spelt

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
-from icsolve.derivation import Known
-from icsolve.derivation.spatial import InSpace, Push, in_space
 from icsolve.explain.bodies import NOTHING, open_number
 from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Sum, product
 from icsolve.explain.given import Figures, load_name
+from icsolve.report.derivation import Known
+from icsolve.report.derivation.spatial import InSpace, Push, in_space
 from icsolve.statics.space.figure import Vec, size, sub
 from icsolve.statics.space.reaction_basis import SpatialTie, kind_of
 from icsolve.statics.space.report import direction_words

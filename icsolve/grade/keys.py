@@ -26,7 +26,6 @@ from icsolve.case import (
     Toward,
     Weight,
 )
-from icsolve.check import value_of
 from icsolve.grade.course import Policy
 from icsolve.grade.mistakes import Wrong, Wrongs
 from icsolve.grade.mistakes.changed import Place, heading_of, place_of
@@ -47,6 +46,7 @@ from icsolve.grade.tolerance import (
 )
 from icsolve.grade.written.directions import WrittenDirection
 from icsolve.grade.written.units import UnitWord, factors_between
+from icsolve.report.check import value_of
 from icsolve.units import Unit, UnitError
 
 _SQUARE = 5.0

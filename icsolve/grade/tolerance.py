@@ -28,10 +28,10 @@ from icsolve.case import (
     TorsionSpring,
     Weight,
 )
-from icsolve.check import value_of
 from icsolve.errors import IcsolveError
 from icsolve.grade.mistakes import solved_for
 from icsolve.grade.written.units import factors_between, unit_word
+from icsolve.report.check import value_of
 from icsolve.scene.sensitivity import band
 from icsolve.units import DIMENSIONS, Unit, nearest, parse_unit, split_quantity
 

@@ -4,10 +4,10 @@ step at a time, the equation of power with live numbers, and the answer as a cur
 from __future__ import annotations
 
 from icsolve.case import Case
-from icsolve.derivation import Known, known_of, needed_steps
 from icsolve.draw.svg import sheet
 from icsolve.explain.solution import solution
 from icsolve.page.document import PageParts, html_of
+from icsolve.report.derivation import Known, known_of, needed_steps
 
 DIGITS = 6
 """Significant digits of the worked solution."""

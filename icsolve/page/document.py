@@ -15,7 +15,6 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from icsolve.case import Spring, Torque, Weight
-from icsolve.derivation import Acting, Known, Step, acting_loads
 from icsolve.draw.words import answer_sentences, name_runs, step_sentence, unit_word
 from icsolve.explain.document import Document, Formula, formula
 from icsolve.explain.formula import MATHML, Expr, Name, Num, Quotient, Sum, product
@@ -26,6 +25,7 @@ from icsolve.page.live import Live, why_presolved
 from icsolve.page.model import gain_rows
 from icsolve.page.motion import Array, PageMotion, exact, script_json
 from icsolve.page.pictures import track_svg
+from icsolve.report.derivation import Acting, Known, Step, acting_loads
 
 
 class PageEquation(NamedTuple):

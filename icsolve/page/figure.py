@@ -15,7 +15,6 @@ import shapely
 
 from icsolve.case import Force, Pin, Spring
 from icsolve.case.joints import Guided
-from icsolve.derivation import Acting, Known, Step, acting_loads
 from icsolve.draw.frame import frame_parts, joint_name, joint_parts, point_parts, rims
 from icsolve.draw.links import DrawnBody, bars, body_of, guide_in_picture, link_part, outline
 from icsolve.draw.loads import load_parts
@@ -24,6 +23,7 @@ from icsolve.draw.place import Label, Placer, joined
 from icsolve.draw.ropes import belts
 from icsolve.draw.scene import ORDER, Part, Scene, Wheel, outlines, round_things, together
 from icsolve.page.motion import Array, PageMotion, moved
+from icsolve.report.derivation import Acting, Known, Step, acting_loads
 
 ROOM = (430.0, 350.0)
 """The largest that the mechanism is drawn, through all its positions."""

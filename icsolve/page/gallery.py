@@ -11,11 +11,11 @@ from urllib.parse import quote
 
 from icsolve.case import Case, Pin, Spring
 from icsolve.case.joints import Guided, Mesh, Rolling
-from icsolve.derivation import Known, known_of
 from icsolve.draw import Drawing, draw
 from icsolve.draw.svg import escaped
 from icsolve.draw.words import answer_sentences, description
 from icsolve.page import page_html
+from icsolve.report.derivation import Known, known_of
 from icsolve.statics.power import is_unknown
 from icsolve.wording.sentences import listed
 

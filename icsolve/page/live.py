@@ -17,7 +17,6 @@ from icsolve.assembly.steps import Given, Mean, Meet, Step, aims, leading_to
 from icsolve.assembly.workspace import Key, Workspace, normalised
 from icsolve.case import Coordinates, Motion, Number, Pin
 from icsolve.case.joints import Guided, Mesh
-from icsolve.derivation import Known
 from icsolve.draw.words import unit_word
 from icsolve.kinematics.loops import ORIGIN, Bases, Tree, loop_rows, span
 from icsolve.kinematics.speeds import joint_order
@@ -25,6 +24,7 @@ from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record
 from icsolve.numbers.source import JAVASCRIPT, JAVASCRIPT_FUNCTIONS, straight_line
 from icsolve.page.fields import handles_of, text_data
+from icsolve.report.derivation import Known
 from icsolve.scene.program import Program
 from icsolve.scene.refusals import rubs
 from icsolve.screws.joints import freedoms

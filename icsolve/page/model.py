@@ -15,7 +15,6 @@ import numpy as np
 from icsolve.answer import Centre, Found
 from icsolve.case import Force, Pair, Spring, TorsionSpring, Toward, Weight
 from icsolve.case.names import pair_name
-from icsolve.derivation import Acting, Known, Step, acting_loads
 from icsolve.draw.loads import axle
 from icsolve.draw.marks import Point, View
 from icsolve.draw.scene import Scene
@@ -25,6 +24,7 @@ from icsolve.errors import Status
 from icsolve.page.figure import PageFigure
 from icsolve.page.live import Live
 from icsolve.page.motion import FINE, Array, PageMotion, compact, exact, moved, moves
+from icsolve.report.derivation import Acting, Known, Step, acting_loads
 from icsolve.wording.senses import holding, sense_as, spelt, unit_of
 
 # --- loads through a motion ------------------------------------------------------------------------------

@@ -24,10 +24,10 @@ from icsolve.case import (
 )
 from icsolve.case.joints import Guided, Mesh, without_friction
 from icsolve.case.names import pair_name
-from icsolve.derivation import Known, loaded_links
 from icsolve.draw.plot import asymptotes, dead_centres
 from icsolve.draw.words import figure_number, unit_word
 from icsolve.errors import SceneError, Status
+from icsolve.report.derivation import Known, loaded_links
 from icsolve.scene.refusals import rubs
 from icsolve.screws.plane import Point
 from icsolve.statics.power import is_unknown

@@ -9,7 +9,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from icsolve.derivation import Known, Step
 from icsolve.draw.centres import circle_marks
 from icsolve.draw.marks import Box, Mark, bounds, leaves
 from icsolve.draw.plot import PlotFrame, PlottedCurve, plot_marks
@@ -18,6 +17,7 @@ from icsolve.draw.words import description, figure_number
 from icsolve.errors import Status
 from icsolve.page.figure import PageFigure
 from icsolve.page.motion import FINE, Array, PageMotion, compact
+from icsolve.report.derivation import Known, Step
 from icsolve.wording.senses import unit_of
 
 SIZE = (440.0, 250.0)

@@ -14,7 +14,7 @@ import numpy as np
 from icsolve.assembly import case_point, placed_figure
 from icsolve.case import Case
 from icsolve.errors import SceneError
-from icsolve.forked import can_fork, started
+from icsolve.files import can_fork, started
 from icsolve.numbers.replay import Array
 from icsolve.scene import solve_scene
 from icsolve.sweep.ask import Columns

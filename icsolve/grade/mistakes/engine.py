@@ -25,7 +25,6 @@ from icsolve.case import (
     Torque,
 )
 from icsolve.case.names import pair_name
-from icsolve.check import value_of
 from icsolve.errors import IcsolveError, SceneError
 from icsolve.grade.mistakes.changed import (
     Changed,
@@ -41,6 +40,7 @@ from icsolve.grade.mistakes.changed import (
     with_load,
 )
 from icsolve.grade.mistakes.lookup import FACTORS, Wrong, plain_wrongs
+from icsolve.report.check import value_of
 from icsolve.statics.power import reacting
 
 _NOTHING = 1e-9

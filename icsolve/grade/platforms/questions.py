@@ -29,8 +29,8 @@ from icsolve.units import parse_unit
 
 def figure(case: Case) -> str:
     """The case drawn without its answer, as SVG."""
-    from icsolve.derivation import known_of
     from icsolve.draw import Drawing, draw
+    from icsolve.report.derivation import known_of
 
     return draw(case, Drawing(centres="none"), known_of(case)._replace(answer=None))
 

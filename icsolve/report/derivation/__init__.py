@@ -3,8 +3,8 @@ and how the speed of one link follows from another's. Explanations, drawings and
 
 from __future__ import annotations
 
-from icsolve.derivation.known import Acting, Known, acting_loads, known_of
-from icsolve.derivation.ratios import (
+from icsolve.report.derivation.known import Acting, Known, acting_loads, known_of
+from icsolve.report.derivation.ratios import (
     Ratio,
     Ratios,
     Step,
@@ -13,7 +13,7 @@ from icsolve.derivation.ratios import (
     loaded_links,
     needed_steps,
 )
-from icsolve.derivation.ropes import Pull, pulls_on, rope_pulls, tension_name
+from icsolve.report.derivation.ropes import Pull, pulls_on, rope_pulls, tension_name
 
 __all__ = [
     "Acting",

@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 from icsolve.case import Case
 from icsolve.case.space import SpatialTorque, TorqueVector
-from icsolve.derivation.known import Known
 from icsolve.errors import SceneError
+from icsolve.report.derivation.known import Known
 from icsolve.statics.space.figure import SpatialFigure, Vec, figure_of, in_case, times
 from icsolve.statics.space.power import wrenched
 from icsolve.statics.space.reaction_basis import SpatialTie, ties_of

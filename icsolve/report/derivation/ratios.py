@@ -17,8 +17,8 @@ from typing import NamedTuple
 from icsolve.answer import Centre
 from icsolve.case import Case, Pair, Rope, Screw
 from icsolve.case.names import link_order
-from icsolve.derivation.known import Known
-from icsolve.derivation.ropes import moving_names
+from icsolve.report.derivation.known import Known
+from icsolve.report.derivation.ropes import moving_names
 from icsolve.scene.parts import wanted_pairs
 from icsolve.scene.program import Want
 from icsolve.screws.plane import Triple

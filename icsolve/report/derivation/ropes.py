@@ -10,9 +10,9 @@ from collections.abc import Iterable
 from typing import NamedTuple
 
 from icsolve.case import Case, Rope
-from icsolve.derivation.known import Known
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS
+from icsolve.report.derivation.known import Known
 from icsolve.screws.plane import Point
 from icsolve.screws.ropes import rope_parts
 
