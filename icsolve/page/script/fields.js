@@ -77,8 +77,9 @@ function drive(degrees, link = live.input) {
 }
 function enterAll(some) {
   some.forEach((value, n) => {
+    if (value === numbers[n]) return;
     const shown = Number(value.toPrecision(10));
-    if (shown !== numbers[n]) enter(n, shown, 0, String(shown));
+    enter(n, shown, 0, String(shown));
   });
 }
 /* The choice of the input, and a slider for every other freedom. */

@@ -87,11 +87,14 @@ function drawVelocities(state) {
     }
   }
   const most = Math.max(...some.map(({ v }) => Math.hypot(...v)));
-  for (const { name, v } of most > 0 ? some : []) {
+  const several = (name) => some.filter((one) => one.name === name).length > 1;
+  const called = ({ name, link }) => `v${name}${several(name) ? ` on ${link}` : ""}`;
+  for (const one of most > 0 ? some : []) {
+    const { name, v } = one;
     const [u, w] = [(v[0] / most) * FASTEST, (-v[1] / most) * FASTEST];
-    arrow(overlay, "v-arrow", state.places[name], [u, w], `v${name}`);
+    arrow(overlay, "v-arrow", state.places[name], [u, w], called(one));
   }
-  return some.map(({ name, v }) => `v${name} = ${number(Math.hypot(...v) / live.frame[2], 4)} ${live.unit}/s`).join(", ");
+  return some.filter(({ v }) => Math.hypot(...v) > 1e-9 * most).map((one) => `${called(one)} = ${number(Math.hypot(...one.v) / live.frame[2], 4)} ${live.unit}/s`).join(", ");
 }
 /* The rotation of a link: rays from its centre, and how each point goes about it. */
 function drawRotation(state, link) {
