@@ -63,6 +63,7 @@ function bent(e, r) {
   if (!names) return false;
   const before = names.map((n) => written[n]);
   const after = names.map((n) => [points[n].x[r], points[n].y[r]]);
+  if (!after.flat().every(Number.isFinite)) return false;
   if (before.every((p, i) => before.every((q, j) => Math.abs(apart(p, q) - apart(after[i], after[j])) < 0.3))) return false;
   if (plainBody(e)) {
     show(body, false);

@@ -83,7 +83,7 @@ function drawVelocities(state) {
     const t = state.solved.twists[live.body[link]];
     for (const name of t ? names : []) {
       const v = velocity(t, state.frame[live.points[name]]);
-      if (!name.startsWith("@") && Math.hypot(...v) > 0 && !some.some((one) => one.name === name && apart(one.v, v) < 1e-9)) some.push({ name, link, v });
+      if (!name.startsWith("@") && v.every(Number.isFinite) && Math.hypot(...v) > 0 && !some.some((one) => one.name === name && apart(one.v, v) < 1e-9)) some.push({ name, link, v });
     }
   }
   const most = Math.max(...some.map(({ v }) => Math.hypot(...v)));
@@ -100,7 +100,7 @@ function drawVelocities(state) {
 function drawRotation(state, link) {
   const t = state.solved.twists[live.body[link]];
   if (!t || largest(t) === 0) return;
-  const spots = live.links[link].map((name) => state.places[name]);
+  const spots = spotsOf(state, link);
   const far = Math.abs(t[2]) * 1e7 <= Math.hypot(t[0], t[1]);
   const g = make("g", { class: "rotation" }, overlay);
   if (far) {
@@ -127,6 +127,8 @@ function drawRotation(state, link) {
   low.textContent = `ω${link} = ${number(t[2], 4)} rad/s`;
   g.appendChild(low);
 }
+/* The points of a link that have a place. */
+const spotsOf = (state, link) => live.links[link].map((name) => state.places[name]).filter((p) => p && p.every(Number.isFinite));
 const path = (places) => {
   let d = "";
   let before = null;
@@ -236,7 +238,11 @@ function drawBody(state, link) {
   const forces = found.filter((one) => !one.open && Math.hypot(...one.force) > 0);
   const most = Math.max(...forces.map((one) => Math.hypot(...one.force)), 1e-300);
   const real = forces.filter((one) => Math.hypot(...one.force) > 1e-9 * most);
-  const spots = live.links[link].map((name) => state.places[name]);
+  const spots = spotsOf(state, link);
+  if (!spots.length) {
+    said.textContent = "No point of this link has a place of its own.";
+    return;
+  }
   const middle = (n) => (Math.min(...spots.map((p) => p[n])) + Math.max(...spots.map((p) => p[n]))) / 2;
   const reach = Math.max(...spots.map((p) => Math.max(Math.abs(p[0] - middle(0)), Math.abs(p[1] - middle(1)))), 1);
   const zoom = Math.min(1, 80 / reach);
