@@ -461,6 +461,24 @@ def test_a_jib_rests_where_the_torque_on_its_drum_holds_it() -> None:
     assert position.at["angles.AB"] == pytest.approx(40, abs=1e-9)
 
 
+@pytest.mark.parametrize("name", ["O", "A-O-C"])
+def test_numbers_of_a_rope_are_set_and_varied_by_its_point(name: str) -> None:
+    path = "joints.O.mu" if name == "O" else f"joints.{name}.mu.O"
+    text = (CASES / "ropes" / "band_brake.yaml").read_text(encoding="utf-8")
+    rows = icsolve.sweep(icsolve.load(text), {path: np.array([0.5])})
+    other = icsolve.solve(icsolve.load(text.replace("mu: {O: 0.3}", "mu: {O: 0.5}")))
+    assert rows.answers["P"][0] == pytest.approx(other.answers["P"].value)
+    again = icsolve.solve(icsolve.load(text, {path: 0.5}))
+    assert again.answers["P"].value == pytest.approx(other.answers["P"].value)
+
+
+def test_a_rope_of_unknown_length_is_refused_where_a_position_is_asked() -> None:
+    text = LONG.replace("B: [0.3, 0.4], C: [1, unknown]", "C: [1, 0.5]").replace(", length: 3.2%s", "")
+    text = text.replace("torque: unknown", "torque: 9").replace("near: {C: [1, 0.4]}", "lengths: {AB: 0.5}")
+    with pytest.raises(SceneError, match=r"say at which angles\.AB the figure is written"):
+        icsolve.solve(icsolve.load(text + "angles: {AB: {unknown: [0, 90]}}\n"))
+
+
 def test_a_screw_turns_by_its_lead_in_every_row() -> None:
     case = icsolve.load(str(CASES / "tools" / "scissor_jack.yaml"))
     rows = icsolve.sweep(case, want=("answers", "points"), drive={"2": np.linspace(-20.0, 20.0, 9)})

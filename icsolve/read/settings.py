@@ -157,6 +157,10 @@ def _of_motion(node: Node, steps: list[str], text: str) -> str:
 def _of_joint(node: Node, steps: list[str], text: str) -> str:
     joints = [item for item in node.items if type(item) is Mapping] if type(node) is Sequence else []
     found = [joint for joint in joints if steps[0] in _labels(joint)]
+    rope = _of_rope(joints, steps)
+    others = [joint for joint in found if "rope" not in joint.items]
+    if rope is not None and not any(steps[1] in joint.items for joint in others):
+        return _put(*rope, text)
     place = steps.pop() if len(steps) == 3 and steps[2] in ("0", "1") else ""  # of two teeth, two radii
     if len(steps) != 2:
         return "a number of a joint is set as joints.B.mu, with the point at which the joint stands"
@@ -171,6 +175,20 @@ def _of_joint(node: Node, steps: list[str], text: str) -> str:
         both.items[int(place)] = Scalar(text, True, both.items[int(place)].mark)
         return ""
     return _put(found[0], steps[1], text)
+
+
+def _of_rope(joints: list[Mapping], steps: list[str]) -> tuple[Mapping, str] | None:
+    """Where a rope has a number of a point: ``A-O-C.mu.O``, or ``O.mu``; its ``radius`` among the radii."""
+    if len(steps) not in (2, 3):
+        return None
+    name, key, point = steps if len(steps) == 3 else ("", steps[1], steps[0])
+    for joint in joints:
+        own, through = joint.items.get("radii" if key == "radius" else key), joint.items.get("rope")
+        items = through.items if type(through) is Sequence else []
+        names = [item.text for item in items if type(item) is Scalar]
+        if names and type(own) is Mapping and point in own.items and name in ("", "-".join(names)):
+            return own, point
+    return None
 
 
 def _of_that_key(joints: list[Mapping], key: str) -> list[Mapping]:

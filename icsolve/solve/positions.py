@@ -88,6 +88,7 @@ def find_positions(
     """
     low, high = span or whole_range(case, path)
     if start is None:
+        _refuse_ropes(case, path)
         functions, complete = load_functions(case, path, low, high)
         refuse_history(case, functions[0])
         refuse_unposed(functions[0])
@@ -174,6 +175,18 @@ def refuse_history(case: Case, function: LoadFunction) -> None:
                 Status.UNDERDETERMINED,
                 f"{what} counts from the position as written, and link {link} turns: say at which "
                 f"{function.path} the figure is written, as in {{unknown: [0, 360], from: 30}}.",
+            )
+
+
+def _refuse_ropes(case: Case, path: str) -> None:
+    """Refuse ropes that are fixed at both ends, and of which nothing says how long they are."""
+    for rope in case.ropes:
+        if not rope.is_free and rope.length is None:
+            raise SceneError(
+                Status.UNDERDETERMINED,
+                f"the rope {rope.name} keeps the length that it has in the position as written: say at which "
+                f"{path} the figure is written,"
+                " as in {unknown: [0, 360], from: 30}, or give its `length`.",
             )
 
 
