@@ -5,7 +5,7 @@
 Draws so many mutants from a seed over the rooms of `ROOMS`, each in a copy of the project, and runs the
 quick tests that are nearest to its room first, with -x and a time limit. Prints a line for each, and at the
 end how many died. `EQUIVALENT` has those that change no answer, with the reason; they do not count. Not a
-test itself: 200 mutants take an hour or two of one core.
+test itself: 200 mutants take some hours of one core.
 """
 
 from __future__ import annotations

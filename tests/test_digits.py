@@ -223,3 +223,15 @@ ONCE_WRONG = sorted((Path(__file__).parent / "data" / "digits").glob("*.yaml"))
 @pytest.mark.parametrize("file", ONCE_WRONG, ids=lambda file: file.stem)
 def test_scenes_that_were_once_wrong(file: Path) -> None:
     check(file.read_text())
+
+
+@pytest.mark.parametrize("speed", [3.0, 0.125])
+def test_all_rates_go_with_the_given_speed(speed: float) -> None:
+    """A mutant that divided by the speed lived."""
+    text = beside_a_dead_centre(Random("beside 0"))
+    given = [f"{text}motion: {{link: 2, turns: cw, speed: {w} rad/s}}\n" for w in (1, speed)]
+    one, many = (icsolve.solve(icsolve.load(case), rates=True).rates for case in given)
+    assert one is not None
+    assert many is not None
+    assert many["2"] == -speed
+    assert many == pytest.approx({link: speed * float(rate) for link, rate in one.items()}, rel=1e-15)
