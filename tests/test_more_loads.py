@@ -279,3 +279,26 @@ def test_an_end_of_a_linear_load_is_set_by_its_number() -> None:
     uniform = press(LOADS["linear"].replace("[20, -50]", "20"))
     there, here = (icsolve.solve(case).answers["T12"].value for case in (set_to, uniform))
     assert there == pytest.approx(here, rel=1e-13)
+
+
+@pytest.mark.parametrize("angle", [0.0, 30.0, 1e-9])
+def test_a_spring_that_is_free_at_no_length_pulls_nothing_where_its_points_meet(angle: float) -> None:
+    """T = 2 W cos u + 4 k sin(u - v), the spring of a crank of 2 fixed where its end is at v, 30 or 0."""
+    fixed = "D: [2, 0]" if angle < 30.0 else "D: [1.7320508075688772, 1]"
+    text = f"""icsolve: 1
+points: {{A: [0, 0], {fixed}}}
+lengths: {{AB: 2}}
+angles: {{AB: {angle!r}}}
+joints:
+  - {{pin: [1, 2], at: A}}
+loads:
+  W: {{weight: 10, link: 2, at: B}}
+  S: {{spring: 30 N/m, free: 0, link: 2, at: B, to: D}}
+  T: {{torque: unknown, link: 2}}
+"""
+    found = icsolve.solve(icsolve.load(text), reactions=True).answers["T"]
+    to = math.radians(0.0 if angle < 30.0 else 30.0)
+    u = math.radians(angle)
+    assert found.value == pytest.approx(20.0 * math.cos(u) + 120.0 * math.sin(u - to), abs=1e-12)
+    row = icsolve.sweep(icsolve.load(text), vary={"angles.AB": [angle - 5.0, angle, angle + 5.0]})
+    assert row.answers["T"][1] == pytest.approx(found.value, abs=1e-12)

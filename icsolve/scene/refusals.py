@@ -33,7 +33,7 @@ def refuse_loose(case: Case, top: Topology) -> None:
 
 def refuse_no_direction(case: Case, top: Topology, points: Points) -> None:
     """Refuse loads, guides and wheels whose direction two points give that lie at one place."""
-    lines = [(f"load {load.name}", power.line_of(load)) for load in case.loads]
+    lines = [(f"load {load.name}", power.line_of(load)) for load in case.loads if not power.may_vanish(load)]
     for bond in top.bonds:
         names = sentences.listed(bond.links)
         guide = bond.joint.guide

@@ -106,6 +106,11 @@ def points_of(load: Load) -> tuple[str, ...]:
     return (load.at, *toward)
 
 
+def may_vanish(load: Load) -> bool:
+    """Whether a load is nothing where its two points meet: a spring that is free at no length."""
+    return isinstance(load, Spring) and load.free.value == 0.0
+
+
 def line_of(load: Load) -> tuple[str, str] | None:
     """The two points that give a load its direction, where points do."""
     if isinstance(load, Spring):
@@ -138,6 +143,10 @@ def _unit_wrench(
             if load.mass:
                 gain = arithmetic.given(case.gravity) * arithmetic.ratio(case.units.exact_newton)
             return force_wrench((0.0, -1.0), points[load.at]), gain
+        case Spring() if may_vanish(load) and not any(
+            float(b - a) for a, b in zip(points[load.at], points[load.to], strict=True)
+        ):
+            return (0.0, 0.0, 0.0), 0.0
         case Spring():
             toward, length = _between(points[load.at], points[load.to], arithmetic)
             stretch = length / frame.scale - arithmetic.given(load.free)
