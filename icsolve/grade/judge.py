@@ -127,7 +127,7 @@ def judge(key: NumberKey, written: WrittenAnswer) -> Judgement:
     if flag:
         return _unjudged(flag)
     if key.plain and not note:
-        factor = 1.0 if unit is None else key.factor(unit)
+        factor = 1.0 if unit is None else key.factors.get(unit.name) or key.factor(unit)
         sign = 1 if way is None else key.sign(way)
         if factor and sign:
             value, right, half = number * factor * sign, key.value, key.half
