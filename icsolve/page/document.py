@@ -141,11 +141,19 @@ PARTS = tuple("data scene live moving centres labels words position construction
 """The parts of the script, in the order in which they run: each uses those before it."""
 
 
+_SPACES = re.compile(r" *([{}()\[\];,:?=+\-*<>&|!%]) *")
+
+
 @cache
 def _parts() -> str:
-    """What is the same in the script of every page, without its comments and indents."""
+    """What is the same in the script of every page, without its comments, indents and (in lines without any
+    quote or slash) spaces around signs."""
     text = "".join((HERE / "script" / f"{part}.js").read_text(encoding="utf-8") for part in PARTS)
-    return re.sub(r"^\s*/\*.*?\*/\s*|^\s+", "", text, flags=re.MULTILINE | re.DOTALL)
+    text = re.sub(r"^\s*/\*.*?\*/\s*|^\s+", "", text, flags=re.MULTILINE | re.DOTALL)
+    lines = text.split("\n")
+    return "\n".join(
+        line if re.search(r"[\"'`/]|[-+] [-+]", line) else _SPACES.sub(r"\1", line) for line in lines
+    )
 
 
 def script(live: Live | None) -> str:
