@@ -320,6 +320,8 @@ def pi() -> Decimal:
 @lru_cache(maxsize=64)
 def cos_sin(degrees: Decimal) -> tuple[Decimal, Decimal]:
     """Cosine and sine of an angle in degrees, exact at multiples of 90."""
+    if degrees.adjusted() > DIGITS // 2:  # so many turns leave no digit of the angle
+        return Decimal("NaN"), Decimal("NaN")
     with localcontext(CONTEXT):
         reduced = degrees % 360
         quarter = int((reduced / 90).to_integral_value())

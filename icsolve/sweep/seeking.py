@@ -27,6 +27,9 @@ CLOSED = 1e-12
 FLAT = 1e-7
 """A peak, to which an answer is flat, to this."""
 GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0
+MOST_SCENES = 1200
+"""Scenes that are solved before a search ends with what it has."""
+MANY = "so much changes in this range that not all of it was closed in on: take a shorter one."
 SAID = (
     "each position is a scene of its own: the range was searched at {count} places, and two positions "
     "between two of them may be missed."
@@ -64,6 +67,10 @@ class Spots(list[Spot]):
     notes: tuple[str, ...] = ()
 
 
+class _EnoughError(Exception):
+    """A search has solved so many scenes that it ends."""
+
+
 class Scenes:
     """Positions along one number, scene by scene."""
 
@@ -72,6 +79,7 @@ class Scenes:
         self.load = query.load or next(load.name for load in case.loads if is_unknown(load))
         values = columns.arrays[name]
         self.places = np.linspace(values.min(), values.max(), PLACES + 1)
+        self.scenes = 0
         self.width = CLOSED * float(np.ptp(values))
 
     def spots(self) -> Spots:
@@ -80,12 +88,21 @@ class Scenes:
         if (codes == CODE["holds"]).any():
             raise SceneError(Status.UNSUPPORTED, HOLDS.format(load=self.load))
         finder = {"value": self._values, "max": self._peaks, "dead": self._dead}[self.query.kind]
-        spots = Spots(sorted(finder(found, codes), key=lambda spot: spot.at))
+        spots = Spots()
         spots.notes = (SAID.format(count=PLACES),)
+        try:
+            for spot in finder(found, codes):
+                spots.append(spot)
+        except _EnoughError:
+            spots.notes += (MANY,)
+        spots.sort(key=lambda spot: spot.at)
         return spots
 
     def _swept(self, at: Array) -> tuple[Array, Codes]:
         """The answer and the status (its code) at places."""
+        self.scenes += len(at)
+        if self.scenes > MOST_SCENES:
+            raise _EnoughError
         rows = {own: np.full(len(at), float(a[0])) for own, a in self.columns.arrays.items()}
         rows[self.name] = at
         vary = {own: rows[own] for own in self.columns.paths}
