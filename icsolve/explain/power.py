@@ -194,6 +194,8 @@ def rubbed(known: Known, reference: str) -> list[Rubbed]:
     x, y, w = known.twists[reference]
     turns = known.turns(reference)
     speed = w if turns else math.hypot(x, y)
+    if not speed:  # what the motion is told by stands still as written
+        return []
     found = []
     for term in answer.terms:
         if not term.load.startswith(FRICTION):
