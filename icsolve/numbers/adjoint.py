@@ -19,8 +19,20 @@ DEGREE = math.pi / 180.0
 def gradient(record: Record, target: Scalar, inputs: Iterable[int]) -> dict[int, Scalar]:
     """The derivatives of ``target`` by the nodes ``inputs``: numbers of the record, or 0.0.
 
-    Angles are in degrees: a derivative by one is per degree. A root at zero has none (division by zero
-    when it is run).
+    Reverse differentiation (A. Griewank and A. Walther, Evaluating Derivatives, 2nd ed. 2008, ch. 3): all
+    derivatives of one value cost a few times that value.
+
+    Parameters
+    ----------
+    record : the record in which ``target`` stands; the derivatives are written to it as new nodes
+    target : number of the record, or a plain number
+    inputs : indices of nodes
+
+    Returns
+    -------
+    dict[int, Scalar]
+        By input: the derivative [units of the target over those of the input; per degree by an angle], 0.0
+        where the target does not depend on it. A root at zero has none: when it is run it divides by zero.
     """
     wanted = tuple(inputs)
     result: dict[int, Scalar] = dict.fromkeys(wanted, 0.0)
@@ -41,7 +53,7 @@ def gradient(record: Record, target: Scalar, inputs: Iterable[int]) -> dict[int,
 
 
 def behind(record: Record, target: int) -> list[int]:
-    """The nodes that vary and lead to a node, itself among them, in order."""
+    """The nodes that vary from row to row and lead to the node ``target``, itself among them, in order."""
     seen: set[int] = set()
     stack = [target]
     while stack:

@@ -20,15 +20,17 @@ RADIAN = math.pi / 180.0
 
 
 def magnitude(value: Scalar) -> float:
-    """Largest absolute value: of a float, a number on a tape, an array."""
+    """Largest absolute value of a float, a number on a tape or of a record, a ball, or an array of any shape.
+    """
     size = abs(value)
     return size if type(size) is float else float(size.max() if hasattr(size, "max") else size)
 
 
 def turn_of(degrees: float) -> tuple[float, float]:
-    """Cosine and sine of an angle in degrees; exact at multiples of 90.
+    """Cosine and sine of an angle [degrees]; exact at multiples of 90.
 
-    The angle is reduced exactly (``fmod``) to within 45 degrees of an axis before it meets pi.
+    The angle is reduced exactly (``fmod``) to within 45 degrees of an axis before it meets pi, so that a
+    large angle loses nothing. Raises ValueError for an infinite angle.
     """
     reduced = math.fmod(degrees, 360.0)
     quarter = round(reduced / 90.0)
@@ -114,7 +116,9 @@ FLOATS = Floats()
 
 
 def decider(a: Arithmetic) -> Callable[[Scalar, float], bool] | None:
-    """What decides whether a number is zero, where it is known for certain; None in floats."""
+    """The test for zero of an arithmetic that knows it for certain (balls); None in floats, where a caller
+    takes a threshold of its own.
+    """
     return a.vanishes if getattr(a, "certain", False) else None
 
 
@@ -129,9 +133,17 @@ def zero_of(value: Scalar) -> Scalar:
 
 
 def all_vanish(a: Arithmetic, terms: Iterable[tuple[Scalar, float]]) -> bool:
-    """Whether values are zero, all of them; each stands with the size of its terms.
+    """Whether all values are zero.
 
-    One that is not settles it, though others be open.
+    Parameters
+    ----------
+    a : arithmetic of the values, which decides (`Arithmetic.vanishes`)
+    terms : pairs of a value and the size of the products that it is summed from, same units
+
+    Raises
+    ------
+    MoreDigits
+        Of balls, where it is open; not where one value is certainly not zero, though others be open.
     """
     terms = list(terms)
     if any(getattr(value, "is_certain", False) and not a.vanishes(value, size) for value, size in terms):

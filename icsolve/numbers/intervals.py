@@ -2,7 +2,8 @@
 
 Every operation rounds outward by an ulp or more, so that an enclosure holds all values that exact arithmetic
 takes over the range (R. E. Moore, R. B. Kearfott and M. J. Cloud, Introduction to Interval Analysis, 2009).
-Where a value does not exist (a root of what is negative, a quotient by what may be zero) it is unbounded.
+A quotient by what may be zero is unbounded; of a radicand its part that is not negative counts, and where
+there is none the root is 0: whoever asks whether a figure exists asks the radicands.
 """
 
 from __future__ import annotations
@@ -29,7 +30,17 @@ class Interval(NamedTuple):
 def enclose(record: Record, wanted: Sequence[int], given: Mapping[int, Interval]) -> list[Interval]:
     """Enclosures of the wanted nodes for intervals of the inputs.
 
-    Constants are widened by their noise; an input that is not given keeps its value.
+    Parameters
+    ----------
+    record : the record
+    wanted : indices of nodes
+    given : by node, an interval with ends of shape (n,), the same n for all; degrees for angles
+
+    Returns
+    -------
+    list[Interval]
+        Ends of shape (n,); () where nothing that is given leads to the node. Constants are widened by their
+        noise; an input that is not given keeps the value with which it was recorded.
     """
     nodes = record.nodes
     found: dict[int, Interval] = dict(given)

@@ -22,7 +22,13 @@ RADIAN = float(np.pi / 180.0)
 
 
 class BallArray(NamedTuple):
-    """Numbers between ``mid - rad`` and ``mid + rad``, (cells,)."""
+    """Numbers between ``mid - rad`` and ``mid + rad``.
+
+    Attributes
+    ----------
+    mid : (cells,)
+    rad : (cells,), not negative; infinite where nothing is known
+    """
 
     mid: Array
     rad: Array
@@ -44,12 +50,12 @@ class BallArray(NamedTuple):
         return BallArray(-self.mid, self.rad)
 
     def times(self, factor: float) -> BallArray:
-        """A multiple."""
+        """A multiple by an exact factor."""
         mid = self.mid * factor
         return BallArray(mid, self.rad * abs(factor) * (1.0 + ROUNDED) + ROUNDED * np.abs(mid))
 
     def inverse(self) -> BallArray:
-        """Of numbers that have zero among them: all numbers."""
+        """1 over the numbers; radius infinite where zero is among them."""
         size = np.abs(self.mid)
         low = size - self.rad
         mid = 1.0 / self.mid
@@ -59,7 +65,7 @@ class BallArray(NamedTuple):
         )
 
     def root(self) -> BallArray:
-        """Square root of those that are not negative."""
+        """Square root of those that are not negative; 0 where all are negative."""
         high = np.sqrt(np.maximum(self.mid + self.rad, 0.0))
         low = np.sqrt(np.maximum(self.mid - self.rad, 0.0))
         mid = 0.5 * (high + low)
@@ -72,12 +78,19 @@ class BallArray(NamedTuple):
 
     @property
     def excludes_zero(self) -> np.typing.NDArray[np.bool_]:
-        """Where none of the numbers is zero."""
+        """Where none of the numbers is zero, (cells,)."""
         return np.asarray(np.abs(self.mid) > self.rad)
 
 
 class Jet(NamedTuple):
-    """A value and its first two derivatives by the input."""
+    """A value and its first two derivatives by the one input of `Cells`.
+
+    Attributes
+    ----------
+    value, first, second : (cells,) each [unit, unit per unit of the input, and per its square; angles in
+        degrees]. Sums, products and so on follow from Leibniz' rule, and enclose (R. E. Moore, Interval
+        Analysis, 1966).
+    """
 
     value: BallArray
     first: BallArray
@@ -97,7 +110,7 @@ class Jet(NamedTuple):
         return Jet(a * b, a1 * b + a * b1, a2 * b + (a1 * b1).times(2.0) + a * b2)
 
     def over(self, other: Jet) -> Jet:
-        """Quotient."""
+        """Quotient; unbounded in the cells in which ``other`` may be zero."""
         (a, a1, a2), (b, b1, b2) = self, other
         inverse = b.inverse()
         q = a * inverse
@@ -105,7 +118,13 @@ class Jet(NamedTuple):
         return Jet(q, q1, (a2 - (q1 * b1).times(2.0) - q * b2) * inverse)
 
     def within(self, middle: Jet, half: Array) -> Jet:
-        """The narrower of these bounds and those about the middles of the cells."""
+        """The narrower of these bounds and of those about the middles of the cells (mean value form).
+
+        Parameters
+        ----------
+        middle : the same jet at the middles
+        half : (cells,), half-widths of the cells
+        """
         bend = np.abs(self.second.mid) + self.second.rad
         slope = np.abs(middle.first.mid) + middle.first.rad
         value = BallArray(middle.value.mid, middle.value.rad + slope * half + bend * half * half)
@@ -113,7 +132,7 @@ class Jet(NamedTuple):
         return Jet(self.value.narrower(value), self.first.narrower(first), self.second)
 
     def root(self) -> Jet:
-        """Square root."""
+        """Square root; its derivatives are unbounded where the value may be zero."""
         a, a1, a2 = self
         s = a.root()
         half = s.inverse().times(0.5)
@@ -121,7 +140,7 @@ class Jet(NamedTuple):
         return Jet(s, s1, (a2 - (s1 * s1).times(2.0)) * half)
 
     def cos_sin(self) -> tuple[Jet, Jet]:
-        """Cosine and sine, of degrees."""
+        """Cosine and sine of an angle [degrees]."""
         x, x1, x2 = (part.times(RADIAN) for part in self)
         c, s = np.cos(x.mid), np.sin(x.mid)
         wide = np.minimum(x.rad, 4.0)
@@ -135,7 +154,9 @@ class Jet(NamedTuple):
         )
 
     def direction(self, other: Jet) -> Jet:
-        """Direction of a vector (self, other), degrees in (-180, 180]."""
+        """Direction of a vector (self, other) [degrees]; the middle in (-180, 180], widened by a whole turn
+        in cells that hold the cut, unbounded where they hold the origin.
+        """
         (x, x1, x2), (y, y1, y2) = self, other
         inverse = (x * x + y * y).inverse()
         turned = (x * y1 - y * x1) * inverse
@@ -156,7 +177,15 @@ class Jet(NamedTuple):
 
 
 class Cells:
-    """A record over cells of one input; ``inputs`` are the numbers of the others (those that vary, too)."""
+    """A record over cells of one input.
+
+    Parameters
+    ----------
+    record : the record
+    wanted : indices of nodes
+    main : node of the input that runs through the cells
+    inputs : by node, the numbers of the other inputs (those that vary, too); 0 of one that is not there
+    """
 
     def __init__(self, record: Record, wanted: Sequence[int], main: int, inputs: Mapping[int, float]) -> None:
         self.record, self.wanted, self.main, self.inputs = record, tuple(wanted), main, inputs
@@ -167,6 +196,15 @@ class Cells:
 
         What a root is taken of, and what is divided by, has the narrower of its bounds: that of its own
         terms, or that about the middle.
+
+        Parameters
+        ----------
+        mid, half : (cells,) [unit of the main input; degrees for an angle]; ``half`` is not negative
+
+        Returns
+        -------
+        tuple[list[Jet], list[Jet]]
+            A jet a wanted node: over the cells, and at the middles (whose derivatives hold there alone).
         """
         whole: dict[int, Jet] = {}
         middle: dict[int, Jet] = {}

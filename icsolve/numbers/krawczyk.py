@@ -32,7 +32,23 @@ WIDEST = 1e-6
 def enclosed_root(system: System, start: Sequence[float], balls: Balls) -> list[Ball]:
     """Balls that hold the one root near a start.
 
-    Raises MoreDigits where that is not shown.
+    Parameters
+    ----------
+    system : at n balls, the values of n equations and, a row each, their derivatives by the unknowns that
+        bear on it (by index); derivatives over a box have to hold all those in it
+    start : (n,) [frame of size 1]: near enough that Newton steps with the inverse held close in on the root
+    balls : the arithmetic, whose digits say how narrow the enclosure becomes
+
+    Returns
+    -------
+    list[Ball]
+        (n,): inside them there is one root for every system that the data of ``system`` hold.
+
+    Raises
+    ------
+    MoreDigits
+        Where that is not shown: the Jacobian is singular or near it, the start is far from any root, or the
+        data are too wide. It does not say that there is no root.
     """
     middle = [Decimal(x) for x in start]
     rows = system([balls.exactly(x) for x in middle])[1]

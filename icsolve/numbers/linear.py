@@ -14,7 +14,25 @@ SINGULAR = 1e-14
 def solve_square(
     matrix: Sequence[Sequence[Scalar]], right: Sequence[Scalar], vanishes: Vanishes | None = None
 ) -> list[Scalar] | None:
-    """x with ``matrix @ x = right``; None where the matrix is singular, of balls where it ``vanishes``."""
+    """x with ``matrix @ x = right``, by elimination with partial pivoting.
+
+    Parameters
+    ----------
+    matrix : (n, n), by rows: floats, complex numbers or balls; not changed
+    right : (n,)
+    vanishes : of balls, what decides whether a pivot is zero, by the size of its column
+
+    Returns
+    -------
+    list[Scalar] | None
+        (n,); None where the matrix is singular: a pivot below 1e-14 of the largest entry of its column as
+        given, of balls one that ``vanishes``.
+
+    Raises
+    ------
+    MoreDigits
+        Of balls, where it is open whether a pivot is zero.
+    """
     n = len(matrix)
     work = [[*row, b] for row, b in zip(matrix, right, strict=True)]
     sizes = [max((abs(entries[c]) for entries in matrix), default=0.0) for c in range(n)]
@@ -52,7 +70,7 @@ def _back(work: list[list[Scalar]]) -> list[Scalar]:
 
 
 def inverse(matrix: Sequence[Sequence[float]]) -> list[list[float]] | None:
-    """The inverse of a small matrix, by rows; None where it is singular."""
+    """The inverse of a small matrix (n, n), by rows; None where it is singular (as in `solve_square`)."""
     n = len(matrix)
     columns = [solve_square(matrix, [float(r == c) for r in range(n)]) for c in range(n)]
     if any(column is None for column in columns):

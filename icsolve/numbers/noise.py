@@ -13,12 +13,17 @@ ANGLE_NOISE = 720.0 * UNIT
 
 
 def noise_of(record: Record, value: Scalar) -> float:
-    """Bound on the error of an expression that is the same in every row."""
+    """Bound on the error of an expression that is the same in every row [its units]; 0 of a plain number."""
     return still_noise(record, value.index) if isinstance(value, Traced) else 0.0
 
 
 def still_noise(record: Record, target: int) -> float:
-    """Bound on the error of a value that is the same in every row."""
+    """Bound, to first order, on the error of the node ``target``, which is the same in every row [its units].
+
+    The sum over all nodes behind it of the derivative by the node times the node's own rounding (the running
+    error bound of N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2002, sec. 3.3, by reverse
+    differentiation).
+    """
     weights = {target: 1.0}
     bound = 0.0
     for k in range(target, -1, -1):

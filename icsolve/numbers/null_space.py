@@ -19,8 +19,15 @@ Vanishes = Callable[[Scalar, float], bool]
 
 
 class NullSpace(NamedTuple):
-    """``basis`` has one vector (of all columns) per freedom; ``pivots`` fall in size, as fractions of
-    the largest; ``dropped`` is the largest fraction that was taken for zero."""
+    """All solutions of homogeneous equations in n unknowns.
+
+    Attributes
+    ----------
+    basis : n - rank vectors, (n,) each: in each one free unknown is 1 and the other free ones 0
+    rank : number of pivots
+    pivots : (rank,), sizes as fractions of the first, which was the largest entry; a later one may exceed it
+    dropped : the size, as such a fraction, of the largest entry that was taken for zero
+    """
 
     basis: tuple[tuple[Scalar, ...], ...]
     rank: int
@@ -35,10 +42,22 @@ def null_space(
     unit: float = 0.0,
     vanishes: Vanishes | None = None,
 ) -> NullSpace:
-    """All x with ``rows @ x = 0``; a pivot below ``zero`` times the number of rows counts as none.
+    """All x with ``rows @ x = 0``, by elimination with complete pivoting.
 
-    The pivots are measured by the first, and that by ``unit``: where all rows are rounding, none counts.
-    With ``vanishes`` (of balls) that decides: a pivot is the largest that is certainly not zero.
+    Parameters
+    ----------
+    rows : (m, columns) of any number type whose ``abs`` is a float; not changed. Rows are weighed by their
+        size: units should be such that entries compare (a frame of size 1)
+    columns : number of unknowns, also where there are no rows
+    zero : a pivot below this fraction of the first, times m, counts as none
+    unit : the first pivot is measured by itself or this, whichever is larger: where all rows are
+        rounding of terms of this size, none counts
+    vanishes : of balls, what decides instead: a pivot is the largest that is certainly not zero
+
+    Raises
+    ------
+    MoreDigits
+        Of balls, where it is open whether all that is left is zero.
     """
     work = [list(row) for row in rows]
     order = list(range(columns))

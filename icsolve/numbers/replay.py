@@ -27,7 +27,10 @@ BINARY = {Op.ADD: np.add, Op.SUB: np.subtract, Op.MUL: np.multiply, Op.DIV: np.d
 
 
 def live(record: Record, wanted: Iterable[int], given: Collection[int]) -> list[int]:
-    """The nodes that vary and lead to the wanted ones from the given ones, in order."""
+    """The nodes that vary and lead to the wanted ones from the given ones, in the order of the record.
+
+    Nodes that are the same in every row are left out: their values stand in the record.
+    """
     nodes, seen = record.nodes, set[int]()
     stack = [k for k in wanted if nodes[k].row]
     while stack:
@@ -41,7 +44,9 @@ def live(record: Record, wanted: Iterable[int], given: Collection[int]) -> list[
 
 
 def not_negative(values: Array, out: Array) -> None:
-    """The values, with zero where they are negative."""
+    """Write ``values``, (n,), with zero where they are negative, to ``out``, (n,): radicands below zero by
+    rounding.
+    """
     np.maximum(values, 0.0, out=out)
 
 
@@ -51,8 +56,8 @@ class Code:
     Parameters
     ----------
     record : the record, which may grow afterwards
-    wanted : nodes whose values are asked for
-    given : nodes whose values are put in: inputs, and what was found by other means
+    wanted : indices of the nodes whose values are asked for
+    given : indices of the nodes whose values are put in: inputs, and what was found by other means
     keep : whether every value is kept, for a pass backwards
     """
 
@@ -93,7 +98,10 @@ class Code:
         return place, count
 
     def bound(self, rows: int) -> tuple[list[Step], Array]:
-        """The steps on buffers for so many rows (few rows: up to the next power of two), one set a thread."""
+        """The steps and their buffers, (buffers + 2, room), for so many rows.
+
+        ``room`` is ``rows``, or for few rows the next power of two; there is one set a thread.
+        """
         room = rows if rows > FEW else max(LEAST, 1 << (rows - 1).bit_length())
         key = (room, get_ident())
         if key not in self._bound:
@@ -135,9 +143,25 @@ class Code:
         return found
 
     def run(self, given: Mapping[int, Array], rows: int) -> list[Array]:
-        """The wanted nodes for the given ones (each of so many rows, or one number).
+        """The wanted nodes for the given ones.
 
-        The arrays are the code's own buffers: they hold until the next run.
+        Parameters
+        ----------
+        given : by node, an array (rows,) or one number for all rows; inputs that lead to no wanted node may
+            fail
+        rows : how many rows, 1 at least
+
+        Returns
+        -------
+        list[Array]
+            For each wanted node (rows,), or () where it is the same in every row. They are views of the
+            code's own buffers: they hold until the next run in this thread. Angles are in degrees.
+
+        Raises
+        ------
+        KeyError
+            Where an input that leads to a wanted node is not given. Numbers raise nothing: what does not
+            exist is nan or inf, but a root of what is negative is 0.
         """
         steps, buffers = self.bound(rows)
         for k in self.given:
@@ -148,7 +172,7 @@ class Code:
         return [self._cut(k, buffers, rows) for k in self.wanted]
 
     def place_of(self, k: int, room: int) -> Array:
-        """The whole buffer of a node (or its number) in runs of so many rows."""
+        """The whole buffer of a node, (room,) with ``room`` at least ``rows``; () where it does not vary."""
         return self._value(k, self.bound(room)[1])
 
     def _cut(self, k: int, buffers: Array, rows: int) -> Array:
@@ -156,16 +180,26 @@ class Code:
         return value[:rows] if value.ndim else value
 
     def value(self, k: int, rows: int) -> Array:
-        """A node's value in the last run of so many rows (of any node, where all are kept)."""
+        """A node's value in the last run of so many rows, (rows,), or () where it does not vary.
+
+        Only of wanted and given nodes, or of any where all are kept: the buffer of another may hold something
+        else by now.
+        """
         return self._cut(k, self.bound(rows)[1], rows)
 
 
 def turn(degrees: Array, cosine: Array | None, sine: Array | None, a: Array, b: Array) -> None:
-    """Cosine and sine of angles in degrees, exact at multiples of 90; ``a`` and ``b`` are scratch.
+    """Cosine and sine of angles, exact at multiples of 90 degrees.
 
     As `arithmetic.turn_of`: reduced exactly to r within 45 degrees of an axis before pi is met.
     With m quarter turns (-2 to 2) the cosine is ``cos r (1 - |m|) + sin r m (|m| - 2)``, and cos r is
     the root of ``(1 - sin r)(1 + sin r)``, which loses nothing so near to 1.
+
+    Parameters
+    ----------
+    degrees : (n,) [degrees]
+    cosine, sine : (n,), written to; None where it is not asked for
+    a, b : (n,), scratch
     """
     c, s = np.empty_like(a), np.empty_like(a)
     quarters = np.rint(np.divide(degrees, 90.0, a), a)

@@ -11,10 +11,12 @@ ULP = 2.0**-52
 
 
 def zero_between(f: Function, a: float, b: float, at_a: float, at_b: float) -> float:
-    """The zero between a and b, where f has the values at_a and at_b of different signs.
+    """The zero of f between a and b, where f has the values at_a and at_b of different signs.
 
     R. P. Brent, Algorithms for Minimization without Derivatives, 1973, ch. 4: secants and inverse quadratics
-    where they shrink the interval quickly, halvings else.
+    where they shrink the interval quickly, halvings else. f is called 120 times at most, and not at the ends;
+    its argument comes out to an ulp. Of several zeros it finds one; at a jump from one sign to the other, the
+    jump. That the signs differ is not checked.
     """
     c, at_c = a, at_a
     step = before = b - a

@@ -18,14 +18,26 @@ Points = Mapping[str, Point]
 
 
 def freedoms(bond: Bond, points: Points, arithmetic: Arithmetic) -> tuple[Triple, ...]:
-    """Basis twists (normalised frame) that the bond leaves to its two bodies."""
+    """Basis twists that the bond leaves to its two bodies.
+
+    Parameters
+    ----------
+    bond : joint between two bodies, with the pivots of its links where it is a mesh
+    points : by name, (x, y) [frame]; those of `points_of`
+    arithmetic : of the points
+
+    Returns
+    -------
+    tuple[Triple, ...]
+        One (pin, slide) or two (slot, contact, mesh). Two span the line of possible relative centres.
+    """
     if isinstance(bond.joint, Mesh):
         return _mesh(bond, points, arithmetic)
     return joint_freedoms(bond.joint, points, arithmetic)
 
 
 def joint_freedoms(joint: Joint, points: Points, arithmetic: Arithmetic) -> tuple[Triple, ...]:
-    """Basis twists of a joint that needs no pivots of its own links."""
+    """Basis twists of a joint that needs no pivots of its own links (any but a mesh), one or two."""
     return tuple(_twist(centre, points, arithmetic) for centre in joint.centres)
 
 
@@ -54,7 +66,10 @@ def _points(centre: JointCentre) -> tuple[str, ...]:
 
 
 def guide_direction(guide: Guide, points: Points, arithmetic: Arithmetic) -> Point:
-    """Unit vector along a guide."""
+    """Unit vector (cos, sin) along a guide: of its angle, or from its first end to its second.
+
+    Divides by zero (ZeroDivisionError in floats, nan in arrays) where both ends are at one place.
+    """
     if guide.angle is not None:
         return arithmetic.turn(guide.angle)
     assert guide.ends is not None
@@ -68,7 +83,8 @@ def mesh_weights(joint: Mesh, arithmetic: Arithmetic) -> tuple[float, float]:
     """Weights (p, q) of the pivots in the pitch point ``(p O_a + q O_b, p + q)``.
 
     Teeth or radii n_a, n_b: the pitch point divides the line of the pivots as n_a : n_b, inside for
-    external gears and crossed belts, outside for internal gears and open belts.
+    external gears and crossed belts (p + q = 1), outside for internal gears and open belts, at infinity where
+    those are of one size (Kennedy's theorem: omega_a / omega_b is the inverse ratio of the distances to it).
     """
     a, b = (_size(arithmetic.given(n)) for n in joint.sizes)
     whole = a + b
@@ -76,7 +92,7 @@ def mesh_weights(joint: Mesh, arithmetic: Arithmetic) -> tuple[float, float]:
 
 
 def weights_of(bond: Bond, arithmetic: Arithmetic) -> tuple[float, float]:
-    """The same for the bond of a mesh."""
+    """The weights (p, q) of the pivots for the bond of a mesh, as in `mesh_weights`."""
     assert isinstance(bond.joint, Mesh)
     return mesh_weights(bond.joint, arithmetic)
 
@@ -94,7 +110,7 @@ def _mesh(bond: Bond, points: Points, arithmetic: Arithmetic) -> tuple[Triple, T
 
 
 def pitch_point(bond: Bond, points: Points, arithmetic: Arithmetic) -> Triple:
-    """Relative centre of two gears or pulleys, homogeneous."""
+    """Relative centre of two gears or pulleys, (X, Y, W) [frame]; W = 0 where it is at infinity."""
     return _mesh(bond, points, arithmetic)[0]
 
 
@@ -103,7 +119,17 @@ def transmitted(basis: tuple[Triple, ...]) -> tuple[Triple, ...]:
 
     Two freedoms leave the line that joins them. One freedom (X, Y, W) leaves two: for a finite centre
     the forces along x and y through it; for one at infinity the couple and the force square to the
-    guide through the origin.
+    guide through the origin. A joint without friction does no work (reciprocity: R. S. Ball, A Treatise on
+    the Theory of Screws, 1900).
+
+    Parameters
+    ----------
+    basis : one or two basis twists
+
+    Returns
+    -------
+    tuple[Triple, ...]
+        Two wrenches or one, as (-Fy, Fx, M), not of unit size.
     """
     if len(basis) == 2:
         (x1, y1, w1), (x2, y2, w2) = basis
