@@ -14,7 +14,18 @@ from icsolve.numbers.arithmetic import FLOATS
 
 
 def solve_figure(case: Case, wanted: Collection[str] | None = None) -> Figure:
-    """The figure of a case: the wanted points (None: every point), and those that they need.
+    """The figure of a case.
+
+    Parameters
+    ----------
+    case : the case
+    wanted : names of points; None: every point. Those that they need are placed too
+
+    Returns
+    -------
+    Figure
+        Places in a frame of size 1 about the figure (``icsolve.assembly.case_point`` brings one back to case
+        lengths), with how each was found.
 
     Raises
     ------

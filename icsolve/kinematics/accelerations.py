@@ -33,9 +33,13 @@ NEAR = 2e-3
 
 
 class Moving(NamedTuple):
-    """Twists of the links and their rates, in the given motion (normalised lengths, seconds).
+    """The given motion and its change.
 
-    ``open`` has the links that a freedom moves which no given motion fixes.
+    Attributes
+    ----------
+    twists : by link, (X, Y, W) [frame length/s, frame length/s, rad/s]
+    rates : by link, its derivative by time [the same a second]
+    open : links that a freedom moves which no given motion fixes
     """
 
     twists: Mapping[str, Triple]
@@ -49,7 +53,9 @@ class Moving(NamedTuple):
         return max(turned, *(abs(x) for t in self.rates.values() for x in t)) or 1.0
 
     def acceleration(self, link: str, p: Point) -> Point:
-        """Acceleration of a point of a link."""
+        """Acceleration (ax, ay) [frame length/s^2] of the point p [frame] of a link: ``velocity(t', p) +
+        omega x v``.
+        """
         (x, y), (vx, vy) = velocity(self.rates[link], p), velocity(self.twists[link], p)
         omega = self.twists[link][2]
         return x - omega * vy, y + omega * vx
@@ -63,10 +69,20 @@ def moving(
     motions: Mapping[str, Sequence[Triple]],
     arithmetic: Arithmetic,
 ) -> Moving:
-    """The motion that the case gives, with its accelerations; ``motions`` has the twists of each link.
+    """The motion that the case gives, with its accelerations.
 
-    Raises SceneError where no speed is given, where a joint does not tell how it moves on, and where the
-    links move only for an instant.
+    Parameters
+    ----------
+    case, top : the scene; given speeds in rad/s or case lengths a second
+    frame, points : the scale of the frame, and the places in it
+    motions : by link, one twist a freedom
+    arithmetic : of the twists
+
+    Raises
+    ------
+    SceneError
+        Where no speed is given, where given motions contradict each other, where a joint does not tell how it
+        moves on, and where the links move only for an instant.
     """
     conditions = [_condition(given, motions, frame, points, arithmetic) for given in case.motion]
     if not conditions:

@@ -34,9 +34,14 @@ where the two disagree by more than the construction can have lost."""
 
 
 class CentreFinder:
-    """Centres of one scene; ``twists`` has the motions that are meant, per link.
+    """Centres of one scene.
 
-    The twists give the places; the search for the lines that lead to them runs on floats.
+    Parameters
+    ----------
+    case, top, frame, points : the scene; points by name [frame]
+    twists : by link, one twist for each motion that is meant [frame of size 1]
+    a : arithmetic of the twists, which give the places; the search for the lines that lead to them runs
+        on floats
     """
 
     def __init__(
@@ -49,7 +54,19 @@ class CentreFinder:
         self.relative = cache(self._relative)
 
     def find(self, pairs: Iterable[Pair], slack: float = 0.0) -> dict[Pair, Centre]:
-        """A `Centre` for every pair of links; ``slack`` is how far given centres contradict."""
+        """A `Centre` for every pair of links.
+
+        Parameters
+        ----------
+        pairs : pairs of names, in either order
+        slack : how far given centres contradict each other [fraction of the figure's size]
+
+        Returns
+        -------
+        dict[Pair, Centre]
+            Places in case lengths, directions in degrees; ``undefined`` where two links move as one,
+            ``undetermined`` where they have more than one relative freedom: nothing is refused.
+        """
         pairs = list(pairs)
         moving = _Moving(self._seen)
         primaries, normals = self._by_inspection()

@@ -20,8 +20,14 @@ BodyPair = tuple[int, int]
 
 
 class CentreLine(NamedTuple):
-    """A line on which a centre lies: through the centres ``ends``, or the common normal of a joint
-    between the pair itself (one entry)."""
+    """A line on which a centre lies.
+
+    Attributes
+    ----------
+    ends : the two pairs whose centres it joins; one entry, the pair itself: the common normal of its joint
+    line : coordinates of unit length: (a, b, c) with ``a x + b y + c w = 0``
+    error : estimated error of the direction of that vector (sine)
+    """
 
     ends: tuple[BodyPair, ...]
     line: Triple
@@ -41,15 +47,22 @@ _error = attrgetter("error")
 
 
 class Kennedy:
-    """The construction over the bodies of a scene.
-
-    ``primaries`` are the centres by inspection, ``normals`` the common normals of slots and
-    contacts, ``twists`` the relative twists (of pairs that move), which serve as seeds where the
-    construction stalls. ``hub`` is the body (the frame) that pairs are looked at with in any case.
+    """The construction over the bodies of a scene (Aronhold 1872; A. B. W. Kennedy, The Mechanics of
+    Machinery, 1886).
 
     Centres are sought first among pairs that have one of the wanted bodies or the hub, or whose bodies
     are joined by one joint or two: their number grows as that of the bodies does. Only where these stall
     are all pairs looked at.
+
+    Parameters
+    ----------
+    bodies : indices
+    primaries : by pair (lower index first), the centre by inspection as (X, Y, W) and how it is known
+    normals : by pair, the common normals of slots and contacts, as lines
+    twists : by pair that moves, its relative twist: a seed where the construction stalls
+    hub : the body (the frame) with which pairs are looked at in any case
+
+    All are floats, in a frame of size 1 (errors are measured as angles between homogeneous vectors).
     """
 
     def __init__(
@@ -79,7 +92,10 @@ class Kennedy:
                 self._draw(pair, CentreLine((pair,), unit(line), ROUNDING))
 
     def find(self, wanted: Iterable[BodyPair]) -> None:
-        """Construct until every wanted pair that moves is known."""
+        """Construct until every wanted pair that has a relative twist is in ``known``.
+
+        Pairs without one (they move as one, or have no one centre) are passed over.
+        """
         self.missing = {pair for pair in wanted if pair in self.twists and pair not in self.known}
         if 2 * len(self.missing) < len(self.bodies):
             self.partners = self._near({body for pair in self.missing for body in pair} | {self.hub})
@@ -176,7 +192,7 @@ def ordered(i: int, j: int) -> BodyPair:
 
 
 def unit(a: Triple) -> Triple:
-    """The homogeneous triple with unit length."""
+    """The homogeneous triple with unit length; ZeroDivisionError for (0, 0, 0)."""
     length = math.sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2])
     return (a[0] / length, a[1] / length, a[2] / length)
 

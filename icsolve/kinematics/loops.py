@@ -41,7 +41,18 @@ def span(
 ) -> Tree:
     """Spanning tree over ``bonds`` from the known ``roots``; joints with one freedom come first.
 
-    The bodies ``afloat``, to which no joints lead, move freely beside the first root.
+    Parameters
+    ----------
+    top : bodies and bonds
+    bonds : indices of the bonds that may be used
+    roots : bodies whose twists are known
+    bases : by bond, its basis twists (one or two)
+    afloat : bodies to which no joints lead; each moves freely (three columns) beside the first root
+
+    Returns
+    -------
+    Tree
+        A column for every basis twist on it; bonds that are not on it close loops.
     """
     branches = {root: Branch(root, ()) for root in roots}
     left = sorted(bonds, key=lambda k: top.bonds[k].freedom)
@@ -68,7 +79,19 @@ def span(
 
 
 def loop_rows(top: Topology, tree: Tree, bases: Bases, roots: Mapping[int, Triple]) -> list[list[Scalar]]:
-    """One row a wrench of each closing joint; the last column multiplies the twists of the roots."""
+    """The loop equations: one row a wrench of each closing joint.
+
+    Parameters
+    ----------
+    top, tree, bases : as of `span`
+    roots : by body, its known twist
+
+    Returns
+    -------
+    list[list[Scalar]]
+        (equations, ``tree.columns`` + 1): coefficients of the joint rates, and last the factor on the twists
+        of the roots. Their sums are powers [frame length/s a unit force], zero in every motion.
+    """
     rows = []
     for k in tree.closing:
         one, two = tree.branches[top.bonds[k].a], tree.branches[top.bonds[k].b]
@@ -95,7 +118,14 @@ def _shared(one: tuple[tuple[int, Triple], ...], two: tuple[tuple[int, Triple], 
 
 
 def twists_on(tree: Tree, rates: Sequence[Scalar], roots: Mapping[int, Triple]) -> dict[int, Triple]:
-    """Twist of each body of the tree; ``rates`` ends with the factor on the roots' twists."""
+    """Twist of each body of the tree, in the units of the rates.
+
+    Parameters
+    ----------
+    tree : as of `span`
+    rates : (``tree.columns`` + 1,), joint rates and last the factor on the roots' twists
+    roots : by body, its known twist
+    """
     twists = {}
     for body, branch in tree.branches.items():
         root = roots[branch.root]
@@ -107,14 +137,22 @@ def twists_on(tree: Tree, rates: Sequence[Scalar], roots: Mapping[int, Triple]) 
 
 
 class LoopMotions(NamedTuple):
-    """All motions of a scene: for each body one twist per freedom, relative to the frame."""
+    """All motions of a scene.
+
+    Attributes
+    ----------
+    twists : by body, one twist a freedom, relative to the frame of the mechanism
+    found : rank, pivots and basis of the joint rates
+    """
 
     twists: dict[int, tuple[Triple, ...]]
     found: NullSpace
 
 
 def rope_row(top: Topology, tree: Tree, parts: Sequence[RopePart]) -> list[Scalar]:
-    """The condition that a rope keeps its length, in the rates of the tree."""
+    """The condition that a rope keeps its length, in the rates of the tree, (``tree.columns``,): each part
+    pulls with the same force, and their powers add up to nothing.
+    """
     row: list[Scalar] = [0.0] * tree.columns
     for part in parts:
         for link, sign in zip(part.links, (-1.0, 1.0), strict=True):
@@ -130,7 +168,21 @@ def all_motions(
     ropes: Sequence[Sequence[RopePart]] = (),
     vanishes: Vanishes | None = None,
 ) -> LoopMotions:
-    """Null space of the loop equations of the bonds in ``bases`` and of ropes, from the frame."""
+    """Null space of the loop equations of the bonds in ``bases`` and of ropes.
+
+    Parameters
+    ----------
+    top : bodies and bonds
+    bases : by bond, its basis twists [frame of size 1]
+    zero : fraction of the first pivot below which one counts as none (times the number of equations)
+    ropes : the parts of each rope
+    vanishes : of balls, what decides instead
+
+    Raises
+    ------
+    MoreDigits
+        Of balls, where the rank is open.
+    """
     tree = span(top, sorted(bases), (top.ground,), bases, [group[0] for group in top.afloat])
     rows = [row[:-1] for row in loop_rows(top, tree, bases, {top.ground: ORIGIN})]
     rows += [rope_row(top, tree, parts) for parts in ropes]

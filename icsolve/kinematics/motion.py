@@ -20,10 +20,16 @@ from icsolve.wording.sentences import near_structure, structure
 
 
 class Motions(NamedTuple):
-    """For each link of the plan one twist per freedom, relative to the frame (normalised).
+    """The motions that the joints allow.
 
-    ``closures`` are the groups of the plan (empty where the loop equations gave all at once);
-    ``redundant`` counts constraints beyond those that the motion needs.
+    Attributes
+    ----------
+    twists : by link, one twist a freedom, relative to the frame [frame length/s, frame length/s, rad/s]
+    bases : by bond, its basis twists
+    mobility : number of freedoms
+    redundant : constraints beyond those that the motion needs
+    closures : how the groups of the plan closed; empty where the loop equations gave all at once
+    notes : sentences for the reader
     """
 
     twists: dict[str, tuple[Triple, ...]]
@@ -66,8 +72,17 @@ def by_plan(plan: Plan, top: Topology, points: Points, arithmetic: Arithmetic) -
 def by_loops(case: Case, top: Topology, points: Points, arithmetic: Arithmetic, frame: Frame) -> Motions:
     """Every motion from the loop equations of the whole scene.
 
-    Raises SceneError for a structure, for given centres that contradict each other, and where the
-    rank is in doubt.
+    Parameters
+    ----------
+    case, top : the scene
+    points : by name [frame of size 1]
+    arithmetic : of the points
+    frame : scale of the frame, for distances that a refusal tells
+
+    Raises
+    ------
+    SceneError
+        For a structure, for given centres that contradict each other, and where the rank is in doubt.
     """
     bases = {k: freedoms(bond, points, arithmetic) for k, bond in enumerate(top.bonds)}
     ropes = [rope_parts(rope, points, frame.scale, arithmetic) for rope in top.ropes]
@@ -91,7 +106,11 @@ TURN = Number(6.283185307179586, 0.0, "turn", "6.283185307179586", 1.0, (2, 1, 1
 
 def with_ends(motions: Motions, case: Case, points: Points, scale: float, arithmetic: Arithmetic) -> Motions:
     """The motions with the turning of screws, cw as one looks along their axes, and with those of the ends of
-    ropes that loads pull: under the names of what stands there for links."""
+    ropes that loads pull: under the names of what stands there for links.
+
+    A screw turns by ``2 pi / lead`` rad a length that its slide moves; ``scale`` has the frame lengths of a
+    case length.
+    """
     if not (case.screws or case.ropes):
         return motions
     twists = dict(motions.twists)

@@ -24,7 +24,15 @@ BINDS = 1e-9
 def goes_on(top: Topology, bases: Bases) -> bool | None:
     """Whether the one motion of a redundant scene extends to second order.
 
-    None where a joint has not one centre that goes with its links, or there is not one motion.
+    Parameters
+    ----------
+    top : bodies and bonds
+    bases : by bond, its basis twists [frame of size 1], floats
+
+    Returns
+    -------
+    bool | None
+        None where a joint has not one centre that goes with its links, or there is not one motion.
     """
     if any(top.bonds[k].joint.freedom > 1 or not top.bonds[k].joint.stays_known for k in bases):
         return None
@@ -55,7 +63,10 @@ def _second(branch: Branch, rates: Sequence[float]) -> tuple[Triple, Triple]:
 
 
 def bracket(a: Triple, b: Triple) -> Triple:
-    """Lie bracket of two twists: how far two small motions fail to commute."""
+    """Lie bracket of two twists: how far two small motions fail to commute.
+
+    For ``a = (X, Y, W)``: ``(Ya Wb - Wa Yb, Wa Xb - Xa Wb, 0)``, a translation.
+    """
     return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], 0.0)
 
 

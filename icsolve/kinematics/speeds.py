@@ -38,8 +38,14 @@ OPEN = "a freedom that no given motion fixes moves it."
 
 
 class Speed(NamedTuple):
-    """The motions that are meant: ``particular / divisor`` plus any combination of ``open``
-    (coefficients of the motions)."""
+    """The motions that are meant: ``particular / divisor`` plus any combination of ``open``.
+
+    Attributes
+    ----------
+    particular : (freedoms,), coefficients of the motions
+    open : coefficients, (freedoms,) each, of the directions that no given motion fixes
+    divisor : the rate by which ``particular`` is still to be divided
+    """
 
     particular: tuple[Scalar, ...]
     open: tuple[tuple[Scalar, ...], ...]
@@ -49,9 +55,13 @@ class Speed(NamedTuple):
     arithmetic: Arithmetic = FLOATS
 
     def of(self, values: Sequence[Scalar], scale: float) -> Scalar | None:
-        """A quantity that has ``values[m]`` in motion m; None where it is undetermined.
+        """A quantity that has ``values[m]`` in motion m; None where a freedom that no motion fixes changes
+        it.
 
-        ``scale`` is the size of ``values`` before cancellation, by which a zero is judged.
+        Parameters
+        ----------
+        values : (freedoms,) [units of the quantity]
+        scale : size of ``values`` before cancellation, by which a zero is judged [the same]
         """
         if any(not self.arithmetic.vanishes(_dot(d, values), LOOSE * scale) for d in self.open):
             return None
@@ -75,7 +85,21 @@ def speed_of(
 ) -> Speed:
     """The motion that the case asks for, or the normalised one of the format.
 
-    Raises SceneError where the given motion cannot be: a dead centre, or motions that contradict.
+    Without a given motion the first link that the joints name and that turns does so at +1 rad/s; where none
+    turns, the first that moves goes at 1 case length a second.
+
+    Parameters
+    ----------
+    case : with its given motions
+    twists : by link, one twist a freedom [frame lengths, radians]
+    frame, points : the scale of the frame, and the places in it
+    arithmetic : of the twists
+
+    Raises
+    ------
+    SceneError
+        Where the given motion cannot be: at a dead centre, where given motions contradict each other, at an
+        angle at which a point can't move, and where nothing moves.
     """
     motions = len(next(iter(twists.values())))
     if motions == 1 and len(case.motion) <= 1:
@@ -226,7 +250,7 @@ def _normal_row(
 
 
 def link_rates(case: Case, twists: Twists, speed: Speed) -> dict[str, Scalar | str]:
-    """Angular velocity of every link; a sentence where it is undetermined."""
+    """Angular velocity of every link [rad/s, ccw positive]; a sentence where it is undetermined."""
     rates: dict[str, Scalar | str] = {}
     largest = fastest(twists)
     for link in case.links:
@@ -238,7 +262,9 @@ def link_rates(case: Case, twists: Twists, speed: Speed) -> dict[str, Scalar | s
 def point_velocities(
     case: Case, twists: Twists, speed: Speed, frame: Frame, points: Mapping[str, Point]
 ) -> dict[tuple[str, str], tuple[Scalar, Scalar] | str]:
-    """Velocity (case length a second) of every point on the links that carry it."""
+    """Velocity (vx, vy) [case length/s] of every point on the links that carry it, by (point, link); a
+    sentence where it is undetermined.
+    """
     result: dict[tuple[str, str], tuple[Scalar, Scalar] | str] = {}
     largest = fastest(twists)
     for link in case.links:
@@ -265,7 +291,9 @@ def _velocity(motions: Sequence[Triple], speed: Speed, largest: float, p: Point)
 
 
 def meant(twists: Twists, speed: Speed, link: str) -> tuple[Triple, ...]:
-    """The twists of a link in the motions that are meant: one per open direction, the particular first."""
+    """The twists of a link in the motions that are meant: one per open direction, the particular first (not
+    yet over ``speed.divisor``).
+    """
     motions = twists[link]
     directions = (speed.particular, *speed.open)
     return tuple(

@@ -2,6 +2,10 @@
 
 Each group gives a factor D that multiplies all that was known before it, so a dead centre of the
 virtual input (D = 0) is a value like any other: the bodies before the group then stand still.
+
+Twists are triples (X, Y, W) [frame length/s, frame length/s, rad/s] as in `icsolve.screws.plane`, all of one
+scene to one common scale that is not told: only their ratios mean anything until a speed is given. Groups
+are those of L. V. Assur (1914): dyads by Cramer's rule, larger ones by elimination.
 """
 
 import math
@@ -21,10 +25,16 @@ LONG = 4
 
 
 class Closure(NamedTuple):
-    """How a group closed: ``factor`` is D, ``numerators`` the rates times D.
+    """How a group closed.
 
-    ``columns`` are the triples whose determinants these are, the relative twist of the known bodies
-    last (empty for a group that was eliminated).
+    Attributes
+    ----------
+    group : its bodies, bonds and the known bodies on which it hangs
+    factor : D, the determinant of the joint twists
+    numerators : the rates of its bodies' first joints times D (of an eliminated group, of all joints of its
+        tree)
+    columns : the triples whose determinants these are, the relative twist of the known bodies last; empty for
+        a group that was eliminated
     """
 
     group: Group
@@ -34,7 +44,13 @@ class Closure(NamedTuple):
 
 
 class Run(NamedTuple):
-    """Twists relative to the entry's first body, all to one scale, and how each group closed."""
+    """The motion of a plan.
+
+    Attributes
+    ----------
+    twists : by body, (X, Y, W) relative to the entry's first body, all to one scale
+    closures : how each group closed, in the order of the plan
+    """
 
     twists: dict[int, Triple]
     closures: tuple[Closure, ...]
@@ -83,7 +99,21 @@ class _Pool:
 
 
 def run(plan: Plan, top: Topology, bases: Bases, arithmetic: Arithmetic) -> Run:
-    """Twists of the planned bodies; ``bases`` has the basis twists of every bond in the plan."""
+    """Twists of the planned bodies.
+
+    Parameters
+    ----------
+    plan : a bond that is driven at rate 1, and the groups that follow from it
+    top : bodies and bonds
+    bases : by bond, its basis twists, of every bond in the plan
+    arithmetic : of the bases
+
+    Returns
+    -------
+    Run
+        A group that leaves a freedom of its own has D and all numerators 0 (`is_singular`), one at a dead
+        centre D = 0 (`is_dead`): neither is refused here.
+    """
     pool = _Pool()
     entry = top.bonds[plan.entry]
     o = _origin(bases[plan.entry][0])
@@ -252,7 +282,9 @@ def is_dead(closure: Closure, arithmetic: Arithmetic) -> bool:
 
 
 def rate_sizes(closure: Closure) -> tuple[float, ...]:
-    """For each numerator the products that it is summed from."""
+    """For each numerator of a dyad or monad the sum of the absolute products that it is summed from, by which
+    a zero is judged.
+    """
     b1, b3, b2, r = closure.columns
     if closure.group.kind == "monad":
         return (products(b1, b3, r),)

@@ -20,8 +20,7 @@ RADIAN = math.pi / 180.0
 
 
 def magnitude(value: Scalar) -> float:
-    """Largest absolute value of a float, a number on a tape or of a record, a ball, or an array of any shape.
-    """
+    """Largest absolute value: of a float, a ball, a number on a tape, or an array of any shape."""
     size = abs(value)
     return size if type(size) is float else float(size.max() if hasattr(size, "max") else size)
 

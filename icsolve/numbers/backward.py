@@ -27,10 +27,17 @@ MANY = 600
 
 
 class Backward:
-    """Backward passes over a record from some of its nodes.
+    """Backward passes over a record from some of its nodes: first-order bounds of their rounding errors.
 
-    ``exact`` are inputs that carry no rounding: signs, guesses, counts of turns. ``leaves`` are nodes that
-    are given like inputs, and exact. At most ``rows`` rows go through at once.
+    Parameters
+    ----------
+    record : the record
+    targets : nodes whose errors are asked for
+    groups : groups that Newton's method solved; their errors follow by implicit differentiation
+    exact : inputs that carry no rounding: signs, guesses, counts of turns
+    leaves : nodes that are given like inputs, and exact
+
+    At most ``rows`` rows go through at once.
     """
 
     def __init__(
@@ -78,13 +85,26 @@ class Backward:
         return [*(v.index for v in parts if isinstance(v, Traced)), *group.solved, *group.guesses]
 
     def noise(self, k: int) -> float:
-        """Bound of the error of a value that is the same in every row."""
+        """Bound of the error of a value that is the same in every row [its units]."""
         if k not in self._still:
             self._still[k] = still_noise(self.record, k)
         return self._still[k]
 
     def run(self, given: Mapping[int, Array], rows: int) -> list[Passed]:
-        """Bounds of the targets for the given inputs."""
+        """Bounds of the targets.
+
+        Parameters
+        ----------
+        given : by node, values of the inputs, of the groups' unknowns and of the leaves, (rows,) or one
+            number
+        rows : at most `Backward.rows`
+
+        Returns
+        -------
+        list[Passed]
+            For each target the bound of its absolute error, (rows,) [its units]; inf or nan where a value
+            that leads to it does not exist.
+        """
         self.code.run({**given, **{g: given[s] for g, s in self.guesses.items()}}, rows)
         with np.errstate(all="ignore"):
             return [self._passed(target, rows) for target in self.targets]

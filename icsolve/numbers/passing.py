@@ -41,7 +41,13 @@ class Source(Protocol):
 
 
 class Passed(NamedTuple):
-    """Bounds of a result and its derivatives by the inputs, a row each."""
+    """A target's error, a row each.
+
+    Attributes
+    ----------
+    bound : (rows,), of the absolute error [units of the target]
+    by : by input node, the derivative of the target, (rows,) [per unit of the input]
+    """
 
     bound: Array
     by: dict[int, Array]
@@ -277,7 +283,19 @@ def _merged(record: Record, nodes: Sequence[int]) -> set[int]:
 
 
 def adjoint(j: Array, w: Array) -> Array:
-    """Solutions of the transposed systems; of the least squares where there are more equations."""
+    """Solutions x of the transposed systems ``j^T x = w``, one a row.
+
+    Parameters
+    ----------
+    j : (rows, equations, unknowns), at least as many equations as unknowns
+    w : (rows, unknowns)
+
+    Returns
+    -------
+    Array
+        (rows, equations): where there are more equations, ``j (j^T j)^-1 w``, the adjoint of least squares.
+        Where any of them is singular all are solved with the pseudoinverse.
+    """
     turned = np.swapaxes(j, 1, 2)
     try:
         if j.shape[1] == j.shape[2]:

@@ -87,8 +87,22 @@ class Text(NamedTuple):
 def straight_line(
     record: Record, wanted: Sequence[int], inputs: Mapping[int, str], language: Language
 ) -> Text:
-    """The source from the inputs (names by node) to the wanted nodes; every other input keeps the value
-    that it was recorded with."""
+    """The source of a program from the inputs to the wanted nodes.
+
+    Parameters
+    ----------
+    record : the record
+    wanted : indices of nodes
+    inputs : by node, the name of the variable that has it; every other input keeps the value with which it
+        was recorded
+    language : `PYTHON` or `JAVASCRIPT`; the text calls ``turn``, ``root``, ``degrees``, ``atan2`` (Python) or
+        `JAVASCRIPT_FUNCTIONS`
+
+    Returns
+    -------
+    Text
+        Lines without indentation, to be run in order. Angles are in degrees.
+    """
     order = _needed(record, wanted, inputs)
     uses: dict[int, int] = dict.fromkeys(order, 0)
     for k in order:

@@ -23,10 +23,13 @@ SPENT = 1e-13
 
 
 class General(NamedTuple):
-    """The general solution: each solved column as a combination of parameters and free columns.
+    """The general solution of homogeneous equations: of each solved column what it is made of.
 
-    ``left`` are the rows in which only parameters remain; each is zero. ``free`` are the columns
-    that the equations leave open.
+    Attributes
+    ----------
+    solved : by column, its combination of parameters and free columns
+    free : columns that the equations leave open
+    left : the rows in which only parameters remain; each of these sums has to be zero
     """
 
     solved: dict[int, Row]
@@ -45,8 +48,24 @@ def eliminate(
 ) -> General:
     """Solve ``sum of row[c] x[c] = 0`` for the columns below ``columns``; the others are parameters.
 
-    ``spent`` is the fraction of a row's size below which its largest entry counts as rounding. With
-    ``vanishes`` (of balls) that decides: a pivot is certainly not zero.
+    Parameters
+    ----------
+    rows : m equations, each {column: coefficient}; a right side b is a parameter column with -b whose value
+        is 1. Not changed
+    columns : columns from 0 to below this are solved for
+    spent : fraction of a row's size below which its largest entry counts as rounding, so that the row says
+        nothing more
+    vanishes : of balls, what decides instead: a pivot is certainly not zero
+
+    Returns
+    -------
+    General
+        Nothing is refused: equations that contradict each other stand in ``left``.
+
+    Raises
+    ------
+    MoreDigits
+        Of balls, where it is open whether all that is left of a row is zero.
     """
     work = _Work(rows, columns, spent, vanishes)
     pivots: list[tuple[int, Row]] = []

@@ -24,10 +24,16 @@ Points = Mapping[str, Point]
 
 
 class RopePart(NamedTuple):
-    """A straight part, between ``links`` (the second '' at a free end), in the normalised frame.
+    """A straight part of a rope.
 
-    A unit of tension acts on the first link as ``wrench``, a force along ``along`` at ``at``, and on the
-    second as its opposite.
+    Attributes
+    ----------
+    links : those between which it runs (the second '' at a free end)
+    at : where it leaves the first circle [frame]
+    along : unit vector from there to the second
+    length : [frame]
+    wrench : what a unit of tension does on the first link, (-Fy, Fx, M); its opposite acts on the second
+    offset : moment of the line about the centre of the first circle [frame]
     """
 
     links: tuple[str, str]
@@ -42,7 +48,16 @@ class RopePart(NamedTuple):
 def rope_parts(rope: Rope, points: Points, scale: float, arithmetic: Arithmetic) -> tuple[RopePart, ...]:
     """The straight parts of a rope, from its first end to its last.
 
-    Raises SceneError where a part has no length, or two pulleys overlap.
+    Parameters
+    ----------
+    points : by name [frame]
+    scale : frame lengths a case length, for the radii
+    arithmetic : of the points
+
+    Raises
+    ------
+    SceneError
+        Where a part has no length, or two pulleys overlap.
     """
     circles = list(zip((points[p] for p in rope.points), offsets_of(rope, scale, arithmetic), strict=True))
     pairs = enumerate(pairwise(circles))

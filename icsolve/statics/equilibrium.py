@@ -40,9 +40,20 @@ class Rub(NamedTuple):
 class Statics(NamedTuple):
     """The general solution of the equilibrium of all links.
 
-    Column numbers: the units of the ties from ``first[t]`` on, the tension of each rope's first part, then
-    the parameters: the known loads together (1), the unknown loads ``roots``, the friction of each rub. Loads
-    are ``scale`` times their number in case units.
+    Columns: the units of the ties from ``first[t]`` on, the tension of each rope's first part, then the
+    parameters: the known loads together (``known``, of value 1), the unknown loads (``root(n)``), the
+    friction of each rub (``rub(n)``).
+
+    Attributes
+    ----------
+    ties, ropes : what transmits
+    first : by tie, the column of its first unit
+    known : column of the known loads, and so the number of what the joints transmit
+    roots : names of the unknown loads
+    rubs : places that rub
+    scale : power of two: loads and forces are ``scale`` times their number in case units
+    general : each unit as a combination of parameters, and what the joints leave open
+    arithmetic : of all coefficients
     """
 
     ties: tuple[Tie, ...]
@@ -73,14 +84,20 @@ class Statics(NamedTuple):
         return self.known + 1 + len(self.roots) + n
 
     def parameters(self, unknowns: Mapping[str, Scalar], friction: Sequence[Scalar] = ()) -> Row:
-        """Values of all parameters, from numbers in case units (friction scaled)."""
+        """Values of all parameters, by column.
+
+        Parameters
+        ----------
+        unknowns : by name [case units]
+        friction : (rubs,) [scaled]
+        """
         row = {self.known: 1.0}
         row.update({self.root(n): unknowns[name] * self.scale for n, name in enumerate(self.roots)})
         row.update({self.rub(n): f for n, f in enumerate(friction)})
         return row
 
     def value(self, column: int, parameters: Mapping[int, Scalar]) -> Scalar:
-        """A joint's unknown, scaled, where the free columns are zero."""
+        """What a column has for these parameters [scaled force], free columns at zero."""
         return sum((a * parameters.get(c, 0.0) for c, a in self.general.of(column).items()), 0.0)
 
     def filled(self, parameters: Mapping[int, Scalar]) -> Row:
@@ -94,7 +111,23 @@ def equilibrium(
     balance: Balance,
     rubs: Sequence[Rub] = (),
 ) -> Statics:
-    """Solve the equilibrium of every link but the frame for what the joints transmit."""
+    """Solve the equilibrium of every link but the frame for what the joints transmit.
+
+    Three equations a link: forces along x and y, moments about a point of its own. As many of them lose all
+    joints as the links have motions: these give the unknown loads, and are the sums of power.
+
+    Parameters
+    ----------
+    position : points and twists [frame]
+    ties : as of `ties_of`
+    balance : the loads
+    rubs : places whose friction is a parameter
+
+    Returns
+    -------
+    Statics
+        Nothing is refused: forces that equilibrium does not determine hang on free columns.
+    """
     rows = _BodyRows(position, ties)
     first = []
     column = 0
@@ -254,7 +287,9 @@ def _summed(rows: tuple[Row, Row, Row], x: Mapping[int, Scalar]) -> tuple[tuple[
 
 
 def residual(terms: Terms) -> float:
-    """What is left of the equilibrium of any link, as a fraction of the largest sum of all."""
+    """What is left of the equilibrium of any link, as a fraction of the largest sum of all; 0 where nothing
+    acts.
+    """
     sums = [both for _, equations in terms.values() for both in equations]
     largest = max((size for size, _ in sums), default=0.0)
     return max((abs(rest) for _, rest in sums), default=0.0) / (largest or 1.0)
@@ -273,9 +308,17 @@ ROUNDINGS = 32 * 2.0**-53
 
 
 def unknowns_of(statics: Statics, friction: Mapping[int, float] | None = None) -> dict[str, Scalar] | None:
-    """The unknown loads (case units) from the equations in which no joint is left.
+    """The unknown loads [case units] from the equations in which no joint is left.
 
-    None where these do not determine them. ``friction`` has the values of the friction columns.
+    Parameters
+    ----------
+    statics : as of `equilibrium`
+    friction : by friction column, its value [scaled]; 0 of those that are not there
+
+    Returns
+    -------
+    dict[str, Scalar] | None
+        None where these equations do not determine them.
     """
     fixed = {statics.known: 1.0, **(friction or {})}
     vanishes = decider(statics.arithmetic)
@@ -294,7 +337,17 @@ def unknowns_of(statics: Statics, friction: Mapping[int, float] | None = None) -
 
 
 def independent(rows: Sequence[Sequence[Scalar]], count: int) -> list[list[Scalar]]:
-    """As many rows as there are unknowns (the first ``count`` entries), those with most to say about them."""
+    """As many rows as there are unknowns (the first ``count`` entries), those with most to say about them.
+
+    Parameters
+    ----------
+    rows : (m, at least ``count``)
+
+    Returns
+    -------
+    list[list[Scalar]]
+        At most ``count`` of the rows as given, in the order of complete pivoting; fewer where m is less.
+    """
     work = [(row, list(row)) for row in map(list, rows)]
     chosen = []
     for _ in range(min(count, len(work))):
@@ -310,10 +363,11 @@ def independent(rows: Sequence[Sequence[Scalar]], count: int) -> list[list[Scala
 
 
 def bounds_of(position: Position, statics: Statics, balance: Balance, terms: Terms) -> dict[str, float]:
-    """What rounding can make of the difference between power and free bodies, for each unknown load.
+    """What rounding can make of the difference between power and free bodies, by unknown load [case units].
 
     The residual of every equation, and the rounding of its terms, does power on the motions; divided by
-    the power of a unit of the unknown that is its error (the motions are the adjoint solution).
+    the power of a unit of the unknown that is its error (the motions are the adjoint solution). inf where the
+    motions do not determine the loads.
     """
     columns = [[n for n, w in enumerate(balance.wrenches) if w.root == root] for root in statics.roots]
     rows = []
@@ -353,7 +407,10 @@ def witnesses(
 
 
 def refuse_apart(found: Sequence[Witness], slack: float) -> None:
-    """Refuse a scene in which power and free bodies disagree by more than their bounds."""
+    """Raise SceneError (``near-singular``) where power and free bodies disagree by more than their bounds.
+
+    ``slack`` is how far given centres contradict each other [fraction of the figure's size].
+    """
     for w in found:
         room = max(w.bound, max(AGREE, slack) * max(abs(w.power), abs(w.bodies)))
         if not abs(w.difference) <= room:

@@ -25,9 +25,13 @@ Form = tuple[float, ...]
 
 
 class Lengths(NamedTuple):
-    """The equations: ``lengths[k]`` is l_k, ``vectors[k]`` the one or two components of v_k.
+    """The equations ``l_k(y) = |v_k(y)|`` of n rubs.
 
-    ``touching[k]`` says that v_k (of one component) is a contact's normal force, which only pushes.
+    Attributes
+    ----------
+    lengths : n forms l_k, (1 + n,) each [scaled force]
+    vectors : of each rub the one or two components of v_k, forms too
+    touching : whether v_k (of one component) is a contact's normal force, which only pushes
     """
 
     lengths: tuple[Form, ...]
@@ -59,7 +63,7 @@ def fixed_point(vectors: Sequence[tuple[Form, ...]], touching: Sequence[bool]) -
 
 
 def at(form: Form, y: Sequence[float]) -> float:
-    """Value of an affine form."""
+    """Value of an affine form, (1 + n,), at y, (n,)."""
     return form[0] + sum(a * x for a, x in zip(form[1:], y, strict=True))
 
 
@@ -92,7 +96,19 @@ ROUNDING = 2.0**-52
 
 
 def newton(equations: Lengths, start: Sequence[float], most: int = MOST_STEPS) -> tuple[float, ...] | None:
-    """Newton's method on the piecewise smooth equations; None where it does not settle."""
+    """Newton's method on the piecewise smooth equations.
+
+    Parameters
+    ----------
+    start : (n,) [scaled force]
+    most : steps
+
+    Returns
+    -------
+    tuple[float, ...] | None
+        (n,), a zero of l_k - |v_k|, whose lengths may be negative (`is_sound`); None where it does not
+        settle.
+    """
     y = list(start)
     before = math.inf
     for _ in range(most):
@@ -118,7 +134,7 @@ def scale_at(equations: Lengths, y: Sequence[float]) -> float:
 
 
 def contraction(equations: Lengths) -> list[list[float]] | None:
-    """(I - L)^-1 where y -> |v(y)| contracts, None where that is not sure.
+    """(I - L)^-1, (n, n), where y -> |v(y)| contracts; None where that is not sure.
 
     L has the lengths of the derivatives of v. Where I - L has an inverse without a negative entry the
     spectral radius of L is below 1 (Berman and Plemmons, Nonnegative Matrices, 1994, ch. 6), and Banach's
@@ -174,8 +190,11 @@ NOTHING = 1e-13
 class Reduced(NamedTuple):
     """The equations of the rubs for given senses, and what turns their solution into loads.
 
-    ``loads`` has for each unknown load (scaled) an affine form in y; ``gains`` is the friction of each rub
-    over the size of its force.
+    Attributes
+    ----------
+    equations : of the sizes y of the forces that press [scaled force]
+    loads : of each unknown load an affine form in y [scaled]
+    gains : of each rub its friction over the size of its force: the negative sense times the coefficient
     """
 
     equations: Lengths
@@ -195,7 +214,10 @@ class Reduced(NamedTuple):
 def forces_of(statics: Statics) -> tuple[tuple[Row, ...], ...]:
     """The vector that bounds each rub, as combinations of the parameters.
 
-    Raises LookupError, with the tie's number, where equilibrium does not determine it.
+    Raises
+    ------
+    LookupError
+        With the tie's number, where equilibrium does not determine it.
     """
     return tuple(tuple(_force(statics, rub.tie, row) for row in rub.normal) for rub in statics.rubs)
 
@@ -233,7 +255,16 @@ def loads_from_power(statics: Statics) -> list[Row] | None:
 def reduced(statics: Statics, senses: Sequence[float]) -> Reduced | None:
     """The fixed point of the rubs: y are the sizes of the forces; None where power does not give the loads.
 
-    ``senses`` are those of the rubbing motions of the second links: 1, -1, or 0 for no friction.
+    Parameters
+    ----------
+    statics : with friction as parameters
+    senses : (rubs,), those of the rubbing motions of the second links: 1, -1, or 0 for no friction
+        (Coulomb: the friction on the second link is ``- sense * limit * y``)
+
+    Raises
+    ------
+    LookupError
+        As `forces_of`.
     """
     loads = loads_from_power(statics)
     if loads is None:

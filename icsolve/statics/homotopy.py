@@ -51,10 +51,16 @@ NEAR = 0.05
 
 
 class Solutions(NamedTuple):
-    """``main`` continues the frictionless solution (None: it stops at ``share`` of the friction).
+    """The solutions of the friction equations.
 
-    ``grows`` says that its forces grew without bound there; ``others`` are all other solutions, where
-    ``unique`` is not empty (how this is known); ``unique`` is empty where they were too many to count.
+    Attributes
+    ----------
+    main : continues the frictionless solution, (rubs,) [scaled force]; None: it stops at ``share`` of the
+        friction
+    others : all other solutions, where ``unique`` is not empty
+    unique : how it is known that there are no more; empty where they were too many to count
+    share : fraction of full friction to which ``main`` could be followed
+    grows : whether its forces grew without bound there
     """
 
     main: Y | None
@@ -65,7 +71,9 @@ class Solutions(NamedTuple):
 
 
 def solutions(equations: Lengths) -> Solutions:
-    """The solutions of a fixed point y = |v(y)|."""
+    """The solutions of a fixed point y = |v(y)|: one where it contracts, else followed from no friction and
+    counted.
+    """
     if contraction(equations) is not None:
         return Solutions(contracted(equations), (), CONTRACTS)
     main, share, grows = followed(equations)
@@ -83,7 +91,9 @@ def near(y: Sequence[float], other: Sequence[float]) -> bool:
 
 
 def contracted(equations: Lengths) -> Y:
-    """The fixed point of a contraction: Newton's method, from plain iteration where that does not settle."""
+    """The fixed point of a contraction, (rubs,) [scaled force]: Newton's method, from plain iteration where
+    that does not settle.
+    """
     y = without_friction(equations)
     for _ in range(200):
         found = newton(equations, y)
@@ -100,10 +110,16 @@ def without_friction(equations: Lengths) -> Y:
 
 
 def followed(equations: Lengths) -> tuple[Y | None, float, bool]:
-    """The frictionless solution followed to full friction: its end, how far it came, if it grew away.
+    """The frictionless solution followed to full friction, by predictor and corrector.
 
     In homogeneous coordinates (z, w) with y = z / w, so that forces without bound are a point like others:
     there w passes through zero.
+
+    Returns
+    -------
+    tuple[Y | None, float, bool]
+        Its end, (rubs,) [scaled force], or None; how far it came, as a share of full friction; whether its
+        forces grew without bound there (the mechanism jams).
     """
     first = max(without_friction(equations), default=0.0)
     if not first:
@@ -173,7 +189,11 @@ def can_count(equations: Lengths) -> bool:
 
 
 def all_roots(equations: Lengths) -> list[tuple[float, ...]]:
-    """Every solution with lengths that are not negative and contacts that push."""
+    """Every solution with lengths that are not negative and contacts that push, (rubs,) each [scaled force].
+
+    Raises nothing where there are too many to try: ask `can_count` first (the signs are 2 to the number of
+    rubs).
+    """
     scalars = [k for k, forms in enumerate(equations.vectors) if len(forms) == 1]
     choices = [(1.0,) if equations.touching[k] else (1.0, -1.0) for k in scalars]
     found: list[tuple[float, ...]] = []
@@ -274,7 +294,19 @@ Projective = list[complex]
 
 
 def quadric_roots(quadrics: Sequence[Quadric], scale: float) -> list[list[float]]:
-    """The real solutions z (rough ones too); ``scale`` is the size of the forms' constants."""
+    """The real solutions z of quadrics l(z)^2 = |v(z)|^2, as many as unknowns (rough ones too).
+
+    Parameters
+    ----------
+    quadrics : n pairs of the form l and the components of v, forms (1 + n,) each
+    scale : size of the forms' constants
+
+    Returns
+    -------
+    list[list[float]]
+        (solutions, n); a solution at which two paths end may stand there twice, a path that can't be followed
+        is left out.
+    """
     if not quadrics:
         return [[]]
     if len(quadrics) == 1:

@@ -40,15 +40,20 @@ Points = Mapping[str, Point]
 
 
 class Wrench(NamedTuple):
-    """A load per unit of its number: ``gain * measure * unit`` acts on ``link``, the opposite on
+    """A load per unit of its number: ``gain * measure * unit`` acts on the load's link, the opposite on
     ``against``.
 
-    ``unit`` is a wrench in the normalised frame (a force of length 1, or a couple of 1); ``gain``
-    brings the load's own unit to force units, or force times case length; ``measure`` is the power
-    of two that brings case lengths into the normalised frame (for a torque, else 1), kept apart so
-    that nothing overflows. ``root`` names the load whose number it takes, ``ratio`` times as large, and
-    ``source`` is that load. ``reach`` is the size of the terms of the gain, which for a spring are its
-    length and its free length.
+    Attributes
+    ----------
+    load : the load
+    against : link that takes the opposite
+    unit : wrench (-Fy, Fx, M) of a force of 1, or a couple of 1 [frame lengths]
+    gain : what brings the load's own unit to force units (a couple: force times case length); of a spring its
+        stretch [case length], of a pressure its area
+    root, source, ratio : the load whose number it takes, ``ratio`` times as large
+    measure : the power of two that brings case lengths into the frame (of a couple, else 1), kept apart so
+        that nothing overflows
+    reach : size of the terms of the gain, which for a spring are its length and its free length
     """
 
     load: Load
@@ -63,7 +68,18 @@ class Wrench(NamedTuple):
 
 
 def wrenches(case: Case, frame: Frame, points: Points, arithmetic: Arithmetic) -> tuple[Wrench, ...]:
-    """The unit wrenches of all loads of a case."""
+    """The unit wrenches of all loads of a case, in its order.
+
+    Parameters
+    ----------
+    case : the case
+    frame : the scale of the frame
+    points : by name [frame]; those that `points_of` tells of each load
+    arithmetic : of the points
+
+    A direction between two points at one place divides by zero; of a spring that is free at no length the
+    wrench is zero there.
+    """
     by_name = {load.name: load for load in case.loads}
     result = []
     for load in case.loads:
@@ -215,7 +231,10 @@ def _is_couple(load: Load) -> bool:
 
 
 def place_of(load: Load, points: Points, arithmetic: Arithmetic = FLOATS) -> Point | None:
-    """Where the resultant of a load acts; None of a couple."""
+    """Where the resultant of a load acts, in the units of ``points``; None of a couple.
+
+    Of a line load from q_a to q_b that is ``(q_a + 2 q_b) / (3 (q_a + q_b))`` of its length from a.
+    """
     if isinstance(load, Torque | TorsionSpring) or _is_couple(load):
         return None
     over = load.over if isinstance(load, Force) else None
@@ -245,7 +264,7 @@ def _angle(load: TorsionSpring, points: Points, arithmetic: Arithmetic) -> Scala
 
 
 def direction(load: Force, points: Points, arithmetic: Arithmetic) -> Point:
-    """Unit vector along which a force acts."""
+    """Unit vector (cos, sin) along which a force acts; not of one along a rope."""
     heading = load.heading
     assert not isinstance(heading, AlongRope)
     if isinstance(heading, Toward):
@@ -267,9 +286,12 @@ def _between(a: Point, b: Point, arithmetic: Arithmetic) -> tuple[Point, Scalar]
 class Balance(NamedTuple):
     """Factors of every load for every motion.
 
-    ``factors[m][n]`` is the power of load n per unit, over its ``measure``, in motion m;
-    ``sizes[m][n]`` what it would be summed from if its links moved as fast as the fastest, against
-    which a zero is judged.
+    Attributes
+    ----------
+    wrenches : n loads
+    factors : (motions, n), the power of a load per unit of its number, over its ``measure``
+    sizes : (motions, n), what that would be summed from if its links moved as fast as the fastest, against
+        which a zero is judged
     """
 
     wrenches: tuple[Wrench, ...]
@@ -278,7 +300,14 @@ class Balance(NamedTuple):
 
 
 def balance(all_wrenches: Sequence[Wrench], twists: Mapping[str, Sequence[Triple]], motions: int) -> Balance:
-    """Factors of the loads on the twists of their links; ``twists[link][m]`` relative to the frame."""
+    """Factors of the loads on the twists of their links.
+
+    Parameters
+    ----------
+    all_wrenches : as of `wrenches`
+    twists : by link, ``motions`` twists relative to the frame [frame length/s, frame length/s, rad/s]
+    motions : number of freedoms
+    """
     factors, sizes = [], []
     for m in range(motions):
         row, scale = [], []
@@ -294,11 +323,16 @@ def balance(all_wrenches: Sequence[Wrench], twists: Mapping[str, Sequence[Triple
 
 
 class Solution(NamedTuple):
-    """Values of the unknown loads by name, or why there are none.
+    """Values of the unknown loads, or why there are none.
 
-    ``verdict`` is ``balanced``; ``no value`` / ``any value`` (an unknown does no work; the known
-    loads do, do not), ``too few unknowns`` or ``too many unknowns``. ``idle`` names the motions in
-    which no load does work. A value that vanishes is 0.0, and ``off`` says how far from it it may lie.
+    Attributes
+    ----------
+    verdict : ``balanced``; ``no value`` / ``any value`` (an unknown does no work; the known loads do, do
+        not), ``too few unknowns`` or ``too many unknowns``
+    values : by name [case units], 0.0 where it vanishes
+    idle : the motions in which no load does work
+    culprit : of ``no value`` and the like, the load that it is about
+    off : by name, of a value that vanishes how far it may lie from zero [case units]
     """
 
     verdict: str
@@ -309,7 +343,22 @@ class Solution(NamedTuple):
 
 
 def solve_balance(b: Balance, arithmetic: Arithmetic) -> Solution:
-    """The unknown loads from the sums of power of all motions."""
+    """The unknown loads from the sums of power of all motions (principle of virtual power).
+
+    In equilibrium the power of all loads is zero in every motion: as many linear equations as freedoms.
+
+    Returns
+    -------
+    Solution
+        With a verdict in the place of values where they are not determined.
+
+    Raises
+    ------
+    SceneError
+        ``near-singular`` where the equations can't be told from dependent ones.
+    MoreDigits
+        Of balls, where a zero is open.
+    """
     unknown = [w for w in b.wrenches if is_unknown(w.load)]
     place = {w.root: k for k, w in enumerate(unknown)}
     scale = force_scale(b)
@@ -359,7 +408,7 @@ def vector_size(load: ForceVector) -> float:
 
 
 def known_value(w: Wrench) -> float | None:
-    """The number of a load in its own unit; None where it hangs on an unknown."""
+    """The number of a load in its own case unit; None where it hangs on an unknown."""
     if isinstance(w.source, ForceVector):
         return vector_size(w.source)
     number = w.source.value
@@ -472,7 +521,9 @@ def _workless(rows: list[list[Scalar]], roots: list[str]) -> str:
 
 
 def known_power(b: Balance, m: int, arithmetic: Arithmetic) -> Scalar:
-    """The power of the known loads in motion m: force units times normalised length a unit of the motion."""
+    """The power of the known loads in motion m [force units times frame length, a unit of the motion], times
+    `force_scale`.
+    """
     scale = force_scale(b)
     total: Scalar = 0.0
     for w, factor in zip(b.wrenches, b.factors[m], strict=True):

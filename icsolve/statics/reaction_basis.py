@@ -45,7 +45,13 @@ COUPLE: Force = (0.0, 0.0, 1.0)
 class Tie(NamedTuple):
     """A joint between two links: ``units`` act on link ``on`` at ``at``, their opposites on ``by``.
 
-    ``where`` names the point ('' where it has no name).
+    Attributes
+    ----------
+    at : point of the joint [frame]
+    where : its name ('' where it has none)
+    units : what passes, each (Fx, Fy, couple about ``at``) [force, force, force times frame length]
+    pivots : of a mesh the pivots of its two links
+    screw, couples : of a screw the thread, and what each unit does on its rotor
     """
 
     joint: Joint
@@ -61,7 +67,7 @@ class Tie(NamedTuple):
 
 
 class RopeTie(NamedTuple):
-    """A rope between links: the tension of each part is ``ratios`` times that of the first."""
+    """A rope between links: the tension of part k is ``ratios[k]`` times that of the first."""
 
     rope: Rope
     parts: tuple[RopePart, ...]
@@ -98,7 +104,11 @@ class Position(NamedTuple):
 
 
 def ties_of(position: Position) -> tuple[Tie, ...]:
-    """Every joint of a case, a pin of several links as one tie for each but the first."""
+    """Every joint of a case, a pin of several links as one tie for each but the first; last what keeps the
+    free ends of ropes, and the rotors of screws.
+
+    Raises SceneError where teeth need the pin of a round link that the case does not give.
+    """
     pivots = {(id(bond.joint), bond.links): bond.pivots for bond in position.top.bonds}
     found = []
     for joint in position.case.joints:
@@ -119,7 +129,13 @@ def _rotor_tie(position: Position, screw: Screw) -> Tie:
 def rope_ties(
     case: Case, points: Points, scale: float, arithmetic: Arithmetic = FLOATS
 ) -> tuple[RopeTie, ...]:
-    """Every rope of a case, without friction."""
+    """Every rope of a case, without friction: its tension is one.
+
+    Parameters
+    ----------
+    points : by name [frame]
+    scale : frame lengths a case length
+    """
     found = []
     for rope in case.ropes:
         parts = rope_parts(rope, points, scale, arithmetic)
@@ -166,7 +182,11 @@ def _screwed(position: Position, slide: Tie, screw: Screw) -> Tie:
 
 
 def thread(screw: Thread, scale: float, arithmetic: Arithmetic) -> tuple[Scalar, Scalar]:
-    """Of a unit force square to a screw's thread: its part along the axis, and its couple (normalised)."""
+    """Of a unit force square to a screw's thread: its part along the axis, and its couple [frame length].
+
+    With the lead angle l, ``tan l = lead / (2 pi r)``: cos l and r sin l; without a radius 1 and
+    ``lead / (2 pi)``.
+    """
     rise = arithmetic.given(screw.lead) * scale / arithmetic.given(TURN)
     if screw.radius is None:
         return 1.0, rise
@@ -291,9 +311,11 @@ def tangent_and_separating(position: Position, tie: Tie) -> tuple[Point, Point]:
 
 
 def axial_shares(position: Position, tie: Tie, tangential: Scalar) -> list[tuple[str, Scalar]]:
-    """Of helical teeth the axial force, square to the plane, and the couple that it makes about each wheel.
+    """Of helical teeth what acts square to the plane, by name.
 
-    Where the span of the bearings is given, ``bearing`` is what each carries more for that couple.
+    ``axial`` is the tangential force times the tangent of the helix angle [force]; ``couple L`` what it makes
+    about the wheel L at its radius [case torque]; where the span of the bearings is given, ``bearing L`` is
+    what each carries more for that couple [force].
     """
     helix = tie.joint.helix if isinstance(tie.joint, Mesh) else None
     if helix is None:

@@ -75,14 +75,20 @@ def _fixed(one: Spot, spots: list[Spot], rows: ConditionRows, known: Moved | Non
 
 
 def jacobian(mechanism: Mechanism, bodies: Sequence[int], constraints: Iterable[Constraint]) -> Matrix:
-    """Derivatives of all equations of some bodies in the position as written, the others held."""
+    """Derivatives of all equations of some bodies in the position as written, the others held.
+
+    Returns
+    -------
+    Matrix
+        (equations, 3 * bodies): a body has the columns x, y of its base [frame] and its angle [rad].
+    """
     bases = bases_of(mechanism, bodies)
     rows = ConditionRows(mechanism.shape, Still(mechanism.shape), bases, _board(mechanism))
     return matrix(bodies, equations(mechanism, rows, constraints))
 
 
 def matrix(bodies: Sequence[int], rows: Iterable[ConditionRow]) -> Matrix:
-    """The derivatives by the three parts of each body."""
+    """The derivatives by the three parts (x, y, angle) of each body, (rows, 3 * bodies)."""
     column = {body: 3 * n for n, body in enumerate(bodies)}
     found = []
     for row in rows:
@@ -99,7 +105,7 @@ def _board(mechanism: Mechanism) -> Workspace:
 
 
 def rank(m: Matrix) -> int:
-    """Rank of a matrix whose rows are scaled alike."""
+    """Rank of a matrix (m, n) by singular values, each row scaled to a largest entry of 1."""
     if not m.size:
         return 0
     sizes = np.abs(m).max(axis=1)
@@ -203,9 +209,16 @@ class Guess:
 
 
 class NewtonGroup(NamedTuple):
-    """The group on the record: three numbers a body (place of its base, degrees), guessed and solved.
+    """A group on the record: three numbers a body (x, y of its base [frame], degrees).
 
-    ``residuals`` and ``derivatives`` (a row each) are nodes or floats.
+    Attributes
+    ----------
+    bodies : n of them
+    guesses, solved : (3 n,), nodes of the inputs at which the equations stand, and of those that solve them
+    residuals : (equations,), nodes or floats
+    derivatives : (equations, 3 n), the same, by x and y and by the angle in radians
+    bases : by body, the spot whose place is told
+    rotations, places : by body, expressions of ``solved``
     """
 
     bodies: tuple[int, ...]
@@ -266,7 +279,7 @@ def _at_record(record: Record, group: NewtonGroup) -> Array:
 
 
 class Solver:
-    """Newton's method on rows of a group."""
+    """Newton's method on rows of a group; n is the number of unknowns, three a body."""
 
     def __init__(self, record: Record, group: NewtonGroup) -> None:
         self.record, self.group = record, group
@@ -279,7 +292,19 @@ class Solver:
         self.misses = Code(record, wanted)
 
     def system(self, env: Mapping[int, Array], q: Array, derivatives: bool = True) -> tuple[Array, Array]:
-        """Residuals (rows, equations) and, if asked, derivatives (rows, equations, unknowns) at a guess."""
+        """Residuals and derivatives at a guess.
+
+        Parameters
+        ----------
+        env : by node, the other inputs, (rows,) or one number
+        q : (rows, n), places [frame] and degrees
+        derivatives : whether they are asked for
+
+        Returns
+        -------
+        tuple[Array, Array]
+            (rows, equations) and (rows, equations, n), by angles in radians; of no size where not asked for.
+        """
         rows, unknowns = q.shape
         given = {**env, **{k: q[:, n] for n, k in enumerate(self.group.guesses)}}
         found = (self.code if derivatives else self.misses).run(given, rows)
@@ -295,7 +320,11 @@ class Solver:
         return f, j.reshape(rows, self.equations, unknowns)
 
     def step(self, f: Array, j: Array) -> Array:
-        """The step of Newton's method; of least squares where there are more equations than unknowns."""
+        """The step of Newton's method, (rows, n) [frame, radians], to be subtracted.
+
+        Of least squares where there are more equations than unknowns (Gauss and Newton); with the
+        pseudoinverse of all where any is singular.
+        """
         if j.shape[1] != j.shape[2]:
             turned = np.swapaxes(j, 1, 2)
             f, j = (turned @ f[:, :, None])[:, :, 0], turned @ j
@@ -324,7 +353,11 @@ class Solver:
         return Code(self.record, steps), Code(self.record, [self.record.lifted(product).index])
 
     def determinant(self, env: Mapping[int, Array], q: Array) -> Array:
-        """The size of the determinant in each row; of more equations than unknowns the root of Gram's."""
+        """The size of the determinant in each row, (rows,); of more equations than unknowns the root of
+        Gram's.
+
+        It vanishes where the group is at a change point or a limit.
+        """
         if len(q) < MANY or self.direct is None:
             j = self.system(env, q)[1]
             if j.shape[1] != j.shape[2]:
@@ -337,8 +370,20 @@ class Solver:
         return np.concatenate(parts)
 
     def solve(self, env: Mapping[int, Array], start: Array, rounds: int = ROUNDS) -> tuple[Array, Array]:
-        """Solutions from a start (rows, unknowns), and whether each row has one; many rows are eliminated
-        together, and those that this does not bring there one by one."""
+        """Solutions from a start.
+
+        Parameters
+        ----------
+        env : by node, the other inputs, (rows,) or one number
+        start : (rows, n), places [frame] and degrees
+        rounds : steps at most
+
+        Returns
+        -------
+        tuple[Array, Array]
+            (rows, n), and whether each row has a solution (residuals below 1e-11 of the frame), (rows,). Many
+            rows are eliminated together, and those that this does not bring there one by one.
+        """
         if len(start) < MANY or self.direct is None:
             return self._newton(env, start, rounds, None)
         parts = [self._newton(here, some, rounds, self.direct[0]) for here, some in _blocks(env, start)]

@@ -25,14 +25,14 @@ from icsolve.screws.plane import Point
 
 
 class RoundLocus(NamedTuple):
-    """About a place."""
+    """A circle: its centre and radius [frame]."""
 
     centre: Point
     radius: Scalar
 
 
 class StraightLocus(NamedTuple):
-    """A line by a place and a unit vector."""
+    """A line by a place [frame] and a unit vector."""
 
     through: Point
     along: Point
@@ -54,7 +54,11 @@ def _normal(locus: PinLocus, at: Point) -> tuple[float, float]:
 
 
 def side(one: PinLocus, two: PinLocus, at: Point) -> float:
-    """Which of the two places is ``at``: +1, -1, or 0 where there is only one."""
+    """Which of the two places where loci meet is ``at``: +1, -1, or 0 where there is only one.
+
+    Two circles: left or right of the way from the first centre to the second. A line and a circle: ahead of
+    the centre or behind it.
+    """
     if isinstance(one, StraightLocus):
         if isinstance(two, StraightLocus):
             return 0.0
@@ -66,7 +70,20 @@ def side(one: PinLocus, two: PinLocus, at: Point) -> float:
 
 
 def meet(record: Record, one: PinLocus, two: PinLocus, sign: Scalar) -> Point:
-    """The place where two loci meet, on the side that ``side`` tells by its sign."""
+    """The place where two loci meet.
+
+    Parameters
+    ----------
+    record : on which the root and its margins are written
+    one, two : the loci [frame]
+    sign : +1 or -1, or a number of the record: the side as of `side`
+
+    Returns
+    -------
+    Point
+        (x, y) [frame]. Where they do not meet the root of what is negative counts as zero, and its margins on
+        the record (`Record.root`) tell so; parallel lines divide by zero.
+    """
     if isinstance(one, StraightLocus):
         if isinstance(two, StraightLocus):
             return _lines(one, two)
@@ -103,8 +120,20 @@ def _lines(one: StraightLocus, two: StraightLocus) -> Point:
 
 
 def swung(record: Record, e: Point, along: Point, h: Scalar, sign: Scalar) -> Point:
-    """Cosine and sine of the rotation after which the line ``along`` passes ``h`` beside: e then has the
-    component h to its left, and ``sign`` says whether it lies ahead."""
+    """The rotation after which a line passes a place at a given distance.
+
+    Parameters
+    ----------
+    e : vector from the pivot of the line's body to the place [frame]
+    along : unit vector along the line as written
+    h : distance of the place to the left of the line through the pivot [frame]
+    sign : +1 where the place lies ahead, -1 behind
+
+    Returns
+    -------
+    Point
+        Cosine and sine since the position as written.
+    """
     d2 = dot(e, e)
     if isinstance(h, float) and h == 0.0:
         d = record.root((d2, 1.0), (1.0, 1.0))

@@ -39,8 +39,14 @@ from icsolve.screws.plane import Point
 class DrivenMotion(NamedTuple):
     """A mechanism whose places are expressions on a record.
 
-    ``branches`` has for each root of the record the name by which its sign is set, ``written`` that
-    sign in the position as written.
+    Attributes
+    ----------
+    moved : places and rotations of the bodies
+    steps : the closings in their order
+    branches : for each root of the record the name by which its sign is set
+    written : by that name, the sign in the position as written
+    groups : those that Newton's method solves row by row
+    checks : nodes that vanish where the conditions that were not needed to place the links are met
     """
 
     mechanism: Mechanism

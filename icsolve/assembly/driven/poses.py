@@ -19,10 +19,15 @@ Spot = tuple[int, str]
 
 
 class Shape:
-    """The bodies as written: places of their points (normalised), and which points pins make one.
+    """The bodies as written.
 
-    ``ref`` has the places; ``joined`` the spot that stands for all spots on one pin; ``spans`` the
-    distances that the case gives, by the pair of names.
+    Parameters
+    ----------
+    record : on which the places of a motion are expressions
+    ref : by name, the places of points [frame of size 1]
+    joined : by spot on a pin, the spot that stands for all on it
+    spans : by pair of names, the distances that the case gives [frame]
+    ground : index of the frame's body
     """
 
     def __init__(
@@ -40,12 +45,12 @@ class Shape:
         return self.joined.get(spot, spot)
 
     def between(self, p: Spot, q: Spot) -> Point:
-        """Vector from p to q as written."""
+        """Vector from p to q as written [frame]."""
         (px, py), (qx, qy) = self.ref[p[1]], self.ref[q[1]]
         return (qx - px, qy - py)
 
     def span(self, p: Spot, q: Spot) -> Scalar:
-        """Distance of two points of a body: as the case gives it, else from their places."""
+        """Distance of two points of a body [frame]: as the case gives it, else from their places."""
         given = self.spans.get(frozenset((p[1], q[1])))
         if given is not None:
             return given
@@ -59,9 +64,14 @@ class Shape:
 
 
 class Rotation(NamedTuple):
-    """A vector ``z`` that a body carries, ``ref`` the same vector as written; ``degrees`` since then.
+    """How a body has turned.
 
-    ``arm`` are two spots with their distance where ``z`` is the unit vector from the one to the other.
+    Attributes
+    ----------
+    z : a vector that it carries, of any length
+    ref : the same vector as written
+    degrees : the turning since then, whole turns too; None until it is asked for
+    arm : two spots and their distance where ``z`` is the unit vector from the one to the other
     """
 
     z: Point
@@ -111,7 +121,10 @@ class Still:
 
 
 class Moved:
-    """The bodies in motion, as far as they are known; numbers are those of a record."""
+    """The bodies in motion, as far as they are known; places [frame of size 1] are numbers of a record.
+
+    A body that is not placed yet raises KeyError.
+    """
 
     def __init__(self, shape: Shape) -> None:
         self.shape = shape
@@ -166,12 +179,12 @@ class Moved:
 
 
 def product(a: Point, b: Point) -> Point:
-    """Of two complex numbers."""
+    """Product of two complex numbers (x, y)."""
     return (a[0] * b[0] - a[1] * b[1], a[1] * b[0] + a[0] * b[1])
 
 
 def quotient(a: Point, b: Point) -> Point:
-    """Of two complex numbers."""
+    """Quotient of two complex numbers (x, y); divides by zero where b is (0, 0)."""
     if type(b[0]) is float and type(b[1]) is float and b == (1.0, 0.0):
         return a
     size = b[0] * b[0] + b[1] * b[1]
