@@ -19,7 +19,7 @@ SAMPLES = 720
 
 
 class Shift(NamedTuple):
-    """A follower that slides along a unit direction; moved by a length."""
+    """A follower that slides along a unit direction; moved by a length [case length]."""
 
     along: Point
 
@@ -40,7 +40,7 @@ class Shift(NamedTuple):
 
 
 class Turn(NamedTuple):
-    """A follower that turns about a point; moved by an angle, rad."""
+    """A follower that turns about a point [case length]; moved by an angle [rad], ccw positive."""
 
     about: Point
 
@@ -65,9 +65,14 @@ Freedom = Shift | Turn
 
 
 class Candidate(NamedTuple):
-    """A position in which a follower touches: how far it is moved, and on which side a face has its body.
+    """A position in which a follower touches.
 
-    ``sense`` is 1 where the gap grows when it is moved on, -1 where it shrinks.
+    Attributes
+    ----------
+    by : how far it is moved [case length, or rad]
+    side : of a flat face the side on which it has its body, 1 or -1
+    body : the follower there
+    sense : 1 where the gap grows when it is moved on, -1 where it shrinks
     """
 
     by: float
@@ -77,7 +82,11 @@ class Candidate(NamedTuple):
 
 
 def candidates(curve: Curve, body: Body, freedom: Freedom) -> list[Candidate]:
-    """Every position in which the follower touches the profile, along its freedom."""
+    """Every position in which the follower touches the profile, along its freedom.
+
+    Found where the gap changes its sign between 720 samples, then closed in by Brent's method: positions
+    nearer to each other than the samples may be missed.
+    """
     sides = (1.0, -1.0) if body.kind == "flat face" else (1.0,)
     return [way for side in sides for way in candidates_on(curve, body, freedom, side)]
 
@@ -85,8 +94,11 @@ def candidates(curve: Curve, body: Body, freedom: Freedom) -> list[Candidate]:
 def outermost(curve: Curve, body: Body, freedom: Freedom, side: float, sense: float) -> Candidate | None:
     """Where a follower that comes from outside meets the profile first; None where it never does.
 
-    Outside is where the gap grows along ``sense``. A follower that turns comes from the widest range of
-    angles in which it is free.
+    Parameters
+    ----------
+    side : of a flat face the side on which it has its body
+    sense : outside is where the gap grows along it, 1 or -1. A follower that turns comes from the widest
+        range of angles in which it is free
     """
     found = candidates_on(curve, body, freedom, side)
     outer = [way for way in found if way.sense == sense]
@@ -104,7 +116,7 @@ def _free(way: Candidate, found: list[Candidate]) -> float:
 
 
 def candidates_on(curve: Curve, body: Body, freedom: Freedom, side: float) -> list[Candidate]:
-    """As `ways`, of a face on one side."""
+    """As `candidates`, of a flat face with its body on one side."""
     if isinstance(freedom, Shift) and body.kind == "flat face":
         return list(_face_shifted(curve, body, freedom, side))
     found = []
@@ -151,9 +163,14 @@ AT_ONE = 1e-9
 
 
 class Meeting(NamedTuple):
-    """A gap (negative: overlap), where it is least, and the unit normal from the profile into the follower.
+    """A profile and a follower that touch.
 
-    At a corner on which a knife edge stands there are two normals, and any between them will do.
+    Attributes
+    ----------
+    gap : [case length], negative: overlap
+    foot : where it is least
+    normals : the unit normal from the profile into the follower; at a corner on which a knife edge stands
+        two, and any between them will do
     """
 
     gap: float
@@ -162,7 +179,12 @@ class Meeting(NamedTuple):
 
 
 def gap_of(curve: Curve, body: Body, side: float) -> tuple[float, Foot]:
-    """The gap between a profile and a follower; ``side`` is that of a flat face on which it has its body."""
+    """The gap between a profile and a follower [case length], negative where they overlap, and the foot.
+
+    Parameters
+    ----------
+    side : that of a flat face on which it has its body, 1 or -1
+    """
     if body.kind == "flat face":
         way = (-side * body.face[1], side * body.face[0])
         foot = curve.farthest(way)[0]
@@ -173,7 +195,9 @@ def gap_of(curve: Curve, body: Body, side: float) -> tuple[float, Foot]:
 
 
 def gaps_of(curve: Curve, bodies: Sequence[Body], side: float) -> list[float]:
-    """The gaps of a follower in several positions, roughly: between it and the chords of the profile."""
+    """The gaps of a follower in several positions [case length], roughly: between it and the chords of the
+    profile.
+    """
     import numpy as np
     import shapely
 

@@ -196,7 +196,14 @@ class ContactSearch:
 
 
 def pressure_angle(guide: Freedom, at: Point, normal: Point) -> float:
-    """Degrees between the normal and the motion of a point of the follower."""
+    """Degrees, from 0 to 90, between the normal and the motion of a point of the follower.
+
+    Parameters
+    ----------
+    guide : how the follower is guided
+    at : the point [case length]
+    normal : vector along the common normal, in either sense
+    """
     x, y = guide.velocity(at)
     along, across = x * normal[0] + y * normal[1], x * normal[1] - y * normal[0]
     if abs(across) <= ROUNDED * abs(along):

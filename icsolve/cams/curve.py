@@ -34,9 +34,14 @@ MEETING = 1e-9
 
 
 class Foot(NamedTuple):
-    """A point of a profile: on which piece, where there, and the outward unit normals of that place.
+    """A point of a profile.
 
-    One normal where the profile is smooth; at a corner those of both pieces, before and after.
+    Attributes
+    ----------
+    point : (x, y) [case length]
+    piece, u : on which piece it lies, and where there
+    normals : the outward unit normal where the profile is smooth; at a corner those of both pieces, before
+        and after
     """
 
     point: Point
@@ -57,9 +62,14 @@ class Foot(NamedTuple):
 
 
 class Curve(NamedTuple):
-    """Pieces in order, ccw and closed; ``size`` is the profile's; ``chords`` their ends with piece and u.
+    """A closed profile, run ccw.
 
-    ``tree`` is shapely's tree of the chords, ``inside`` its polygon of them.
+    Attributes
+    ----------
+    pieces : in order
+    size : diagonal of the box about it [case length]
+    chords : start, piece and u (of their middles) of the straight lines by which a piece is found
+    tree, inside : shapely's tree of the chords, and its polygon of them
     """
 
     pieces: tuple[Piece, ...]
@@ -86,7 +96,9 @@ class Curve(NamedTuple):
         return (ty, -tx)
 
     def radius_at(self, foot: Foot) -> float | None:
-        """Radius of curvature at a foot: 0 at a corner, negative where hollow, None where straight."""
+        """Radius of curvature at a foot [case length]: 0 at a corner, negative where hollow, None where
+        straight.
+        """
         return 0.0 if foot.is_corner else self.pieces[foot.piece].radius_at(foot.u)
 
     def nearest(self, p: Point) -> list[Foot]:
@@ -109,7 +121,7 @@ class Curve(NamedTuple):
         return sorted(feet, key=lambda foot: -_dot(foot.point, way))
 
     def height(self, p: Point) -> tuple[float, Foot]:
-        """How far a point lies outside the profile (negative: inside), and its nearest foot."""
+        """How far a point lies outside the profile [case length] (negative: inside), and its nearest foot."""
         foot = self.nearest(p)[0]
         x, y = p[0] - foot.point[0], p[1] - foot.point[1]
         if not foot.is_corner:
@@ -120,7 +132,7 @@ class Curve(NamedTuple):
 def curve_of(pieces: Sequence[Piece]) -> Curve | None:
     """The closed curve of pieces in order, joined by straight lines where ends are apart.
 
-    None where it crosses itself.
+    Pieces in cw order are turned round. None where it crosses itself, or has fewer than three chords.
     """
     from numpy import errstate
     from shapely import LinearRing, Polygon, STRtree, linestrings, prepare
@@ -181,7 +193,15 @@ AGREE = 2e-3
 
 
 class Body(NamedTuple):
-    """A follower in one position: its point, the radius of its roller, or the unit direction of its face."""
+    """A follower in one position.
+
+    Attributes
+    ----------
+    kind : ``knife edge``, ``roller`` or ``flat face``
+    at : its point [case length]
+    radius : of its roller
+    face : unit direction of its face
+    """
 
     kind: str
     at: Point
@@ -289,6 +309,8 @@ def _polar(shape: Radii, places: Places, what: str) -> PolarPiece:
 
 
 def table_spline(table: Sequence[tuple[float, float]]) -> Spline:
-    """The periodic spline through radii by angle (degrees, in any order)."""
+    """The periodic spline through radii [case length] by angle [degrees, in any order]; its own angle is in
+    rad.
+    """
     ordered = sorted((math.radians(angle) % TURN, radius) for angle, radius in table)
     return spline([angle for angle, _ in ordered], [radius for _, radius in ordered], TURN)

@@ -1,6 +1,8 @@
 """The exact pieces of a profile: straight lines, circular arcs, and a radius against the angle.
 
-Every piece runs from ``u`` = 0 to 1; a profile is run ccw, so that its outside lies to the right.
+Every piece runs from ``u`` = 0 to 1; a profile is run ccw, so that its outside lies to the right. Places
+are (x, y) [case length], angles rad, tangents and directions unit vectors. ``nearest`` and ``farthest`` give
+u, from a start near there (which straight lines and arcs do not need).
 
 Periodic cubic spline: twice continuously differentiable through values at given places of a period.
 
@@ -63,7 +65,14 @@ class Straight(NamedTuple):
 
 
 class CircularArc(NamedTuple):
-    """An arc about a centre from the angle ``start`` over the angle ``sweep``, rad, ccw positive."""
+    """An arc.
+
+    Attributes
+    ----------
+    centre, radius : [case length]
+    start : angle at u = 0 [rad]
+    sweep : angle over which it goes [rad], ccw positive, not zero
+    """
 
     centre: Point
     radius: float
@@ -117,9 +126,14 @@ class CircularArc(NamedTuple):
 
 
 class PolarPiece(NamedTuple):
-    """A closed curve: the radius about a point as a spline of the angle (rad) from the direction ``zero``.
+    """A closed curve: the radius about a point as a spline of the angle.
 
-    ``turn`` is 1 where the angle is ccw, -1 where it is cw; u runs ccw in both cases.
+    Attributes
+    ----------
+    about : the point [case length]
+    zero : direction from which the angle counts [rad, ccw from +x]
+    turn : 1 where the angle is ccw, -1 where it is cw; u runs ccw in both cases
+    radius : by the angle [rad], in case lengths, positive, of period 2 pi
     """
 
     about: Point
@@ -138,7 +152,9 @@ class PolarPiece(NamedTuple):
         return (self.about[0] + r * math.cos(way), self.about[1] + r * math.sin(way))
 
     def derivatives(self, u: float) -> tuple[Point, Point, Point]:
-        """The point from ``about``, and its first two derivatives by the ccw angle."""
+        """The point from ``about``, and its first two derivatives by the ccw angle [case length, a rad, a
+        rad^2].
+        """
         r, slope, bend = self.radius.at(self.angle(u))
         slope *= self.turn
         c, s = math.cos(self.zero + u * TURN), math.sin(self.zero + u * TURN)
@@ -151,7 +167,9 @@ class PolarPiece(NamedTuple):
         return unit(*self.derivatives(u)[1])
 
     def radius_at(self, u: float) -> float | None:
-        """Radius of curvature, negative where it is hollow; None where it is straight."""
+        """Radius of curvature [case length], ``|p'|^3 / (p' x p'')``: negative where it is hollow; None where
+        it is straight.
+        """
         _, (x, y), (bx, by) = self.derivatives(u)
         bend = x * by - y * bx
         return math.hypot(x, y) ** 3 / bend if bend else None
@@ -200,7 +218,7 @@ Piece = Straight | CircularArc | PolarPiece
 
 
 def unit(x: float, y: float) -> Point:
-    """Unit vector along (x, y)."""
+    """Unit vector along (x, y); ZeroDivisionError for (0, 0)."""
     length = math.hypot(x, y)
     return (x / length, y / length)
 
@@ -210,7 +228,14 @@ def _along(p: Point, way: Point) -> float:
 
 
 class Spline(NamedTuple):
-    """``values`` and second derivatives ``bends`` at increasing ``places``, repeated with the ``period``."""
+    """A periodic cubic spline of n places.
+
+    Attributes
+    ----------
+    places : (n,), increasing, within one period
+    values, bends : (n,), values and second derivatives there
+    period : in the unit of the places
+    """
 
     places: tuple[float, ...]
     values: tuple[float, ...]
@@ -218,7 +243,7 @@ class Spline(NamedTuple):
     period: float
 
     def at(self, x: float) -> tuple[float, float, float]:
-        """Value, first and second derivative."""
+        """Value, first and second derivative at any x."""
         x = self.places[0] + (x - self.places[0]) % self.period
         k = min(bisect_right(self.places, x), len(self.places)) - 1
         n = (k + 1) % len(self.places)
@@ -232,7 +257,16 @@ class Spline(NamedTuple):
 
 
 def spline(places: Sequence[float], values: Sequence[float], period: float) -> Spline:
-    """The spline through the values; at least three places, increasing, within one period."""
+    """The periodic spline through values.
+
+    Parameters
+    ----------
+    places : (n,), at least three, increasing, within one period
+    values : (n,)
+    period : in the unit of the places
+
+    Nothing is checked: two places at one divide by zero.
+    """
     n = len(places)
     steps = [places[(k + 1) % n] - places[k] + (period if k == n - 1 else 0.0) for k in range(n)]
     slopes = [(values[(k + 1) % n] - values[k]) / steps[k] for k in range(n)]

@@ -69,8 +69,19 @@ _GROUPED = re.compile(r"[-+]?[1-9]\d{0,2}\.\d{3}(?![\d.])")
 def judge_answer(
     key: AnyKey, combined: Combined, answer: str, unit: str = "", direction: str = ""
 ) -> tuple[Judgement, Read]:
-    """The verdict on an answer as it was written, unit and direction perhaps in columns of their own, and how
-    it was read."""
+    """The verdict on an answer as it was written.
+
+    Parameters
+    ----------
+    key : of any kind: a number, a place, a range, a choice
+    combined : reads numbers, with the decimal mark of the course
+    answer, unit, direction : texts; unit and direction perhaps in columns of their own
+
+    Returns
+    -------
+    tuple[Judgement, Read]
+        The verdict, and how the answer was read. Nothing that a student writes raises.
+    """
     if isinstance(key, PlaceKey):
         place = read_place(f"{answer} {unit}".strip())
         judged = judge_place(key, place)
@@ -122,7 +133,18 @@ def _judge_choice(
 
 
 def judge(key: NumberKey, written: WrittenAnswer) -> Judgement:
-    """The verdict on an answer to a question that is one number."""
+    """The verdict on an answer to a question that is one number.
+
+    Parameters
+    ----------
+    key : the right value, half the width in which an answer is right, and how unit and direction count
+    written : the number with its unit and direction, each perhaps missing
+
+    Returns
+    -------
+    Judgement
+        The share is from 0 to 1; a text that could not be read has a flag in the place of a verdict.
+    """
     number, unit, way, _, flag, note = written
     if flag:
         return _unjudged(flag)

@@ -242,9 +242,20 @@ AnyKey = NumberKey | PlaceKey | RangeKey | ChoiceKey
 def scalar_key(
     question: str, target: Target, answer: Answer, policy: Policy, wrongs: Callable[[], Iterable[Wrong]]
 ) -> NumberKey:
-    """The key of a target that is one number; ``wrongs`` makes its wrong answers when they are needed.
+    """The key of a target that is one number.
 
-    Raises NoKeyError where the answer has no such value, or the policy's tolerance does not fit it.
+    Parameters
+    ----------
+    question : its name
+    target : what is asked of the answer
+    answer : of the case
+    policy : tolerance, directions and credit
+    wrongs : makes the known wrong answers when they are needed
+
+    Raises
+    ------
+    NoKeyError
+        Where the answer has no such value, or the policy's tolerance does not fit it.
     """
     try:
         (value,) = value_of(answer, target)
@@ -396,7 +407,8 @@ def _range(question: str, low: NumberKey | None, high: NumberKey | None, policy:
 
 
 def scaled_key(key: NumberKey, factor: float) -> NumberKey:
-    """The key where all loads are ``factor`` times as large; a width in units stays what it is."""
+    """The key where all loads are ``factor`` times as large [case units]; a width in units stays what it is.
+    """
     value = key.value * factor
     tolerance = key.policy.tolerance
     fixed = key.fixed if not tolerance.drawing else abs(factor) * key.fixed

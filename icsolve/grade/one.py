@@ -15,7 +15,21 @@ from icsolve.grade.written.answer import Combined, Reader
 
 
 class Task:
-    """A case as one student's task; ``student`` picks the values of its variables."""
+    """A case as one student's task.
+
+    Parameters
+    ----------
+    path : the case's file
+    student : picks the values of its variables
+    course : policies and tolerances; the default ones without
+
+    Attributes
+    ----------
+    values : the variables' values as texts, by name
+    given : what the case gives, as pairs of a name and a value in words
+
+    Raises ValueError where the case can't be read or has no answer.
+    """
 
     def __init__(self, path: str | os.PathLike[str], student: str = "", course: Course | None = None) -> None:
         """Raises ValueError where the case can't be read or has no answer."""
@@ -45,7 +59,18 @@ class Task:
         return f"{sensible(key)} {key.unit_name}".strip() if isinstance(key, NumberKey) else key.accepted
 
     def grade(self, what: str, answer: str) -> dict[str, Any]:
-        """``verdict``, ``score`` from 0 to 1, ``code`` and ``feedback`` of an answer."""
+        """The marks for an answer.
+
+        Parameters
+        ----------
+        what : what is asked (``w4/w2``); '' the unknown
+        answer : as it was written, with unit and direction
+
+        Returns
+        -------
+        dict[str, Any]
+            ``verdict``, ``score`` from 0 to 1, ``code`` and ``feedback``.
+        """
         key = self._key(what)
         judged, _ = judge_answer(key, Combined(Reader(self._course.decimal)), answer)
         told = feedback(key, judged, self._course.reveal)

@@ -112,9 +112,27 @@ def spare_collector() -> None:
 
 
 def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
-    """Grade all submissions of a job; results go to the sinks, sorted by student and question.
+    """Grade all submissions of a job.
 
-    Raises HeaderError, ValueError or OSError where a file can't be used at all.
+    Parameters
+    ----------
+    job : files of answers, cases, course, roster
+    sinks : where results go, sorted by student and question
+    progress : told what is being done, and how much of it is, from 0 to 1
+
+    Returns
+    -------
+    Graded
+        Counts by question, and what was noted; what is wrong with single answers is noted, never raised.
+
+    Raises
+    ------
+    HeaderError
+        Where the columns of a file can't be told.
+    ValueError
+        Where there is no case, or a file can't be used at all.
+    OSError
+        Where one can't be read.
     """
     issues = Issues()
     case_store = CaseStore(job.cases, job.course)

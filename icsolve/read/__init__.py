@@ -20,10 +20,17 @@ Settings = Named[str, str | float]
 def load(path_or_text: str | os.PathLike[str], settings: Settings | None = None) -> Case:
     """A case from a file, or from a text: one with a line break or with ``icsolve:`` in it.
 
+    Parameters
+    ----------
+    path_or_text : file, or YAML text
+    settings : values in the place of those that the case gives, by path: ``{"angles.AB": "30"}``; a number
+        without a unit is in the units of the case
+
     Raises
     ------
     CaseError
-        With all that is wrong, each with its line and column. ``NotACase`` where there is no ``icsolve:``.
+        With all that is wrong, each with its line and column; so for a file that is missing or not UTF-8.
+        ``NotACase`` where there is no ``icsolve:``.
     """
     if isinstance(path_or_text, str) and ("\n" in path_or_text or "icsolve:" in path_or_text):
         return read_text(path_or_text, settings=settings)

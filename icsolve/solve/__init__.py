@@ -51,7 +51,16 @@ def solve(
         With the inertia forces of the given motion among the loads, and the accelerations; as `dynamic: yes`
         in the case.
 
-    Raises SceneError where the scene has no answer; its ``status`` is a member of `icsolve.errors.Status`.
+    Returns
+    -------
+    Answer
+        Loads in their case units, places in case lengths, rates in rad/s.
+
+    Raises
+    ------
+    SceneError
+        Where the scene has no answer: its figure can't be built, or a load has no value in this position. Its
+        ``status`` is a member of `icsolve.errors.Status`, its message says what would mend it.
     """
     asked = {"all_centres": all_centres, "rates": rates, "reactions": reactions}
     if not (case.unknowns or (None in _coordinates(case) and _asks_for_a_position(case))):
@@ -89,7 +98,12 @@ class Attempt(NamedTuple):
 
 
 def attempt(case: Case, *, reactions: bool = False) -> Attempt:
-    """Solve all of a case once, and keep what was found: never raises `SceneError`."""
+    """Solve all of a case once, and keep what was found: never raises `SceneError`.
+
+    Parameters
+    ----------
+    reactions : whether the forces in the joints are asked for; given up where the loads are not in balance
+    """
     if case.space is not None or case.dynamic or case.unknowns:
         return _tried(case, reactions)
     if case.profiles is not None and case.profiles.touches:

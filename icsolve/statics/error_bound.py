@@ -41,7 +41,14 @@ TOO_CLOSE = f"{UNSURE} so near to a dead centre or a jam"
 
 
 class ErrorBounds(NamedTuple):
-    """By load: the bound (case units; None: not proven, and ``why``), and its slope by each number's path."""
+    """What is proven of the loads of a solution with friction.
+
+    Attributes
+    ----------
+    bounds : by load, of the absolute error [case units]; empty where none is proven, and ``why``
+    slopes : by load and by the path of a number, the derivative [case units]
+    values : the loads themselves, where they were enclosed
+    """
 
     bounds: Mapping[str, float]
     slopes: Mapping[str, Mapping[str, float]]

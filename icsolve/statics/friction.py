@@ -50,10 +50,17 @@ from icsolve.wording.sentences import listed, plural
 
 
 def in_motion(scene: FrictionScene) -> tuple[dict[str, float], FreeBodies, ErrorBounds]:
-    """The unknown loads (case units) that keep up the given motion, the free bodies, and bounds.
+    """The unknown loads that keep up the given motion, the free bodies, and bounds.
 
-    Raises SceneError where no value does, where several do without one to prefer, and where the sense
-    of a rub is open.
+    Returns
+    -------
+    tuple[dict[str, float], FreeBodies, ErrorBounds]
+        Loads and bounds by name [case units].
+
+    Raises
+    ------
+    SceneError
+        Where no value does, where several do without one to prefer, and where the sense of a rub is open.
     """
     scene = slipping(scene)
     ties, workless = ties_of(scene.position), _is_workless(scene)
@@ -86,9 +93,15 @@ def _certain(scene: FrictionScene, solved: Solved, senses: Sequence[float]) -> E
 def at_rest(scene: FrictionScene) -> tuple[StaticRange, float | None, str]:
     """The range of the one unknown load in which the mechanism holds still.
 
-    With it the bound of its ends (case units), None with the reason where none is proven.
+    Returns
+    -------
+    tuple[StaticRange, float | None, str]
+        The range, the bound of its ends [case units], and, with None, the reason why none is proven.
 
-    Raises SceneError at a mobility above 1, where the range of one load depends on the others.
+    Raises
+    ------
+    SceneError
+        ``mobility`` above 1, where the range of one load depends on the others.
     """
     if scene.position.mobility - len(scene.solution.idle) != 1:
         message = (

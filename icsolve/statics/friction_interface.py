@@ -36,7 +36,12 @@ def has_friction(case: Case) -> bool:
 
 
 def rubs_of(position: Position, ties: Sequence[Tie]) -> tuple[Rub, ...]:
-    """Every place that can rub, in the order of the joints."""
+    """Every place that can rub, in the order of the joints: a pin, slide, slot, contact or thread once, a
+    block of given length at both ends.
+
+    Coulomb's law: the friction is at most ``limit`` times the length of ``normal`` [frame lengths for the
+    radius of a pin's friction circle, ``r sin(atan mu)``; else mu].
+    """
     arithmetic = position.arithmetic
     found: list[Rub] = []
     for t, tie in enumerate(ties):
@@ -92,7 +97,9 @@ def _guided(position: Position, t: int, tie: Tie, friction: Friction, arithmetic
 
 
 def rates_of(position: Position, ties: Sequence[Tie], rubs: Sequence[Rub], motion: int) -> list[Scalar]:
-    """Rubbing rate at every rub in a motion: the power of a unit of its friction."""
+    """Rubbing rate at every rub in a motion, (rubs,): the power of a unit of its friction on the second link
+    [frame length/s, of a pin rad/s].
+    """
     return [_rate(position, ties[rub.tie], rub, motion) for rub in rubs]
 
 
@@ -115,9 +122,19 @@ def unknowns_by_power(
     friction: Sequence[float],
     pulls: Sequence[float] = (),
 ) -> dict[str, float]:
-    """The unknown loads (case units) that leave no power in any motion, with this friction (scaled).
+    """The unknown loads that leave no power in any motion, friction counted: apart from the equilibrium of
+    the links.
 
-    ``pulls`` has the tension of the first part of each rope, in case units.
+    Parameters
+    ----------
+    position, balance, statics : the scene
+    friction : (rubs,) [scaled]
+    pulls : tension of the first part of each rope [case units]
+
+    Returns
+    -------
+    dict[str, float]
+        By name [case units]; not a number where the motions do not determine them.
     """
     rows = []
     for m, factors in enumerate(balance.factors):

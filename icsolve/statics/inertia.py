@@ -33,7 +33,15 @@ def exactly(
     wrenches: Sequence[Wrench],
     arithmetic: Arithmetic,
 ) -> tuple[Wrench, ...]:
-    """The wrenches with those of the inertia forces as this arithmetic has them; the loads are rounded."""
+    """The wrenches with those of the inertia forces as this arithmetic has them; the loads are rounded.
+
+    D'Alembert's principle: ``-m a`` at the centre of mass and the couple ``-I alpha``, in case units.
+
+    Raises
+    ------
+    SceneError
+        As `icsolve.kinematics.accelerations.moving`.
+    """
     moves = moving(case, top, frame, points, motions, arithmetic)
     forces = _forces(case, frame, moves, points, arithmetic)
     found = []

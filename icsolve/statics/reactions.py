@@ -32,7 +32,20 @@ from icsolve.wording.sentences import listed, plural
 def reactions_of(
     position: Position, frame: Frame, statics: Statics, parameters: Mapping[int, Scalar], a: Showing
 ) -> Reactions:
-    """Every joint's reaction; ``parameters`` are the known loads, the unknown ones and the friction."""
+    """Every joint's reaction, by the names of the format (``F34``, ``F3-4@B``).
+
+    Parameters
+    ----------
+    frame : scale and origin of the frame, to bring places and couples back to case units
+    statics : the general solution
+    parameters : by column, the known loads, the unknown ones and the friction [scaled]
+    a : arithmetic of all of it
+
+    Returns
+    -------
+    Reactions
+        Forces in case force units, couples in case torque units; what equilibrium does not determine is None.
+    """
     combined = [_combined(statics, t) for t in range(len(statics.ties))]
     sizes = _open_sizes(statics)
     values = [tuple(_value(statics, row, parameters) for row in rows) for rows in combined]
@@ -59,9 +72,12 @@ DEGREES = ("pressure angle",)
 
 
 def tensions_of(statics: Statics, parameters: Mapping[int, Scalar], a: Showing) -> tuple[Tension, ...]:
-    """The pull of every rope, case units.
+    """The pull of every rope [case units]; None, with the reason, where equilibrium does not determine it.
 
-    Raises SceneError where one would have to push.
+    Raises
+    ------
+    SceneError
+        ``slack`` where one would have to push.
     """
     sizes = _open_sizes(statics)
     largest = max((abs(statics.value(c, parameters)) for c in range(statics.known)), default=0.0)

@@ -17,9 +17,16 @@ from icsolve.wording.sentences import listed
 
 
 class Slid(NamedTuple):
-    """The unknown loads (case units) and frictions (scaled) while the mechanism moves.
+    """The solution while the mechanism moves.
 
-    ``others`` are the values of the first unknown load in all other solutions.
+    Attributes
+    ----------
+    unknowns : by load [case units]
+    friction : (rubs,), on the ties' second links [scaled]
+    limits : (rubs,), its sizes
+    error : bound of the relative error of the forces that press, from what is left of their equations
+    unique : how it is known that there is no other solution; empty where it is not
+    others : the values of the first unknown load in all other solutions [case units]
     """
 
     unknowns: dict[str, float]
@@ -33,7 +40,16 @@ class Slid(NamedTuple):
 def slid(statics: Statics, senses: Sequence[float], workless: bool) -> Slid:
     """Solve the friction of given senses.
 
-    Raises SceneError where no value of the unknown load keeps up the motion.
+    Parameters
+    ----------
+    statics : with friction as parameters
+    senses : (rubs,), 1, -1 or 0: those of the rubbing motions of the second links
+    workless : whether the unknown load does no work, so that the frictions alone balance the known ones
+
+    Raises
+    ------
+    SceneError
+        Where no value of the unknown load keeps up the motion (it jams), or several do without one to prefer.
     """
     equations = None if workless else reduced(statics, senses)
     if equations is None:

@@ -40,9 +40,14 @@ MOST_TRIED = 6
 
 
 class End(NamedTuple):
-    """An end of the interval: the value (case units), the senses of the rubs, and their friction (scaled).
+    """An end of the interval.
 
-    No friction where the value is infinite, or is not that of an equilibrium about to move.
+    Attributes
+    ----------
+    value : the unknown load [case units], perhaps infinite
+    senses : (rubs,), those of the motion that is about to begin
+    friction : (rubs,) [scaled]; empty where the value is infinite, or not that of an equilibrium about to
+        move
     """
 
     value: float
@@ -51,11 +56,16 @@ class End(NamedTuple):
 
 
 class StaticRange(NamedTuple):
-    """The interval, in case units; infinite where no value moves the mechanism that way.
+    """The interval in which a mechanism holds still.
 
-    ``possible`` is the range in which friction within its limits can hold; ``how`` says how that was
-    found: only `PROVEN` is a proof. ``ends`` are those ends at which it is about to move, ``again`` values
-    outside of the interval at which it is so too.
+    Attributes
+    ----------
+    least, most : [case units]; infinite where no value moves the mechanism that way
+    possible : the range in which friction within its limits can hold
+    how : how that was found: only `PROVEN` is a proof
+    self_locking : it holds with the unknown at zero, or no value moves it one way
+    ends : those ends at which it is about to move
+    again : values outside of the interval at which it is so too
     """
 
     least: float
@@ -68,9 +78,17 @@ class StaticRange(NamedTuple):
 
 
 def static_range(statics: Statics, senses: Sequence[float]) -> StaticRange:
-    """The interval of the one unknown load; ``senses`` are those of the rubs in the motion.
+    """The interval of the one unknown load.
 
-    Self-locking: it holds with the unknown at zero (against loads), or no value moves it one way.
+    Parameters
+    ----------
+    statics : of one motion and one unknown load, with friction as parameters
+    senses : (rubs,), those of the rubs in the motion, 1, -1 or 0
+
+    Returns
+    -------
+    StaticRange
+        Self-locking: it holds with the unknown at zero (against loads), or no value moves it one way.
     """
     ends = [end for d in (1.0, -1.0) if (end := _end(statics, [d * s for s in senses])) is not None]
     least, most = min(end.value for end in ends), max(end.value for end in ends)

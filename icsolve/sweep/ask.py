@@ -79,9 +79,9 @@ def columns_of(
 
 
 def along_of(columns: Columns) -> str:
-    """The one number, or link, that varies.
+    """The one number (its path), or link, whose values are not all the same.
 
-    Raises AskError where none does, or several do.
+    Raises ValueError where none varies, or several do.
     """
     varying = [name for name, array in columns.arrays.items() if np.ptp(array) > 0.0]
     if len(varying) != 1:

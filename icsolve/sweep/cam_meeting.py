@@ -37,7 +37,14 @@ Vectors = tuple[Array, Array]
 
 
 class Poses(NamedTuple):
-    """A follower as the cam sees it, row by row: its point, the ways of its face and guide, its pivot."""
+    """A follower as the cam sees it, row by row.
+
+    Attributes
+    ----------
+    at : place of its point, x and y, (n,) each [case length]
+    face, along : unit vectors of a flat face, and of the guide of a follower that slides
+    about : pivot of one that turns [case length]
+    """
 
     at: Vectors
     face: Vectors
@@ -50,8 +57,15 @@ class Poses(NamedTuple):
 
 
 class Met(NamedTuple):
-    """How far the follower is moved, where it touches and the unit normal there, as the cam sees it; in which
-    rows this is sure."""
+    """Where followers meet their cams.
+
+    Attributes
+    ----------
+    by : how far each is moved from its pose, (n,) [case length; rad where it turns]
+    point : where it touches, as the cam sees it, (n, 2) [case length]
+    normal : unit normal there, from the cam into the follower, (n, 2)
+    sure : in which rows this is decided, (n,); the others are left to `contact_candidates`
+    """
 
     by: Array
     point: Array
@@ -60,8 +74,16 @@ class Met(NamedTuple):
 
 
 class FirstMeeting:
-    """The meetings of one follower and its cam; ``side`` and ``sense`` as in `Follow`; it
-    slides, or turns about a point."""
+    """The first meetings from outside of one follower and its cam, in many poses.
+
+    Parameters
+    ----------
+    curve : the cam's profile
+    body : the follower: its kind and its radius
+    shifts : whether it slides; else it turns about a point
+    side : of a flat face the side on which it has its body, 1 or -1
+    sense : 1 where the gap grows as it moves on, -1 where it shrinks
+    """
 
     def __init__(self, curve: Curve, body: Body, shifts: bool, side: float, sense: float) -> None:
         self.size, self.side, self.sense = curve.size, side, sense
@@ -74,7 +96,7 @@ class FirstMeeting:
             ).max(1)
 
     def run(self, poses: Poses) -> Met:
-        """All rows."""
+        """All rows; what does not exist is not sure, and raises nothing."""
         rows = len(poses.at[0])
         parts = [
             self._block(poses.some(slice(start, start + ROWS))) for start in range(0, max(rows, 1), ROWS)

@@ -58,9 +58,14 @@ MARKERS = ("@pose.", "@origin.", "@follower.", "@profile.")
 class Follow(NamedTuple):
     """A follower on its cam in the position as written.
 
-    ``driver`` is the link that a sweep turns, or the length that it varies from ``start``, to move the
-    follower; ``frame`` has two points of the cam. A face has its body on ``side``; the gap grows as the
-    follower moves on where ``sense`` is 1.
+    Attributes
+    ----------
+    seeking : the contact, and how it is named
+    curve, body, freedom : profile, follower and its guide [case length, rad]
+    side : of a flat face the side on which it has its body
+    sense : 1 where the gap grows as the follower moves on
+    driver : the link that a sweep turns, or the length that it varies from ``start``, to move the follower
+    frame, written : names and places of two points of the cam
     """
 
     seeking: ContactSearch
@@ -75,7 +80,9 @@ class Follow(NamedTuple):
     written: tuple[Point, Point]
 
     def driven(self, by: Array) -> Array:
-        """The driver's values for motions along the freedom."""
+        """The driver's values, (n,) [degrees, or case length], for motions along the freedom, (n,) [rad, case
+        length].
+        """
         return np.degrees(by) if isinstance(self.freedom, Turn) else self.start + by
 
     def met(self, pose: LinkPose) -> Candidate | None:
@@ -84,7 +91,17 @@ class Follow(NamedTuple):
         return outermost(self.curve, body, freedom, self.side, self.sense)
 
     def rested(self, first: Array, second: Array) -> Met:
-        """Where the follower meets the cam in every row, by the places of the cam's two points."""
+        """Where the follower meets the cam in every row.
+
+        Parameters
+        ----------
+        first, second : places of the cam's two points, (n, 2) [case length]
+
+        Returns
+        -------
+        Met
+            ``point`` and ``normal`` as the frame sees them.
+        """
         (ax, ay), (bx, by) = self.written
         (ux, uy), v = (bx - ax, by - ay), second - first
         c, s = ux * v[:, 0] + uy * v[:, 1], ux * v[:, 1] - uy * v[:, 0]
@@ -110,7 +127,19 @@ class Follow(NamedTuple):
         return met._replace(point=out(met.point - (ax, ay)) + first, normal=out(met.normal))
 
     def pressure(self, at: Array, normal: Array) -> Array:
-        """Pressure angles (degrees) at contacts, as `contact_search.pressure_angle`."""
+        """Pressure angles [degrees] at contacts, as `contact_search.pressure_angle`.
+
+        Parameters
+        ----------
+        at : where they touch, (n, 2) [case length]
+        normal : unit normals into the follower, (n, 2)
+
+        Returns
+        -------
+        Array
+            (n,), from 0 to 90: between the normal and the way of the follower's point (of a roller, its
+            centre).
+        """
         x, y = at.T + self.body.radius * normal.T
         if isinstance(self.freedom, Turn):
             x, y = self.freedom.about[1] - y, x - self.freedom.about[0]
@@ -339,7 +368,13 @@ def _point(place: Array) -> Point:
 
 
 class LinkPose(NamedTuple):
-    """``turn`` is (cos, sin) of the turning; ``written`` and ``now`` are the places of one of its points."""
+    """How far a link has moved from the position as written.
+
+    Attributes
+    ----------
+    turn : (cos, sin) of its turning
+    written, now : the places of one of its points, then and now [case length]
+    """
 
     turn: Point
     written: Point
@@ -383,7 +418,10 @@ class LinkPose(NamedTuple):
 
 
 def pose_of(written: tuple[Point, Point], now: tuple[Point, Point]) -> LinkPose:
-    """The pose of a link by two of its points."""
+    """The pose of a link by two of its points, then and now [case length].
+
+    Divides by zero where they lie at one place.
+    """
     (ax, ay), (bx, by) = written
     (cx, cy), (dx, dy) = now
     ux, uy, vx, vy = bx - ax, by - ay, dx - cx, dy - cy

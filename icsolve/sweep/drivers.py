@@ -49,6 +49,12 @@ def only_poses(mechanism: Mechanism, path: str, point: str, written: float) -> b
     """Whether a given coordinate only poses the figure: changed a little, it leaves every link's shape.
 
     The figure is solved again as if written so; what hangs on it must be as far apart as before.
+
+    Parameters
+    ----------
+    path : of the coordinate
+    point : its point; one of the frame's is none that poses
+    written : its value [case length]
     """
     if (mechanism.top.ground, point) in mechanism.spots[mechanism.top.ground]:
         return False
@@ -261,12 +267,12 @@ def _arms(mechanism: Mechanism, datum: Datum) -> tuple[int, int] | None:
 
 
 def turning(mechanism: Mechanism, link: str, degrees: Scalar) -> Turning:
-    """A link turned from the position as written."""
+    """The condition that a link is turned by ``degrees`` from the position as written."""
     return Turning(((mechanism.top.body_of[link], 1.0),), degrees)
 
 
 def value_of(case: Case, datum: Datum) -> float:
-    """The number that the case writes for a datum."""
+    """The number that the case writes for a datum [case units, degrees]."""
     if datum.kind in (X, Y):
         place = case.points[datum.points[0]]
         assert isinstance(place, Coordinates)
@@ -284,7 +290,14 @@ NOISE = 1e-9
 
 
 class Drive(NamedTuple):
-    """Which of the varied paths move the mechanism, and which data are held while it moves."""
+    """What varied numbers do.
+
+    Attributes
+    ----------
+    moving : the varied paths that move the mechanism; the others give another case in each row
+    held : the data that are held while it moves, as many as it has freedoms left
+    locked : bodies that only spin, which are kept from it
+    """
 
     moving: tuple[str, ...]
     held: tuple[Pose, ...]
@@ -295,7 +308,17 @@ class Drive(NamedTuple):
 def drive_of(mechanism: Mechanism, paths: Sequence[str], links: Sequence[str]) -> Drive:
     """Which varied paths move the mechanism, and what is held.
 
-    Raises SceneError where a link cannot be turned, or all is rigid.
+    Parameters
+    ----------
+    mechanism : in the position as written
+    paths : of the varied numbers
+    links : those that are turned
+
+    Raises
+    ------
+    SceneError
+        ``mobility`` where a link cannot be turned, or a number and a link take the same freedom; what a joint
+        says that cannot be moved.
     """
     case = mechanism.case
     bodies = [body for body in mechanism.spots if body != mechanism.top.ground]

@@ -114,9 +114,13 @@ def evaluator(
 
 
 class Evaluator:
-    """A case as a function of some of its numbers; `evaluator` makes it.
+    """A case as a function of some of its numbers; `evaluator` makes it, and tells what is refused.
 
-    ``inputs`` are the paths, in the order of the arguments.
+    Attributes
+    ----------
+    case : as written
+    inputs : the paths, in the order of the arguments
+    compiled : the record with its programs; None where each row is solved as a scene of its own
     """
 
     def __init__(self, case: Case, names: dict[str, str], wanted: Wanted, gradients: bool) -> None:
@@ -130,7 +134,24 @@ class Evaluator:
             )
 
     def __call__(self, *columns: npt.ArrayLike) -> Evaluated:
-        """Every row. Raises ValueError for columns that do not fit."""
+        """Every row.
+
+        Parameters
+        ----------
+        *columns : one a path, in the order of ``inputs``: (n,), or one number for all rows [case units,
+        degrees]
+
+        Returns
+        -------
+        Evaluated
+            n rows; one of plain numbers alone is one row. A row without an answer says so in ``status``.
+
+        Raises
+        ------
+        ValueError
+            For columns whose number or lengths do not fit, or with more than one dimension, and for angles
+            that are not finite: one of them spoils the whole call.
+        """
         if len(columns) != len(self.inputs):
             names = ", ".join(self.inputs)
             raise AskError(f"{len(self.inputs)} numbers are varied ({names}), not {len(columns)}")
@@ -149,7 +170,7 @@ class Evaluator:
         return out.result()
 
     def case_of(self, *numbers: float) -> Case:
-        """The case with these numbers, as if written so."""
+        """The case with these numbers, in the order of ``inputs`` [case units, degrees], as if written so."""
         return with_numbers(self.case, dict(zip(self.own, map(float, numbers), strict=True)))
 
     def _keys(self) -> dict[Key, int]:

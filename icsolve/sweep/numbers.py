@@ -34,7 +34,13 @@ def _walk(value: Any) -> Iterator[Number]:
 
 
 def with_numbers(case: Case, values: Mapping[str, float | Number]) -> Case:
-    """The case with other numbers at some paths, each as if written so (exact)."""
+    """The case with other numbers at some paths, each as if written so (exact).
+
+    Parameters
+    ----------
+    values : by path, in its canonical form (`find_number`), numbers in case units, degrees; a path that the
+        case does not have is passed over
+    """
 
     def changed(value: Any) -> Any:
         if isinstance(value, Number):
@@ -53,9 +59,13 @@ def with_numbers(case: Case, values: Mapping[str, float | Number]) -> Case:
 
 
 def find_number(case: Case, path: str) -> Number:
-    """The number at a path, in any of the ways in which it can be written.
+    """The number at a path, in any of the ways in which it can be written (``lengths.BA`` for
+    ``lengths.AB``).
 
-    Raises CaseError where there is none, with what was meant.
+    Raises
+    ------
+    CaseError
+        Where there is none, with what may have been meant, or several.
     """
     known = numbers_of(case)
     if path in known:

@@ -45,12 +45,19 @@ Form = tuple[Scalar, ...]
 
 
 class RubbingRows(NamedTuple):
-    """The friction of a sweep, as expressions on its record.
+    """The friction of a sweep, as expressions on its record. k rubs press with the sizes y, (k,), of their
+    forces.
 
-    ``forces`` has of each rub the components of the force that presses there, and ``load`` the unknown load,
-    both for senses against which friction is positive; ``rates`` the rubbing rates, ``drive`` the rate of
-    the link whose motion is given, so that it turns as asked where positive (None: nothing is given, and the
-    load holds over a range). ``ratios`` are the loads that take the unknown's number.
+    Attributes
+    ----------
+    forces : of each rub the components of the force that presses there, each an affine form in y, (1 + k,),
+        for senses against which friction is positive [scaled force]
+    load : the unknown load, an affine form too [case units]
+    rates : (k,), rubbing rates of the second links [frame length/s, of pins rad/s], whose signs are the
+        senses
+    drive : rate of the link whose motion is given, so that it turns as asked where positive; None: nothing is
+        given, and the load holds over a range
+    ratios : by load that takes the unknown's number, how many times
     """
 
     forces: tuple[tuple[Form, ...], ...]
@@ -72,7 +79,19 @@ class RubbingRows(NamedTuple):
         return sorted({v.index for v in every if isinstance(v, Traced) and v.row})
 
     def run(self, values: dict[int, Array], rows: int) -> Balanced:
-        """The unknown loads of all rows, from the values of the nodes."""
+        """The unknown loads of all rows.
+
+        Parameters
+        ----------
+        values : by node of ``nodes``, (rows,)
+        rows : how many
+
+        Returns
+        -------
+        Balanced
+            Rows in which a sense is open, the forces do not contract (Collatz and Wielandt) or do not settle
+            are not ``sure``; what stands there means nothing.
+        """
 
         def take(v: Scalar) -> Array | float:
             return values[v.index] if isinstance(v, Traced) and v.row else float(v)
@@ -111,7 +130,14 @@ class RubbingRows(NamedTuple):
 
 
 class Balanced(NamedTuple):
-    """Unknown loads by name (case units), or the ranges over which they hold, (n, 2); which rows are sure."""
+    """The unknown loads of rows with friction; one of ``answers`` and ``holds`` is empty.
+
+    Attributes
+    ----------
+    answers : by load, (rows,) [case units], in the given motion
+    holds : by load, the least and the most that hold, (rows, 2) [case units], where no motion is given
+    sure : (rows,)
+    """
 
     answers: dict[str, Array]
     holds: dict[str, Array]

@@ -48,14 +48,24 @@ Progress = Callable[[int], None]
 
 
 class RowsFound(NamedTuple):
-    """Arrays by output; rows to look at again."""
+    """What a run gave.
+
+    Attributes
+    ----------
+    values : by (kind, name), (rows,) or (rows, parts) [case units], as the arrays of `Sweep`
+    doubtful : indices of the rows that are to be solved as scenes: their values are not to be shown
+    """
 
     values: dict[Key, Array]
     doubtful: Rows
 
 
 class Runner:
-    """A sheet compiled for its outputs; may run in several threads, each with its own."""
+    """A sheet compiled for its outputs: which nodes to run, and which of them to watch.
+
+    It may run in several threads, each with its own buffers. A row is doubtful where a radicand, a divisor, a
+    margin of the figure or an answer is small beside what it is where the record was made.
+    """
 
     def __init__(self, sheet: Sheet) -> None:
         self.sheet = sheet
@@ -127,7 +137,7 @@ class Runner:
         return Code(self.sheet.record, [n for r in live_roots(self.sheet) for m in r.margins for n in m])
 
     def apart(self, given: Mapping[int, Array], rows: int) -> Mask:
-        """Rows whose links clearly do not reach one another."""
+        """Rows whose links clearly do not reach one another, (rows,); the others may still be in doubt."""
         found = self.reaching.run(given, rows)
         out = np.zeros(rows, dtype=bool)
         for margin, size in zip(found[::2], found[1::2], strict=True):
@@ -140,7 +150,9 @@ class Runner:
         return RowScenes(self.sheet)
 
     def passes(self, targets: Sequence[int], leaves: Sequence[int] = ()) -> Backward:
-        """Backward passes from some nodes, as far as to the leaves."""
+        """Backward passes from some nodes, as far as to the leaves: signs, guesses and counts of turns are
+        exact.
+        """
         sheet = self.sheet
         groups = sheet.motion.groups if sheet.motion else ()
         exact = [k for name, k in sheet.inputs.items() if name.startswith(("branch ", "swing "))]
@@ -149,7 +161,7 @@ class Runner:
         return Backward(sheet.record, targets, groups, exact, leaves)
 
     def blank(self, rows: int) -> dict[Key, Array]:
-        """Arrays for the outputs."""
+        """Arrays for the outputs, (rows,) or (rows, parts), of which nothing is filled."""
         widths = {key: len(parts) for key, parts in self.sheet.outputs.items()} | self.rubbed
         return {key: np.empty(rows if width == 1 else (rows, width)) for key, width in widths.items()}
 
@@ -162,14 +174,27 @@ class Runner:
         return {("answers", name): 1 for name in names} | ranges
 
     def empty(self, rows: int) -> dict[Key, Array]:
-        """Arrays for the outputs; those that are the same in every row are filled."""
+        """Arrays for the outputs, (rows,) or (rows, parts); those that no row changes are filled."""
         values = self.blank(rows)
         for key, part, value in self.still:
             column(values[key], part)[:] = value
         return values
 
     def run(self, given: Mapping[int, Array], rows: int, progress: Progress | None = None) -> RowsFound:
-        """All rows; ``given`` has an array or one number for every input."""
+        """All rows.
+
+        Parameters
+        ----------
+        given : by node, an array (rows,) or one number (an array of no dimension), for every input of the
+            record
+        rows : how many
+        progress : called with the number of rows of every block
+
+        Raises
+        ------
+        KeyError
+            Where an input is not given.
+        """
         values, doubtful = self.empty(rows), []
         for start in range(0, rows, BLOCK):
             stop = min(start + BLOCK, rows)
@@ -241,7 +266,7 @@ def _living(sheet: Sheet, alive: Sequence[int]) -> list[int]:
 
 
 def column(array: Array, part: int) -> Array:
-    """One part of an output's array."""
+    """One part of an output's array, a view (rows,); of an array (rows,) itself."""
     return array if array.ndim == 1 else array[:, part]
 
 

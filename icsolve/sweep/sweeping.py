@@ -48,21 +48,28 @@ def sweep(
     Parameters
     ----------
     case : as `icsolve.load` returns it
-    vary : arrays of values by path (``angles.AB``, ``loads.P``), zipped; case units, degrees
+    vary : by path (``angles.AB``, ``loads.P``), values, (n,) or one number for all rows; zipped; case
+        units, degrees
     want : ``answers``, ``status``, ``error``, ``points``, ``centres``, ``rates``, ``velocities``,
         ``accelerations`` (with inertia forces); or single ones, ``points.C``, ``centres.2-4``
-    drive : arrays of degrees by which links are turned from the position as written, by link
+    drive : by link, degrees by which it is turned from the position as written, (n,) or one number
     dynamic : with the inertia forces of the given motion, as in `icsolve.solve`
     progress : called with the number of rows that were done, time and again
+
+    Returns
+    -------
+    Sweep
+        A row without an answer says so in ``status`` and is not a number in the arrays; it raises nothing.
 
     Raises
     ------
     CaseError
         For a path that the case does not have.
     SceneError
-        Where no row can be solved: the case as written has no figure, or cannot be moved so.
+        Where no row can be solved: the case as written has no figure, lies in space, or cannot be moved so.
     ValueError
-        For arrays that can't be columns, or words that can't be wanted.
+        For arrays that can't be columns (of unlike lengths, empty, not finite, of two dimensions), numbers
+        that no case may have there, and words that can't be wanted.
     """
     if case.space is not None:
         raise SceneError(Status.UNSUPPORTED, IN_SPACE)

@@ -122,8 +122,14 @@ class Sweep:
     def case_of(self, row: int) -> Case:
         """The case of a row, as `icsolve.solve` takes it: its points by coordinates.
 
-        In a family of figures: the case as if written so. Raises ValueError where the links do not
-        assemble.
+        In a family of figures: the case as if written so.
+
+        Raises
+        ------
+        ValueError
+            Where the links do not assemble in this row.
+        IndexError
+            For a row that the sweep does not have.
         """
         if self._case_of is None or self.status[row] == Status.CANNOT_ASSEMBLE:
             raise ValueError(f"row {row} does not assemble")
@@ -131,12 +137,12 @@ class Sweep:
 
     @property
     def error(self) -> dict[str, Array]:
-        """Bounds of the answers."""
+        """Bounds of the absolute rounding errors of the answers by load, (n,) [case units]."""
         return self.errors.get("answers", {})
 
     @property
     def kinds(self) -> dict[str, dict[str, Array]]:
-        """The arrays of each kind."""
+        """The arrays by kind (``answers``, ``points``, ...) and name; shapes as of the attributes."""
         return {kind: getattr(self, kind) for kind in KINDS}
 
 
@@ -145,7 +151,7 @@ KINDS = ("answers", "points", "centres", "rates", *VECTORS, "angular_acceleratio
 
 
 def by_kind(arrays: Mapping[tuple[str, str], Array]) -> dict[str, dict[str, Array]]:
-    """Arrays by kind and then by name."""
+    """Arrays by (kind, name) as arrays by kind and then by name; every kind is there."""
     kinds: dict[str, dict[str, Array]] = {kind: {} for kind in KINDS}
     for (kind, name), array in arrays.items():
         kinds[kind][name] = array
@@ -156,7 +162,14 @@ def by_kind(arrays: Mapping[tuple[str, str], Array]) -> dict[str, dict[str, Arra
 
 
 class Table:
-    """Rows filled one by one."""
+    """The rows of a sweep while they are filled; not a number where nothing was put.
+
+    Attributes
+    ----------
+    codes : (rows,), places of the statuses in `WORDS`; 0 is ``ok``
+    values, errors : by (kind, name), (rows,) or (rows, parts), as the arrays of `Sweep`
+    holds : by load, (rows, 2) [case units]
+    """
 
     def __init__(self, rows: int, asked: Asked) -> None:
         self.rows, self.asked = rows, asked
@@ -166,7 +179,7 @@ class Table:
         self.holds: dict[str, Array] = {}
 
     def put(self, kind: str, name: str, row: int, value: Value, error: Value | None = None) -> None:
-        """One value, and the bound of its error where one is proven."""
+        """One value, a float or a tuple of parts, and the bound of its absolute error where one is proven."""
         shape = (self.rows,) if isinstance(value, float) else (self.rows, len(value))
         self._table(self.values, (kind, name), shape)[row] = value
         self._table(self.errors, (kind, name), shape)[row] = np.nan if error is None else error
@@ -182,7 +195,7 @@ class Table:
         self.codes[row] = CODE.get(error.status, OTHER)
 
     def take(self, rows: Rows, part: Sweep) -> None:
-        """Rows that were swept together."""
+        """The rows ``rows`` (indices) from a sweep of these rows alone."""
         self.codes[rows] = part.codes
         for tables, kinds in ((self.values, part.kinds), (self.errors, part.errors)):
             for kind, arrays in kinds.items():
@@ -190,7 +203,7 @@ class Table:
                     self._table(tables, (kind, name), (self.rows, *array.shape[1:]))[rows] = array
 
     def some(self, rows: Rows | list[int]) -> Table:
-        """Some rows as a table of their own."""
+        """Some rows, by index, as a table of their own (copies)."""
         part = Table(len(rows), self.asked)
         part.codes = self.codes[rows]
         part.values = {key: array[rows] for key, array in self.values.items()}
@@ -199,7 +212,7 @@ class Table:
         return part
 
     def merge(self, rows: Rows | list[int], part: Table) -> None:
-        """Rows of a table of their own."""
+        """The rows ``rows`` (indices) from a table of these rows alone."""
         self.codes[rows] = part.codes
         for mine, theirs in ((self.values, part.values), (self.errors, part.errors)):
             for key, array in theirs.items():
@@ -260,7 +273,14 @@ class Table:
         notes: tuple[str, ...],
         case_of: Callable[[int], Case],
     ) -> Sweep:
-        """The table as a sweep."""
+        """The table as a sweep.
+
+        Parameters
+        ----------
+        vary : by path or link, what was varied, (rows,)
+        error : whether bounds of errors were wanted
+        case_of : the case of a row, by its index
+        """
         return Sweep(
             case,
             vary,
@@ -303,7 +323,9 @@ PART = 8192
 
 
 def columns(sweep: Sweep) -> dict[str, Array]:
-    """Every array of numbers of a sweep as columns of its table, by name, (n,) each."""
+    """Every array of numbers of a sweep as columns of its table, by name, (n,) each: ``C.x``, ``I2-4.w``,
+    ``w3``.
+    """
     table: dict[str, Array] = dict(sweep.vary)
     for kind, arrays in sweep.kinds.items():
         bounds = sweep.errors.get(kind, {})
@@ -328,7 +350,9 @@ def _parted(kind: str, name: str, array: Array) -> dict[str, Array]:
 
 
 def as_csv(sweep: Sweep) -> Iterator[bytes]:
-    """A header and a line a row; what is not a number stands empty beside its status."""
+    """A header and a line a row, UTF-8; what is not a number stands empty beside its status. Numbers have the
+    fewest digits that give the same double again.
+    """
     out = io.StringIO()
     csv.writer(out, lineterminator="\n").writerow([*columns(sweep), "status"])
     yield out.getvalue().encode("utf-8")
