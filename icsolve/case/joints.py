@@ -7,6 +7,7 @@ free bodies and error bounds follow. Families share answers: `Sliding` surfaces,
 tables: `read.joints`, `wording.joints` and `draw.frame`.
 """
 
+from functools import cached_property
 from typing import NamedTuple
 
 from icsolve.case.figure import Guide
@@ -88,7 +89,7 @@ class JointKind:
         """The radii of curvature of links that slip on one another, where profiles tell (None: straight)."""
         return None
 
-    @property
+    @cached_property
     def centres(self) -> tuple[JointCentre, ...]:
         """The centres that span its freedoms: one, or two on whose line its centre lies; none of a weld."""
         raise NotImplementedError
@@ -186,7 +187,7 @@ class Mesh(JointKind):
 
     carrier: str | None
 
-    @property
+    @cached_property
     def centres(self) -> tuple[JointCentre, ...]:
         """Told by the pivots, which a bond knows: the pitch point, and square to the line of the pivots."""
         return ()
@@ -251,7 +252,7 @@ class _Pin(NamedTuple):
 class Pin(_Pin, JointKind):
     """A revolute of two or more links about the point ``at``."""
 
-    @property
+    @cached_property
     def centres(self) -> tuple[JointCentre, ...]:
         """Its point."""
         return (CentreAt(self.at, self.links[0]),)
@@ -283,7 +284,7 @@ class Slide(_Slide, Guided):
     """A prismatic: block ``links[0]``, carrying ``at``, on a guide of ``links[1]``; of a screw it has the
     ``thread``, on which ``links[1]`` moves."""
 
-    @property
+    @cached_property
     def centres(self) -> tuple[JointCentre, ...]:
         """At infinity."""
         return (CentreSquareTo(self.guide, self.links[1]),)
@@ -299,7 +300,7 @@ class _Slot(NamedTuple):
 class Slot(_Slot, Guided):
     """A pin of ``links[0]`` at ``at`` in a slot of ``links[1]``."""
 
-    @property
+    @cached_property
     def centres(self) -> tuple[JointCentre, ...]:
         """The pin, and square to the slot."""
         return CentreAt(self.at, self.links[0]), CentreSquareTo(self.guide, self.links[1])
@@ -320,7 +321,7 @@ class Contact(_Contact, Sliding):
     straight).
     """
 
-    @property
+    @cached_property
     def centres(self) -> tuple[JointCentre, ...]:
         """On the common normal; how it moves hangs on profiles that the joint does not know."""
         return CentreAt(self.at), CentreToward(self.normal)
@@ -354,7 +355,7 @@ class Roll(_Roll, Rolling):
     With ``pressure_angle`` it rolls by teeth (a rack and its pinion).
     """
 
-    @property
+    @cached_property
     def centres(self) -> tuple[JointCentre, ...]:
         """Where they touch, which is a point of neither link."""
         return (CentreAt(self.at),)
@@ -463,7 +464,7 @@ class KnownCentre(_KnownCentre, JointKind):
         """Toward the centre."""
         return self.toward
 
-    @property
+    @cached_property
     def centres(self) -> tuple[JointCentre, ...]:
         """As given."""
         if self.at is not None:
@@ -485,7 +486,7 @@ class _Weld(NamedTuple):
 class Weld(_Weld, JointKind):
     """Two links that move as one; ``at`` serves only its reaction."""
 
-    @property
+    @cached_property
     def centres(self) -> tuple[JointCentre, ...]:
         """It leaves no freedom."""
         return ()
