@@ -360,9 +360,13 @@ def points_of(steps: Sequence[Step]) -> tuple[str, ...]:
 class Figure(NamedTuple):
     """The points of one position, and the construction that found them.
 
-    ``points`` are in the normalised frame; ``steps`` ran in this order, with the branches that
-    they settled on; ``notes`` are sentences for the reader; ``skipped`` names the points that
-    nothing asked for.
+    Attributes
+    ----------
+    frame : scale and origin, to bring points back to case lengths (`case_point`)
+    points : by name, (x, y) [frame of size 1]
+    steps : ran in this order, with the branches that they settled on
+    notes : sentences for the reader
+    skipped : points that nothing asked for
     """
 
     frame: Frame
@@ -375,9 +379,11 @@ class Figure(NamedTuple):
 class Placement(NamedTuple):
     """Points of the same construction in another arithmetic.
 
-    ``margins`` has, for each point where two loci meet, what must not be negative (normalised):
-    gaps of circles, distances along rays. Callers with arrays test them outside. (Points on the
-    cluster of a loose shape have keys of the cluster's number and the name.)
+    Attributes
+    ----------
+    points : by name [frame of size 1]; points on the cluster of a loose shape by its number and the name
+    margins : for each point where two loci meet, what must not be negative [frame]: gaps of circles,
+        distances along rays. Callers with arrays test them outside
     """
 
     points: dict[str, Point]

@@ -41,12 +41,12 @@ class Frame(NamedTuple):
 
 
 def case_point(frame: Frame, xy: tuple[float, float]) -> tuple[float, float]:
-    """A normalised point in case units; a zero is positive."""
+    """A point of the frame of size 1 in case lengths; a zero is positive."""
     return xy[0] / frame.scale + frame.ox + 0.0, xy[1] / frame.scale + frame.oy + 0.0
 
 
 def normalised(frame: Frame, xy: tuple[float, float]) -> tuple[float, float]:
-    """A point in case units (a float pair, as in ``near``), normalised."""
+    """A point in case lengths (a float pair, as in ``near``) in the frame of size 1."""
     return (xy[0] - frame.ox) * frame.scale, (xy[1] - frame.oy) * frame.scale
 
 

@@ -31,7 +31,16 @@ class Op(IntEnum):
 
 
 class Node(NamedTuple):
-    """One recorded value; ``noise`` bounds the rounding of a constant, ``row`` says that it varies."""
+    """One recorded value.
+
+    Attributes
+    ----------
+    op : the operation
+    a, b : nodes of its operands, 0 where there is none
+    value : in the position in which the record was made
+    row : whether it varies from row to row
+    noise : bounds the rounding of a constant
+    """
 
     op: Op
     a: int

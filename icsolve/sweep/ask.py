@@ -32,7 +32,14 @@ FARTHEST = 1e7
 
 
 class Columns(NamedTuple):
-    """Varied numbers by path, links turned (degrees) by name: arrays of the same length."""
+    """What varies, row by row.
+
+    Attributes
+    ----------
+    paths : by path, numbers in case units, angles in degrees, (rows,) each
+    links : by link, degrees by which it is turned from the position as written, (rows,) each
+    names : by path or link, as it was asked for
+    """
 
     paths: dict[str, Array]
     links: dict[str, Array]
@@ -55,7 +62,16 @@ def columns_of(
 ) -> Columns:
     """The columns of a sweep; single numbers are the same in every row.
 
-    Raises AskError for arrays that can't be columns, CaseError for paths that the case does not have.
+    Parameters
+    ----------
+    vary, drive : by path, by link: values, (rows,) or one number
+
+    Raises
+    ------
+    AskError
+        A ValueError, for arrays that can't be columns and numbers that no case may have there.
+    CaseError
+        For paths that the case does not have.
     """
     asked = {**{("vary", path): v for path, v in (vary or {}).items()}}
     asked |= {("drive", str(link)): v for link, v in (drive or {}).items()}

@@ -40,8 +40,14 @@ Remake = Callable[[Signs], Sheet]
 
 
 class Passing(NamedTuple):
-    """Where the branch of a spot changes (``touches``), where its places only meet and part again on their
-    own sides (``grazes``), and where it cannot assemble in less than a row (``gaps``)."""
+    """What was met on a way, of the branch of a spot; places [of the main input].
+
+    Attributes
+    ----------
+    touches : where its two places meet and the motion goes on to the other side: its sign changes
+    gaps : where it cannot assemble in less than a row
+    grazes : where its places only meet and part again on their own sides
+    """
 
     touches: tuple[float, ...]
     gaps: tuple[float, ...]
@@ -81,7 +87,18 @@ class Radicands:
         return radicands, margins
 
     def values(self, nodes: Sequence[int], at: Array) -> list[Array]:
-        """Nodes at places of the way; not a number where the links do not assemble."""
+        """Nodes at places of the way.
+
+        Parameters
+        ----------
+        nodes : indices
+        at : (places,)
+
+        Returns
+        -------
+        list[Array]
+            (places,) each; not a number where the links do not assemble.
+        """
         code = Code(self.sheet.record, nodes)
         parts = []
         for start in range(0, len(at), BLOCK):
@@ -180,8 +197,9 @@ def _valleys(radicand: Array) -> Iterator[int]:
 
 
 def grid_of(ends: Iterable[float], way: Way) -> Array:
-    """Places by which branches are looked for, from the start of the way to beyond all ends in equal steps:
-    the same whichever rows there are."""
+    """Places by which branches are looked for, (places,): from the start of the way to beyond all ends in
+    equal steps, the same whichever rows there are.
+    """
     step, ends = way.widest / CELLS, [way.start, *ends]
     step *= max(1, math.ceil((max(ends) - min(ends)) / step / MOST_CELLS))
     low, high = (math.floor((end - way.start) / step) for end in (min(ends), max(ends)))
@@ -203,7 +221,23 @@ def _refuse_long(sheet: Sheet, way: Way, ends: Sequence[float], rows: int) -> No
 def follow(remake: Remake, sheet: Sheet, way: Way, start: State, rows: Array) -> Followed:
     """Follow a way from a state to the rows, and find where branches change.
 
-    ``remake`` makes the sheet with the signs of some branches as inputs.
+    Parameters
+    ----------
+    remake : makes the sheet with the signs of some branches as inputs
+    sheet : the sheet as it is
+    way : inputs by place
+    start : the state where it starts
+    rows : (rows,), their places on the way
+
+    Returns
+    -------
+    Followed
+        Rows beyond a limit are refused by nothing here: `Track.given` says so of each.
+
+    Raises
+    ------
+    AskError
+        Where far more steps than rows would have to be followed one by one.
     """
     ends = [float(rows.min()), float(rows.max())]
     _refuse_long(sheet, way, ends, len(rows))

@@ -301,7 +301,14 @@ class Rows:
         return self.ways[k, row]
 
     def together(self, asked: Asked) -> tuple[dict[Key, Array], Mask]:
-        """What is asked of the rows, from one record; and in which rows that is sure."""
+        """What is asked of the rows, from one record.
+
+        Returns
+        -------
+        tuple[dict[Key, Array], Mask]
+            By (kind, name), (rows,) or (rows, parts) [case units]; and in which rows that is sure, (rows,):
+            the others are to be solved one by one.
+        """
         sure = np.logical_and.reduce([rested.sure for rested in self.rested]) & (self.codes == 0)
         contacts = tuple(follow.resting(self.course.whole) for follow in self.course.follows)
         start = self.work.start._replace(asked=asked._replace(contacts=contacts))

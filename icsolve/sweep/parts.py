@@ -30,7 +30,16 @@ GLANCES = 96
 
 
 class SweepPart(NamedTuple):
-    """Rows that are run together; ``places`` on the way along which they are followed, if they are."""
+    """Rows that are run together.
+
+    Attributes
+    ----------
+    runner : of a sheet in which the branches that change are inputs
+    rows : (n,), their indices in the sweep
+    followed : the way along which they are followed, if they are
+    places : (n,), where on it they lie
+    ordered : whether these are all rows in their order
+    """
 
     runner: Runner
     rows: Rows
@@ -56,7 +65,13 @@ class SweepParts:
         self.arrays = columns.arrays
 
     def given(self, part: SweepPart) -> tuple[dict[int, Array], Mask]:
-        """The inputs of a part's rows, and which of the rows are reached."""
+        """The inputs of a part's rows.
+
+        Returns
+        -------
+        tuple[dict[int, Array], Mask]
+            By node, (n,) each; and which of the rows are reached on their way, (n,).
+        """
         inputs = part.runner.sheet.inputs
         every = slice(None) if part.ordered else part.rows
         given = {inputs[name]: a[every] for name, a in self.arrays.items() if name in inputs}

@@ -68,12 +68,14 @@ class Recheck:
         self.scenes.refuse_apart(self.given(row))
 
     def case(self, row: int) -> Case:
-        """The row as a scene of its own, by its coordinates."""
+        """The row, by its index in the sweep, as a scene of its own: its points by coordinates."""
         given = self.given(row)
         return self.scenes.case(given, {p: as_written(a[row]) for p, a in self.parts.columns.paths.items()})
 
     def outputs(self, row: int) -> dict[tuple[str, str], list[float]]:
-        """All outputs, each rounded once; not a number where one is without a value."""
+        """All outputs of a row, each rounded once, by (kind, name) and part [case units]; not a number where
+        one is without a value.
+        """
         outputs = self.sheet.outputs
         flat = self.scenes.exact.values([v for parts in outputs.values() for v in parts], self.given(row))
         found = iter(flat)
@@ -82,7 +84,9 @@ class Recheck:
     # --- places between rows ------------------------------------------------------------------------
 
     def at(self, name: str, s: Decimal) -> dict[int, Decimal]:
-        """The inputs where a varied number has a value and the others those of the first row."""
+        """The inputs, by node, where the varied number ``name`` is ``s`` and the others have the values of
+        the first row.
+        """
         row, inputs = int(self.part.rows[0]), self.sheet.inputs
         arrays = self.parts.arrays
         given = {k: as_written(arrays[n][row]) for n, k in inputs.items() if n in arrays}
@@ -107,7 +111,18 @@ class Recheck:
         return self.solved[1]
 
     def floats(self, name: str, at: Array) -> tuple[dict[int, Array], npt.NDArray[np.bool_]]:
-        """The same in doubles, at many values; and at which of them groups have a solution."""
+        """As `at`, in doubles, at many values.
+
+        Parameters
+        ----------
+        name : path or link
+        at : (values,) [case units, degrees]
+
+        Returns
+        -------
+        tuple[dict[int, Array], Mask]
+            By node, (values,) or one number; and at which values groups have a solution, (values,).
+        """
         row, inputs = int(self.part.rows[0]), self.sheet.inputs
         given = {inputs[n]: np.array(a[row]) for n, a in self.parts.arrays.items() if n in inputs}
         good = np.ones(len(at), dtype=bool)

@@ -1,4 +1,8 @@
-"""Steps along a way, and what lies between them."""
+"""The steps by which a way is followed (predictor and corrector), and states between them by a polynomial.
+
+A step is taken where Newton's method, from where the last steps point, comes to a state near to that: it then
+has not gone over to another assembly mode.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +26,14 @@ Step = tuple[float, Array, Array]
 
 
 class WayStretch(NamedTuple):
-    """Steps without a break: places in order, and the state at each."""
+    """Steps without a break.
+
+    Attributes
+    ----------
+    s : (steps,), places in order
+    q : (steps, unknowns), the groups' states there [frame, frame, degrees for each body]
+    turns : (steps, counted) [degrees]
+    """
 
     s: Array
     q: Array
@@ -30,7 +41,14 @@ class WayStretch(NamedTuple):
 
 
 def goes_on(q: Array, guess: Array, found: Array, pointed: bool) -> bool:
-    """Whether a step went on where the last ones pointed."""
+    """Whether a step went on where the last ones pointed.
+
+    Parameters
+    ----------
+    q, guess, found : (unknowns,), the state before, that to which the last steps point, and that which was
+        found [frame, frame, degrees for each body]
+    pointed : whether there were steps to point; else only the length of the move is judged
+    """
     if not q.size:
         return True
     unit = np.ones_like(q)
@@ -40,7 +58,10 @@ def goes_on(q: Array, guess: Array, found: Array, pointed: bool) -> bool:
 
 
 def counts(turns: Array, found: Array) -> bool:
-    """Whether no counted angle may have missed a turn."""
+    """Whether no counted angle may have missed a turn in a step: each changed by less than 60 degrees.
+
+    ``turns`` and ``found``: (counted,) [degrees], before and after.
+    """
     return bool(np.all(np.abs(found - turns) < COUNTED))
 
 
@@ -51,7 +72,19 @@ def stretch_of(steps: Sequence[Step]) -> WayStretch:
 
 
 def cubic(known: Array, values: Array, at: Array) -> Array:
-    """Lagrange's polynomial through the four (or as many as there are) nearest places."""
+    """Lagrange's polynomial through the four (or as many as there are) nearest places.
+
+    Parameters
+    ----------
+    known : (steps,), increasing
+    values : (steps, columns)
+    at : (places,); beyond the ends it extrapolates
+
+    Returns
+    -------
+    Array
+        (places, columns).
+    """
     count = min(4, len(known))
     first = np.clip(np.searchsorted(known, at) - count // 2, 0, len(known) - count)
     nodes = [known[first + n] for n in range(count)]

@@ -36,7 +36,16 @@ BENT = 1e-4
 
 
 class Track:
-    """A way that is followed from a state; ``touches`` has the places at which branches change."""
+    """A way that is followed from a state, as far as the links assemble.
+
+    Parameters
+    ----------
+    sheet : the record and its groups
+    way : inputs by place
+    start : the state where the way starts
+    touches : the places at which branches change
+    reach : the least and the greatest place to which it is followed
+    """
 
     def __init__(
         self, sheet: Sheet, way: Way, start: State, touches: Touches, reach: tuple[float, float]
@@ -60,7 +69,18 @@ class Track:
     # --- inputs -----------------------------------------------------------------------------------
 
     def given(self, s: Array) -> tuple[dict[int, Array], Mask]:
-        """All inputs at places of the way, and at which of them the groups have a solution."""
+        """All inputs at places of the way.
+
+        Parameters
+        ----------
+        s : (places,)
+
+        Returns
+        -------
+        tuple[dict[int, Array], Mask]
+            By node (inputs, signs, states of groups, counted turns), (places,) each; and at which places the
+            groups have a solution, (places,). Beyond a limit they have none.
+        """
         if not (self.last is not None and np.array_equal(self.last[0], s)):
             self.last = (s, *self._given(s))
         return self.last[1], self.last[2]
@@ -78,7 +98,7 @@ class Track:
         return given, good
 
     def singular(self, s: Array) -> Mask:
-        """Which places lie in a step through a singular position."""
+        """Which places, (places,), lie in a step through a singular position."""
         found = np.zeros(len(s), dtype=bool)
         for one, two in self.breaks:
             found |= (s > min(one, two)) & (s < max(one, two))
@@ -116,7 +136,7 @@ class Track:
         return {**given, **{guess.index: turns[:, n] for n, (guess, _) in enumerate(self.counted)}}
 
     def end(self, s: float) -> State:
-        """The state at a place."""
+        """The state at a place, from which another way may go on."""
         at = np.array([s])
         signs = {
             name: sign * float(self.touches.flips(name, at, self.way)[0])

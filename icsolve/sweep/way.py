@@ -13,9 +13,14 @@ from icsolve.sweep.program import Sheet
 
 
 class Way(NamedTuple):
-    """Inputs (by name) as ``base + slope * s``; it starts at ``start`` and has steps of at most ``widest``.
+    """A way through the inputs: each is ``base + slope * s``, where s is a value of the main one.
 
-    After a ``period`` (of an angle) all is as before.
+    Attributes
+    ----------
+    base, slope : by name [units of the input; of an angle degrees]
+    start : s in the position as written, or where another way ended
+    widest : the longest step of s
+    period : of an angle 360: after it all is as before; None else
     """
 
     base: dict[str, float]
@@ -25,14 +30,30 @@ class Way(NamedTuple):
     period: float | None = None
 
     def inputs(self, sheet: Sheet, s: Array) -> dict[int, Array]:
-        """The inputs at places of the way."""
+        """The inputs at places of the way.
+
+        Parameters
+        ----------
+        s : (places,)
+
+        Returns
+        -------
+        dict[int, Array]
+            By node, (places,).
+        """
         names = [name for name in self.base if name in sheet.inputs]
         return {sheet.inputs[name]: self.base[name] + self.slope.get(name, 0.0) * s for name in names}
 
 
 class State(NamedTuple):
-    """What is followed at a place: unknowns of the groups one after another, counted turns (degrees),
-    and the signs of branches."""
+    """What is followed at a place.
+
+    Attributes
+    ----------
+    q : unknowns of the groups one after another, (3 bodies,) [frame, frame, degrees]
+    turns : counted angles with their whole turns, (counted,) [degrees]
+    signs : by branch, 1 or -1
+    """
 
     q: Array
     turns: Array
@@ -64,6 +85,17 @@ class Touches(NamedTuple):
         """+1 or -1: the sign of a branch after the touches between the start and each place.
 
         Beyond a limit it is as a whole turn before, where the motion leads there from the other side.
+
+        Parameters
+        ----------
+        name : of the branch
+        at : (places,) on the way
+        way : where it starts, and its period
+
+        Returns
+        -------
+        Array
+            (places,), factors on the sign at the start.
         """
         places = np.sort(np.array(self.places.get(name, ())))
         if not len(places):

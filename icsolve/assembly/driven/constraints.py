@@ -23,7 +23,14 @@ from icsolve.screws.ropes import RopePart, part_between
 
 
 class BodyLine(NamedTuple):
-    """A line that a body carries: a point and the unit direction, as written."""
+    """A line that a body carries.
+
+    Attributes
+    ----------
+    body : its index
+    through : a point, as written [frame of size 1]
+    along : unit direction, as written
+    """
 
     body: int
     through: Point
@@ -31,7 +38,7 @@ class BodyLine(NamedTuple):
 
 
 class OnLine(NamedTuple):
-    """A spot lies ``offset`` to the left of a line."""
+    """A spot lies ``offset`` [frame] to the left of a line."""
 
     spot: Spot
     line: BodyLine
@@ -44,7 +51,7 @@ class OnLine(NamedTuple):
 
 
 class SpotDistance(NamedTuple):
-    """Two spots are so far apart."""
+    """Two spots are ``distance`` [frame] apart."""
 
     one: Spot
     two: Spot
@@ -57,7 +64,12 @@ class SpotDistance(NamedTuple):
 
 
 class Turning(NamedTuple):
-    """The degrees by which bodies have turned, each times its factor, add up to ``degrees``."""
+    """The angles by which bodies have turned since the position as written, each times its factor, add up to
+    ``degrees``.
+
+    ``terms`` are pairs of a body and its factor: of gears the teeth, as the arm sees them (R. Willis,
+    Principles of Mechanism, 1841).
+    """
 
     terms: tuple[tuple[int, Scalar], ...]
     degrees: Scalar = 0.0
@@ -89,7 +101,7 @@ class Pointed(NamedTuple):
 class RolledStraight(NamedTuple):
     """A round body has rolled along a straight flank: its centre's way is its turning times the radius.
 
-    The flank's line runs so that the centre is on its left.
+    The flank's line runs so that the centre is on its left; ``radius`` [frame].
     """
 
     centre: Spot
@@ -103,7 +115,9 @@ class RolledStraight(NamedTuple):
 
 
 class RolledRound(NamedTuple):
-    """Two round bodies have rolled on one another: equal arcs. A negative radius is hollow."""
+    """Two round bodies have rolled on one another: equal arcs. ``radii`` [frame] of their centres; a negative
+    one is hollow.
+    """
 
     one: Spot
     two: Spot
@@ -130,8 +144,12 @@ class Drawn(NamedTuple):
 class Roped(NamedTuple):
     """A rope keeps its length: its straight parts, and the arcs on what it goes round.
 
-    ``offsets`` are the radii of its circles, positive where it goes round ccw; ``written`` its parts as
-    written.
+    Attributes
+    ----------
+    spots : the centres of its circles
+    offsets : their radii [frame], positive where it goes round ccw, 0 of a point
+    written : its parts as written
+    scale : frame lengths a case length
     """
 
     rope: Rope
@@ -163,7 +181,8 @@ class Roped(NamedTuple):
         return next(iter(others)), len(own)
 
     def drums(self) -> list[tuple[int, Scalar]]:
-        """The bodies on which its ends are wound, and by how much each rad of theirs makes it longer."""
+        """The bodies on which its ends are wound, and by how much each rad of theirs makes it longer [frame].
+        """
         ends = [(0, -1.0), (len(self.written), 1.0)]
         return [(self.spots[k][0], sign * self.offsets[k]) for k, sign in ends if self.is_round(k)]
 
@@ -175,9 +194,17 @@ class Roped(NamedTuple):
         without: Spot | None = None,
         still: int | None = None,
     ) -> Scalar:
-        """By how much it is longer than as written; ``without`` the parts at a spot, a body ``still``.
+        """By how much the rope is longer than as written [frame]; zero is its condition.
 
         On a drum it is wound by as much as that turns, and by as much as its part does.
+
+        Parameters
+        ----------
+        places : where the bodies are
+        record : arithmetic of the places
+        turned : by how much a vector (x, y) has turned from +x [degrees], whole turns counted
+        without : a spot whose parts do not count
+        still : a body whose turning does not count
         """
         more: Scalar = 0.0
         for k, then in enumerate(self.written):

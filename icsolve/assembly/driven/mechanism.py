@@ -31,11 +31,16 @@ from icsolve.wording.joints import why_not_moved
 
 
 class Mechanism(NamedTuple):
-    """The links and their conditions.
+    """A case as links that keep their shapes, and their conditions.
 
-    ``spots`` has the points that each body carries, ``owners`` the spot that a point's name stands
-    for, ``lines`` the guide of each slide and slot (by the joint's place in the case) as its body
-    carries it, ``contacts`` the rolling contacts by their point.
+    Attributes
+    ----------
+    frame, shape : scale of the frame, and the places as written in it
+    spots : by body, the points that it carries
+    owners : by point, the spot that its name stands for
+    constraints : what ties the bodies, but for pins
+    lines : by a slide's or slot's place among the joints, its guide as its body carries it
+    contacts : by point, the rolling contacts
     """
 
     case: Case
@@ -50,7 +55,18 @@ class Mechanism(NamedTuple):
 
 
 def mechanism(case: Case, top: Topology, frame: Frame, record: Record, ref: Mapping[str, Point]) -> Mechanism:
-    """The mechanism of a case whose points are at ``ref`` (normalised) as written."""
+    """The mechanism of a case in the position as written.
+
+    Parameters
+    ----------
+    case, top : the case
+    frame : scale of the frame
+    record : on which a motion will be written
+    ref : by name, places as written [frame]
+
+    A joint that is known as written only becomes an `Immovable`, with the reason: it is refused by whoever
+    moves it.
+    """
     places = dict(ref)
     spots = _spots(case, top, places)
     joined = _joined(case, top)
