@@ -42,7 +42,7 @@ class LooseFigure:
         self.clusters.append(Cluster(self))
 
     def tick(self) -> int:
-        """A number that rises."""
+        """The next number of a count: it tells in which order points have come up in all clusters."""
         self.count += 1
         return self.count
 

@@ -42,7 +42,14 @@ UNBOUNDED = 50.0
 
 
 class FigureSolutions(NamedTuple):
-    """The points of each solution; whether these are shown to be all; how many boxes were searched."""
+    """The solutions of a group.
+
+    Attributes
+    ----------
+    places : of each solution the points by name, (x, y) [frame]
+    complete : whether these are shown to be all
+    boxes : how many boxes were searched
+    """
 
     places: list[dict[str, Point]]
     complete: bool
@@ -83,7 +90,13 @@ class _Link(NamedTuple):
 
 
 def every_solution(group: Group, workspace: Workspace) -> FigureSolutions:
-    """All solutions of a group, each once."""
+    """All solutions of a group, each once, by exclusion of boxes in which an equation has no zero.
+
+    Parameters
+    ----------
+    group : equations that are quadratic in the coordinates (lengths, angles; not ropes)
+    workspace : the points that are placed; those of the group are moved about
+    """
     unknowns = group.unknowns()
     system = _quadratics(group, workspace, unknowns)
     low, high, bounded = _bounds(group, workspace)

@@ -24,7 +24,13 @@ Unknown = tuple[str, int]
 
 
 class JacobianRow(NamedTuple):
-    """An equation at the points on a workspace: its value and its derivatives by the coordinates."""
+    """An equation at the points on a workspace.
+
+    Attributes
+    ----------
+    value : how far it is from being met; zero at a solution [frame, or frame squared]
+    by : its derivatives by the coordinates that bear on it
+    """
 
     value: Scalar
     by: dict[Unknown, Scalar]
@@ -137,7 +143,17 @@ class Pivot(NamedTuple):
 
 
 def pivots(rows: list[dict[Unknown, float]]) -> tuple[list[Pivot], float]:
-    """Complete pivoting: the order of elimination, and the smallest pivot over the largest."""
+    """The order of elimination by complete pivoting, and the smallest pivot over the largest.
+
+    Parameters
+    ----------
+    rows : n equations, each {unknown: derivative}; not changed
+
+    Returns
+    -------
+    tuple[list[Pivot], float]
+        0.0 where the rows are dependent; the order then ends there.
+    """
     work = {i: dict(row) for i, row in enumerate(rows)}
     order: list[Pivot] = []
     sizes: list[float] = []
@@ -169,7 +185,14 @@ def _clear(row: dict[Unknown, Scalar], top: dict[Unknown, Scalar], unknown: Unkn
 def solved(
     rows: list[dict[Unknown, Scalar]], values: list[Scalar], order: list[Pivot]
 ) -> dict[Unknown, Scalar]:
-    """x with rows . x = values, eliminated in a given order; unknowns without a pivot stay at zero."""
+    """x with ``rows . x = values``, eliminated in a given order; unknowns without a pivot stay out (at zero).
+
+    Parameters
+    ----------
+    rows : n equations, each {unknown: derivative}, of any arithmetic
+    values : (n,)
+    order : as of `pivots`; a pivot that is zero here divides by zero
+    """
     work, right = [dict(row) for row in rows], list(values)
     for k, (i, unknown) in enumerate(order):
         for j, _ in order[k + 1 :]:
@@ -370,10 +393,11 @@ def _said(system: System, part: list[str], known: set[str]) -> str:
 
 
 class Group(NamedTuple):
-    """Points placed by Newton's method. ``start`` is the solution that was settled on.
+    """Points placed by Newton's method, as many equations as coordinates.
 
-    ``place`` takes ``workspace.rounds`` steps from there with the elimination's order held: at the
-    solution, one step carries the derivatives by all data.
+    ``start`` has the places (x, y) of the targets [frame] in the solution that was settled on. ``place``
+    takes ``workspace.rounds`` steps from there with the elimination's order held: at the solution, one step
+    carries the derivatives by all data.
     """
 
     targets: tuple[str, ...]
@@ -383,7 +407,7 @@ class Group(NamedTuple):
 
     @property
     def name(self) -> str:
-        """What the step does."""
+        """The step in words: which points its data place together."""
         return told(self)
 
     def place(self, workspace: Workspace) -> None:

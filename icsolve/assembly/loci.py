@@ -15,10 +15,14 @@ from icsolve.screws.ropes import rope_length
 
 
 class Crossing(NamedTuple):
-    """Where two loci meet: at middle + half and at middle - half (``half`` None: one place only).
+    """Where two loci meet.
 
-    ``margins`` are negative where they do not meet; ``scale`` is what rounding is measured by. Of
-    two lines ``scale`` is the sine of the angle between them.
+    Attributes
+    ----------
+    middle : (x, y) [frame of size 1]
+    half : half the chord, so that the places are middle + half and middle - half; None: one place only
+    margins : [frame], negative where the loci do not meet
+    scale : what rounding is measured by [frame]; of two lines the sine of the angle between them
     """
 
     middle: Point
@@ -32,7 +36,9 @@ Values = tuple[Scalar, ...]
 
 
 def gaps_of_circles(p: Values, q: Values, arithmetic: Arithmetic) -> tuple[Scalar, tuple[Scalar, ...]]:
-    """The distance of two centres, and the three gaps of a triangle of it and the radii."""
+    """The distance of two centres, and the three gaps of a triangle of it and the radii [frame]: none is
+    negative where the circles meet.
+    """
     (px, py, a), (qx, qy, b) = p, q
     dx, dy = qx - px, qy - py
     d = arithmetic.sqrt(dx * dx + dy * dy)
@@ -40,7 +46,7 @@ def gaps_of_circles(p: Values, q: Values, arithmetic: Arithmetic) -> tuple[Scala
 
 
 def gaps_of_line_and_circle(line: Values, circle: Values) -> tuple[Scalar, Scalar]:
-    """By how much a line passes within a circle, on either side of its centre."""
+    """By how much a line passes within a circle, on either side of its centre [frame]."""
     (px, py, vx, vy), (cx, cy, r) = line, circle
     off = vx * (cy - py) - vy * (cx - px)
     return r - off, r + off
@@ -55,9 +61,19 @@ def sine_between(p: Values, q: Values) -> Scalar:
 def meet_circles(p: Values, q: Values, arithmetic: Arithmetic, tangent: bool) -> Crossing:
     """Two circles, by Heron's formula in factors.
 
-    The first of the two places (+) lies to the left of the line from p's centre to q's. With
-    ``tangent`` the chord is zero by decree. Heron's area in factors loses nothing where the
-    triangle is nearly flat (Kahan, "Miscalculating area and angles of a needle-like triangle").
+    Heron's area in factors loses nothing where the triangle is nearly flat (Kahan, "Miscalculating area and
+    angles of a needle-like triangle").
+
+    Parameters
+    ----------
+    p, q : centre x, y and radius [frame]; concentric ones divide by zero
+    arithmetic : of all of these
+    tangent : whether the chord is zero by decree
+
+    Returns
+    -------
+    Crossing
+        The first of the two places (+) lies to the left of the line from p's centre to q's.
     """
     (px, py, a), (qx, qy, b) = p, q
     d, margins = gaps_of_circles(p, q, arithmetic)
@@ -72,7 +88,20 @@ def meet_circles(p: Values, q: Values, arithmetic: Arithmetic, tangent: bool) ->
 
 
 def meet_line_circle(line: Values, circle: Values, arithmetic: Arithmetic, tangent: bool) -> Crossing:
-    """A line and a circle; the first place (+) is the farther along the line."""
+    """A line and a circle.
+
+    Parameters
+    ----------
+    line : a point x, y and a unit direction [frame]
+    circle : centre x, y and radius [frame]
+    arithmetic : of all of these
+    tangent : whether the chord is zero by decree
+
+    Returns
+    -------
+    Crossing
+        The first of the two places (+) is the farther along the line.
+    """
     (px, py, vx, vy), (cx, cy, r) = line, circle
     wx, wy = cx - px, cy - py
     along = vx * wx + vy * wy
@@ -86,7 +115,9 @@ def meet_line_circle(line: Values, circle: Values, arithmetic: Arithmetic, tange
 
 
 def meet_lines(p: Values, q: Values) -> Crossing:
-    """Two lines (whether they are parallel is the caller's to test)."""
+    """Two lines, each a point x, y and a unit direction [frame]. Parallel ones divide by zero: whether they
+    are is the caller's to test.
+    """
     (px, py, ux, uy), (qx, qy, vx, vy) = p, q
     wx, wy = qx - px, qy - py
     sine = sine_between(p, q)

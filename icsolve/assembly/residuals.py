@@ -51,7 +51,9 @@ def agrees(workspace: Workspace, data: Collection[Datum], size: float) -> bool:
 
 
 def residual(workspace: Workspace, datum: Datum) -> Residual:
-    """How far the points on a workspace are from a datum."""
+    """How far the points on a workspace are from a datum: a signed distance [frame], of an angle its error on
+    the longer arm; and False where a ray points the other way.
+    """
     return RESIDUALS[datum.kind](workspace, datum)
 
 

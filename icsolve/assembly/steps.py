@@ -43,7 +43,7 @@ class Given(NamedTuple):
 
     @property
     def name(self) -> str:
-        """What the step does."""
+        """The step in words: which points are given."""
         return told(self)
 
     def place(self, workspace: Workspace) -> None:
@@ -83,7 +83,7 @@ class Mean(NamedTuple):
 
     @property
     def name(self) -> str:
-        """What the step does."""
+        """The step in words: of which points a point is the mean."""
         return told(self)
 
     def place(self, workspace: Workspace) -> None:
@@ -125,7 +125,7 @@ class Polar(NamedTuple):
 
     @property
     def name(self) -> str:
-        """What the step does."""
+        """The step in words: from which point, how far and in which direction."""
         return told(self)
 
     def place(self, workspace: Workspace) -> None:
@@ -163,7 +163,7 @@ class Meet(NamedTuple):
 
     @property
     def name(self) -> str:
-        """What the step does."""
+        """The step in words: which two loci meet."""
         return told(self)
 
     def cross(self, workspace: Workspace) -> Crossing:
@@ -220,7 +220,7 @@ class Base(NamedTuple):
 
     @property
     def name(self) -> str:
-        """What the step does."""
+        """The step in words: which two points begin a cluster."""
         return told(self)
 
     def place(self, workspace: Workspace) -> None:
@@ -255,7 +255,7 @@ class Transfer(NamedTuple):
 
     @property
     def name(self) -> str:
-        """What the step does."""
+        """The step in words: on which points a shape is laid."""
         return told(self)
 
     def place(self, workspace: Workspace) -> None:
@@ -297,7 +297,7 @@ class Turned(NamedTuple):
 
     @property
     def name(self) -> str:
-        """What the step does."""
+        """The step in words: about which point a shape is turned."""
         return told(self)
 
     def place(self, workspace: Workspace) -> None:
@@ -399,13 +399,17 @@ def place(
 ) -> Placement:
     """Run a figure's construction again, on the numbers of a case of the same shape.
 
-    The same steps with the same branches, without a test on any value.
+    The same steps with the same branches, without a test on any value: what does not assemble has a negative
+    margin, and places that mean nothing.
 
     Parameters
     ----------
+    figure : as of `icsolve.assembly.solve_figure`
+    case : of the same shape, perhaps with other numbers
+    arithmetic : in which the points come
     rounds : Newton steps for groups without an order of construction; 1 is enough at the
         figure's own numbers, where that step carries the derivatives by all data
-    starts : where such groups start (normalised); left out, at the figure's own points
+    starts : by name, where such groups start [frame]; left out, at the figure's own points
     """
     workspace = Workspace(case, figure.frame, arithmetic)
     workspace.rounds, workspace.starts = rounds, starts or {}

@@ -24,10 +24,11 @@ SMALLEST_DIFFERENCE = 2.0**-52
 
 
 class Frame(NamedTuple):
-    """Normalised coordinates are (p - o) * scale.
+    """Normalised coordinates are (p - o) * scale: the frame of size 1 in which a figure is computed.
 
-    The origin is a given point, so that differences of given coordinates are exact where they
-    matter (Sterbenz); ``scale`` is a power of two, so that scaling rounds nothing.
+    The origin (ox, oy) [case length] is a given point, so that differences of given coordinates are exact
+    where they matter (Sterbenz); ``scale`` [1 / case length] is a power of two, so that scaling rounds
+    nothing.
     """
 
     ox: float
@@ -35,7 +36,9 @@ class Frame(NamedTuple):
     scale: float
 
     def twist_shown(self, t: tuple[float, float, float], divisor: float = 1.0) -> tuple[float, float, float]:
-        """A twist about the case's origin in case units, divided; a zero is positive."""
+        """A twist of the frame about the case's origin [case length/s, case length/s, rad/s], divided; a zero
+        is positive.
+        """
         x, y, w = (value / divisor + 0.0 for value in t)
         return (x / self.scale + w * self.ox, y / self.scale + w * self.oy, w)
 
@@ -224,11 +227,15 @@ Point = tuple[Scalar, Scalar]
 
 
 class Workspace:
-    """Points in normalised coordinates, and how to measure on them.
+    """Points in the frame of size 1, and how to measure on them.
 
-    ``margins`` collects, for each point where two loci meet, what must not be negative for it to
-    assemble: gaps of circles, distances along rays (normalised). Groups that
-    Newton's method solves start from ``starts`` where it has them, and take ``rounds`` steps.
+    Attributes
+    ----------
+    points : by name (or cluster and name), (x, y) [frame]
+    margins : for each point where two loci meet, what must not be negative for it to assemble [frame]: gaps
+        of circles, distances along rays
+    starts : where groups that Newton's method solves start
+    rounds : how many of its steps they take
     """
 
     __slots__ = ("arithmetic", "case", "frame", "margins", "points", "rounds", "starts")
@@ -243,7 +250,7 @@ class Workspace:
         self.rounds = 1
 
     def length(self, span: Span) -> Scalar:
-        """A length, normalised."""
+        """A length [frame]: as the case gives it, or between two points."""
         if isinstance(span, Datum):
             return self.arithmetic.given(number_of(self.case, span)) * self.frame.scale
         (ax, ay), (bx, by) = self.points[span.a], self.points[span.b]
@@ -270,7 +277,7 @@ class Workspace:
         return (-x, -y) if direction.flip else (x, y)
 
     def coordinates(self, name: str) -> Point:
-        """A point that the case gives."""
+        """A point that the case gives, (x, y) [frame]."""
         place = self.case.points[respelled(self.case).get(name, name)]
         assert type(place) is Coordinates
         assert place.x is not None
@@ -279,6 +286,6 @@ class Workspace:
         return (given(place.x) - ox) * scale, (given(place.y) - oy) * scale
 
     def coordinate(self, datum: Datum) -> Scalar:
-        """The one coordinate that the case gives of a point."""
+        """The one coordinate that the case gives of a point [frame]."""
         value = self.arithmetic.given(number_of(self.case, datum))
         return (value - (self.frame.ox if datum.kind == X else self.frame.oy)) * self.frame.scale

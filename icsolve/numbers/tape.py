@@ -234,11 +234,13 @@ class Tape:
         return abs(value) <= LARGE * size and abs(value) <= self.bound(value)
 
     def bound(self, value: Operand) -> float:
-        """Bound on the absolute error of a value."""
+        """Bound, to first order, on the absolute error of a value [its units]; 0 of a plain number."""
         return self._swept(value.index)[0] if type(value) is Taped else 0.0
 
     def back(self, result: Operand) -> BackwardPass:
-        """The backward pass from a result."""
+        """The backward pass from a result: the bound of its error, and its derivative by every number of the
+        case, by path [units of the result over those of the number].
+        """
         if type(result) is not Taped:
             return BackwardPass(0.0, {})
         bound, weights = self._swept(result.index)
@@ -272,7 +274,7 @@ class Tape:
 
 
 def decimal_noise(number: Number) -> float:
-    """Bound on the rounding of a written decimal to a double (and of its unit's factor)."""
+    """Bound on the rounding of a written decimal to a double (and of its unit's factor) [case units]."""
     value = number.value
     if number.factor == 1.0 and value.is_integer() and abs(value) < 2.0**53:
         return 0.0

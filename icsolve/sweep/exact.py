@@ -54,7 +54,10 @@ class Unreached(ArithmeticError):
 
 
 class ExactRecord:
-    """A record in high precision; ``given`` of its methods are the inputs of a row by their nodes."""
+    """A record in high precision, a row at a time.
+
+    ``given`` of its methods are the inputs of the row by their nodes [case units, degrees], exact decimals.
+    """
 
     def __init__(self, sheet: Sheet) -> None:
         self.sheet, self.record = sheet, sheet.record
@@ -74,7 +77,14 @@ class ExactRecord:
         }
 
     def values(self, wanted: Iterable[Scalar], given: Mapping[int, Decimal]) -> list[Decimal]:
-        """Expressions at a row. Raises Unreached where a group of links has no solution."""
+        """Expressions at a row, rounded in the last of their digits; not a number where something is divided
+        by what is zero beside its terms.
+
+        Raises
+        ------
+        Unreached
+            Where a group of links has no solution.
+        """
         wanted = list(wanted)
         with localcontext(CONTEXT):
             indices = [v.index if isinstance(v, Traced) else None for v in wanted]
@@ -319,7 +329,7 @@ def pi() -> Decimal:
 
 @lru_cache(maxsize=64)
 def cos_sin(degrees: Decimal) -> tuple[Decimal, Decimal]:
-    """Cosine and sine of an angle in degrees, exact at multiples of 90."""
+    """Cosine and sine of an angle [degrees], exact at multiples of 90."""
     if degrees.adjusted() > DIGITS // 2:  # so many turns leave no digit of the angle
         return Decimal("NaN"), Decimal("NaN")
     with localcontext(CONTEXT):
@@ -338,7 +348,7 @@ def cos_sin(degrees: Decimal) -> tuple[Decimal, Decimal]:
 
 
 def angle(x: Decimal, y: Decimal) -> Decimal:
-    """Direction of a vector in degrees, within half a turn."""
+    """Direction of a vector [degrees], within half a turn."""
     with localcontext(CONTEXT):
         size = max(abs(x), abs(y))
         if not size or not size.is_finite():
@@ -358,7 +368,18 @@ def angle(x: Decimal, y: Decimal) -> Decimal:
 
 
 def least_squares(j: Sequence[Sequence[Decimal]], f: Sequence[Decimal]) -> list[Decimal]:
-    """Solution of a square system, or in least squares; raises Unreached where it is singular."""
+    """x, (n,), with ``j x = f`` in the sense of least squares.
+
+    Parameters
+    ----------
+    j : (m, n), m at least n
+    f : (m,)
+
+    Raises
+    ------
+    Unreached
+        Where it is singular.
+    """
     count = len(j[0])
     if len(j) != count:
         turned = list(zip(*j, strict=True))

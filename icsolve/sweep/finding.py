@@ -62,8 +62,13 @@ def find(
 
     Parameters
     ----------
-    case, vary, drive : as for `icsolve.sweep`
+    case, vary, drive : as for `icsolve.sweep`; one number varies, and only its least and greatest value count
     query : what to look for
+
+    Returns
+    -------
+    Spots
+        In order of the number; ``notes`` say so where nothing shows that none is missing.
 
     Raises
     ------

@@ -81,8 +81,15 @@ class Setting(NamedTuple):
 class Sheet(NamedTuple):
     """The record of a sweep.
 
-    ``inputs`` are nodes by path (or link), ``outputs`` expressions by what they are: ``("answers",
-    "T12")``, ``("points", "C")``, ``("centres", "2-4")``, ``("rates", "4")``.
+    Attributes
+    ----------
+    inputs : by path (or link), nodes [case units, degrees]; by name also the signs of branches that
+        change, and contacts that are told row by row
+    outputs : by what they are, expressions in case units: ``("answers", "T12")`` has one part, ``("points",
+        "C")`` two, ``("centres", "2-4")`` three (x, y, w), ``("rates", "4")`` one
+    motion : the mechanism driven by the inputs; None where nothing moves
+    scene : the case on the record
+    refusal : why no row has an answer; None else
     """
 
     setting: Setting

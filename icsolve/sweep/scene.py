@@ -46,7 +46,15 @@ Points = dict[str, Point]
 
 
 class RecordedScene(NamedTuple):
-    """A case whose points, guides and headings are expressions on a record (normalised)."""
+    """A case on a record.
+
+    Attributes
+    ----------
+    case : whose guides and headings are directions on the record
+    frame : scale and origin of the frame of size 1
+    record : that of all expressions
+    points : by name, (x, y) [frame]
+    """
 
     case: Case
     top: Topology
@@ -56,7 +64,15 @@ class RecordedScene(NamedTuple):
 
 
 class RecordedStatics(NamedTuple):
-    """Expressions of the unknown loads by name; of twists by link, one a freedom; or why there are none."""
+    """The statics of every row.
+
+    Attributes
+    ----------
+    answers : by unknown load, an expression [case units]
+    motions : by link, one twist a freedom, expressions [frame length/s, frame length/s, rad/s]
+    refusal : why there are no answers in any row; None where there are
+    balance : factors of the loads
+    """
 
     answers: dict[str, Scalar]
     motions: motion.Motions

@@ -44,8 +44,15 @@ LOCKED = [CODE[word] for word in (Status.DEAD_CENTRE, Status.NO_VALUE, Status.JA
 
 
 class Spot(NamedTuple):
-    """A position that was found: the varied number there with the bound of its error, what it is (``dead``,
-    ``limit``, ``change-point``, ``max``, ``value``), and the answer (None where there is none)."""
+    """A position that was found.
+
+    Attributes
+    ----------
+    at : the varied number there [case units, degrees]
+    kind : ``dead``, ``limit``, ``change-point``, ``max`` or ``value``
+    answer : the unknown load [case units]; None where it has none
+    error : bound of the absolute error of ``at``
+    """
 
     at: float
     kind: str
@@ -54,7 +61,14 @@ class Spot(NamedTuple):
 
 
 class Query(NamedTuple):
-    """What to look for: ``dead``, ``max``, or ``value`` (of an unknown load)."""
+    """What to look for.
+
+    Attributes
+    ----------
+    kind : ``dead``, ``max`` or ``value``
+    load : name of an unknown load; '' the first
+    value : that it is to have [case units]
+    """
 
     kind: str
     load: str = ""
