@@ -42,7 +42,7 @@ class LooseFigure:
         self.clusters.append(Cluster(self))
 
     def tick(self) -> int:
-        """The next number of a count: it tells in which order points have come up in all clusters."""
+        """The next number of a count: a step of a point that was weighed later makes its older ones stale."""
         self.count += 1
         return self.count
 
