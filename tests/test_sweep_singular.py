@@ -351,3 +351,13 @@ def test_a_torsion_spring_is_followed_and_sought_over_every_number(path: str) ->
         ).sum()
     )
     assert len(spots) == changes
+
+
+def test_a_row_where_links_fold_up_is_refused_and_its_neighbours_are_not() -> None:
+    """The lazy tongs shut, with the crossings of its bars on one another: solve says change point, and so do rows."""
+    case = icsolve.load(str(CASES / "tools" / "lazy_tongs.yaml"))
+    sweep = icsolve.sweep(
+        case, want=("answers", "status", "points"), drive={"3": [-153.0, -152.0, -151.0, 28.0]}
+    )
+    assert sweep.status.tolist() == ["ok", "change-point", "ok", "change-point"]
+    assert sweep.answers["Q"][0] == pytest.approx(-sweep.answers["Q"][2], rel=1e-12)

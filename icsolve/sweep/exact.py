@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from decimal import Context, Decimal, DivisionByZero, InvalidOperation, localcontext
+from decimal import Context, Decimal, DivisionByZero, localcontext
 from functools import lru_cache
 
 from icsolve.assembly.driven.groups import NewtonGroup
@@ -42,7 +42,8 @@ SHORT = Context(prec=100)
 """Coordinates of a row have so many digits: more than any scene is decided by."""
 APART = "the links do not reach one another in this row."
 ANYWHERE = "change point: two links have come to lie so that a point of them may be anywhere on a circle."
-CONTEXT = Context(prec=DIGITS, Emin=-999_999, Emax=999_999, traps=[InvalidOperation, DivisionByZero])
+CONTEXT = Context(prec=DIGITS, Emin=-999_999, Emax=999_999, traps=[DivisionByZero])
+"""What is not a number compares with nothing."""
 
 Values = dict[int, Decimal]
 Step = tuple[int, Op, int, int]

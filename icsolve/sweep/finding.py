@@ -11,7 +11,7 @@ and a note says so.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from decimal import Decimal, InvalidOperation, localcontext
+from decimal import Decimal, localcontext
 from itertools import pairwise
 
 import numpy as np
@@ -90,8 +90,7 @@ def find(
     spots = Spots()
     if start.sheet().refusal is None:
         parts = SweepParts(start, columns)
-        with localcontext(CONTEXT) as context:
-            context.traps[InvalidOperation] = False  # what is not a number compares with nothing
+        with localcontext(CONTEXT):
             search = _Search(parts, parts.whole(), along, query)
             spots.extend(sorted(search.spots(), key=lambda spot: (spot.at, spot.kind)))
         spots.notes = tuple(search.notes)

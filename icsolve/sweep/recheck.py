@@ -41,6 +41,7 @@ class Recheck:
         self.track = part.followed.track if part.followed else None
         self.touches: dict[tuple[str, float], Decimal] = {}
         self.solved: tuple[Decimal, dict[int, Decimal]] | None = None
+        self.unreached: set[Decimal] = set()
         self.last: tuple[int, dict[int, Decimal]] = (-1, {})
 
     def given(self, row: int) -> dict[int, Decimal]:
@@ -104,9 +105,15 @@ class Recheck:
             return {}
         if self.solved is not None and abs(self.solved[0] - s) < Decimal(BESIDE * self.track.way.widest):
             return self.solved[1]
+        if s in self.unreached:
+            raise Unreached
         guess = self._states(row, float(s))
         columns = [k for group, _ in self.track.groups for k in group.solved]
-        states = self.scenes.exact.states(self._along(s, row) | guess, columns)
+        try:
+            states = self.scenes.exact.states(self._along(s, row) | guess, columns)
+        except Unreached:
+            self.unreached.add(s)
+            raise
         self.solved = (s, dict(zip(columns, states, strict=True)))
         return self.solved[1]
 
@@ -215,9 +222,9 @@ class Recheck:
                 move = (low - high) / (2 * bend)
                 if abs(move) > Decimal("1e-3"):
                     return as_written(near)
-                at += move
-                if abs(move) < Decimal("1e-50"):
+                if abs(move) < STEP:
                     break
+                at += move
         return at
 
     def _along(self, s: Decimal, row: int | None = None) -> dict[int, Decimal]:
