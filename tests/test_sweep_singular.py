@@ -354,7 +354,7 @@ def test_a_torsion_spring_is_followed_and_sought_over_every_number(path: str) ->
 
 
 def test_a_row_where_links_fold_up_is_refused_and_its_neighbours_are_not() -> None:
-    """The lazy tongs shut, with the crossings of its bars on one another: solve says change point, and so do rows."""
+    """The lazy tongs shut, its crossings on one another: `solve` says change point, and so do rows."""
     case = icsolve.load(str(CASES / "tools" / "lazy_tongs.yaml"))
     sweep = icsolve.sweep(
         case, want=("answers", "status", "points"), drive={"3": [-153.0, -152.0, -151.0, 28.0]}
