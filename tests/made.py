@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from icsolve.answer import Answer, Centre, Found, Term
-from icsolve.case import Case, Coordinates, Expected, Force, Number, Pin, Slope, Target, Torque, Units
+from icsolve.case import Case, Coordinates, Force, Number, Pin, Slope, Torque, Units
+from icsolve.case.expected import Expected, Target
 
 
 def number(text: str, path: str = "") -> Number:

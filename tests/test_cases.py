@@ -19,9 +19,7 @@ from icsolve.case import (
     ForceVector,
     Gears,
     KnownCentre,
-    LoadIs,
     Pin,
-    ReactionIs,
     Roll,
     Slide,
     Slot,
@@ -31,6 +29,7 @@ from icsolve.case import (
     Weight,
     Weld,
 )
+from icsolve.case.expected import LoadIs, ReactionIs
 from icsolve.report.check import AGREES, DISAGREES, ERRATUM, compare, wanted
 from icsolve.solve import solve
 

@@ -10,24 +10,19 @@ from typing import Any
 import pytest
 
 from icsolve.answer import Answer, Centre, Found
-from icsolve.case import (
+from icsolve.case import Force, Like, Number, Torque, Toward, Weight
+from icsolve.case.expected import (
     ArmIs,
     CentreIs,
     DistanceIs,
     Expected,
-    Force,
     FrictionRadiusIs,
-    Like,
     LoadIs,
-    Number,
     RateIs,
     RatioIs,
     ReactionIs,
     SpeedIs,
     Target,
-    Torque,
-    Toward,
-    Weight,
 )
 from icsolve.read import load
 from icsolve.report.check import Row, compare, wanted

@@ -10,7 +10,7 @@ import pytest
 
 import icsolve
 from grade_shell import PRESS, Class
-from icsolve.case import LoadIs
+from icsolve.case.expected import LoadIs
 from icsolve.grade import tolerance as drawn
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course

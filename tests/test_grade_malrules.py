@@ -11,7 +11,7 @@ import pytest
 import icsolve
 from grade_mistakes import mistakes
 from grade_shell import CASES, Class
-from icsolve.case import LoadIs
+from icsolve.case.expected import LoadIs
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.judge import judge_answer

@@ -9,7 +9,7 @@ import pytest
 
 import icsolve
 from grade_shell import PRESS, Class
-from icsolve.case import Variable
+from icsolve.case.expected import Variable
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.variants.varied import Varied, drawn, label

@@ -21,7 +21,8 @@ import icsolve
 import mechanisms
 import transcribe
 from icsolve.answer import Answer
-from icsolve.case import Case, RatioIs, Torque
+from icsolve.case import Case, Torque
+from icsolve.case.expected import RatioIs
 from icsolve.draw import draw
 from icsolve.draw.words import figure_number
 from icsolve.errors import SceneError

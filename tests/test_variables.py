@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import icsolve
 from icsolve import CaseError
-from icsolve.case import Tolerance, Variable
+from icsolve.case.expected import Tolerance, Variable
 from icsolve.read.variables import FormulaError, count, decimal, replaced, value_at
 
 VALUES = {"P": "250", "a": "1.5", "b_2": "-0.1"}

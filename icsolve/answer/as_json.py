@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from icsolve.answer.equilibrium import position_dict, stiffness_dict
 from icsolve.case import Case
 from icsolve.case.names import pair_name
 from icsolve.errors import SceneError
@@ -160,10 +159,12 @@ def _bodies(answer: Answer) -> dict[str, Any]:
 
 def _equilibrium(answer: Answer) -> dict[str, Any]:
     """Positions of equilibrium, or the stability of the position as written."""
+    if answer.positions is None and answer.stability is None:
+        return {}
+    from icsolve.answer.equilibrium import position_dict, stiffness_dict
+
     if answer.positions is not None:
         return {"positions": [position_dict(position) for position in answer.positions]}
-    if answer.stability is None:
-        return {}
     stiffness = stiffness_dict(answer.stiffness, answer.why_no_stiffness)
     return {"stability": answer.stability, "stiffness": stiffness}
 

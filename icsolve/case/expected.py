@@ -2,9 +2,8 @@
 
 from typing import NamedTuple
 
+from icsolve.case.joints import Pair
 from icsolve.numbers.given import Number
-
-Pair = tuple[str, str]
 
 
 class LoadIs(NamedTuple):
@@ -90,16 +89,7 @@ class PositionIs(NamedTuple):
     path: str
 
 
-Target = (
-    LoadIs
-    | PositionIs
-    | CentreIs
-    | DistanceIs
-    | RatioIs
-    | RateIs
-    | SpeedIs
-    | OfBodies
-)
+Target = LoadIs | PositionIs | CentreIs | DistanceIs | RatioIs | RateIs | SpeedIs | OfBodies
 
 
 class Expected(NamedTuple):

@@ -13,6 +13,9 @@ from typing import NamedTuple
 from icsolve.case.figure import Guide
 from icsolve.numbers.given import Number
 
+Pair = tuple[str, str]
+"""Two links."""
+
 
 class Friction(NamedTuple):
     """Friction of a joint: coefficient; pin radius; length of a block."""

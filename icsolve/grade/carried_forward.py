@@ -11,7 +11,8 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import NamedTuple
 
 from icsolve.answer import Answer
-from icsolve.case import CentreIs, DistanceIs, Load, RateIs, RatioIs, SpeedIs, Target
+from icsolve.case import Load
+from icsolve.case.expected import CentreIs, DistanceIs, RateIs, RatioIs, SpeedIs, Target
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.importing import StoredAnswer
 from icsolve.grade.judge import WRONG, feedback, share_of

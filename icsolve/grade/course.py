@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from icsolve.case import Tolerance
+from icsolve.case.expected import Tolerance
 from icsolve.errors import CaseError
 from icsolve.grade.mistakes.lookup import CODES
 from icsolve.grade.tolerance import DEFAULT

@@ -7,24 +7,17 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import NamedTuple
 
 from icsolve.answer import Answer
-from icsolve.case import (
+from icsolve.case import Force, ForceVector, Load, Spring, Torque, TorsionSpring, Toward, Weight
+from icsolve.case.expected import (
     CentreIs,
-    Force,
-    ForceVector,
-    Load,
     LoadIs,
     PositionIs,
     RateIs,
     RatioIs,
     ReactionIs,
     SpeedIs,
-    Spring,
     Target,
     TensionIs,
-    Torque,
-    TorsionSpring,
-    Toward,
-    Weight,
 )
 from icsolve.grade.course import Policy
 from icsolve.grade.mistakes import Wrong, Wrongs

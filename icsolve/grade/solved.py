@@ -6,7 +6,8 @@ from copy import copy
 from functools import cached_property, lru_cache
 
 from icsolve.answer import Answer
-from icsolve.case import Case, CentreIs, LoadIs, OfBodies, PositionIs, ReactionIs, Target, TensionIs
+from icsolve.case import Case
+from icsolve.case.expected import CentreIs, LoadIs, OfBodies, PositionIs, ReactionIs, Target, TensionIs
 from icsolve.errors import SceneError
 from icsolve.grade.course import Course
 from icsolve.grade.keys import (

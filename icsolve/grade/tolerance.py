@@ -12,21 +12,23 @@ from icsolve.case import (
     Force,
     ForceVector,
     Load,
-    LoadIs,
     Number,
+    Spring,
+    Stretch,
+    Torque,
+    TorsionSpring,
+    Weight,
+)
+from icsolve.case.expected import (
+    LoadIs,
     PositionIs,
     RateIs,
     RatioIs,
     ReactionIs,
     SpeedIs,
-    Spring,
-    Stretch,
     Target,
     TensionIs,
     Tolerance,
-    Torque,
-    TorsionSpring,
-    Weight,
 )
 from icsolve.errors import IcsolveError
 from icsolve.grade.mistakes import solved_for

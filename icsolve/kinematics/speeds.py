@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
 from icsolve.assembly.workspace import Frame
-from icsolve.case import Case, SpeedIs
+from icsolve.case import Case
 from icsolve.case import Motion as Given
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import (
@@ -279,7 +279,12 @@ def point_velocities(
 
 def moving_points(case: Case, link: str) -> list[str]:
     """The points whose velocity on a link is told: those that it carries or whose speed is published."""
-    asked = [e.target.point for e in case.expect if isinstance(e.target, SpeedIs) and e.target.link == link]
+    asked = []
+    if case.expect:
+        from icsolve.case.expected import SpeedIs
+
+        targets = [e.target for e in case.expect]
+        asked = [t.point for t in targets if isinstance(t, SpeedIs) and t.link == link]
     return list(dict.fromkeys((*case.carries.get(link, ()), *asked)))
 
 
@@ -304,5 +309,3 @@ def meant(twists: Twists, speed: Speed, link: str) -> tuple[Triple, ...]:
         )
         for c in directions
     )
-
-

@@ -10,7 +10,6 @@ from icsolve.case import (
     Coordinates,
     Corner,
     Direction,
-    Expected,
     Inertia,
     Joint,
     Length,
@@ -18,11 +17,9 @@ from icsolve.case import (
     Motion,
     Number,
     Rope,
-    Tolerance,
     Units,
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
-from icsolve.read.expect import read_expect
 from icsolve.read.figure import (
     FRAMES,
     FigureData,
@@ -45,6 +42,7 @@ from icsolve.read.names import Problems, shown
 from icsolve.read.reading import Measures, Reading, number
 
 if TYPE_CHECKING:
+    from icsolve.case.expected import Expected, Tolerance
     from icsolve.case.profiles import Profiles
 
 TEXTS = ("title", "source", "reconstructed")
@@ -128,8 +126,12 @@ def _parts(reading: Reading, root: Mapping) -> _Parts:
     lengths = read_lengths(reading, section_of(reading, root, "lengths"), known)
     angles = read_angles(reading, section_of(reading, root, "angles"), known)
     named = reading.given | set(reading.used)
-    published = section_of(reading, root, "expect")
-    expect = read_expect(reading, published, named) if readable(root, "loads") else ()
+    expect: tuple[Expected, ...] = ()
+    if stands(root, "expect"):
+        from icsolve.read.expect import read_expect
+
+        published = section_of(reading, root, "expect")
+        expect = read_expect(reading, published, named) if readable(root, "loads") else ()
     middles = {name: Centroid(ends) for name, ends in reading.middles.items()}
     points = {**points, **reading.hidden, **middles}
     figure = (joints, loads, points, links, near, motion, lengths, angles)

@@ -6,15 +6,14 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from icsolve.case import (
+from icsolve.case import Number, Pair
+from icsolve.case.expected import (
     ArmIs,
     CentreIs,
     DistanceIs,
     Expected,
     FrictionRadiusIs,
     LoadIs,
-    Number,
-    Pair,
     PositionIs,
     RateIs,
     RatioIs,

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 
-from icsolve.case import Case, Centroid, Expected, Number, Spring, Toward, Weight
+from icsolve.case import Case, Centroid, Number, Spring, Toward, Weight
+from icsolve.case.expected import Expected
 from icsolve.case.space import (
     Along,
     Axis,

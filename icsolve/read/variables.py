@@ -10,7 +10,7 @@ import re
 from collections.abc import Mapping as Named
 from fractions import Fraction
 
-from icsolve.case import Variable
+from icsolve.case.expected import Variable
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
 from icsolve.read.names import Problems, is_name, shown, suggestion, why_no_name
 

@@ -6,19 +6,15 @@ import math
 from typing import TYPE_CHECKING, NamedTuple
 
 from icsolve.answer import Answer, Centre, Found
-from icsolve.case import (
+from icsolve.case import Case, Like, Load, Number, Pair, Torque
+from icsolve.case.expected import (
     ArmIs,
-    Case,
     CentreIs,
     DistanceIs,
     Expected,
     FrictionRadiusIs,
-    Like,
-    Load,
     LoadIs,
-    Number,
     OfBodies,
-    Pair,
     PositionIs,
     RateIs,
     RatioIs,
@@ -26,7 +22,6 @@ from icsolve.case import (
     SpeedIs,
     Target,
     TensionIs,
-    Torque,
 )
 from icsolve.case.names import pair_name
 from icsolve.wording.bearings import bearing, same_way, turned_at_most

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from icsolve.answer import Answer, Centre, Found, Term
 from icsolve.answer.as_json import shown_points
-from icsolve.answer.equilibrium import Stiffness
 from icsolve.case import Case, Coordinates, Pair, Torque
 from icsolve.case.names import link_order, pair_name
 from icsolve.wording.senses import SPELT, holding, spelt
+
+if TYPE_CHECKING:
+    from icsolve.answer.equilibrium import Stiffness
 
 Format = Callable[[float], str]
 """A number with the digits that were asked for."""

@@ -6,10 +6,12 @@ import math
 from typing import TYPE_CHECKING
 
 from icsolve.answer.bodies import Reaction
-from icsolve.case import ArmIs, FrictionRadiusIs, OfBodies, Pin, TensionIs
+from icsolve.case import Pin
+from icsolve.case.expected import ArmIs, FrictionRadiusIs, OfBodies, TensionIs
 
 if TYPE_CHECKING:
     from icsolve.answer import Answer
+
 
 def found_value(answer: Answer, target: OfBodies) -> float:
     """The value of a target, in case units.

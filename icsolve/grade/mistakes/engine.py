@@ -10,11 +10,10 @@ from functools import cached_property
 from typing import NamedTuple
 
 from icsolve.answer import Answer
-from icsolve.case import (
-    Case,
+from icsolve.case import Case, Load, Torque
+from icsolve.case.expected import (
     CentreIs,
     DistanceIs,
-    Load,
     LoadIs,
     OfBodies,
     PositionIs,
@@ -22,7 +21,6 @@ from icsolve.case import (
     RatioIs,
     SpeedIs,
     Target,
-    Torque,
 )
 from icsolve.case.names import pair_name
 from icsolve.errors import IcsolveError, SceneError

@@ -19,7 +19,8 @@ from collections.abc import Iterable, Iterator
 from html import escape
 from typing import NamedTuple
 
-from icsolve.case import Case, LoadIs, PositionIs, Target
+from icsolve.case import Case
+from icsolve.case.expected import LoadIs, PositionIs, Target
 from icsolve.grade.keys import AnyKey, NumberKey, PlaceKey, RangeKey
 from icsolve.grade.mistakes import Wrong, message
 from icsolve.grade.mistakes.lookup import ORDER

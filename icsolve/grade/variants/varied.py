@@ -10,7 +10,8 @@ from functools import cached_property
 from typing import TYPE_CHECKING, NamedTuple, TypeVar
 
 from icsolve.answer import Answer
-from icsolve.case import Case, Load, Mark, Number, Variable
+from icsolve.case import Case, Load, Mark, Number
+from icsolve.case.expected import Variable
 from icsolve.errors import CaseError, IcsolveError, SceneError
 from icsolve.grade.course import Course
 from icsolve.grade.keys import (

@@ -12,7 +12,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 
 from icsolve.answer import Answer, Term
 from icsolve.answer.space import Parts, Spatial, SpatialReaction
-from icsolve.case import ArmIs, Case, DistanceIs, Like, LoadIs, ReactionIs, Spring, Target, Toward, Weight
+from icsolve.case import Case, Like, Spring, Toward, Weight
+from icsolve.case.expected import ArmIs, DistanceIs, LoadIs, ReactionIs, Target
 from icsolve.case.space import (
     Along,
     FromTo,
