@@ -456,7 +456,6 @@ def test_a_cam_turns_its_follower() -> None:
     assert set(model["motion"]["links"]) == {"2", "3"}
 
 
-@pytest.mark.xfail(strict=True, reason="so near to the jump that friction jams, it is taken for a lock")
 def test_a_jump_of_friction_is_no_dead_centre() -> None:
     """Where the slider turns round the force jumps with the friction; it does not run off to infinity."""
     model = model_of(page_of("ch13/13_19_slider_crank_friction_at_pins.yaml"))

@@ -77,6 +77,23 @@ def test_change_points_to_the_last_digit() -> None:
     assert [(kind, round(at, 12)) for kind, at, _ in spots] == [("change-point", 180.0)]
 
 
+def test_what_is_only_sampled_is_said() -> None:
+    """Beside a change point no bound shows that none is missed; away from it they do."""
+    case = icsolve.load(PARALLELOGRAM.replace("T14", "W: {weight: 5, link: 3, at: C}, T14"))
+    for query in (Query("value", "T12", -9.0), Query("max"), Query("dead")):
+        beside, away = (find(case, {"angles.AB": rows}, query) for rows in ([20.0, 340.0], [20.0, 160.0]))
+        assert any("beside a change point" in note for note in beside.notes)
+        assert away.notes == ()
+
+
+def test_what_is_the_same_everywhere_has_no_peak() -> None:
+    """Crank and rocker of a parallelogram turn alike, so that their torques are opposite and equal."""
+    for torque in (10.0, 0.1, 1 / 3):
+        case = icsolve.load(PARALLELOGRAM.replace("torque: 10", f"torque: {torque}"))
+        spots = find(case, {"angles.AB": [20.0, 340.0]}, Query("max"))
+        assert (list(spots), spots.notes) == ([], ())
+
+
 def test_where_the_torque_is_zero_and_where_it_has_a_value() -> None:
     """The zeros are the dead centres; at the others the solver gives the value that was asked."""
     zeros = found(UNKNOWN_TORQUE, "angles.AB", DEGREES, Query("value", "T", 0.0))

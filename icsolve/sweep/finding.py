@@ -160,7 +160,8 @@ class _Search:
         if not isinstance(answer, Traced) or not answer.row:
             return
         top, bottom = fraction(self.record, answer)
-        if self._vanishes(bottom) or self._vanishes(top - float(answer) * bottom):
+        probed = [self._value(answer, s) for s in self._probes()]
+        if self._vanishes(bottom) or max(probed) - min(probed) <= NOTHING * abs(probed[0]):
             return
 
         def slope(s: Decimal) -> Decimal:
@@ -211,8 +212,12 @@ class _Search:
 
     def _vanishes(self, value: Scalar) -> bool:
         """Whether a value is zero in the whole range."""
+        return all(self._is_nothing(value, s) for s in self._probes())
+
+    def _probes(self) -> list[Decimal]:
+        """Places that tell whether a value is the same in the whole range."""
         low, high = map(as_written, self.ends)
-        return all(self._is_nothing(value, low + Decimal(k) * (high - low)) for k in PROBES)
+        return [low + Decimal(k) * (high - low) for k in PROBES]
 
     def _spot(self, s: Decimal, kind: str, load: str | None, error: float | None = None) -> Spot:
         at = 0.0 if abs(s) < CLOSED else float(s)
@@ -307,6 +312,7 @@ class _Search:
                 yield from by(wanted, peaks, float(low), float(high))
             for touch, away in ((first, 1), (last, -1)):
                 if touch in self.touches:
+                    self.notes[RINGED] = None
                     wide = min(beside, (last - first) / 2)
                     ring = [touch + away * wide / 2**n for n in range(RINGS)]
                     yield from ((min(pair), max(pair), False) for pair in pairwise(ring))
@@ -409,6 +415,10 @@ ROUGH = 1e-12
 """Relative error of the place at which a group reaches its limit."""
 UNSHOWN = (
     "{count} parts of the range are left undecided: there the bounds are too wide to show what is there."
+)
+RINGED = (
+    "beside a change point, where no bound shows what is there, the range was searched in rings, each half as "
+    "far from it: two positions in one ring may be missed."
 )
 SEARCHED = (
     "a group of links has to be placed by Newton's method, or turns to be counted: the range was searched at "

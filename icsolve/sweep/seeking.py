@@ -38,8 +38,9 @@ HOLDS = (
     "with friction and no motion {load} holds over a range, not at one value, so no position is looked for. "
     "Give a `motion`, or leave out the friction."
 )
-BESIDE, GROWN = 1000.0, 10.0
-"""What runs off to infinity is at least ``GROWN`` times as large there as ``BESIDE`` widths away."""
+BESIDE, GROWN = 1000.0, 3.0
+"""What runs off to infinity grows as one over the distance: ``BESIDE`` widths away, or so much farther that it
+is finite, it is more than ``GROWN`` times as large as ten times as far away."""
 LOCKED = [CODE[word] for word in (Status.DEAD_CENTRE, Status.NO_VALUE, Status.JAM)]
 
 
@@ -141,8 +142,7 @@ class Scenes:
         """Changes of sign through infinity, and where the mechanism begins to lock or reaches its limit."""
         for k in np.flatnonzero(found[:-1] * found[1:] < 0.0).tolist():
             at, wide = self._closed(self._answer, k)
-            beside = max(abs(self._answer(at + side * BESIDE * self.width)) for side in (-1.0, 1.0))
-            if not abs(self._answer(at)) <= GROWN * beside:  # a jump stays finite, and grows no more
+            if self._runs_off(at, float(self.places[k + 1] - self.places[k])):
                 yield Spot(at, "dead", None, wide)
         locked, apart = np.isin(codes, LOCKED), codes == CODE[Status.CANNOT_ASSEMBLE]
         for kind, state in (("dead", locked), ("limit", apart)):
@@ -151,6 +151,22 @@ class Scenes:
                 at, wide = self._ends(wanted, bool(state[k]), k)
                 answer = self._answer(at) if kind == "limit" else math.nan
                 yield Spot(at, kind, None if math.isnan(answer) else answer, wide)
+
+    def _runs_off(self, at: float, step: float) -> bool:
+        """Whether the answer grows to infinity at a change of sign: a jump stays as it is, also where friction
+        jams so near to it that there is no answer."""
+        away = BESIDE * self.width
+        near = self._size(at, away)
+        while True:
+            away *= 10.0
+            far = self._size(at, away)
+            if not math.isnan(near) or away > step:
+                return not near <= GROWN * far
+            near = far
+
+    def _size(self, at: float, away: float) -> float:
+        """The larger answer of both sides of a place; nan where one has none."""
+        return float(np.abs(self._swept(np.array([at - away, at + away]))[0]).max())
 
     def _peaks(self, found: Array, codes: Codes) -> Iterator[Spot]:
         """Where the size of the answer is larger than on both sides, by golden sections."""
