@@ -30,7 +30,7 @@ import yaml  # noqa: F401
 ROOT = Path(__file__).resolve().parent.parent
 ROOMS = ("numbers", "screws", "assembly", "kinematics", "statics", "scene")
 LIMIT = 60
-"""Seconds of CPU a step of the tests may take, three times what the slowest does: a mutant that hangs is dead."""
+"""Seconds of CPU a step of the tests may take, three times what the slowest does: what hangs is dead."""
 FIRST = {
     "numbers": "balls krawczyk digits bounds reaction_digits",
     "screws": "screws digits reaction_digits ropes",

@@ -417,8 +417,8 @@ UNSHOWN = (
     "{count} parts of the range are left undecided: there the bounds are too wide to show what is there."
 )
 RINGED = (
-    "beside a change point, where no bound shows what is there, the range was searched in rings, each half as "
-    "far from it: two positions in one ring may be missed."
+    "beside a change point, where no bound shows what is there, the range was searched in rings, each half "
+    "as far from it: two positions in one ring may be missed."
 )
 SEARCHED = (
     "a group of links has to be placed by Newton's method, or turns to be counted: the range was searched at "

@@ -39,8 +39,8 @@ HOLDS = (
     "Give a `motion`, or leave out the friction."
 )
 BESIDE, GROWN = 1000.0, 3.0
-"""What runs off to infinity grows as one over the distance: ``BESIDE`` widths away, or so much farther that it
-is finite, it is more than ``GROWN`` times as large as ten times as far away."""
+"""What runs off to infinity grows as one over the distance: ``BESIDE`` widths away, or so much farther that
+it is finite, it is more than ``GROWN`` times as large as ten times as far away."""
 LOCKED = [CODE[word] for word in (Status.DEAD_CENTRE, Status.NO_VALUE, Status.JAM)]
 
 
@@ -153,8 +153,8 @@ class Scenes:
                 yield Spot(at, kind, None if math.isnan(answer) else answer, wide)
 
     def _runs_off(self, at: float, step: float) -> bool:
-        """Whether the answer grows to infinity at a change of sign: a jump stays as it is, also where friction
-        jams so near to it that there is no answer."""
+        """Whether the answer grows to infinity at a change of sign: a jump stays as it is, also where
+        friction jams so near to it that there is no answer."""
         away = BESIDE * self.width
         near = self._size(at, away)
         while True:
