@@ -6,6 +6,7 @@ import math
 from random import Random
 
 import pytest
+import yaml
 
 from figure_drafts import Draft, Place, framework
 from icsolve.assembly import case_point, solve_figure
@@ -59,6 +60,11 @@ def test_a_group_takes_the_way_nearest_to_near(links: int, spread: float) -> Non
         assert nearest or apart(places, draft.at) < 1e-6, (links, seed)
 
 
+def places_near(text: str) -> dict[str, Place]:
+    """What a case says under `near`."""
+    return {p: (float(x), float(y)) for p, (x, y) in yaml.safe_load(text)["near"].items()}
+
+
 def ring(count: int, seed: int) -> tuple[str, dict[str, Place]]:
     """Points joined in a ring by rods, each on a leg of its own."""
     rng = Random(seed)
@@ -86,6 +92,17 @@ def test_rings_of_points_each_on_a_leg(count: int) -> None:
     text, at = ring(count, count)
     places = places_of(load(text))
     assert max(math.dist(places[p], at[p]) for p in at) < 1e-6
+
+
+@pytest.mark.parametrize("seed", [5002, 5004, *range(5009, 5009 + 12 * (MORE > 1))])
+def test_rings_of_forty_beside_others(seed: int) -> None:
+    """Of two ways 1.4e-3 apart the one that is nearer to `near`, and one to which plain steps do not lead."""
+    text, at = ring(40, seed)
+    case = load(text)
+    places = unless_even(case)
+    if places is not None:
+        near = {p: at for p, at in places_near(text).items() if p in places}
+        assert off(near, places) <= off(near, at) * (1.0 + 1e-9)
 
 
 SIX = """

@@ -41,7 +41,7 @@ SPREAD = 16
 MOST_WORK = 250_000
 """Steps times the square of the number of equations, over all starts but `near` itself."""
 CLOSE_WORK = 60_000
-"""The same once a solution was found from `near` itself."""
+"""The same once a solution was found from `near` itself, and the starts about it were tried."""
 
 
 def every(group: Group, workspace: Workspace) -> Converged:
@@ -135,9 +135,9 @@ class _NewtonSearch:
             if len(self.found) > known:
                 self.beside = {}
         work, most = 0, CLOSE_WORK if self.found else MOST_WORK
-        for start in self._starts(list(held)):
+        for tried, start in enumerate(self._starts(list(held))):
             work += self._try(start, MOST_STEPS) * len(self.group.equations) ** 2
-            if work > most:
+            if work > most and not (self.found and tried < SPREAD // 2):
                 self.spent = True
                 return
 
@@ -191,7 +191,7 @@ def _even(k: int, j: int) -> Spot:
 
 STEEPEST = {LENGTH: 2.0, CORNER: 4.0, LINE: 4.0, ROPE: math.inf}
 """How fast the derivatives of a datum's equation change at most, per move of one of its points."""
-MOST_SHOWN = 60
+MOST_SHOWN = 100
 """Equations of the largest group for which an inverse is taken."""
 
 
