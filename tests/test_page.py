@@ -92,7 +92,7 @@ def column(packed: dict[str, Any]) -> np.ndarray:
     """A column as the script reads it."""
     if "v" in packed:
         return np.array([math.nan if v is None else v for v in packed["v"]], float)
-    return np.cumsum(packed["d"]) / packed["s"]
+    return np.cumsum(np.cumsum(packed["d"])) / packed["s"]
 
 
 @pytest.mark.parametrize("name", PAGED)

@@ -1,6 +1,6 @@
 """What the script of a page reads: all positions as columns in few bytes, the loads, the steps, the answers.
 
-Whole numbers stand as differences where the picture needs no more, plain numbers else.
+Whole numbers stand as differences of differences where the picture needs no more, plain numbers else.
 """
 
 from __future__ import annotations

@@ -551,10 +551,11 @@ DIGITS = 12
 
 
 def compact(values: Array, fine: int) -> dict[str, Any]:
-    """A column in steps of 1 / ``fine``; what is not a number is null."""
+    """A column in steps of 1 / ``fine``, as differences of differences, which are small where a motion is
+    smooth; what is not a number is null."""
     if np.isfinite(values).all() and float(np.abs(values).max(initial=0.0)) < FAR:
         whole = np.rint(values * fine).astype(np.int64)
-        return {"s": fine, "d": [int(whole[0]), *map(int, np.diff(whole))]}
+        return {"s": fine, "d": np.diff(whole, 2, prepend=(0, 0)).tolist()}
     return {"v": [_rounded(v, 5) for v in values.tolist()]}
 
 

@@ -7,12 +7,13 @@ const figure = byId("figure");
 const motion = data.motion;
 const INFINITE = 1e9;
 
-/* Columns: differences in steps of 1/s, or plain values. */
+/* Columns: differences of differences in steps of 1/s, or plain values. */
 const column = (c) => {
   if (!c) return null;
   if (c.v) return c.v;
   let sum = 0;
-  return c.d.map((d) => (sum += d) / c.s);
+  let rate = 0;
+  return c.d.map((d) => (sum += rate += d) / c.s);
 };
 const places = (o) => ({ x: column(o.x), y: column(o.y) });
 const links = {};
