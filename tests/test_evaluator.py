@@ -18,7 +18,7 @@ import icsolve
 from icsolve.case import Case
 from icsolve.errors import SceneError
 from icsolve.numbers.adjoint import gradient
-from icsolve.numbers.record import Record
+from icsolve.numbers.record import Op, Record, Traced
 from icsolve.numbers.source import JAVASCRIPT, JAVASCRIPT_FUNCTIONS, straight_line
 from icsolve.sweep.numbers import numbers_of, with_numbers
 
@@ -187,3 +187,15 @@ def test_a_gradient_on_the_record_is_that_of_differences() -> None:
     h = 1e-5
     assert (f(0.7 + h, 2.3) - f(0.7 - h, 2.3)) / (2 * h) == pytest.approx(by_x, rel=1e-6)
     assert (f(0.7, 2.3 + h) - f(0.7, 2.3 - h)) / (2 * h) == pytest.approx(by_y, rel=1e-6)
+
+
+def test_a_record_has_no_nodes_for_what_is_exact() -> None:
+    """A quarter turn and a difference of equal exact numbers are numbers; what varies stays, zero too."""
+    record = Record()
+    for degrees, both in ((0.0, (1.0, 0.0)), (90.0, (0.0, 1.0)), (180.0, (-1.0, 0.0))):
+        turned = record.turned(record.about(degrees, 0.0))
+        assert turned == both and all(type(part) is float for part in turned)
+    three, moved = record.about(3.0, 0.0), record.input("x", 3.0)
+    assert type(three + record.about(-3.0, 0.0)) is float
+    assert isinstance(moved - three, Traced) and isinstance(record.about(3.0, 1e-16) - three, Traced)
+    assert len(Op.__members__) == len({*Op})

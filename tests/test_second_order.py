@@ -7,7 +7,8 @@ from random import Random
 import pytest
 
 import icsolve
-from icsolve.kinematics.second_order import bracket
+from icsolve.kinematics.second_order import BINDS as WORK
+from icsolve.kinematics.second_order import _idle, bracket
 from icsolve.screws.plane import Triple, add
 
 MOVES, BINDS = "goes on moving to second order", "only for an instant"
@@ -80,3 +81,11 @@ def test_the_bracket_of_three_twists_keeps_jacobis_identity() -> None:
         total = add(total, one)
     assert total == pytest.approx((0.0, 0.0, 0.0), abs=1e-15)
     assert bracket(a, b) == pytest.approx(tuple(-x for x in bracket(b, a)))
+
+
+@pytest.mark.parametrize("fast", [1e-3, 1.0, 1e3])
+def test_whether_a_stress_does_work_is_no_question_of_speed(fast: float) -> None:
+    """Misfits of second order grow as the square of the rates, and the work with the stress."""
+    for stress in (1e-3, 1e3):
+        for share, idle in ((0.1, True), (10.0, False)):
+            assert _idle([stress], [share * WORK * fast * fast], [fast, -0.5 * fast]) is idle
