@@ -163,6 +163,18 @@ def recorded() -> tuple[Record, list[int], dict[int, str], list[float]]:
     return record, [v.index for v in shown], {x.index: "x", y.index: "y"}, [float(v) for v in shown]
 
 
+@pytest.mark.parametrize("rows", [1, 3, 200])
+@pytest.mark.parametrize("path", ["angles.AB", "lengths.BC", "loads.P"])
+@pytest.mark.parametrize("number", [float("nan"), float("inf"), float("-inf")])
+def test_a_number_that_is_none_spoils_its_own_row_alone(rows: int, path: str, number: float) -> None:
+    case = icsolve.load(FOUR_BAR)
+    values = np.full(rows, numbers_of(case)[path].value)
+    values[-1] = number
+    found = icsolve.evaluator(case, inputs=(path,), want=("answers",))(values)
+    assert found.status.tolist() == ["ok"] * (rows - 1) + ["cannot-assemble"]
+    assert np.isfinite(found.answers["T12"]).tolist() == [True] * (rows - 1) + [False]
+
+
 @pytest.mark.skipif(shutil.which("node") is None, reason="no JavaScript engine")
 def test_the_generated_javascript_does_what_the_record_does() -> None:
     record, wanted, names, expected = recorded()

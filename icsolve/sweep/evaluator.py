@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from math import atan2, degrees, sqrt
+from math import atan2, degrees, inf, isfinite, sqrt
 from typing import Any
 
 import numpy as np
@@ -144,13 +144,13 @@ class Evaluator:
         Returns
         -------
         Evaluated
-            n rows; one of plain numbers alone is one row. A row without an answer says so in ``status``.
+            n rows; one of plain numbers alone is one row. A row without an answer says so in ``status``; one
+            with a number that is not finite can't be assembled.
 
         Raises
         ------
         ValueError
-            For columns whose number or lengths do not fit, or with more than one dimension, and for angles
-            that are not finite: one of them spoils the whole call.
+            For columns whose number or lengths do not fit, or with more than one dimension.
         """
         if len(columns) != len(self.inputs):
             names = ", ".join(self.inputs)
@@ -184,7 +184,11 @@ class Evaluator:
     def _as_scene(self, given: list[Array], row: int, out: _Rows) -> None:
         """One row as `icsolve.solve` has it, on the branch that was followed."""
         out.blank(row)
-        case = self.case_of(*(float(c[row] if c.ndim else c) for c in given))
+        numbers = [float(c[row] if c.ndim else c) for c in given]
+        if not all(map(isfinite, numbers)):
+            out.status[row] = Status.CANNOT_ASSEMBLE
+            return
+        case = self.case_of(*numbers)
         if self.compiled is not None:
             case = self.compiled.on_its_branch(case, given, row)
         rates = any(kind in ("rates", "centres") for kind, _ in out.arrays)
@@ -292,11 +296,11 @@ class _Compiled:
         watched = text.wanted[count:]
         tests = [f"{w}>{limit!r}" for w, limit in zip(watched, limits, strict=False)][: len(self.positive)]
         later = zip(watched[len(self.positive) :], limits[len(self.positive) :], strict=True)
-        tests += [f"not -{limit!r}<={w}<={limit!r}" for w, limit in later]
+        tests += [f"(-inf<{w}<-{limit!r} or {limit!r}<{w}<inf)" for w, limit in later]
         body = [*text.lines, *(f"if not ({test}): return None" for test in tests)]
         body.append(f"return ({''.join(f'{w},' for w in text.wanted[:count])})")
         source = f"def one({', '.join(names.values())}):\n" + "".join(f"    {line}\n" for line in body)
-        scope: dict[str, Any] = {"turn": turn_of, "root": _root, "atan2": atan2, "degrees": degrees}
+        scope: dict[str, Any] = {"turn": turn_of, "root": _root, "atan2": atan2, "degrees": degrees, "inf": inf}
         exec(compile(source, "<evaluator>", "exec"), scope)
         found: Callable[..., tuple[float, ...] | None] = scope["one"]
         return found
@@ -307,7 +311,7 @@ class _Compiled:
             return None
         try:
             found = self.one(*map(float, columns))  # type: ignore[arg-type]
-        except ArithmeticError:
+        except (ArithmeticError, ValueError):
             return None
         if found is None:
             return None
@@ -337,7 +341,7 @@ class _Compiled:
             numbers = [c[row] if isinstance(c, list) else c for c in columns]
             try:
                 found = self.one(*numbers)
-            except (ZeroDivisionError, OverflowError, ValueError):
+            except (ArithmeticError, ValueError):
                 found = None
             if found is None:
                 again.append(row)
@@ -358,7 +362,7 @@ class _Compiled:
             fine = np.ones(stop - start, dtype=bool)
             with np.errstate(invalid="ignore"):
                 for n, array in enumerate(found[shown:]):
-                    fine &= (array if n < positive else np.abs(array)) > self.limits[n]
+                    fine &= ((array if n < positive else np.abs(array)) > self.limits[n]) & np.isfinite(array)
             if not fine.all():
                 again.append(np.flatnonzero(~fine) + start)
         return np.concatenate(again) if again else np.empty(0, dtype=np.int64)
