@@ -300,7 +300,8 @@ class _Compiled:
         body = [*text.lines, *(f"if not ({test}): return None" for test in tests)]
         body.append(f"return ({''.join(f'{w},' for w in text.wanted[:count])})")
         source = f"def one({', '.join(names.values())}):\n" + "".join(f"    {line}\n" for line in body)
-        scope: dict[str, Any] = {"turn": turn_of, "root": _root, "atan2": atan2, "degrees": degrees, "inf": inf}
+        scope: dict[str, Any] = {"turn": turn_of, "root": _root, "atan2": atan2, "degrees": degrees}
+        scope["inf"] = inf
         exec(compile(source, "<evaluator>", "exec"), scope)
         found: Callable[..., tuple[float, ...] | None] = scope["one"]
         return found
