@@ -363,7 +363,9 @@ def most_memory() -> int:
     )
 
 
-def faults_of(dice: Dice, text: str, apart: bool = False, most: int = 0) -> list[Fault]:
+def faults_of(
+    dice: Dice, text: str, apart: bool = False, most: int = 0, done: Counter[str] | None = None
+) -> list[Fault]:
     """What is wrong with the commands on one case in the working folder.
 
     All verbs share one reader: a case that the first refuses goes through two more; others through all, or
@@ -383,6 +385,8 @@ def faults_of(dice: Dice, text: str, apart: bool = False, most: int = 0) -> list
     while left:
         command = left.pop(0)
         code, out, said, trace = printed(command, apart)
+        if done is not None:
+            done["commands"] += 1
         why = ""
         if code not in (0, 1, 2):
             why = f"status {code}: {said[-300:]}"
@@ -411,14 +415,25 @@ def _is_json(text: str) -> bool:
     return True
 
 
-def campaign(count: int, seed: int, apart: bool = False) -> Iterator[Fault]:
-    """Faults of ``count`` mutated cases."""
+def campaign(count: int, seed: int, apart: bool = False, done: Counter[str] | None = None) -> Iterator[Fault]:
+    """Faults of ``count`` mutated cases; ``done`` counts, and is told every 500 cases."""
+    done = Counter() if done is None else done
     texts = bases()
     os.environ["ICSOLVE_DEBUG"] = "1"
     with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
         for n in range(count):
             dice = random.Random(f"{seed} {n}")
-            yield from faults_of(dice, mutated(dice, texts), apart, 2 if apart else 0)
+            found = faults_of(dice, mutated(dice, texts), apart, 2 if apart else 0, done)
+            done.update(cases=1, faults=len(found))
+            if done["cases"] % 500 == 0:
+                sys.stdout.write(f"{counted(done)}\n")
+                sys.stdout.flush()
+            yield from found
+
+
+def counted(done: Counter[str]) -> str:
+    """How much a campaign has done, in words."""
+    return ", ".join(f"{done[what]} {what}" for what in ("cases", "commands", "faults"))
 
 
 def _place(trace: str) -> str:
@@ -433,9 +448,10 @@ def _place(trace: str) -> str:
 def main_campaign(many: int, first: int, apart: bool) -> None:
     """Tell each fault of another kind as it comes, and keep its files in ``$FUZZ_OUT``."""
     seen: Counter[str] = Counter()
+    done: Counter[str] = Counter()
     keep = Path(os.environ.get("FUZZ_OUT", "/tmp/fuzz"))
     keep.mkdir(exist_ok=True)
-    for fault in campaign(many, first, apart):
+    for fault in campaign(many, first, apart, done):
         where = _place(fault.trace) or fault.why[:200]
         seen[where] += 1
         if seen[where] == 1:
@@ -447,7 +463,7 @@ def main_campaign(many: int, first: int, apart: bool) -> None:
             sys.stdout.write(f"{name} {fault.command} | {why} | {where}\n")
             sys.stdout.flush()
     mega = most_memory() // 1_000_000
-    sys.stdout.write(f"{many} cases, {sum(seen.values())} faults of {len(seen)} kinds, {mega} MB at most\n")
+    sys.stdout.write(f"{counted(done)} of {len(seen)} kinds, {mega} MB at most\n")
 
 
 if __name__ == "__main__":

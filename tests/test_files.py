@@ -30,6 +30,7 @@ WRITERS = {
     "new": "new four-bar -o {}",
     "draw": "draw press.yaml -o {}",
     "explain": "explain press.yaml -o {}",
+    "sheet": "sheet press.yaml -o {}",
     "page": "page press.yaml -o {}",
     "sweep": "sweep press.yaml --vary angles.AB=50:60:5 -o {}",
     "plot": "sweep press.yaml --vary angles.AB=50:60:5 --plot {}",
@@ -37,12 +38,20 @@ WRITERS = {
     "grade": "grade hand --cases cases -q --force -o {}",
     "jsonl": "grade hand --cases cases -q --force --jsonl {}",
     "summary": "grade hand --cases cases -q --force --html {}",
+    "review": "grade hand --cases cases -q --force --review {}",
     "canvas": "grade hand --cases cases -q --force --write canvas={}",
     "moodle": "export moodle-xml cases --no-figures --force -o {}",
     "autograder": "export gradescope-zip cases --force -o {}",
 }
 """Every command that writes one file."""
-ENDINGS = {"draw": ".svg", "explain": ".md", "page": ".html", "sweep": ".csv", "plot": ".svg"}
+ENDINGS = {
+    "draw": ".svg",
+    "explain": ".md",
+    "sheet": ".tex",
+    "page": ".html",
+    "sweep": ".csv",
+    "plot": ".svg",
+}
 FOLDERS = {
     "gallery": "gallery cases --force -o {}",
     "variants": "variants cases --roster roster.csv --force -q -o {}",

@@ -11,7 +11,7 @@ import pytest
 import icsolve
 from icsolve.case import Case
 from icsolve.cli import main
-from icsolve.errors import CaseError
+from icsolve.errors import CaseError, SceneError
 
 PRESS = """\
 icsolve: 1
@@ -302,3 +302,43 @@ loads:
     assert found.value == pytest.approx(20.0 * math.cos(u) + 120.0 * math.sin(u - to), abs=1e-12)
     row = icsolve.sweep(icsolve.load(text), vary={"angles.AB": [angle - 5.0, angle, angle + 5.0]})
     assert row.answers["T"][1] == pytest.approx(found.value, abs=1e-12)
+
+
+def test_a_free_angle_in_radians_is_asked_about_where_nothing_balances() -> None:
+    """An arm under its weight on a stiff spring, which would rest near a right angle."""
+    text = """
+icsolve: 1
+units: {length: m, force: N}
+points: {A: [0, 0]}
+joints: [{pin: [1, 2], at: A}]
+lengths: {AB: 2}
+angles: {AB: {unknown: [0, 80]}}
+loads:
+  S: {spring: 200, corner: AB, free: 1.57, link: 2}
+  W: {weight: 8, link: 2, at: B}
+"""
+    with pytest.raises(SceneError, match=r"if radians are meant, write 1.57 rad") as refused:
+        icsolve.solve(icsolve.load(text))
+    assert refused.value.status == "no-value"
+
+
+LINE = """
+icsolve: 1
+units: {length: m, force: N}
+points: {D: [0, 0], E: [3, 0]}
+joints: [{pin: [1, 2], at: D}, {pin: [2, 3], at: A}, {pin: [3, 4], at: B}, {pin: [4, 1], at: E}]
+lengths: {DA: 1, AB: 2.5, BE: 2, EC: 1, BC: 2}
+angles: {DA: 60}
+near: {B: [2.5, 2], C: [3.5, 1]}
+loads:
+  M: {torque: unknown, link: 2, turns: ccw}
+  W: {distributed: 10 N/m, link: 2, from: A, to: END, angle: -90}
+"""
+
+
+def test_a_line_load_off_its_link_is_treated_as_a_force_there_is() -> None:
+    """Refused at a point that dimensions fix to another link; at a joint of others it is said."""
+    with pytest.raises(CaseError, match=r"11:\d+: load W acts on link 2 at C, which is a point of link 4"):
+        icsolve.load(LINE.replace("END", "C"))
+    notes = icsolve.solve(icsolve.load(LINE.replace("END", "B"))).notes
+    assert "load W acts on link 2 at B, a joint of link 3" in " ".join(notes)

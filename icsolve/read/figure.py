@@ -452,6 +452,10 @@ def _places(
             continue
         way = ("loads", load.name)
         yield f"load {load.name} acts on", load.link, load.at, "link", (*way, "link")
+        over = getattr(load, "over", None)
+        if isinstance(over, Stretch):
+            for point in over[:2]:
+                yield f"load {load.name} acts on", load.link, point, "link", (*way, "link")
         if isinstance(load, Spring):
             key = "against" if load.against else "to"
             what = f"the other end of load {load.name} is fixed to"

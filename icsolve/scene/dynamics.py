@@ -34,6 +34,8 @@ TOO_CLOSE = (
     "worked with. Take another position."
 )
 
+TOO_FAST = "the square of a speed of this motion is beyond any number: give the motion a smaller speed."
+
 
 class Accelerations(NamedTuple):
     """Of links [rad/s^2] and of points on links [case length/s^2]; a sentence where one is open."""
@@ -74,6 +76,8 @@ def with_inertia(case: Case) -> tuple[Case, Accelerations, tuple[str, ...]]:
             return _found(case, program, Balls(digits, highest=digits == DIGITS[-1]))
         except MoreDigits:
             continue
+        except OverflowError:
+            raise SceneError(Status.UNSUPPORTED, TOO_FAST) from None
     raise SceneError(Status.NEAR_SINGULAR, TOO_CLOSE)
 
 

@@ -36,7 +36,7 @@ def solve_positions(
         return _resting(case, unknown, all_centres, rates, reactions)
     start = None if unknown.start is None else unknown.start.value
     search = find_positions(_written(case), unknown.path, span_of(unknown), start)
-    _refuse_none(search)
+    _refuse_none(search, case.noticed)
     found = []
     for one in search.positions:
         scene = with_scene(one, all_centres=all_centres, rates=rates, reactions=reactions)
@@ -55,7 +55,7 @@ def _two(case: Case, all_centres: bool, rates: bool, reactions: bool) -> Answer:
     spans = [span_of(one) for one in case.unknowns]
     search = find_pairs(_written(case), [one.path for one in case.unknowns], spans)
     if not search.positions:
-        raise no_value(" and ".join(one.path for one in case.unknowns), None, search.notes)
+        raise no_value(" and ".join(one.path for one in case.unknowns), None, (*case.noticed, *search.notes))
     notes = (*case.noticed, *search.notes)
     return Answer(case, positions=search.positions, mobility=2, notes=notes)
 
@@ -114,7 +114,7 @@ def _written(case: Case) -> Case:
     return replace(case, unknowns=(), motion=(), expect=())
 
 
-def _refuse_none(search: Search) -> None:
+def _refuse_none(search: Search, noticed: tuple[str, ...]) -> None:
     if search.any_value:
         raise SceneError(
             Status.ANY_VALUE,
@@ -122,7 +122,7 @@ def _refuse_none(search: Search) -> None:
             {"positions": []},
         )
     if not search.positions:
-        raise no_value(search.path, search.nearest, search.notes)
+        raise no_value(search.path, search.nearest, (*noticed, *search.notes))
 
 
 def no_value(path: str, nearest: float | None, notes: tuple[str, ...]) -> SceneError:
@@ -144,7 +144,7 @@ def _resting(case: Case, unknown: Unknown, all_centres: bool, rates: bool, react
         raise SceneError(Status.UNSUPPORTED, said)
     search = find_ranges(_written(case), unknown.path, span_of(unknown))
     if not search.ranges:
-        raise no_value(unknown.path, search.nearest, search.notes)
+        raise no_value(unknown.path, search.nearest, (*case.noticed, *search.notes))
 
     def scene_of(one: Range) -> Answer:
         scene = solve_scene(one.case, all_centres=all_centres, rates=rates, reactions=reactions)

@@ -126,7 +126,7 @@ class ExactRecord:
         for k, op, a, b in steps:
             if k in values:
                 continue
-            if op == Op.DIV and abs(values[b]) <= self.least[b]:
+            if op == Op.DIV and not values[b].is_nan() and abs(values[b]) <= self.least[b]:
                 values[k] = Decimal("NaN")
             else:
                 values[k] = _result(op, values[a], values[b])
@@ -197,7 +197,9 @@ class ExactRecord:
 
 
 def _result(op: Op, a: Decimal, b: Decimal) -> Decimal:
-    """An operation."""
+    """An operation; NaN of what is NaN."""
+    if a.is_nan() or b.is_nan():
+        return Decimal("NaN")
     match op:
         case Op.MUL:
             return a * b
