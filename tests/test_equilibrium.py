@@ -445,6 +445,22 @@ def test_the_stability_of_a_position_as_written(tmp_path: Path, capsys: pytest.C
         assert found["stiffness"]["value"] == pytest.approx(-20.0 * math.sin(math.pi / 3.0), rel=1e-12)
 
 
+def test_the_stability_by_any_link_goes_with_the_square_of_its_rate() -> None:
+    """A four-bar by crank, coupler, rocker: U'' by one angle is that by another times (w'/w)^2 at U' = 0."""
+    case = icsolve.load(
+        "icsolve: 1\npoints: {A: [0, 0], D: [4, 0]}\nlengths: {AB: 1, BC: 3.5, CD: 2.5}\nangles: {AB: 60}\n"
+        "near: {C: [3.5, 2.4]}\njoints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, "
+        "{pin: [4, 1], at: D}]\n"
+        "loads: {P: {force: 100, link: 4, at: C, angle: 180}, T: {torque: unknown, link: 2}}\n"
+    )
+    answer = icsolve.solve(case, rates=True)
+    assert answer.rates is not None
+    found = {link: with_stability(case, answer, link).stiffness for link in "234"}
+    per_rate = {q: k.value * float(answer.rates[q]) ** 2 for q, k in found.items() if k is not None}
+    assert per_rate["3"] == pytest.approx(per_rate["2"], rel=1e-9)
+    assert per_rate["4"] == pytest.approx(per_rate["2"], rel=1e-9)
+
+
 def test_gears_count_from_where_the_figure_is_written(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

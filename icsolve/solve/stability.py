@@ -13,6 +13,7 @@ from icsolve.answer.equilibrium import Stiffness
 from icsolve.case import Case, ForceVector, Number
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
+from icsolve.scene import solve_scene
 from icsolve.scene.refusals import is_rough
 from icsolve.solve.positions import Rest, balances, described, moved_by
 from icsolve.statics.power import is_unknown
@@ -50,9 +51,37 @@ def rest_as_written(case: Case, of: str) -> Rest:
     if is_rough(case):
         said = "with friction a position is one of a range, and has no stability: leave out the friction."
         raise SceneError(Status.UNSUPPORTED, said)
-    function = moved_by(case, of)
+    try:
+        function = moved_by(case, of)
+    except SceneError as refusal:
+        if refusal.status != Status.UNSUPPORTED or of not in case.links:
+            raise
+        return _by_another(case, of, refusal)
     value = 0.0 if of in case.links else find_number(case, of).value
     return described(function, value, 0.0)
+
+
+def _by_another(case: Case, link: str, refusal: SceneError) -> Rest:
+    """The position for a link that the search can't lead (a coupler), by one that it can.
+
+    Where the loads balance, the second derivative of their work by one coordinate is that by another times
+    the square of the ratio of their rates. Raises ``refusal`` where they do not, or where the link stands
+    still.
+    """
+    other = _driven(case)
+    rest = rest_as_written(case, other)
+    rates = solve_scene(case, rates=True).rates or {}
+    own, by = rates.get(link), rates.get(other)
+    if not isinstance(own, float) or not isinstance(by, float) or not own or not balances(rest.function, 0.0):
+        raise refusal
+    if rest.stiffness is None:
+        return rest
+    ratio = (by / own) ** 2
+    value = rest.stiffness.value * ratio
+    error = None
+    if rest.stiffness.error is not None:
+        error = rest.stiffness.error * ratio + 8.0 * math.ulp(value)
+    return rest._replace(stiffness=rest.stiffness._replace(value=value, error=error))
 
 
 class TurningPower(NamedTuple):
