@@ -238,8 +238,8 @@ def _screwed(scene: Scene, acting: Acting, screw: Screw) -> Part:
 def _torque(scene: Scene, acting: Acting, turned: dict[Point, int]) -> Part | None:
     link = acting.link
     for screw in scene.case.screws:
-        if screw.rotor == link:
-            return _screwed(scene, acting, screw)
+        if screw.rotor == link:  # where on its axis nothing says, nothing is drawn
+            return _screwed(scene, acting, screw) if screw.slide.at in scene.at else None
     centre = axle(scene, link)
     if centre is None:
         return None
