@@ -5,11 +5,10 @@ from __future__ import annotations
 import csv
 import io
 from pathlib import Path
-from typing import NamedTuple
 
 import pytest
 
-from icsolve.cli import main
+from shell import Ran, Shell
 
 CASES = Path(__file__).parent.parent / "cases"
 LEVER = """\
@@ -72,29 +71,12 @@ loads:
 """A four-bar whose load and crank are others for each student."""
 
 
-class Ran(NamedTuple):
-    """What a call left behind."""
-
-    code: int
-    out: str
-    err: str
-
-    def rows(self) -> list[dict[str, str]]:
-        """Its standard output as a table."""
-        return list(csv.DictReader(io.StringIO(self.out)))
-
-    def row(self, student: str, case: str = "lever") -> dict[str, str]:
-        """One student's line."""
-        (found,) = [row for row in self.rows() if (row["student_id"], row["case"]) == (student, case)]
-        return found
-
-
 class Class:
     """A folder with cases; `grade` runs the command there."""
 
     def __init__(self, folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
         self.folder = folder
-        self.capsys = capsys
+        self.run = Shell(capsys)
         (folder / "cases").mkdir()
         for name, text in (("lever", LEVER), ("pusher", PUSHER), ("dead", DEAD)):
             self.case(name, text)
@@ -112,14 +94,6 @@ class Class:
 
     def path(self, name: str) -> Path:
         return self.folder / name
-
-    def run(self, *arguments: str) -> Ran:
-        with pytest.raises(SystemExit) as left:
-            main([str(argument) for argument in arguments])
-        captured = self.capsys.readouterr()
-        assert "Traceback" not in captured.err
-        assert isinstance(left.value.code, int)
-        return Ran(left.value.code, captured.out, captured.err)
 
     def grade(self, answers: str | bytes, *options: str, name: str = "answers.csv") -> Ran:
         """Grade a table of answers; the results come on standard output."""

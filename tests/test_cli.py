@@ -8,12 +8,12 @@ import os
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import pytest
 
-from icsolve.cli import main
 from icsolve.manual import kinds, template
+from shell import Shell
 
 ROOT = str(Path(__file__).parent.parent)
 PRESS = template("four-bar")
@@ -42,32 +42,6 @@ loads:
   P: {force: 100, link: 2, at: B, angle: -90}
   T: {torque: unknown, link: 2}
 """
-
-
-class Ran(NamedTuple):
-    """What a call left behind."""
-
-    code: int
-    out: str
-    err: str
-
-    def objects(self) -> list[dict[str, Any]]:
-        return [json.loads(line) for line in self.out.splitlines()]
-
-
-class Shell:
-    """Calls of the command line in a folder of its own."""
-
-    def __init__(self, capsys: pytest.CaptureFixture[str]) -> None:
-        self.capsys = capsys
-
-    def __call__(self, *arguments: str) -> Ran:
-        with pytest.raises(SystemExit) as left:
-            main(list(arguments))
-        captured = self.capsys.readouterr()
-        assert "Traceback" not in captured.err
-        assert isinstance(left.value.code, int)
-        return Ran(left.value.code, captured.out, captured.err)
 
 
 @pytest.fixture

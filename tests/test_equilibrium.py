@@ -22,11 +22,11 @@ import pytest
 import icsolve
 from equilibrium_cases import POTENTIALS
 from icsolve.answer.equilibrium import EquilibriumPosition
-from icsolve.cli import main
 from icsolve.errors import SceneError
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import Record
 from icsolve.solve.stability import with_stability
+from shell import Shell, exit_status
 from sizes import FULL
 
 PENDULUM = """icsolve: 1
@@ -391,10 +391,9 @@ def run(tmp_path: Path, capsys: pytest.CaptureFixture[str], text: str, *words: s
     """What `icsolve` prints on a case; the case's place among the words is ``CASE``."""
     file = tmp_path / "case.yaml"
     file.write_text(text)
-    with pytest.raises(SystemExit) as left:
-        main([str(file) if word == "CASE" else word for word in words])
-    assert left.value.code == 0, capsys.readouterr().err
-    return capsys.readouterr().out
+    ran = Shell(capsys)(*[file if word == "CASE" else word for word in words])
+    assert ran.code == 0, ran.err
+    return ran.out
 
 
 def test_a_sweep_finds_where_it_rests(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -644,9 +643,7 @@ def test_what_is_asked_amiss_is_told(
 ) -> None:
     file = tmp_path / "case.yaml"
     file.write_text(COUNTERWEIGHT.replace("ANGLE", "20"))
-    with pytest.raises(SystemExit) as left:
-        main([str(file) if word == "CASE" else word for word in words.split()])
-    assert left.value.code in (1, 2)
+    assert exit_status(*[str(file) if word == "CASE" else word for word in words.split()]) in (1, 2)
     assert said in capsys.readouterr().err
 
 
@@ -660,7 +657,5 @@ def test_a_sweep_of_positions_says_what_it_leaves_out(
         "--vary loads.T=1:3:1 --plot x.svg",
         "--vary loads.T=1:3:1 --find rest",
     ):
-        with pytest.raises(SystemExit) as left:
-            main(["sweep", str(file), *words.split()])
-        assert left.value.code == 2
+        assert exit_status("sweep", str(file), *words.split()) == 2
         assert "angles.AB is unknown" in capsys.readouterr().err

@@ -13,23 +13,17 @@ from xml.etree import ElementTree
 import pytest
 
 import icsolve
-from icsolve.cli import main
 from icsolve.draw.words import answer_sentences
 from icsolve.page.gallery import ENDINGS, KINDS, exhibit, index_html
 from icsolve.report.derivation import known_of
 from pictures import parsed
+from shell import exit_status
 from test_draw import DEAD_CENTRE, FOUR_BAR, HOSTILE
 
 ROOT = Path(__file__).parent.parent
 LIBRARY = ROOT / "cases"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PICTURES = re.findall(r'(?:\]\(|src=")(\.pictures/gallery/[^")]+\.svg)', README)
-
-
-def made(*words: str) -> int:
-    with pytest.raises(SystemExit) as ended:
-        main(["gallery", *words])
-    return int(ended.value.code or 0)
 
 
 def page(path: Path) -> ElementTree.Element:
@@ -128,10 +122,10 @@ def test_nothing_is_written_over_unasked(
     out = tmp_path / "out"
     out.mkdir()
     (out / "good.svg").write_text("mine")
-    assert made(str(cases), "-o", str(out)) == 2
+    assert exit_status("gallery", str(cases), "-o", str(out)) == 2
     assert "good.svg is there already; --force writes over" in capsys.readouterr().err
     assert [(p.name, p.read_text()) for p in out.iterdir()] == [("good.svg", "mine")]
-    made(str(cases), "-o", str(out), "--force")
+    exit_status("gallery", str(cases), "-o", str(out), "--force")
     assert (out / "good.svg").read_text().startswith("<svg")
 
 
@@ -139,7 +133,7 @@ def test_other_files_of_the_folder_stay(cases: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
     out.mkdir()
     (out / "notes.txt").write_text("mine")
-    assert made(str(cases / "good.yaml"), "-o", str(out)) == 0
+    assert exit_status("gallery", str(cases / "good.yaml"), "-o", str(out)) == 0
     assert (out / "notes.txt").read_text() == "mine"
     assert sorted(p.name for p in out.iterdir()) == sorted(
         ["index.html", "notes.txt", *(f"good{ending}" for ending in ENDINGS)]
@@ -152,7 +146,7 @@ def test_a_case_is_never_written_over_even_by_force(
     case = tmp_path / "press.svg"
     text = FOUR_BAR.format(title="Press", crank=1)
     case.write_text(text)
-    assert made(str(case), "-o", str(tmp_path), "--force") == 2
+    assert exit_status("gallery", str(case), "-o", str(tmp_path), "--force") == 2
     assert "is the case itself" in capsys.readouterr().err
     assert case.read_text() == text
 
@@ -162,14 +156,14 @@ def test_a_folder_that_cannot_be_made_is_said(
 ) -> None:
     file = tmp_path / "file"
     file.write_text("mine")
-    assert made(str(cases / "good.yaml"), "-o", str(file)) == 2
-    assert made(str(cases / "good.yaml"), "-o", str(file / "below")) == 2
+    assert exit_status("gallery", str(cases / "good.yaml"), "-o", str(file)) == 2
+    assert exit_status("gallery", str(cases / "good.yaml"), "-o", str(file / "below")) == 2
     assert capsys.readouterr().err.count("can't be made") == 2
     assert file.read_text() == "mine"
 
 
 def test_an_empty_folder_is_said(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert made(str(tmp_path), "-o", str(tmp_path / "out")) == 2
+    assert exit_status("gallery", str(tmp_path), "-o", str(tmp_path / "out")) == 2
     assert "there is no case in" in capsys.readouterr().err
     assert not (tmp_path / "out").exists()
 
@@ -182,7 +176,7 @@ def test_broken_cases_are_listed_with_the_reason(
 ) -> None:
     """The worst outcome is the exit status; YAML that is no case is passed over."""
     out = tmp_path / "out"
-    assert made(str(cases), "-o", str(out)) == 2
+    assert exit_status("gallery", str(cases), "-o", str(out)) == 2
     said = capsys.readouterr().err
     assert "broken.yaml:3:1:" in said and "cannot meet at C" in said
     body = page(out / "index.html")
@@ -199,7 +193,7 @@ def test_broken_cases_are_listed_with_the_reason(
 
 
 def test_a_case_without_an_answer_alone_ends_with_one(cases: Path, tmp_path: Path) -> None:
-    assert made(str(cases / "dead.yaml"), "-o", str(tmp_path / "out")) == 1
+    assert exit_status("gallery", str(cases / "dead.yaml"), "-o", str(tmp_path / "out")) == 1
 
 
 def test_files_of_one_name_have_names_of_their_own(cases: Path, tmp_path: Path) -> None:
@@ -207,7 +201,7 @@ def test_files_of_one_name_have_names_of_their_own(cases: Path, tmp_path: Path) 
     (cases / "good.yml").write_text(FOUR_BAR.format(title="Second", crank=1))
     out = tmp_path / "out"
     paths = [str(cases / name) for name in ("index.yaml", "good.yaml", "good.yml")]
-    assert made(*paths, "-o", str(out)) == 0
+    assert exit_status("gallery", *paths, "-o", str(out)) == 0
     assert {p.name for p in out.glob("*.svg")} == {"index-2.svg", "good.svg", "good-2.svg"}
     assert [e.text for e in page(out / "index.html").iter("h3")] == ["Index", "Good", "Second"]
 
@@ -233,14 +227,14 @@ def test_file_names_of_any_bytes(tmp_path: Path) -> None:
     with open(path, "w") as file:
         file.write(FOUR_BAR.format(title="''", crank=1))
     out = tmp_path / "out"
-    assert made(os.fsdecode(path), "-o", str(out)) == 0
+    assert exit_status("gallery", os.fsdecode(path), "-o", str(out)) == 0
     assert (out / "index.html").exists()
 
 
 def test_exercises_give_no_answer_away(tmp_path: Path) -> None:
     """Figures ask, cards say what for, and there is no page; kinds stand in place of folders."""
     out = tmp_path / "out"
-    assert made(str(LIBRARY / "sliders"), "-o", str(out), "--exercises") == 0
+    assert exit_status("gallery", str(LIBRARY / "sliders"), "-o", str(out), "--exercises") == 0
     assert not [path for path in out.rglob("*.html") if path.name != "index.html"]
     body = page(out / "index.html")
     assert {e.text for e in body.iter("h2")} <= set(KINDS)
@@ -263,7 +257,7 @@ def test_the_readme_shows_three_pictures_of_the_gallery() -> None:
 def test_the_readmes_pictures_are_what_the_command_makes(picture: str, tmp_path: Path) -> None:
     """After a wanted change of the drawings run with ICSOLVE_GOLDEN=write, and look at them."""
     (source,) = LIBRARY.rglob(f"{Path(picture).stem}.yaml")
-    assert made(str(source), "-o", str(tmp_path)) == 0
+    assert exit_status("gallery", str(source), "-o", str(tmp_path)) == 0
     drawn = (tmp_path / Path(picture).name).read_bytes()
     if os.environ.get("ICSOLVE_GOLDEN") == "write":
         (ROOT / picture).parent.mkdir(parents=True, exist_ok=True)

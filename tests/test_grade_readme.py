@@ -11,7 +11,6 @@ from typing import Any
 import pytest
 import yaml
 
-from icsolve.cli import main
 from icsolve.grade.course import _COURSE, _POLICY, read_course
 from icsolve.grade.judge import VERDICTS
 from icsolve.grade.mistakes import CODES
@@ -19,6 +18,7 @@ from icsolve.grade.platforms.export import KINDS as QUESTIONS
 from icsolve.grade.platforms.write import KINDS as OUTPUTS
 from icsolve.grade.results import HEADER
 from icsolve.grade.written.answer import Reader
+from shell import exit_status
 from texts import PAGES, files
 
 SECTION = PAGES["grading"]
@@ -52,8 +52,7 @@ def test_every_session_prints_what_the_section_shows(
     for text in (text for kind, text in BLOCKS if kind == "shell"):
         for command, output in re.findall(r"^\$ icsolve (.*)\n((?:(?!\$ ).*\n)*)", text, re.MULTILINE):
             (folder / "results.csv").unlink(missing_ok=True)
-            with pytest.raises(SystemExit):
-                main(shlex.split(command))
+            exit_status(*shlex.split(command))
             shown = capsys.readouterr()
             flags = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE if "..." in output else 0
             said = "\n".join(line for line in (shown.err + shown.out).splitlines() if "roster" not in line)

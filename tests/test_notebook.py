@@ -15,8 +15,8 @@ import numpy as np
 import pytest
 
 import icsolve
-from icsolve.cli import main
 from pictures import parsed
+from shell import exit_status
 from test_draw import DEAD_CENTRE, FOUR_BAR
 
 ROOT = Path(__file__).parent.parent
@@ -25,8 +25,7 @@ FILE = ROOT / "cases" / "ch13" / "13_08_four_bar.yaml"
 
 def printed(capsys: pytest.CaptureFixture[str], *words: str) -> str:
     """What a command prints."""
-    with pytest.raises(SystemExit):
-        main(list(words))
+    exit_status(*words)
     return capsys.readouterr().out
 
 

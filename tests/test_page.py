@@ -23,12 +23,12 @@ import numpy as np
 import pytest
 
 import icsolve
-from icsolve.cli import main
 from icsolve.page import page_html
 from icsolve.page.motion import motion_of
 from icsolve.report.derivation import known_of
 from icsolve.scene.refusals import rubs
 from library import FILES, LIBRARY, PAGED, motion, page_of
+from shell import exit_status
 from test_profile_sweep import CAMS
 
 ROOT = Path(__file__).parent.parent
@@ -376,15 +376,9 @@ def test_the_same_bytes_on_every_run(tmp_path: Path) -> None:
     assert pages[0] == pages[1]
 
 
-def ran(*words: str) -> int:
-    with pytest.raises(SystemExit) as ended:
-        main(["page", *words])
-    return int(ended.value.code or 0)
-
-
 def test_the_command_writes_a_page(tmp_path: Path) -> None:
     out = tmp_path / "press.html"
-    assert ran(str(FILES["linkages/four_bar.yaml"]), "-o", str(out)) == 0
+    assert exit_status("page", str(FILES["linkages/four_bar.yaml"]), "-o", str(out)) == 0
     assert out.read_text(encoding="utf-8") == page_of("linkages/four_bar.yaml")
 
 
@@ -394,19 +388,19 @@ def test_the_case_itself_is_never_written_over(tmp_path: Path, capsys: pytest.Ca
     link = tmp_path / "other.html"
     link.symlink_to(case)
     for out in (case, link):
-        assert ran(str(case), "-o", str(out)) == 2
+        assert exit_status("page", str(case), "-o", str(out)) == 2
         assert "is the case itself" in capsys.readouterr().err
     assert case.read_bytes() == FILES["linkages/four_bar.yaml"].read_bytes()
 
 
 def test_a_path_that_cannot_be_written_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for out in (tmp_path / "missing" / "a.html", tmp_path):
-        assert ran(str(FILES["linkages/four_bar.yaml"]), "-o", str(out)) == 2
+        assert exit_status("page", str(FILES["linkages/four_bar.yaml"]), "-o", str(out)) == 2
         assert "can't be written" in capsys.readouterr().err
 
 
 def test_a_folder_is_no_page(capsys: pytest.CaptureFixture[str]) -> None:
-    assert ran(str(LIBRARY / "linkages")) == 2
+    assert exit_status("page", str(LIBRARY / "linkages")) == 2
     assert "name one case" in capsys.readouterr().err
 
 
@@ -415,7 +409,7 @@ def test_a_case_without_an_answer_has_exit_status_one(
 ) -> None:
     case, out = tmp_path / "case.yaml", tmp_path / "page.html"
     case.write_text(UNSOLVED + "  Q: {force: unknown, link: 2, at: A, angle: 90}\n", encoding="utf-8")
-    assert ran(str(case), "-o", str(out)) == 1
+    assert exit_status("page", str(case), "-o", str(out)) == 1
     assert "no-value" in capsys.readouterr().err
     assert "No answer (no-value)" in out.read_text(encoding="utf-8")
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +15,7 @@ import numpy as np
 import pytest
 
 import icsolve
-from browser import REQUIRED, Browser, NoBrowserError, browser, required
+from browser import Browser
 from icsolve.draw import Drawing, draw
 from icsolve.draw.words import figure_number, unit_word
 from icsolve.page import page_html
@@ -37,19 +36,8 @@ DRIVEN = {
 """Cases, and three positions of each in degrees from the position as written; of the wedge, in mm."""
 
 
-@pytest.fixture(scope="module")
-def chromium() -> Iterator[Browser]:
-    try:
-        with browser() as session:
-            yield session
-    except NoBrowserError as missing:
-        if required():
-            pytest.fail(f"{REQUIRED}=required, and {missing}")
-        pytest.skip(f"no browser: {missing}")
-
-
 @pytest.fixture
-def opened(chromium: Browser, tmp_path: Path) -> Any:
+def opened(window: Browser, tmp_path: Path) -> Any:
     """Opens a page's text; at the end of the test nothing was complained of, and nothing else asked for."""
     asked: list[Path] = []
 
@@ -57,14 +45,12 @@ def opened(chromium: Browser, tmp_path: Path) -> Any:
         path = tmp_path / name
         path.write_text(text, encoding="utf-8")
         asked.append(path)
-        chromium.size(1280, 900)
-        chromium.media(prefers_color_scheme="light", prefers_reduced_motion="no-preference")
-        chromium.open(path)
-        return chromium
+        window.open(path)
+        return window
 
     yield open_page
-    assert chromium.logs() == []
-    assert chromium.requests() == [path.as_uri() for path in asked[-1:]]
+    assert window.logs() == []
+    assert window.requests() == [path.as_uri() for path in asked[-1:]]
 
 
 def turn(window: Browser, degrees: float) -> None:

@@ -16,7 +16,7 @@ from typing import Any
 import pytest
 
 import icsolve
-from browser import REQUIRED, Browser, NoBrowserError, browser, required
+from browser import Browser
 from icsolve.errors import CaseError, SceneError
 from icsolve.page import motion, page_html
 from icsolve.page.motion import motion_of
@@ -55,18 +55,6 @@ SOME = {
 }
 """Mechanisms of all kinds, and what each is here for."""
 CHANGES = 30 if FULL else 8
-
-
-@pytest.fixture(scope="module")
-def window() -> Iterator[Browser]:
-    try:
-        with browser() as session:
-            session.size(1280, 900)
-            yield session
-    except NoBrowserError as missing:
-        if required():
-            pytest.fail(f"{REQUIRED}=required, and {missing}")
-        pytest.skip(f"no browser: {missing}")
 
 
 @pytest.fixture

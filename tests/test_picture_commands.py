@@ -13,21 +13,15 @@ from pathlib import Path
 import pytest
 
 import icsolve
-from icsolve.cli import main
 from icsolve.draw.words import answer_sentences
 from icsolve.report.derivation import known_of
 from pictures import parsed
+from shell import exit_status
 from test_draw import DEAD_CENTRE, FOUR_BAR
 
 ROOT = Path(__file__).parent.parent
 VERBS = ("draw", "explain")
 ENDINGS = {"draw": ".svg", "explain": ".txt", "page": ".html"}
-
-
-def ran(*words: str) -> int:
-    with pytest.raises(SystemExit) as ended:
-        main(list(words))
-    return int(ended.value.code or 0)
 
 
 @pytest.fixture
@@ -42,9 +36,9 @@ def test_a_file_is_what_standard_output_would_be(
     verb: str, press: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     out = tmp_path / f"out{ENDINGS[verb]}"
-    assert ran(verb, str(press)) == 0
+    assert exit_status(verb, str(press)) == 0
     shown = capsys.readouterr()
-    assert ran(verb, str(press), "-o", str(out)) == 0
+    assert exit_status(verb, str(press), "-o", str(out)) == 0
     assert out.read_text(encoding="utf-8") == shown.out
     assert shown.err == capsys.readouterr().err == ""
 
@@ -54,7 +48,7 @@ def test_a_file_is_what_standard_output_would_be(
 def test_a_path_that_cannot_be_written_is_said(
     verb: str, name: str, press: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert ran(verb, str(press), "-o", str(tmp_path / name)) == 2
+    assert exit_status(verb, str(press), "-o", str(tmp_path / name)) == 2
     assert "can't be written" in capsys.readouterr().err
     assert [path.name for path in tmp_path.iterdir()] == ["press.yaml"]
 
@@ -68,7 +62,7 @@ def test_the_case_itself_is_never_written_over(
     (tmp_path / "link.svg").symlink_to(press)
     os.link(press, tmp_path / "hard.svg")
     for name in ("press.yaml", "../" + tmp_path.name + "/press.yaml", "link.svg", "hard.svg"):
-        assert ran(verb, str(press), "-o", str(tmp_path / name)) == 2
+        assert exit_status(verb, str(press), "-o", str(tmp_path / name)) == 2
         assert "is the case itself, and is left as it is" in capsys.readouterr().err
         assert press.read_text() == text
 
@@ -78,7 +72,7 @@ def test_several_cases_have_no_one_result(
     verb: str, press: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "second.yaml").write_text(press.read_text())
-    assert ran(verb, str(tmp_path)) == 2
+    assert exit_status(verb, str(tmp_path)) == 2
     assert "several files" in capsys.readouterr().err
 
 
@@ -92,7 +86,7 @@ def test_a_case_without_an_answer_is_written_with_the_reason(
 ) -> None:
     case, out = tmp_path / "case.yaml", tmp_path / "out"
     case.write_text(text)
-    assert ran(verb, str(case), "-o", str(out)) == 1
+    assert exit_status(verb, str(case), "-o", str(out)) == 1
     said = capsys.readouterr().err
     assert f": {status}: " in said
     reason = said.partition(f": {status}: ")[2].split()
@@ -108,14 +102,14 @@ def test_what_is_no_case_leaves_no_file(
 ) -> None:
     case, out = tmp_path / "case.yaml", tmp_path / "out"
     case.write_text("icsolve: 1\njoints: [\n")
-    assert ran(verb, str(case), "-o", str(out)) == 2
+    assert exit_status(verb, str(case), "-o", str(out)) == 2
     assert "case.yaml:" in capsys.readouterr().err
     assert not out.exists()
 
 
 @pytest.mark.parametrize("words", [("--step", "-1"), ("--centres", "some"), ("--step", "x")])
 def test_options_that_cannot_be_are_refused(words: tuple[str, ...], press: Path) -> None:
-    assert ran("draw", str(press), *words) == 2
+    assert exit_status("draw", str(press), *words) == 2
 
 
 @pytest.mark.parametrize(
@@ -148,7 +142,7 @@ def test_an_ending_that_is_not_known_is_refused_with_those_that_are(
     verb: str, ending: str, press: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     out = tmp_path / f"out.{ending}"
-    assert ran(verb, str(press), "-o", str(out)) == 2
+    assert exit_status(verb, str(press), "-o", str(out)) == 2
     said = capsys.readouterr().err
     assert ENDINGS[verb] in said and "should end in" in said
     assert not out.exists()
@@ -159,7 +153,7 @@ def test_latex_is_written_by_its_ending(verb: str, tmp_path: Path) -> None:
     """Every group is closed, every style that is used is defined once, and no text is left to chance."""
     case, out = tmp_path / "case.yaml", tmp_path / "out.tex"
     case.write_text(FOUR_BAR.format(title="'50 % & more: #1 $x_2$ ^~\\{}'", crank=1))
-    assert ran(verb, str(case), "-o", str(out)) == 0
+    assert exit_status(verb, str(case), "-o", str(out)) == 0
     text = out.read_text(encoding="utf-8")
     begun, ended = re.findall(r"\\begin{(.*?)}", text), re.findall(r"\\end{(.*?)}", text)
     assert sorted(begun) == sorted(ended) and "tikzpicture" in begun
@@ -182,7 +176,7 @@ def test_a_sheet_has_the_numbers_of_each_student_and_the_key_behind(tmp_path: Pa
     case, values, out = (tmp_path / name for name in ("press.yaml", "values.csv", "exam.tex"))
     case.write_text(VARIED)
     values.write_text(NUMBERS)
-    assert ran("sheet", str(case), "--variants", str(values), "-o", str(out)) == 0
+    assert exit_status("sheet", str(case), "--variants", str(values), "-o", str(out)) == 0
     questions, _, keys = out.read_text(encoding="utf-8").partition("\\section*{Key 7}")
     for force in (40, 80):
         known = known_of(icsolve.load(case, {"variables.P": str(force)}))
@@ -190,7 +184,7 @@ def test_a_sheet_has_the_numbers_of_each_student_and_the_key_behind(tmp_path: Pa
         number = sentence.split()[2]
         assert f"= {force} " in questions or f"of {force} " in questions
         assert number in keys and f"= {number} " not in questions
-    assert ran("sheet", str(case), "--variants", str(values), "--student", "8", "-o", str(out)) == 0
+    assert exit_status("sheet", str(case), "--variants", str(values), "--student", "8", "-o", str(out)) == 0
     assert "Key 7" not in out.read_text(encoding="utf-8")
-    assert ran("sheet", str(case), "--variants", str(values), "--student", "9", "-o", str(out)) == 2
-    assert ran("sheet", str(case), "-o", str(tmp_path / "exam.pdf")) == 2
+    assert exit_status("sheet", str(case), "--variants", str(values), "--student", "9", "-o", str(out)) == 2
+    assert exit_status("sheet", str(case), "-o", str(tmp_path / "exam.pdf")) == 2

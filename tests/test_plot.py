@@ -16,9 +16,9 @@ import numpy as np
 import pytest
 
 import icsolve
-from icsolve.cli import main
 from icsolve.draw.plot import PlottedCurve, Shade, asymptotes, limits, plot_svg, sweep_svg
 from pictures import SVG, Picture, coordinates, outside, overlaps, parsed
+from shell import exit_status
 from test_draw import HOSTILE
 
 ROOT = Path(__file__).parent.parent
@@ -170,21 +170,15 @@ def test_text_stays_text(text: str) -> None:
 # --- the command -------------------------------------------------------------------------------------
 
 
-def ran(*words: str) -> int:
-    with pytest.raises(SystemExit) as ended:
-        main(["sweep", *words])
-    return int(ended.value.code or 0)
-
-
 def test_plot_alone_writes_no_table_and_with_o_both(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     plot, table = tmp_path / "turn.svg", tmp_path / "turn.csv"
     words = (str(YOKE), "--drive", "2=0:360:10", "--plot", str(plot))
-    assert ran(*words) == 0
+    assert exit_status("sweep", *words) == 0
     assert capsys.readouterr().out == "" and not table.exists()
     ElementTree.parse(plot)
-    assert ran(*words, "-o", str(table)) == 0
+    assert exit_status("sweep", *words, "-o", str(table)) == 0
     assert len(table.read_text().splitlines()) == 38
 
 
@@ -204,7 +198,7 @@ def test_plots_that_cannot_be_are_refused(
     said: str,
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    assert ran(str(YOKE), *words) == 2
+    assert exit_status("sweep", str(YOKE), *words) == 2
     assert said in capsys.readouterr().err
     assert list(tmp_path.iterdir()) == []
 
@@ -212,7 +206,7 @@ def test_plots_that_cannot_be_are_refused(
 def test_the_case_itself_is_never_written_over(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     case = tmp_path / "case.svg"
     case.write_text(YOKE.read_text())
-    assert ran(str(case), "--drive", "2=0:90:10", "--plot", str(case)) == 2
+    assert exit_status("sweep", str(case), "--drive", "2=0:90:10", "--plot", str(case)) == 2
     assert "is the case itself" in capsys.readouterr().err
     assert case.read_text() == YOKE.read_text()
 

@@ -20,11 +20,11 @@ import pytest
 
 import icsolve
 import texts
-from icsolve.cli import main
 from icsolve.cli.commands import icsolve as commands
 from icsolve.errors import Status
 from icsolve.manual import TOPICS, kinds
 from icsolve.read.keys import SECTIONS
+from shell import exit_status
 from texts import PAGES, README, ROOT, blocks, section
 
 
@@ -60,10 +60,9 @@ def test_every_session_prints_what_the_readme_shows(
 ) -> None:
     program, *arguments = shlex.split(session.command)
     assert program == "icsolve"
-    with pytest.raises(SystemExit) as left:
-        main(arguments)
+    code = exit_status(*arguments)
     shown = capsys.readouterr()
-    assert left.value.code == 0
+    assert code == 0
     flags = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE if "..." in session.output else 0
     assert doctest.OutputChecker().check_output(session.output, shown.out + shown.err, flags), shown.out
 
@@ -93,17 +92,13 @@ def test_every_example_of_a_command_runs(
     (files / "cases" / "press.yaml").write_text(varied)
     if verb == "bench":
         arguments = ["--help"]  # its catalogue is run by its own tests
-    with pytest.raises(SystemExit) as left:
-        main([verb, *arguments])
-    assert left.value.code == 0, capsys.readouterr().err
+    assert exit_status(verb, *arguments) == 0, capsys.readouterr().err
 
 
 def test_the_slips_that_the_readme_shows_are_told_so(files: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (shown,) = (text for kind, text in blocks(README) if kind == "text" and "slip" in text)
     command, _, said = shown.partition("\n")
-    with pytest.raises(SystemExit) as left:
-        main(shlex.split(command)[2:])
-    assert left.value.code == 2
+    assert exit_status(*shlex.split(command)[2:]) == 2
     assert capsys.readouterr().err == said
 
 
@@ -238,16 +233,12 @@ def test_every_link_of_a_page_leads_somewhere() -> None:
 def test_the_manual_prints_a_page_or_a_section(
     word: str, says: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    with pytest.raises(SystemExit) as left:
-        main(["manual", word])
-    assert left.value.code == 0
+    assert exit_status("manual", word) == 0
     assert capsys.readouterr().out.startswith(says)
 
 
 def test_a_page_that_is_not_there_is_refused_with_the_nearest(capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit) as left:
-        main(["manual", "swep"])
-    assert left.value.code == 2
+    assert exit_status("manual", "swep") == 2
     assert "did you mean sweeps?" in capsys.readouterr().err
 
 

@@ -11,11 +11,11 @@ import pytest
 
 from corpus import ALL
 from draft07 import valid
-from icsolve.cli import main
 from icsolve.errors import CaseError
 from icsolve.read import keys, load
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.schema import FORMS, schema
+from shell import exit_status
 from trees import document, tree, typed
 
 SCHEMA = schema()
@@ -89,8 +89,7 @@ def test_every_form_of_the_table_has_its_shape_and_none_is_idle() -> None:
 
 
 def test_a_new_case_leads_editors_to_the_schema(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    with pytest.raises(SystemExit):
-        main(["new", "four-bar", "-o", str(tmp_path / "mine.yaml")])
+    exit_status("new", "four-bar", "-o", str(tmp_path / "mine.yaml"))
     line = (tmp_path / "mine.yaml").read_text().splitlines()[1]
     assert line == f"# yaml-language-server: $schema={SCHEMA['$id']}"
     assert json.loads((tmp_path / SCHEMA["$id"]).read_text()) == SCHEMA

@@ -11,8 +11,8 @@ from pathlib import Path
 import pytest
 
 import icsolve
-from icsolve.cli import main
 from icsolve.errors import CaseError, SceneError
+from shell import exit_status
 
 PRESS = """\
 icsolve: 1
@@ -270,9 +270,7 @@ def test_a_file_without_its_ending_is_named(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "press.yaml").write_text(PRESS)
-    with pytest.raises(SystemExit) as left:
-        main(words)
-    assert left.value.code == 2
+    assert exit_status(*words) == 2
     assert "press.yaml" in capsys.readouterr().err
 
 

@@ -13,11 +13,11 @@ import pytest
 
 from icsolve import Answer, load, solve
 from icsolve.answer.space import SpatialReaction
-from icsolve.cli import main
 from icsolve.errors import CaseError, SceneError
 from icsolve.report.check import AGREES, compare
 from icsolve.report.derivation import known_of
 from icsolve.report.text import answer_text
+from shell import exit_status
 
 CHAPTER = Path(__file__).parent.parent / "cases" / "ch13"
 
@@ -543,9 +543,7 @@ def test_json_has_vectors_under_the_keys_of_the_plane(
 ) -> None:
     path = tmp_path / "shaft.yaml"
     path.write_text(SHAFT)
-    with pytest.raises(SystemExit) as left:
-        main(["solve", "--json", str(path)])
-    assert left.value.code == 0
+    assert exit_status("solve", "--json", str(path)) == 0
     shown = json.loads(capsys.readouterr().out)
     assert (shown["schema"], shown["case"], shown["status"]) == ("icsolve/solve/1", "shaft", "ok")
     entry = shown["reactions"]["F1-2@A"]

@@ -16,8 +16,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import icsolve
-from icsolve.cli import main, progress
+from icsolve.cli import progress
 from icsolve.cli.spans import progression
+from shell import exit_status
 
 PRESS = """icsolve: 1
 points: {A: [0, 0], D: [4, 0]}
@@ -42,16 +43,9 @@ def press(tmp_path: Path) -> Path:
     return path
 
 
-def swept(*words: str) -> int:
-    """The exit status of the command."""
-    with pytest.raises(SystemExit) as ended:
-        main(["sweep", *words])
-    return int(ended.value.code or 0)
-
-
 def test_a_row_is_what_solve_says_of_that_angle(press: Path, tmp_path: Path) -> None:
     out = tmp_path / "turn.csv"
-    assert swept(str(press), "--vary", "angles.AB=60:90:10", "--points", "-o", str(out)) == 0
+    assert exit_status("sweep", str(press), "--vary", "angles.AB=60:90:10", "--points", "-o", str(out)) == 0
     rows = list(csv.DictReader(out.read_text().splitlines()))
     assert [float(row["angles.AB"]) for row in rows] == [60, 70, 80, 90]
     alone = icsolve.solve(icsolve.load(str(press), settings={"angles.AB": "80"}))
@@ -63,7 +57,7 @@ def test_a_row_is_what_solve_says_of_that_angle(press: Path, tmp_path: Path) -> 
 def test_several_ranges_are_a_product(press: Path, tmp_path: Path) -> None:
     out = tmp_path / "turn.jsonl"
     words = ("--vary", "angles.AB=60,80", "--vary", "loads.P=50:150:50", "-o", str(out))
-    assert swept(str(press), *words) == 0
+    assert exit_status("sweep", str(press), *words) == 0
     rows = [json.loads(line) for line in out.read_text().splitlines()]
     varied = [(row["angles.AB"], row["loads.P"]) for row in rows]
     assert varied[:4] == [(60, 50), (60, 100), (60, 150), (80, 50)]
@@ -73,7 +67,7 @@ def test_several_ranges_are_a_product(press: Path, tmp_path: Path) -> None:
 def test_an_impossible_range_has_its_status_and_no_number(press: Path, tmp_path: Path) -> None:
     out = tmp_path / "turn.npz"
     press.write_text(PRESS.replace("AB: 1,", "AB: 3,"))
-    assert swept(str(press), "--vary", "angles.AB=60:180:10", "-o", str(out)) == 0
+    assert exit_status("sweep", str(press), "--vary", "angles.AB=60:180:10", "-o", str(out)) == 0
     with np.load(out) as table:
         status, torque = table["status"], table["T12"]
     assert "cannot-assemble" in set(status)
@@ -94,13 +88,13 @@ def test_a_range_that_means_nothing_is_refused(
     press: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], span: str, words: str
 ) -> None:
     out = tmp_path / "turn.csv"
-    assert swept(str(press), "--vary", span, "-o", str(out)) == 2
+    assert exit_status("sweep", str(press), "--vary", span, "-o", str(out)) == 2
     assert words in capsys.readouterr().err
     assert not out.exists()
 
 
 def test_the_case_itself_is_never_written_over(press: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert swept(str(press), "--vary", "angles.AB=60:90:10", "-o", str(press)) == 2
+    assert exit_status("sweep", str(press), "--vary", "angles.AB=60:90:10", "-o", str(press)) == 2
     assert press.read_text() == PRESS
     assert ".csv, .jsonl or .npz" in capsys.readouterr().err
 
@@ -108,7 +102,7 @@ def test_the_case_itself_is_never_written_over(press: Path, capsys: pytest.Captu
 def test_values_of_a_range_are_the_decimals_that_were_meant(press: Path, tmp_path: Path) -> None:
     """0.3, not 0.1 + 0.1 + 0.1; and the last value is met."""
     out = tmp_path / "turn.csv"
-    assert swept(str(press), "--vary", "angles.AB=0:1:0.1", "-o", str(out)) == 0
+    assert exit_status("sweep", str(press), "--vary", "angles.AB=0:1:0.1", "-o", str(out)) == 0
     shown = [row["angles.AB"] for row in csv.DictReader(out.read_text().splitlines())]
     assert shown == ["0.0", "0.1", "0.2", "0.3", "0.4", "0.5", "0.6", "0.7", "0.8", "0.9", "1.0"]
 
@@ -150,9 +144,9 @@ def toggle(tmp_path: Path) -> Path:
 
 def test_where_a_toggle_locks(toggle: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Crank and rod in line: the block stands still, the force that it takes grows beyond bounds."""
-    assert swept(str(toggle), "--vary", "angles.AB=-60:60:7", "--find", "dead") == 0
+    assert exit_status("sweep", str(toggle), "--vary", "angles.AB=-60:60:7", "--find", "dead") == 0
     assert capsys.readouterr().out == "angles.AB = 0: dead centre, no Q balances\n"
-    assert swept(str(toggle), "--vary", "angles.AB=10:60:7", "--find", "dead") == 0
+    assert exit_status("sweep", str(toggle), "--vary", "angles.AB=10:60:7", "--find", "dead") == 0
     said = "no dead centre, limit or change point in this range of angles.AB\n"
     assert capsys.readouterr().out == said
 
@@ -160,7 +154,7 @@ def test_where_a_toggle_locks(toggle: Path, capsys: pytest.CaptureFixture[str]) 
 def test_at_which_angle_a_toggle_gives_a_force(toggle: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """By the closed form Q = P / (tan a + tan b) with 5 sin a = 8 sin b; asked in another unit."""
     words = ("--vary", "angles.AB=5:60:5", "--find", "Q=0.1 kN", "--json")
-    assert swept(str(toggle), *words) == 0
+    assert exit_status("sweep", str(toggle), *words) == 0
     entry = json.loads(capsys.readouterr().out)
     (spot,) = entry["found"]
     force = 100.0 / 4.4482216152605
@@ -176,7 +170,7 @@ def test_where_the_torque_of_a_slider_crank_peaks(toggle: Path, capsys: pytest.C
     """Force on the block, torque on the crank: largest where its derivative by the closed form is zero."""
     text = TOGGLE.replace("P: {force: 10, link: 3, at: B, angle: -90}", "T: {torque: unknown, link: 2}")
     toggle.write_text(text.replace("force: unknown", "force: 10"))
-    assert swept(str(toggle), "--vary", "angles.AB=0:180:10", "--find", "max", "--json") == 0
+    assert exit_status("sweep", str(toggle), "--vary", "angles.AB=0:180:10", "--find", "max", "--json") == 0
     (spot,) = json.loads(capsys.readouterr().out)["found"]
     t = np.radians(spot["at"]["angles.AB"])
     root = np.sqrt(64.0 - (5.0 * np.sin(t)) ** 2)
@@ -189,10 +183,10 @@ def test_where_the_torque_of_a_slider_crank_peaks(toggle: Path, capsys: pytest.C
 def test_a_link_that_is_turned_and_a_refusal_as_json(
     toggle: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert swept(str(toggle), "--drive", "2=-60:10:7", "--find", "dead") == 0
+    assert exit_status("sweep", str(toggle), "--drive", "2=-60:10:7", "--find", "dead") == 0
     assert capsys.readouterr().out == "link 2 turned by -40: dead centre, no Q balances\n"
     toggle.write_text(TOGGLE.replace("along: 0}", "along: 0, mu: 0.1}"))
-    assert swept(str(toggle), "--drive", "2=-60:10:7", "--find", "dead", "--json") == 1
+    assert exit_status("sweep", str(toggle), "--drive", "2=-60:10:7", "--find", "dead", "--json") == 1
     entry = json.loads(capsys.readouterr().out)
     assert (entry["case"], entry["status"]) == ("toggle", "unsupported")
 
