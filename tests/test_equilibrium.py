@@ -387,6 +387,36 @@ loads:
 STRUT = pendulum("S: {spring: 10 N/m, free: 1, link: 2, at: B, to: D}", "90", "10", ", D: [0, 4]")
 
 
+@pytest.mark.parametrize("seed", range(400 if FULL else 8))
+def test_a_torsion_spring_counts_its_turns_over_the_whole_range(seed: int) -> None:
+    """k (free - angle) = W L cos(angle), over up to four turns: free - angle lies in (-180, 180] where the
+    figure is written (`from`, else the middle), and goes on from there."""
+    draw = random.Random(seed)
+    stiffness, free = draw.uniform(0.2, 20.0), draw.randint(-400, 400)
+    low = draw.randint(-500, 0)
+    high = low + draw.randint(100, 1400)
+    start = draw.choice([None, draw.randint(-500, 500)])
+    written = 0.5 * (low + high) if start is None else start
+    wound = free - 360 * math.ceil((free - written - 180) / 360)
+
+    def push(degrees: float) -> float:
+        return stiffness * math.radians(wound - degrees) - 20.0 * math.cos(math.radians(degrees))
+
+    spring = f"S: {{spring: {stiffness}, corner: AB, free: {free}, link: 2}}"
+    begun = "" if start is None else f", from: {start}"
+    text = pendulum(spring, f"{{unknown: [{low}, {high}]{begun}}}")
+    at = np.linspace(low, high, 30 * (high - low) + 1).tolist()
+    signs = [push(d) > 0.0 for d in at]
+    wanted = [0.5 * (a + b) for a, b, p, q in zip(at, at[1:], signs, signs[1:], strict=False) if p != q]
+    if not wanted:
+        with pytest.raises(SceneError, match="balance for no value"):
+            positions(text)
+        return
+    assert places(text) == pytest.approx(wanted, abs=0.02)  # the steps of the samples
+    for one in places(text):
+        assert push(one) == pytest.approx(0.0, abs=1e-12)
+
+
 def run(tmp_path: Path, capsys: pytest.CaptureFixture[str], text: str, *words: str) -> str:
     """What `icsolve` prints on a case; the case's place among the words is ``CASE``."""
     file = tmp_path / "case.yaml"

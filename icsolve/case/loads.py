@@ -133,7 +133,8 @@ class TorsionSpring(NamedTuple):
 
     It pushes ``link`` with stiffness times (``free`` - angle), ccw positive. The angle is that of ``corner``:
     of three points, at the middle one from the arm to the first to the arm to the last; of two points the
-    direction from the first to the second.
+    direction from the first to the second. Of its turns those nearest to ``about`` count [degrees]; as
+    written (None) those by which ``free`` - angle lies in (-180, 180].
     """
 
     name: str
@@ -142,6 +143,7 @@ class TorsionSpring(NamedTuple):
     value: Magnitude
     free: Number
     against: str | None = None
+    about: float | None = None
 
     @property
     def at(self) -> str:

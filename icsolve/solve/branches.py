@@ -194,16 +194,16 @@ def isolate(function: LoadFunction, low: float, high: float) -> Enclosed:
 
 def _pass(function: LoadFunction, cells: Interval) -> tuple[Interval, list[tuple[float, float]]]:
     """The cells that stay open, and brackets."""
-    record, given = function.record, function.input
+    record = function.record
     middle = 0.5 * (cells.low + cells.high)
     wanted = [function.power, function.slope, *function.margins]
-    value, slope, *margins = enclose(record, wanted, {given: cells})
+    value, slope, *margins = enclose(record, wanted, function.enclosed(cells))
     shape = cells.low.shape
     apart, whole = np.zeros(shape, dtype=bool), np.ones(shape, dtype=bool)
     for margin in margins:
         apart |= np.broadcast_to(margin.high < 0.0, shape)
         whole &= np.broadcast_to(margin.low > 0.0, shape)
-    (centre,) = enclose(record, [function.power], {given: Interval(middle, middle)})
+    (centre,) = enclose(record, [function.power], function.enclosed(Interval(middle, middle)))
     with np.errstate(all="ignore"):
         half = np.nextafter(0.5 * (cells.high - cells.low), np.inf) * (1.0 + 1e-15)
         reach = half * np.maximum(np.abs(slope.low), np.abs(slope.high))
@@ -223,7 +223,7 @@ def _pass(function: LoadFunction, cells: Interval) -> tuple[Interval, list[tuple
 
 def _signs(function: LoadFunction, at: Array) -> Array:
     """Signs of the power; 0 where rounding leaves them open."""
-    (value,) = enclose(function.record, [function.power], {function.input: Interval(at, at)})
+    (value,) = enclose(function.record, [function.power], function.enclosed(Interval(at, at)))
     signs = np.where(value.low > 0.0, 1, np.where(value.high < 0.0, -1, 0))
     return np.broadcast_to(signs, at.shape)
 

@@ -25,13 +25,15 @@ from icsolve.case import Case, Coordinates, Number, TorsionSpring
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.intervals import Interval
 from icsolve.numbers.record import Record, varies
-from icsolve.numbers.replay import Array
+from icsolve.numbers.replay import Array, Code
 from icsolve.scene import refusals
 from icsolve.screws.plane import velocity
 from icsolve.statics import power
 from icsolve.structure.topology import Topology, topology
 from icsolve.sweep.drivers import Drive
+from icsolve.sweep.exact import spring_angles
 from icsolve.sweep.numbers import with_numbers
 from icsolve.sweep.program import Asked, Setting, Sheet, setting_of, sheet_of, wanted_points
 from icsolve.sweep.scene import RecordedScene, motions_of
@@ -40,6 +42,7 @@ Steps = tuple[Step, ...]
 
 MOST_MODES = 256
 SAMPLES = 181
+COUNTED = 1441
 APART = 1e-6
 """A point's path by the free number and by the motion agree to this fraction of its speed."""
 
@@ -68,11 +71,23 @@ class LoadFunction(NamedTuple):
     """by what the loads were multiplied"""
     poses: bool
     """whether the motion is one along the free number, and does not leave that as it is"""
+    springs: dict[str, int]
+    """the angles of the torsion springs"""
+    turns: tuple[Array, dict[int, Array]]
+    """values of the free number, in order, and there the angles about which turns are counted, by node"""
 
     def given(self, values: Array) -> dict[int, Array]:
-        """The inputs for some values of the free datum; what counts turns does so from the record's own."""
-        guesses = {guess.index: np.array(guess.value) for guess, _ in self.record.counted.values()}
-        return {**guesses, self.input: values}
+        """The inputs for some values of the free datum; turns go on continuously from the record's own."""
+        at, turns = self.turns
+        return {
+            **{guess: np.interp(values, at, angles) for guess, angles in turns.items()},
+            self.input: values,
+        }
+
+    def enclosed(self, cells: Interval) -> dict[int, Interval]:
+        """The inputs over whole cells of the free datum."""
+        about = self.given(0.5 * (cells.low + cells.high))
+        return {k: Interval(at, at) for k, at in about.items()} | {self.input: cells}
 
     @property
     def record(self) -> Record:
@@ -100,6 +115,7 @@ def load_functions(case: Case, path: str, low: float, high: float) -> tuple[list
         )
     count = 0
     counts = any(isinstance(load, TorsionSpring) for load in case.loads)
+    span = (low, high)
     middle = 0.5 * (low + high)
     for steps in modes_of(order.steps):
         count += 1
@@ -114,7 +130,7 @@ def load_functions(case: Case, path: str, low: float, high: float) -> tuple[list
             placed = place(Figure(frame, {}, steps), written).points
             figure = Figure(frame, {p: placed[p] for p in order.points}, steps)
             try:
-                found.append(_function(written, path, top, figure))
+                found.append(_function(written, path, top, figure, span))
             except (SceneError, ZeroDivisionError) as error:
                 refusal = error if isinstance(error, SceneError) else refusal
                 continue
@@ -176,9 +192,11 @@ def _assembling(case: Case, path: str, steps: Steps, values: list[float]) -> lis
     return [value for _, value in sorted(found)]
 
 
-def moving_functions(case: Case, path: str = "", link: str = "") -> list[LoadFunction]:
+def moving_function(
+    case: Case, path: str = "", link: str = "", span: tuple[float, float] | None = None
+) -> LoadFunction:
     """The function of a mechanism that moves from the position as written, by a datum or by turning a link
-    (its input is then in degrees from that position).
+    (its input is then in degrees from that position); ``span`` has the values that will be asked for.
 
     Raises SceneError where it cannot be moved so, or has not one freedom.
     """
@@ -192,23 +210,26 @@ def moving_functions(case: Case, path: str = "", link: str = "") -> list[LoadFun
             Status.UNSUPPORTED, "points of this mechanism can only all together be placed while it moves."
         )
     margins = [node for root in record.roots.values() for node, _ in root.margins]
-    function = _on_sheet(sheet, path or link, setting.figure, margins)
-    return [function]
+    return _on_sheet(sheet, path or link, setting.figure, margins, span)
 
 
-def written_function(case: Case, path: str) -> LoadFunction:
+def written_function(case: Case, path: str, span: tuple[float, float] | None = None) -> LoadFunction:
     """The function of a case as it is written, each value read anew, in the mode in which it is."""
     figure = solve_figure(case, wanted_points(case)[1])
-    return _function(case, path, topology(case), figure)
+    return _function(case, path, topology(case), figure, span)
 
 
-def _function(case: Case, path: str, top: Topology, figure: Figure) -> LoadFunction:
+def _function(
+    case: Case, path: str, top: Topology, figure: Figure, span: tuple[float, float] | None
+) -> LoadFunction:
     sheet = sheet_of(Setting(case, top, figure, (path,), (), Drive((), (), ())), Asked(answers=False))
     margins = [m for step in place(figure, case, sheet.record).margins.values() for m in step if varies(m)]
-    return _on_sheet(sheet, path, figure, [sheet.record.lifted(m).index for m in margins])
+    return _on_sheet(sheet, path, figure, [sheet.record.lifted(m).index for m in margins], span)
 
 
-def _on_sheet(sheet: Sheet, path: str, figure: Figure, margins: list[int]) -> LoadFunction:
+def _on_sheet(
+    sheet: Sheet, path: str, figure: Figure, margins: list[int], span: tuple[float, float] | None
+) -> LoadFunction:
     """The power of the loads on a record that has the figure, by its one input."""
     record, scene, given = sheet.record, sheet.scene, sheet.inputs[path]
     record.follows = True  # also where each position is read anew: turns count from one of them
@@ -241,7 +262,26 @@ def _on_sheet(sheet: Sheet, path: str, figure: Figure, margins: list[int]) -> Lo
         _turning(motions.twists),
         power.force_scale(balance),
         poses,
+        {
+            name: record.lifted(angle).index
+            for name, angle in spring_angles(case, scene.points, record).items()
+        },
+        _turns(record, given, span),
     )
+
+
+def _turns(record: Record, given: int, span: tuple[float, float] | None) -> tuple[Array, dict[int, Array]]:
+    """The counted angles over a range of the free number, going on from where it was recorded."""
+    written = record.nodes[given].value
+    low, high = span or (written, written)
+    values = np.union1d(np.linspace(min(low, written), max(high, written), COUNTED), [written])
+    own = int(np.searchsorted(values, written))
+    found: dict[int, Array] = {}
+    for angle, (guess, _) in record.counted.items():
+        (here,) = Code(record, [angle]).run({**found, given: values}, len(values))
+        turned = np.unwrap(np.broadcast_to(here, values.shape), period=360.0)
+        found[guess.index] = turned + (guess.value - turned[own])
+    return values, found
 
 
 def refuse_unposed(function: LoadFunction) -> None:

@@ -32,11 +32,11 @@ from icsolve.solve.load_function import (
     LoadFunction,
     given_at,
     load_functions,
-    moving_functions,
+    moving_function,
     refuse_unposed,
     written_function,
 )
-from icsolve.sweep.exact import RowScenes
+from icsolve.sweep.exact import RowScenes, counted_about
 from icsolve.sweep.numbers import find_number
 
 PROBE = "@equilibrium"
@@ -95,7 +95,7 @@ def find_positions(
         if span is None:
             _refuse_uncounted(case, functions[0])
     else:
-        functions, complete = _moving_from(case, path, start)
+        functions, complete = _moving_from(case, path, start, (low, high))
     branches = Branches(functions, low, high)
     kept = branches.nearest(case) if case.near else None
     notes: list[str] = []
@@ -130,12 +130,12 @@ def find_along(case: Case, along: str, low: float, high: float) -> list[Rest]:
     """The positions of equilibrium along a sweep of an ordinary case: by a datum that poses it, or by
     turning a link from the position as written (degrees)."""
     bare = replace(case, motion=(), expect=())
-    function = moved_by(bare, along)
+    function = moved_by(bare, along, (low, high))
     branches = Branches([function], low, high)
     return [rest for _, rest in search_modes([function], branches, None, low, high, False)]
 
 
-def moved_by(case: Case, along: str) -> LoadFunction:
+def moved_by(case: Case, along: str, span: tuple[float, float] | None = None) -> LoadFunction:
     """The mechanism as it moves by a datum, or by a link that is turned.
 
     Raises CaseError for what is neither, SceneError where it can't be moved so.
@@ -146,23 +146,25 @@ def moved_by(case: Case, along: str) -> LoadFunction:
     if along in case.links:
         if along == case.ground:
             raise SceneError(Status.STRUCTURE, f"link {along} is the frame: it does not move.")
-        return moving_functions(case, link=along)[0]
+        return moving_function(case, link=along, span=span)
     path = find_number(case, along).path
     try:
-        function = moving_functions(case, path=path)[0]
+        function = moving_function(case, path, span=span)
     except SceneError as error:
         if error.status != Status.UNSUPPORTED:
             raise
-        function = written_function(case, path)
+        function = written_function(case, path, span)
     refuse_unposed(function)
     return function
 
 
-def _moving_from(case: Case, path: str, start: float) -> tuple[list[LoadFunction], bool]:
+def _moving_from(
+    case: Case, path: str, start: float, span: tuple[float, float]
+) -> tuple[list[LoadFunction], bool]:
     """The mechanism moved from each way in which it assembles where it is written."""
     written = given_at(case, path, start)
     found = ways_of(written)
-    functions = [f for way in found.ways for f in moving_functions(replace(written, near=way.near), path)]
+    functions = [moving_function(replace(written, near=way.near), path, span=span) for way in found.ways]
     return functions, found.complete
 
 
@@ -399,18 +401,21 @@ def scene_at(function: LoadFunction, value: float) -> Case:
     """The case with the free datum at a value, in the mode of the function; of a mechanism that moves, the
     row of its sweep."""
     if function.sheet.setting.moves:
-        at = Decimal(value)
-        own = {} if function.path in function.case.links else {function.path: at}
-        row = RowScenes(function.sheet).case({function.input: at}, own)
+        given = {k: Decimal(float(v)) for k, v in function.given(np.array(value)).items()}
+        own = {} if function.path in function.case.links else {function.path: given[function.input]}
+        row = RowScenes(function.sheet).case(given, own)
         return replace(row, near={}, motion=(), expect=())
     ox, oy, scale = function.sheet.scene.frame
     nodes = [k for pair in function.places.values() for k in pair]
-    found = Code(function.record, nodes).run(function.given(np.array(value)), 1)
+    found = Code(function.record, [*nodes, *function.springs.values()]).run(
+        function.given(np.array(value)), 1
+    )
     flat = [float(np.ravel(v)[0]) for v in found]
-    pairs = zip(function.places, zip(flat[::2], flat[1::2], strict=True), strict=True)
+    pairs = zip(function.places, zip(flat[::2], flat[1::2], strict=False), strict=False)
     near = {name: (x / scale + ox, y / scale + oy) for name, (x, y) in pairs if math.isfinite(x + y)}
     free = {name: at for name, at in near.items() if name not in _given(function.case)}
-    return replace(given_at(function.case, function.path, value), near=free, motion=(), expect=())
+    counted = counted_about(function.case, dict(zip(function.springs, flat[len(nodes) :], strict=True)))
+    return replace(given_at(counted, function.path, value), near=free, motion=(), expect=())
 
 
 def _given(case: Case) -> set[str]:
@@ -459,7 +464,7 @@ def probes(function: LoadFunction, on: str = "") -> Iterator[tuple[str, Load]]:
 def described(function: LoadFunction, value: float, error: float) -> Rest:
     """A position with its stiffness: enclosed about the value by the record."""
     here = Interval(np.array([value - error]), np.array([value + error]))
-    slope, rate = enclose(function.record, [function.slope, function.rate], {function.input: here})
+    slope, rate = enclose(function.record, [function.slope, function.rate], function.enclosed(here))
     factor, unit = _units(function)
     stiffness, why = None, ""
     stability = "neutral"
@@ -518,7 +523,7 @@ def _turning_point(function: LoadFunction, low: float, high: float) -> tuple[flo
 
     def sign(value: float) -> int:
         here = np.array([value])
-        (slope,) = enclose(function.record, [function.slope], {function.input: Interval(here, here)})
+        (slope,) = enclose(function.record, [function.slope], function.enclosed(Interval(here, here)))
         return int(float(slope.low.flat[0]) > 0.0) - int(float(slope.high.flat[0]) < 0.0)
 
     def edge(outside: float, inside: float, word: int) -> float:

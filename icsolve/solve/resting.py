@@ -55,9 +55,7 @@ def find_ranges(case: Case, path: str, span: tuple[float, float] | None) -> Rang
     turns = span is None and path.startswith("angles.")
     found: list[Range] = []
     for n, function in enumerate(functions):
-        rough = function._replace(
-            case=replace(function.case, joints=case.joints, ropes=case.ropes)
-        )
+        rough = function._replace(case=replace(function.case, joints=case.joints, ropes=case.ropes))
         seeds = [p.value for m, p in search if m == n]
         values = sorted({*np.linspace(low, high, SAMPLES + 1).tolist(), *seeds})
         usable = [v for v in values if branches.on(n, v) >= 0 and (kept is None or branches.on(n, v) in kept)]

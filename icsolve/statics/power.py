@@ -173,7 +173,7 @@ def _unit_wrench(
             return force_wrench((x, y), points[load.at]), 1.0
         case TorsionSpring():
             num, den, pi = case.units.exact_torque
-            slack = arithmetic.given(load.free) - _angle(load, points, arithmetic)
+            slack = arithmetic.given(load.free) - spring_angle(load, points, arithmetic)
             return (0.0, 0.0, 1.0), slack * arithmetic.ratio((den, 180 * num, 1 - pi))
         case Force(over=Area() as area):
             gain = arithmetic.ratio(area.per) * _size_of(area, arithmetic)
@@ -247,7 +247,7 @@ def place_of(load: Load, points: Points, arithmetic: Arithmetic = FLOATS) -> Poi
     return x + share * (u - x), y + share * (v - y)
 
 
-def _angle(load: TorsionSpring, points: Points, arithmetic: Arithmetic) -> Scalar:
+def spring_angle(load: TorsionSpring, points: Points, arithmetic: Arithmetic) -> Scalar:
     """The angle that a torsion spring follows, degrees: so that free - angle lies in (-180, 180] as written.
 
     In a motion it goes on from there, with whole turns.
@@ -259,7 +259,8 @@ def _angle(load: TorsionSpring, points: Points, arithmetic: Arithmetic) -> Scala
         x, y = u * x + v * y, u * y - v * x
     counted = getattr(arithmetic, "turns", None)
     angle = counted(x, y, arithmetic.given(load.free)) if callable(counted) else arithmetic.angle(x, y)
-    whole = math.ceil((load.free.value - float(angle) - 180.0) / 360.0)
+    about = load.free.value if load.about is None else load.about
+    whole = math.ceil((about - float(angle) - 180.0) / 360.0)
     return angle + 360.0 * whole if whole else angle
 
 

@@ -14,11 +14,12 @@ from decimal import Context, Decimal, DivisionByZero, localcontext
 from functools import lru_cache
 
 from icsolve.assembly.driven.groups import NewtonGroup
-from icsolve.case import Case, Centroid, Coordinates, Number
+from icsolve.case import Case, Centroid, Coordinates, Number, TorsionSpring
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
-from icsolve.numbers.record import Node, Op, Root, Traced, operands, terms_of
+from icsolve.numbers.record import Node, Op, Record, Root, Traced, operands, terms_of
 from icsolve.numbers.replay import BINARY, live
+from icsolve.statics.power import Points, spring_angle
 from icsolve.sweep.branches import live_roots
 from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.sweep.program import Sheet
@@ -253,6 +254,7 @@ class RowScenes:
         self.points = dict(self.scene.points)
         self.directions = {own.path: (c, s) for own, c, s in record.directions.values()}
         self.numbers = {path: value for path, value in record.vary.items() if path.endswith("@")}
+        self.springs = spring_angles(self.scene.case, self.points, record)
 
     def refuse_apart(self, given: Mapping[int, Decimal]) -> None:
         """Raise SceneError where the links do not reach one another, spare conditions are not met, or two
@@ -289,19 +291,39 @@ class RowScenes:
             turned = {path: angle(next(found), next(found)) for path in self.directions}
         numbers = {path: _exact(v, path) for path, v in {**values, **turned}.items()}
         numbers |= {path: _exact(next(found), path) for path in self.numbers}
-        return self._with(points, numbers)
+        return self._with(points, numbers, {name: float(next(found)) for name in self.springs})
 
     def _flat(self) -> list[Scalar]:
         pairs = (*self.points.values(), *self.directions.values())
-        return [*(v for pair in pairs for v in pair), *self.numbers.values()]
+        return [*(v for pair in pairs for v in pair), *self.numbers.values(), *self.springs.values()]
 
-    def _with(self, points: dict[str, Coordinates | Centroid], numbers: Mapping[str, Number]) -> Case:
-        case = with_numbers(self.scene.case, numbers)
+    def _with(
+        self,
+        points: dict[str, Coordinates | Centroid],
+        numbers: Mapping[str, Number],
+        angles: Mapping[str, float],
+    ) -> Case:
+        case = counted_about(with_numbers(self.scene.case, numbers), angles)
         carries = {
             link: tuple(name for name in names if name in self.points) for link, names in case.carries.items()
         }
         case = replace(case, lengths=(), angles=(), near={}, expect=())
         return replace(case, points=points, carries=carries)
+
+
+def spring_angles(case: Case, points: Points, record: Record) -> dict[str, Scalar]:
+    """The angles that the torsion springs of a case follow, by load [degrees]."""
+    springs = [load for load in case.loads if isinstance(load, TorsionSpring)]
+    return {load.name: spring_angle(load, points, record) for load in springs}
+
+
+def counted_about(case: Case, angles: Mapping[str, float]) -> Case:
+    """The case with its torsion springs' turns counted about angles, by load [degrees]."""
+    loads = [
+        load._replace(about=angles[load.name]) if isinstance(load, TorsionSpring) else load
+        for load in case.loads
+    ]
+    return replace(case, loads=tuple(loads)) if angles else case
 
 
 def _exact(value: Decimal, path: str) -> Number:
