@@ -16,7 +16,8 @@ import pytest
 
 import icsolve
 from icsolve.sweep import ask
-from test_sweep_command import PRESS, press, swept
+from shell import exit_status
+from test_sweep_command import PRESS, press
 
 __all__ = ["press"]
 ROOT = Path(__file__).parent.parent
@@ -67,7 +68,7 @@ def test_what_makes_no_sense_is_refused_in_one_line(
     press: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], options: list[str], words: list[str]
 ) -> None:
     out = tmp_path / "turn.csv"
-    assert swept(str(press), *options, "-o", str(out)) == 2
+    assert exit_status("sweep", str(press), *options, "-o", str(out)) == 2
     said = capsys.readouterr().err
     assert refused(*words)(said), said
     assert not out.exists()
@@ -78,7 +79,7 @@ def test_a_case_in_space_is_refused_by_name(
 ) -> None:
     path = tmp_path / "space.yaml"
     path.write_text(IN_SPACE)
-    assert swept(str(path), "--vary", "gravity=1:9:1") == 1
+    assert exit_status("sweep", str(path), "--vary", "gravity=1:9:1") == 1
     assert refused("unsupported", "in space", "--set")(capsys.readouterr().err)
 
 
@@ -87,9 +88,9 @@ def test_a_case_without_an_unknown_has_rows_but_nothing_to_find(
 ) -> None:
     press.write_text(PRESS.replace("  T12: {torque: unknown, link: 2}\n", ""))
     out = tmp_path / "turn.csv"
-    assert swept(str(press), "--vary", "angles.AB=60:80:10", "--rates", "-o", str(out)) == 0
+    assert exit_status("sweep", str(press), "--vary", "angles.AB=60:80:10", "--rates", "-o", str(out)) == 0
     assert out.read_text().splitlines()[0] == "angles.AB,w1,w2,w3,w4,status"
-    assert swept(str(press), *TURN, "--find", "dead") == 2
+    assert exit_status("sweep", str(press), *TURN, "--find", "dead") == 2
     assert "this case has none" in capsys.readouterr().err
 
 
@@ -112,9 +113,9 @@ def test_a_file_that_was_there_is_not_replaced_in_silence(
     press: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     out = tmp_path / "turn.csv"
-    assert swept(str(press), *TURN, "-o", str(out)) == 0
+    assert exit_status("sweep", str(press), *TURN, "-o", str(out)) == 0
     assert "replaced" not in capsys.readouterr().err
-    assert swept(str(press), *TURN, "-o", str(out)) == 0
+    assert exit_status("sweep", str(press), *TURN, "-o", str(out)) == 0
     assert f"{out} was there and is replaced" in capsys.readouterr().err
 
 
