@@ -54,8 +54,9 @@ COARSE = 0.02
 EVEN = 0.99
 SIDEWAYS = 0.05
 """Two ways are equally near where their distances from `near` have at least the ratio EVEN, and `near`
-is seen from between them within this sine of square to the line that joins them. (Near a dead centre the two
-are close together, and the ratio alone would call any two digits of `near` in between.)"""
+is seen from between them within this sine of square to the line that joins them, over the root of the
+number of points: of a guess that is off in every coordinate so much lies along one line. (Near a dead
+centre the two are close together, and the ratio alone would call any digits of `near` in between.)"""
 MOST_MODES = 256
 MOST_WAYS = 4096
 """Ways at most where all are asked for."""
@@ -424,7 +425,7 @@ def nearer(one: list[Point], two: list[Point], near: list[Point]) -> bool:
     if half == 0.0 or first < EVEN * second:
         return half > 0.0
     side = (second - first) * (second + first) / (4.0 * half)
-    return side > SIDEWAYS * math.sqrt((first * first + second * second) / 2.0)
+    return side > SIDEWAYS * math.sqrt((first * first + second * second) / (2.0 * len(near)))
 
 
 def _distance(one: list[Point], two: list[Point]) -> float:
