@@ -12,7 +12,7 @@ from icsolve.assembly.driven.groups import NewtonGroup
 from icsolve.case import Case
 from icsolve.numbers.record import Op, Traced
 from icsolve.sweep.numbers import numbers_of
-from icsolve.sweep.program import Sheet
+from icsolve.sweep.program import CompiledSweep
 
 mp.dps = 60
 RADIAN = mp.pi / 180
@@ -21,11 +21,11 @@ RADIAN = mp.pi / 180
 class InSixtyDigits:
     """The values of a sheet's nodes for one row; groups are solved by Newton's method from the row's own."""
 
-    def __init__(self, sheet: Sheet, row: dict[int, Any]) -> None:
-        self.sheet, self.record = sheet, sheet.record
-        self.constants = self._decimals(sheet.setting.case)
+    def __init__(self, compiled: CompiledSweep, row: dict[int, Any]) -> None:
+        self.compiled, self.record = compiled, compiled.record
+        self.constants = self._decimals(compiled.setting.case)
         self.values: dict[int, Any] = {k: mpf(v) for k, v in row.items()}
-        for group in sheet.motion.groups if sheet.motion else ():
+        for group in compiled.motion.groups if compiled.motion else ():
             self._solve(group)
 
     def _decimals(self, case: Case) -> dict[int, Any]:
@@ -106,7 +106,7 @@ def truths(sweep: icsolve.Sweep, row: int) -> dict[tuple[str, str], list[Any]]:
     part = next(p for p in work.done if row in p.rows)
     one = part.some(np.flatnonzero(part.rows == row))
     given: dict[int, Any] = {k: float(np.ravel(v)[0]) for k, v in work.parts.given(one)[0].items()}
-    sheet, arrays = part.runner.sheet, work.columns.arrays
-    given |= {k: repr(float(arrays[name][row])) for name, k in sheet.inputs.items() if name in arrays}
-    exact = InSixtyDigits(sheet, given)
-    return {key: [exact.or_float(value) for value in values] for key, values in sheet.outputs.items()}
+    compiled, arrays = part.runner.compiled, work.columns.arrays
+    given |= {k: repr(float(arrays[name][row])) for name, k in compiled.inputs.items() if name in arrays}
+    exact = InSixtyDigits(compiled, given)
+    return {key: [exact.or_float(value) for value in values] for key, values in compiled.outputs.items()}

@@ -9,7 +9,7 @@ import pytest
 
 import icsolve
 from icsolve.draw import Drawing, draw
-from icsolve.sweep.ask import AskError
+from icsolve.sweep.request import RequestError
 
 FOUR_BAR = """
 icsolve: 1
@@ -136,7 +136,7 @@ def test_a_speed_a_hair_below_a_power_of_ten_has_its_scale() -> None:
 )
 def test_values_that_no_case_may_have_are_refused(values: dict[str, list[float]], said: str) -> None:
     text = FOUR_BAR.replace("B: [1, 2], ", "") + "lengths: {AB: 2}\nangles: {AB: 60}"
-    with pytest.raises(AskError, match=said):
+    with pytest.raises(RequestError, match=said):
         icsolve.sweep(icsolve.load(text), vary=values)
 
 

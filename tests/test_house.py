@@ -111,7 +111,7 @@ def test_a_kind_of_joint_is_told_in_few_places(kind: str) -> None:
     """
     told = {name for name, file in modules().items() if kind in named_in(ast.parse(file.read_text()))}
     told -= {"icsolve.case.joints", "icsolve.read.joints", "icsolve.wording.joints", "icsolve.draw.frame"}
-    contacts = {"icsolve.cams.contact_search", "icsolve.sweep.scene", "icsolve.sweep.cam_motion"}
+    contacts = {"icsolve.cams.contact_search", "icsolve.sweep.recorded_scene", "icsolve.sweep.cam_motion"}
     assert told <= {
         "Contact": contacts,
         "Slide": {"icsolve.statics.reaction_basis", "icsolve.grade.mistakes.changed"},

@@ -33,7 +33,7 @@ from icsolve.report.check import value_of
 from icsolve.report.derivation import Known, answer_ratios, known_of
 from icsolve.report.text import answer_text
 from icsolve.statics.power import reacting
-from icsolve.sweep.finding import Query, find
+from icsolve.sweep.find_on_record import Query, find
 from icsolve.wording.senses import holding, spelt
 from library import FILES, PAGED, page_of, sample
 from loading import drawn

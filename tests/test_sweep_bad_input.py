@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 import icsolve
-from icsolve.sweep import ask
+from icsolve.sweep import request
 from shell import exit_status
 from test_sweep_command import PRESS, press
 
@@ -74,9 +74,7 @@ def test_what_makes_no_sense_is_refused_in_one_line(
     assert not out.exists()
 
 
-def test_a_case_in_space_is_refused_by_name(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_a_case_in_space_is_refused_by_name(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "space.yaml"
     path.write_text(IN_SPACE)
     assert exit_status("sweep", str(path), "--vary", "gravity=1:9:1") == 1
@@ -102,7 +100,7 @@ def test_all_centres_of_a_thousand_links_are_more_than_a_table_holds() -> None:
         f"icsolve: 1\npoints: {{{points}}}\njoints:\n{joints}\n"
         "loads: {P: {torque: 1, link: 2}, T: {torque: unknown, link: 2}}\n"
     )
-    with pytest.raises(ask.AskError, match="499500"):
+    with pytest.raises(request.RequestError, match="499500"):
         icsolve.sweep(case, {"loads.P": np.arange(3.0)}, ("centres",))
 
 

@@ -10,7 +10,7 @@ import pytest
 from mpmath import mp, mpf
 
 import icsolve
-from icsolve.sweep.finding import Query, find
+from icsolve.sweep.find_on_record import Query, find
 from test_sweep_status import FOUR_BAR, PARALLELOGRAM, SLIDER_CRANK
 
 mp.dps = 60

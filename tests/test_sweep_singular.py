@@ -20,7 +20,7 @@ from mpmath import mp, mpf
 import full_turns
 import icsolve
 import transcribe
-from icsolve.sweep.finding import Query, find
+from icsolve.sweep.find_on_record import Query, find
 from icsolve.sweep.numbers import numbers_of, with_numbers
 from recorded import truths
 from test_sweep_status import FOUR_BAR, PARALLELOGRAM, SLIDER_CRANK

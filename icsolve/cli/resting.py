@@ -30,17 +30,17 @@ NONE = {
 def equilibrium_text(case: Case, word: str, along: str, values: Values, as_json: bool, digits: int) -> str:
     """What is found over the range of ``along``, as lines or as one JSON object.
 
-    Raises AskError where the case has an unknown load, or another number than a load's is varied for
+    Raises RequestError where the case has an unknown load, or another number than a load's is varied for
     ``neutral``.
     """
     from icsolve.statics.power import is_unknown
-    from icsolve.sweep.ask import AskError
+    from icsolve.sweep.request import RequestError
 
     unknown = next((load.name for load in case.loads if is_unknown(load)), None)
     if unknown is not None:
-        raise AskError(f"--find {word} asks of loads that are all known, and {unknown} is unknown")
+        raise RequestError(f"--find {word} asks of loads that are all known, and {unknown} is unknown")
     if case.unknowns:
-        raise AskError(
+        raise RequestError(
             f"{case.unknowns[0].path} is unknown: `icsolve solve` lists the positions of equilibrium"
         )
     low, high = float(values.min()), float(values.max())
@@ -70,10 +70,10 @@ def _rest(case: Case, along: str, low: float, high: float) -> list[dict[str, Any
 
 def _neutral(case: Case, along: str, low: float, high: float) -> list[dict[str, Any]]:
     from icsolve.solve.stability import neutral_values
-    from icsolve.sweep.ask import AskError
+    from icsolve.sweep.request import RequestError
 
     if not along.startswith("loads."):
-        raise AskError(f"--find neutral varies a load's number, as loads.P, not {along}")
+        raise RequestError(f"--find neutral varies a load's number, as loads.P, not {along}")
     return _turnings("neutral", along, neutral_values(case, along, low, high))
 
 
@@ -117,12 +117,12 @@ def positions_table(case: Case, columns: Mapping[str, Values], suffix: str) -> t
     """A row a position of a case with an unknown datum, for every value of what is varied; whether any has
     one.
 
-    Raises AskError for a form that has no rows of words.
+    Raises RequestError for a form that has no rows of words.
     """
-    from icsolve.sweep.ask import AskError
+    from icsolve.sweep.request import RequestError
 
     if suffix not in (".csv", ".jsonl"):
-        raise AskError(f"positions are written as .csv or .jsonl, not {suffix}")
+        raise RequestError(f"positions are written as .csv or .jsonl, not {suffix}")
     rows = list(_rows(case, columns))
     if suffix == ".jsonl":
         text = "".join(json.dumps({k: v for k, v in row.items() if v is not None}) + "\n" for row in rows)

@@ -10,7 +10,7 @@ from icsolve.errors import Status
 if TYPE_CHECKING:
     from icsolve.case import Case
     from icsolve.errors import SceneError
-    from icsolve.sweep.finding import Query, Spots
+    from icsolve.sweep.find_on_record import FoundPositions, Query
 
 SCHEMA = "icsolve/find/1"
 WORDS = ("dead", "max")
@@ -39,33 +39,33 @@ SAID = {
 def query_of(case: Case, word: str) -> Query:
     """What to look for: ``dead``, ``max``, or ``NAME=VALUE`` with or without a unit.
 
-    Raises AskError for anything else, and where nothing is unknown.
+    Raises RequestError for anything else, and where nothing is unknown.
     """
     from icsolve.statics.power import is_unknown
-    from icsolve.sweep.ask import AskError
-    from icsolve.sweep.finding import Query
+    from icsolve.sweep.find_on_record import Query
+    from icsolve.sweep.request import RequestError
 
     unknown = next((load.name for load in case.loads if is_unknown(load)), None)
     if unknown is None:
-        raise AskError("--find looks at an unknown load, and this case has none")
+        raise RequestError("--find looks at an unknown load, and this case has none")
     if word in WORDS:
         return Query(word, unknown)
     name, equals, value = (part.strip() for part in word.partition("="))
     if not (name and equals and value):
-        raise AskError(f"--find takes dead, max or NAME=VALUE, as {unknown}=0; {word!r} is none of these")
+        raise RequestError(f"--find takes dead, max or NAME=VALUE, as {unknown}=0; {word!r} is none of these")
     return Query("value", name, _value(case, name, value))
 
 
 def _value(case: Case, name: str, text: str) -> float:
     """The value in case units."""
     from icsolve.read.names import shown, suggestion
-    from icsolve.sweep.ask import AskError
+    from icsolve.sweep.request import RequestError
     from icsolve.units import UnitError, converted, kind_of, parse_unit, split_quantity
 
     target = _unit(case, name)
     if target is None:
         likely = suggestion(name, [load.name for load in case.loads])
-        raise AskError(f"there is no load {shown(name)}{likely}")
+        raise RequestError(f"there is no load {shown(name)}{likely}")
     try:
         parts = split_quantity(text)
         if parts is None:
@@ -76,7 +76,7 @@ def _value(case: Case, name: str, text: str) -> float:
             raise UnitError(f"'{parts[1]}' is a unit of {given}, and {name} is in {target}")
         return converted(parts[0], unit, wanted)
     except (UnitError, OverflowError) as error:
-        raise AskError(f"{text!r} is no value of {name}: {error}") from None
+        raise RequestError(f"{text!r} is no value of {name}: {error}") from None
 
 
 def _unit(case: Case, name: str) -> str | None:
@@ -86,7 +86,7 @@ def _unit(case: Case, name: str) -> str | None:
     return next((unit_of(load, case) for load in case.loads if load.name == name), None)
 
 
-def as_text(case: Case, along: str, query: Query, spots: Spots, digits: int) -> str:
+def as_text(case: Case, along: str, query: Query, spots: FoundPositions, digits: int) -> str:
     """A line for each position; a sentence where there is none."""
     unit = _unit(case, query.load)
 
@@ -107,7 +107,7 @@ def _plain(value: float) -> str:
     return repr(value + 0.0).removesuffix(".0")
 
 
-def as_json(case: Case, along: str, query: Query, spots: Spots) -> str:
+def as_json(case: Case, along: str, query: Query, spots: FoundPositions) -> str:
     """One object on one line."""
     what = f"{query.load}={_plain(query.value)}" if query.kind == "value" else query.kind
     unit = _unit(case, query.load)

@@ -127,12 +127,12 @@ def _readable(
     work: Callable[[Case, str, SweepOptions], int], read: Case, path: str, asked: SweepOptions
 ) -> int:
     """The work; what is asked that makes no sense for this case is said."""
-    from icsolve.sweep.ask import AskError
+    from icsolve.sweep.request import RequestError
 
     read = replace(read, dynamic=read.dynamic or asked.dynamic)
     try:
         return work(read, path, asked)
-    except AskError as error:
+    except RequestError as error:
         complain(f"{path}: {error}")
         return UNREADABLE
 
@@ -146,11 +146,11 @@ def _table(read: Case, path: str, asked: SweepOptions) -> int:
     varied, driven = _columns(asked)
     if read.unknowns:
         from icsolve.cli.resting import positions_table
-        from icsolve.sweep.ask import AskError
+        from icsolve.sweep.request import RequestError
 
         if driven or asked.plot is not None:
             what, path = "--drive" if driven else "--plot", read.unknowns[0].path
-            raise AskError(f"{path} is unknown, and {what} is for a case in which it is given")
+            raise RequestError(f"{path} is unknown, and {what} is for a case in which it is given")
         content, some = positions_table(read, varied, asked.suffix)
         return _written([content], asked.output, asked) or (DONE if some else NO_ANSWER)
     with Progress(math.prod(len(values) for _, values in (*asked.vary, *asked.drive))) as progress:
@@ -182,8 +182,8 @@ def _find(read: Case, path: str, asked: SweepOptions) -> int:
     """Positions that are looked for."""
     from icsolve.cli.resting import WORDS, equilibrium_text
     from icsolve.cli.seeking import as_json, as_text, query_of
-    from icsolve.sweep.ask import along_of, columns_of
-    from icsolve.sweep.finding import find
+    from icsolve.sweep.find_on_record import find
+    from icsolve.sweep.request import along_of, columns_of
 
     varied, driven = _columns(asked)
     columns = columns_of(read, varied, driven)

@@ -410,8 +410,8 @@ def _curves(
 def dead_centres(case: Case, varied: Mapping[str, npt.ArrayLike]) -> list[float] | None:
     """The dead centres of the first unknown load over the range of one number (a path, or a link that is
     turned): those of ``sweep --find dead``; None where they can't be looked for."""
-    from icsolve.sweep.ask import AskError
-    from icsolve.sweep.finding import Query, find
+    from icsolve.sweep.find_on_record import Query, find
+    from icsolve.sweep.request import RequestError
 
     driven = {name: values for name, values in varied.items() if name in case.links}
     paths = {name: values for name, values in varied.items() if name not in driven}
@@ -420,7 +420,7 @@ def dead_centres(case: Case, varied: Mapping[str, npt.ArrayLike]) -> list[float]
         return []
     try:
         spots = find(case, paths, Query("dead", unknown), drive=driven)
-    except (SceneError, AskError, ArithmeticError):
+    except (SceneError, RequestError, ArithmeticError):
         return None
     return [spot.at for spot in spots if spot.kind == "dead"]
 

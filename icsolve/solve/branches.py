@@ -42,7 +42,7 @@ class Branches:
         nodes = [k for name in self.names for k in function.places[name]]
         found = Code(function.record, nodes).run(function.given(self.values), len(self.values))
         columns = [np.array(np.broadcast_to(v, len(self.values))) for v in found]
-        ox, oy, scale = function.sheet.scene.frame
+        ox, oy, scale = function.compiled.scene.frame
         origin = np.tile([ox, oy], len(self.names))
         return np.array(np.stack(columns, axis=1) / scale + origin)
 

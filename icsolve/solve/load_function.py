@@ -35,8 +35,8 @@ from icsolve.structure.topology import Topology, topology
 from icsolve.sweep.drivers import Drive
 from icsolve.sweep.exact import spring_angles
 from icsolve.sweep.numbers import with_numbers
-from icsolve.sweep.program import Asked, Setting, Sheet, setting_of, sheet_of, wanted_points
-from icsolve.sweep.scene import RecordedScene, motions_of
+from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep, setting_of, wanted_points
+from icsolve.sweep.recorded_scene import RecordedScene, motions_of
 
 Steps = tuple[Step, ...]
 
@@ -57,7 +57,7 @@ class LoadFunction(NamedTuple):
 
     case: Case
     path: str
-    sheet: Sheet
+    compiled: CompiledSweep
     figure: Figure
     input: int
     power: int
@@ -92,7 +92,7 @@ class LoadFunction(NamedTuple):
     @property
     def record(self) -> Record:
         """The record of the mode."""
-        return self.sheet.record
+        return self.compiled.record
 
 
 def load_functions(case: Case, path: str, low: float, high: float) -> tuple[list[LoadFunction], bool]:
@@ -203,14 +203,14 @@ def moving_function(
     setting = setting_of(case, (path,) if path else (), (link,) if link else ())
     if path and not setting.moves:
         raise SceneError(Status.UNSUPPORTED, f"{path} does not pose the figure: it moves nothing.")
-    sheet = sheet_of(setting, Asked(answers=False))
-    record = sheet.record
-    if sheet.motion is not None and sheet.motion.groups:
+    compiled = compile_sweep(setting, RowRequest(answers=False))
+    record = compiled.record
+    if compiled.motion is not None and compiled.motion.groups:
         raise SceneError(
             Status.UNSUPPORTED, "points of this mechanism can only all together be placed while it moves."
         )
     margins = [node for root in record.roots.values() for node, _ in root.margins]
-    return _on_sheet(sheet, path or link, setting.figure, margins, span)
+    return _on_sheet(compiled, path or link, setting.figure, margins, span)
 
 
 def written_function(case: Case, path: str, span: tuple[float, float] | None = None) -> LoadFunction:
@@ -222,16 +222,18 @@ def written_function(case: Case, path: str, span: tuple[float, float] | None = N
 def _function(
     case: Case, path: str, top: Topology, figure: Figure, span: tuple[float, float] | None
 ) -> LoadFunction:
-    sheet = sheet_of(Setting(case, top, figure, (path,), (), Drive((), (), ())), Asked(answers=False))
-    margins = [m for step in place(figure, case, sheet.record).margins.values() for m in step if varies(m)]
-    return _on_sheet(sheet, path, figure, [sheet.record.lifted(m).index for m in margins], span)
+    compiled = compile_sweep(
+        Setting(case, top, figure, (path,), (), Drive((), (), ())), RowRequest(answers=False)
+    )
+    margins = [m for step in place(figure, case, compiled.record).margins.values() for m in step if varies(m)]
+    return _on_sheet(compiled, path, figure, [compiled.record.lifted(m).index for m in margins], span)
 
 
 def _on_sheet(
-    sheet: Sheet, path: str, figure: Figure, margins: list[int], span: tuple[float, float] | None
+    compiled: CompiledSweep, path: str, figure: Figure, margins: list[int], span: tuple[float, float] | None
 ) -> LoadFunction:
     """The power of the loads on a record that has the figure, by its one input."""
-    record, scene, given = sheet.record, sheet.scene, sheet.inputs[path]
+    record, scene, given = compiled.record, compiled.scene, compiled.inputs[path]
     record.follows = True  # also where each position is read anew: turns count from one of them
     case = scene.case
     motions = motions_of(scene)
@@ -249,9 +251,9 @@ def _on_sheet(
     named = {p: scene.points[p] for p in figure.points if not p.startswith("@")}
     places = {p: (record.lifted(x).index, record.lifted(y).index) for p, (x, y) in named.items()}
     return LoadFunction(
-        sheet.setting.case,
+        compiled.setting.case,
         path,
-        sheet,
+        compiled,
         figure,
         given,
         record.lifted(total).index,

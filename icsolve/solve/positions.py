@@ -400,12 +400,12 @@ def _to_the_last_digit(
 def scene_at(function: LoadFunction, value: float) -> Case:
     """The case with the free datum at a value, in the mode of the function; of a mechanism that moves, the
     row of its sweep."""
-    if function.sheet.setting.moves:
+    if function.compiled.setting.moves:
         given = {k: Decimal(float(v)) for k, v in function.given(np.array(value)).items()}
         own = {} if function.path in function.case.links else {function.path: given[function.input]}
-        row = RowScenes(function.sheet).case(given, own)
+        row = RowScenes(function.compiled).case(given, own)
         return replace(row, near={}, motion=(), expect=())
-    ox, oy, scale = function.sheet.scene.frame
+    ox, oy, scale = function.compiled.scene.frame
     nodes = [k for pair in function.places.values() for k in pair]
     found = Code(function.record, [*nodes, *function.springs.values()]).run(
         function.given(np.array(value)), 1
@@ -443,7 +443,7 @@ def _probe(function: LoadFunction, value: float, on: str = "") -> tuple[float, s
 def balances(function: LoadFunction, value: float) -> bool:
     """Whether the loads balance at a value, to what a figure written in decimals can tell."""
     torque, _ = _probe(function, value)
-    units, frame = function.case.units, function.sheet.scene.frame
+    units, frame = function.case.units, function.compiled.scene.frame
     return abs(torque) * function.force_scale * frame.scale <= NEAR * units.torque_per_force_length
 
 
@@ -488,7 +488,7 @@ def _apart(rate: Interval) -> bool:
 
 def _units(function: LoadFunction) -> tuple[float, str]:
     """What brings minus slope over rate into the unit of a stiffness, and that unit."""
-    case, frame = function.case, function.sheet.scene.frame
+    case, frame = function.case, function.compiled.scene.frame
     per_load = 1.0 / (function.force_scale * frame.scale)
     units = case.units
     if function.path.startswith("angles.") or function.path in case.links:
@@ -660,7 +660,7 @@ def _nearest(
         for _ in range(14):
             power, rate = code.run(function.given(values), len(values))
             with np.errstate(all="ignore"):
-                load = np.abs(power / rate) / (function.force_scale * function.sheet.scene.frame.scale)
+                load = np.abs(power / rate) / (function.force_scale * function.compiled.scene.frame.scale)
             load = np.broadcast_to(load, values.shape)  # one number where the position does not matter
             k = int(np.nanargmin(load))
             if best is None or float(load[k]) < best[0]:

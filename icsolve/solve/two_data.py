@@ -29,8 +29,8 @@ from icsolve.solve.positions import DEGREES, whole_range
 from icsolve.statics import power
 from icsolve.structure.topology import topology
 from icsolve.sweep.drivers import Drive
-from icsolve.sweep.program import Asked, Setting, Sheet, sheet_of
-from icsolve.sweep.scene import motions_of
+from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep
+from icsolve.sweep.recorded_scene import motions_of
 
 GRID = 48
 STEPS = 40
@@ -44,7 +44,7 @@ class Surface(NamedTuple):
     (2, 2), of each coordinate's derivatives by the inputs (2) and speeds in the motions (2), of the margins,
     and of the points."""
 
-    sheet: Sheet
+    compiled: CompiledSweep
     inputs: tuple[int, int]
     powers: list[int]
     slopes: list[int]
@@ -120,8 +120,8 @@ def _at(case: Case, paths: Sequence[str], values: Sequence[float]) -> Case:
 
 def _surface(case: Case, paths: Sequence[str], figure: Figure) -> Surface:
     setting = Setting(case, topology(case), figure, tuple(paths), (), Drive((), (), ()))
-    sheet = sheet_of(setting, Asked(answers=False))
-    record, scene = sheet.record, sheet.scene
+    compiled = compile_sweep(setting, RowRequest(answers=False))
+    record, scene = compiled.record, compiled.scene
     motions = motions_of(scene)
     if motions.mobility != 2:
         raise SceneError(
@@ -129,7 +129,7 @@ def _surface(case: Case, paths: Sequence[str], figure: Figure) -> Surface:
             f"two data of the figure are unknown, and the mechanism has {motions.mobility} degrees of "
             "freedom.",
         )
-    inputs = (sheet.inputs[paths[0]], sheet.inputs[paths[1]])
+    inputs = (compiled.inputs[paths[0]], compiled.inputs[paths[1]])
     balance = power.balance(
         power.wrenches(case, scene.frame, scene.points, record), motions.twists, motions.mobility
     )
@@ -148,7 +148,9 @@ def _surface(case: Case, paths: Sequence[str], figure: Figure) -> Surface:
     named = {p: scene.points[p] for p in figure.points if not p.startswith("@")}
     nodes = [[record.lifted(v).index for v in some] for some in (totals, slopes, velocities, margins)]
     places = {p: (record.lifted(x).index, record.lifted(y).index) for p, (x, y) in named.items()}
-    return Surface(sheet, inputs, nodes[0], nodes[1], nodes[2], nodes[3], places, power.force_scale(balance))
+    return Surface(
+        compiled, inputs, nodes[0], nodes[1], nodes[2], nodes[3], places, power.force_scale(balance)
+    )
 
 
 def _distance(surface: Surface, case: Case, limits: Sequence[Span]) -> float:
@@ -156,8 +158,8 @@ def _distance(surface: Surface, case: Case, limits: Sequence[Span]) -> float:
     x, y = _grid(limits)
     names = [name for name in case.near if name in surface.places]
     nodes = [k for name in names for k in surface.places[name]]
-    ox, oy, scale = surface.sheet.scene.frame
-    found = Code(surface.sheet.record, [*nodes, *surface.margins]).run(
+    ox, oy, scale = surface.compiled.scene.frame
+    found = Code(surface.compiled.record, [*nodes, *surface.margins]).run(
         dict(zip(surface.inputs, (x, y), strict=True)), x.size
     )
     off = np.zeros(x.size)
@@ -179,7 +181,7 @@ def _zeros(
     surface: Surface, limits: Sequence[Span], whole: Sequence[bool], paths: Sequence[str]
 ) -> list[tuple[float, float]]:
     """Newton's method from every start of the grid at once."""
-    code = Code(surface.sheet.record, [*surface.powers, *surface.slopes, *surface.margins])
+    code = Code(surface.compiled.record, [*surface.powers, *surface.slopes, *surface.margins])
     x, y = _grid(limits)
     size = np.array([b - a for a, b in limits])
     with np.errstate(all="ignore"):
@@ -218,7 +220,7 @@ def _described(surface: Surface, paths: Sequence[str], values: tuple[float, floa
     """A position to the last digits, with its stiffness matrix and stability."""
     values, off = _polished(surface, values)
     slopes, rates = _derivatives(surface, values)
-    case, frame = surface.sheet.setting.case, surface.sheet.scene.frame
+    case, frame = surface.compiled.setting.case, surface.compiled.scene.frame
     loads = np.linalg.solve(rates, slopes) / (surface.force_scale * frame.scale)
     turns = [path.startswith("angles.") for path in paths]
     matrix = [
@@ -249,7 +251,7 @@ def _described(surface: Surface, paths: Sequence[str], values: tuple[float, floa
 def _derivatives(surface: Surface, values: Sequence[float]) -> tuple[Any, Any]:
     """Derivatives of the powers by the data (motion, datum), and the rates of the data (motion, datum)."""
     given = {k: np.array(v) for k, v in zip(surface.inputs, values, strict=True)}
-    found = Code(surface.sheet.record, [*surface.slopes, *surface.velocities]).run(given, 1)
+    found = Code(surface.compiled.record, [*surface.slopes, *surface.velocities]).run(given, 1)
     flat = [float(np.ravel(v)[0]) for v in found]
     rows = np.array(flat[4:]).reshape(-1, 4)  # the derivative by both data, the speed in both motions
     rates, *_ = np.linalg.lstsq(rows[:, :2], rows[:, 2:], rcond=None)
@@ -257,11 +259,11 @@ def _derivatives(surface: Surface, values: Sequence[float]) -> tuple[Any, Any]:
 
 
 def _scene(surface: Surface, paths: Sequence[str], values: Sequence[float]) -> Case:
-    case = surface.sheet.setting.case
-    ox, oy, scale = surface.sheet.scene.frame
+    case = surface.compiled.setting.case
+    ox, oy, scale = surface.compiled.scene.frame
     given = {k: np.array(v) for k, v in zip(surface.inputs, values, strict=True)}
     nodes = [k for pair in surface.places.values() for k in pair]
-    flat = [float(np.ravel(v)[0]) for v in Code(surface.sheet.record, nodes).run(given, 1)]
+    flat = [float(np.ravel(v)[0]) for v in Code(surface.compiled.record, nodes).run(given, 1)]
     places = zip(surface.places, zip(flat[::2], flat[1::2], strict=True), strict=True)
     near = {name: (x / scale + ox, y / scale + oy) for name, (x, y) in places if name not in case.points}
     return replace(_at(case, paths, values), near=near, motion=(), expect=())
@@ -277,7 +279,7 @@ def _polished(
         here = {
             k: Interval(np.array([v]), np.array([v])) for k, v in zip(surface.inputs, (x, y), strict=True)
         }
-        ends = enclose(surface.sheet.record, surface.powers, here)
+        ends = enclose(surface.compiled.record, surface.powers, here)
         slopes, _ = _derivatives(surface, (x, y))
         inverse = np.linalg.inv(slopes)
         middle = np.array([0.5 * float(e.low.flat[0] + e.high.flat[0]) for e in ends])

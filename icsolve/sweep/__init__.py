@@ -1,9 +1,9 @@
 """Sweeps: the plan and the kernels of one scene, recorded once and run on arrays of rows.
 
-`icsolve.sweep.sweeping` has `sweep`; the rest follows a sweep on its way. A case is solved as written and
-becomes a ``mechanism`` of links that keep their shapes; ``drivers`` says what the varied numbers do to it,
-``closing`` in which order its links follow them. ``moving`` and ``scene`` write places and statics into a
-``record``, which ``runner`` replays on blocks of rows, along a ``way`` on which ``branches`` are kept.
+`sweeping` has `sweep`; the rest follows a sweep through its steps. A case is solved as written and becomes a
+mechanism of links that keep their shapes (`assembly.driven`); ``drivers`` says what the varied numbers do to
+it. ``program`` writes places (``continuation`` and ``branches`` where they have to be followed) and statics
+(``recorded_scene``) into a record, which ``runner`` replays on blocks of rows.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
-"""Change points on the way: where two places of a pin meet and part again, the motion goes straight on.
+"""Change points: where two places of a pin meet and part again, the motion goes straight on.
 
 The radicand under a branch's root vanishes there like a square, so the root itself goes through zero: its
 sign changes. Where it only comes near zero, the branch stays; where it goes below, the mechanism cannot
-assemble. The places are found on the way from the position as written to the rows.
+assemble. The places are found on the line from the position as written to the rows.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ import numpy as np
 
 from icsolve.numbers.record import Root, Traced
 from icsolve.numbers.replay import BLOCK, Array, Code, live
-from icsolve.sweep.ask import AskError
-from icsolve.sweep.program import Sheet, Signs
-from icsolve.sweep.track import Track
-from icsolve.sweep.way import State, Touches, Way
+from icsolve.sweep.continuation import ChangePoints, InputLine, State
+from icsolve.sweep.path_tracking import PathTracker
+from icsolve.sweep.program import CompiledSweep, Signs
+from icsolve.sweep.request import RequestError
 
 TOUCH = 64 * 2.0**-53
 """Margins below this fraction of their terms are zero (rounding of shapes, twice squared)."""
@@ -28,19 +28,19 @@ STEEP = 2.0
 POINTS = 33
 ZOOMS = 10
 PAST = 0.125
-"""A way is followed beyond its last place by this part of its longest step."""
+"""A line is followed beyond its last place by this part of its longest step."""
 STEPS, STEPS_A_ROW, CLOSED = 2000, 20, 4
-"""Steps of a way that may lie between rows, in all and for each row; so many times as many where every
+"""Steps of a line that may lie between rows, in all and for each row; so many times as many where every
 point is found by a closed form."""
 CELLS = 4
 MOST_CELLS = 1_000_000
 """Branches are looked for at so many places in a longest step, and at most at so many at all."""
 
-Remake = Callable[[Signs], Sheet]
+Remake = Callable[[Signs], CompiledSweep]
 
 
 class Passing(NamedTuple):
-    """What was met on a way, of the branch of a spot; places [of the main input].
+    """What was met on a line, of the branch of a spot; places [of the main input].
 
     Attributes
     ----------
@@ -49,25 +49,25 @@ class Passing(NamedTuple):
     grazes : where its places only meet and part again on their own sides
     """
 
-    touches: tuple[float, ...]
+    change_points: tuple[float, ...]
     gaps: tuple[float, ...]
     grazes: tuple[float, ...] = ()
 
 
 class Followed(NamedTuple):
-    """A way that was followed: its sheet (changing signs are inputs), its track, what was passed."""
+    """A line that was followed: the compiled sweep (changing signs are inputs), its tracker, and passages."""
 
-    sheet: Sheet
-    track: Track
+    compiled: CompiledSweep
+    tracker: PathTracker
     passed: dict[str, Passing]
 
 
 class Radicands:
-    """The radicands of branches along a track."""
+    """The radicands of branches along a tracked line."""
 
-    def __init__(self, sheet: Sheet, track: Track, grid: Array) -> None:
-        self.sheet, self.track, self.grid = sheet, track, grid
-        self.roots = live_roots(sheet)
+    def __init__(self, compiled: CompiledSweep, tracker: PathTracker, grid: Array) -> None:
+        self.compiled, self.tracker, self.grid = compiled, tracker, grid
+        self.roots = live_roots(compiled)
 
     @cached_property
     def table(self) -> tuple[list[Array], list[Array]]:
@@ -87,7 +87,7 @@ class Radicands:
         return radicands, margins
 
     def values(self, nodes: Sequence[int], at: Array) -> list[Array]:
-        """Nodes at places of the way.
+        """Nodes at places of the line.
 
         Parameters
         ----------
@@ -99,11 +99,11 @@ class Radicands:
         list[Array]
             (places,) each; not a number where the links do not assemble.
         """
-        code = Code(self.sheet.record, nodes)
+        code = Code(self.compiled.record, nodes)
         parts = []
         for start in range(0, len(at), BLOCK):
             here = at[start : start + BLOCK]
-            given, good = self.track.given(here)
+            given, good = self.tracker.given(here)
             found = [np.broadcast_to(v, len(here)).copy() for v in code.run(given, len(here))]
             for v in found:
                 v[~good] = np.nan
@@ -122,7 +122,7 @@ class Radicands:
     def passing(self, n: int) -> Passing:
         """Touches and gaps of a branch on the grid."""
         root, grid, radicand = self.roots[n], self.grid, self.table[0][n]
-        touches: list[float] = []
+        change_points: list[float] = []
         gaps: list[float] = []
         grazes: list[float] = []
         for k in _valleys(radicand):
@@ -133,12 +133,12 @@ class Radicands:
                 gaps.append(at)
             elif margin <= TOUCH:
                 crosses = self._order(root, at, high - low) % 4 == 2
-                (touches if crosses else grazes).append(at)
-        return Passing(tuple(touches), tuple(gaps), tuple(grazes))
+                (change_points if crosses else grazes).append(at)
+        return Passing(tuple(change_points), tuple(gaps), tuple(grazes))
 
     def _order(self, root: Root, at: float, wide: float) -> int:
         """The order to which a radicand vanishes: the root goes through zero where half of it is odd."""
-        h = max(wide / 4.0, self.track.way.widest / 8.0)
+        h = max(wide / 4.0, self.tracker.line.widest / 8.0)
         values = self._radicand(root, at + h * np.array([-1.0, 1.0, -0.5, 0.5]))
         far, near = values[:2], values[2:]
         good = np.isfinite(far) & np.isfinite(near) & (far > 0.0) & (near > 0.0)
@@ -146,7 +146,7 @@ class Radicands:
 
     def _radicand(self, root: Root, at: Array) -> Array:
         """The radicand of a branch; not a number where those before it have no place to meet."""
-        record = self.sheet.record
+        record = self.compiled.record
         behind = set(live(record, [root.radicand], ()))
         before = [r for r in self.roots if r.node in behind]
         nodes = [n for r in before for margin in r.margins for n in margin]
@@ -160,7 +160,7 @@ class Radicands:
         gone = np.zeros(len(self.grid), dtype=bool)
         for margin in self.table[1]:
             gone |= ~(margin >= -TOUCH)
-        apart, start, (low, high) = self.grid[gone], self.track.way.start, self.track.ends
+        apart, start, (low, high) = self.grid[gone], self.tracker.line.start, self.tracker.ends
         low = max(low, float(apart[apart < start].max(initial=-math.inf)))
         return low, min(high, float(apart[apart > start].min(initial=math.inf)))
 
@@ -196,120 +196,122 @@ def _valleys(radicand: Array) -> Iterator[int]:
         last = int(k)
 
 
-def grid_of(ends: Iterable[float], way: Way) -> Array:
-    """Places by which branches are looked for, (places,): from the start of the way to beyond all ends in
+def grid_of(ends: Iterable[float], line: InputLine) -> Array:
+    """Places by which branches are looked for, (places,): from the start of the line to beyond all ends in
     equal steps, the same whichever rows there are.
     """
-    step, ends = way.widest / CELLS, [way.start, *ends]
+    step, ends = line.widest / CELLS, [line.start, *ends]
     step *= max(1, math.ceil((max(ends) - min(ends)) / step / MOST_CELLS))
-    low, high = (math.floor((end - way.start) / step) for end in (min(ends), max(ends)))
-    return np.asarray(way.start + step * np.arange(low - 2, high + 4), dtype=np.float64)
+    low, high = (math.floor((end - line.start) / step) for end in (min(ends), max(ends)))
+    return np.asarray(line.start + step * np.arange(low - 2, high + 4), dtype=np.float64)
 
 
-def _refuse_long(sheet: Sheet, way: Way, ends: Sequence[float], rows: int) -> None:
-    """Raise AskError where far more steps than rows would have to be followed one by one."""
-    assert sheet.motion is not None
-    steps = (max(way.start, *ends) - min(way.start, *ends)) / way.widest
-    cheap = 1 if sheet.motion.groups or sheet.record.counted else CLOSED
+def _refuse_long(compiled: CompiledSweep, line: InputLine, ends: Sequence[float], rows: int) -> None:
+    """Raise RequestError where far more steps than rows would have to be followed one by one."""
+    assert compiled.motion is not None
+    steps = (max(line.start, *ends) - min(line.start, *ends)) / line.widest
+    cheap = 1 if compiled.motion.groups or compiled.record.counted else CLOSED
     if steps > cheap * (STEPS + STEPS_A_ROW * rows):
-        raise AskError(
+        raise RequestError(
             f"the motion is followed step by step, and {steps:.3g} steps lie between these {rows} rows: "
             "take whole turns off, or ask for rows nearer to each other"
         )
 
 
-def follow(remake: Remake, sheet: Sheet, way: Way, start: State, rows: Array) -> Followed:
-    """Follow a way from a state to the rows, and find where branches change.
+def follow(remake: Remake, compiled: CompiledSweep, line: InputLine, start: State, rows: Array) -> Followed:
+    """Follow a line from a state to the rows, and find where branches change.
 
     Parameters
     ----------
-    remake : makes the sheet with the signs of some branches as inputs
-    sheet : the sheet as it is
-    way : inputs by place
+    remake : compiles the sweep with the signs of some branches as inputs
+    compiled : the sweep as it is
+    line : inputs by place
     start : the state where it starts
-    rows : (rows,), their places on the way
+    rows : (rows,), their places on the line
 
     Returns
     -------
     Followed
-        Rows beyond a limit are refused by nothing here: `Track.given` says so of each.
+        Rows beyond a limit are refused by nothing here: `PathTracker.given` says so of each.
 
     Raises
     ------
-    AskError
+    RequestError
         Where far more steps than rows would have to be followed one by one.
     """
     ends = [float(rows.min()), float(rows.max())]
-    _refuse_long(sheet, way, ends, len(rows))
-    grid = grid_of(ends, way)
-    track = Track(sheet, way, start, Touches({}), _reach(ends, way))
-    if _has_limits(sheet, track, grid):
-        ends += _turns_of(way)
-        grid = grid_of(ends, way)
-        track = Track(sheet, way, start, Touches({}), _reach(ends, way))
+    _refuse_long(compiled, line, ends, len(rows))
+    grid = grid_of(ends, line)
+    tracker = PathTracker(compiled, line, start, ChangePoints({}), _reach(ends, line))
+    if _has_limits(compiled, tracker, grid):
+        ends += _turns_of(line)
+        grid = grid_of(ends, line)
+        tracker = PathTracker(compiled, line, start, ChangePoints({}), _reach(ends, line))
     found: dict[str, Passing] = {}
     done: set[str] = set()
     while True:
-        name = _next_passing(sheet, track, grid, found, done)
+        name = _next_passing(compiled, tracker, grid, found, done)
         if name is None:
-            return Followed(sheet, track, found)
-        sheet = remake(signs_of(sheet, (n for n, p in found.items() if p.touches)))
-        places = {name: passing.touches for name, passing in found.items() if passing.touches}
-        track = Track(sheet, way, start, Touches(places), track.reach)
+            return Followed(compiled, tracker, found)
+        compiled = remake(signs_of(compiled, (n for n, p in found.items() if p.change_points)))
+        places = {name: passing.change_points for name, passing in found.items() if passing.change_points}
+        tracker = PathTracker(compiled, line, start, ChangePoints(places), tracker.reach)
 
 
 def _next_passing(
-    sheet: Sheet, track: Track, grid: Array, found: dict[str, Passing], done: set[str]
+    compiled: CompiledSweep, tracker: PathTracker, grid: Array, found: dict[str, Passing], done: set[str]
 ) -> str | None:
     """The next branch that changes its sign; those that were looked at are noted."""
-    radicands = Radicands(sheet, track, grid)
-    assert sheet.motion is not None
-    if track.way.period is not None:
-        track.touches = track.touches._replace(limits=radicands.limits())
+    radicands = Radicands(compiled, tracker, grid)
+    assert compiled.motion is not None
+    if tracker.line.period is not None:
+        tracker.change_points = tracker.change_points._replace(limits=radicands.limits())
     for n, root in enumerate(radicands.roots):
-        name = sheet.motion.branches[root.node]
+        name = compiled.motion.branches[root.node]
         if name in done:
             continue
         done.add(name)
         passing = radicands.passing(n)
         if any(passing):
             found[name] = passing
-        if passing.touches:
+        if passing.change_points:
             return name
     return None
 
 
-def _has_limits(sheet: Sheet, track: Track, grid: Array) -> bool:
-    """Whether the way turns a link beyond where the motion leads: what lies there may be reached by
+def _has_limits(compiled: CompiledSweep, tracker: PathTracker, grid: Array) -> bool:
+    """Whether the line turns a link beyond where the motion leads: what lies there may be reached by
     turning it the other way round."""
-    if track.way.period is None or not live_roots(sheet):
+    if tracker.line.period is None or not live_roots(compiled):
         return False
-    return any(math.isfinite(end) for end in Radicands(sheet, track, grid).limits())
+    return any(math.isfinite(end) for end in Radicands(compiled, tracker, grid).limits())
 
 
-def _reach(ends: Iterable[float], way: Way) -> tuple[float, float]:
-    """From the first to the last place and a little beyond, so that none is at the very end of the way."""
-    ends = [way.start, *ends]
-    return min(ends) - PAST * way.widest, max(ends) + PAST * way.widest
+def _reach(ends: Iterable[float], line: InputLine) -> tuple[float, float]:
+    """From the first to the last place and a little beyond, so that none is at the very end of the line."""
+    ends = [line.start, *ends]
+    return min(ends) - PAST * line.widest, max(ends) + PAST * line.widest
 
 
-def _turns_of(way: Way) -> list[float]:
+def _turns_of(line: InputLine) -> list[float]:
     """A whole turn to both sides of the start."""
-    return [way.start - (way.period or 0.0), way.start + (way.period or 0.0)]
+    return [line.start - (line.period or 0.0), line.start + (line.period or 0.0)]
 
 
-def signs_of(sheet: Sheet, more: Iterable[str] = ()) -> Signs:
-    """The branches whose signs are inputs of a sheet, and more of them."""
-    assert sheet.motion is not None
-    written = sheet.motion.written
-    names = {*more, *(name for name in written if name in sheet.inputs)}
+def signs_of(compiled: CompiledSweep, more: Iterable[str] = ()) -> Signs:
+    """The branches whose signs are inputs of a compiled sweep, and more of them."""
+    assert compiled.motion is not None
+    written = compiled.motion.written
+    names = {*more, *(name for name in written if name in compiled.inputs)}
     return tuple(sorted((name, written[name]) for name in names))
 
 
-def live_roots(sheet: Sheet) -> list[Root]:
+def live_roots(compiled: CompiledSweep) -> list[Root]:
     """The branches that bear on what is asked, in order."""
-    record, groups = sheet.record, sheet.motion.groups if sheet.motion else ()
-    stack = [v.index for values in sheet.outputs.values() for v in values if isinstance(v, Traced) and v.row]
+    record, groups = compiled.record, compiled.motion.groups if compiled.motion else ()
+    stack = [
+        v.index for values in compiled.outputs.values() for v in values if isinstance(v, Traced) and v.row
+    ]
     alive: set[int] = set()
     while stack:
         alive.update(live(record, stack, ()))

@@ -38,15 +38,15 @@ from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Radii, Roll
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
 from icsolve.scene.refusals import rubs
-from icsolve.sweep.ask import Columns
 from icsolve.sweep.branches import signs_of
-from icsolve.sweep.cam_meeting import FirstMeeting, Mask, Met, Poses, Vectors
-from icsolve.sweep.program import Asked
+from icsolve.sweep.first_contact import FirstContact, FirstContacts, Mask, Poses, Vectors
+from icsolve.sweep.program import RowRequest
+from icsolve.sweep.recorded_scene import RestingContact
+from icsolve.sweep.request import Columns
+from icsolve.sweep.run import SweepRun
 from icsolve.sweep.runner import Key
-from icsolve.sweep.scene import Resting
 from icsolve.sweep.start import start_of
 from icsolve.sweep.table import CODE, Codes
-from icsolve.sweep.work import Work
 
 FAR = 4.0
 """Where the way of a sliding follower is measured from, in sizes of the figure: it stays positive."""
@@ -90,7 +90,7 @@ class Follow(NamedTuple):
         body, freedom = pose.body_back(self.body), pose.freedom_back(self.freedom)
         return outermost(self.curve, body, freedom, self.side, self.sense)
 
-    def rested(self, first: Array, second: Array) -> Met:
+    def rested(self, first: Array, second: Array) -> FirstContacts:
         """Where the follower meets the cam in every row.
 
         Parameters
@@ -119,7 +119,7 @@ class Follow(NamedTuple):
         along = self.freedom.along if isinstance(self.freedom, Shift) else (1.0, 0.0)
         about = self.freedom.about if isinstance(self.freedom, Turn) else (0.0, 0.0)
         poses = Poses(place(self.body.at), back(*self.body.face), back(*along), place(about))
-        met = FirstMeeting(self.curve, self.body, shifts, self.side, self.sense).run(poses)
+        met = FirstContact(self.curve, self.body, shifts, self.side, self.sense).run(poses)
 
         def out(v: Array) -> Array:
             return np.stack([c * v[:, 0] - s * v[:, 1], s * v[:, 0] + c * v[:, 1]], axis=1)
@@ -149,7 +149,7 @@ class Follow(NamedTuple):
         angle = np.degrees(np.arctan2(np.abs(across), np.abs(along)))
         return np.where(np.abs(across) <= ROUNDED * np.abs(along), 0.0, angle)
 
-    def resting(self, whole: Case) -> Resting:
+    def resting(self, whole: Case) -> RestingContact:
         """The contact, whose place and normal each row tells."""
         hidden = self.seeking.hidden
         joint = next(j for j in whole.joints if isinstance(j, Contact) and j.at == hidden)
@@ -160,11 +160,11 @@ class Follow(NamedTuple):
         if isinstance(follower, Roller):
             off = -1.0 if touch.links[0] == self.seeking.cam else 1.0
             roller = (follower.at, off * follower.radius.value)
-        return Resting(touch.place, joint, (place.x.value, place.y.value), roller)
+        return RestingContact(touch.place, joint, (place.x.value, place.y.value), roller)
 
-    def contact(self, case: Case, pose: LinkPose, way: Candidate) -> tuple[Case, Touching]:
+    def contact(self, case: Case, pose: LinkPose, line: Candidate) -> tuple[Case, Touching]:
         """A row's case with this contact."""
-        meeting = meeting_of(self.curve, way.body, self.side, self.seeking.what)
+        meeting = meeting_of(self.curve, line.body, self.side, self.seeking.what)
         return self.seeking.contact(case, self.curve, pose.meeting(meeting), self.freedom, note=False)
 
 
@@ -251,9 +251,9 @@ class Rows:
     def __init__(self, course: CamMotion, columns: Columns) -> None:
         self.course, self.columns = course, columns
         self.codes: Codes = np.zeros(columns.rows, dtype=np.int8)
-        self.ways: dict[tuple[int, int], tuple[LinkPose, Candidate] | None] = {}
+        self.lines: dict[tuple[int, int], tuple[LinkPose, Candidate] | None] = {}
         self.frames: list[tuple[Array, Array]] = []
-        self.rested: list[Met] = []
+        self.rested: list[FirstContacts] = []
         """where each follower touches in every row, in the figure"""
         self.drivers = {f.driver: np.full(columns.rows, f.start) for f in course.follows}
         for follow in course.follows:
@@ -263,14 +263,14 @@ class Rows:
         moved = np.where(self.work.codes == CODE[Status.CHANGE_POINT], 0, self.work.codes)
         self.codes = np.where(self.codes == 0, moved, self.codes).astype(np.int8)
 
-    def _work(self, points: tuple[str, ...]) -> Work:
+    def _work(self, points: tuple[str, ...]) -> SweepRun:
         """The sweep of the open case with what is known of the drivers."""
         links = {f.driver for f in self.course.follows if isinstance(f.freedom, Turn)}
         paths = {**self.columns.paths, **{k: v for k, v in self.drivers.items() if k not in links}}
         turned = {**self.columns.links, **{k: v for k, v in self.drivers.items() if k in links}}
         names = {**self.columns.names, **{k: k for k in self.drivers}}
         columns = Columns(paths, turned, names)
-        return Work(start_of(self.course.open, columns, Asked(False, points)), columns, False)
+        return SweepRun(start_of(self.course.open, columns, RowRequest(False, points)), columns, False)
 
     def _place(self, follow: Follow) -> None:
         """Move a follower to its cam in every row."""
@@ -293,14 +293,14 @@ class Rows:
 
     def _way(self, k: int, row: int) -> tuple[LinkPose, Candidate] | None:
         """Where a follower meets its cam in a row, with every rule of a single scene."""
-        if (k, row) not in self.ways:
+        if (k, row) not in self.lines:
             first, second = self.frames[k]
             pose = pose_of(self.course.follows[k].written, (_point(first[row]), _point(second[row])))
-            way = self.course.follows[k].met(pose)
-            self.ways[k, row] = (pose, way) if way is not None else None
-        return self.ways[k, row]
+            line = self.course.follows[k].met(pose)
+            self.lines[k, row] = (pose, line) if line is not None else None
+        return self.lines[k, row]
 
-    def together(self, asked: Asked) -> tuple[dict[Key, Array], Mask]:
+    def together(self, asked: RowRequest) -> tuple[dict[Key, Array], Mask]:
         """What is asked of the rows, from one record.
 
         Returns
@@ -314,9 +314,14 @@ class Rows:
         start = self.work.start._replace(asked=asked._replace(contacts=contacts))
         values: dict[Key, Array] = {}
         for part in self.work.done:
-            runner = start.runner(signs_of(part.followed.sheet) if part.followed else ())
-            sheet, old = runner.sheet, part.runner.sheet
-            if sheet.refusal is not None or sheet.delicate or runner.sequential or rubs(sheet.scene.case):
+            runner = start.runner(signs_of(part.followed.compiled) if part.followed else ())
+            compiled, old = runner.compiled, part.runner.compiled
+            if (
+                compiled.refusal is not None
+                or compiled.delicate
+                or runner.sequential
+                or rubs(compiled.scene.case)
+            ):
                 return {}, np.zeros(len(sure), dtype=bool)
             given, good = self.work.parts.given(part)
             by_name = {name: given[k] for name, k in old.inputs.items()}
@@ -326,7 +331,7 @@ class Rows:
                 )
                 columns = np.hstack([rested.point, normal])[part.rows].T
                 by_name |= dict(zip(contact.inputs, columns, strict=True))
-            found = runner.run({k: by_name[name] for name, k in sheet.inputs.items()}, len(part.rows))
+            found = runner.run({k: by_name[name] for name, k in compiled.inputs.items()}, len(part.rows))
             values = values or runner.blank(len(sure))
             for key, array in found.values.items():
                 values[key][part.rows] = array

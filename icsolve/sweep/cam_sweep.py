@@ -23,11 +23,11 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
 from icsolve.scene import solve_scene
 from icsolve.statics.power import is_unknown
-from icsolve.sweep.ask import Columns, Wanted
-from icsolve.sweep.cam_meeting import Mask
 from icsolve.sweep.cam_motion import CamMotion, Rows
+from icsolve.sweep.first_contact import Mask
 from icsolve.sweep.numbers import with_numbers
-from icsolve.sweep.program import Asked, setting_of
+from icsolve.sweep.program import RowRequest, setting_of
+from icsolve.sweep.request import Columns, SweepRequest
 from icsolve.sweep.runner import Progress
 from icsolve.sweep.runner import Rows as Which
 from icsolve.sweep.table import KINDS, Sweep, Table, by_kind
@@ -90,7 +90,9 @@ class _Seen:
             yield lost_rows(links, len(rows), where(rows[0]))
 
 
-def sweep_touching(case: Case, columns: Columns, wanted: Wanted, progress: Progress | None = None) -> Sweep:
+def sweep_touching(
+    case: Case, columns: Columns, wanted: SweepRequest, progress: Progress | None = None
+) -> Sweep:
     """The sweep of a case with profiles; ``progress`` is told each row.
 
     Raises SceneError as `icsolve.sweep`, and where a follower cannot be followed.
@@ -217,13 +219,13 @@ def _fill(table: Table, part: CamRows, n: int, row: int, columns: Columns, seen:
     seen.take(row, touching)
 
 
-def _options(asked: Asked) -> Mapping[str, bool]:
+def _options(asked: RowRequest) -> Mapping[str, bool]:
     rates = asked.rates or asked.velocities
     more = {"all_centres": bool(asked.centres), "examine": bool(asked.points), "dynamic": asked.dynamic}
     return {**more, "rates": rates, "bound": False}
 
 
-def _solved(case: Case, asked: Asked) -> Answer:
+def _solved(case: Case, asked: RowRequest) -> Answer:
     """A row's answer, with the reactions that tell whether a contact pulls."""
     if any(map(is_unknown, case.loads)):
         try:

@@ -27,10 +27,10 @@ from icsolve.numbers.source import PYTHON, straight_line
 from icsolve.scene import solve_scene
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
-from icsolve.sweep.ask import AskError, Wanted, wanted_of
 from icsolve.sweep.drivers import Drive
 from icsolve.sweep.numbers import find_number, with_numbers
-from icsolve.sweep.program import Asked, Setting, Sheet, setting_of, sheet_of
+from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep, setting_of
+from icsolve.sweep.request import RequestError, SweepRequest, request_of
 
 FEW = 24
 """So many rows at most run as Python: numpy's own cost a step is that of some twenty floats."""
@@ -104,10 +104,10 @@ def evaluator(
     paths = tuple(inputs) if not isinstance(inputs, str) else (inputs,)
     own = tuple(find_number(case, path).path for path in paths)
     if not own:
-        raise AskError("nothing is varied: give inputs=('lengths.BC',)")
+        raise RequestError("nothing is varied: give inputs=('lengths.BC',)")
     if len(set(own)) < len(own):
-        raise AskError("an input is named twice")
-    wanted = wanted_of(case, (want,) if isinstance(want, str) else tuple(want))
+        raise RequestError("an input is named twice")
+    wanted = request_of(case, (want,) if isinstance(want, str) else tuple(want))
     if case.space is not None:
         raise SceneError(Status.UNSUPPORTED, "an evaluator is for the plane, and this case is in space.")
     return Evaluator(case, dict(zip(paths, own, strict=True)), wanted, gradient)
@@ -123,12 +123,12 @@ class Evaluator:
     compiled : the record with its programs; None where each row is solved as a scene of its own
     """
 
-    def __init__(self, case: Case, names: dict[str, str], wanted: Wanted, gradients: bool) -> None:
+    def __init__(self, case: Case, names: dict[str, str], wanted: SweepRequest, gradients: bool) -> None:
         self.case, self.inputs, self.wanted = case, tuple(names), wanted
         self.own = tuple(names.values())
         self.compiled = None if _one_by_one(case) else _compiled(case, names, wanted.asked, gradients)
         if self.compiled is None and gradients:
-            raise AskError(
+            raise RequestError(
                 "there are no gradients where each row is solved as a scene of its own: with friction, "
                 "profiles, or points that only together can be placed"
             )
@@ -154,7 +154,7 @@ class Evaluator:
         """
         if len(columns) != len(self.inputs):
             names = ", ".join(self.inputs)
-            raise AskError(f"{len(self.inputs)} numbers are varied ({names}), not {len(columns)}")
+            raise RequestError(f"{len(self.inputs)} numbers are varied ({names}), not {len(columns)}")
         if self.compiled is not None:
             found = self.compiled.single(columns)
             if found is not None:
@@ -234,7 +234,7 @@ def _columns(names: Sequence[str], columns: Sequence[npt.ArrayLike]) -> tuple[li
     rows = max(len(c) if c.ndim else 1 for c in given)
     for name, column in zip(names, given, strict=True):
         if column.ndim > 1 or (column.ndim and len(column) not in (1, rows)):
-            raise AskError(f"{name} has the shape {column.shape} where {rows} rows are asked for")
+            raise RequestError(f"{name} has the shape {column.shape} where {rows} rows are asked for")
     return [c if c.ndim == 0 or len(c) == rows else c[0] for c in given], rows
 
 
@@ -263,12 +263,12 @@ class _Rows:
 class _Compiled:
     """The record of a case with its inputs, as Python for few rows and as numpy for many."""
 
-    def __init__(self, sheet: Sheet, names: Mapping[str, str], gradients: bool) -> None:
-        record = sheet.record
-        self.sheet, self.names = sheet, tuple(names)
-        self.nodes = [sheet.inputs[own] for own in names.values()]
-        self.parts = {key: len(values) for key, values in sheet.outputs.items()}
-        values = [(key, part, v) for key, some in sheet.outputs.items() for part, v in enumerate(some)]
+    def __init__(self, compiled: CompiledSweep, names: Mapping[str, str], gradients: bool) -> None:
+        record = compiled.record
+        self.compiled, self.names = compiled, tuple(names)
+        self.nodes = [compiled.inputs[own] for own in names.values()]
+        self.parts = {key: len(values) for key, values in compiled.outputs.items()}
+        values = [(key, part, v) for key, some in compiled.outputs.items() for part, v in enumerate(some)]
         self.keys = [(key, part) for key, part, _ in values]
         answers = {key[1]: v for key, _, v in values if key[0] == "answers"}
         slopes = {}
@@ -278,7 +278,7 @@ class _Compiled:
         shown = [*(v for *_, v in values), *(v for by in slopes.values() for v in by.values())]
         self.shown = [record.lifted(v).index for v in shown]
         alive = sorted({k for v in shown if varies(v) for k in behind(record, v.index)})
-        self.positive = [*(r.radicand for k, r in record.roots.items() if k in set(alive)), *sheet.margins]
+        self.positive = [*(r.radicand for k, r in record.roots.items() if k in set(alive)), *compiled.margins]
         divided = {record.nodes[k].b for k in alive if record.nodes[k].op == Op.DIV}
         self.apart = sorted(k for k in divided if record.nodes[k].row)
         self.apart += [v.index for v in answers.values() if varies(v)]
@@ -289,7 +289,7 @@ class _Compiled:
 
     def _python(self) -> Callable[..., tuple[float, ...] | None]:
         """The same for one row of floats; None where the row has to be looked at."""
-        record, names = self.sheet.record, {k: f"x{n}" for n, k in enumerate(self.nodes)}
+        record, names = self.compiled.record, {k: f"x{n}" for n, k in enumerate(self.nodes)}
         wanted = [*self.shown, *self.positive, *self.apart]
         text = straight_line(record, wanted, names, PYTHON)
         count, limits = len(self.shown), self.limits.tolist()
@@ -372,7 +372,7 @@ class _Compiled:
         """The case of a row with `near` where its branch has the points that assemble in two places."""
         if not case.near:
             return case
-        scene = self.sheet.scene
+        scene = self.compiled.scene
         found = [v for name in case.near for v in scene.points.get(name, (0.0, 0.0))]
         flat = [scene.record.lifted(v).index for v in found]
         here = {k: np.array(float(c[row] if c.ndim else c)) for k, c in zip(self.nodes, given, strict=True)}
@@ -388,20 +388,22 @@ def _root(value: float) -> float:
     return sqrt(value) if value > 0.0 else 0.0
 
 
-def _compiled(case: Case, names: Mapping[str, str], asked: Asked, gradients: bool) -> _Compiled | None:
+def _compiled(case: Case, names: Mapping[str, str], asked: RowRequest, gradients: bool) -> _Compiled | None:
     """The record of the case with all inputs; None where its figure or its loads need a scene a row."""
     setting: Setting = setting_of(case, (), ())
     if any(isinstance(step, Group) for step in setting.figure.steps):
         return None
     setting = setting._replace(paths=tuple(names.values()), drive=Drive((), (), ()))
     try:
-        sheet = sheet_of(setting, _told(case, asked))
+        compiled = compile_sweep(setting, _told(case, asked))
     except SceneError:  # beside the case as written nothing moves: it does so by exact data alone
         return None
-    return None if sheet.refusal is not None or sheet.delicate else _Compiled(sheet, names, gradients)
+    return (
+        None if compiled.refusal is not None or compiled.delicate else _Compiled(compiled, names, gradients)
+    )
 
 
-def _told(case: Case, asked: Asked) -> Asked:
+def _told(case: Case, asked: RowRequest) -> RowRequest:
     """Where no load is unknown, rates are run: without them the status would mean nothing."""
     return asked if any(map(is_unknown, case.loads)) or asked.centres else asked._replace(rates=True)
 

@@ -22,7 +22,7 @@ from icsolve.numbers.replay import BINARY, live
 from icsolve.statics.power import Points, spring_angle
 from icsolve.sweep.branches import live_roots
 from icsolve.sweep.numbers import numbers_of, with_numbers
-from icsolve.sweep.program import Sheet
+from icsolve.sweep.program import CompiledSweep
 
 DIGITS = 120
 ZERO = Decimal("1e-40")
@@ -61,8 +61,8 @@ class ExactRecord:
     ``given`` of its methods are the inputs of the row by their nodes [case units, degrees], exact decimals.
     """
 
-    def __init__(self, sheet: Sheet) -> None:
-        self.sheet, self.record = sheet, sheet.record
+    def __init__(self, compiled: CompiledSweep) -> None:
+        self.compiled, self.record = compiled, compiled.record
         self.still: Values = {}
         self.orders: dict[tuple[int, ...], tuple[list[Step], Values]] = {}
         self.least: Values = {}
@@ -72,7 +72,7 @@ class ExactRecord:
 
     def _decimals(self) -> Values:
         """What the constants of the record are in the file."""
-        numbers = numbers_of(self.sheet.setting.case)
+        numbers = numbers_of(self.compiled.setting.case)
         return {
             traced.index: decimal_of(numbers[name]) if name in numbers else Decimal(value)
             for (value, name), traced in self.record._constants.items()
@@ -162,7 +162,7 @@ class ExactRecord:
     def _solved(self, given: Mapping[int, Decimal]) -> Values:
         """The inputs with the groups' unknowns solved, from what they are in floats."""
         values = dict(given)
-        groups = self.sheet.motion.groups if self.sheet.motion else ()
+        groups = self.compiled.motion.groups if self.compiled.motion else ()
         if not groups:
             return values
         if self.last is None or self.last[0] != given:
@@ -247,10 +247,10 @@ def decimal_of(number: Number) -> Decimal:
 class RowScenes:
     """Rows of a compiled sweep as cases: all points by coordinates, directions as they have turned."""
 
-    def __init__(self, sheet: Sheet) -> None:
-        self.sheet, self.exact = sheet, ExactRecord(sheet)
-        self.roots = live_roots(sheet)
-        self.scene, record = sheet.scene, sheet.record
+    def __init__(self, compiled: CompiledSweep) -> None:
+        self.compiled, self.exact = compiled, ExactRecord(compiled)
+        self.roots = live_roots(compiled)
+        self.scene, record = compiled.scene, compiled.record
         self.points = dict(self.scene.points)
         self.directions = {own.path: (c, s) for own, c, s in record.directions.values()}
         self.numbers = {path: value for path, value in record.vary.items() if path.endswith("@")}
@@ -259,11 +259,11 @@ class RowScenes:
     def refuse_apart(self, given: Mapping[int, Decimal]) -> None:
         """Raise SceneError where the links do not reach one another, spare conditions are not met, or two
         loci of a point have become one."""
-        sheet, exact = self.sheet, self.exact
+        compiled, exact = self.compiled, self.exact
         try:
             margins = exact.margins(self.roots, given)
-            margins += exact.values([sheet.record.at(k) for k in sheet.margins], given)
-            checks = [sheet.record.at(k) for k in sheet.motion.checks] if sheet.motion else []
+            margins += exact.values([compiled.record.at(k) for k in compiled.margins], given)
+            checks = [compiled.record.at(k) for k in compiled.motion.checks] if compiled.motion else []
             off = exact.values(checks, given)
         except Unreached:
             raise SceneError(Status.CANNOT_ASSEMBLE, APART) from None

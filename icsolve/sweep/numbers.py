@@ -75,8 +75,8 @@ def find_number(case: Case, path: str) -> Number:
     if len(found) == 1:
         return found[0]
     if found:
-        ways = " or ".join(number.path for number in found)
-        raise _refusal(case, section, path, f"{len(found)} numbers are meant by it; write {ways}")
+        lines = " or ".join(number.path for number in found)
+        raise _refusal(case, section, path, f"{len(found)} numbers are meant by it; write {lines}")
     raise _refusal(case, section, path, _missing(case, known, path, section, rest))
 
 

@@ -1,4 +1,4 @@
-"""Which rows of a sweep are run together, and along which way their inputs are followed.
+"""Which rows of a sweep are run together, and along which line their inputs are followed.
 
 Most rows can be run at once: no branch comes near a change point on the way to them. The others are
 followed from the position as written, the main input last.
@@ -12,21 +12,21 @@ from typing import NamedTuple
 import numpy as np
 
 from icsolve.numbers.replay import BLOCK, Array, Code
-from icsolve.sweep.ask import Columns
 from icsolve.sweep.branches import STEEP, Followed, Radicands, follow, grid_of, live_roots, signs_of
+from icsolve.sweep.continuation import ChangePoints, InputLine, State, written_state
 from icsolve.sweep.numbers import numbers_of
-from icsolve.sweep.program import Sheet, Signs
+from icsolve.sweep.path_tracking import Mask, PathTracker
+from icsolve.sweep.program import CompiledSweep, Signs
+from icsolve.sweep.request import Columns
 from icsolve.sweep.runner import Rows, Runner
 from icsolve.sweep.start import Start
-from icsolve.sweep.track import Mask, Track
-from icsolve.sweep.way import State, Touches, Way, written_state
 
 WIDEST = 4.0
-"""Longest step of a way along an angle, degrees."""
+"""Longest step of a line along an angle, degrees."""
 PART = 2.0**-7
-"""Longest step of a way along a length, as a part of the figure's size."""
+"""Longest step of a line along a length, as a part of the figure's size."""
 GLANCES = 96
-"""Places on the straight way to a row at which its branches are glanced at."""
+"""Places on the straight line to a row at which its branches are glanced at."""
 
 
 class SweepPart(NamedTuple):
@@ -34,9 +34,9 @@ class SweepPart(NamedTuple):
 
     Attributes
     ----------
-    runner : of a sheet in which the branches that change are inputs
+    runner : of a compiled sweep in which the branches that change are inputs
     rows : (n,), their indices in the sweep
-    followed : the way along which they are followed, if they are
+    followed : the line along which they are followed, if they are
     places : (n,), where on it they lie
     ordered : whether these are all rows in their order
     """
@@ -70,20 +70,20 @@ class SweepParts:
         Returns
         -------
         tuple[dict[int, Array], Mask]
-            By node, (n,) each; and which of the rows are reached on their way, (n,).
+            By node, (n,) each; and which of the rows are reached along their line, (n,).
         """
-        inputs = part.runner.sheet.inputs
+        inputs = part.runner.compiled.inputs
         every = slice(None) if part.ordered else part.rows
         given = {inputs[name]: a[every] for name, a in self.arrays.items() if name in inputs}
         if part.followed is None:
             return given, np.ones(len(part.rows), dtype=bool)
-        along, good = part.followed.track.given(part.places)
+        along, good = part.followed.tracker.given(part.places)
         return {**along, **given}, good
 
     def all(self) -> Iterator[SweepPart]:
         """Every row in some part."""
         runner = self.start.runner()
-        sheet, rows = runner.sheet, np.arange(self.columns.rows)
+        compiled, rows = runner.compiled, np.arange(self.columns.rows)
         bearing = [name for name in runner.bearing if name in self.arrays]
         if not bearing:
             yield SweepPart(runner, rows, ordered=True)
@@ -95,17 +95,17 @@ class SweepParts:
         if at_once is not None:
             yield at_once
         for alike in self._alike(left, others):
-            yield self._followed(sheet, main, others, alike)
+            yield self._followed(compiled, main, others, alike)
 
     def whole(self) -> SweepPart:
-        """All rows in one part, on their way, where one number varies."""
+        """All rows in one part, along their line, where one number varies."""
         runner = self.start.runner()
         bearing = [name for name in runner.bearing if name in self.arrays]
         rows = np.arange(self.columns.rows)
         if not bearing:
             return SweepPart(runner, rows)
         main = max(bearing, key=lambda name: float(np.ptp(self.arrays[name])))
-        return self._followed(runner.sheet, main, [name for name in bearing if name != main], rows)
+        return self._followed(runner.compiled, main, [name for name in bearing if name != main], rows)
 
     # --- at once ----------------------------------------------------------------------------------
 
@@ -114,44 +114,51 @@ class SweepParts:
     ) -> tuple[SweepPart | None, Rows]:
         """What can be run at once, and the rows that are left."""
         if others:
-            clear = self._clear(runner.sheet, main, others)
+            clear = self._clear(runner.compiled, main, others)
             return (SweepPart(runner, rows[clear]) if clear.any() else None), rows[~clear]
-        if self._meets_nothing(runner.sheet, main):
+        if self._meets_nothing(runner.compiled, main):
             return SweepPart(runner, rows, ordered=True), rows[:0]
         return None, rows
 
-    def _meets_nothing(self, sheet: Sheet, main: str) -> bool:
+    def _meets_nothing(self, compiled: CompiledSweep, main: str) -> bool:
         """Whether no branch comes near a change point or a limit between the position as written and the
         rows, all of which can then be run at once."""
-        at, way = self.arrays[main], self._way(sheet, main, {})
-        grid = grid_of([float(at.min()), float(at.max())], way)
-        track = Track(sheet, way, written_state(sheet), Touches({}), (way.start, way.start))
-        return not Radicands(sheet, track, grid).touching
+        at, line = self.arrays[main], self._way(compiled, main, {})
+        grid = grid_of([float(at.min()), float(at.max())], line)
+        tracker = PathTracker(
+            compiled, line, written_state(compiled), ChangePoints({}), (line.start, line.start)
+        )
+        return not Radicands(compiled, tracker, grid).touching
 
-    def _clear(self, sheet: Sheet, main: str, others: list[str]) -> Mask:
-        """Rows on whose way from the position as written no branch comes near a change point.
+    def _clear(self, compiled: CompiledSweep, main: str, others: list[str]) -> Mask:
+        """Rows on whose line from the position as written no branch comes near a change point.
 
         First the other inputs go to their values, then the main one over all of its own: rows that share the
-        other values share the way. Where few do, each row is looked at on the straight way to it.
+        other values share the line. Where few do, each row is looked at on the straight line to it.
         """
         values, start = self.arrays[main], self._written(main)
-        grid = grid_of([start, float(values.min()), float(values.max())], self._way(sheet, main, {}))
+        grid = grid_of([start, float(values.min()), float(values.max())], self._way(compiled, main, {}))
         sets, which = _sets(np.stack([self.arrays[name] for name in others], axis=1))
         share, whole = np.linspace(0.0, 1.0, GLANCES), np.ones(len(grid))
         if len(sets) * (GLANCES + len(grid)) > len(values) * GLANCES:
             every = np.column_stack([*(self.arrays[name] for name in others), values])
-            return self._unbroken(sheet, [*others, main], every, share)
+            return self._unbroken(compiled, [*others, main], every, share)
         mains = np.full((len(sets), 1), start)
-        first = self._unbroken(sheet, [*others, main], np.hstack([sets, mains]), share)
-        then = self._unbroken(sheet, others, sets, whole, {sheet.inputs[main]: grid})
+        first = self._unbroken(compiled, [*others, main], np.hstack([sets, mains]), share)
+        then = self._unbroken(compiled, others, sets, whole, {compiled.inputs[main]: grid})
         return np.asarray((first & then)[which])
 
     def _unbroken(
-        self, sheet: Sheet, names: list[str], sets: Array, share: Array, along: dict[int, Array] | None = None
+        self,
+        compiled: CompiledSweep,
+        names: list[str],
+        sets: Array,
+        share: Array,
+        along: dict[int, Array] | None = None,
     ) -> Mask:
         """Which sets of numbers lead away from no branch, where these shares reach them from those as
         written (and other inputs go along)."""
-        code = Code(sheet.record, [root.radicand for root in live_roots(sheet)])
+        code = Code(compiled.record, [root.radicand for root in live_roots(compiled)])
         clear = np.ones(len(sets), dtype=bool)
         step = max(1, 4 * BLOCK // len(share))
         for start in range(0, len(sets), step):
@@ -159,7 +166,7 @@ class SweepParts:
             given = {k: np.tile(values, len(some)) for k, values in (along or {}).items()}
             for n, name in enumerate(names):
                 written = self._written(name)
-                given[sheet.inputs[name]] = (written + (some[:, n : n + 1] - written) * share).ravel()
+                given[compiled.inputs[name]] = (written + (some[:, n : n + 1] - written) * share).ravel()
             for found in code.run(given, len(some) * len(share)):
                 radicand = np.broadcast_to(found, len(some) * len(share)).reshape(len(some), -1)
                 steps = np.abs(np.diff(radicand, axis=1)).max(axis=1)
@@ -185,26 +192,30 @@ class SweepParts:
     def _is_angle(self, name: str) -> bool:
         return name in self.start.links or name.startswith("angles.")
 
-    def _followed(self, sheet: Sheet, main: str, others: list[str], rows: Rows) -> SweepPart:
-        """Rows on one way: first the other inputs go to their values, then the main one."""
-        state = written_state(sheet)
+    def _followed(self, compiled: CompiledSweep, main: str, others: list[str], rows: Rows) -> SweepPart:
+        """Rows along one line: first the other inputs go to their values, then the main one."""
+        state = written_state(compiled)
         here = {name: float(self.arrays[name][rows[0]]) for name in others}
-        base = {name: self._written(name) for name in sheet.inputs if name in self.arrays}
+        base = {name: self._written(name) for name in compiled.inputs if name in self.arrays}
         slope = {name: here[name] - base[name] for name in others}
         if any(slope.values()):
-            first = follow(self.start.sheet, sheet, Way(base, slope, 0.0, 2.0**-6), state, np.array([1.0]))
-            state = first.track.end(1.0)
-        places, way = self.arrays[main][rows], self._way(sheet, main, here)
-        followed = follow(self.start.sheet, self.start.sheet(_changed(sheet, state)), way, state, places)
-        return SweepPart(self.start.runner(signs_of(followed.sheet)), rows, followed, places)
+            first = follow(
+                self.start.compiled, compiled, InputLine(base, slope, 0.0, 2.0**-6), state, np.array([1.0])
+            )
+            state = first.tracker.end(1.0)
+        places, line = self.arrays[main][rows], self._way(compiled, main, here)
+        followed = follow(
+            self.start.compiled, self.start.compiled(_changed(compiled, state)), line, state, places
+        )
+        return SweepPart(self.start.runner(signs_of(followed.compiled)), rows, followed, places)
 
-    def _way(self, sheet: Sheet, main: str, here: dict[str, float]) -> Way:
-        """The way of the main input, the others being at some values, or as written."""
+    def _way(self, compiled: CompiledSweep, main: str, here: dict[str, float]) -> InputLine:
+        """The line of the main input, the others being at some values, or as written."""
         angle = self._is_angle(main)
         widest = WIDEST if angle else PART / self.start.setting.figure.frame.scale
-        base = {name: self._written(name) for name in sheet.inputs if name in self.arrays}
+        base = {name: self._written(name) for name in compiled.inputs if name in self.arrays}
         base = {**base, **here, main: 0.0}
-        return Way(base, {main: 1.0}, self._written(main), widest, 360.0 if angle else None)
+        return InputLine(base, {main: 1.0}, self._written(main), widest, 360.0 if angle else None)
 
 
 def _sets(table: Array) -> tuple[Array, Rows]:
@@ -216,8 +227,8 @@ def _sets(table: Array) -> tuple[Array, Rows]:
     return sets, which.ravel()[np.cumsum(new) - 1]
 
 
-def _changed(sheet: Sheet, state: State) -> Signs:
+def _changed(compiled: CompiledSweep, state: State) -> Signs:
     """The branches whose sign is no longer as written."""
-    assert sheet.motion is not None
-    written = sheet.motion.written
+    assert compiled.motion is not None
+    written = compiled.motion.written
     return tuple(sorted((n, written[n]) for n, sign in state.signs.items() if sign != written[n]))

@@ -24,12 +24,12 @@ from icsolve.screws.plane import Point
 from icsolve.statics.power import points_of
 from icsolve.structure.topology import Topology, topology
 from icsolve.sweep.drivers import Drive, condition, drive_of, pose_of, turning, turns_links
+from icsolve.sweep.friction_rows import FrictionRows, rubbing
 from icsolve.sweep.numbers import find_number, numbers_of
-from icsolve.sweep.rubbing import RubbingRows, rubbing
-from icsolve.sweep.scene import (
+from icsolve.sweep.recorded_scene import (
     RecordedScene,
     RecordedStatics,
-    Resting,
+    RestingContact,
     centre,
     moved_scene,
     pressing,
@@ -43,7 +43,7 @@ Signs = tuple[tuple[str, float], ...]
 """Branches whose sign is an input, with their sign as written."""
 
 
-class Asked(NamedTuple):
+class RowRequest(NamedTuple):
     """What is asked of every row."""
 
     answers: bool = True
@@ -53,7 +53,7 @@ class Asked(NamedTuple):
     velocities: bool = False
     accelerations: bool = False
     dynamic: bool = False
-    contacts: tuple[Resting, ...] = ()
+    contacts: tuple[RestingContact, ...] = ()
 
     @property
     def in_motion(self) -> bool:
@@ -78,7 +78,7 @@ class Setting(NamedTuple):
         return bool(self.drive.moving or self.links)
 
 
-class Sheet(NamedTuple):
+class CompiledSweep(NamedTuple):
     """The record of a sweep.
 
     Attributes
@@ -103,7 +103,7 @@ class Sheet(NamedTuple):
     """of the figure as written, where it is another in each row: none may be negative"""
     delicate: bool = False
     """whether the mechanism moves only because its data are exact, or nearly so"""
-    rubbing: RubbingRows | None = None
+    rubbing: FrictionRows | None = None
     """of a case with friction whose unknown loads can be had in all rows at once"""
     rests: bool = False
     """whether contacts are told row by row"""
@@ -170,17 +170,17 @@ NUDGES = (2.0**-9, -(2.0**-9), 2.0**-14, -(2.0**-14), 2.0**-6, -(2.0**-6))
 so that nothing in it is zero by chance."""
 
 
-def sheet_of(setting: Setting, asked: Asked, signs: Signs = ()) -> Sheet:
+def compile_sweep(setting: Setting, asked: RowRequest, signs: Signs = ()) -> CompiledSweep:
     """The record of a sweep; the branches in ``signs`` have theirs as inputs."""
     refusal: SceneError | None = None
     for nudge in NUDGES:
         try:
-            sheet = _sheet(setting, asked, nudge, signs)
+            compiled = _sheet(setting, asked, nudge, signs)
         except (SceneError, ZeroDivisionError) as error:
             refusal = error if isinstance(error, SceneError) else refusal
             continue
-        if all(sheet.record.nodes[root.radicand].value > 0.0 for root in sheet.record.roots.values()):
-            return sheet
+        if all(compiled.record.nodes[root.radicand].value > 0.0 for root in compiled.record.roots.values()):
+            return compiled
     raise refusal or SceneError(
         Status.CHANGE_POINT,
         "the position as written is a limit: the mechanism assembles there, but not beside it. Write the "
@@ -188,7 +188,7 @@ def sheet_of(setting: Setting, asked: Asked, signs: Signs = ()) -> Sheet:
     )
 
 
-def _sheet(setting: Setting, asked: Asked, nudge: float, signs: Signs) -> Sheet:
+def _sheet(setting: Setting, asked: RowRequest, nudge: float, signs: Signs) -> CompiledSweep:
     case, record, frame = setting.case, Record(), setting.figure.frame
     numbers = numbers_of(case)
     record.follows = setting.moves
@@ -209,13 +209,17 @@ def _sheet(setting: Setting, asked: Asked, nudge: float, signs: Signs) -> Sheet:
         motion, scene = None, RecordedScene(case, setting.top, frame, record, names)
     scene = rested(scene, asked.contacts, inputs)
     outputs, found = _outputs(scene, asked)
-    sheet = Sheet(setting, record, inputs, outputs, motion, scene, None, margins, rests=bool(asked.contacts))
+    compiled = CompiledSweep(
+        setting, record, inputs, outputs, motion, scene, None, margins, rests=bool(asked.contacts)
+    )
     if found is None:
-        return sheet
-    sheet = sheet._replace(delicate=found.delicate)
+        return compiled
+    compiled = compiled._replace(delicate=found.delicate)
     if not (asked.answers and refusals.rubs(case)):
-        return sheet._replace(refusal=found.refusal)
-    return sheet if found.refusal else sheet._replace(rubbing=rubbing(scene, found.motions, found.balance))
+        return compiled._replace(refusal=found.refusal)
+    return (
+        compiled if found.refusal else compiled._replace(rubbing=rubbing(scene, found.motions, found.balance))
+    )
 
 
 def _motion(
@@ -258,7 +262,7 @@ def _not_together(path: str, paths: Sequence[str]) -> SceneError:
 
 
 def _outputs(
-    scene: RecordedScene, asked: Asked
+    scene: RecordedScene, asked: RowRequest
 ) -> tuple[dict[tuple[str, str], tuple[Scalar, ...]], RecordedStatics | None]:
     """Expressions of all that is asked, in case units; the statics by which they were found."""
     ox, oy, scale = scene.frame

@@ -36,10 +36,10 @@ class Recheck:
 
     def __init__(self, parts: SweepParts, part: SweepPart) -> None:
         self.parts, self.part = parts, part
-        self.sheet = part.runner.sheet
+        self.compiled = part.runner.compiled
         self.scenes: RowScenes = part.runner.cases
-        self.track = part.followed.track if part.followed else None
-        self.touches: dict[tuple[str, float], Decimal] = {}
+        self.tracker = part.followed.tracker if part.followed else None
+        self.change_points: dict[tuple[str, float], Decimal] = {}
         self.solved: tuple[Decimal, dict[int, Decimal]] | None = None
         self.unreached: set[Decimal] = set()
         self.last: tuple[int, dict[int, Decimal]] = (-1, {})
@@ -56,10 +56,10 @@ class Recheck:
         if not good.all():
             raise SceneError(Status.CANNOT_ASSEMBLE, APART)
         arrays = self.parts.arrays
-        varied = {k: as_written(arrays[n][row]) for n, k in self.sheet.inputs.items() if n in arrays}
+        varied = {k: as_written(arrays[n][row]) for n, k in self.compiled.inputs.items() if n in arrays}
         given = {k: Decimal(float(np.ravel(v)[0])) for k, v in floats.items()} | varied
-        if self.track is not None:
-            (main,) = self.track.way.slope
+        if self.tracker is not None:
+            (main,) = self.tracker.line.slope
             given |= self._signs(as_written(arrays[main][row]))
             given |= self._states(row, float(arrays[main][row]))
         return given
@@ -77,7 +77,7 @@ class Recheck:
         """All outputs of a row, each rounded once, by (kind, name) and part [case units]; not a number where
         one is without a value.
         """
-        outputs = self.sheet.outputs
+        outputs = self.compiled.outputs
         flat = self.scenes.exact.values([v for parts in outputs.values() for v in parts], self.given(row))
         found = iter(flat)
         return {key: [_rounded(next(found), float(part)) for part in parts] for key, parts in outputs.items()}
@@ -88,27 +88,27 @@ class Recheck:
         """The inputs, by node, where the varied number ``name`` is ``s`` and the others have the values of
         the first row.
         """
-        row, inputs = int(self.part.rows[0]), self.sheet.inputs
+        row, inputs = int(self.part.rows[0]), self.compiled.inputs
         arrays = self.parts.arrays
         given = {k: as_written(arrays[n][row]) for n, k in inputs.items() if n in arrays}
-        if self.track is None:
+        if self.tracker is None:
             return {**given, inputs[name]: s}
-        (main,) = self.track.way.slope
+        (main,) = self.tracker.line.slope
         place = s if main == name else as_written(arrays[main][row])
         along = self._along(place, row) | self._signs(place) | self._near_states(row, place)
         return {**along, inputs[name]: s}
 
     def _near_states(self, row: int, s: Decimal) -> dict[int, Decimal]:
         """States of groups from those that were solved last, where that was near."""
-        assert self.track is not None
-        if not self.track.groups:
+        assert self.tracker is not None
+        if not self.tracker.groups:
             return {}
-        if self.solved is not None and abs(self.solved[0] - s) < Decimal(BESIDE * self.track.way.widest):
+        if self.solved is not None and abs(self.solved[0] - s) < Decimal(BESIDE * self.tracker.line.widest):
             return self.solved[1]
         if s in self.unreached:
             raise Unreached
         guess = self._states(row, float(s))
-        columns = [k for group, _ in self.track.groups for k in group.solved]
+        columns = [k for group, _ in self.tracker.groups for k in group.solved]
         try:
             states = self.scenes.exact.states(self._along(s, row) | guess, columns)
         except Unreached:
@@ -130,39 +130,39 @@ class Recheck:
         tuple[dict[int, Array], Mask]
             By node, (values,) or one number; and at which values groups have a solution, (values,).
         """
-        row, inputs = int(self.part.rows[0]), self.sheet.inputs
+        row, inputs = int(self.part.rows[0]), self.compiled.inputs
         given = {inputs[n]: np.array(a[row]) for n, a in self.parts.arrays.items() if n in inputs}
         good = np.ones(len(at), dtype=bool)
-        if self.track is not None:
-            (main,) = self.track.way.slope
+        if self.tracker is not None:
+            (main,) = self.tracker.line.slope
             places = at if main == name else np.full(len(at), self.parts.arrays[main][row])
-            along, good = self.track.given(places)
+            along, good = self.tracker.given(places)
             given = {**along, **given}
         return {**given, inputs[name]: at}, good
 
     @property
     def widest(self) -> float:
-        """The longest step of the way."""
-        return self.track.way.widest if self.track is not None else 0.0
+        """The longest step of the line."""
+        return self.tracker.line.widest if self.tracker is not None else 0.0
 
     def touching(self, name: str) -> Iterator[Decimal]:
         """The exact places of change points along a number."""
-        if self.part.followed is None or name not in self.part.followed.track.way.slope:
+        if self.part.followed is None or name not in self.part.followed.tracker.line.slope:
             return
         for branch, passing in self.part.followed.passed.items():
-            for place in passing.touches:
+            for place in passing.change_points:
                 yield self._place(branch, place)
 
     # --- groups -----------------------------------------------------------------------------------
 
     def _states(self, row: int, s: float) -> dict[int, Decimal]:
-        """The states of groups near a singular position, by the polynomial through states around it: the way
+        """The states of groups near a singular position, by the polynomial through states around it: the line
         goes straight on there, where Newton's method alone might take the other one."""
-        track = self.track
-        if track is None or not track.groups or not track.bent(np.array([s]))[0]:
+        tracker = self.tracker
+        if tracker is None or not tracker.groups or not tracker.bent(np.array([s]))[0]:
             return {}
-        columns = [k for group, _ in track.groups for k in group.solved]
-        at, step = as_written(s), Decimal(AROUND * track.way.widest)
+        columns = [k for group, _ in tracker.groups for k in group.solved]
+        at, step = as_written(s), Decimal(AROUND * tracker.line.widest)
         weights, total = (1, -6, 15, 15, -6, 1), Decimal(20)
         places = [at + k * step for k in (-3, -2, -1, 1, 2, 3)]
         try:
@@ -179,36 +179,36 @@ class Recheck:
     # --- sides of change points -------------------------------------------------------------------
 
     def _signs(self, s: Decimal) -> dict[int, Decimal]:
-        """The signs of branches that change near a place of the way, by the exact places of the changes."""
-        assert self.track is not None
-        track, found = self.track, {}
-        for name, places in track.touches.places.items():
+        """The signs of branches that change near a place of the line, by the exact places of the changes."""
+        assert self.tracker is not None
+        tracker, found = self.tracker, {}
+        for name, places in tracker.change_points.places.items():
             for place in places:
                 copy = self._copy(place, float(s))
-                clear = CLEAR * track.way.widest
-                if abs(float(s) - copy) >= clear or name not in self.sheet.inputs:
+                clear = CLEAR * tracker.line.widest
+                if abs(float(s) - copy) >= clear or name not in self.compiled.inputs:
                     continue
                 exact = self._place(name, copy)
                 side = np.array([copy + clear * (1.0 if s > exact else -1.0)])
-                flip = float(track.touches.flips(name, side, track.way)[0])
-                found[self.sheet.inputs[name]] = Decimal(track.start.signs[name] * flip)
+                flip = float(tracker.change_points.flips(name, side, tracker.line)[0])
+                found[self.compiled.inputs[name]] = Decimal(tracker.start.signs[name] * flip)
         return found
 
     def _copy(self, place: float, s: float) -> float:
         """A place, so many whole turns away that it is near to another."""
-        period = self.track.way.period if self.track else None
+        period = self.tracker.line.period if self.tracker else None
         return place if period is None else place + period * round((s - place) / period)
 
     def _place(self, name: str, near: float) -> Decimal:
         """Where exactly a branch changes: its radicand is lowest there."""
-        if (name, near) not in self.touches:
-            motion = self.sheet.motion
+        if (name, near) not in self.change_points:
+            motion = self.compiled.motion
             root = next(r for r in self.scenes.roots if motion and motion.branches[r.node] == name)
-            self.touches[name, near] = self._lowest(root, near)
-        return self.touches[name, near]
+            self.change_points[name, near] = self._lowest(root, near)
+        return self.change_points[name, near]
 
     def _lowest(self, root: Root, near: float) -> Decimal:
-        at, radicand = as_written(near), self.sheet.record.at(root.radicand)
+        at, radicand = as_written(near), self.compiled.record.at(root.radicand)
         with localcontext(CONTEXT):
             for _ in range(12):
                 try:
@@ -228,17 +228,17 @@ class Recheck:
         return at
 
     def _along(self, s: Decimal, row: int | None = None) -> dict[int, Decimal]:
-        """All inputs at a place of the way, with the other numbers of a row (the first one)."""
-        assert self.track is not None
-        row, arrays, way = self.part.rows[0] if row is None else row, self.parts.arrays, self.track.way
-        floats, good = self.track.given(np.array([float(s)]))
+        """All inputs at a place of the line, with the other numbers of a row (the first one)."""
+        assert self.tracker is not None
+        row, arrays, line = self.part.rows[0] if row is None else row, self.parts.arrays, self.tracker.line
+        floats, good = self.tracker.given(np.array([float(s)]))
         if not good.all():
             raise Unreached
         given: dict[int, Decimal] = {k: Decimal(float(np.ravel(v)[0])) for k, v in floats.items()}
-        given |= {k: as_written(arrays[n][row]) for n, k in self.sheet.inputs.items() if n in arrays}
-        (main,) = way.slope
-        if main in self.sheet.inputs:
-            given[self.sheet.inputs[main]] = s
+        given |= {k: as_written(arrays[n][row]) for n, k in self.compiled.inputs.items() if n in arrays}
+        (main,) = line.slope
+        if main in self.compiled.inputs:
+            given[self.compiled.inputs[main]] = s
         return given
 
 

@@ -21,8 +21,8 @@ from icsolve.numbers.record import Node, Op, Record, terms_of, varies
 from icsolve.numbers.replay import BLOCK, Array, Code, live
 from icsolve.sweep.branches import live_roots
 from icsolve.sweep.exact import RowScenes
-from icsolve.sweep.program import Sheet
-from icsolve.sweep.rubbing import RubbingRows
+from icsolve.sweep.friction_rows import FrictionRows
+from icsolve.sweep.program import CompiledSweep
 
 SHALLOW = 1e-9
 """A radicand below this fraction of its terms makes its row doubtful."""
@@ -61,28 +61,28 @@ class RowsFound(NamedTuple):
 
 
 class Runner:
-    """A sheet compiled for its outputs: which nodes to run, and which of them to watch.
+    """A sweep compiled for its outputs: which nodes to run, and which of them to watch.
 
     It may run in several threads, each with its own buffers. A row is doubtful where a radicand, a divisor, a
     margin of the figure or an answer is small beside what it is where the record was made.
     """
 
-    def __init__(self, sheet: Sheet) -> None:
-        self.sheet = sheet
-        record = sheet.record
-        flat = [(key, part, v) for key, values in sheet.outputs.items() for part, v in enumerate(values)]
+    def __init__(self, compiled: CompiledSweep) -> None:
+        self.compiled = compiled
+        record = compiled.record
+        flat = [(key, part, v) for key, values in compiled.outputs.items() for part, v in enumerate(values)]
         self.still = [(key, part, float(v)) for key, part, v in flat if not varies(v)]
         self.moving = [(key, part, v.index) for key, part, v in flat if varies(v)]
         wanted = [index for _, _, index in self.moving]
-        self.rubs = sheet.rubbing.nodes if sheet.rubbing is not None else []
+        self.rubs = compiled.rubbing.nodes if compiled.rubbing is not None else []
         alive = Code(record, [*wanted, *self.rubs]).order
         self.roots = [record.roots[k] for k in alive if k in record.roots]
         self.divisors = _divisors(record.nodes, alive)
         answers = [n for n, (key, _, _) in enumerate(self.moving) if key[0] == "answers"]
-        self.loose = answers if not sheet.rests else []
-        self.resting = answers if sheet.rests else []
-        self.margins = sheet.margins
-        self.checks = _living(sheet, alive)
+        self.loose = answers if not compiled.rests else []
+        self.resting = answers if compiled.rests else []
+        self.margins = compiled.margins
+        self.checks = _living(compiled, alive)
         watched = [*(root.radicand for root in self.roots), *self.divisors, *self.margins, *self.checks]
         self.code = Code(record, [*wanted, *watched, *self.rubs])
         self.typical = [terms_of(record.nodes, k) for k in self.divisors]
@@ -92,24 +92,24 @@ class Runner:
     @cached_property
     def sequential(self) -> bool:
         """Whether states have to be followed from row to row."""
-        motion = self.sheet.motion
-        return motion is not None and bool(motion.groups or self.sheet.record.counted)
+        motion = self.compiled.motion
+        return motion is not None and bool(motion.groups or self.compiled.record.counted)
 
     @cached_property
     def bearing(self) -> tuple[str, ...]:
         """The inputs on which branches, groups and counted turns hang."""
-        sheet = self.sheet
-        if sheet.motion is None:
+        compiled = self.compiled
+        if compiled.motion is None:
             return ()
         if self.sequential:
-            return tuple(sheet.inputs)
-        behind = set(live(sheet.record, [root.radicand for root in self.roots], ()))
-        return tuple(name for name, k in sheet.inputs.items() if k in behind)
+            return tuple(compiled.inputs)
+        behind = set(live(compiled.record, [root.radicand for root in self.roots], ()))
+        return tuple(name for name, k in compiled.inputs.items() if k in behind)
 
     @cached_property
     def constants(self) -> list[tuple[Key, int, float]]:
         """Bounds of the outputs that are the same in every row, by output and part."""
-        outputs, record = self.sheet.outputs, self.sheet.record
+        outputs, record = self.compiled.outputs, self.compiled.record
         return [(key, part, noise_of(record, outputs[key][part])) for key, part, _ in self.still]
 
     @cached_property
@@ -134,7 +134,9 @@ class Runner:
     @cached_property
     def reaching(self) -> Code:
         """The margins of the branches, each with its size."""
-        return Code(self.sheet.record, [n for r in live_roots(self.sheet) for m in r.margins for n in m])
+        return Code(
+            self.compiled.record, [n for r in live_roots(self.compiled) for m in r.margins for n in m]
+        )
 
     def apart(self, given: Mapping[int, Array], rows: int) -> Mask:
         """Rows whose links clearly do not reach one another, (rows,); the others may still be in doubt."""
@@ -147,28 +149,28 @@ class Runner:
     @cached_property
     def cases(self) -> RowScenes:
         """Rows as cases of their own."""
-        return RowScenes(self.sheet)
+        return RowScenes(self.compiled)
 
     def passes(self, targets: Sequence[int], leaves: Sequence[int] = ()) -> Backward:
         """Backward passes from some nodes, as far as to the leaves: signs, guesses and counts of turns are
         exact.
         """
-        sheet = self.sheet
-        groups = sheet.motion.groups if sheet.motion else ()
-        exact = [k for name, k in sheet.inputs.items() if name.startswith(("branch ", "swing "))]
-        exact += [guess.index for guess, _ in sheet.record.counted.values()]
+        compiled = self.compiled
+        groups = compiled.motion.groups if compiled.motion else ()
+        exact = [k for name, k in compiled.inputs.items() if name.startswith(("branch ", "swing "))]
+        exact += [guess.index for guess, _ in compiled.record.counted.values()]
         exact += [k for group in groups for k in (*group.guesses, *group.solved)]
-        return Backward(sheet.record, targets, groups, exact, leaves)
+        return Backward(compiled.record, targets, groups, exact, leaves)
 
     def blank(self, rows: int) -> dict[Key, Array]:
         """Arrays for the outputs, (rows,) or (rows, parts), of which nothing is filled."""
-        widths = {key: len(parts) for key, parts in self.sheet.outputs.items()} | self.rubbed
+        widths = {key: len(parts) for key, parts in self.compiled.outputs.items()} | self.rubbed
         return {key: np.empty(rows if width == 1 else (rows, width)) for key, width in widths.items()}
 
     @cached_property
     def rubbed(self) -> dict[Key, int]:
         """What friction gives, and how many numbers a row."""
-        found = self.sheet.rubbing
+        found = self.compiled.rubbing
         names = found.ratios if found is not None else ()
         ranges = {("holds", name): 2 for name in names if found is not None and found.drive is None}
         return {("answers", name): 1 for name in names} | ranges
@@ -205,8 +207,8 @@ class Runner:
             for (key, part, _), array in zip(self.moving, found, strict=False):
                 column(values[key], part)[start:stop] = array
             again = self._watch(found)
-            if self.sheet.rubbing is not None:
-                again = self._rub(self.sheet.rubbing, found, slice(start, stop), values, again)
+            if self.compiled.rubbing is not None:
+                again = self._rub(self.compiled.rubbing, found, slice(start, stop), values, again)
             if again.size:
                 doubtful.append(again + start)
             if progress is not None:
@@ -214,7 +216,7 @@ class Runner:
         return RowsFound(values, np.concatenate(doubtful) if doubtful else np.empty(0, np.int64))
 
     def _rub(
-        self, by: RubbingRows, found: list[Array], rows: slice, values: dict[Key, Array], again: Rows
+        self, by: FrictionRows, found: list[Array], rows: slice, values: dict[Key, Array], again: Rows
     ) -> Rows:
         """Fill in what friction gives; the rows of a block that are to be looked at again."""
         count = rows.stop - rows.start
@@ -258,11 +260,11 @@ class Runner:
             bad.append(np.flatnonzero(~(values > limit)))
 
 
-def _living(sheet: Sheet, alive: Sequence[int]) -> list[int]:
+def _living(compiled: CompiledSweep, alive: Sequence[int]) -> list[int]:
     """The checks of links that bear on what is asked."""
-    checks = sheet.motion.checks if sheet.motion else ()
+    checks = compiled.motion.checks if compiled.motion else ()
     known = set(alive)
-    return [k for k in checks if known.intersection(live(sheet.record, [k], ()))]
+    return [k for k in checks if known.intersection(live(compiled.record, [k], ()))]
 
 
 def column(array: Array, part: int) -> Array:

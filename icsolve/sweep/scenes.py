@@ -17,9 +17,9 @@ from icsolve.errors import SceneError
 from icsolve.files import can_fork, started
 from icsolve.numbers.replay import Array
 from icsolve.scene import solve_scene
-from icsolve.sweep.ask import Columns
 from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.sweep.program import wanted_points
+from icsolve.sweep.request import Columns
 from icsolve.sweep.runner import Progress, Rows
 from icsolve.sweep.table import Table
 

@@ -13,9 +13,9 @@ from icsolve.assembly.loci import is_round
 from icsolve.assembly.steps import Meet
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
-from icsolve.sweep.ask import Columns
 from icsolve.sweep.numbers import with_numbers
-from icsolve.sweep.program import Asked, Setting, Sheet, Signs, setting_of, sheet_of
+from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, Signs, compile_sweep, setting_of
+from icsolve.sweep.request import Columns
 from icsolve.sweep.runner import Runner
 
 MOST_TRIED = 400
@@ -31,9 +31,11 @@ def setting(case: Case, paths: tuple[str, ...], links: tuple[str, ...]) -> Setti
 
 
 @lru_cache(maxsize=64)
-def runner(case: Case, paths: tuple[str, ...], links: tuple[str, ...], asked: Asked, signs: Signs) -> Runner:
-    """The compiled sheet of a sweep, once a case and what is asked."""
-    return Runner(sheet_of(setting(case, paths, links), asked, signs))
+def runner(
+    case: Case, paths: tuple[str, ...], links: tuple[str, ...], asked: RowRequest, signs: Signs
+) -> Runner:
+    """The runner of a compiled sweep, once a case and what is asked."""
+    return Runner(compile_sweep(setting(case, paths, links), asked, signs))
 
 
 def is_hard(setting: Setting) -> bool:
@@ -57,7 +59,7 @@ class Start(NamedTuple):
     case: Case
     paths: tuple[str, ...]
     links: tuple[str, ...]
-    asked: Asked
+    asked: RowRequest
     note: str = ""
     one_by_one: bool = False
     """whether each row has to be solved as a scene of its own"""
@@ -68,15 +70,15 @@ class Start(NamedTuple):
         return setting(self.case, self.paths, self.links)
 
     def runner(self, signs: Signs = ()) -> Runner:
-        """The compiled sheet; the branches in ``signs`` have theirs as inputs."""
+        """The runner; the branches in ``signs`` have theirs as inputs."""
         return runner(self.case, self.paths, self.links, self.asked, signs)
 
-    def sheet(self, signs: Signs = ()) -> Sheet:
-        """The sheet of the runner."""
-        return self.runner(signs).sheet
+    def compiled(self, signs: Signs = ()) -> CompiledSweep:
+        """What the runner runs."""
+        return self.runner(signs).compiled
 
 
-def start_of(case: Case, columns: Columns, asked: Asked) -> Start:
+def start_of(case: Case, columns: Columns, asked: RowRequest) -> Start:
     """Where a sweep starts.
 
     Raises SceneError where the case as written cannot be moved so, or no row assembles.
@@ -91,16 +93,16 @@ def start_of(case: Case, columns: Columns, asked: Asked) -> Start:
 
 
 def _checked(start: Start) -> Start:
-    """The start with the way in which its rows are run."""
+    """The start, with how its rows are run."""
     if is_hard(start.setting):
         return start._replace(one_by_one=True)
     try:
-        sheet = start.sheet()
+        compiled = start.compiled()
     except SceneError:
         if start.setting.moves:
             raise
         return start._replace(one_by_one=True)
-    special = (sheet.delicate or sheet.refusal is not None) and not sheet.setting.moves
+    special = (compiled.delicate or compiled.refusal is not None) and not compiled.setting.moves
     return start._replace(one_by_one=special and any(map(_shapes, start.paths)))
 
 

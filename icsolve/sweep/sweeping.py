@@ -15,14 +15,14 @@ from icsolve.kinematics.speeds import NO_SPEED
 from icsolve.numbers.replay import Array
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
-from icsolve.sweep.ask import Columns, Wanted, columns_of, refuse_size, shown_points, wanted_of
 from icsolve.sweep.numbers import with_numbers
-from icsolve.sweep.program import Asked
+from icsolve.sweep.program import RowRequest
+from icsolve.sweep.request import Columns, SweepRequest, columns_of, refuse_size, request_of, shown_points
+from icsolve.sweep.run import SweepRun
 from icsolve.sweep.runner import Progress
 from icsolve.sweep.scenes import by_scenes, families
 from icsolve.sweep.start import Start, start_of
 from icsolve.sweep.table import CODE, Sweep, Table
-from icsolve.sweep.work import Work
 
 BY_SCENES = "each row is solved as a scene of its own."
 IN_SPACE = (
@@ -75,7 +75,7 @@ def sweep(
         raise SceneError(Status.UNSUPPORTED, IN_SPACE)
     columns = columns_of(case, vary, drive)
     dynamic = dynamic or case.dynamic
-    wanted = wanted_of(case, tuple(want) if not isinstance(want, str) else (want,), dynamic)
+    wanted = request_of(case, tuple(want) if not isinstance(want, str) else (want,), dynamic)
     refuse_size(columns, wanted.asked, wanted.error)
     if dynamic and not any(given.speed is not None for given in case.motion):
         raise SceneError(Status.MOBILITY, NO_SPEED)
@@ -91,9 +91,9 @@ def sweep(
     return _together(start, columns, wanted, progress)
 
 
-def _together(start: Start, columns: Columns, wanted: Wanted, progress: Progress | None) -> Sweep:
+def _together(start: Start, columns: Columns, wanted: SweepRequest, progress: Progress | None) -> Sweep:
     """All rows by one record."""
-    work = Work(start, columns, wanted.error, progress)
+    work = SweepRun(start, columns, wanted.error, progress)
     work.run()
     found = work.table.sweep(start.case, _shown(columns), wanted.error, tuple(work.notes), work.case_of)
     return found if wanted.asked.rates else replace(found, rates={}, errors={**found.errors, "rates": {}})
@@ -104,15 +104,15 @@ def _rubs(case: Case) -> bool:
     return rubs(case)
 
 
-def _rubs_at_once(start: Start, wanted: Wanted) -> bool:
+def _rubs_at_once(start: Start, wanted: SweepRequest) -> bool:
     """Whether the friction of all rows is on the record; it has no bounds."""
-    return start.sheet().rubbing is not None and not wanted.error
+    return start.compiled().rubbing is not None and not wanted.error
 
 
-def _by_scenes(start: Start, columns: Columns, wanted: Wanted, progress: Progress | None) -> Sweep:
+def _by_scenes(start: Start, columns: Columns, wanted: SweepRequest, progress: Progress | None) -> Sweep:
     """Positions at once, each row then a scene of its own: with friction, ropes, or in a given motion."""
-    placed = start._replace(asked=Asked(answers=False, points=tuple(shown_points(start.case))))
-    work = Work(placed, columns, False)
+    placed = start._replace(asked=RowRequest(answers=False, points=tuple(shown_points(start.case))))
+    work = SweepRun(placed, columns, False)
     work.run()
     table = Table(columns.rows, wanted.asked)
     table.codes[:] = work.codes
@@ -122,7 +122,7 @@ def _by_scenes(start: Start, columns: Columns, wanted: Wanted, progress: Progres
     return table.sweep(start.case, _shown(columns), wanted.error, (*work.notes, BY_SCENES), work.case_of)
 
 
-def _family(start: Start, columns: Columns, wanted: Wanted, progress: Progress | None) -> Sweep:
+def _family(start: Start, columns: Columns, wanted: SweepRequest, progress: Progress | None) -> Sweep:
     """A family of figures without a construction for all: each solved as if written so."""
     table, moving = Table(columns.rows, wanted.asked), start.setting.drive.moving
     notes: dict[str, None] = dict.fromkeys([start.note] if start.note else [])
@@ -147,7 +147,7 @@ def _family(start: Start, columns: Columns, wanted: Wanted, progress: Progress |
     return table.sweep(start.case, _shown(columns), wanted.error, tuple(notes), case_of)
 
 
-def _told(case: Case, asked: Asked) -> Asked:
+def _told(case: Case, asked: RowRequest) -> RowRequest:
     """What has to be run: where no load is unknown, rates, so that the status means something."""
     unknown = any(map(is_unknown, case.loads))
     return asked if unknown or asked.rates or asked.centres else asked._replace(rates=True)

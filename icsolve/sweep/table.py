@@ -20,7 +20,7 @@ from icsolve.case.names import link_order
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
 from icsolve.numbers.tape import UNIT
-from icsolve.sweep.program import Asked
+from icsolve.sweep.program import RowRequest
 from icsolve.sweep.runner import Key, Rows
 
 WORDS = (
@@ -171,7 +171,7 @@ class Table:
     holds : by load, (rows, 2) [case units]
     """
 
-    def __init__(self, rows: int, asked: Asked) -> None:
+    def __init__(self, rows: int, asked: RowRequest) -> None:
         self.rows, self.asked = rows, asked
         self.codes: Codes = np.zeros(rows, dtype=np.int8)
         self.values: dict[Key, Array] = {}

@@ -8,15 +8,15 @@ from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import BLOCK, Array
 from icsolve.numbers.tape import UNIT
-from icsolve.sweep.ask import Columns
+from icsolve.sweep.continuation import InputLine
 from icsolve.sweep.numbers import with_numbers
 from icsolve.sweep.parts import SweepPart, SweepParts
 from icsolve.sweep.recheck import Recheck
+from icsolve.sweep.request import Columns
 from icsolve.sweep.runner import Key, Progress, Rows, RowsFound, column
 from icsolve.sweep.scenes import by_scenes
 from icsolve.sweep.start import Start
 from icsolve.sweep.table import CODE, Codes, Table
-from icsolve.sweep.way import Way
 
 CHUNK = 16 * BLOCK
 """Rows whose followed states are held at once."""
@@ -24,7 +24,7 @@ SAME = 1e-6
 """Change points nearer to each other than this, as a part of the longest step, are one."""
 
 
-class Work:
+class SweepRun:
     """One sweep as it is worked on; ``table`` is filled by ``run``."""
 
     def __init__(self, start: Start, columns: Columns, error: bool, progress: Progress | None = None) -> None:
@@ -48,7 +48,7 @@ class Work:
 
     def run(self) -> None:
         """Run every row."""
-        refusal = self.start.sheet().refusal
+        refusal = self.start.compiled().refusal
         if refusal is not None:
             self._refused(refusal)
             return
@@ -164,22 +164,22 @@ class Work:
         """Say where change points were passed, and what was not reached."""
         if part.followed is None:
             return
-        way = part.followed.track.way
-        touches = [*part.followed.track.passages()]
+        line = part.followed.tracker.line
+        change_points = [*part.followed.tracker.passages()]
         for passing in part.followed.passed.values():
-            touches += [*passing.touches, *passing.grazes]
+            change_points += [*passing.change_points, *passing.grazes]
             for gap in passing.gaps:
-                self._gap(way, gap)
-        first, last = min(way.start, *part.places), max(way.start, *part.places)
+                self._gap(line, gap)
+        first, last = min(line.start, *part.places), max(line.start, *part.places)
         said: list[float] = []
-        for at in sorted(touches):
-            if first <= at <= last and all(abs(at - other) > SAME * way.widest for other in said):
+        for at in sorted(change_points):
+            if first <= at <= last and all(abs(at - other) > SAME * line.widest for other in said):
                 said.append(at)
-                self._change(way, at)
+                self._change(line, at)
 
-    def _change(self, way: Way, at: float) -> None:
-        (name,) = way.slope
-        at = SAME * way.widest * round(at / (SAME * way.widest))
+    def _change(self, line: InputLine, at: float) -> None:
+        (name,) = line.slope
+        at = SAME * line.widest * round(at / (SAME * line.widest))
         note = (
             f"change point at {self.columns.names[name]} = {at:.6g}: it can go on there in more than one "
             "way, and the rows beyond are those to which it goes straight on."
@@ -187,8 +187,8 @@ class Work:
         if note not in self.notes:
             self.notes.append(note)
 
-    def _gap(self, way: Way, gap: float) -> None:
-        (name,) = way.slope
+    def _gap(self, line: InputLine, gap: float) -> None:
+        (name,) = line.slope
         self.notes.append(
             f"at {self.columns.names[name]} = {gap:.6g} the links do not reach, in less than a row: beyond, "
             "the branch of the position as written is kept, though no motion leads there."
@@ -208,6 +208,6 @@ def _with_singular(part: SweepPart, found: RowsFound) -> RowsFound:
     """Rows beside a singular position of a group are doubtful, too."""
     if part.followed is None:
         return found
-    track = part.followed.track
-    singular = np.flatnonzero(track.singular(part.places) | track.bent(part.places))
+    tracker = part.followed.tracker
+    singular = np.flatnonzero(tracker.singular(part.places) | tracker.bent(part.places))
     return found._replace(doubtful=np.union1d(found.doubtful, singular)) if singular.size else found

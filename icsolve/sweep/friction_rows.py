@@ -24,7 +24,7 @@ from icsolve.statics.friction_equations import forces_of
 from icsolve.statics.friction_interface import rates_of, rubs_of
 from icsolve.statics.power import Balance
 from icsolve.statics.reaction_basis import Position, meshes, ties_of
-from icsolve.sweep.scene import RecordedScene
+from icsolve.sweep.recorded_scene import RecordedScene
 
 SENSE = 1e-7
 """A rubbing rate below this fraction of what it is where the record was made leaves its sense open."""
@@ -44,7 +44,7 @@ Form = tuple[Scalar, ...]
 """An affine form on the record: the constant, then the coefficients of the sizes of the forces."""
 
 
-class RubbingRows(NamedTuple):
+class FrictionRows(NamedTuple):
     """The friction of a sweep, as expressions on its record. k rubs press with the sizes y, (k,), of their
     forces.
 
@@ -147,7 +147,7 @@ class Balanced(NamedTuple):
 # --- on the record --------------------------------------------------------------------------------
 
 
-def rubbing(scene: RecordedScene, motions: Motions, balance: Balance) -> RubbingRows | None:
+def rubbing(scene: RecordedScene, motions: Motions, balance: Balance) -> FrictionRows | None:
     """The friction of a scene on the record; None where each row has to be a scene of its own."""
     case = scene.case
     turned = case.motion[0] if case.motion else None
@@ -177,7 +177,7 @@ def rubbing(scene: RecordedScene, motions: Motions, balance: Balance) -> Rubbing
         return None
     load, forces = _reduced(statics, pressing)
     ratios = {w.load.name: w.ratio for w in balance.wrenches if w.root in statics.roots}
-    return RubbingRows(forces, load, rates, drive, ratios)
+    return FrictionRows(forces, load, rates, drive, ratios)
 
 
 def _reduced(

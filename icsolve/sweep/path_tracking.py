@@ -1,4 +1,4 @@
-"""A way that is followed: groups that Newton's method places, and turns that are counted, step by step.
+"""Following a line of inputs step by step: groups that Newton's method places, and turns that are counted.
 
 Each step starts from the last ones, so that rows between two steps start from near their solution and
 stay on the branch. Beyond a limit nothing is taken up: where the links assemble again, no motion leads.
@@ -15,14 +15,23 @@ import numpy.typing as npt
 from icsolve.assembly.driven.groups import ROUNDS, NewtonGroup, Solver
 from icsolve.numbers.record import Op
 from icsolve.numbers.replay import Array, Code
-from icsolve.sweep.program import Sheet
-from icsolve.sweep.stretch import Step, WayStretch, counts, cubic, goes_on, stretch_of
-from icsolve.sweep.way import State, Touches, Way
+from icsolve.sweep.continuation import (
+    ChangePoints,
+    InputLine,
+    PathSegment,
+    State,
+    Step,
+    counts,
+    cubic,
+    goes_on,
+    segment_of,
+)
+from icsolve.sweep.program import CompiledSweep
 
 FIRST = 2.0**-5
 """The first step, as a part of the longest."""
 SHORTEST = 2.0**-16
-"""A way that needs shorter steps, as a part of the longest, has come to a limit."""
+"""A line that needs shorter steps, as a part of the longest, has come to a limit."""
 TRIALS = 64
 QUICK = 6
 """Rounds of Newton's method that a step may take."""
@@ -35,23 +44,28 @@ BENT = 1e-4
 """Below this part of its size elsewhere the determinant of a group makes its row doubtful."""
 
 
-class Track:
-    """A way that is followed from a state, as far as the links assemble.
+class PathTracker:
+    """Follows a line of inputs from a state, as far as the links assemble.
 
     Parameters
     ----------
-    sheet : the record and its groups
-    way : inputs by place
-    start : the state where the way starts
-    touches : the places at which branches change
+    compiled : the record and its groups
+    line : inputs by place
+    start : the state where the line starts
+    change_points : the places at which branches change
     reach : the least and the greatest place to which it is followed
     """
 
     def __init__(
-        self, sheet: Sheet, way: Way, start: State, touches: Touches, reach: tuple[float, float]
+        self,
+        compiled: CompiledSweep,
+        line: InputLine,
+        start: State,
+        change_points: ChangePoints,
+        reach: tuple[float, float],
     ) -> None:
-        self.sheet, self.way, self.start, self.touches = sheet, way, start, touches
-        record, motion = sheet.record, sheet.motion
+        self.compiled, self.line, self.start, self.change_points = compiled, line, start, change_points
+        record, motion = compiled.record, compiled.motion
         assert motion is not None
         self.groups = [(group, Solver(record, group)) for group in motion.groups]
         self.counted = list(record.counted.values())
@@ -64,12 +78,12 @@ class Track:
         self.reach = reach
         self.ends = (-math.inf, math.inf)
         """how far groups were followed to both sides, where that ended"""
-        self.stretches = self._followed(reach) if self.groups or self.counted else []
+        self.segments = self._followed(reach) if self.groups or self.counted else []
 
     # --- inputs -----------------------------------------------------------------------------------
 
     def given(self, s: Array) -> tuple[dict[int, Array], Mask]:
-        """All inputs at places of the way.
+        """All inputs at places of the line.
 
         Parameters
         ----------
@@ -87,7 +101,7 @@ class Track:
 
     def _given(self, s: Array) -> tuple[dict[int, Array], Mask]:
         given, good = self._plain(s), np.ones(len(s), dtype=bool)
-        if self.stretches:
+        if self.segments:
             q, turns, good = self._between(s)
             solved, _, right = self._solved(given, q, turns)
             solved = np.where(right[:, None], solved, q)
@@ -123,11 +137,11 @@ class Track:
 
     def _plain(self, s: Array) -> dict[int, Array]:
         """Inputs and signs."""
-        given = self.way.inputs(self.sheet, s)
-        for name in self.sheet.motion.written if self.sheet.motion else ():
-            if name in self.sheet.inputs:
+        given = self.line.inputs(self.compiled, s)
+        for name in self.compiled.motion.written if self.compiled.motion else ():
+            if name in self.compiled.inputs:
                 sign = self.start.signs[name]
-                given[self.sheet.inputs[name]] = sign * self.touches.flips(name, s, self.way)
+                given[self.compiled.inputs[name]] = sign * self.change_points.flips(name, s, self.line)
         return given
 
     def _state(self, q: Array, turns: Array) -> dict[int, Array]:
@@ -136,13 +150,13 @@ class Track:
         return {**given, **{guess.index: turns[:, n] for n, (guess, _) in enumerate(self.counted)}}
 
     def end(self, s: float) -> State:
-        """The state at a place, from which another way may go on."""
+        """The state at a place, from which another line may go on."""
         at = np.array([s])
         signs = {
-            name: sign * float(self.touches.flips(name, at, self.way)[0])
+            name: sign * float(self.change_points.flips(name, at, self.line)[0])
             for name, sign in self.start.signs.items()
         }
-        if not self.stretches:
+        if not self.segments:
             return State(self.start.q, self.start.turns, signs)
         q, turns, _ = self._between(at)
         given = self._plain(at)
@@ -169,14 +183,14 @@ class Track:
             turns = np.stack([np.broadcast_to(v, rows) for v in values], axis=1)
         return found, turns, good
 
-    def _followed(self, reach: tuple[float, float]) -> list[WayStretch]:
-        """Stretches from the start to both ends of the reach."""
-        at = np.array([self.way.start])
+    def _followed(self, reach: tuple[float, float]) -> list[PathSegment]:
+        """Segments from the start to both ends of the reach."""
+        at = np.array([self.line.start])
         q, turns, good = self._solved(self._plain(at), self.start.q[None, :], self.start.turns[None, :])
         if not good[0]:
             return []
-        first = (self.way.start, q[0], turns[0])
-        self.senses[self.way.start] = self._senses(self._plain(at), q, turns)
+        first = (self.line.start, q[0], turns[0])
+        self.senses[self.line.start] = self._senses(self._plain(at), q, turns)
         down, up = self._both(first, reach)
         steps = [*reversed(down[1:]), *up]
         self.ends = (
@@ -184,30 +198,30 @@ class Track:
             up[-1][0] if up[-1][0] < reach[1] else math.inf,
         )
         more = [
-            stretch
+            segment
             for last, end in ((down[-1], reach[0]), (up[-1], reach[1]))
-            for stretch in self._beyond(last, end, steps)
+            for segment in self._beyond(last, end, steps)
         ]
-        return sorted([stretch_of(steps), *more], key=lambda stretch: float(stretch.s[0]))
+        return sorted([segment_of(steps), *more], key=lambda segment: float(segment.s[0]))
 
     def _both(self, first: Step, reach: tuple[float, float]) -> tuple[list[Step], list[Step]]:
         """Steps down and up; from a limit on what lies beyond is reached from the other side."""
         down, up = self._steps(first, reach[0]), self._steps(first, reach[1])
-        if self.way.period is not None and up[-1][0] < reach[1]:
-            further = min(reach[0], up[-1][0] - self.way.period)
+        if self.line.period is not None and up[-1][0] < reach[1]:
+            further = min(reach[0], up[-1][0] - self.line.period)
             down = self._steps(first, further)
-        elif self.way.period is not None and down[-1][0] > reach[0]:
-            up = self._steps(first, max(reach[1], down[-1][0] + self.way.period))
+        elif self.line.period is not None and down[-1][0] > reach[0]:
+            up = self._steps(first, max(reach[1], down[-1][0] + self.line.period))
         return down, up
 
-    def _beyond(self, last: Step, end: float, known: Sequence[Step]) -> Iterator[WayStretch]:
-        """Stretches beyond a limit, where it is as it was a turn before."""
-        while abs(last[0] - end) > self.way.widest * SHORTEST:
+    def _beyond(self, last: Step, end: float, known: Sequence[Step]) -> Iterator[PathSegment]:
+        """Segments beyond a limit, where it is as it was a turn before."""
+        while abs(last[0] - end) > self.line.widest * SHORTEST:
             again = self._again(last, end, known)
             if again is None:
                 break
             back, on = self._steps(again, last[0]), self._steps(again, end)
-            yield stretch_of(sorted([*back[1:], *on], key=lambda step: step[0]))
+            yield segment_of(sorted([*back[1:], *on], key=lambda step: step[0]))
             last = on[-1]
 
     def _again(self, last: Step, end: float, steps: Sequence[Step]) -> Step | None:
@@ -215,12 +229,12 @@ class Track:
 
         Elsewhere beyond a limit the links may assemble, but no motion leads there.
         """
-        if self.way.period is None:
+        if self.line.period is None:
             return None
         sense = 1.0 if end >= last[0] else -1.0
         trials = np.linspace(last[0], end, TRIALS)[1:]
-        known = stretch_of(sorted(steps, key=lambda step: step[0]))
-        back = trials - sense * self.way.period * np.ceil(np.abs(trials - last[0]) / self.way.period)
+        known = segment_of(sorted(steps, key=lambda step: step[0]))
+        back = trials - sense * self.line.period * np.ceil(np.abs(trials - last[0]) / self.line.period)
         inside = (back >= known.s[0]) & (back <= known.s[-1])
         if not inside.any():
             return None
@@ -235,21 +249,21 @@ class Track:
 
     def _driven(self) -> Array:
         """Which of the unknowns is the turning of the link that is driven (1, the others 0)."""
-        setting = self.sheet.setting
-        driven = {setting.top.body_of[link] for link in setting.links if link in self.way.slope}
+        setting = self.compiled.setting
+        driven = {setting.top.body_of[link] for link in setting.links if link in self.line.slope}
         bodies = [body for group, _ in self.groups for body in group.bodies]
         return np.array([float(body in driven and part == 2) for body in bodies for part in range(3)])
 
     def _steps(self, first: Step, end: float) -> list[Step]:
         """Steps toward an end, as far as they go."""
-        steps, widest = [first], self.way.widest
+        steps, widest = [first], self.line.widest
         sense = 1.0 if end >= first[0] else -1.0
         h = widest * FIRST
         while sense * (end - steps[-1][0]) > 0.0 and h > widest * SHORTEST:
             s, q, turns = steps[-1]
             there = s + sense * min(h, sense * (end - s))
             at = np.array([there])
-            known = stretch_of(steps[-4:])
+            known = segment_of(steps[-4:])
             guess, ahead = cubic(known.s, known.q, at), cubic(known.s, known.turns, at)
             found, counted, good = self._solved(self._plain(at), guess, ahead, QUICK)
             if good[0] and goes_on(q, guess[0], found[0], len(steps) > 1) and counts(turns, counted[0]):
@@ -271,7 +285,7 @@ class Track:
         """Places at which a group is near a singular position: its determinant is small beside what it is
         where the record was made."""
         small = np.zeros(len(s), dtype=bool)
-        if not self.groups or not self.stretches:
+        if not self.groups or not self.segments:
             return small
         given, _ = self.given(s)
         for group, solver in self.groups:
@@ -280,7 +294,7 @@ class Track:
         return small
 
     def _typical(self, group: NewtonGroup, solver: Solver) -> float:
-        nodes = self.sheet.record.nodes
+        nodes = self.compiled.record.nodes
         env = {k: np.array([node.value]) for k, node in enumerate(nodes) if node.op == Op.INPUT}
         q = np.array([[nodes[k].value for k in group.solved]])
         return float(solver.determinant(env, q)[0])
@@ -303,13 +317,13 @@ class Track:
         q = np.full((len(s), self.start.q.size), np.nan)
         turns = np.zeros((len(s), self.start.turns.size))
         good = np.zeros(len(s), dtype=bool)
-        slack = self.way.widest * SHORTEST * 16.0
-        for stretch in self.stretches:
-            here = (s >= stretch.s[0] - slack) & (s <= stretch.s[-1] + slack)
+        slack = self.line.widest * SHORTEST * 16.0
+        for segment in self.segments:
+            here = (s >= segment.s[0] - slack) & (s <= segment.s[-1] + slack)
             if here.any():
-                at = np.clip(s[here], stretch.s[0], stretch.s[-1])
-                q[here] = cubic(stretch.s, stretch.q, at)
-                turns[here] = cubic(stretch.s, stretch.turns, at)
+                at = np.clip(s[here], segment.s[0], segment.s[-1])
+                q[here] = cubic(segment.s, segment.q, at)
+                turns[here] = cubic(segment.s, segment.turns, at)
                 good |= here
         q[~good] = self.start.q
         return q, turns, good

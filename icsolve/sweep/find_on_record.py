@@ -27,15 +27,15 @@ from icsolve.numbers.tape import UNIT
 from icsolve.scene import solve_scene
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
-from icsolve.sweep.ask import AskError, along_of, columns_of
 from icsolve.sweep.exact import CONTEXT, STEP, Unreached, as_written
+from icsolve.sweep.find_by_scenes import FoundPosition, FoundPositions, Query, Scenes
 from icsolve.sweep.parts import SweepPart, SweepParts
-from icsolve.sweep.program import Asked
+from icsolve.sweep.program import RowRequest
 from icsolve.sweep.recheck import Recheck
-from icsolve.sweep.seeking import Query, Scenes, Spot, Spots
+from icsolve.sweep.request import RequestError, along_of, columns_of
 from icsolve.sweep.start import start_of
 
-__all__ = ["Query", "Spot", "Spots", "find"]
+__all__ = ["FoundPosition", "FoundPositions", "Query", "find"]
 
 CELLS = 256
 """Cells at first."""
@@ -57,7 +57,7 @@ def find(
     query: Query,
     *,
     drive: Mapping[str, npt.ArrayLike] | None = None,
-) -> Spots:
+) -> FoundPositions:
     """The positions in a sweep along one number, in order: all that lie from its first to its last value.
 
     Parameters
@@ -82,13 +82,13 @@ def find(
     columns = columns_of(case, vary, drive)
     along = along_of(columns)
     if query.load not in {"", *(load.name for load in case.loads if is_unknown(load))}:
-        raise AskError(f"{query.load} is no unknown load of this case")
+        raise RequestError(f"{query.load} is no unknown load of this case")
     by_itself = rubs(case) or case.dynamic or (case.profiles is not None and bool(case.profiles.touches))
-    start = None if by_itself else start_of(case, columns, Asked())
+    start = None if by_itself else start_of(case, columns, RowRequest())
     if start is None or start.one_by_one:
         return Scenes(case, columns, along, query).spots()
-    spots = Spots()
-    if start.sheet().refusal is None:
+    spots = FoundPositions()
+    if start.compiled().refusal is None:
         parts = SweepParts(start, columns)
         with localcontext(CONTEXT):
             search = _Search(parts, parts.whole(), along, query)
@@ -103,8 +103,8 @@ class _Search:
     def __init__(self, parts: SweepParts, part: SweepPart, name: str, query: Query) -> None:
         self.part, self.query, self.name = part, query, name
         self.along = Recheck(parts, part)
-        self.sheet = part.runner.sheet
-        self.record = self.sheet.record
+        self.compiled = part.runner.compiled
+        self.record = self.compiled.record
         self.exact = self.along.scenes.exact
         self.roots = self.along.scenes.roots
         values = parts.arrays[name][part.rows]
@@ -116,15 +116,15 @@ class _Search:
     def _inside(self, s: Decimal) -> bool:
         return as_written(self.ends[0]) <= s <= as_written(self.ends[1])
 
-    def spots(self) -> Iterator[Spot]:
+    def spots(self) -> Iterator[FoundPosition]:
         """All positions of the kind that is asked."""
-        load = self.query.load or next((k[1] for k in self.sheet.outputs if k[0] == "answers"), "")
+        load = self.query.load or next((k[1] for k in self.compiled.outputs if k[0] == "answers"), "")
         key = ("answers", load)
-        if key not in self.sheet.outputs:
-            names = [name for kind, name in self.sheet.outputs if kind == "answers"]
+        if key not in self.compiled.outputs:
+            names = [name for kind, name in self.compiled.outputs if kind == "answers"]
             known = f" ({', '.join(names)})" if names else ", which has none"
-            raise AskError(f"{load or 'an answer'} is no unknown load of this case{known}")
-        (answer,) = self.sheet.outputs[key]
+            raise RequestError(f"{load or 'an answer'} is no unknown load of this case{known}")
+        (answer,) = self.compiled.outputs[key]
         if self.query.kind == "value":
             yield from self._values(answer, load)
         elif self.query.kind == "max":
@@ -134,7 +134,7 @@ class _Search:
 
     # --- kinds ------------------------------------------------------------------------------------
 
-    def _values(self, answer: Scalar, load: str) -> Iterator[Spot]:
+    def _values(self, answer: Scalar, load: str) -> Iterator[FoundPosition]:
         """Where the answer takes a value: its numerator less so many times its denominator vanishes."""
         top, bottom = fraction(self.record, answer)
         miss = top - self.query.value * bottom
@@ -144,7 +144,7 @@ class _Search:
                 spot = self._spot(s, "value", load)
                 yield spot if spot.answer is None else spot._replace(answer=self.query.value)
 
-    def _dead(self, answer: Scalar, load: str) -> Iterator[Spot]:
+    def _dead(self, answer: Scalar, load: str) -> Iterator[FoundPosition]:
         """Where the unknown does no work, where the links reach their limit, where branches meet. Where the
         known loads do none either, any value balances, or the quotient goes through: no dead centre."""
         _, bottom = fraction(self.record, answer)
@@ -219,7 +219,7 @@ class _Search:
         low, high = map(as_written, self.ends)
         return [low + Decimal(k) * (high - low) for k in PROBES]
 
-    def _spot(self, s: Decimal, kind: str, load: str | None, error: float | None = None) -> Spot:
+    def _spot(self, s: Decimal, kind: str, load: str | None, error: float | None = None) -> FoundPosition:
         at = 0.0 if abs(s) < CLOSED else float(s)
         answer = None
         if load is not None:
@@ -229,7 +229,7 @@ class _Search:
                 answer = float(solve_scene(scene).answers[load].value)
             except (SceneError, Unreached):
                 pass
-        return Spot(at, kind, answer, abs(at) * UNIT if error is None else error)
+        return FoundPosition(at, kind, answer, abs(at) * UNIT if error is None else error)
 
     # --- zeros ------------------------------------------------------------------------------------
 
@@ -294,7 +294,7 @@ class _Search:
 
     @property
     def _follows_groups(self) -> bool:
-        return self.part.followed is not None and bool(self.part.followed.track.stretches)
+        return self.part.followed is not None and bool(self.part.followed.tracker.segments)
 
     def _isolated(
         self, value: Scalar, bottom: Scalar | None, peaks: bool = False
@@ -322,7 +322,7 @@ class _Search:
     ) -> Iterator[tuple[Decimal, Decimal, bool]]:
         """By bounds of the function over whole cells, cut until each is decided."""
         given = self.along.at(self.name, as_written((first + last) / 2.0))
-        main = self.sheet.inputs[self.name]
+        main = self.compiled.inputs[self.name]
         radicands = [root.radicand for root in self.roots]
         nodes = [self.record.lifted(v).index for v in wanted]
         inputs = {k: float(v) for k, v in given.items()}
@@ -376,7 +376,7 @@ class _Search:
         """A value and its slope at places; not a number where the links do not assemble."""
         if not isinstance(value, Traced) or not value.row:
             return np.full(len(at), float(value)), np.zeros(len(at))
-        passes, main = self.part.runner.passes([value.index]), self.sheet.inputs[self.name]
+        passes, main = self.part.runner.passes([value.index]), self.compiled.inputs[self.name]
         found, slope = np.full(len(at), np.nan), np.full(len(at), np.nan)
         for start in range(0, len(at), passes.rows):
             here = slice(start, start + passes.rows)

@@ -127,8 +127,8 @@ class _Writer:
         if rope.is_free:
             end = rope.points[-1]
             points.append(end if end not in self.mechanism.owners else f"@{end} of {rope.name}")
-            way = self.mechanism.shape.between(spots[-1], (spots[-1][0], rope.points[-1]))
-            self.points[points[-1]] = plus(self.moved.place(spots[-1]), way)
+            line = self.mechanism.shape.between(spots[-1], (spots[-1][0], rope.points[-1]))
+            self.points[points[-1]] = plus(self.moved.place(spots[-1]), line)
         return rope._replace(points=tuple(points))
 
     def load(self, load: Load) -> Load:
@@ -206,7 +206,7 @@ def _forward(v: Point, given: Motion) -> bool:
     return float(v[0]) * c + float(v[1]) * s > 0.0
 
 
-class Resting(NamedTuple):
+class RestingContact(NamedTuple):
     """A contact whose place and normal every row tells for itself: where it stands among the joints, the
     contact as written, and its place there (case units); of a roller the centre, and how far the contact is
     from it along the normal."""
@@ -222,7 +222,7 @@ class Resting(NamedTuple):
         return tuple(f"{self.joint.at} {part}" for part in ("x", "y", "across", "up"))
 
 
-def rested(scene: RecordedScene, contacts: Sequence[Resting], inputs: dict[str, int]) -> RecordedScene:
+def rested(scene: RecordedScene, contacts: Sequence[RestingContact], inputs: dict[str, int]) -> RecordedScene:
     """The scene with these contacts; the inputs of the record are noted."""
     if not contacts:
         return scene
@@ -280,7 +280,7 @@ def motions_of(scene: RecordedScene, wanted: Collection[int] | None = None) -> m
 
 
 def pressing(
-    scene: RecordedScene, found: RecordedStatics, contacts: Sequence[Resting]
+    scene: RecordedScene, found: RecordedStatics, contacts: Sequence[RestingContact]
 ) -> Iterator[tuple[str, Scalar]]:
     """The normal force of contacts (scaled), by their points; of those that equilibrium determines."""
     frame, twists = scene.frame, found.motions.twists

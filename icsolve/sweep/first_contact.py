@@ -56,7 +56,7 @@ class Poses(NamedTuple):
         return Poses(*((x[rows], y[rows]) for x, y in self))
 
 
-class Met(NamedTuple):
+class FirstContacts(NamedTuple):
     """Where followers meet their cams.
 
     Attributes
@@ -73,7 +73,7 @@ class Met(NamedTuple):
     sure: Mask
 
 
-class FirstMeeting:
+class FirstContact:
     """The first meetings from outside of one follower and its cam, in many poses.
 
     Parameters
@@ -95,15 +95,15 @@ class FirstMeeting:
                 _outer(np.cos(self.angles), self.line.x) + _outer(np.sin(self.angles), self.line.y)
             ).max(1)
 
-    def run(self, poses: Poses) -> Met:
+    def run(self, poses: Poses) -> FirstContacts:
         """All rows; what does not exist is not sure, and raises nothing."""
         rows = len(poses.at[0])
         parts = [
             self._block(poses.some(slice(start, start + ROWS))) for start in range(0, max(rows, 1), ROWS)
         ]
-        return Met(*(np.concatenate(column) for column in zip(*parts, strict=True)))
+        return FirstContacts(*(np.concatenate(column) for column in zip(*parts, strict=True)))
 
-    def _block(self, poses: Poses) -> Met:
+    def _block(self, poses: Poses) -> FirstContacts:
         with np.errstate(all="ignore"):
             if self.flat:
                 met = self._face_shifted(poses) if self.shifts else self._face_turned(poses)
@@ -116,7 +116,7 @@ class FirstMeeting:
 
     # --- rollers and knife edges ------------------------------------------------------------------
 
-    def _centre(self, poses: Poses) -> Met:
+    def _centre(self, poses: Poses) -> FirstContacts:
         """Where the way of the follower's point crosses the line."""
         line, (px, py) = self.line, poses.at
         rows = len(px)
@@ -152,7 +152,7 @@ class FirstMeeting:
         x, y, nx, ny, closed = line.closed(chord, miss)
         by, _ = self._way(poses, every, x, y, nx, ny)
         point = np.stack([x - line.radius * nx, y - line.radius * ny], axis=1)
-        return Met(by, point, np.stack([nx, ny], axis=1), sure & closed)
+        return FirstContacts(by, point, np.stack([nx, ny], axis=1), sure & closed)
 
     def _way(self, poses: Poses, row: Which, x: Array, y: Array, nx: Array, ny: Array) -> tuple[Array, Array]:
         """How far the follower is moved to places, and whether the gap grows there as it moves on."""
@@ -174,15 +174,15 @@ class FirstMeeting:
         start = np.concatenate([[0], np.cumsum(count)[:-1]])
         place = np.full((rows, most), -1)
         place[row, np.arange(len(row)) - start[row]] = np.arange(len(row))
-        ways = np.where(place >= 0, by[place], np.nan)
+        lines = np.where(place >= 0, by[place], np.nan)
         outer = (place >= 0) & (sense[place] == self.sense)
         if self.shifts:
-            rank, near = self.sense * ways, CLOSE * self.size
+            rank, near = self.sense * lines, CLOSE * self.size
         else:
             apart = np.where(
                 np.eye(most, dtype=bool)[None],
                 TURN,
-                (self.sense * (ways[:, None, :] - ways[:, :, None])) % TURN,
+                (self.sense * (lines[:, None, :] - lines[:, :, None])) % TURN,
             )
             rank, near = np.nanmin(apart, axis=2), CLOSE * TURN
         rank = np.where(outer, rank, -np.inf)
@@ -192,22 +192,22 @@ class FirstMeeting:
         rank[every, best] = -np.inf
         sure = np.isfinite(top) & (top - rank.max(axis=1) > near)
         if self.shifts:  # nor one at which the gap shrinks
-            others = np.where((place >= 0) & ~outer, self.sense * ways, -np.inf)
+            others = np.where((place >= 0) & ~outer, self.sense * lines, -np.inf)
             sure &= top - others.max(axis=1) > near
         return np.where(sure, place[every, best], -1), sure
 
     # --- faces ------------------------------------------------------------------------------------
 
-    def _face_shifted(self, poses: Poses) -> Met:
+    def _face_shifted(self, poses: Poses) -> FirstContacts:
         (fx, fy), (dx, dy), (px, py) = poses.face, poses.along, poses.at
         wx, wy = -self.side * fy, self.side * fx
         x, y, sure = self.line.farthest(wx, wy)
         rate = wx * dx + wy * dy
         by = -((px - x) * wx + (py - y) * wy) / rate
         sure &= (np.sign(rate) == self.sense) & (np.abs(rate) > CLOSE)
-        return Met(by, np.stack([x, y], axis=1), np.stack([wx, wy], axis=1), sure)
+        return FirstContacts(by, np.stack([x, y], axis=1), np.stack([wx, wy], axis=1), sure)
 
-    def _face_turned(self, poses: Poses) -> Met:
+    def _face_turned(self, poses: Poses) -> FirstContacts:
         """A face on an arm: by the angle of its normal, the gap is the arm's less the profile's reach."""
         (fx, fy), (qx, qy), (px, py) = poses.face, poses.about, poses.at
         wx, wy = -self.side * fy, self.side * fx
@@ -230,7 +230,7 @@ class FirstMeeting:
                 break
         sure &= (np.abs(step) <= 1e3 * AT_ONE) & smooth
         normal = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-        return Met(_wrapped(angle - start), np.stack([x, y], axis=1), normal, sure)
+        return FirstContacts(_wrapped(angle - start), np.stack([x, y], axis=1), normal, sure)
 
 
 def _outer(a: Array, b: Array) -> Array:

@@ -16,7 +16,7 @@ from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
 from icsolve.statics.power import is_unknown
-from icsolve.sweep.ask import Columns
+from icsolve.sweep.request import Columns
 from icsolve.sweep.sweeping import sweep
 from icsolve.sweep.table import CODE, Codes
 
@@ -44,7 +44,7 @@ it is finite, it is more than ``GROWN`` times as large as ten times as far away.
 LOCKED = [CODE[word] for word in (Status.DEAD_CENTRE, Status.NO_VALUE, Status.JAM)]
 
 
-class Spot(NamedTuple):
+class FoundPosition(NamedTuple):
     """A position that was found.
 
     Attributes
@@ -76,7 +76,7 @@ class Query(NamedTuple):
     value: float = 0.0
 
 
-class Spots(list[Spot]):
+class FoundPositions(list[FoundPosition]):
     """Positions in order; ``notes`` say what was searched where nothing shows that none is missing."""
 
     notes: tuple[str, ...] = ()
@@ -97,13 +97,13 @@ class Scenes:
         self.scenes = 0
         self.width = CLOSED * float(np.ptp(values))
 
-    def spots(self) -> Spots:
+    def spots(self) -> FoundPositions:
         """All positions that are found, in order."""
         found, codes = self._swept(self.places)
         if (codes == CODE["holds"]).any():
             raise SceneError(Status.UNSUPPORTED, HOLDS.format(load=self.load))
         finder = {"value": self._values, "max": self._peaks, "dead": self._dead}[self.query.kind]
-        spots = Spots()
+        spots = FoundPositions()
         spots.notes = (SAID.format(count=PLACES),)
         try:
             for spot in finder(found, codes):
@@ -129,28 +129,28 @@ class Scenes:
 
     # --- kinds ------------------------------------------------------------------------------------
 
-    def _values(self, found: Array, codes: Codes) -> Iterator[Spot]:
+    def _values(self, found: Array, codes: Codes) -> Iterator[FoundPosition]:
         """Changes of sign of the answer less the value, but for those through infinity."""
         miss = found - self.query.value
         for k in np.flatnonzero(miss[:-1] * miss[1:] <= 0.0).tolist():
             at, wide = self._closed(lambda s: self._answer(s) - self.query.value, k)
             answer = self._answer(at)
             if abs(answer - self.query.value) <= min(abs(miss[k]), abs(miss[k + 1])) + abs(self.width):
-                yield Spot(at, "value", answer, wide)
+                yield FoundPosition(at, "value", answer, wide)
 
-    def _dead(self, found: Array, codes: Codes) -> Iterator[Spot]:
+    def _dead(self, found: Array, codes: Codes) -> Iterator[FoundPosition]:
         """Changes of sign through infinity, and where the mechanism begins to lock or reaches its limit."""
         for k in np.flatnonzero(found[:-1] * found[1:] < 0.0).tolist():
             at, wide = self._closed(self._answer, k)
             if self._runs_off(at, float(self.places[k + 1] - self.places[k])):
-                yield Spot(at, "dead", None, wide)
+                yield FoundPosition(at, "dead", None, wide)
         locked, apart = np.isin(codes, LOCKED), codes == CODE[Status.CANNOT_ASSEMBLE]
         for kind, state in (("dead", locked), ("limit", apart)):
             wanted = LOCKED if kind == "dead" else [CODE[Status.CANNOT_ASSEMBLE]]
             for k in np.flatnonzero(state[:-1] != state[1:]).tolist():
                 at, wide = self._ends(wanted, bool(state[k]), k)
                 answer = self._answer(at) if kind == "limit" else math.nan
-                yield Spot(at, kind, None if math.isnan(answer) else answer, wide)
+                yield FoundPosition(at, kind, None if math.isnan(answer) else answer, wide)
 
     def _runs_off(self, at: float, step: float) -> bool:
         """Whether the answer grows to infinity at a change of sign: a jump stays as it is, also where
@@ -168,7 +168,7 @@ class Scenes:
         """The larger answer of both sides of a place; nan where one has none."""
         return float(np.abs(self._swept(np.array([at - away, at + away]))[0]).max())
 
-    def _peaks(self, found: Array, codes: Codes) -> Iterator[Spot]:
+    def _peaks(self, found: Array, codes: Codes) -> Iterator[FoundPosition]:
         """Where the size of the answer is larger than on both sides, by golden sections."""
         size = np.abs(found)
         for k in range(len(size)):
@@ -185,7 +185,7 @@ class Scenes:
                 at = (low + high) / 2.0
                 answer = self._answer(at)
                 if abs(answer) <= 10.0 * size[k] and answer * found[k] > 0.0:
-                    yield Spot(at, "max", answer, high - low)
+                    yield FoundPosition(at, "max", answer, high - low)
 
     # --- closing in -------------------------------------------------------------------------------
 

@@ -14,13 +14,13 @@ from icsolve.case import Case, Pair
 from icsolve.numbers.replay import Array
 from icsolve.read.names import pairs, shown, suggestion
 from icsolve.sweep.numbers import find_number
-from icsolve.sweep.program import Asked
-from icsolve.sweep.scene import pairs as all_pairs
+from icsolve.sweep.program import RowRequest
+from icsolve.sweep.recorded_scene import pairs as all_pairs
 
 WORDS = ("answers", "status", "error", "points", "centres", "rates", "velocities", "accelerations")
 
 
-class AskError(ValueError):
+class RequestError(ValueError):
     """What is asked of a sweep makes no sense: the message says what would."""
 
 
@@ -68,7 +68,7 @@ def columns_of(
 
     Raises
     ------
-    AskError
+    RequestError
         A ValueError, for arrays that can't be columns and numbers that no case may have there.
     CaseError
         For paths that the case does not have.
@@ -76,7 +76,7 @@ def columns_of(
     asked = {**{("vary", path): v for path, v in (vary or {}).items()}}
     asked |= {("drive", str(link)): v for link, v in (drive or {}).items()}
     if not asked:
-        raise AskError("nothing is varied: give vary={'angles.AB': values} or drive={'2': degrees}")
+        raise RequestError("nothing is varied: give vary={'angles.AB': values} or drive={'2': degrees}")
     arrays = {key: _column(key[1], value) for key, value in asked.items()}
     rows = max(len(a) if a.ndim else 1 for a in arrays.values())
     paths: dict[str, Array] = {}
@@ -84,10 +84,10 @@ def columns_of(
     names: dict[str, str] = {}
     for (kind, name), array in arrays.items():
         if array.ndim and len(array) != rows:
-            raise AskError(f"{shown(name)} has {len(array)} values where another has {rows}")
+            raise RequestError(f"{shown(name)} has {len(array)} values where another has {rows}")
         own = _path(case, name) if kind == "vary" else _link(case, name)
         if own in names:
-            raise AskError(f"{shown(name)} and {shown(names[own])} are the same number")
+            raise RequestError(f"{shown(name)} and {shown(names[own])} are the same number")
         names[own] = name
         _refuse_values(name, own, array, kind == "drive" or own.startswith("angles."))
         (paths if kind == "vary" else links)[own] = np.ascontiguousarray(np.broadcast_to(array, rows))
@@ -101,7 +101,7 @@ def along_of(columns: Columns) -> str:
     """
     varying = [name for name, array in columns.arrays.items() if np.ptp(array) > 0.0]
     if len(varying) != 1:
-        raise AskError("positions are found along one varied number")
+        raise RequestError("positions are found along one varied number")
     return varying[0]
 
 
@@ -114,75 +114,79 @@ def _column(name: str, values: npt.ArrayLike) -> Array:
     try:
         array = np.asarray(values, dtype=np.float64)
     except (TypeError, ValueError):
-        raise AskError(f"the values of {shown(name)} should be numbers, in the units of the case") from None
+        raise RequestError(
+            f"the values of {shown(name)} should be numbers, in the units of the case"
+        ) from None
     if array.ndim > 1:
-        raise AskError(
+        raise RequestError(
             f"the values of {shown(name)} should be one row of numbers, not {array.ndim} dimensions"
         )
     if not array.size:
-        raise AskError(f"there are no values for {shown(name)}")
+        raise RequestError(f"there are no values for {shown(name)}")
     if not np.isfinite(array).all():
-        raise AskError(f"the values of {shown(name)} are not all finite numbers")
+        raise RequestError(f"the values of {shown(name)} are not all finite numbers")
     return array
 
 
 def _refuse_values(name: str, own: str, array: Array, turns: bool) -> None:
     """Refuse numbers that no case may have there, and turns that nobody would count."""
     if (own.startswith("lengths.") or own.endswith((".mu", ".radius", ".length"))) and (array < 0.0).any():
-        raise AskError(f"the values of {shown(name)} should not be negative")
+        raise RequestError(f"the values of {shown(name)} should not be negative")
     if turns and (np.abs(array) > FARTHEST).any():
-        raise AskError(f"the values of {shown(name)} lie beyond {FARTHEST:.0f} degrees; take turns off")
+        raise RequestError(f"the values of {shown(name)} lie beyond {FARTHEST:.0f} degrees; take turns off")
 
 
 def _link(case: Case, name: str) -> str:
     if name not in case.links:
-        raise AskError(f"there is no link {shown(name)} to turn{suggestion(name, case.links)}")
+        raise RequestError(f"there is no link {shown(name)} to turn{suggestion(name, case.links)}")
     return name
 
 
-class Wanted(NamedTuple):
+class SweepRequest(NamedTuple):
     """What is wanted of every row, in words and resolved; ``error``: the bounds of the answers."""
 
-    asked: Asked
+    asked: RowRequest
     error: bool
     words: tuple[str, ...] = ()
 
 
 @lru_cache(maxsize=64)
-def wanted_of(case: Case, want: tuple[str, ...], dynamic: bool = False) -> Wanted:
+def request_of(case: Case, want: tuple[str, ...], dynamic: bool = False) -> SweepRequest:
     """What is wanted: whole kinds (``points``) or single ones (``points.C``, ``centres.2-4``).
 
-    Raises AskError for a word that is none, and for accelerations without inertia forces.
+    Raises RequestError for a word that is none, and for accelerations without inertia forces.
     """
     points: dict[str, None] = {}
     centres: dict[Pair, None] = {}
     kinds = set()
     if "centres" in want and (count := len(case.links) * (len(case.links) - 1) // 2) > MOST_PAIRS:
-        raise AskError(f"all centres are {count}, more than a table has columns; ask for single ones")
+        raise RequestError(f"all centres are {count}, more than a table has columns; ask for single ones")
     for word in want:
         kind, dot, name = word.partition(".")
         if kind not in WORDS or (dot and kind not in ("points", "centres")):
             likely = suggestion(word, WORDS) or f"; one of {', '.join(WORDS)}"
-            raise AskError(f"{shown(word)} can't be wanted{likely}")
+            raise RequestError(f"{shown(word)} can't be wanted{likely}")
         kinds.add(kind)
         if kind == "points":
             points.update(dict.fromkeys(_points(case, name) if dot else shown_points(case)))
         elif kind == "centres":
             centres.update(dict.fromkeys(_pairs(case, name) if dot else all_pairs(case)))
     if "accelerations" in kinds and not dynamic:
-        raise AskError("accelerations are those of a motion with its inertia forces: ask for `dynamic` too")
+        raise RequestError(
+            "accelerations are those of a motion with its inertia forces: ask for `dynamic` too"
+        )
     answers = bool(kinds & {"answers", "error", "status"})
     moving = ("rates" in kinds, "velocities" in kinds, "accelerations" in kinds, dynamic)
-    asked = Asked(answers, tuple(points), tuple(centres), *moving)
-    return Wanted(asked, "error" in kinds, want)
+    asked = RowRequest(answers, tuple(points), tuple(centres), *moving)
+    return SweepRequest(asked, "error" in kinds, want)
 
 
-def refuse_size(columns: Columns, asked: Asked, error: bool) -> None:
-    """Raise AskError where the arrays would not fit."""
+def refuse_size(columns: Columns, asked: RowRequest, error: bool) -> None:
+    """Raise RequestError where the arrays would not fit."""
     width = len(columns.arrays) + 2 * len(asked.points) + 3 * len(asked.centres) + 2
     numbers = columns.rows * (width * 2 if error else width)
     if numbers > MOST_NUMBERS:
-        raise AskError(
+        raise RequestError(
             f"{columns.rows} rows of {width} columns are {numbers} numbers; at most {MOST_NUMBERS} fit. "
             "Ask for fewer rows, or for single points and centres."
         )
@@ -196,7 +200,7 @@ def shown_points(case: Case) -> list[str]:
 def _points(case: Case, name: str) -> list[str]:
     known = shown_points(case)
     if name not in known:
-        raise AskError(f"there is no point {shown(name)}{suggestion(name, known)}")
+        raise RequestError(f"there is no point {shown(name)}{suggestion(name, known)}")
     return [name]
 
 
@@ -205,5 +209,5 @@ def _pairs(case: Case, name: str) -> Iterable[Pair]:
     found = {frozenset(pair) for pair in pairs(name, lambda link: link in case.links)}
     meant = [pair for pair in all_pairs(case) if frozenset(pair) in found]
     if len(meant) != 1:
-        raise AskError(f"{shown(name)} is not a pair of links of this case; write it as 2-4")
+        raise RequestError(f"{shown(name)} is not a pair of links of this case; write it as 2-4")
     return meant
