@@ -19,9 +19,7 @@ from icsolve.errors import CaseError
 )
 @click.option("--roster", metavar="FILE", help="For gradescope-zip: by which students get their variants.")
 @click.option("--seed", metavar="TEXT", help="Seed of the variants.")
-@click.option(
-    "--variants", metavar="FILE", multiple=True, help="For gradescope-zip: values.csv, the record."
-)
+@click.option("--variants", metavar="FILE", multiple=True, help="For gradescope-zip: values.csv, the record.")
 @click.option(
     "--count", type=click.IntRange(1, 1000), default=10, show_default=True, help="Variants of a case."
 )

@@ -174,7 +174,6 @@ class Tally:
         for item, own in items.items():
             self.counts[item] = _with(self.counts.get(item) or empty(), own, self._band(item))
 
-
     def _item_of(self, m: Marked, new: Container[str]) -> str:
         """The question under which an answer is counted; of names that are no case only so many are kept."""
         known = m.item in self.counts or m.item in new

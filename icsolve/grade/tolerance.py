@@ -8,7 +8,6 @@ from dataclasses import replace
 from icsolve.answer import Answer
 from icsolve.case import (
     Area,
-    Case,
     Force,
     ForceVector,
     Load,
@@ -33,6 +32,7 @@ from icsolve.case.expected import (
 from icsolve.errors import IcsolveError
 from icsolve.grade.mistakes import solved_for
 from icsolve.grade.written.units import factors_between, unit_word
+from icsolve.numbers.given import numbers_in
 from icsolve.report.check import value_of
 from icsolve.scene.sensitivity import band
 from icsolve.units import DIMENSIONS, Unit, nearest, parse_unit, split_quantity
@@ -266,8 +266,9 @@ def _exact(target: Target, answer: Answer) -> dict[str, float]:
 
 def _differences(target: Target, answer: Answer) -> dict[str, float]:
     """Derivatives by every number of the figure; of a place, how far it goes."""
-    numbers = as_written(replace(answer.case, loads=()))
-    return {path: _slope(target, answer, path, number.value) for path, number in numbers.items()}
+    case = answer.case
+    numbers = numbers_in(case.points, case.lengths, case.angles)
+    return {number.path: _slope(target, answer, number.path, number.value) for number in numbers}
 
 
 def _slope(target: Target, answer: Answer, path: str, value: float) -> float:
@@ -292,18 +293,3 @@ def _changed(target: Target, answer: Answer, path: str, value: float) -> tuple[f
         return value_of(solved_for(case, target), target)
     except (IcsolveError, ArithmeticError, LookupError):
         return None
-
-
-def as_written(case: Case) -> dict[str, Number]:
-    """The numbers of a case's figure and of its loads, by path."""
-    found: dict[str, Number] = {}
-    stack: list[object] = [case.points, case.lengths, case.angles, case.loads]
-    while stack:
-        item = stack.pop()
-        if isinstance(item, Number):
-            found[item.path] = item
-        elif isinstance(item, dict):
-            stack.extend(item.values())
-        elif isinstance(item, tuple):
-            stack.extend(item)
-    return found

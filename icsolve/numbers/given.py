@@ -1,5 +1,6 @@
 """A number as the case gives it: its double, its decimals and its unit."""
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 from icsolve.units import ExactRatio
@@ -20,3 +21,14 @@ class Number(NamedTuple):
     digits: str
     factor: float = 1.0
     exact: ExactRatio | None = None
+
+
+def numbers_in(*values: object) -> Iterator[Number]:
+    """The numbers that values of a case hold, in their order: in tuples, named ones too, and in dicts."""
+    for value in values:
+        if isinstance(value, Number):
+            yield value
+        elif isinstance(value, dict):
+            yield from numbers_in(*value.values())
+        elif isinstance(value, tuple):
+            yield from numbers_in(*value)

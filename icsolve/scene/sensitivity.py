@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 from icsolve.answer import Answer, Found
 from icsolve.case import Case, Coordinates, Corner, Direction, Number
 from icsolve.errors import SceneError, Status
+from icsolve.numbers.given import numbers_in
 
 
 class Influence(NamedTuple):
@@ -132,18 +133,9 @@ def _has_decimals(number: Number) -> bool:
 
 
 def numbers_of(case: Case) -> dict[str, Number]:
-    """All numbers of a case by their path."""
-    found: dict[str, Number] = {}
-    stack: list[object] = [case.points, case.lengths, case.angles, case.joints, case.loads, case.gravity]
-    while stack:
-        item = stack.pop()
-        if isinstance(item, Number):
-            found[item.path] = item
-        elif isinstance(item, dict):
-            stack.extend(item.values())
-        elif isinstance(item, tuple):
-            stack.extend(item)
-    return found
+    """The numbers of a case's figure, joints and loads by their path."""
+    parts = (case.points, case.lengths, case.angles, case.joints, case.loads, case.gravity)
+    return {number.path: number for number in numbers_in(*parts)}
 
 
 def _lengths(case: Case) -> set[str]:

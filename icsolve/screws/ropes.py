@@ -201,4 +201,3 @@ def tension_ratios(rope: Rope, parts: tuple[RopePart, ...], senses: Sequence[flo
 def rope_points(rope: Rope) -> tuple[str, ...]:
     """The points whose places a rope needs."""
     return tuple(dict.fromkeys(rope.points))
-

@@ -244,9 +244,7 @@ def _taken(left: str, within: str) -> str:
     )
 
 
-def _leave(
-    position: Position, balance: Balance, motion: int, powers: Sequence[float], left: float
-) -> str:
+def _leave(position: Position, balance: Balance, motion: int, powers: Sequence[float], left: float) -> str:
     working = [w.load.name for w, power in zip(balance.wrenches, powers, strict=True) if power]
     verb = "leaves" if len(working) == 1 else "leave"
     return f"{listed(working)} {verb} {_left(position, motion, left)}"

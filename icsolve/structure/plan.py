@@ -130,10 +130,7 @@ class _Growth:
         self.known.update(bodies)
         bonds = tuple(
             dict.fromkeys(
-                k
-                for body in bodies
-                for k in self.top.at[body]
-                if self.top.bonds[k].other(body) in self.known
+                k for body in bodies for k in self.top.at[body] if self.top.bonds[k].other(body) in self.known
             )
         )
         if sum(self.top.bonds[k].constraints for k in bonds) > 3 * len(bodies):

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
 from icsolve.case import Case, ForceVector, Number
 from icsolve.errors import CaseError, Problem
+from icsolve.numbers.given import numbers_in
 from icsolve.read.names import atoms, shown, suggestion
 
 _FORM = "a path is like angles.AB, lengths.AB, points.D.x, loads.P, loads.P.angle or joints.B.mu"
@@ -19,18 +20,7 @@ _PARTS = (*_SECTIONS[:4], "ropes", "profiles", "loads", "motion", "gravity", "in
 @lru_cache(maxsize=64)
 def numbers_of(case: Case) -> Mapping[str, Number]:
     """Every number that may be varied, by its path."""
-    return {number.path: number for name in _PARTS for number in _walk(getattr(case, name))}
-
-
-def _walk(value: Any) -> Iterator[Number]:
-    if isinstance(value, Number):
-        yield value
-    elif isinstance(value, dict):
-        for item in value.values():
-            yield from _walk(item)
-    elif isinstance(value, tuple):
-        for item in value:
-            yield from _walk(item)
+    return {number.path: number for number in numbers_in(*(getattr(case, name) for name in _PARTS))}
 
 
 def with_numbers(case: Case, values: Mapping[str, float | Number]) -> Case:

@@ -90,9 +90,7 @@ def given(case: Case) -> list[tuple[str, str]]:
     """What the figure, its joints, loads and motion give, as pairs of a name and a value."""
     units = case.units
     rows = [(name, f"({_coordinate(p.x)}, {_coordinate(p.y)}) {units.length}") for name, p in _places(case)]
-    rows += [
-        (length.a + length.b, _datum(length.value, units.length, case)) for length in case.lengths
-    ]
+    rows += [(length.a + length.b, _datum(length.value, units.length, case)) for length in case.lengths]
     rows += [_angle(angle, case) for angle in case.angles]
     rows += [row for joint in case.joints for row in _joint(joint, case)]
     if case.profiles is not None:
