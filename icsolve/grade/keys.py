@@ -400,7 +400,7 @@ def _range(question: str, low: NumberKey | None, high: NumberKey | None, policy:
 
 
 def scaled_key(key: NumberKey, factor: float) -> NumberKey:
-    """The key where all loads are ``factor`` times as large [case units]; a width in units stays what it is."""
+    """The key where all loads are ``factor`` times as large [case units]; a width in units stays."""
     value = key.value * factor
     tolerance = key.policy.tolerance
     fixed = key.fixed if not tolerance.drawing else abs(factor) * key.fixed

@@ -16,6 +16,7 @@ from icsolve.case import Case, Load, Number, Pin, TorsionSpring
 from icsolve.case.names import pair_name
 from icsolve.draw.words import unit_word
 from icsolve.errors import CaseError
+from icsolve.numbers.given import numbers_in
 from icsolve.read import load
 from icsolve.read.keys import JOINTS, LOADS
 from icsolve.read.settings import places
@@ -89,7 +90,7 @@ def _plain(case: Case, held: Mapping[str, Number], section: str, unit: str) -> I
 
 def _joints(case: Case, held: Mapping[str, Number]) -> Iterable[FieldLine]:
     for joint in case.joints:
-        own = [n for n in _numbers(joint) if n.path in held]
+        own = [n for n in numbers_in(joint) if n.path in held]
         if own:
             kind = type(joint).__name__.lower()
             at = getattr(joint, "at", None)
@@ -119,7 +120,7 @@ def _key(path: str, after: int) -> tuple[str, str]:
 
 def _loads(case: Case, held: Mapping[str, Number]) -> Iterable[FieldLine]:
     for one in case.loads:
-        own = [n for n in _numbers(one) if n.path in held]
+        own = [n for n in numbers_in(one) if n.path in held]
         if own:
             yield FieldLine(one.name, tuple(_of_load(case, one, n) for n in own))
     if "gravity" in held and any(getattr(one, "mass", False) for one in case.loads):
@@ -154,14 +155,6 @@ def _motion(case: Case, held: Mapping[str, Number]) -> Iterable[FieldLine]:
         if fields:
             point = f", point {given.point}" if given.point else ""
             yield FieldLine(f"link {given.link}{point}", tuple(fields))
-
-
-def _numbers(value: Any) -> Iterable[Number]:
-    if isinstance(value, Number):
-        yield value
-    elif isinstance(value, tuple):
-        for item in value:
-            yield from _numbers(item)
 
 
 # --- handles ---------------------------------------------------------------------------------------------

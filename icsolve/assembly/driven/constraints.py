@@ -181,7 +181,7 @@ class Roped(NamedTuple):
         return next(iter(others)), len(own)
 
     def drums(self) -> list[tuple[int, Scalar]]:
-        """The bodies on which its ends are wound, and by how much each rad of theirs makes it longer [frame]."""
+        """The bodies on which its ends are wound, and by how much a rad of each makes it longer [frame]."""
         ends = [(0, -1.0), (len(self.written), 1.0)]
         return [(self.spots[k][0], sign * self.offsets[k]) for k, sign in ends if self.is_round(k)]
 

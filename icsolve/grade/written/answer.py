@@ -85,7 +85,10 @@ _ASIDE = re.compile(
     re.IGNORECASE,
 )
 """Words that say nothing about the value, and a unit in brackets that is none."""
-_BODY = r"link|crank|bar|member|body|input|output|frame|rod|coupler|rocker|slider|block|piston|gear|wheel|arm|lever|pin"
+_BODY = (
+    r"link|crank|bar|member|body|input|output|frame|rod|coupler|rocker"
+    r"|slider|block|piston|gear|wheel|arm|lever|pin"
+)
 _WHERE = re.compile(
     rf",? ?\b(?:(?:acting|applied|exerted) )?(?:on|at|about|around) (?:the |link |point |pin )*"
     rf"(?:(?:{_BODY})(?: [A-Z]?\d{{0,2}}[A-Z]?)?|(?<=link )\d{{1,2}}|[A-Z]\d?'?)(?![\w'.,°]|[.,]\w)",
