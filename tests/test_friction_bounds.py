@@ -64,13 +64,14 @@ def many_digits(case: icsolve.Case, found: SlidingSolution) -> Exact:
     position = Position(case, program.top, outcome.points, program.figure.frame.scale, {}, arithmetic=digits)
     ties = ties_of(position)
     values = {column: mpf(value) for column, value in found.values.items()}
-    return Exact(ties, rubs_of(position, ties), outcome.balance.wrenches, values, digits)
+    columns = found.statics._replace(ties=ties, rubs=rubs_of(position, ties), arithmetic=digits)
+    return Exact(columns, position, outcome.balance.wrenches, values)
 
 
 def units(case: icsolve.Case, found: SlidingSolution, exact: Exact) -> list[Weights]:
     """Weights that pick each residual."""
     none = {link: ((0.0, 0.0), (0.0, 0.0, 0.0)) for link in case.links if link != case.ground}
-    rubs = (0.0,) * len(exact.rubs)
+    rubs = (0.0,) * len(exact.statics.rubs)
     return [
         Weights(none | {link: ((0.0, 0.0), unit)}, rubs)
         for link in none
@@ -80,7 +81,7 @@ def units(case: icsolve.Case, found: SlidingSolution, exact: Exact) -> list[Weig
 
 def rubbed(found: SlidingSolution, exact: Exact, values: dict[int, Any], k: int) -> Any:
     """What is left of a friction: against its sense, as large as its coefficient times its force."""
-    rub = exact.rubs[k]
+    rub = exact.statics.rubs[k]
     first = found.statics.first[rub.tie]
     force = [sum(a * values[first + n] for n, a in enumerate(row)) for row in rub.normal]
     size = mp.sqrt(sum(f * f for f in force))
@@ -96,7 +97,7 @@ def true_load(case: icsolve.Case, found: SlidingSolution) -> Any:
 
     def residuals(values: dict[int, Any], but: tuple[int, ...] = ()) -> list[Any]:
         links = [step(found, one, exact._replace(values=values)) for one in picked]
-        rubs = range(len(exact.rubs))
+        rubs = range(len(exact.statics.rubs))
         return links + [
             values[found.statics.rub(k)] if k in but else rubbed(found, exact, values, k) for k in rubs
         ]

@@ -37,8 +37,8 @@ from icsolve.draw.scene import HALF, PIN, Part, around, together, with_labels
 from icsolve.draw.words import force_runs, name_runs, quantity
 from icsolve.report.derivation import Known
 from icsolve.report.derivation.spatial import InSpace, Push, in_space
-from icsolve.statics.space.figure import AXES, Vec, add, cross, dot, size, sub, times
-from icsolve.statics.space.reaction_basis import SpatialTie, kind_of
+from icsolve.screws.space import AXES, Vec, add, cross, dot, size, sub, times
+from icsolve.statics.space.reaction_basis import SpatialTie
 
 TURN, RISE = math.radians(32.0), math.radians(24.0)
 """Where the picture is seen from: turned about z, and raised."""
@@ -160,11 +160,11 @@ def _joint(sketch: Sketch, tie: SpatialTie) -> Iterable[Part]:
     """A bearing as a sleeve along its axis, a ball as a ring, a weld as a square; the frame's are hatched."""
     if tie.mesh is not None:
         return
-    p, name = sketch.at(sketch.scene.at(tie)), f"joint-{kind_of(tie.joint)}-{tie.where}-{tie.by}-{tie.on}"
+    p, name = sketch.at(sketch.scene.at(tie)), f"joint-{tie.joint_kind}-{tie.where}-{tie.by}-{tie.on}"
     u = _seen(tie.axis)
     if size(tie.axis) > 0.5:
         symbol: Mark = area(tilted(p, unit(*u), max(24.0 * math.hypot(*u), 12.0), 17.0), "block")
-    elif kind_of(tie.joint) == "weld":
+    elif tie.joint_kind == "weld":
         symbol = area(shapely.box(p[0] - 4.0, p[1] - 4.0, p[0] + 4.0, p[1] + 4.0), "pin")
     else:
         symbol = Disc(p, PIN, "pin")
@@ -175,7 +175,7 @@ def _joint(sketch: Sketch, tie: SpatialTie) -> Iterable[Part]:
         marks += hatched(ends[0], ends[1], 1.0)
         soft.append(Soft(shapely.box(p[0] - 15.0, p[1] + 8.0, p[0] + 15.0, p[1] + 20.0), 1.5))
     yield Part(
-        (MarkGroup(name, "", tuple(marks), f"{kind_of(tie.joint)} of {tie.by} and {tie.on}"),),
+        (MarkGroup(name, "", tuple(marks), f"{tie.joint_kind} of {tie.by} and {tie.on}"),),
         tuple(soft),
         (around(p, 8.0),),
     )

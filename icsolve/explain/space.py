@@ -11,8 +11,8 @@ from icsolve.explain.formula import Expr, Name, Num, Sum, product
 from icsolve.explain.given import Figures, load_name
 from icsolve.report.derivation import Known
 from icsolve.report.derivation.spatial import InSpace, Push, in_space
-from icsolve.statics.space.figure import Vec, size, sub
-from icsolve.statics.space.reaction_basis import SpatialTie, kind_of
+from icsolve.screws.space import Vec, size, sub
+from icsolve.statics.space.reaction_basis import SpatialTie
 from icsolve.statics.space.report import direction_words
 from icsolve.wording.sentences import listed
 
@@ -60,7 +60,7 @@ def _joint(tie: SpatialTie) -> str:
     }
     axis = f" along {direction_words(tie.axis)}" if size(tie.axis) > 0.5 else ""
     where = f" at {tie.where}" if tie.where and not tie.where.startswith("@") else ""
-    return f"a {kind.get(kind_of(tie.joint), kind_of(tie.joint))} of links {tie.by} and {tie.on}{where}{axis}"
+    return f"a {kind.get(tie.joint_kind, tie.joint_kind)} of links {tie.by} and {tie.on}{where}{axis}"
 
 
 def _load(figures: Figures, push: Push) -> tuple[Inline, ...]:

@@ -1,4 +1,5 @@
-"""Equilibrium of every link: the sum of forces and of moments, linear in what the joints transmit.
+"""Equilibrium of every link, in the plane and in space: sums of forces and of moments, linear in what the
+joints transmit. A link has three equations in the plane and six in space; all else is told once.
 
 The moments of each link are taken about a point of its own, so that nothing of a long chain is lost
 to its distance from the origin.
@@ -9,17 +10,73 @@ The unknown loads from free bodies alone, against those from power.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
-from typing import NamedTuple
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Generic, NamedTuple, Protocol, TypeVar
 
 from icsolve.answer.bodies import Witness
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider
 from icsolve.numbers.linear import inverse, solve_square
 from icsolve.numbers.sparse import General, Row, eliminate
-from icsolve.screws.plane import Point, velocity
+from icsolve.screws import space
+from icsolve.screws.plane import velocity
 from icsolve.statics.power import Balance, Wrench, force_scale, is_unknown, number_of, place_of
 from icsolve.statics.reaction_basis import Force, Position, RopeTie, Tie
+from icsolve.wording.sentences import plural
+
+Components = tuple[Scalar, ...]
+"""Of a point its 2 or 3 coordinates; of a force with its couple 3 or 6 components; of a twist as many."""
+
+
+class Transmits(Protocol):
+    """What the equilibrium asks of a joint between two links, in the plane or in space."""
+
+    @property
+    def joint_kind(self) -> str:
+        """The joint's kind in the words of the format."""
+
+    @property
+    def by(self) -> str:
+        """The link on which the opposite acts."""
+
+    @property
+    def on(self) -> str:
+        """The link on which the units act."""
+
+    @property
+    def where(self) -> str:
+        """The name of its point."""
+
+    @property
+    def units(self) -> tuple[Components, ...]:
+        """What passes, each a force with its couple about the joint's point."""
+
+
+T = TypeVar("T", bound=Transmits)
+
+
+class Action(NamedTuple):
+    """What a unit of a column does to links.
+
+    Attributes
+    ----------
+    column : of the statics
+    on, by : the links on which ``force`` and its opposite act; '' for none
+    at : (2,) or (3,) [frame]
+    force : (3,) or (6,), force and couple about ``at`` [force, force times frame length]
+    """
+
+    column: int
+    on: str
+    by: str
+    at: Components
+    force: Components
+
+
+Equations = dict[str, tuple[Components, tuple[Row, ...]]]
+"""For each link the point of its moments, and its three or six equations, forces first."""
+Terms = dict[str, tuple[Components, tuple[tuple[float, float], ...]]]
+"""For each link the point of its moments; of its equations the sum of absolute terms, and the sum."""
 
 
 class Rub(NamedTuple):
@@ -37,7 +94,7 @@ class Rub(NamedTuple):
     """of a screw's thread what a unit of friction does on the rotor"""
 
 
-class Statics(NamedTuple):
+class Equilibrium(NamedTuple, Generic[T]):
     """The general solution of the equilibrium of all links.
 
     Columns: the units of the ties from ``first[t]`` on, the tension of each rope's first part, then the
@@ -52,17 +109,19 @@ class Statics(NamedTuple):
     roots : names of the unknown loads
     rubs : places that rub
     scale : power of two: loads and forces are ``scale`` times their number in case units
+    equations : of every link, by column
     general : each unit as a combination of parameters, and what the joints leave open
     arithmetic : of all coefficients
     """
 
-    ties: tuple[Tie, ...]
+    ties: tuple[T, ...]
     ropes: tuple[RopeTie, ...]
     first: tuple[int, ...]
     known: int
     roots: tuple[str, ...]
     rubs: tuple[Rub, ...]
     scale: float
+    equations: Equations
     general: General
     arithmetic: Arithmetic
 
@@ -98,20 +157,51 @@ class Statics(NamedTuple):
 
     def value(self, column: int, parameters: Mapping[int, Scalar]) -> Scalar:
         """What a column has for these parameters [scaled force], free columns at zero."""
-        return sum((a * parameters.get(c, 0.0) for c, a in self.general.of(column).items()), 0.0)
+        return value_of(self.general.of(column), parameters)
 
     def filled(self, parameters: Mapping[int, Scalar]) -> Row:
         """Values of all columns, scaled."""
         return {c: self.value(c, parameters) for c in range(self.known)} | dict(parameters)
 
+    def transmitted(self, t: int) -> list[Row]:
+        """Each component of a tie's force and couple, as a combination of parameters and free columns."""
+        units = self.ties[t].units
+        rows: list[Row] = [{} for _ in units[0]]
+        amounts = [(unit, self.general.of(self.first[t] + n)) for n, unit in enumerate(units)]
+        amounts += [(rub.unit, {self.rub(n): 1.0}) for n, rub in enumerate(self.rubs) if rub.tie == t]
+        for unit, combined in amounts:
+            for row, share in zip(rows, unit, strict=True):
+                for c, a in combined.items() if share else ():
+                    row[c] = row.get(c, 0.0) + share * a
+        return rows
+
+    def open_sizes(self) -> dict[int, float]:
+        """For each free column the largest share that any joint unknown has in it."""
+        sizes = dict.fromkeys(self.general.free, 1.0)
+        for row in self.general.solved.values():
+            for c, a in row.items():
+                if c in sizes:
+                    sizes[c] = max(sizes[c], abs(a))
+        return sizes
+
+    def determines(self, row: Row, sizes: Mapping[int, float]) -> bool:
+        """Whether equilibrium determines a combination; ``sizes`` are those of `open_sizes`."""
+        return all(self.is_none(row.get(c, 0.0), size) for c, size in sizes.items())
+
+
+Statics = Equilibrium[Tie]
+"""That of a case in the plane."""
+
+
+def value_of(row: Row, parameters: Mapping[int, Scalar]) -> Scalar:
+    """What a combination has for these parameters [scaled], free columns at zero."""
+    return sum((a * parameters[c] for c, a in row.items() if c in parameters), 0.0)
+
 
 def equilibrium(
-    position: Position,
-    ties: Sequence[Tie],
-    balance: Balance,
-    rubs: Sequence[Rub] = (),
+    position: Position, ties: Sequence[Tie], balance: Balance, rubs: Sequence[Rub] = ()
 ) -> Statics:
-    """Solve the equilibrium of every link but the frame for what the joints transmit.
+    """Solve the equilibrium of every link in the plane but the frame for what the joints transmit.
 
     Three equations a link: forces along x and y, moments about a point of its own. As many of them lose all
     joints as the links have motions: these give the unknown loads, and are the sums of power.
@@ -128,51 +218,60 @@ def equilibrium(
     Statics
         Nothing is refused: forces that equilibrium does not determine hang on free columns.
     """
-    rows = _BodyRows(position, ties)
-    first = []
-    column = 0
-    for tie in ties:
-        first.append(column)
-        for n in range(len(tie.units)):
-            rows.tie(tie, n, column)
-            column += 1
-    for tension in position.ropes:
-        rows.rope(tension, column)
-        column += 1
-    scale = force_scale(balance)
+    first, count = columns_of(ties)
     roots = tuple(w.load.name for w in balance.wrenches if is_unknown(w.load))
-    for w in balance.wrenches:
-        rows.load(w, *_share(w, position.arithmetic, roots, column, scale))
-    for n, rub in enumerate(rubs):
-        rows.rub(ties[rub.tie], rub, column + 1 + len(roots) + n)
-    general = _eliminated(rows.all(), column, position)
-    return Statics(
+    bare = Statics(
         tuple(ties),
         position.ropes,
-        tuple(first),
-        column,
+        first,
+        count + len(position.ropes),
         roots,
         tuple(rubs),
-        scale,
-        general,
+        force_scale(balance),
+        {},
+        NOTHING_SOLVED,
         position.arithmetic,
     )
+    ground = position.case.ground
+    return solve_statics(bare, actions_of(bare, position, balance.wrenches), ground, position.mobility)
 
 
-def _eliminated(rows: list[Row], columns: int, position: Position) -> General:
-    """The elimination in which as many equations lose all joints as the links have motions.
+NOTHING_SOLVED = General({}, (), ())
 
-    Where the rounding of floats hides that number, it is looked for a little above and below.
+
+def columns_of(ties: Sequence[Transmits]) -> tuple[tuple[int, ...], int]:
+    """The first column of each tie, and the number of all."""
+    first, column = [], 0
+    for tie in ties:
+        first.append(column)
+        column += len(tie.units)
+    return tuple(first), column
+
+
+def solve_statics(
+    bare: Equilibrium[T], actions: Iterable[Action], ground: str, mobility: int
+) -> Equilibrium[T]:
+    """The statics with its equations and their general solution.
+
+    Parameters
+    ----------
+    bare : ties, columns, scale
+    actions : of all columns; those of the joints first
+    ground : link without equations
+    mobility : motions of the links: how many equations have to lose all joints. Where the rounding of
+        floats hides that number, it is looked for a little above and below
     """
-    mobility, vanishes = position.mobility, decider(position.arithmetic)
-    tries = [eliminate(rows, columns, vanishes=vanishes)]
-    if vanishes is not None:
-        return tries[0]
-    for spent in SPENT_TRIES:
-        if len(tries[-1].left) == mobility:
-            return tries[-1]
-        tries.append(eliminate(rows, columns, spent))
-    return tries[-1] if len(tries[-1].left) == mobility else tries[0]
+    equations = _equations(actions, bare.known, ground)
+    rows = [row for _, rows in equations.values() for row in rows]
+    vanishes = decider(bare.arithmetic)
+    general = usual = eliminate(rows, bare.known, vanishes=vanishes)
+    if vanishes is None:
+        for spent in SPENT_TRIES:
+            if len(general.left) == mobility:
+                break
+            general = eliminate(rows, bare.known, spent)
+    fits = vanishes is not None or len(general.left) == mobility
+    return bare._replace(equations=equations, general=general if fits else usual)
 
 
 UNIQUE = 1e-9
@@ -180,108 +279,93 @@ UNIQUE = 1e-9
 SPENT_TRIES = (1e-12, 1e-11, 1e-10, 1e-14, 1e-15)
 
 
-def _share(
-    w: Wrench, arithmetic: Arithmetic, roots: Sequence[str], known: int, scale: float
-) -> tuple[int, Scalar]:
-    """The parameter that a load's number belongs to, and its factor."""
-    if w.root in roots:
-        return known + 1 + roots.index(w.root), w.ratio
-    return known, number_of(w, arithmetic) * scale * w.ratio
+def _equations(actions: Iterable[Action], known: int, ground: str) -> Equations:
+    """The sums over all actions; each link has its moments about the first point at which a joint acts."""
+    found: Equations = {}
+    for action in actions:
+        opposite = tuple(-part for part in action.force)
+        for link, force in ((action.by, opposite), (action.on, action.force)):
+            if link not in found and action.column < known and link not in ("", ground):
+                found[link] = (action.at, tuple({} for _ in force))
+            if link in found:
+                about, rows = found[link]
+                for row, value in zip(rows, _moved(force, action.at, about), strict=True):
+                    row[action.column] = row.get(action.column, 0.0) + value
+    return found
 
 
-class _BodyRows:
-    """Three equations a link: forces along x and y, moments about the link's first point."""
+def _moved(force: Components, at: Components, about: Components) -> Components:
+    """A force with its couple about another point: M + (at - about) x F."""
+    if len(force) == 6:
+        return space.moved(force, at, about)
+    x, y, couple = force
+    px, py = at[0] - about[0], at[1] - about[1]
+    return (x, y, couple + px * y - py * x)
 
-    def __init__(self, position: Position, ties: Iterable[Tie]) -> None:
-        self.position = position
-        self.about: dict[str, Point] = {}
-        for tie in ties:
-            self.about.setdefault(tie.by, tie.at)
-            self.about.setdefault(tie.on, tie.at)
-        for rope in position.ropes:
-            for part in rope.parts:
-                for link in filter(None, part.links):
-                    self.about.setdefault(link, part.at)
-        self.about.pop(position.case.ground, None)
-        self.rows: dict[str, tuple[Row, Row, Row]] = {link: ({}, {}, {}) for link in self.about}
 
-    def between(self, tie: Tie, unit: Force, column: int) -> None:
-        """A unit on the tie's second link, the opposite on its first."""
-        self.add(tie.on, tie.at, unit, column)
-        self.add(tie.by, tie.at, (-unit[0], -unit[1], -unit[2]), column)
+def tie_actions(ties: Sequence[Tie], first: Sequence[int]) -> Iterator[Action]:
+    """What the units of the ties do, on the rotor of a screw too."""
+    for tie, column in zip(ties, first, strict=True):
+        for n, unit in enumerate(tie.units):
+            yield Action(column + n, tie.on, tie.by, tie.at, unit)
+            if tie.screw is not None and tie.couples[n]:
+                yield Action(column + n, tie.screw.rotor, "", tie.at, (0.0, 0.0, tie.couples[n]))
 
-    def tie(self, tie: Tie, n: int, column: int) -> None:
-        """A unit of a tie, on the rotor of a screw too."""
-        self.between(tie, tie.units[n], column)
-        if tie.screw is not None and tie.couples[n]:
-            self.add(tie.screw.rotor, tie.at, (0.0, 0.0, tie.couples[n]), column)
 
-    def rub(self, tie: Tie, rub: Rub, column: int) -> None:
-        """A unit of friction."""
-        self.between(tie, rub.unit, column)
+def rope_actions(ropes: Sequence[RopeTie], first: int) -> Iterator[Action]:
+    """The pull of every part of each rope on both of its links (of the last, on the free end)."""
+    for column, rope in enumerate(ropes, start=first):
+        for k, part in enumerate(rope.parts):
+            at, unit = rope.unit(k)
+            yield Action(column, part.links[0], part.links[1] or rope.rope.end, at, unit)
+
+
+def rub_actions(ties: Sequence[Tie], rubs: Sequence[Rub], first: int) -> Iterator[Action]:
+    """A unit of friction at every rub, on the rotor of a screw too."""
+    for column, rub in enumerate(rubs, start=first):
+        tie = ties[rub.tie]
+        yield Action(column, tie.on, tie.by, tie.at, rub.unit)
         if tie.screw is not None and rub.spin:
-            self.add(tie.screw.rotor, tie.at, (0.0, 0.0, rub.spin), column)
-
-    def rope(self, tie: RopeTie, column: int) -> None:
-        """The pull of every part of a rope on both of its links (of the last, on the free end)."""
-        for k, part in enumerate(tie.parts):
-            at, (x, y, couple) = tie.unit(k)
-            self.add(part.links[0], at, (x, y, couple), column)
-            self.add(part.links[1] or tie.rope.end, at, (-x, -y, -couple), column)
-
-    def load(self, w: Wrench, column: int, factor: Scalar) -> None:
-        """A load on its link, the opposite on the link against which it acts."""
-        gain = w.gain * w.measure * factor
-        x, y, couple = (gain * u for u in (w.unit[1], 0.0 - w.unit[0], w.unit[2]))
-        place = place_of(w.load, self.position.points, self.position.arithmetic)
-        at, unit = (place, (x, y, 0.0)) if place else ((0.0, 0.0), (0.0, 0.0, couple))
-        self.add(w.load.link, at, unit, column)
-        self.add(w.against, at, (-unit[0], -unit[1], -unit[2]), column)
-
-    def add(self, link: str, at: Point, force: Force, column: int) -> None:
-        """A force and couple at a point of a link."""
-        if link not in self.rows:
-            return
-        x, y, couple = force
-        px, py = at[0] - self.about[link][0], at[1] - self.about[link][1]
-        for row, value in zip(self.rows[link], (x, y, couple + px * y - py * x), strict=True):
-            row[column] = row.get(column, 0.0) + value
-
-    def all(self) -> list[Row]:
-        """The equations of all links."""
-        return [row for link in self.rows.values() for row in link]
+            yield Action(column, tie.screw.rotor, "", tie.at, (0.0, 0.0, rub.spin))
 
 
-def terms_of(
-    position: Position, statics: Statics, balance: Balance, parameters: Mapping[int, Scalar]
-) -> Terms:
+def actions_of(statics: Statics, position: Position, wrenches: Sequence[Wrench]) -> Iterator[Action]:
+    """What every column does, in the arithmetic of the position: joints, ropes, loads, friction."""
+    yield from tie_actions(statics.ties, statics.first)
+    yield from rope_actions(statics.ropes, statics.tension(0))
+    for w in wrenches:
+        yield _load_action(w, statics, position)
+    yield from rub_actions(statics.ties, statics.rubs, statics.rub(0))
+
+
+def _load_action(w: Wrench, statics: Statics, position: Position) -> Action:
+    """A load on its link, the opposite on the link against which it acts."""
+    arithmetic = position.arithmetic
+    if w.root in statics.roots:
+        column, factor = statics.root(statics.roots.index(w.root)), w.ratio
+    else:
+        column, factor = statics.known, number_of(w, arithmetic) * statics.scale * w.ratio
+    gain = w.gain * w.measure * factor
+    x, y, couple = (gain * u for u in (w.unit[1], 0.0 - w.unit[0], w.unit[2]))
+    place = place_of(w.load, position.points, arithmetic)
+    at, force = (place, (x, y, 0.0)) if place else ((0.0, 0.0), (0.0, 0.0, couple))
+    return Action(column, w.load.link, w.against, at, force)
+
+
+def terms_of(statics: Equilibrium[T], parameters: Mapping[int, Scalar]) -> Terms:
     """What the equations of every link are summed from, in the solution with these parameters."""
     x = statics.filled(parameters)
-    equations = equations_of(position, statics, balance)
-    return {link: (about, _summed(three, x)) for link, (about, three) in equations.items()}
+    return {link: (about, _summed(rows, x)) for link, (about, rows) in statics.equations.items()}
 
 
-def equations_of(position: Position, statics: Statics, balance: Balance) -> Equations:
-    """The equations of every link, by the columns of the statics."""
-    rows = _BodyRows(position, statics.ties)
-    for t, tie in enumerate(statics.ties):
-        for n in range(len(tie.units)):
-            rows.tie(tie, n, statics.first[t] + n)
-    for n, rope in enumerate(statics.ropes):
-        rows.rope(rope, statics.tension(n))
-    for w in balance.wrenches:
-        rows.load(w, *_share(w, position.arithmetic, statics.roots, statics.known, statics.scale))
-    for n, rub in enumerate(statics.rubs):
-        rows.rub(statics.ties[rub.tie], rub, statics.rub(n))
-    return {link: (rows.about[link], three) for link, three in rows.rows.items()}
-
-
-def _summed(rows: tuple[Row, Row, Row], x: Mapping[int, Scalar]) -> tuple[tuple[float, float], ...]:
+def _summed(rows: tuple[Row, ...], x: Mapping[int, Scalar]) -> tuple[tuple[float, float], ...]:
     """Size and sum of each equation; a moment is as uncertain as the forces on the figure's size."""
     terms = [[float(a * x[c]) for c, a in row.items()] for row in rows]
     sizes = [sum(map(abs, row)) for row in terms]
+    forces = 3 if len(rows) == 6 else 2
+    force = sum(sizes[:forces])
     return tuple(
-        (size + (sizes[0] + sizes[1] if n == 2 else 0.0), math.fsum(row))
+        (size + (force if n >= forces else 0.0), math.fsum(row))
         for n, (size, row) in enumerate(zip(sizes, terms, strict=True))
     )
 
@@ -295,19 +379,15 @@ def residual(terms: Terms) -> float:
     return max((abs(rest) for _, rest in sums), default=0.0) / (largest or 1.0)
 
 
-Terms = dict[str, tuple[Point, tuple[tuple[float, float], ...]]]
-"""For each link the point of its moments; of its equations the sum of absolute terms, and the sum."""
-Equations = dict[str, tuple[Point, tuple[Row, Row, Row]]]
-"""For each link the point of its moments, and its three equations."""
-
-
 AGREE = 1e-9
 """Power and free bodies may differ by this fraction of the largest term, or by the bound if that is more."""
 ROUNDINGS = 32 * 2.0**-53
 """What the operations from a point to a term of an equation can lose together, of the term."""
 
 
-def unknowns_of(statics: Statics, friction: Mapping[int, float] | None = None) -> dict[str, Scalar] | None:
+def unknowns_of(
+    statics: Equilibrium[T], friction: Mapping[int, float] | None = None
+) -> dict[str, Scalar] | None:
     """The unknown loads [case units] from the equations in which no joint is left.
 
     Parameters
@@ -362,38 +442,63 @@ def independent(rows: Sequence[Sequence[Scalar]], count: int) -> list[list[Scala
     return chosen
 
 
-def bounds_of(position: Position, statics: Statics, balance: Balance, terms: Terms) -> dict[str, float]:
+def bounds_of(
+    statics: Equilibrium[T],
+    powers: Sequence[Sequence[float]],
+    twists: Mapping[str, Sequence[Components]],
+    terms: Terms,
+) -> dict[str, float]:
     """What rounding can make of the difference between power and free bodies, by unknown load [case units].
 
     The residual of every equation, and the rounding of its terms, does power on the motions; divided by
     the power of a unit of the unknown that is its error (the motions are the adjoint solution). inf where the
     motions do not determine the loads.
+
+    Parameters
+    ----------
+    statics : as solved
+    powers : (motions, unknowns), the power of a unit of each unknown load
+    twists : by link, one a motion
+    terms : of the solution
     """
-    columns = [[n for n, w in enumerate(balance.wrenches) if w.root == root] for root in statics.roots]
-    rows = []
-    for m, factors in enumerate(balance.factors):
-        both = zip(balance.wrenches, factors, strict=True)
-        powers = [float(w.ratio) * float(f) * w.measure for w, f in both]
-        row = [sum(powers[n] for n in ns) for ns in columns]
-        rows.append([*row, _lost(position, terms, m)])
-    rows = independent(rows, len(columns))
-    by_motion = inverse([row[:-1] for row in rows]) if len(rows) == len(columns) else None
+    count = len(statics.roots)
+    lost = (_lost(twists, terms, m) for m in range(len(powers)))
+    rows = independent([[*row, rest] for row, rest in zip(powers, lost, strict=True)], count)
+    by_motion = inverse([row[:-1] for row in rows]) if len(rows) == count else None
     if by_motion is None:
         return dict.fromkeys(statics.roots, float("inf"))
-    lost = [row[-1] / statics.scale for row in rows]
-    sums = [sum(abs(a) * p for a, p in zip(row, lost, strict=True)) for row in by_motion]
+    left = [row[-1] / statics.scale for row in rows]
+    sums = [sum(abs(a) * p for a, p in zip(row, left, strict=True)) for row in by_motion]
     return dict(zip(statics.roots, sums, strict=True))
 
 
-def _lost(position: Position, terms: Terms, motion: int) -> float:
+def powers_of(statics: Equilibrium[T], balance: Balance) -> list[list[float]]:
+    """The power of a unit of each unknown load, (motions, unknowns)."""
+    columns = [[n for n, w in enumerate(balance.wrenches) if w.root == root] for root in statics.roots]
+    rows = []
+    for factors in balance.factors:
+        both = zip(balance.wrenches, factors, strict=True)
+        powers = [float(w.ratio) * float(f) * w.measure for w, f in both]
+        rows.append([sum(powers[n] for n in ns) for ns in columns])
+    return rows
+
+
+def _lost(twists: Mapping[str, Sequence[Components]], terms: Terms, motion: int) -> float:
     """Power of the residuals and of the roundings of all equations on a motion."""
     lost = 0.0
     for link, (about, equations) in terms.items():
-        twist = position.twists[link][motion]
-        vx, vy = velocity(twist, about)
-        for speed, (size, rest) in zip((vx, vy, twist[2]), equations, strict=True):
+        speeds = _speeds(twists[link][motion], about)
+        for speed, (size, rest) in zip(speeds, equations, strict=True):
             lost += abs(speed) * (ROUNDINGS * size + abs(rest))
     return lost
+
+
+def _speeds(twist: Components, at: Components) -> Components:
+    """Velocity of the point of a link, then its angular velocity."""
+    if len(twist) == 6:
+        return (*space.velocity_of(twist, at), *twist[3:])
+    x, y, w = twist
+    return (*velocity((x, y, w), (at[0], at[1])), w)
 
 
 def witnesses(
@@ -423,3 +528,14 @@ def _apart(w: Witness) -> str:
         "be one number, so this position is too near to a singular one. Take another position, or give its "
         "data with more digits."
     )
+
+
+def refuse_doubt(freedoms: int, mobility: int) -> None:
+    """Refuse a position in which the links' equilibrium and their motions count different freedoms."""
+    if freedoms != mobility:
+        raise SceneError(
+            Status.NEAR_SINGULAR,
+            f"by its motions the mechanism has {plural(mobility, 'degree')} of freedom, by the "
+            f"equilibrium of its links {freedoms}: this position is too near to a singular one. Take another "
+            "position, or give its data with more digits.",
+        )

@@ -21,16 +21,16 @@ from typing import NamedTuple
 
 from icsolve.case.joints import Mesh
 from icsolve.kinematics.speeds import Speed
-from icsolve.numbers.arithmetic import Arithmetic, Scalar
+from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.sparse import Row, eliminate
 from icsolve.numbers.tape import SMALL
 from icsolve.screws.plane import Point
 from icsolve.statics import reaction_basis
-from icsolve.statics.equilibrium import Rub, Statics, equations_of
+from icsolve.statics.equilibrium import Components, Rub, Statics, actions_of
 from icsolve.statics.free_bodies import Solved, carrying_flanks
 from icsolve.statics.friction_interface import rates_of, rubs_of
-from icsolve.statics.power import Balance, Bounded, Wrench, number_of
-from icsolve.statics.reaction_basis import Force, Position, RopeTie, Tie, rope_ties, ties_of
+from icsolve.statics.power import Bounded, Wrench
+from icsolve.statics.reaction_basis import Force, Position, rope_ties, ties_of
 
 UNBOUND = "no bound was asked for"
 UNSURE = "with friction no bound of the rounding error is proven"
@@ -59,7 +59,6 @@ class ErrorBounds(NamedTuple):
 
 def error_bounds(
     position: Position,
-    balance: Balance,
     solved: Solved,
     senses: Sequence[float],
     traced: Bounded | None,
@@ -69,7 +68,7 @@ def error_bounds(
     if traced is None:
         return ErrorBounds({}, {}, UNBOUND)
     found = SlidingSolution(solved.statics, solved.statics.filled(solved.parameters), tuple(senses))
-    weights = weights_of(position, balance, found, outputs_of(found))
+    weights = weights_of(found, outputs_of(found))
     why = _doubt(position, traced)
     if weights is None or why:
         return ErrorBounds({}, {}, why or UNSURE)
@@ -132,7 +131,8 @@ def _exact(position: Position, solved: Solved, found: SlidingSolution, traced: B
     ties = reaction_basis.with_flanks(placed, ties_of(placed), flanks)
     values = {column: tape.constant(value) for column, value in found.values.items()}
     ropes = rope_ties(position.case, placed.points, position.scale, tape)
-    return Exact(ties, rubs_of(placed, ties), outcome.balance.wrenches, values, tape, ropes)
+    statics = found.statics._replace(ties=ties, rubs=rubs_of(placed, ties), ropes=ropes, arithmetic=tape)
+    return Exact(statics, placed, outcome.balance.wrenches, values)
 
 
 def _senses_are_sure(
@@ -140,7 +140,8 @@ def _senses_are_sure(
 ) -> bool:
     """Whether no rate that gave a sense lies within its own bound of zero."""
     moving = position._replace(points=traced.outcome.points, twists=traced.outcome.motions.twists)
-    by_motion = [rates_of(moving, exact.ties, exact.rubs, m) for m in range(position.mobility)]
+    ties, rubs = exact.statics.ties, exact.statics.rubs
+    by_motion = [rates_of(moving, ties, rubs, m) for m in range(position.mobility)]
     for k, sense in enumerate(senses):
         rate = sum(part * row[k] for part, row in zip(speed.particular, by_motion, strict=True))
         if sense and abs(rate) <= traced.of(rate):
@@ -181,14 +182,19 @@ class Weights(NamedTuple):
 
 
 class Exact(NamedTuple):
-    """A scene's ties, ropes, rubs, loads and values of the columns in one arithmetic."""
+    """A scene in one arithmetic: its columns (ties, ropes, rubs), position and loads, and their values.
 
-    ties: Sequence[Tie]
-    rubs: Sequence[Rub]
+    Attributes
+    ----------
+    statics : the columns, whose units are of this arithmetic; not solved in it
+    position, wrenches : points and loads
+    values : by column [scaled]
+    """
+
+    statics: Statics
+    position: Position
     wrenches: Sequence[Wrench]
     values: Mapping[int, Scalar]
-    numbers: Arithmetic
-    ropes: Sequence[RopeTie] = ()
 
 
 Output = dict[int, float]
@@ -205,11 +211,9 @@ def outputs_of(found: SlidingSolution) -> list[Output]:
     return loads
 
 
-def weights_of(
-    position: Position, balance: Balance, found: SlidingSolution, outputs: Sequence[Output]
-) -> list[Weights] | None:
+def weights_of(found: SlidingSolution, outputs: Sequence[Output]) -> list[Weights] | None:
     """The weights of every output; None where the equations do not determine one."""
-    equations = equations_of(position, found.statics, balance)
+    equations = found.statics.equations
     rows = [row for _, three in equations.values() for row in three] + _frictions(found)
     by_column: dict[int, Row] = {}
     for n, row in enumerate(rows):
@@ -229,10 +233,10 @@ def weights_of(
     ]
 
 
-def _weights(about: Mapping[str, Point], values: Sequence[float]) -> Weights:
+def _weights(about: Mapping[str, Components], values: Sequence[float]) -> Weights:
     links: dict[str, tuple[Point, Force]] = {}
     for k, (link, at) in enumerate(about.items()):
-        links[link] = (at, (values[3 * k], values[3 * k + 1], values[3 * k + 2]))
+        links[link] = ((at[0], at[1]), (values[3 * k], values[3 * k + 1], values[3 * k + 2]))
     return Weights(links, tuple(values[3 * len(about) :]))
 
 
@@ -265,74 +269,41 @@ def _sum(terms: Iterable[Scalar]) -> Scalar:
 
 def step(found: SlidingSolution, weights: Weights, exact: Exact) -> Scalar:
     """The weighted sum of all residuals (scaled): the unknown load is too large by so much."""
-    links = _sum(_of_tie(found.statics, weights, exact, t) for t in range(len(exact.ties)))
-    links = links + _sum(_of_rope(found.statics, weights, exact, n) for n in range(len(exact.ropes)))
-    loads = _sum(_of_load(found.statics, weights, exact, w) for w in exact.wrenches)
-    rubs = _sum(_of_rub(found, weights, exact, k) for k in range(len(exact.rubs)))
-    return links + loads + rubs
-
-
-def _of_tie(statics: Statics, weights: Weights, exact: Exact, t: int) -> Scalar:
-    """What passes in a joint, on its second link and back on its first."""
-    tie = exact.ties[t]
-    apart = _apart(weights, tie.on, tie.by, tie.at)
-    passing = [(statics.first[t] + n, unit) for n, unit in enumerate(tie.units)]
-    passing += [(statics.rub(k), rub.unit) for k, rub in enumerate(exact.rubs) if rub.tie == t]
-    return _sum(exact.values[c] * _pairing(unit, apart) for c, unit in passing)
-
-
-def _of_rope(statics: Statics, weights: Weights, exact: Exact, n: int) -> Scalar:
-    """The pull of every part of a rope on its first link and back on its second."""
-    tie = exact.ropes[n]
-    total: Scalar = 0.0
-    for k, part in enumerate(tie.parts):
-        at, unit = tie.unit(k)
-        apart = _apart(weights, part.links[0], part.links[1] or tie.rope.end, at)
-        total = total + exact.values[statics.tension(n)] * _pairing(unit, apart)
-    return total
-
-
-def _of_load(statics: Statics, weights: Weights, exact: Exact, w: Wrench) -> Scalar:
-    x, y, couple = w.unit[1], -w.unit[0], w.unit[2]
-    unit = _pairing((x, y, couple), _apart(weights, w.load.link, w.against, (0.0, 0.0)))
-    return _number(statics, exact, w) * w.gain * w.measure * w.ratio * unit
-
-
-def _number(statics: Statics, exact: Exact, w: Wrench) -> Scalar:
-    """The number of a load, scaled."""
-    if w.root in statics.roots:
-        return exact.values[statics.root(statics.roots.index(w.root))]
-    return number_of(w, exact.numbers) * statics.scale
+    links = _sum(
+        exact.values[a.column] * _pairing(a.force, _apart(weights, a.on, a.by, a.at))
+        for a in actions_of(exact.statics, exact.position, exact.wrenches)
+    )
+    return links + _sum(_of_rub(found, weights, exact, k) for k in range(len(exact.statics.rubs)))
 
 
 def _of_rub(found: SlidingSolution, weights: Weights, exact: Exact, k: int) -> Scalar:
     """A friction, which is against its sense and as large as its coefficient makes it."""
-    rub = exact.rubs[k]
+    rub = exact.statics.rubs[k]
     if k in found.kinks:
         return weights.rubs[k] * exact.values[found.statics.rub(k)]
     force = pressing(found.statics, rub, exact.values)
     if len(force) == 1:
         size = force[0] if float(force[0]) >= 0.0 else -force[0]
     else:
-        size = exact.numbers.sqrt(force[0] * force[0] + force[1] * force[1])
+        size = exact.statics.arithmetic.sqrt(force[0] * force[0] + force[1] * force[1])
     rest = exact.values[found.statics.rub(k)] + found.senses[k] * (rub.limit * size)
     return weights.rubs[k] * rest
 
 
-def _apart(weights: Weights, on: str, by: str, at: Point) -> Force:
+def _apart(weights: Weights, on: str, by: str, at: Components) -> Force:
     """Weights of a force along x and y and of a couple at a point, on one link and back on the other."""
     a, b = _at(weights, on, at), _at(weights, by, at)
     return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
 
 
-def _at(weights: Weights, link: str, at: Point) -> Force:
+def _at(weights: Weights, link: str, at: Components) -> Force:
     if link not in weights.links:
         return (0.0, 0.0, 0.0)
     (ox, oy), (x, y, couple) = weights.links[link]
     return (x - couple * (at[1] - oy), y + couple * (at[0] - ox), couple)
 
 
-def _pairing(force: Force, apart: Force) -> Scalar:
+def _pairing(force: Components, apart: Components) -> Scalar:
     return _sum(f * a for f, a in zip(force, apart, strict=True))
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import NamedTuple
+from typing import NamedTuple, Protocol, TypeVar
 
 from icsolve.answer import Answer
 from icsolve.answer.bodies import FrictionFound, Reactions, Tension, Witness
@@ -21,10 +21,14 @@ from icsolve.numbers.sparse import Row
 from icsolve.screws.plane import velocity
 from icsolve.statics import reaction_basis
 from icsolve.statics.equilibrium import (
+    Equilibrium,
     Statics,
+    T,
     bounds_of,
     equilibrium,
+    powers_of,
     refuse_apart,
+    refuse_doubt,
     terms_of,
     unknowns_of,
     witnesses,
@@ -32,8 +36,8 @@ from icsolve.statics.equilibrium import (
 from icsolve.statics.friction_interface import efficiency, friction_terms, has_friction
 from icsolve.statics.power import Balance, Wrench, force_scale, is_unknown, known_power, known_value
 from icsolve.statics.reaction_basis import Position, Tie, ties_of
-from icsolve.statics.reactions import is_unique, names_by_tie, notes_of, reactions_of, tensions_of
-from icsolve.wording.sentences import listed, plural
+from icsolve.statics.reactions import names_by_tie, notes_of, reactions_of, tensions_of
+from icsolve.wording.sentences import listed
 
 
 class FreeBodies(NamedTuple):
@@ -77,7 +81,8 @@ def free_bodies(
     shown = {root: a.rounded(value) for root, value in solved.unknowns.items()}
     bounds = {root: error for root, (_, error) in shown.items()}
     if a is FLOATS and position.mobility:
-        bounds = bounds_of(position, statics, balance, terms_of(position, statics, balance, parameters))
+        terms = terms_of(statics, parameters)
+        bounds = bounds_of(statics, powers_of(statics, balance), position.twists, terms)
     both = witnesses(power, {root: value for root, (value, _) in shown.items()}, bounds)
     refuse_apart(both, position.slack)
     reactions = reactions_of(position, frame, statics, parameters, a)
@@ -98,6 +103,10 @@ class Solved(NamedTuple):
         """Values by column."""
         return self.statics.parameters(self.unknowns, self.friction)
 
+    def carrying(self, t: int) -> float:
+        """As `carrying`."""
+        return carrying(self.statics, self.parameters, t)
+
 
 def frictionless(position: Position, balance: Balance, ties: Sequence[Tie]) -> Solved:
     """The statics without friction, with the tooth forces on the flanks that carry."""
@@ -117,32 +126,25 @@ def carrying_flanks(position: Position, ties: Sequence[Tie], found: Solved) -> d
 
 def _without_friction(position: Position, balance: Balance, ties: Sequence[Tie]) -> Solved:
     statics = equilibrium(position, ties, balance)
-    refuse_doubt(position, statics)
+    refuse_doubt(len(statics.general.left), position.mobility)
     unknowns = unknowns_of(statics)
     if unknowns is None:
-        raise SceneError(Status.NEAR_SINGULAR, _doubtful(position, 0))
-    return Solved(statics, unknowns)
-
-
-def refuse_doubt(position: Position, statics: Statics) -> None:
-    """Refuse a position in which the links' equilibrium and their motions count different freedoms."""
-    freedoms = len(statics.general.left)
-    if freedoms != position.mobility:
-        raise SceneError(Status.NEAR_SINGULAR, _doubtful(position, freedoms))
-
-
-def _doubtful(position: Position, freedoms: int) -> str:
-    return (
-        f"by its motions the mechanism has {plural(position.mobility, 'degree')} of freedom, by the "
-        f"equilibrium of its links {freedoms}: this position is too near to a singular one. Take another "
-        "position, or give its data with more digits."
-    )
+        refuse_doubt(0, position.mobility)
+    return Solved(statics, unknowns or {})
 
 
 MOST_TURNS = 4
-"""Flanks are tried again where friction turns a tooth force."""
+"""Flanks are tried again where friction, or a separating force, turns a tooth force."""
 
 
+class Carries(Protocol):
+    """A solution, in the plane or in space, that says on which flanks its teeth carry."""
+
+    def carrying(self, t: int) -> float:
+        """Sign of the force in a mesh along its first unit."""
+
+
+S = TypeVar("S", bound=Carries)
 Solve = Callable[[Sequence[Tie]], Solved]
 
 
@@ -156,25 +158,28 @@ def with_tooth_forces(position: Position, ties: Sequence[Tie], solve: Solve) -> 
     if not meshes:
         return solve(ties)
     found = solve(reaction_basis.with_flanks(position, ties, dict.fromkeys(meshes, 0.0)))
-    flanks = {t: carrying(found, t) for t in meshes if is_unique(found.statics, t, 0)}
-    flanks = {t: flank for t, flank in flanks.items() if not is_unique(found.statics, t, 1)}
-    return on_flanks(position, ties, flanks, solve)
+    sizes, first = found.statics.open_sizes(), found.statics.first
+    open_flanks = {}
+    for t in meshes:
+        tangential, separating = (found.statics.general.of(first[t] + n) for n in (0, 1))
+        if found.statics.determines(tangential, sizes) and not found.statics.determines(separating, sizes):
+            open_flanks[t] = found.carrying(t)
+    return on_flanks(open_flanks, lambda flanks: solve(reaction_basis.with_flanks(position, ties, flanks)))
 
 
-def on_flanks(position: Position, ties: Sequence[Tie], flanks: Mapping[int, float], solve: Solve) -> Solved:
+def on_flanks(flanks: Mapping[int, float], solve: Callable[[Mapping[int, float]], S]) -> S:
     """Solve with tooth forces on these flanks first; where a force pulls, on the other one."""
     for _ in range(MOST_TURNS):
-        found = solve(reaction_basis.with_flanks(position, ties, flanks))
-        turned = {t: flank * carrying(found, t) for t, flank in flanks.items()}
+        found = solve(flanks)
+        turned = {t: flank * found.carrying(t) for t, flank in flanks.items()}
         if turned == flanks:
             break
         flanks = turned
     return found
 
 
-def carrying(found: Solved, t: int) -> float:
+def carrying(statics: Equilibrium[T], parameters: Mapping[int, Scalar], t: int) -> float:
     """Sign of the force in a mesh along its first unit; 1 for no force."""
-    statics, parameters = found.statics, found.parameters
     value = statics.value(statics.first[t], parameters)
     largest = max(abs(statics.value(column, parameters)) for column in range(statics.known))
     return 1.0 if statics.arithmetic.vanishes(value, largest) else math.copysign(1.0, value)

@@ -25,7 +25,9 @@ from icsolve.statics.equilibrium import (
     Statics,
     bounds_of,
     equilibrium,
+    powers_of,
     refuse_apart,
+    refuse_doubt,
     residual,
     terms_of,
     witnesses,
@@ -37,10 +39,9 @@ from icsolve.statics.free_bodies import (
     carrying_flanks,
     frictionless,
     on_flanks,
-    refuse_doubt,
 )
 from icsolve.statics.friction_equations import forces_of
-from icsolve.statics.friction_interface import kind_of_rub, rates_of, rubs_of, unknowns_by_power
+from icsolve.statics.friction_interface import rates_of, rubs_of, unknowns_by_power
 from icsolve.statics.power import Balance, Bounded, Solution, Value, is_unknown
 from icsolve.statics.reaction_basis import Position, Tie, ties_of
 from icsolve.statics.reactions import names_by_tie, notes_of, reactions_of, tensions_of
@@ -71,13 +72,14 @@ def in_motion(scene: FrictionScene) -> tuple[dict[str, float], FreeBodies, Error
         slides.append(slid(statics, senses_of(scene, statics).signs, workless))
         return Solved(statics, slides[-1].unknowns, slides[-1].friction)
 
-    solved = on_flanks(scene.position, ties, _flanks(scene, ties, workless), solve)
+    first = _flanks(scene, ties, workless)
+    solved = on_flanks(first, lambda flanks: solve(reaction_basis.with_flanks(scene.position, ties, flanks)))
     sure = _certain(scene, solved, senses_of(scene, solved.statics).signs)
     return {**solved.unknowns, **sure.values}, _bodies(scene, solved, slides[-1], workless), sure
 
 
 def _certain(scene: FrictionScene, solved: Solved, senses: Sequence[float]) -> ErrorBounds:
-    found = error_bounds(scene.position, scene.balance, solved, senses, scene.traced, scene.speed)
+    found = error_bounds(scene.position, solved, senses, scene.traced, scene.speed)
     if scene.enclose is None or scene.traced is None or not is_smooth(scene.position, solved):
         return found
     try:
@@ -254,7 +256,7 @@ def _statics(scene: FrictionScene, ties: Sequence[Tie]) -> Statics:
     """
     rubs = rubs_of(scene.position, ties)
     statics = equilibrium(scene.position, ties, scene.balance, rubs)
-    refuse_doubt(scene.position, statics)
+    refuse_doubt(len(statics.general.left), scene.position.mobility)
     try:
         forces_of(statics)
     except LookupError as error:
@@ -280,11 +282,11 @@ def _shared(tie: Tie, ties: Sequence[Tie]) -> str:
 
 def _bodies(scene: FrictionScene, solved: Solved, found: Slid, workless: bool) -> FreeBodies:
     position, statics, parameters = scene.position, solved.statics, solved.parameters
-    terms = terms_of(position, statics, scene.balance, parameters)
+    terms = terms_of(statics, parameters)
     senses = senses_of(scene, statics)
     shown: tuple[Witness, ...] = ()
     if scene.solution.verdict not in ("no value", "any value"):
-        bounds = bounds_of(position, statics, scene.balance, terms)
+        bounds = bounds_of(statics, powers_of(statics, scene.balance), position.twists, terms)
         by_power = {q: (value, 0.0) for q, value in _by_power(scene, solved).items()}
         shown = witnesses(by_power, solved.unknowns, bounds)
         refuse_apart(shown, position.slack)
@@ -438,7 +440,7 @@ def rubbing_of(scene: FrictionScene, solved: Solved, found: Slid, senses: Sense)
     names = names_by_tie(case, statics.ties)
     rows = []
     for k, rub in enumerate(statics.rubs):
-        tie, kind = statics.ties[rub.tie], kind_of_rub(statics.ties[rub.tie])
+        tie, kind = statics.ties[rub.tie], statics.ties[rub.tie].kind
         turns = kind == "pin"
         per_unit = statics.scale * (scene.frame.scale / case.units.torque_per_force_length if turns else 1.0)
         rate = senses.rates[k] / (1.0 if turns else scene.frame.scale)

@@ -110,11 +110,6 @@ def _rate(position: Position, tie: Tie, rub: Rub, motion: int) -> Scalar:
     return rate if tie.screw is None else rate + rub.spin * position.twists[tie.screw.rotor][motion][2]
 
 
-def kind_of_rub(tie: Tie) -> str:
-    """``pin``, ``slide``, ``slot``, ``contact`` or ``screw``."""
-    return "screw" if tie.screw is not None else tie.joint.kind
-
-
 def unknowns_by_power(
     position: Position,
     balance: Balance,

@@ -65,6 +65,16 @@ class Tie(NamedTuple):
     couples: tuple[Scalar, ...] = ()
     """of a screw what each unit does on its rotor"""
 
+    @property
+    def joint_kind(self) -> str:
+        """The joint's kind in the words of the format."""
+        return self.joint.kind
+
+    @property
+    def kind(self) -> str:
+        """``screw``, or the joint's kind."""
+        return "screw" if self.screw is not None else self.joint.kind
+
 
 class RopeTie(NamedTuple):
     """A rope between links: the tension of part k is ``ratios[k]`` times that of the first."""

@@ -16,11 +16,9 @@ from icsolve.case.joints import Mesh, Sliding
 from icsolve.case.names import ordered_pair
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar, Showing, all_vanish, size_of, zero_of
-from icsolve.numbers.sparse import Row
 from icsolve.screws.plane import velocity
-from icsolve.statics.equilibrium import Statics
+from icsolve.statics.equilibrium import Statics, Transmits, value_of
 from icsolve.statics.reaction_basis import (
-    Force,
     Position,
     Tie,
     axial_shares,
@@ -46,16 +44,16 @@ def reactions_of(
     Reactions
         Forces in case force units, couples in case torque units; what equilibrium does not determine is None.
     """
-    combined = [_combined(statics, t) for t in range(len(statics.ties))]
-    sizes = _open_sizes(statics)
-    values = [tuple(_value(statics, row, parameters) for row in rows) for rows in combined]
+    combined = [statics.transmitted(t) for t in range(len(statics.ties))]
+    sizes = statics.open_sizes()
+    values = [tuple(value_of(row, parameters) for row in rows) for rows in combined]
     zero = _zeros(values, a)
     names = names_by_tie(position.case, statics.ties)
     found = Reactions()
     for tie, rows, forces, name in zip(statics.ties, combined, values, names, strict=True):
         if tie.on.startswith("@"):  # the free end of a rope, which is no link
             continue
-        unique = [all(statics.is_none(row.get(c, 0.0), size) for c, size in sizes.items()) for row in rows]
+        unique = [statics.determines(row, sizes) for row in rows]
         kept = [zero(f, n) if u else None for n, (f, u) in enumerate(zip(forces, unique, strict=True))]
         parts = _parts(position, tie, kept, a)
         if isinstance(tie.joint, Mesh) and tie.joint.pulls and tie.pivots[0]:
@@ -79,15 +77,15 @@ def tensions_of(statics: Statics, parameters: Mapping[int, Scalar], a: Showing) 
     SceneError
         ``slack`` where one would have to push.
     """
-    sizes = _open_sizes(statics)
+    sizes = statics.open_sizes()
     largest = max((abs(statics.value(c, parameters)) for c in range(statics.known)), default=0.0)
     found = []
     for n, tie in enumerate(statics.ropes):
         row = statics.general.of(statics.tension(n))
-        if not all(statics.is_none(row.get(c, 0.0), size) for c, size in sizes.items()):
+        if not statics.determines(row, sizes):
             found.append(Tension(tie.rope.name, None, why=SHARED))
             continue
-        value = _value(statics, row, parameters)
+        value = value_of(row, parameters)
         value = zero_of(value) if a.vanishes(value, largest) else value
         pull, error = a.rounded(value / statics.scale)
         if pull < 0.0:
@@ -118,54 +116,16 @@ def _net_pull(position: Position, belt: Mesh, tie: Tie, force: tuple[Scalar, ...
     return size_of(torque / (a.given(belt.sizes[1]) * position.scale))
 
 
-def names_by_tie(case: Case, ties: tuple[Tie, ...]) -> list[str]:
-    """``F34``, ``F3-14``, ``Fcrank-rod``; with the place where a pair has two joints: ``F3-4@B``."""
+def names_by_tie(case: Case, ties: Sequence[Transmits]) -> list[str]:
+    """``F34``, ``F3-14``, ``Fcrank-rod``; with the place where a pair has several joints: ``F3-4@B``."""
     pairs = [ordered_pair(case, tie.by, tie.on) for tie in ties]
     shared = Counter(pairs)
     names: list[str] = []
     for tie, (by, on) in zip(ties, pairs, strict=True):
-        options = names_of(by, on, tie.where or tie.joint.kind)
+        options = names_of(by, on, tie.where or tie.joint_kind)
         name = options[0] if shared[by, on] == 1 else options[-1]
-        names.append(name if name not in names else f"{name} {tie.joint.kind} {names.count(name) + 1}")
+        names.append(name if name not in names else f"{name} {tie.joint_kind} {names.count(name) + 1}")
     return names
-
-
-def _combined(statics: Statics, t: int) -> tuple[Row, Row, Row]:
-    """Force along x and y and couple of a tie, each as a combination of parameters and free columns."""
-    rows: tuple[Row, Row, Row] = ({}, {}, {})
-    for n, unit in enumerate(statics.ties[t].units):
-        _add(rows, unit, statics.general.of(statics.first[t] + n))
-    for n, rub in enumerate(statics.rubs):
-        if rub.tie == t:
-            _add(rows, rub.unit, {statics.rub(n): 1.0})
-    return rows
-
-
-def _add(rows: tuple[Row, Row, Row], unit: Force, amounts: Row) -> None:
-    for row, share in zip(rows, unit, strict=True):
-        if share:
-            for c, a in amounts.items():
-                row[c] = row.get(c, 0.0) + share * a
-
-
-def _open_sizes(statics: Statics) -> dict[int, float]:
-    """For each free column the largest share that any joint unknown has in it."""
-    sizes = dict.fromkeys(statics.general.free, 1.0)
-    for row in statics.general.solved.values():
-        for c, a in row.items():
-            if c in sizes:
-                sizes[c] = max(sizes[c], abs(a))
-    return sizes
-
-
-def is_unique(statics: Statics, t: int, unit: int) -> bool:
-    """Whether equilibrium determines a tie's force along one of its units."""
-    row = statics.general.of(statics.first[t] + unit)
-    return all(statics.is_none(row.get(c, 0.0), size) for c, size in _open_sizes(statics).items())
-
-
-def _value(statics: Statics, row: Row, parameters: Mapping[int, Scalar]) -> Scalar:
-    return sum((a * parameters.get(c, 0.0) for c, a in row.items() if c >= statics.known), 0.0)
 
 
 def _zeros(values: Sequence[tuple[Scalar, ...]], a: Showing) -> Callable[[Scalar, int], Scalar]:
@@ -193,11 +153,10 @@ def _reaction(
     shown = {name: value for name, (value, _) in both.items()}
     errors = {name: error for name, (_, error) in both.items() if math.isfinite(error) and name != "opposite"}
     toward, back = (shown[n] % 360.0 if n in shown else None for n in ("direction", "opposite"))
-    kind = "screw" if tie.screw is not None else tie.joint.kind
     by, on = (tie.by, tie.on) if ordered else (tie.on, tie.by)
     force = (shown.get("x"), shown.get("y"), shown.get("moment"), _why(tie, kept))
     size = shown.get("magnitude")
-    return Reaction(by, on, kind, tie.where, (px, py), *force, (), size, toward, back, errors)
+    return Reaction(by, on, tie.kind, tie.where, (px, py), *force, (), size, toward, back, errors)
 
 
 def _polar(x: Scalar | None, y: Scalar | None, a: Showing) -> dict[str, Scalar | None]:

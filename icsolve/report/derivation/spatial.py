@@ -9,7 +9,8 @@ from icsolve.case import Case
 from icsolve.case.space import SpatialTorque, TorqueVector
 from icsolve.errors import SceneError
 from icsolve.report.derivation.known import Known
-from icsolve.statics.space.figure import SpatialFigure, Vec, figure_of, in_case, times
+from icsolve.screws.space import Vec, times
+from icsolve.statics.space.figure import SpatialFigure, figure_of, in_case
 from icsolve.statics.space.power import wrenched
 from icsolve.statics.space.reaction_basis import SpatialTie, ties_of
 from icsolve.statics.space.report import unit_of

@@ -1,7 +1,4 @@
-"""Points in space, in a frame whose numbers are about 1, and directions as unit vectors.
-
-Vectors of three floats.
-"""
+"""Points in space, in a frame whose numbers are about 1, and unit vectors, in any arithmetic."""
 
 from __future__ import annotations
 
@@ -12,15 +9,19 @@ from typing import NamedTuple
 from icsolve.case import Case, Centroid, Number, Spring, Toward
 from icsolve.case.space import Along, Axis, FromTo, Space, Vector
 from icsolve.errors import SceneError, Status
+from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
+from icsolve.screws.space import AXES, Vec, size, sub, times, unit
 
-Vec = tuple[float, float, float]
 Places = Mapping[str, Vec]
 
 
 class SpatialFrame(NamedTuple):
-    """Normalised points are (p - origin) * scale; ``scale`` is a power of two, so that it rounds nothing."""
+    """Normalised points are (p - origin) * scale; ``scale`` is a power of two, so that it rounds nothing.
 
-    origin: Vec
+    ``origin`` is a place of doubles [case length].
+    """
+
+    origin: tuple[float, float, float]
     scale: float
 
     def normalised(self, p: Vec) -> Vec:
@@ -34,36 +35,39 @@ class SpatialFrame(NamedTuple):
 
 
 class SpatialFigure(NamedTuple):
-    """Every point of a case: in case units and normalised."""
+    """Every point of a case: in case units and normalised, in an arithmetic."""
 
     places: Places
     points: Places
     frame: SpatialFrame
+    arithmetic: Arithmetic = FLOATS
 
 
-def figure_of(space: Space) -> SpatialFigure:
+def figure_of(space: Space, arithmetic: Arithmetic = FLOATS) -> SpatialFigure:
     """The points of a case in space.
 
     Raises SceneError where centroids are of each other, and where coordinates cannot resolve the figure.
     """
     places: dict[str, Vec] = {}
     for name in space.points:
-        _place(space, name, places, ())
+        _place(space, name, places, (), arithmetic)
     frame = frame_of(places)
-    return SpatialFigure(places, {name: frame.normalised(p) for name, p in places.items()}, frame)
+    return SpatialFigure(places, {name: frame.normalised(p) for name, p in places.items()}, frame, arithmetic)
 
 
-def _place(space: Space, name: str, places: dict[str, Vec], below: tuple[str, ...]) -> Vec:
+def _place(
+    space: Space, name: str, places: dict[str, Vec], below: tuple[str, ...], arithmetic: Arithmetic
+) -> Vec:
     if name in places:
         return places[name]
     if name in below:
         raise SceneError(Status.UNDERDETERMINED, f"{name} is the centroid of points that depend on it.")
     given = space.points[name]
     if isinstance(given, Centroid):
-        of = [_place(space, other, places, (*below, name)) for other in given.of]
-        x, y, z = (math.fsum(values) / len(of) for values in zip(*of, strict=True))
+        of = [_place(space, other, places, (*below, name), arithmetic) for other in given.of]
+        x, y, z = (sum(values, 0.0) / len(of) for values in zip(*of, strict=True))
     else:
-        x, y, z = given.x.value, given.y.value, given.z.value
+        x, y, z = vector_of((given.x, given.y, given.z), arithmetic)
     places[name] = (x, y, z)
     return places[name]
 
@@ -73,9 +77,10 @@ def frame_of(places: Places) -> SpatialFrame:
 
     Raises SceneError (``near-singular``) where doubles there are farther apart than a thousandth of that.
     """
-    origin = next(iter(places.values()), ZERO)
-    reach = max((abs(c) for p in places.values() for c in sub(p, origin)), default=0.0)
-    offset = max((abs(c) for p in places.values() for c in p), default=0.0)
+    rough = [(float(x), float(y), float(z)) for x, y, z in places.values()]
+    origin = next(iter(rough), (0.0, 0.0, 0.0))
+    reach = max((abs(c) for p in rough for c in sub(p, origin)), default=0.0)
+    offset = max((abs(c) for p in rough for c in p), default=0.0)
     if reach and math.ulp(offset) > 1e-3 * reach:
         raise SceneError(
             Status.NEAR_SINGULAR,
@@ -85,7 +90,7 @@ def frame_of(places: Places) -> SpatialFrame:
     return SpatialFrame(origin, math.ldexp(1.0, -exponent))
 
 
-def direction(axis: Axis, places: Places, what: str) -> Vec:
+def direction(axis: Axis, figure: SpatialFigure, what: str) -> Vec:
     """The unit vector of an axis.
 
     Raises SceneError, about ``what``, where its two points lie at one place.
@@ -95,42 +100,43 @@ def direction(axis: Axis, places: Places, what: str) -> Vec:
             vector = AXES["xyz".index(word[-1])]
             return times(-1.0, vector) if word[0] == "-" else vector
         case Vector():
-            return unit(vector_of(axis))
+            return unit(vector_of(axis, figure.arithmetic), figure.arithmetic)
         case FromTo(a, b):
-            return between(a, b, places, what)
+            return between(a, b, figure, what)
 
 
-def vector_of(parts: tuple[Number, ...]) -> Vec:
+def vector_of(parts: tuple[Number, ...], arithmetic: Arithmetic = FLOATS) -> Vec:
     """Three numbers as a vector."""
-    x, y, z = (part.value for part in parts)
+    x, y, z = (arithmetic.given(part) for part in parts)
     return (x, y, z)
 
 
-def between(a: str, b: str, places: Places, what: str) -> Vec:
+def between(a: str, b: str, figure: SpatialFigure, what: str) -> Vec:
     """The unit vector from one point to another.
 
     Raises SceneError, about ``what``, where they lie at one place.
     """
-    if places[a] == places[b]:
+    apart = sub(figure.places[b], figure.places[a])
+    if not any(map(float, apart)):
         raise SceneError(
             Status.INCONSISTENT,
             f"{what} has no direction: {_shown(a)} and {_shown(b)} lie at one place. Give it by its "
             "components, or correct the points.",
         )
-    return unit(sub(places[b], places[a]))
+    return unit(apart, figure.arithmetic)
 
 
-def heading(load_heading: Axis | Toward, at: str, places: Places, what: str) -> Vec:
+def heading(load_heading: Axis | Toward, at: str, figure: SpatialFigure, what: str) -> Vec:
     """The unit vector of a force at a point."""
     if isinstance(load_heading, Toward):
         sign = -1.0 if load_heading.away else 1.0
-        return times(sign, between(at, load_heading.point, places, what))
-    return direction(load_heading, places, what)
+        return times(sign, between(at, load_heading.point, figure, what))
+    return direction(load_heading, figure, what)
 
 
-def spring_length(spring: Spring, places: Places) -> float:
+def spring_length(spring: Spring, figure: SpatialFigure) -> Scalar:
     """Distance of a spring's ends, case lengths."""
-    return size(sub(places[spring.to], places[spring.at]))
+    return size(sub(figure.places[spring.to], figure.places[spring.at]), figure.arithmetic)
 
 
 def _shown(name: str) -> str:
@@ -141,50 +147,3 @@ def in_case(case: Case) -> Space:
     """What a case in space says of it."""
     assert case.space is not None
     return case.space
-
-
-ZERO: Vec = (0.0, 0.0, 0.0)
-AXES: tuple[Vec, Vec, Vec] = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
-
-
-def add(a: Vec, b: Vec) -> Vec:
-    """a + b."""
-    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
-
-
-def sub(a: Vec, b: Vec) -> Vec:
-    """a - b."""
-    return (a[0] - b[0], a[1] - b[1], a[2] - b[2])
-
-
-def times(s: float, a: Vec) -> Vec:
-    """s a; a zero is positive."""
-    return (s * a[0] + 0.0, s * a[1] + 0.0, s * a[2] + 0.0)
-
-
-def dot(a: Vec, b: Vec) -> float:
-    """Scalar product."""
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
-def cross(a: Vec, b: Vec) -> Vec:
-    """Vector product."""
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-def size(a: Vec) -> float:
-    """Length."""
-    return math.hypot(*a)
-
-
-def unit(a: Vec) -> Vec:
-    """Unit vector along a; a must not be zero."""
-    length = size(a)
-    return (a[0] / length, a[1] / length, a[2] / length)
-
-
-def square_to(axis: Vec) -> tuple[Vec, Vec]:
-    """Two unit vectors square to a unit vector and to each other, along coordinate axes where they can be."""
-    least = min(AXES, key=lambda e: (abs(dot(e, axis)), -e[0], -e[1]))
-    first = unit(sub(least, times(dot(least, axis), axis)))
-    return first, unit(cross(axis, first))

@@ -9,54 +9,63 @@ which no joint does work.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 from icsolve.case import Case, Like, Spring, Weight
 from icsolve.case.space import Load, SpatialForce, SpatialForceVector, SpatialTorque, TorqueVector
+from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider
+from icsolve.numbers.null_space import Vanishes
 from icsolve.numbers.sparse import Row, eliminate
+from icsolve.screws.space import ZERO, Components, Vec, dot, moved, size, times, unit, velocity_of
+from icsolve.statics.equilibrium import NOTHING_SOLVED, Action, Equilibrium, columns_of, solve_statics
 from icsolve.statics.space.figure import (
-    ZERO,
     SpatialFigure,
-    Vec,
-    add,
     between,
-    cross,
     direction,
-    dot,
     heading,
     in_case,
-    size,
     spring_length,
-    sub,
-    times,
-    unit,
     vector_of,
 )
-from icsolve.statics.space.reaction_basis import SpatialTie, Wrench
+from icsolve.statics.space.reaction_basis import SpatialTie
+
+SpatialStatics = Equilibrium[SpatialTie]
 
 
 class Wrenched(NamedTuple):
     """A load: number times ``gain`` times ``unit`` acts on its link at ``at``, the opposite on ``against``.
 
-    ``unit`` is a force of length 1, or a couple of 1; ``at`` is normalised. ``gain`` brings the load's own
-    unit to force units, of a couple to force units times normalised lengths. ``known`` is the number of a
-    given load, None of an unknown one; ``root`` names the load whose number it takes, ``ratio`` times.
+    Attributes
+    ----------
+    load : the load
+    against : link that takes the opposite
+    at : [frame]
+    unit : a force of length 1 and no couple, or a couple of 1
+    gain : what brings the load's own unit to force units, of a couple to force units times frame length
+    root, ratio : the load whose number it takes, ``ratio`` times
+    known : the number of a given load, None of an unknown one
     """
 
     load: Load
     against: str
     at: Vec
-    unit: Wrench
-    gain: float
+    unit: tuple[Vec, Vec]
+    gain: Scalar
     root: str
-    ratio: float
-    known: float | None
+    ratio: Scalar
+    known: Scalar | None
 
     @property
     def size(self) -> float:
-        """What a unit of the root's number exerts, in force units (and normalised lengths)."""
-        return abs(self.gain * self.ratio)
+        """What a unit of the root's number exerts, in force units (and frame lengths)."""
+        return abs(float(self.gain * self.ratio))
+
+    @property
+    def wrench(self) -> Components:
+        """What a unit of the root's number exerts about ``at``, (6,)."""
+        force, couple = (times(self.gain * self.ratio, part) for part in self.unit)
+        return (*force, *couple)
 
 
 def wrenched(case: Case, figure: SpatialFigure) -> tuple[Wrenched, ...]:
@@ -70,59 +79,61 @@ def wrenched(case: Case, figure: SpatialFigure) -> tuple[Wrenched, ...]:
 
 
 def _wrenched(case: Case, figure: SpatialFigure, load: Load, by_name: Mapping[str, Load]) -> Wrenched:
-    root, ratio = _root(load, by_name)
+    root, ratio = _root(load, by_name, figure.arithmetic)
     unit_wrench, gain = _unit(case, figure, load)
     at = figure.points[load.at] if not isinstance(load, SpatialTorque | TorqueVector) else ZERO
     against = getattr(load, "against", None) or case.ground
-    return Wrenched(load, against, at, unit_wrench, gain, root.name, ratio, _number(root))
+    known = _number(root, figure.arithmetic)
+    return Wrenched(load, against, at, unit_wrench, gain, root.name, ratio, known)
 
 
-def _root(load: Load, by_name: Mapping[str, Load]) -> tuple[Load, float]:
+def _root(load: Load, by_name: Mapping[str, Load], arithmetic: Arithmetic) -> tuple[Load, Scalar]:
     """The load whose number it takes, and how many times that."""
-    ratio = 1.0
+    ratio: Scalar = 1.0
     while not isinstance(load, SpatialForceVector | TorqueVector) and isinstance(load.value, Like):
-        ratio *= 1.0 if load.value.times is None else load.value.times.value
+        if load.value.times is not None:
+            ratio = ratio * arithmetic.given(load.value.times)
         load = by_name[load.value.load]
     return load, ratio
 
 
-def _number(load: Load) -> float | None:
+def _number(load: Load, arithmetic: Arithmetic) -> Scalar | None:
     if isinstance(load, SpatialForceVector | TorqueVector):
-        return size(vector_of(load.parts))
+        return size(vector_of(load.parts, arithmetic), arithmetic)
     assert not isinstance(load.value, Like)
-    return None if load.value is None else load.value.value
+    return None if load.value is None else arithmetic.given(load.value)
 
 
-def _unit(case: Case, figure: SpatialFigure, load: Load) -> tuple[Wrench, float]:
-    places, name = figure.places, f"load {load.name}"
-    per_torque = figure.frame.scale / case.units.torque_per_force_length
+def _unit(case: Case, figure: SpatialFigure, load: Load) -> tuple[tuple[Vec, Vec], Scalar]:
+    name, a = f"load {load.name}", figure.arithmetic
+    num, den, pi = case.units.exact_torque
+    per_torque = a.ratio((den, num, -pi)) * figure.frame.scale
     match load:
         case SpatialTorque():
-            return (ZERO, direction(load.heading, places, name)), per_torque
+            return (ZERO, direction(load.heading, figure, name)), per_torque
         case TorqueVector():
-            return (ZERO, _along(load.parts)), per_torque
+            return (ZERO, _along(vector_of(load.parts, a), a)), per_torque
         case SpatialForceVector():
-            return (_along(load.parts), ZERO), 1.0
+            return (_along(vector_of(load.parts, a), a), ZERO), 1.0
         case SpatialForce():
-            return (heading(load.heading, load.at, places, name), ZERO), 1.0
+            return (heading(load.heading, load.at, figure, name), ZERO), 1.0
         case Weight():
-            gain = case.gravity.value * case.units.force_per_newton if load.mass else 1.0
-            return (direction(in_case(case).down, places, "gravity"), ZERO), gain
+            gain = a.given(case.gravity) * a.ratio(case.units.exact_newton) if load.mass else 1.0
+            return (direction(in_case(case).down, figure, "gravity"), ZERO), gain
         case Spring():
-            stretch = spring_length(load, places) - load.free.value
-            return (between(load.at, load.to, places, name), ZERO), stretch
+            stretch = spring_length(load, figure) - a.given(load.free)
+            return (between(load.at, load.to, figure, name), ZERO), stretch
     raise TypeError(type(load).__name__)
 
 
-def _along(parts: Sequence[object]) -> Vec:
+def _along(vector: Vec, arithmetic: Arithmetic) -> Vec:
     """Unit vector of a load by components; of a load of nothing, x."""
-    vector = vector_of(parts)  # type: ignore[arg-type]
-    return unit(vector) if size(vector) else (1.0, 0.0, 0.0)
+    return unit(vector, arithmetic) if any(map(float, vector)) else (1.0, 0.0, 0.0)
 
 
 def scale_of(loads: Sequence[Wrenched]) -> float:
     """A power of two that brings the largest known load near 1."""
-    largest = max((w.size * abs(w.known) for w in loads if w.known is not None), default=0.0)
+    largest = max((w.size * abs(float(w.known)) for w in loads if w.known is not None), default=0.0)
     return math.ldexp(1.0, -math.frexp(largest)[1]) if largest else 1.0
 
 
@@ -131,98 +142,87 @@ def is_unknown(load: Load) -> bool:
     return not isinstance(load, SpatialForceVector | TorqueVector) and load.value is None
 
 
-def acting(w: Wrenched) -> tuple[Vec, Vec]:
-    """Force and couple on the load's link, in force units (and normalised lengths), per unit of the root."""
-    force, couple = w.unit
-    amount = w.gain * w.ratio
-    return times(amount, force), times(amount, couple)
-
-
-Twist = tuple[Vec, Vec]
-STILL: Twist = (ZERO, ZERO)
+Twists = Mapping[str, Sequence[Components]]
+"""By link, one a motion, each (6,); of the frame too."""
 
 NOTHING = 1e-12
-"""Power below this fraction of what force and speed could make is none (rounding)."""
+"""In floats power below this fraction of what force and speed could make is none (rounding)."""
 NEARLY = 1e-5
 """Known loads that balance to this fraction of their own size are taken as balanced, and it is said."""
 
 
-def motions_of(links: Sequence[str], ties: Sequence[SpatialTie]) -> tuple[dict[str, Twist], ...]:
-    """A basis of the motions of ``links``, each scaled to a largest component of 1."""
+def motions_of(case: Case, ties: Sequence[SpatialTie], arithmetic: Arithmetic) -> Twists:
+    """A basis of the motions of the links, each scaled to a largest component of 1.
+
+    Parameters
+    ----------
+    case : the links and the frame, which is at rest
+    ties : each unit of which does no work
+    arithmetic : of the ties
+    """
+    links = [link for link in case.links if link != case.ground]
     place = {link: 6 * n for n, link in enumerate(links)}
     rows = [_row(tie, wrench, place) for tie in ties for wrench in tie.units]
-    general = eliminate(rows, 6 * len(links))
-    motions = []
+    general = eliminate(rows, 6 * len(links), vanishes=decider(arithmetic))
+    found: dict[str, list[Components]] = {link: [] for link in (case.ground, *links)}
     for free in general.free:
-        x = {c: row.get(free, 0.0) for c, row in general.solved.items()}
-        x[free] = 1.0
-        largest = max(map(abs, x.values()))
-        motions.append({link: _twist(x, at, largest) for link, at in place.items()})
-    return tuple(motions)
+        x = {c: row.get(free, 0.0) for c, row in general.solved.items()} | {free: 1.0}
+        largest = max(abs(float(value)) for value in x.values())
+        found[case.ground].append((0.0,) * 6)
+        for link, at in place.items():
+            found[link].append(tuple(x.get(at + n, 0.0) / largest for n in range(6)))
+    return found
 
 
-def _row(tie: SpatialTie, wrench: tuple[Vec, Vec], place: Mapping[str, int]) -> Row:
+def _row(tie: SpatialTie, wrench: Components, place: Mapping[str, int]) -> Row:
     """The power of a unit of a tie, in the components of all twists."""
-    force, couple = wrench
+    parts = moved(wrench, tie.at, ZERO)
     row: Row = {}
     for link, sign in ((tie.on, 1.0), (tie.by, -1.0)):
         if link in place:
-            parts = (*force, *add(couple, cross(tie.at, force)))
             row.update({place[link] + n: sign * part for n, part in enumerate(parts) if part})
     return row
 
 
-def _twist(x: Mapping[int, float], at: int, largest: float) -> Twist:
-    a, b, c, d, e, f = (x.get(at + n, 0.0) / largest for n in range(6))
-    return (a, b, c), (d, e, f)
-
-
-def relative(motion: Mapping[str, Twist], on: str, by: str) -> Twist:
-    """Twist of one link as another sees it."""
-    (v, w), (p, q) = motion.get(on, STILL), motion.get(by, STILL)
-    return sub(v, p), sub(w, q)
-
-
-def velocity(twist: Twist, at: Vec) -> Vec:
-    """Velocity of a point."""
-    return add(twist[0], cross(twist[1], at))
+def count_of(twists: Twists) -> int:
+    """The number of motions."""
+    return len(next(iter(twists.values())))
 
 
 class Power(NamedTuple):
     """Power of a load, per unit of its root's number, on a motion; and what it could be at most."""
 
-    value: float
+    value: Scalar
     most: float
 
 
-def power_of(w: Wrenched, motion: Mapping[str, Twist]) -> Power:
-    """Power of a load on a motion; zero where it is rounding."""
-    force, couple = acting(w)
-    twist = relative(motion, w.load.link, w.against)
-    value = dot(force, velocity(twist, w.at)) + dot(couple, twist[1])
-    fastest = max((size(v) + size(o) * (1.0 + size(w.at)) for v, o in motion.values()), default=0.0)
-    most = (size(force) + size(couple)) * fastest
-    return Power(value if abs(value) > NOTHING * most else 0.0, most)
+def powers_of(loads: Sequence[Wrenched], twists: Twists, arithmetic: Arithmetic) -> list[list[Power]]:
+    """The power of every load on every motion, (motions, loads); zero where it is rounding."""
+    return [[_power(w, twists, m, decider(arithmetic)) for w in loads] for m in range(count_of(twists))]
 
 
-def combined(motions: Sequence[Mapping[str, Twist]], shares: Sequence[float]) -> dict[str, Twist]:
-    """A sum of motions."""
-    total: dict[str, Twist] = {}
-    for motion, share in zip(motions, shares, strict=True):
-        for link, (v, w) in motion.items():
-            p, q = total.get(link, STILL)
-            total[link] = (add(p, times(share, v)), add(q, times(share, w)))
-    return total
+def _power(w: Wrenched, twists: Twists, m: int, vanishes: Vanishes | None) -> Power:
+    wrench = w.wrench
+    on, off = twists[w.load.link][m], twists[w.against][m]
+    twist = tuple(a - b for a, b in zip(on, off, strict=True))
+    value = dot(wrench[:3], velocity_of(twist, w.at)) + dot(wrench[3:], twist[3:])
+    reach = 1.0 + float(size(w.at))
+    speeds = (float(size(t[m][:3])) + float(size(t[m][3:])) * reach for t in twists.values())
+    most = (float(size(wrench[:3])) + float(size(wrench[3:]))) * max(speeds)
+    none = vanishes(value, most) if vanishes else abs(value) <= NOTHING * most
+    return Power(0.0 if none else value, most)
 
 
 class SpatialBalance(NamedTuple):
     """The unknown loads by power, in case units; ``free`` are those that it leaves open.
 
-    ``left`` is, for each motion, the power that is not balanced, and what it is summed from.
+    ``powers`` are those of every load, (motions, loads); ``left`` is, for each motion, the power that is not
+    balanced, and what it is summed from.
     """
 
-    unknowns: dict[str, float]
+    unknowns: dict[str, Scalar]
     free: tuple[str, ...]
+    powers: Sequence[Sequence[Power]]
     left: tuple[tuple[float, float], ...]
 
     @property
@@ -238,15 +238,17 @@ class SpatialBalance(NamedTuple):
 
 
 def balance_of(
-    motions: Sequence[Mapping[str, Twist]], loads: Sequence[Wrenched], roots: Sequence[str]
+    powers: Sequence[Sequence[Power]],
+    loads: Sequence[Wrenched],
+    roots: Sequence[str],
+    arithmetic: Arithmetic,
 ) -> SpatialBalance:
     """The unknown loads that make the power of all loads zero on every motion."""
-    table = [[power_of(w, motion) for w in loads] for motion in motions]
-    rows = [_equation(powers, loads, roots) for powers in table]
-    general = eliminate(rows, len(roots))
+    rows = [_equation(row, loads, roots) for row in powers]
+    general = eliminate(rows, len(roots), vanishes=decider(arithmetic))
     values = {root: general.of(n).get(len(roots), 0.0) for n, root in enumerate(roots)}
     free = tuple(roots[n] for n in general.free)
-    return SpatialBalance(values, free, tuple(_left(powers, loads, values) for powers in table))
+    return SpatialBalance(values, free, powers, tuple(_left(row, loads, values) for row in powers))
 
 
 def _equation(powers: Sequence[Power], loads: Sequence[Wrenched], roots: Sequence[str]) -> Row:
@@ -254,14 +256,51 @@ def _equation(powers: Sequence[Power], loads: Sequence[Wrenched], roots: Sequenc
     for power, w in zip(powers, loads, strict=True):
         column = len(roots) if w.known is not None else roots.index(w.root)
         amount = power.value * (1.0 if w.known is None else w.known)
-        if amount:
-            row[column] = row.get(column, 0.0) + amount
+        row[column] = row.get(column, 0.0) + amount
     return row
 
 
 def _left(
-    powers: Sequence[Power], loads: Sequence[Wrenched], values: Mapping[str, float]
+    powers: Sequence[Power], loads: Sequence[Wrenched], values: Mapping[str, Scalar]
 ) -> tuple[float, float]:
     numbers = [values[w.root] if w.known is None else w.known for w in loads]
-    terms = [(p.value * n, p.most * abs(n)) for p, n in zip(powers, numbers, strict=True)]
+    terms = [(float(p.value * n), p.most * abs(float(n))) for p, n in zip(powers, numbers, strict=True)]
     return math.fsum(value for value, _ in terms), math.fsum(most for _, most in terms)
+
+
+def unit_powers(
+    powers: Sequence[Sequence[Power]], loads: Sequence[Wrenched], roots: Sequence[str]
+) -> list[list[float]]:
+    """The power of a unit of each unknown load, (motions, unknowns)."""
+    both = [list(zip(row, loads, strict=True)) for row in powers]
+    return [
+        [sum(float(p.value) for p, w in row if w.known is None and w.root == q) for q in roots]
+        for row in both
+    ]
+
+
+def spatial_statics(
+    case: Case, ties: tuple[SpatialTie, ...], loads: Sequence[Wrenched], mobility: int, arithmetic: Arithmetic
+) -> SpatialStatics:
+    """Solve the equilibrium of every link in space but the frame: six equations a link.
+
+    Parameters and result as of `icsolve.statics.equilibrium.equilibrium`.
+    """
+    first, known = columns_of(ties)
+    roots = tuple(w.root for w in loads if is_unknown(w.load))
+    bare = SpatialStatics(ties, (), first, known, roots, (), scale_of(loads), {}, NOTHING_SOLVED, arithmetic)
+    return solve_statics(bare, _actions(bare, loads), case.ground, mobility)
+
+
+def _actions(statics: SpatialStatics, loads: Sequence[Wrenched]) -> Iterator[Action]:
+    """What the units of the ties, and the loads, do."""
+    for tie, column in zip(statics.ties, statics.first, strict=True):
+        for n, force in enumerate(tie.units):
+            yield Action(column + n, tie.on, tie.by, tie.at, force)
+    for w in loads:
+        column, share = statics.known, 1.0
+        if w.known is None:
+            column = statics.root(statics.roots.index(w.root))
+        else:
+            share = w.known * statics.scale
+        yield Action(column, w.load.link, w.against, w.at, tuple(share * part for part in w.wrench))

@@ -11,40 +11,40 @@ m_t cos(h).
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
 from icsolve.case import Case, Toward
 from icsolve.case.space import GearPair, Hinge, Joint, Radial, RigidJoint, SphericalJoint, Teeth, Thrust
 from icsolve.errors import SceneError, Status
-from icsolve.statics.space.figure import (
+from icsolve.numbers.arithmetic import Arithmetic, Scalar
+from icsolve.screws.space import (
     AXES,
     ZERO,
-    Places,
-    SpatialFigure,
+    Components,
     Vec,
     add,
     cross,
-    direction,
     dot,
-    heading,
-    in_case,
     size,
     square_to,
     sub,
     times,
     unit,
 )
-
-Wrench = tuple[Vec, Vec]
-"""Force, and couple about the tie's own point (normalised lengths)."""
+from icsolve.statics.space.figure import SpatialFigure, direction, heading, in_case
 
 
 class SpatialTie(NamedTuple):
     """A joint between two links: ``units`` act on link ``on`` at ``at``, their opposites on ``by``.
 
-    ``at`` is normalised; ``axis`` is that of a bearing, hinge or mesh; ``where`` names the joint's point.
+    Attributes
+    ----------
+    at : point of the joint [frame]
+    where : its name
+    units : what passes, each (Fx, Fy, Fz, Mx, My, Mz) about ``at`` [force, force times frame length]
+    axis : unit vector of a bearing, hinge or mesh
+    mesh : of gears, where they touch and how
     """
 
     joint: Joint
@@ -52,9 +52,14 @@ class SpatialTie(NamedTuple):
     on: str
     at: Vec
     where: str
-    units: tuple[Wrench, ...]
+    units: tuple[Components, ...]
     axis: Vec = ZERO
     mesh: SpatialMesh | None = None
+
+    @property
+    def joint_kind(self) -> str:
+        """The joint's kind in the words of the format."""
+        return kind_of(self.joint)
 
 
 def ties_of(case: Case, figure: SpatialFigure) -> tuple[SpatialTie, ...]:
@@ -82,39 +87,40 @@ def _tie(joint: Joint, figure: SpatialFigure, line: int) -> SpatialTie:
     what = f"the {kind_of(joint)} of links {by} and {on}{where}"
     axis = ZERO
     if isinstance(joint, Radial | Thrust | Hinge):
-        axis = direction(joint.axis, figure.places, f"the axis of {what}")
-    return SpatialTie(joint, by, on, figure.points[joint.at], joint.at, _units(joint, axis), axis)
+        axis = direction(joint.axis, figure, f"the axis of {what}")
+    units = _units(joint, axis, figure.arithmetic)
+    return SpatialTie(joint, by, on, figure.points[joint.at], joint.at, units, axis)
 
 
-def _units(joint: Joint, axis: Vec) -> tuple[Wrench, ...]:
-    forces = tuple((e, ZERO) for e in AXES)
+def _units(joint: Joint, axis: Vec, arithmetic: Arithmetic) -> tuple[Components, ...]:
+    """The forces, then the couples, that a joint passes."""
+    forces: tuple[Vec, ...] = AXES
+    couples: tuple[Vec, ...] = ()
     match joint:
         case Radial():
-            return tuple((e, ZERO) for e in square_to(axis))
+            forces = square_to(axis, arithmetic)
         case Thrust():
-            return (*((e, ZERO) for e in square_to(axis)), (axis, ZERO))
+            forces = (*square_to(axis, arithmetic), axis)
         case Hinge():
-            return (*forces, *((ZERO, e) for e in square_to(axis)))
+            couples = square_to(axis, arithmetic)
         case RigidJoint():
-            return (*forces, *((ZERO, e) for e in AXES))
-        case SphericalJoint():
-            return forces
-    raise TypeError(type(joint).__name__)
+            couples = AXES
+    return (*((*e, *ZERO) for e in forces), *((*ZERO, *e) for e in couples))
 
 
 def _meshing(joint: GearPair, figure: SpatialFigure, what: str) -> SpatialTie:
     """The tangential part alone; which flank carries shows the rest (`flanked`)."""
-    axis = direction(joint.axis, figure.places, f"the axis of {what}")
-    mesh = mesh_of(joint, axis, figure.places, what)
+    axis = direction(joint.axis, figure, f"the axis of {what}")
+    mesh = mesh_of(joint, axis, figure, what)
     at = figure.frame.normalised(mesh.at)
     where = joint.centres[joint.links.index(mesh.on)] if joint.toward is None else joint.centres[0]
-    return SpatialTie(joint, mesh.by, mesh.on, at, where, ((mesh.tangent, ZERO),), axis, mesh)
+    return SpatialTie(joint, mesh.by, mesh.on, at, where, ((*mesh.tangent, *ZERO),), axis, mesh)
 
 
 def flanked(ties: tuple[SpatialTie, ...], flanks: Mapping[int, float]) -> tuple[SpatialTie, ...]:
     """The ties with the whole tooth force of each mesh, on the flank that ``flanks`` has for it."""
     return tuple(
-        tie._replace(units=((tie.mesh.force(flanks[t]), ZERO),)) if tie.mesh and t in flanks else tie
+        tie._replace(units=((*tie.mesh.force(flanks[t]), *ZERO),)) if tie.mesh and t in flanks else tie
         for t, tie in enumerate(ties)
     )
 
@@ -140,8 +146,8 @@ def _refuse_out_of_line(ties: Iterable[SpatialTie], figure: SpatialFigure) -> No
 
 def _nearly_one_axis(a: SpatialTie, b: SpatialTie) -> bool:
     apart = sub(a.at, b.at)
-    off = size(cross(a.axis, b.axis))
-    beside = size(cross(apart, b.axis)) / (size(apart) or 1.0)
+    off = float(size(cross(a.axis, b.axis)))
+    beside = float(size(cross(apart, b.axis))) / (float(size(apart)) or 1.0)
     return max(off, beside) <= ALIGNED and max(off, beside) > EXACT
 
 
@@ -165,9 +171,9 @@ class SpatialMesh(NamedTuple):
     axis: Vec
     tangent: Vec
     inward: Vec
-    separating: float
-    axial: float
-    radii: tuple[float, ...]
+    separating: Scalar
+    axial: Scalar
+    radii: tuple[Scalar, ...]
 
     def force(self, flank: float) -> Vec:
         """The force on ``on`` per unit of tangential force on a flank (+1 or -1; 0: the tangential part)."""
@@ -177,78 +183,86 @@ class SpatialMesh(NamedTuple):
         return add(apart, times(flank, add(self.tangent, times(self.axial, self.axis))))
 
 
-def transverse_angle(teeth: Teeth) -> float:
-    """Pressure angle in the plane of the wheel, rad."""
-    angle = math.radians(teeth.pressure_angle.value)
-    return math.atan2(math.tan(angle), math.cos(helix(teeth))) if teeth.normal_angle else angle
+def _helix(teeth: Teeth, arithmetic: Arithmetic) -> tuple[Scalar, Scalar]:
+    """Cosine and sine of the helix angle."""
+    return arithmetic.turn(teeth.helix_angle) if teeth.helix_angle is not None else (1.0, 0.0)
 
 
-def helix(teeth: Teeth) -> float:
-    """Helix angle, rad; 0 of straight teeth."""
-    return math.radians(teeth.helix_angle.value) if teeth.helix_angle is not None else 0.0
+def _separating(teeth: Teeth, arithmetic: Arithmetic) -> Scalar:
+    """Tangent of the pressure angle in the plane of the wheel."""
+    cosine, sine = arithmetic.turn(teeth.pressure_angle)
+    return sine / cosine / (_helix(teeth, arithmetic)[0] if teeth.normal_angle else 1.0)
 
 
-def transverse_module(teeth: Teeth) -> float | None:
+def _transverse_module(teeth: Teeth, arithmetic: Arithmetic) -> Scalar | None:
     """Pitch diameter per tooth, case lengths; None where the case does not give it."""
     if teeth.module is not None:
-        module = teeth.module.value
+        module = arithmetic.given(teeth.module)
     elif teeth.diametral_pitch is not None:
-        module = 1.0 / teeth.diametral_pitch.value
+        module = 1.0 / arithmetic.given(teeth.diametral_pitch)
     else:
         return None
-    return module / math.cos(helix(teeth)) if teeth.normal_pitch else module
+    return module / _helix(teeth, arithmetic)[0] if teeth.normal_pitch else module
 
 
-def mesh_of(joint: GearPair, axis: Vec, places: Places, what: str) -> SpatialMesh:
+def mesh_of(joint: GearPair, axis: Vec, figure: SpatialFigure, what: str) -> SpatialMesh:
     """The mesh of a joint.
 
     Raises SceneError where the wheels do not lie in one plane square to the axis, or do not fit each other.
     """
     if joint.toward is not None:
-        return _alone(joint, axis, places, what)
-    first, second = (places[c] for c in joint.centres)
+        return _alone(joint, axis, figure, what)
+    arithmetic = figure.arithmetic
+    first, second = (figure.places[c] for c in joint.centres)
     line = sub(second, first)
-    if size(line) == 0.0:
+    if not any(map(float, line)):
         raise SceneError(Status.INCONSISTENT, f"the centres of {what} lie at one place. Correct the points.")
-    _refuse_oblique(unit(line), axis, what)
-    n, m = (count.value for count in joint.counts)
-    _refuse_misfit(joint, size(line), what)
+    apart = size(line, arithmetic)
+    _refuse_oblique(unit(line, arithmetic), axis, what)
+    _refuse_misfit(joint, apart, what, arithmetic)
+    n, m = map(arithmetic.given, joint.counts)
     at = add(first, times(n / (n + m), line))
-    radii = (abs(n / (n + m)) * size(line), abs(m / (n + m)) * size(line))
-    base = 0 if n > 0 else 1  # a wheel with internal teeth has the hand of its pinion
-    return _mesh(joint, base, at, unit(sub(at, (first, second)[base])), axis, radii)
+    radii = (abs(n / (n + m)) * apart, abs(m / (n + m)) * apart)
+    base = 0 if joint.counts[0].value > 0 else 1  # a wheel with internal teeth has the hand of its pinion
+    return _mesh(joint, base, at, unit(sub(at, (first, second)[base]), arithmetic), axis, radii, arithmetic)
 
 
-def _alone(joint: GearPair, axis: Vec, places: Places, what: str) -> SpatialMesh:
+def _alone(joint: GearPair, axis: Vec, figure: SpatialFigure, what: str) -> SpatialMesh:
     """A gear with a mate that the case does not show."""
     assert joint.toward is not None
-    centre = joint.centres[0]
+    centre, arithmetic = joint.centres[0], figure.arithmetic
     if isinstance(joint.toward, Toward) and joint.toward.point == centre:
         raise SceneError(Status.INCONSISTENT, f"{what} cannot lie toward their own centre {centre}.")
-    outward = heading(joint.toward, centre, places, f"the line to the mate of {what}")
+    outward = heading(joint.toward, centre, figure, f"the line to the mate of {what}")
     _refuse_oblique(outward, axis, what)
-    module = transverse_module(joint.teeth)
+    module = _transverse_module(joint.teeth, arithmetic)
     assert module is not None
-    radius = joint.counts[0].value * module / 2.0
-    at = add(places[centre], times(radius, outward))
-    return _mesh(joint, 0, at, outward, axis, (radius,))
+    radius = arithmetic.given(joint.counts[0]) * module / 2.0
+    at = add(figure.places[centre], times(radius, outward))
+    return _mesh(joint, 0, at, outward, axis, (radius,), arithmetic)
 
 
 def _mesh(
-    joint: GearPair, base: int, at: Vec, outward: Vec, axis: Vec, radii: tuple[float, ...]
+    joint: GearPair,
+    base: int,
+    at: Vec,
+    outward: Vec,
+    axis: Vec,
+    radii: tuple[Scalar, ...],
+    arithmetic: Arithmetic,
 ) -> SpatialMesh:
     """The mesh with its force on the gear ``base``, which has external teeth."""
     hand = 1.0 if joint.teeth.hand == "right" else -1.0
-    axial = -hand * math.tan(helix(joint.teeth))
-    outward = unit(sub(outward, times(dot(outward, axis), axis)))
+    cosine, sine = _helix(joint.teeth, arithmetic)
+    outward = unit(sub(outward, times(dot(outward, axis), axis)), arithmetic)
     tangent = cross(axis, outward)
     on, by = joint.links[base], joint.links[1 - base]
-    apart = math.tan(transverse_angle(joint.teeth))
-    return SpatialMesh(by, on, at, axis, tangent, times(-1.0, outward), apart, axial, radii)
+    apart = _separating(joint.teeth, arithmetic)
+    return SpatialMesh(by, on, at, axis, tangent, times(-1.0, outward), apart, -hand * sine / cosine, radii)
 
 
 def _refuse_oblique(line: Vec, axis: Vec, what: str) -> None:
-    if abs(dot(line, axis)) > SQUARE:
+    if abs(float(dot(line, axis))) > SQUARE:
         raise SceneError(
             Status.INCONSISTENT,
             f"the line of the centres of {what} is not square to their axis: gears here have parallel axes "
@@ -256,16 +270,16 @@ def _refuse_oblique(line: Vec, axis: Vec, what: str) -> None:
         )
 
 
-def _refuse_misfit(joint: GearPair, apart: float, what: str) -> None:
-    module = transverse_module(joint.teeth)
+def _refuse_misfit(joint: GearPair, apart: Scalar, what: str, arithmetic: Arithmetic) -> None:
+    module = _transverse_module(joint.teeth, arithmetic)
     if module is None:
         return
-    fit = abs(sum(count.value for count in joint.counts)) * module / 2.0
-    if abs(apart - fit) > MISFIT * fit:
-        g, h = joint.centres
+    fit = abs(sum(count.value for count in joint.counts)) * float(module) / 2.0
+    if abs(float(apart) - fit) > MISFIT * fit:
+        (g, h), found = joint.centres, float(apart)
         raise SceneError(
             Status.INCONSISTENT,
             f"the teeth of {what} do not fit: their pitch circles touch where the centres are {fit:.6g} "
-            f"apart, and {g} and {h} are {apart:.6g} apart. Correct the teeth, the pitch or module, or the "
+            f"apart, and {g} and {h} are {found:.6g} apart. Correct the teeth, the pitch or module, or the "
             "centres.",
         )

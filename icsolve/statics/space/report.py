@@ -24,21 +24,10 @@ from icsolve.case.space import (
     TorqueVector,
     Vector,
 )
+from icsolve.screws.space import AXES, Vec, cross, dot, size, sub, times, unit
 from icsolve.statics.report import witness_table
-from icsolve.statics.space.figure import (
-    AXES,
-    SpatialFigure,
-    Vec,
-    cross,
-    dot,
-    in_case,
-    size,
-    sub,
-    times,
-    unit,
-    vector_of,
-)
-from icsolve.statics.space.power import STILL, Twist, Wrenched, power_of
+from icsolve.statics.space.figure import SpatialFigure, in_case, vector_of
+from icsolve.statics.space.power import SpatialBalance, Wrenched
 
 Format = Callable[[float], str]
 Table = Callable[..., list[str]]
@@ -63,7 +52,7 @@ def sense_of(w: Wrenched, value: float) -> str:
     forth = value > 0.0
     match w.load:
         case Spring():
-            return "pull" if forth == (w.gain > 0.0) else "push"
+            return "pull" if forth == (float(w.gain) > 0.0) else "push"
         case Weight():
             return "down" if forth else "up"
         case SpatialTorque(heading=Along() | Vector() | FromTo() as heading):
@@ -90,21 +79,21 @@ def _heading_words(heading: Along | Vector | FromTo, forth: bool) -> str:
             return direction_words(unit((sign * x.value, sign * y.value, sign * z.value)))
 
 
-def terms_of(
-    case: Case, loads: Sequence[Wrenched], motions: Sequence[Mapping[str, Twist]], values: Mapping[str, float]
+def terms_of_power(
+    case: Case, loads: Sequence[Wrenched], balance: SpatialBalance, values: Mapping[str, float]
 ) -> tuple[Term, ...]:
     """The sum of power, for the motion in which the one unknown load moves at 1 (length or rad a second)."""
     unknown = [w for w in loads if w.known is None]
     if len({w.root for w in unknown}) != 1:
         return ()
-    powers = [[power_of(w, motion).value for w in loads] for motion in motions]
+    powers = [[float(power.value) for power in row] for row in balance.powers]
     ones = [sum(p for p, w in zip(row, loads, strict=True) if w.known is None) for row in powers]
     most = max(range(len(ones)), key=lambda m: abs(ones[m]))
     turns = isinstance(next(w for w in unknown if w.load.name == w.root).load, SpatialTorque)
     whole = ones[most] * (case.units.torque_per_force_length if turns else 1.0)
     terms = []
     for w, power in zip(loads, powers[most], strict=True):
-        factor = power / w.ratio / whole if w.ratio else 0.0
+        factor = power / float(w.ratio) / whole if w.ratio else 0.0
         name, value = w.load.name, values[w.load.name]
         words = f"{name} on link {w.load.link}" + _at(w.load)
         unit_name, is_asked = unit_of(w.load, case), w.known is None
@@ -156,10 +145,24 @@ SMALL = 1e-9
 """A part of a twist that is below this fraction of the whole is none (rounding)."""
 
 
-def motion_words(link: str, motion: Mapping[str, Twist], figure: SpatialFigure) -> str:
+Motion = Mapping[str, Sequence[float]]
+"""The twist of every link, (6,)."""
+
+
+def _parts(twist: Sequence[float]) -> tuple[Vec, Vec]:
+    """Velocity at the origin and angular velocity."""
+    u, v, w, a, b, c = twist
+    return (u, v, w), (a, b, c)
+
+
+def _speed(twist: Sequence[float]) -> float:
+    return float(sum(map(size, _parts(twist))))
+
+
+def motion_words(link: str, motion: Motion, figure: SpatialFigure) -> str:
     """How a link moves: `link 2 turns about the line through A along z`."""
-    v, w = motion.get(link, STILL)
-    fastest = max((size(p) + size(q) for p, q in motion.values()), default=0.0)
+    v, w = _parts(motion[link])
+    fastest = max(map(_speed, motion.values()))
     if size(w) <= SMALL * fastest:
         return f"link {link} slides along {direction_words(unit(v))}"
     axis = unit(w)
@@ -185,7 +188,7 @@ def _line(p: Vec, axis: Vec, figure: SpatialFigure) -> str:
 def _is_on(point: Vec, p: Vec, axis: Vec) -> bool:
     """Whether a point lies on the line through p along a unit vector."""
     apart = sub(point, p)
-    return size(cross(apart, axis)) <= SMALL * (1.0 + size(apart))
+    return float(size(cross(apart, axis))) <= SMALL * (1.0 + float(size(apart)))
 
 
 def direction_words(direction: Vec) -> str:
@@ -202,10 +205,10 @@ def point_words(p: Vec) -> str:
     return f"[{x:.6g}, {y:.6g}, {z:.6g}]"
 
 
-def moving(motion: Mapping[str, Twist], first: Iterable[str]) -> str:
+def moving(motion: Motion, first: Iterable[str]) -> str:
     """The first link that moves: of those named, or else of all."""
-    fastest = max((size(v) + size(w) for v, w in motion.values()), default=0.0)
-    moves = [link for link, (v, w) in motion.items() if size(v) + size(w) > SMALL * fastest]
+    fastest = max(map(_speed, motion.values()))
+    moves = [link for link, twist in motion.items() if _speed(twist) > SMALL * fastest]
     return next((link for link in first if link in moves), moves[0])
 
 
@@ -221,7 +224,7 @@ def found_value(answer: Answer, spatial: Spatial, target: Target, sense: str | N
         case LoadIs(load):
             return _load(answer, load, sense)
         case DistanceIs(str() as a, str() as b):
-            return size(sub(spatial.points[a], spatial.points[b]))
+            return math.dist(spatial.points[a], spatial.points[b])
         case ArmIs(by, on, point):
             return _arm(answer, spatial, _reaction_between(spatial, by, on, None), point)
         case ReactionIs():
@@ -237,7 +240,7 @@ def _load(answer: Answer, name: str, sense: str | None) -> float:
         return -abs(found.value) if against else abs(found.value) if sense else found.value
     load = next(load for load in in_case(answer.case).loads if load.name == name)
     if isinstance(load, SpatialForceVector | TorqueVector):
-        return size(vector_of(load.parts))
+        return math.hypot(*vector_of(load.parts))
     if isinstance(load.value, Like):
         ratio = 1.0 if load.value.times is None else load.value.times.value
         return ratio * _load(answer, load.value.load, None)
@@ -296,4 +299,4 @@ def _arm(answer: Answer, spatial: Spatial, reaction: SpatialReaction, point: str
         raise LookupError("the force is zero: it has no arm")
     per = answer.case.units.torque_per_force_length
     mx, my, mz = cross(sub(reaction.at, spatial.points[point]), (x, y, z))
-    return size((mx + u / per, my + v / per, mz + w / per)) / force
+    return math.hypot(mx + u / per, my + v / per, mz + w / per) / force
