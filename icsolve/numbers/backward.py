@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from icsolve.numbers.noise import still_noise
+from icsolve.numbers.adjoint import still_noise
 from icsolve.numbers.passing import Pass, Passed
 from icsolve.numbers.record import Op, Record, Traced, operands
 from icsolve.numbers.replay import Array, Code

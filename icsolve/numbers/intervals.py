@@ -70,7 +70,7 @@ def _of(record: Record, k: int, found: Mapping[int, Interval]) -> Interval:
 
 def _still(record: Record, k: int) -> float:
     """A bound of the error of a value that is the same in every row."""
-    from icsolve.numbers.noise import still_noise
+    from icsolve.numbers.adjoint import still_noise
 
     return 2.0 * still_noise(record, k)
 

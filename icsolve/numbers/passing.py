@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 
+from icsolve.numbers.adjoint import ANGLE_NOISE, ROUNDINGS, shares
 from icsolve.numbers.arithmetic import RADIAN
-from icsolve.numbers.noise import ANGLE_NOISE
 from icsolve.numbers.record import Op, Record, Traced, operands
 from icsolve.numbers.replay import Array, Code, Step
-from icsolve.numbers.tape import TURN_NOISE, UNIT
+from icsolve.numbers.tape import UNIT
 
 if TYPE_CHECKING:
     from icsolve.assembly.driven.groups import NewtonGroup
@@ -121,7 +122,7 @@ class Pass:
             self._error(self._share(k), weight, self._value(k))
         if node.op == Op.ANGLE:
             self._error(ANGLE_NOISE, weight, None)
-        for n, part in self._parts(k, weight):
+        for n, part in shares(self.record, k, weight, self):
             if self.record.nodes[n].row:
                 self._add(n, part)
             elif node.op in (Op.ADD, Op.SUB) or not self.record.nodes[n].value:
@@ -146,9 +147,7 @@ class Pass:
             return self.backward.noise(k) / abs(node.value) if node.value else 0.0
         if node.op == Op.INPUT:
             return 0.0 if k in self.backward.exact else UNIT
-        if node.op in (Op.COS, Op.SIN):
-            return TURN_NOISE
-        own = 0.0 if node.op in (Op.NEG, Op.ANGLE, Op.NEAREST) or _shifted(self.record, k) else UNIT
+        own = 0.0 if _shifted(self.record, k) else ROUNDINGS.get(node.op, UNIT)
         if node.op in FACTORED:
             part = 0.5 if node.op == Op.SQRT else 1.0
             own += part * sum(self._share(n) for n in operands(self.record, k) if self._counted(n))
@@ -170,66 +169,43 @@ class Pass:
             self.free.append(weight[0])
         self.weights[k] = self._held((out, known[1]))
 
+    # --- weights as arrays on buffers (`adjoint.Adjoints`) -------------------------------------------
+
     def _value(self, k: int) -> Array:
         return self.backward.code.place_of(k, self.room)
 
-    def _times(self, weight: Weight, value: Array, sign: float = 1.0, factor: float = 1.0) -> Weight:
-        """A weight times a value (and a factor) in a buffer of its own."""
-        out = self._fresh()
-        self._do(np.multiply, weight[0], value, out)
-        if factor != 1.0:
-            self._do(np.multiply, out, factor, out)
-        return (out, sign * weight[1])
-
-    def _over(self, weight: Weight, value: Array) -> Weight:
-        out = self._fresh()
-        self._do(np.divide, weight[0], value, out)
-        return (out, weight[1])
-
-    def _parts(self, k: int, weight: Weight) -> list[tuple[int, Weight]]:
-        """The weights of what a node was made of."""
-        node = self.record.nodes[k]
-        a, b = node.a, node.b
-        match node.op:
-            case Op.ADD:
-                return [(a, weight), (b, weight)]
-            case Op.SUB:
-                return [(a, weight), (b, (weight[0], -weight[1]))]
-            case Op.MUL:
-                pairs = ((a, b), (b, a))
-                return [(m, self._times(weight, self._value(n))) for m, n in pairs if self._asked(m)]
-            case Op.DIV:
-                part = self._over(weight, self._value(b))
-                rest = [(b, self._times(part, self._value(k), -1.0))] if self._asked(b) else []
-                return [*rest, (a, part)]
-            case Op.NEG:
-                return [(a, (weight[0], -weight[1]))]
-            case Op.SQRT:
-                half = self._over(weight, self._value(k))
-                self._do(np.multiply, half[0], 0.5, half[0])
-                return [(a, half)]
-            case Op.COS:
-                return [(a, self._times(weight, self._value(k + 1), -1.0, RADIAN))]
-            case Op.SIN:
-                return [(a, self._times(weight, self._value(b), 1.0, RADIAN))]
-            case Op.ANGLE:
-                return self._of_angle(a, b, weight)
-        return []
-
-    def _asked(self, k: int) -> bool:
+    def wants(self, n: int) -> bool:
         """Whether a node needs a weight: it varies, or is a zero with an error."""
-        node = self.record.nodes[k]
-        return node.row or (not node.value and bool(self.backward.noise(k)))
+        node = self.record.nodes[n]
+        return node.row or (not node.value and bool(self.backward.noise(n)))
 
-    def _of_angle(self, a: int, b: int, weight: Weight) -> list[tuple[int, Weight]]:
-        x, y = self._value(a), self._value(b)
+    def negated(self, w: Weight) -> Weight:
+        """The same array with the other sign."""
+        return (w[0], -w[1])
+
+    def times(self, w: Weight, n: int, factor: float = 1.0) -> Weight:
+        """In a buffer of its own."""
+        return self._scaled(np.multiply, w, self._value(n), factor)
+
+    def over(self, w: Weight, n: int, factor: float = 1.0) -> Weight:
+        """In a buffer of its own."""
+        return self._scaled(np.divide, w, self._value(n), factor)
+
+    def over_square(self, w: Weight, x: int, y: int) -> Weight:
+        """In a buffer of its own."""
         size, square = np.empty(self.room), np.empty(self.room)
-        self._do(np.multiply, x, x, size)
-        self._do(np.multiply, y, y, square)
+        for n, out in ((x, size), (y, square)):
+            self._do(np.multiply, self._value(n), self._value(n), out)
         self._do(np.add, size, square, size)
         self._do(np.multiply, size, RADIAN, size)
-        part = self._over(weight, size)
-        return [(a, self._times(part, y, -1.0)), (b, self._times(part, x))]
+        return self._scaled(np.divide, w, size, 1.0)
+
+    def _scaled(self, function: Callable[..., Any], w: Weight, value: Array, factor: float) -> Weight:
+        out = self._fresh()
+        self._do(function, w[0], value, out)
+        if abs(factor) != 1.0:
+            self._do(np.multiply, out, abs(factor), out)
+        return (out, w[1] * math.copysign(1.0, factor))
 
     def _group(self, group: NewtonGroup) -> None:
         """Through a solved group: the weights of its equations (implicit differentiation)."""
@@ -257,7 +233,7 @@ def _implicit(
     j = np.empty((shape[0], len(values)))
     for n, value in enumerate(values):
         j[:, n] = value
-    outs[:] = adjoint(j.reshape(shape), w).T
+    outs[:] = solved_transposed(j.reshape(shape), w).T
 
 
 def _shifted(record: Record, k: int) -> bool:
@@ -282,7 +258,7 @@ def _merged(record: Record, nodes: Sequence[int]) -> set[int]:
     return {n for n in factor if count[n] == 1 and record.nodes[n].op not in (Op.ANGLE, Op.NEAREST)}
 
 
-def adjoint(j: Array, w: Array) -> Array:
+def solved_transposed(j: Array, w: Array) -> Array:
     """Solutions x of the transposed systems ``j^T x = w``, one a row.
 
     Parameters

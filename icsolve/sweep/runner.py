@@ -15,8 +15,8 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from icsolve.numbers.adjoint import noise_of
 from icsolve.numbers.backward import Backward
-from icsolve.numbers.noise import noise_of
 from icsolve.numbers.record import Node, Op, Record, terms_of, varies
 from icsolve.numbers.replay import BLOCK, Array, Code, live
 from icsolve.sweep.branches import live_roots
