@@ -23,10 +23,12 @@ import numpy as np
 import pytest
 
 import icsolve
+from icsolve.numbers.arithmetic import FLOATS
 from icsolve.page import page_html
 from icsolve.page.motion import motion_of
 from icsolve.report.derivation import known_of
 from icsolve.scene.refusals import rubs
+from icsolve.screws.ropes import offsets_of, rope_length
 from library import FILES, LIBRARY, PAGED, motion, page_of
 from shell import exit_status
 from test_profile_sweep import CAMS
@@ -270,6 +272,37 @@ def test_friction_moves_too() -> None:
     model = model_of(page_of(name))
     assert model["motion"]["turns"] and model["motion"]["rows"] == 73
     assert model["terms"] is None
+
+
+@pytest.mark.parametrize("name", ["dynamics/slider_crank_piston.yaml", "dynamics/hoist_starting.yaml"])
+def test_inertia_forces_are_those_of_each_position(name: str) -> None:
+    """Answers and inertia forces of rows are those of the rows solved as cases of their own."""
+    model, found = model_of(page_of(name)), motion(name)
+    for row in range(3, len(found.found), 20):
+        solved = icsolve.solve(found.found.case_of(row))
+        for answer in model["answers"]:
+            assert column(answer["values"])[row] == pytest.approx(solved.answers[answer["name"]].value)
+        for load in solved.case.loads:
+            if load.name.startswith("inertia "):
+                size = math.hypot(load.x.value, load.y.value) if hasattr(load, "x") else load.value.value
+                assert column(model["loads"][load.name]["values"])[row] == pytest.approx(size, abs=1e-9)
+
+
+@pytest.mark.parametrize("name", ["tackle_four_parts", "windlass", "counterweight_door"])
+def test_a_rope_keeps_its_length_as_it_moves(name: str) -> None:
+    """Its parts and what lies on pulleys, less what a drum has let go: r times the angle that it turned."""
+    found = motion(f"ropes/{name}.yaml")
+    (rope,) = icsolve.load(FILES[f"ropes/{name}.yaml"]).ropes
+    drum = found.poses.get(rope.links[0])
+    offset = float(offsets_of(rope, 1.0, FLOATS)[0])
+    lengths = []
+    for row in range(found.first, found.last + 1, 7):
+        points = {p: tuple(found.found.points[p][row]) for p in rope.points}
+        turned = 0.0 if drum is None else math.radians(drum.angle[row])
+        lengths.append(rope_length(rope, points, 1.0, FLOATS) - offset * turned)
+    assert lengths == pytest.approx([lengths[0]] * len(lengths))
+    ends = found.found.points[rope.points[-1]][[found.first, found.last]]
+    assert np.ptp(ends, axis=0).max() > 0.1
 
 
 HOSTILE = """\

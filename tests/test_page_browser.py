@@ -13,16 +13,18 @@ from typing import Any
 
 import numpy as np
 import pytest
+import shapely
 
 import icsolve
 from browser import Browser
 from icsolve.draw import Drawing, draw
+from icsolve.draw.ropes import courses
 from icsolve.draw.words import figure_number, unit_word
 from icsolve.page import page_html
 from icsolve.page.figure import figure_of
 from icsolve.page.motion import PageMotion
 from icsolve.report.derivation import known_of, needed_steps
-from library import FILES, PAGED, motion, page_of, sample
+from library import FILES, PAGED, known, motion, page_of, sample
 from pictures import parsed
 from test_page import hostile, ten_links
 
@@ -129,6 +131,26 @@ def test_the_contact_of_a_cam_follows(opened: Any) -> None:
         assert (cx, cy) == pytest.approx(view.at((x, y)), abs=0.3)
         seen.add((cx, cy))
     assert len(seen) == 3
+
+
+@pytest.mark.parametrize("name", ["crank_and_rope", "tackle_four_parts", "differential_hoist", "windlass"])
+def test_a_rope_lies_round_its_circles(name: str, opened: Any) -> None:
+    """In other positions its line is as long as a drawing of that position has it, and begins and ends there:
+    within a picture unit (an arc is drawn by chords there)."""
+    window, found = opened(page_of(f"ropes/{name}.yaml")), motion(f"ropes/{name}.yaml")
+    scene = figure_of(known(f"ropes/{name}.yaml"), [], found).scene
+    for row in (found.first + 3, found.zero + 4):
+        turn(window, found.degrees[row])
+        points = {p: tuple(column[row]) for p, column in found.found.points.items()}
+        (course,) = courses(scene._replace(known=scene.known._replace(points=points)))
+        length, *ends = window.run(
+            """const path = document.querySelector('[data-rope] path');
+            const all = path.getTotalLength();
+            const at = (s) => { const p = path.getPointAtLength(s); return [p.x, p.y]; };
+            return [all, at(0), at(all)]"""
+        )
+        assert length == pytest.approx(shapely.LineString(course.line).length, rel=2e-3, abs=0.5)
+        assert ends == [pytest.approx(p, abs=0.3) for p in (course.line[0], course.line[-1])]
 
 
 @pytest.mark.parametrize("name", DRIVEN)

@@ -15,9 +15,9 @@ from icsolve.draw.centres import centre_parts, circle_marks
 from icsolve.draw.frame import frame_parts, joint_parts, point_parts, rims, threads
 from icsolve.draw.links import DrawnBody, bars, body_of, inside_plate, link_part, outline, wheel_parts
 from icsolve.draw.loads import legend, load_parts, velocity_parts
-from icsolve.draw.marks import HEIGHT, WIDTH, Box, Mark, bounds, view_of
+from icsolve.draw.marks import HEIGHT, WIDTH, Box, Mark, MarkGroup, bounds, view_of
 from icsolve.draw.place import joined
-from icsolve.draw.ropes import belts, courses, filled, free_ends, rope_boxes, rope_marks
+from icsolve.draw.ropes import belts, courses, filled, free_ends, pulley_marks, rope_boxes, rope_marks
 from icsolve.draw.scene import Part, Round, Scene, outline_boxes, round_things, together, with_labels
 from icsolve.draw.svg import document
 from icsolve.draw.tikz import standalone
@@ -77,6 +77,7 @@ def figure_marks(scene: Scene, steps: Sequence[Step] = (), *, velocities: bool =
     bodies = [body_of(scene, link) for link in scene.case.links if link != scene.case.ground]
     bodies.sort(key=_depth)
     ropes = courses(scene)
+    pulleys = tuple(mark for marks in pulley_marks(ropes).values() for mark in marks)
     links = joined([*(bars(body) for body in bodies), *filled(ropes)])
     speeds = velocity_parts(scene) if velocities else []
     under = [body for body in bodies if _hides_its_foot(scene, body)]
@@ -88,6 +89,7 @@ def figure_marks(scene: Scene, steps: Sequence[Step] = (), *, velocities: bool =
         *(link_part(scene, body) for body in bodies if body not in under),
         *threads(scene),
         *belts(scene),
+        *([Part((MarkGroup("pulleys", "", pulleys, "pulleys"),))] if pulleys else ()),
         *rope_marks(scene, ropes),
         *joint_parts(scene),
         *centre_parts(scene, steps),

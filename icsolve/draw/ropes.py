@@ -22,7 +22,7 @@ from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.numbers.given import Number
 from icsolve.report.derivation import tension_name
-from icsolve.screws.ropes import rope_parts
+from icsolve.screws.ropes import offsets_of, rope_parts
 
 SMALL, LARGER = 10.0, 6.0
 """Radius of a pulley that is given none, and by how much the next one in its place is larger."""
@@ -33,12 +33,14 @@ CHORD = math.radians(6.0)
 
 
 class RopeCourse(NamedTuple):
-    """A rope as it is drawn (picture units): its straight parts, its whole line, its loose pulleys."""
+    """A rope as it is drawn (picture units): its straight parts, its whole line, its loose pulleys by their
+    points, and the radius of every circle that it goes round, positive where it does so clockwise."""
 
     rope: Rope
     parts: tuple[tuple[Point, Point], ...]
     line: tuple[Point, ...]
-    pulleys: tuple[Disc, ...]
+    pulleys: tuple[tuple[str, Disc], ...]
+    radii: tuple[float, ...]
 
 
 def courses(scene: Scene) -> list[RopeCourse]:
@@ -103,15 +105,16 @@ def _laid(scene: Scene, rope: Rope) -> RopeCourse:
         (x, y), (u, v), length = part.at, part.along, float(part.length)
         straight.append(((x, y), (x + length * u, y + length * v)))
     line: list[Point] = [*straight[0]]
-    pulleys = []
+    scale, pulleys = scene.view.scale, []
     for k in range(1, len(straight)):
         centre, radius = scene.known.points[rope.points[k]], rope.radii[k]
         line += _arc(centre, straight[k - 1][1], straight[k][0], rope.wraps[k] == "ccw")
         line += straight[k]
         if radius is not None and rope.mu[k] is None:
-            pulleys.append(Disc(scene.view.at(centre), radius.value * scene.view.scale, "body"))
+            pulleys.append((rope.points[k], Disc(scene.view.at(centre), radius.value * scale, "body")))
     parts = tuple((scene.view.at(a), scene.view.at(b)) for a, b in straight)
-    return RopeCourse(rope, parts, tuple(map(scene.view.at, line)), tuple(pulleys))
+    radii = tuple(-scale * float(offset) for offset in offsets_of(rope, 1.0, FLOATS))
+    return RopeCourse(rope, parts, tuple(map(scene.view.at, line)), tuple(pulleys), radii)
 
 
 def _arc(centre: Point, start: Point, end: Point, ccw: bool) -> Iterable[Point]:
@@ -138,26 +141,33 @@ def rope_boxes(case: Case, points: Mapping[str, Point]) -> list[Box]:
 def filled(ropes: Sequence[RopeCourse]) -> list[shapely.Geometry]:
     """What ropes and their pulleys fill: feet and arrows keep off them."""
     lines = [shapely.LineString(rope.line).buffer(3.0, quad_segs=1) for rope in ropes]
-    return [*lines, *(shapely.Point(d.centre).buffer(d.radius) for rope in ropes for d in rope.pulleys)]
+    return [*lines, *(shapely.Point(d.centre).buffer(d.radius) for rope in ropes for _, d in rope.pulleys)]
+
+
+def pulley_marks(ropes: Sequence[RopeCourse]) -> dict[str, tuple[Mark, ...]]:
+    """The pulleys in a place with their pins, by their point, the largest first."""
+    found: dict[str, tuple[Mark, ...]] = {}
+    every = dict.fromkeys(pulley for rope in ropes for pulley in rope.pulleys)
+    for name, disc in sorted(every, key=lambda pulley: -pulley[1].radius):
+        found[name] = (*found.get(name, ()), disc, Disc(disc.centre, AXLE, "pin"))
+    return found
 
 
 def rope_marks(scene: Scene, ropes: Sequence[RopeCourse]) -> list[Part]:
-    """The pulleys, the ropes above them, and the tensions."""
-    discs = sorted({disc for rope in ropes for disc in rope.pulleys}, key=lambda disc: -disc.radius)
-    pulleys: list[Mark] = [mark for d in discs for mark in (d, Disc(d.centre, AXLE, "pin"))]
-    parts = [Part((MarkGroup("pulleys", "", tuple(pulleys), "pulleys"),))] if pulleys else []
+    """The ropes, and the tensions."""
+    parts = []
     for rope in ropes:
         group = MarkGroup(
             f"rope-{rope.rope.name}", "", (Stroke(rope.line, "rope"),), f"rope {rope.rope.name}"
         )
-        solid = tuple(around(disc.centre, AXLE) for disc in rope.pulleys)
+        solid = tuple(around(disc.centre, AXLE) for _, disc in rope.pulleys)
         soft = (Soft(shapely.LineString(rope.line), 3.0), *(Soft(ring, 1.5) for ring in _rims(rope)))
         parts.append(Part((group,), soft, solid, tuple(_tensions(scene, rope))))
     return parts
 
 
 def _rims(rope: RopeCourse) -> Iterable[shapely.Geometry]:
-    return (shapely.Point(disc.centre).buffer(disc.radius).boundary for disc in rope.pulleys)
+    return (shapely.Point(disc.centre).buffer(disc.radius).boundary for _, disc in rope.pulleys)
 
 
 def _tensions(scene: Scene, course: RopeCourse) -> Iterable[Label]:

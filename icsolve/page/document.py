@@ -51,7 +51,9 @@ def equation_of(known: Known, motion: PageMotion | None) -> PageEquation | None:
     acting = acting_loads(known)
     unknown = [a for a in acting if a.unknown]
     others = [a for a in acting if not a.unknown]
-    if motion is None or len(unknown) != 1 or set(motion.shares) != {a.load.name for a in others}:
+    if motion is None or known.case.dynamic or len(unknown) != 1:
+        return None
+    if set(motion.shares) != {a.load.name for a in others}:
         return None
     root = unknown[0]
     signed = [(turn_of(a), product(exerted(a), speed_of(known, a))) for a in (*others, root)]

@@ -20,7 +20,7 @@ from icsolve.draw.links import DrawnBody, bars, body_of, guide_in_picture, link_
 from icsolve.draw.loads import load_parts
 from icsolve.draw.marks import Box, Mark, MarkGroup, Point, Stroke, TextMark, bounds, view_of
 from icsolve.draw.place import Label, Placer, joined
-from icsolve.draw.ropes import belts
+from icsolve.draw.ropes import RopeCourse, belts, courses, filled, free_ends, pulley_marks, rope_marks
 from icsolve.draw.scene import ORDER, Part, Scene, Wheel, outlines, round_things, together
 from icsolve.page.motion import Array, PageMotion, moved
 from icsolve.report.derivation import Acting, Known, Step, acting_loads
@@ -31,11 +31,12 @@ Data = tuple[tuple[str, str], ...]
 
 
 class PageFigure(NamedTuple):
-    """The marks of a page's figure, its scene and its window."""
+    """The marks of a page's figure, its scene and its window, its ropes as written."""
 
     scene: Scene
     marks: tuple[Mark, ...]
     window: Box
+    ropes: tuple[RopeCourse, ...]
 
 
 def figure_of(known: Known, steps: Sequence[Step], motion: PageMotion | None) -> PageFigure:
@@ -43,13 +44,15 @@ def figure_of(known: Known, steps: Sequence[Step], motion: PageMotion | None) ->
     scene = scene_over(known, steps, motion)
     bodies = [body_of(scene, link) for link in scene.case.links if link != scene.case.ground]
     bodies.sort(key=lambda body: (len(body.blocks), -float(shapely.area(outline(body)))))
-    links = joined([bars(body) for body in bodies]) if bodies else shapely.Polygon()
+    ropes = tuple(courses(scene))
+    links = joined([*map(bars, bodies), *filled(ropes)])
     parts = [
         *_wheels(bodies),
         *(_following(part, f"rim-{w}", ("data-turn", w)) for part in rims(scene) for w in _rim_links(scene)),
         *frame_parts(scene, links, following=True),
         *(_turning(link_part(scene, body), body.link) for body in bodies),
         *_belts(scene),
+        *_ropes(scene, ropes),
         *_joints(scene),
     ]
     under = together(parts)
@@ -66,7 +69,7 @@ def figure_of(known: Known, steps: Sequence[Step], motion: PageMotion | None) ->
     )
     left, top, right, bottom = bounds(layers)
     a, b, c, d = scene.view.window
-    return PageFigure(scene, layers, (min(a, left), min(b, top), max(c, right), max(d, bottom)))
+    return PageFigure(scene, layers, (min(a, left), min(b, top), max(c, right), max(d, bottom)), ropes)
 
 
 def scene_over(known: Known, steps: Sequence[Step], motion: PageMotion | None) -> Scene:
@@ -74,8 +77,15 @@ def scene_over(known: Known, steps: Sequence[Step], motion: PageMotion | None) -
     shapes = round_things(known.case, known.points)
     used = {name for names in known.case.carries.values() for name in names}
     used |= {at for joint in known.case.joints if (at := getattr(joint, "at", None))}
+    used |= {p for rope in known.case.ropes for p in rope.points}
     boxes = [(*known.points[p], *known.points[p]) for p in known.points if p in used]
-    boxes += [_around(w, known, motion) for w in shapes.wheels]
+    boxes += [_swept(known, motion, w.link, w.centre, w.radius) for w in shapes.wheels]
+    boxes += [
+        _swept(known, motion, link, known.points[p], radius.value)
+        for rope in known.case.ropes
+        for p, link, radius in zip(rope.points, rope.links, rope.radii, strict=False)
+        if radius is not None and p in known.points
+    ]
     boxes += [
         _swept(known, motion, link, corner, 0.0)
         for link, corners in outlines(known.case, known.points)
@@ -86,8 +96,8 @@ def scene_over(known: Known, steps: Sequence[Step], motion: PageMotion | None) -
     centres = [(c[0], c[1]) for c in (s.centre.place for s in steps if s.centre.kind == "at")]
     finite = [c for c in centres if math.isfinite(c[0]) and math.isfinite(c[1])]
     view = view_of(boxes, finite, known.size, ROOM)
-    at = {name: view.at(p) for name, p in known.points.items()}
-    scene = Scene(known, view, at, shapes)
+    scene = Scene(known, view, {name: view.at(p) for name, p in known.points.items()}, shapes)
+    scene = scene._replace(at={**scene.at, **free_ends(scene)})
     return scene if motion is None else scene._replace(travel=travel_of(scene, motion))
 
 
@@ -98,11 +108,6 @@ def _way(motion: PageMotion, point: str) -> tuple[Array, Array]:
 
 def _box(x: Array, y: Array) -> Box:
     return (float(x.min()), float(y.min()), float(x.max()), float(y.max()))
-
-
-def _around(wheel: Wheel, known: Known, motion: PageMotion | None) -> Box:
-    """The rectangle around a wheel in all its positions."""
-    return _swept(known, motion, wheel.link, wheel.centre, wheel.radius)
 
 
 def _swept(known: Known, motion: PageMotion | None, link: str, p: Point, reach: float) -> Box:
@@ -189,6 +194,16 @@ def _belts(scene: Scene) -> Iterable[Part]:
         ]
         name = f"belt-{loop.first.link}-{loop.second.link}"
         yield _following(part, name, ("data-turn", carriers[0])) if carriers else part
+
+
+def _ropes(scene: Scene, ropes: Sequence[RopeCourse]) -> Iterable[Part]:
+    """Pulleys follow their points; the script lays the ropes round them. The tensions are those of the
+    position as written alone, and are left out."""
+    for name, marks in pulley_marks(ropes).items():
+        yield Part((MarkGroup("", "", marks, "pulley", (("data-at", name),)),))
+    for rope, part in zip(ropes, rope_marks(scene, ropes), strict=True):
+        name = rope.rope.name
+        yield _following(part._replace(labels=()), f"rope-{name}", ("data-rope", name))
 
 
 def _pinned(scene: Scene, link: str, wheel: Wheel) -> bool:

@@ -13,10 +13,11 @@ from typing import Any
 import numpy as np
 
 from icsolve.answer import Centre, Found
-from icsolve.case import Force, Pair, Spring, TorsionSpring, Toward, Weight
+from icsolve.case import Force, ForceVector, Load, Pair, Spring, TorsionSpring, Toward, Weight
 from icsolve.case.names import pair_name
 from icsolve.draw.loads import axle
 from icsolve.draw.marks import Point, View
+from icsolve.draw.ropes import RopeCourse
 from icsolve.draw.scene import Scene
 from icsolve.draw.svg import identifier
 from icsolve.draw.words import centre_runs, figure_number, name_runs, unit_word
@@ -53,8 +54,25 @@ def heading_rows(known: Known, motion: PageMotion, acting: Acting) -> Array:
         a, b = _target(known, motion, acting, target)
         now = np.degrees(np.arctan2(b - y, a - x))
         return np.asarray(written + now - now[motion.zero])
+    inertia = inertia_rows(known, motion, load)
+    if inertia is not None:
+        return np.asarray(np.degrees(np.arctan2(inertia[:, 1], inertia[:, 0])))
     turner = str(getattr(load, "turns_with", None))
     return level + motion.poses[turner].angle if turner in motion.poses else level
+
+
+def inertia_rows(known: Known, motion: PageMotion, load: Load) -> Array | None:
+    """The force (n, 2) or couple (n,) of a link's inertia in every row, case units; None of another load."""
+    if not load.name.startswith("inertia "):
+        return None
+    units, inertia = known.case.units, known.case.inertia[load.link]
+    if isinstance(load, ForceVector):
+        assert inertia.mass is not None
+        per = inertia.mass.value * units.force_per_newton / units.length_per_metre
+        return -per * motion.found.accelerations[f"{inertia.centre} on {load.link}"]
+    assert inertia.moment is not None
+    per = inertia.moment.value * units.force_per_newton * units.length_per_metre
+    return -per * units.torque_per_force_length * motion.found.angular_accelerations[load.link]
 
 
 def _target(known: Known, motion: PageMotion, acting: Acting, name: str) -> tuple[Array, Array]:
@@ -104,6 +122,8 @@ def load_data(scene: Scene, motion: PageMotion | None, acting: Acting) -> dict[s
     """What the script of the page reads of a load: its place on its link and how its arrow turns."""
     load = acting.load
     place = axle(scene, acting.link) if acting.at is None else scene.view.at(acting.at)
+    if acting.link.startswith("@"):  # the free end of a rope, as it is drawn
+        place = scene.at.get(str(getattr(load, "at", "")), place)
     x, y = place or (0.0, 0.0)
     found: dict[str, Any] = {"on": [acting.link, round(x, 1), round(y, 1)], "torque": acting.at is None}
     if isinstance(load, Spring):
@@ -112,8 +132,15 @@ def load_data(scene: Scene, motion: PageMotion | None, acting: Acting) -> dict[s
             [acting.link, round(a[0], 1), round(a[1], 1)],
             [acting.against, round(b[0], 1), round(b[1], 1)],
         ]
-    elif motion is not None and acting.at is not None:
-        rows = slice(motion.first, motion.last + 1)
+        return found
+    if motion is None:
+        return found
+    rows = slice(motion.first, motion.last + 1)
+    inertia = inertia_rows(scene.known, motion, load)
+    if inertia is not None:
+        size = inertia if acting.at is None else np.hypot(inertia[:, 0], inertia[:, 1])
+        found |= {"values": exact(size[rows]), **_named(load.name), "unit": unit_word(acting.unit)}
+    if acting.at is not None:
         way = heading_rows(scene.known, motion, acting)
         way = (way - way[motion.zero])[rows]
         if moves(way, FINE["deg"]):
@@ -134,6 +161,7 @@ HINTS = {
     Status.ANY_VALUE: "Any value: neither the unknown load nor the known ones do work here.",
     Status.CHANGE_POINT: "Change point: from here the mechanism can go on in more than one way.",
     Status.NEAR_SINGULAR: "Too close to a singular position for a number that could be trusted.",
+    Status.SLACK: "A rope would have to push here: it is slack.",
     Status.JAM: "It jams: with this friction no value keeps up the motion.",
     Status.CANNOT_ASSEMBLE: "The links do not meet here.",
     Status.UNBALANCED: "The loads do not balance here.",
@@ -165,6 +193,7 @@ def model_of(
         "steps": max((step.number for step in steps), default=0),
         "centres": _centres(known, steps, view, motion),
         "loads": {a.load.name: load_data(figure.scene, motion, a) for a in loads},
+        "ropes": {course.rope.name: _circles(figure.scene, course) for course in figure.ropes},
         "anchors": _anchors(known, steps, figure),
         "answers": _answers(known, motion, loads),
     }
@@ -252,6 +281,12 @@ def _place(view: View, x: Array, y: Array, fine: int = FINE["px"]) -> dict[str, 
     return {"x": compact(across, fine), "y": compact(down, fine)}
 
 
+def _circles(scene: Scene, course: RopeCourse) -> list[list[Any]]:
+    """What a rope goes round, in order: point, place as written, radius (positive: clockwise)."""
+    ends = zip(course.rope.points, course.radii, strict=True)
+    return [[p, *(round(c, 1) for c in scene.at[p]), round(radius, 2)] for p, radius in ends]
+
+
 def _anchors(known: Known, steps: Sequence[Step], figure: PageFigure) -> dict[str, list[float]]:
     """The points that lines of centres start from (common normals), as written."""
     single = [line[0] for step in steps for line in step.centre.lines if len(line) == 1]
@@ -333,9 +368,7 @@ def _answers(known: Known, motion: PageMotion | None, loads: Sequence[Acting]) -
     found = []
     acting = {a.load.name: a for a in loads}
     for name, value in known.answer.answers.items():
-        runs = name_runs(name)
-        low = runs[1].text if len(runs) > 1 else ""
-        one: dict[str, Any] = {"name": name, "base": runs[0].text, "low": low, "unit": unit_word(value.unit)}
+        one: dict[str, Any] = {"name": name, **_named(name), "unit": unit_word(value.unit)}
         if motion is None or name not in motion.found.answers:
             one["holds"] = [holding(value, figure_number)] if value.holds is not None else None
             one["values"] = exact([value.value])
@@ -344,6 +377,12 @@ def _answers(known: Known, motion: PageMotion | None, loads: Sequence[Acting]) -
             _through(known, motion, one, name, acting[name])
         found.append(one)
     return found
+
+
+def _named(name: str) -> dict[str, str]:
+    """The letters of a load's name, and what stands low behind them."""
+    runs = name_runs(name)
+    return {"base": runs[0].text, "low": runs[1].text if len(runs) > 1 else ""}
 
 
 def _through(known: Known, motion: PageMotion, one: dict[str, Any], name: str, acting: Acting) -> None:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -20,6 +21,7 @@ from icsolve.case import (
     Number,
     Pair,
     Pin,
+    Rope,
     Torque,
 )
 from icsolve.case.joints import Guided, Mesh, without_friction
@@ -27,9 +29,12 @@ from icsolve.case.names import pair_name
 from icsolve.draw.plot import asymptotes, dead_centres
 from icsolve.draw.words import figure_number, unit_word
 from icsolve.errors import SceneError, Status
+from icsolve.numbers.arithmetic import FLOATS
 from icsolve.report.derivation import Known, loaded_links
 from icsolve.scene.refusals import rubs
 from icsolve.screws.plane import Point
+from icsolve.screws.ropes import rope_length, rope_parts
+from icsolve.statics.inertia import as_given
 from icsolve.statics.power import is_unknown
 from icsolve.sweep import Sweep, sweep
 
@@ -46,96 +51,101 @@ class PagePose(NamedTuple):
     angle: Array
 
 
+class PageRows(NamedTuple):
+    """What a link's pose is found from: the input, its degrees, the row as written, the sweep, and the poses
+    so far."""
+
+    known: Known
+    driver: str
+    degrees: Array
+    zero: int
+    found: Sweep
+    poses: dict[str, PagePose]
+
+    def carried(self, link: str) -> list[str]:
+        """The points of a link that the sweep has."""
+        return [p for p in self.known.case.carries.get(link, ()) if p in self.found.points]
+
+
 def poses_of(known: Known, driver: str, degrees: Array, zero: int, found: Sweep) -> dict[str, PagePose]:
-    """The pose of every link that carries a point."""
+    """The pose of every link that carries a point, and of the free ends of ropes."""
     case = known.case
-    poses: dict[str, PagePose] = {}
-    waiting = [link for link in case.links if link != case.ground]
+    rows = PageRows(known, driver, degrees, zero, found, {})
+    waiting = [link for link in case.links if link != case.ground and rows.carried(link)]
     for attempt in (_by_points, _by_guide, _by_rate):
         for link in list(waiting):
-            pose = attempt(known, link, driver, degrees, zero, found, poses)
+            pose = attempt(rows, link)
             if pose is not None:
-                poses[link] = pose
+                rows.poses[link] = pose
                 waiting.remove(link)
-    return poses
+    for rope in case.ropes:
+        if rope.is_free and {*rope.points} <= found.points.keys():
+            rows.poses[rope.end] = _free_end(rows, rope)
+    return rows.poses
 
 
-def _carried(known: Known, link: str, found: Sweep) -> list[str]:
-    return [p for p in known.case.carries.get(link, ()) if p in found.points]
-
-
-def _by_points(
-    known: Known,
-    link: str,
-    driver: str,
-    degrees: Array,
-    zero: int,
-    found: Sweep,
-    poses: Mapping[str, PagePose],
-) -> PagePose | None:
+def _by_points(rows: PageRows, link: str) -> PagePose | None:
     """By two points of the link that lie apart."""
-    names = _carried(known, link, found)
-    if len(names) < 2:
+    names, at = rows.carried(link), rows.known.points
+    a, b = max(((p, q) for p in names for q in names), key=lambda two: math.dist(at[two[0]], at[two[1]]))
+    if math.dist(at[a], at[b]) <= 1e-9 * rows.known.size:
         return None
-    a, b = max(
-        ((p, q) for p in names for q in names), key=lambda two: math.dist(*(known.points[p] for p in two))
-    )
-    if math.dist(known.points[a], known.points[b]) <= 1e-9 * known.size:
-        return None
-    p, q = found.points[a], found.points[b]
+    p, q = rows.found.points[a], rows.found.points[b]
     angle = np.degrees(np.arctan2(q[:, 1] - p[:, 1], q[:, 0] - p[:, 0]))
-    return PagePose(a, p[:, 0], p[:, 1], _from(angle, zero))
+    turned = angle - angle[rows.zero]
+    return PagePose(a, p[:, 0], p[:, 1], np.asarray((turned + 180.0) % 360.0 - 180.0))
 
 
-def _from(angle: Array, zero: int) -> Array:
-    """Angles from that of the position as written, without jumps of a turn."""
-    turned = angle - angle[zero]
-    return np.asarray((turned + 180.0) % 360.0 - 180.0)
-
-
-def _by_guide(
-    known: Known,
-    link: str,
-    driver: str,
-    degrees: Array,
-    zero: int,
-    found: Sweep,
-    poses: Mapping[str, PagePose],
-) -> PagePose | None:
+def _by_guide(rows: PageRows, link: str) -> PagePose | None:
     """As the link turns on which it slides."""
-    names = _carried(known, link, found)
-    for joint in known.case.joints:
-        if isinstance(joint, Guided) and joint.keeps_direction and link in joint.links and names:
+    name = rows.carried(link)[0]
+    for joint in rows.known.case.joints:
+        if isinstance(joint, Guided) and joint.keeps_direction and link in joint.links:
             other = joint.links[1 - joint.links.index(link)]
-            place = found.points[names[0]]
-            if other == known.case.ground:
-                return PagePose(names[0], place[:, 0], place[:, 1], np.zeros(len(degrees)))
-            if other in poses:
-                return PagePose(names[0], place[:, 0], place[:, 1], poses[other].angle)
+            x, y = rows.found.points[name].T
+            if other == rows.known.case.ground:
+                return PagePose(name, x, y, np.zeros(len(rows.degrees)))
+            if other in rows.poses:
+                return PagePose(name, x, y, rows.poses[other].angle)
     return None
 
 
-def _by_rate(
-    known: Known,
-    link: str,
-    driver: str,
-    degrees: Array,
-    zero: int,
-    found: Sweep,
-    poses: Mapping[str, PagePose],
-) -> PagePose | None:
+def _by_rate(rows: PageRows, link: str) -> PagePose:
     """By its rate beside the driver's, summed from row to row (a gear of which nothing else shows)."""
-    names = _carried(known, link, found)
-    if not names:
-        return None
-    ratio = np.zeros(len(degrees))
-    if link in found.rates and driver in found.rates:
+    name, rates = rows.carried(link)[0], rows.found.rates
+    ratio = np.zeros(len(rows.degrees))
+    if link in rates and rows.driver in rates:
         with np.errstate(all="ignore"):
-            ratio = np.nan_to_num(found.rates[link] / found.rates[driver], posinf=0.0, neginf=0.0)
-    steps = 0.5 * (ratio[1:] + ratio[:-1]) * np.diff(degrees)
+            ratio = np.nan_to_num(rates[link] / rates[rows.driver], posinf=0.0, neginf=0.0)
+    steps = 0.5 * (ratio[1:] + ratio[:-1]) * np.diff(rows.degrees)
     total = np.concatenate(([0.0], np.cumsum(steps)))
-    place = found.points[names[0]]
-    return PagePose(names[0], place[:, 0], place[:, 1], total - total[zero])
+    x, y = rows.found.points[name].T
+    return PagePose(name, x, y, total - total[rows.zero])
+
+
+def _free_end(rows: PageRows, rope: Rope) -> PagePose:
+    """A free end goes along the direction of its last part, by what the rest of the rope has become longer or
+    shorter, and by what the drum at its beginning has let go; it has no place beyond its last pulley."""
+    *_, last, end = rope.points
+    at, places, count = rows.known.points, rows.found.points, len(rows.degrees)
+    parts = rope_parts(rope, at, 1.0, FLOATS)
+    carried = places[last] + np.subtract(at[end], at[last])
+    lengths, turns = np.full(count, np.nan), np.full(count, np.nan)
+    for n in range(count):
+        here: dict[str, Point] = {p: tuple(places[p][n].tolist()) for p in rope.points}
+        here[end] = tuple(carried[n].tolist())
+        if np.isfinite(list(here.values())).all():
+            with suppress(SceneError):
+                x, y = rope_parts(rope, here, 1.0, FLOATS)[0].along
+                turns[n] = math.atan2(y, x)
+                lengths[n] = float(rope_length(rope, here, 1.0, FLOATS))
+    drum = rows.poses.get(rope.links[0])
+    turned = np.zeros(count) if drum is None else np.unwrap(np.radians(drum.angle))
+    lengths -= float(parts[0].offset) * (turned - np.unwrap(turns))
+    gone = lengths[rows.zero] - lengths
+    gone[gone <= -float(parts[-1].length)] = np.nan  # the end would run through its pulley
+    x, y = (carried + np.outer(gone, parts[-1].along)).T
+    return PagePose(end, x, y, np.zeros(count))
 
 
 def moved(pose: PagePose, start: tuple[float, float], p: tuple[float, float]) -> tuple[Array, Array]:
@@ -234,7 +244,7 @@ def _by_coordinates(known: Known) -> Case:
         name: Coordinates(number(x, f"points.{name}.x"), number(y, f"points.{name}.y"))
         for name, (x, y) in known.points.items()
     }
-    return replace(known.case, points=points, lengths=(), angles=(), near={})
+    return replace(as_given(known.case), points=points, lengths=(), angles=(), near={})
 
 
 def _input(known: Known, driver: str, moved: Mapping[str, Point]) -> PageInput:
@@ -332,10 +342,11 @@ def motion_of(known: Known, pairs: Sequence[Pair]) -> PageMotion | None:
 
     Of the links that may drive it is the first that turns fully, else that with the longest range.
     """
-    if known.answer is None or known.case.space is not None or known.case.dynamic:
+    if known.answer is None or known.case.space is not None:
         return None
-    case = known.answer.case
+    case = as_given(known.answer.case)
     want = ["answers", "status", "points", "rates"]
+    want += ["velocities", "accelerations"] if case.dynamic else []
     want += [f"centres.{pair_name(case, pair)}" for pair in pairs]
     slides = sliding(known)
     if slides is not None:
@@ -349,10 +360,13 @@ def motion_of(known: Known, pairs: Sequence[Pair]) -> PageMotion | None:
         return None
     by, degrees, found = best
     zero = int(np.argmin(np.abs(degrees)))
+    poses = poses_of(known, by.link, degrees, zero, found)
+    ends = {rope.end for rope in case.ropes} & poses.keys()
+    ends_at = {poses[end].point: np.column_stack((poses[end].x, poses[end].y)) for end in ends}
+    found = replace(found, points={**found.points, **ends_at})
     first, last = _run(found, zero)
     if first == last:
         return None
-    poses = poses_of(known, by.link, degrees, zero, found)
     dead = _dead(case, by, degrees, (float(degrees[first]), float(degrees[last])), found)
     return PageMotion(by, degrees, zero, first, last, found, poses, _shares(case, by, degrees, found), dead)
 
@@ -362,8 +376,12 @@ DEAD = (Status.DEAD_CENTRE, Status.NO_VALUE)
 
 def _dead(case: Case, by: PageInput, degrees: Array, reach: tuple[float, float], found: Sweep) -> list[float]:
     """The dead centres within reach, each to its last digit; where they can't be looked for, the rows that
-    are, and with them the places where an answer runs off to infinity (a jump of friction is none)."""
-    some = None if by.slides else dead_centres(case, by.driven(degrees))
+    are, and with them the places where an answer runs off to infinity (a jump of friction is none).
+
+    Where each position is a scene they are looked for only if an answer changes its sign or is missing."""
+    quiet = _one_by_one(case) and all(np.all(v > 0.0) or np.all(v < 0.0) for v in found.answers.values())
+    by_rows = by.slides or case.dynamic
+    some = [] if quiet else None if by_rows else dead_centres(case, by.driven(degrees))
     if some is None:
         x = degrees.tolist()
         some = [at for at, word in zip(x, found.status, strict=True) if word in DEAD]
@@ -379,15 +397,14 @@ def why_still(known: Known) -> str:
         return "This case is in space: it is shown as it stands."
     if not any(t != (0.0, 0.0, 0.0) for t in known.twists.values()):
         return "Nothing moves here: the links hold each other."
-    if case.dynamic:
-        return "The inertia forces are those of the position as written, so nothing is moved from it."
     if any(joint.stands_in for joint in case.joints):
         return "A given centre holds in the position as written only, so nothing can be moved from it."
     drivers = inputs(known)
     if not drivers or known.answer is None:
         return "No link turns about the frame in this position, so there is no input to turn."
     try:
-        sweep(known.answer.case, None, ("status", "points"), drive={drivers[0]: np.array([0.0, STEP])})
+        case = as_given(known.answer.case)
+        sweep(case, None, ("status", "points"), drive={drivers[0]: np.array([0.0, STEP])})
     except SceneError as refusal:
         return f"It cannot be moved: {refusal.message}"
     return "The links leave no room to move from the position as written."
@@ -396,8 +413,8 @@ def why_still(known: Known) -> str:
 def _widest(known: Known, want: Sequence[str]) -> tuple[PageInput, Array, Sweep] | None:
     """The first input that turns fully, else that with the longest range."""
     assert known.answer is not None
-    case = known.answer.case
-    step = COARSE if rubs(case) else STEP if case.profiles is None else MIDDLE
+    case = as_given(known.answer.case)
+    step = COARSE if _one_by_one(case) else STEP if case.profiles is None else MIDDLE
     turn = np.arange(-180.0, 180.0 + 0.5 * step, step)
     best: tuple[float, PageInput, Array, Sweep] | None = None
     for driver in map(PageInput, inputs(known)[:TRIES]):
@@ -413,9 +430,14 @@ def _widest(known: Known, want: Sequence[str]) -> tuple[PageInput, Array, Sweep]
     if best is None:
         return None
     reach, driver, turn, found = best
-    finer = None if rubs(case) else _suited(turn, *_run(found, len(turn) // 2), step)
+    finer = None if _one_by_one(case) else _suited(turn, *_run(found, len(turn) // 2), step)
     again = None if finer is None else _swept(case, driver, finer, want)
     return (driver, turn, found) if finer is None or again is None else (driver, finer, again)
+
+
+def _one_by_one(case: Case) -> bool:
+    """Whether a sweep solves each position as a scene of its own, which takes its time."""
+    return rubs(case) or case.dynamic or bool(case.ropes)
 
 
 def _suited(turn: Array, first: int, last: int, step: float) -> Array | None:
@@ -486,14 +508,14 @@ def inputs(known: Known) -> list[str]:
 def _shares(case: Case, by: PageInput, degrees: Array, found: Sweep) -> dict[str, Array]:
     """The power of each known load per unit, while the unknown one does 1: by that load alone (the equation
     of power is linear), for one unknown and no friction."""
-    if len(found.answers) != 1 or rubs(case) or not any(map(is_unknown, case.loads)):
+    if len(found.answers) != 1 or rubs(case) or case.dynamic or not any(map(is_unknown, case.loads)):
         return {}
     known = [load for load in case.loads if not is_unknown(load)]
     if any(_like(load) for load in case.loads):
         return {}
     (name,) = found.answers
     if len(known) > 1 and not any(isinstance(load, ForceVector) for load in known):
-        return _one_by_one(case, by, degrees, name, [load.name for load in known])
+        return _each_alone(case, by, degrees, name, [load.name for load in known])
     shares = {}
     for load in known:
         alone = found if len(known) == 1 else _swept(_only(case, load), by, degrees, ("answers",))
@@ -504,7 +526,7 @@ def _shares(case: Case, by: PageInput, degrees: Array, found: Sweep) -> dict[str
     return shares
 
 
-def _one_by_one(
+def _each_alone(
     case: Case, by: PageInput, degrees: Array, name: str, known: Sequence[str]
 ) -> dict[str, Array]:
     """All positions once for each known load, which alone is there and is 1, in one sweep."""

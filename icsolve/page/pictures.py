@@ -47,6 +47,7 @@ def plots_of(known: Known, motion: PageMotion) -> list[Plot]:
     found += [("Mechanical advantage", advantage)] if advantage else []
     rates = [] if motion.found.answers else _rates(known, motion)
     found += [("Ratios of angular velocities", rates)] if rates else []
+    found += _dynamics(known, motion) if motion.found.accelerations else []
     axis = f"link {motion.driver} {motion.by.verb} from the position as written, {motion.by.unit_name}"
     return [_plot(heading, x, curves, axis) for heading, curves in found]
 
@@ -92,6 +93,28 @@ def _rates(known: Known, motion: PageMotion) -> list[PlottedCurve]:
             for link in known.case.links
             if link in rates and link not in (known.case.ground, motion.driver) and np.any(rates[link])
         ][:MOST]
+
+
+def _dynamics(known: Known, motion: PageMotion) -> list[tuple[str, list[PlottedCurve]]]:
+    """How fast links turn and points move under the given motion, and their accelerations."""
+    found, length = motion.found, known.case.units.length
+    link_rates = {f"w{link}": rate for link, rate in found.rates.items()}
+    link_changes = {f"alpha{link}": rate for link, rate in found.angular_accelerations.items()}
+    sizes = [
+        {f"{kind}{name.split()[0]}": np.hypot(*column.T) for name, column in columns.items()}
+        for kind, columns in (("v", found.velocities), ("a", found.accelerations))
+    ]
+    kinds = (
+        ("Angular velocities", link_rates, "rad/s"),
+        ("Angular accelerations", link_changes, "rad/s^2"),
+        ("Speeds of points", sizes[0], f"{length}/s"),
+        ("Accelerations of points", sizes[1], f"{length}/s^2"),
+    )
+    drawn = (
+        (heading, [PlottedCurve(n, _rows(motion, c), unit) for n, c in columns.items() if np.any(c != 0.0)])
+        for heading, columns, unit in kinds
+    )
+    return [(heading, curves[:MOST]) for heading, curves in drawn if curves]
 
 
 def _plot(heading: str, x: Sequence[float], curves: Sequence[PlottedCurve], axis: str) -> Plot:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from icsolve.assembly.workspace import Frame
 from icsolve.case import Case, ForceVector, Torque
@@ -22,6 +23,12 @@ COUPLE = "inertia couple {}"
 def is_loaded(case: Case) -> bool:
     """Whether the inertia forces are among the loads of a case."""
     return any(load.name.startswith("inertia ") for load in case.loads)
+
+
+def as_given(case: Case) -> Case:
+    """The case without inertia forces among its loads: what other positions are solved from."""
+    loads = tuple(load for load in case.loads if not load.name.startswith("inertia "))
+    return case if loads == case.loads else replace(case, loads=loads)
 
 
 def exactly(

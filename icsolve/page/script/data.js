@@ -24,7 +24,7 @@ if (motion) {
 }
 const own = (o, name) => (Object.prototype.hasOwnProperty.call(o, name) ? o[name] : undefined);
 const loads = {};
-for (const [name, o] of Object.entries(data.loads)) loads[name] = { ...o, way: column(o.way) };
+for (const [name, o] of Object.entries(data.loads)) loads[name] = { ...o, way: column(o.way), values: column(o.values) };
 const answers = data.answers.map((o) => ({ ...o, values: column(o.values), sense: column(o.sense) }));
 const centres = data.centres.map((o) => ({ ...o, ...places(o) }));
 const zero = motion ? motion.zero : 0;

@@ -10,9 +10,8 @@ const unknown = (name) => answers.find((a) => a.name === name);
 
 function turnOf(name, r) {
   const load = loads[name];
-  const answer = unknown(name);
-  const value = answer ? answer.values[r] : 1;
-  const written = answer ? answer.values[zero] : 1;
+  const { values } = unknown(name) || load;
+  const [value, written] = values ? [values[r], values[zero]] : [1, 1];
   return { way: (load.way && load.way[r]) || 0, flip: value !== null && value < 0 !== written < 0, gone: value === null };
 }
 /* In the live row a link may have another shape: an outline about its points, or what it was, stretched. */
@@ -87,7 +86,35 @@ function moveRail(e, r) {
   set(e, "transform", `translate(${f(p[0] + across * now[1])} ${f(p[1] + across * now[0])}) rotate(${f(-turned(before, now))}) translate(${-p[0]} ${-p[1]})`);
 }
 const rails = all("[data-rail]", figure);
+/* A rope round its circles: parts that touch two of them, and arcs between. */
+function layRope(e, circles, r) {
+  const where = ([name, x, y, s]) => {
+    const p = own(points, name);
+    return p ? [x + p.x[r] - p.x[zero], y + p.y[r] - p.y[zero], s] : [x, y, s];
+  };
+  const round = circles.map(where);
+  let d = "";
+  let before = null;
+  for (let k = 1; k < round.length; k++) {
+    const [[ax, ay, s], [bx, by, t]] = [round[k - 1], round[k]];
+    const [dx, dy, between] = [bx - ax, by - ay, t - s];
+    const square = dx * dx + dy * dy;
+    const length = Math.sqrt(square - between * between);
+    const [ux, uy] = [(length * dx + between * dy) / square, (length * dy - between * dx) / square];
+    const start = [ax + s * uy, ay - s * ux];
+    const turn = before ? Math.atan2(before[0] * uy - before[1] * ux, before[0] * ux + before[1] * uy) * Math.sign(s) : 0;
+    const large = turn < -1e-6 ? 1 : 0;
+    d += s && before ? `A${f(Math.abs(s))},${f(Math.abs(s))} 0 ${large} ${s > 0 ? 1 : 0} ` : before ? "L" : "M";
+    d += `${start.map(f)} L${f(start[0] + length * ux)},${f(start[1] + length * uy)}`;
+    before = [ux, uy];
+  }
+  const laid = !d.includes("NaN");
+  show(e, laid);
+  if (laid) set(e.querySelector("path"), "d", d);
+}
+const ropes = all("[data-rope]", figure).map((e) => [e, data.ropes[e.dataset.rope]]);
 function moveParts(r) {
+  for (const [e, circles] of ropes) layRope(e, circles, r);
   for (const [e, l] of turning)
     if (!bent(e, r))
       set(e, "transform", `translate(${f(l.x[r])} ${f(l.y[r])}) rotate(${f(-l.a[r])}) translate(${-l.from[0]} ${-l.from[1]})`);

@@ -18,6 +18,14 @@ function lastText(text) {
   while (node && node.lastChild) node = node.lastChild;
   return node;
 }
+/* What stands beside a load in the figure. */
+function relabel(name, { base, low, unit, values }, r, sense) {
+  const label = labels.find((l) => l.label === name);
+  if (!label) return;
+  const shown = values[r] === null ? "no value" : `${number(Math.abs(values[r]), 4)} ${unit}${loads[name].torque ? SHORT[sense] || "" : ""}`;
+  lastText(label.text).data = `${low ? "" : base}${loads[name].span ? ": k" : ""} = ${shown}`;
+  label.size = null;
+}
 function tell(r) {
   for (const answer of answers) {
     const { text, sense } = saying(answer, r);
@@ -27,15 +35,10 @@ function tell(r) {
       line.dataset.value = typeof answer.values[r] === "number" ? String(answer.values[r]) : "";
       line.dataset.status = statusAt(r);
     }
-    const label = labels.find((l) => l.label === answer.name);
-    if (!label || !(motion || live) || (answer.holds && answer.holds[r])) continue;
-    const value = answer.values[r];
-    const lead = answer.low ? "" : answer.base;
-    const spring = loads[answer.name].span ? `: k` : "";
-    const shown = value === null ? "no value" : `${number(Math.abs(value), 4)} ${answer.unit}${loads[answer.name].torque ? SHORT[sense] || "" : ""}`;
-    lastText(label.text).data = `${lead}${spring} = ${shown}`;
-    label.size = null;
+    if ((motion || live) && !(answer.holds && answer.holds[r])) relabel(answer.name, answer, r, sense);
   }
+  for (const [name, load] of Object.entries(loads))
+    if (load.values) relabel(name, load, r, load.values[r] < 0 ? "clockwise" : "counterclockwise");
   const terms = data.terms;
   if (!terms) return;
   let sum = 0;
