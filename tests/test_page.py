@@ -301,7 +301,7 @@ def test_a_rope_keeps_its_length_as_it_moves(name: str) -> None:
         turned = 0.0 if drum is None else math.radians(drum.angle[row])
         lengths.append(rope_length(rope, points, 1.0, FLOATS) - offset * turned)
     assert lengths == pytest.approx([lengths[0]] * len(lengths))
-    ends = found.found.points[rope.points[-1]][[found.first, found.last]]
+    ends = found.found.points[rope.points[-1]][found.first : found.last + 1]
     assert np.ptp(ends, axis=0).max() > 0.1
 
 
