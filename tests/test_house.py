@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import ast
 from collections import Counter
-from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import get_args
 
@@ -23,6 +23,12 @@ ROOMS = (
 """In the order in which they may lean on one another: each only on those before it."""
 
 
+def parsed(file: Path) -> ast.Module:
+    """A module as a tree."""
+    return ast.parse(file.read_text())
+
+
+@cache
 def modules() -> dict[str, Path]:
     """Every module of the package by its dotted name."""
     found = {}
@@ -32,8 +38,11 @@ def modules() -> dict[str, Path]:
     return found
 
 
-def imported(tree: ast.Module, known: dict[str, Path]) -> Iterator[str]:
+@cache
+def imported(file: Path) -> frozenset[str]:
     """The package's modules that a module imports, wherever in it."""
+    tree, known = parsed(file), modules()
+    found = set()
     hidden = {
         id(node)
         for block in ast.walk(tree)
@@ -44,7 +53,8 @@ def imported(tree: ast.Module, known: dict[str, Path]) -> Iterator[str]:
         if isinstance(node, ast.ImportFrom) and node.module and id(node) not in hidden:
             for alias in node.names:
                 whole = f"{node.module}.{alias.name}"
-                yield whole if whole in known else node.module
+                found.add(whole if whole in known else node.module)
+    return frozenset(found)
 
 
 def room_of(module: str) -> str:
@@ -57,7 +67,7 @@ def arrows() -> set[tuple[str, str]]:
     known = modules()
     pairs = set()
     for name, file in known.items():
-        for other in imported(ast.parse(file.read_text()), known):
+        for other in imported(file):
             if other.startswith("icsolve.") and room_of(other) != room_of(name):
                 pairs.add((room_of(name), room_of(other)))
     return pairs
@@ -76,7 +86,7 @@ def test_every_room_has_its_place_in_the_order() -> None:
 def test_no_module_comes_back_to_itself() -> None:
     """Within a room, too: of modules of which each imports only ordered ones, all can be ordered."""
     known = modules()
-    leans = {name: set(imported(ast.parse(file.read_text()), known)) - {name} for name, file in known.items()}
+    leans = {name: imported(file) - {name} for name, file in known.items()}
     left = {name: others & known.keys() for name, others in leans.items()}
     while ordered := {name for name, others in left.items() if not others & left.keys()}:
         left = {name: others for name, others in left.items() if name not in ordered}
@@ -88,7 +98,7 @@ def test_no_class_has_its_name_from_another() -> None:
     names = Counter(
         node.name
         for file in modules().values()
-        for node in ast.parse(file.read_text()).body
+        for node in parsed(file).body
         if isinstance(node, ast.ClassDef)
     )
     assert {name for name, count in names.items() if count > 1} <= {"Group"}
@@ -97,9 +107,10 @@ def test_no_class_has_its_name_from_another() -> None:
 KINDS = [kind.__name__ for kind in get_args(Joint)]
 
 
-def named_in(tree: ast.Module) -> set[str]:
+@cache
+def named_in(file: Path) -> set[str]:
     """The kinds of joint that a module names."""
-    names = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
+    names = {node.id for node in ast.walk(parsed(file)) if isinstance(node, ast.Name)}
     return names & set(KINDS)
 
 
@@ -109,7 +120,7 @@ def test_a_kind_of_joint_is_told_in_few_places(kind: str) -> None:
 
     Pins are what links are made of; contacts are also what profiles give, and a row of a sweep.
     """
-    told = {name for name, file in modules().items() if kind in named_in(ast.parse(file.read_text()))}
+    told = {name for name, file in modules().items() if kind in named_in(file)}
     told -= {"icsolve.case.joints", "icsolve.read.joints", "icsolve.wording.joints", "icsolve.draw.frame"}
     contacts = {"icsolve.cams.contact_search", "icsolve.sweep.recorded_scene", "icsolve.sweep.cam_motion"}
     assert told <= {
@@ -120,7 +131,7 @@ def test_a_kind_of_joint_is_told_in_few_places(kind: str) -> None:
 
 def test_where_kinds_are_told_apart_the_type_checker_sees_to_it_that_all_are() -> None:
     for file in modules().values():
-        for node in ast.walk(ast.parse(file.read_text())):
+        for node in ast.walk(parsed(file)):
             if isinstance(node, ast.Match):
                 cases = [ast.unparse(one.pattern) for one in node.cases]
                 kinds = {word for one in cases for word in KINDS if f"{word}(" in one}
