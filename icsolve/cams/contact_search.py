@@ -6,6 +6,7 @@ How the joints of a follower let it move against a link that stands, and the dat
 from __future__ import annotations
 
 import math
+from contextlib import suppress
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -22,12 +23,24 @@ from icsolve.cams.contact_candidates import (
     meeting_of,
 )
 from icsolve.cams.curve import Body, Curve, body_of, placed
+from icsolve.cams.enclosed_contact import (
+    DIGITS,
+    Enclosed,
+    FollowerPlaces,
+    LocusFinder,
+    Start,
+    ball_places,
+    enclosed_contact,
+    exact_number,
+)
+from icsolve.cams.enclosed_contact import direction as direction_in_balls
 from icsolve.cams.pieces import Point, unit
 from icsolve.cams.words import corner_refusal, left_open, never_meets, piece_words, several_ways
 from icsolve.case import Case, Contact, Coordinates, Direction, Joint, Number, Pin
 from icsolve.case.profiles import Flat, Follower, Knife, Profiles, Roller, Shape, Touch, points_of
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import turn_of
+from icsolve.numbers.arithmetic import Scalar, turn_of
+from icsolve.numbers.balls import Balls, BelowZero, MoreDigits
 
 FITS = 2e-3
 """A follower whose place is given may miss the profile by this fraction of the profile's size."""
@@ -44,10 +57,13 @@ class FoundContacts(NamedTuple):
     touching: tuple[Touching, ...]
     used: frozenset[str]
     """the points that profiles name"""
+    enclosed: bool = False
+    """whether all are placed with more digits than a scene needs"""
 
 
-def found(case: Case) -> FoundContacts:
-    """The contacts of a case with profiles.
+def found(case: Case, enclosed: bool = False) -> FoundContacts:
+    """The contacts of a case with profiles; ``enclosed`` with more digits than a scene needs, where that can
+    be shown.
 
     Raises SceneError where a profile crosses itself, a follower never meets it or does so in several ways,
     and where the figure is not determined.
@@ -56,10 +72,12 @@ def found(case: Case) -> FoundContacts:
     current = replace(case, profiles=case.profiles._replace(touches=()))
     touching = []
     for touch in case.profiles.touches:
-        current, one = ContactSearch(case, case.profiles, touch, current).found()
+        search = ContactSearch(case, case.profiles, touch, current)
+        current, one = search.found(enclosed)
+        enclosed = search.enclosed is not None
         touching.append(one)
     used = (name for shape in case.profiles.shapes.values() for name in points_of(shape))
-    return FoundContacts(current, tuple(touching), frozenset(used))
+    return FoundContacts(current, tuple(touching), frozenset(used), enclosed)
 
 
 class ContactSearch:
@@ -80,9 +98,11 @@ class ContactSearch:
         self.profile = f"the profile of link {self.cam}"
         self.where = self.profile + (f" ({original.path}:{mark[0]}:{mark[1]})" if mark else "")
         self.what = f"link {self.link} on {self.where}"
+        self.freed: Freed | None = None
+        self.enclosed: Enclosed | None = None
 
-    def found(self) -> tuple[Case, Touching]:
-        """The case with this contact, and what was found of it."""
+    def found(self, enclosed: bool) -> tuple[Case, Touching]:
+        """The case with this contact, and what was found of it; ``enclosed`` where that can be shown."""
         own = points_of(self.shape)
         curve = placed(self.shape, places_of(self.case, own), self.where)
         try:
@@ -98,7 +118,40 @@ class ContactSearch:
         gap = gap_of(curve, body, side)[0]
         if abs(gap) > FITS * curve.size:
             raise SceneError(Status.CANNOT_ASSEMBLE, never_meets(self.what, body.kind, gap))
-        return self.contact(self.case, curve, meeting_of(curve, body, side, self.what), self.guide())
+        meeting = meeting_of(curve, body, side, self.what)
+        if enclosed and len(meeting.normals) == 1:
+            with suppress(MoreDigits, BelowZero, ZeroDivisionError):
+                self._enclose(curve, meeting)
+        return self.contact(self.case, curve, meeting, self.guide())
+
+    def _enclose(self, curve: Curve, meeting: Meeting) -> None:
+        """Place the contact and its follower with all digits; MoreDigits where no one place is shown."""
+        balls, freed, follower = Balls(DIGITS), self.freed, self.follower
+        case = self.case if freed is None else freed.moved(0.0)
+        own = points_of(follower)
+        places = ball_places(case, (*own, *points_of(self.shape)), balls)
+        face = direction_in_balls(follower.along, places, balls) if isinstance(follower, Flat) else None
+        body = FollowerPlaces(follower, places[follower.at], face)
+        by = meeting.gap
+        if freed is not None and isinstance(freed.freedom, Turn):
+            pivot = freed.datum.pivot
+            body = body._replace(about=ball_places(self.case, (pivot,), balls)[pivot])
+            by = freed.by
+        elif freed is not None and isinstance(freed.freedom, Shift):
+            one = ball_places(freed.moved(curve.size), own, balls)[follower.at]
+            step = balls.given(freed.number(curve.size)) - balls.given(freed.number(0.0))
+            body = body._replace(along=((one[0] - body.at[0]) / step, (one[1] - body.at[1]) / step))
+            by = freed.by * freed.freedom.along[freed.datum.axis]
+        finder = LocusFinder(self.shape, curve, places, balls)
+        start = Start(meeting.foot.point, meeting.normals[0], by)
+        self.enclosed = enclosed_contact(finder.locus(meeting.foot), body, start, finder.size, balls)
+        if freed is not None:
+            moved = self.enclosed.moved
+            change = balls.angle(*moved) if len(moved) == 2 else moved[0]
+            value = change + balls.given(freed.number(0.0))
+            self.case = freed.datum.put(
+                freed.case, exact_number(value, 360.0 if len(moved) == 2 else curve.size, "")
+            )
 
     def guide(self) -> Freedom | None:
         """How the frame guides the follower; None where something else does."""
@@ -123,6 +176,7 @@ class ContactSearch:
         if not all_ways:
             raise SceneError(Status.CANNOT_ASSEMBLE, never_meets(self.what, body.kind, None))
         chosen = self.meant(all_ways, freedom, datum, trial)
+        self.freed = Freed(self.case, datum, freedom, chosen.by)
         return datum.given(self.case, chosen.by, freedom), chosen
 
     def meant(self, all_ways: list[Candidate], freedom: Freedom, datum: Missing, trial: Case) -> Candidate:
@@ -152,10 +206,16 @@ class ContactSearch:
         sign = 1.0 if self.touch.links[0] == self.cam else -1.0
         degrees = math.degrees(math.atan2(sign * ny, sign * nx))
         at, path = meeting.foot.point, f"profile.{self.cam}.{self.link}"
+        values: tuple[Scalar, ...] = (*at, degrees)
+        if self.enclosed is not None:
+            (nx, ny), a = self.enclosed.normal, Balls(DIGITS)
+            values = (*self.enclosed.at, a.angle(nx * sign, ny * sign))
+        sizes = (curve.size, curve.size, 360.0)
         x, y, normal = (
-            Number(value, 0.0, f"{path}.{key}", repr(value))
-            for key, value in (("x", at[0]), ("y", at[1]), ("normal", degrees))
+            exact_number(value, size, f"{path}.{key}")
+            for key, value, size in zip(("x", "y", "normal"), values, sizes, strict=True)
         )
+        at, degrees = (x.value, y.value), normal.value
         radii = self.radii(curve, meeting)
         joint = Contact(self.touch.links, self.hidden, normal, self.touch.friction, radii)
         joints = (*case.joints[: self.touch.place], joint, *case.joints[self.touch.place :])
@@ -169,9 +229,10 @@ class ContactSearch:
     def radii(self, curve: Curve, meeting: Meeting) -> tuple[Number | None, Number | None]:
         """The radii of curvature where they touch, in the order of the links."""
         own = self.follower.radius.value if isinstance(self.follower, Roller) else 0.0
-        pair = (curve.radius_at(meeting.foot), None if isinstance(self.follower, Flat) else own)
+        cam = self.enclosed.radius if self.enclosed is not None else curve.radius_at(meeting.foot)
+        pair = (cam, None if isinstance(self.follower, Flat) else own)
         path = f"profile.{self.cam}.{self.link}.radius"
-        first, second = (None if r is None else Number(r, 0.0, path, repr(r)) for r in pair)
+        first, second = (None if r is None else exact_number(r, curve.size, path) for r in pair)
         return (first, second) if self.touch.links[0] == self.cam else (second, first)
 
     def trace(self, at: Point, normal: Point) -> Point:
@@ -286,20 +347,37 @@ class Missing(NamedTuple):
 
     def given(self, case: Case, by: float, freedom: Freedom) -> Case:
         """The case with the datum as it is after the follower has moved."""
-        if isinstance(freedom, Turn):
-            value = self.trial + math.degrees(by)
-            datum = Direction(self.pivot, self.point, self.number(value))
-            return replace(case, angles=(*case.angles, datum))
-        value = self.trial + by * freedom.along[self.axis]
+        change = math.degrees(by) if isinstance(freedom, Turn) else by * freedom.along[self.axis]
+        value = self.trial + change
+        return self.put(case, Number(value, 0.0, "", repr(value)))
+
+    def put(self, case: Case, number: Number) -> Case:
+        """The case with a value of the datum."""
+        number = number._replace(path=f"profile.{self.point}")
+        if self.pivot:
+            return replace(case, angles=(*case.angles, Direction(self.pivot, self.point, number)))
         old = case.points.get(self.point)
         kept = old if isinstance(old, Coordinates) else Coordinates(None, None)
-        number = self.number(value)
         point = kept._replace(y=number) if self.axis else kept._replace(x=number)
         return replace(case, points={**case.points, self.point: point})
 
-    def number(self, value: float) -> Number:
-        """A number that the profile gives."""
-        return Number(value, 0.0, f"profile.{self.point}", repr(value))
+
+class Freed(NamedTuple):
+    """A case whose follower is still free, the datum that fixes it, and how far doubles moved it."""
+
+    case: Case
+    datum: Missing
+    freedom: Freedom
+    by: float
+
+    def number(self, change: float) -> Number:
+        """The datum, changed by so much [its unit] from where the search began."""
+        value = self.datum.trial + change
+        return Number(value, 0.0, "", repr(value))
+
+    def moved(self, change: float) -> Case:
+        """The case with the datum so changed."""
+        return self.datum.put(self.case, self.number(change))
 
 
 def missing(case: Case, link: str, points: tuple[str, ...], freedom: Freedom) -> Missing:

@@ -16,6 +16,8 @@ from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
+from icsolve.numbers.arithmetic import Scalar
+
 Point = tuple[float, float]
 Slope = Callable[[float], tuple[float, float]]
 """A derivative by the angle, and its own derivative, at u."""
@@ -237,26 +239,34 @@ class Spline(NamedTuple):
     period : in the unit of the places
     """
 
-    places: tuple[float, ...]
-    values: tuple[float, ...]
-    bends: tuple[float, ...]
+    places: tuple[Scalar, ...]
+    values: tuple[Scalar, ...]
+    bends: tuple[Scalar, ...]
     period: float
 
     def at(self, x: float) -> tuple[float, float, float]:
         """Value, first and second derivative at any x."""
         x = self.places[0] + (x - self.places[0]) % self.period
         k = min(bisect_right(self.places, x), len(self.places)) - 1
+        return self.between(k, x - self.places[k])
+
+    def step(self, k: int) -> Scalar:
+        """How far the next place is beyond the k-th."""
         n = (k + 1) % len(self.places)
-        h = self.places[n] - self.places[k] + (self.period if n <= k else 0.0)
-        b = (x - self.places[k]) / h
+        return self.places[n] - self.places[k] + (self.period if n <= k else 0.0)
+
+    def between(self, k: int, beyond: Scalar) -> tuple[Scalar, Scalar, Scalar]:
+        """The same of the cubic that begins at the k-th place, at a distance beyond it."""
+        n, h = (k + 1) % len(self.places), self.step(k)
+        b = beyond / h
         a = 1.0 - b
         p, q, r, s = self.values[k], self.values[n], self.bends[k], self.bends[n]
-        value = a * p + b * q + ((a**3 - a) * r + (b**3 - b) * s) * h * h / 6.0
+        value = a * p + b * q + ((a * a * a - a) * r + (b * b * b - b) * s) * h * h / 6.0
         slope = (q - p) / h + ((3.0 * b * b - 1.0) * s - (3.0 * a * a - 1.0) * r) * h / 6.0
         return value, slope, a * r + b * s
 
 
-def spline(places: Sequence[float], values: Sequence[float], period: float) -> Spline:
+def spline(places: Sequence[Scalar], values: Sequence[Scalar], period: float) -> Spline:
     """The periodic spline through values.
 
     Parameters
@@ -275,7 +285,7 @@ def spline(places: Sequence[float], values: Sequence[float], period: float) -> S
     return Spline(tuple(places), tuple(values), tuple(_cyclic(steps, middle, right)), period)
 
 
-def _cyclic(steps: Sequence[float], middle: Sequence[float], right: Sequence[float]) -> list[float]:
+def _cyclic(steps: Sequence[Scalar], middle: Sequence[Scalar], right: Sequence[Scalar]) -> list[Scalar]:
     """Solve ``steps[k-1] x[k-1] + middle[k] x[k] + steps[k] x[k+1] = right[k]``, cyclic."""
     corner, gamma = steps[-1], -middle[0]
     diagonal = list(middle)
@@ -288,10 +298,13 @@ def _cyclic(steps: Sequence[float], middle: Sequence[float], right: Sequence[flo
     return [a - factor * b for a, b in zip(y, z, strict=True)]
 
 
-def _tridiagonal(steps: Sequence[float], diagonal: Sequence[float], right: Sequence[float]) -> list[float]:
+def _tridiagonal(
+    steps: Sequence[Scalar], diagonal: Sequence[Scalar], right: Sequence[Scalar]
+) -> list[Scalar]:
     """Thomas's elimination; the matrix is symmetric with ``steps`` beside the diagonal."""
     n = len(diagonal)
-    ratios, x = [0.0] * n, [0.0] * n
+    ratios: list[Scalar] = [0.0] * n
+    x: list[Scalar] = [0.0] * n
     pivot = diagonal[0]
     x[0] = right[0] / pivot
     for k in range(1, n):

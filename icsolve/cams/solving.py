@@ -15,7 +15,9 @@ from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.statics.power import is_unknown
 
-WHY = "its contacts are found on profiles, of which no bound is proven"
+WHY = (
+    "it is not shown that the profile is touched where it was found to be: at a corner, or where pieces meet"
+)
 
 
 def solve_touching(case: Case, solve: Callable[..., Answer], **options: Any) -> Answer:
@@ -23,20 +25,30 @@ def solve_touching(case: Case, solve: Callable[..., Answer], **options: Any) -> 
 
     Raises SceneError as `icsolve.solve`, and where no contact can be found.
     """
-    known = found(case)
-    answer, reactions = _solved(known.case, solve, {**options, "bound": False})
+    known = found(case, enclosed=bool(options.get("bound")))
+    options = {**options, "bound": known.enclosed}
+    answer, reactions = _solved(known.case, solve, options)
     touching = tuple(pressed(one, known.case, reactions) for one in known.touching)
+    if not known.enclosed:
+        answer = _unbounded(answer)
     return replace(
         answer,
         case=case,
-        answers={name: value._replace(error=None, why=WHY) for name, value in answer.answers.items()},
-        centres=Deferred(lambda: {pair: c._replace(error=None) for pair, c in answer.centres.items()}),
-        errors={},
         sensitivities=Deferred(_no_sensitivities),
         skipped=tuple(name for name in answer.skipped if name not in known.used),
         notes=(*answer.notes, *_notes(touching, bool(options.get("reactions")))),
         touching=touching,
         reactions=_with_pressure_angles(answer.reactions, known.case, touching),
+    )
+
+
+def _unbounded(answer: Answer) -> Answer:
+    """An answer without the errors of its numbers."""
+    return replace(
+        answer,
+        answers={name: value._replace(error=None, why=WHY) for name, value in answer.answers.items()},
+        centres=Deferred(lambda: {pair: c._replace(error=None) for pair, c in answer.centres.items()}),
+        errors={},
     )
 
 

@@ -239,10 +239,10 @@ class Ball:
 
 def _exact_quotient(above: Ball, below: Ball, value: Decimal) -> int | None:
     """The last digit's exponent of a quotient of exact numbers that has no remainder; else None."""
-    quotient = value.normalize(_WIDE)
+    quotient = value.normalize(WIDE)
     _, digits, last = quotient.as_tuple()
     assert isinstance(last, int)
-    if len(digits) >= above.arithmetic.digits or _WIDE.multiply(quotient, below.value) != above.value:
+    if len(digits) >= above.arithmetic.digits or WIDE.multiply(quotient, below.value) != above.value:
         return None
     return last
 
@@ -253,7 +253,7 @@ def _context(digits: int) -> Context:
     return Context(digits, ROUND_HALF_EVEN, MIN_EMIN, MAX_EMAX, capitals=1, clamp=0, flags=[], traps=traps)
 
 
-_WIDE = _context(20_000)
+WIDE = _context(20_000)
 """Wide enough that sums and products of two numbers of a scene are exact."""
 
 
@@ -331,9 +331,9 @@ class Balls:
 
     def cos_sin(self, degrees: Ball) -> tuple[Scalar, Scalar]:
         """Cosine and sine of an angle in degrees; exact at multiples of 90, and the halves at 30."""
-        within = _WIDE.remainder(degrees.value, _TURN)
+        within = WIDE.remainder(degrees.value, _TURN)
         quarter = round(float(within) / 90.0)
-        rest = _WIDE.subtract(within, Decimal(90 * quarter))
+        rest = WIDE.subtract(within, Decimal(90 * quarter))
         c: Scalar = 1.0
         s: Scalar = 0.0
         if rest or degrees.radius:
@@ -350,7 +350,7 @@ class Balls:
         """
         places = self.digits + GUARD
         one = 10**places
-        x = int(rest.scaleb(places, _WIDE)) * _pi(places) // (180 * one)
+        x = int(rest.scaleb(places, WIDE)) * _pi(places) // (180 * one)
         square = x * x // one
         sums = []
         for first, start in ((one, 0), (x, 1)):
@@ -367,7 +367,7 @@ class Balls:
         return c, s
 
     def _placed(self, digits: int, exponent: int, radius: float) -> Ball:
-        value = Decimal(digits).scaleb(exponent, _WIDE)
+        value = Decimal(digits).scaleb(exponent, WIDE)
         return Ball(self, value, radius, abs(float(value)) * UP + TINY, INEXACT)
 
     def sqrt(self, value: Scalar) -> Scalar:
@@ -391,7 +391,7 @@ class Balls:
         size = abs(float(root)) * UP + TINY
         if value.radius == 0.0:
             last = (value.last - 1) // 2
-            if root.adjusted() - last < self.digits and _WIDE.multiply(root, root) == value.value:
+            if root.adjusted() - last < self.digits and WIDE.multiply(root, root) == value.value:
                 return Ball(self, root, 0.0, size, last)
         radius = value.radius / size * UP * UP  # |sqrt x - sqrt v| <= |x - v| / sqrt v
         return Ball(self, root, (radius * self.carried + self.unit * size) * UP + TINY, size, INEXACT)

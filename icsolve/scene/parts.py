@@ -153,7 +153,7 @@ class AnswerBuilder:
     def _notes(self, answers: Mapping[str, Found]) -> list[str]:
         notes = [sentences.EXPLAINED] if self.scene.explained else []
         notes += _notes(self.program, self.first.outcome)
-        if self.scene.certain and self.given is None:
+        if self.scene.certain and self.given is None and self.case.profiles is None:
             notes += unsettled(self.case, answers, self._change(answers))
         return notes
 
