@@ -25,7 +25,7 @@ from icsolve.cams.contact_candidates import (
 from icsolve.cams.curve import Body, Curve, body_of, placed
 from icsolve.cams.enclosed_contact import (
     DIGITS,
-    Enclosed,
+    EnclosedContact,
     FollowerPlaces,
     LocusFinder,
     Start,
@@ -99,7 +99,7 @@ class ContactSearch:
         self.where = self.profile + (f" ({original.path}:{mark[0]}:{mark[1]})" if mark else "")
         self.what = f"link {self.link} on {self.where}"
         self.freed: Freed | None = None
-        self.enclosed: Enclosed | None = None
+        self.enclosed: EnclosedContact | None = None
 
     def found(self, enclosed: bool) -> tuple[Case, Touching]:
         """The case with this contact, and what was found of it; ``enclosed`` where that can be shown."""

@@ -96,7 +96,7 @@ class Start(NamedTuple):
     by: float
 
 
-class Enclosed(NamedTuple):
+class EnclosedContact(NamedTuple):
     """A contact in balls: the point [case length], the normal from the cam into the follower, the radius of
     curvature of the profile there (None: straight), and how far its freedom has moved the follower: a
     length, or cosine and sine of a turn."""
@@ -142,7 +142,9 @@ def unit(v: Vector, balls: Balls) -> Vector:
     return v[0] / length, v[1] / length
 
 
-def enclosed_contact(locus: Locus, body: FollowerPlaces, start: Start, size: float, balls: Balls) -> Enclosed:
+def enclosed_contact(
+    locus: Locus, body: FollowerPlaces, start: Start, size: float, balls: Balls
+) -> EnclosedContact:
     """The contact near where doubles put it.
 
     Parameters
@@ -193,7 +195,7 @@ def enclosed_contact(locus: Locus, body: FollowerPlaces, start: Start, size: flo
     if far or not locus.within(point, normal):
         raise MoreDigits
     moved = tuple(found[first:]) if turns else (found[first] * size,)
-    return Enclosed(_times(point, size), normal, locus.radius(found[4]), moved)
+    return EnclosedContact(_times(point, size), normal, locus.radius(found[4]), moved)
 
 
 def _times(v: Vector, factor: float) -> Vector:
