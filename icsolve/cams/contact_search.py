@@ -28,7 +28,7 @@ from icsolve.cams.enclosed_contact import (
     EnclosedContact,
     FollowerPlaces,
     LocusFinder,
-    Start,
+    TouchingAbout,
     ball_places,
     enclosed_contact,
     exact_number,
@@ -143,7 +143,7 @@ class ContactSearch:
             body = body._replace(along=((one[0] - body.at[0]) / step, (one[1] - body.at[1]) / step))
             by = freed.by * freed.freedom.along[freed.datum.axis]
         finder = LocusFinder(self.shape, curve, places, balls)
-        start = Start(meeting.foot.point, meeting.normals[0], by)
+        start = TouchingAbout(meeting.foot.point, meeting.normals[0], by)
         self.enclosed = enclosed_contact(finder.locus(meeting.foot), body, start, finder.size, balls)
         if freed is not None:
             moved = self.enclosed.moved

@@ -87,7 +87,7 @@ class Locus(NamedTuple):
     radius: Callable[[Scalar], Scalar | None]
 
 
-class Start(NamedTuple):
+class TouchingAbout(NamedTuple):
     """Where doubles put a contact: the point [case length] and the normal, and how far the follower moved:
     its datum [case length], its turn [rad], or its gap."""
 
@@ -143,7 +143,7 @@ def unit(v: Vector, balls: Balls) -> Vector:
 
 
 def enclosed_contact(
-    locus: Locus, body: FollowerPlaces, start: Start, size: float, balls: Balls
+    locus: Locus, body: FollowerPlaces, start: TouchingAbout, size: float, balls: Balls
 ) -> EnclosedContact:
     """The contact near where doubles put it.
 
