@@ -35,7 +35,7 @@ NEARBY = 1e-9
 Vector = tuple[Scalar, Scalar]
 
 
-class Slope:
+class Derived:
     """A number and its derivatives by the unknowns, by index."""
 
     __slots__ = ("by", "value")
@@ -43,22 +43,24 @@ class Slope:
     def __init__(self, value: Scalar, by: Mapping[int, Scalar]) -> None:
         self.value, self.by = value, by
 
-    def __add__(self, other: Slope | Scalar) -> Slope:
-        if not isinstance(other, Slope):
-            return Slope(self.value + other, self.by)
-        return Slope(self.value + other.value, _joined(self.by, other.by))
+    def __add__(self, other: Derived | Scalar) -> Derived:
+        if not isinstance(other, Derived):
+            return Derived(self.value + other, self.by)
+        return Derived(self.value + other.value, _joined(self.by, other.by))
 
-    def __mul__(self, other: Slope | Scalar) -> Slope:
-        if not isinstance(other, Slope):
-            return Slope(self.value * other, {k: v * other for k, v in self.by.items()})
+    def __mul__(self, other: Derived | Scalar) -> Derived:
+        if not isinstance(other, Derived):
+            return Derived(self.value * other, {k: v * other for k, v in self.by.items()})
         own = {k: v * other.value for k, v in self.by.items()}
-        return Slope(self.value * other.value, _joined(own, {k: v * self.value for k, v in other.by.items()}))
+        return Derived(
+            self.value * other.value, _joined(own, {k: v * self.value for k, v in other.by.items()})
+        )
 
-    def __neg__(self) -> Slope:
+    def __neg__(self) -> Derived:
         return self * -1.0
 
-    def __sub__(self, other: Slope | Scalar) -> Slope:
-        return self + (-other if isinstance(other, Slope) else 0.0 - other)
+    def __sub__(self, other: Derived | Scalar) -> Derived:
+        return self + (-other if isinstance(other, Derived) else 0.0 - other)
 
     __radd__, __rmul__ = __add__, __mul__
 
@@ -81,7 +83,7 @@ class Locus(NamedTuple):
     radius : the radius of curvature there [case length], by its own unknown; None where straight
     """
 
-    equations: Callable[[Sequence[Slope], Sequence[Slope], Slope], list[Slope]]
+    equations: Callable[[Sequence[Derived], Sequence[Derived], Derived], list[Derived]]
     start: float | None
     within: Callable[[Vector, Vector], bool]
     radius: Callable[[Scalar], Scalar | None]
@@ -169,10 +171,10 @@ def enclosed_contact(
     r = balls.given(body.follower.radius) * scale if isinstance(body.follower, Roller) else 0.0
 
     def system(x: Sequence[Scalar]) -> tuple[list[Scalar], list[dict[int, Scalar]]]:
-        v = [Slope(value, {k: 1.0}) for k, value in enumerate(x)]
+        v = [Derived(value, {k: 1.0}) for k, value in enumerate(x)]
         p, n, move = v[:2], v[2:4], v[first:]
         rows = [n[0] * n[0] + n[1] * n[1] - 1.0, *locus.equations(p, n, v[4])]
-        gap, q, w = Slope(0.0, {}), at, face
+        gap, q, w = Derived(0.0, {}), at, face
         if body.about is not None:
             rows.append(move[0] * move[0] + move[1] * move[1] - 1.0)
             about = _times(body.about, scale)
@@ -274,7 +276,7 @@ class LocusFinder:
             before, after = ((x - p[0]) * tx + (y - p[1]) * ty for x, y in ((ax, ay), (bx, by)))
             return _at_least(0.0 - before) and _at_least(after)
 
-        def equations(p: Sequence[Slope], n: Sequence[Slope], own: Slope) -> list[Slope]:
+        def equations(p: Sequence[Derived], n: Sequence[Derived], own: Derived) -> list[Derived]:
             return [(p[0] - ax) * ty - (p[1] - ay) * tx, n[0] * tx + n[1] * ty]
 
         return Locus(equations, None, within, lambda own: None)
@@ -293,7 +295,7 @@ class LocusFinder:
             near_first = (foot.u <= NEARBY) is (piece.sweep > 0.0)
             return _at_least(ax * y - ay * x if near_first else x * by - y * bx)
 
-        def equations(p: Sequence[Slope], n: Sequence[Slope], own: Slope) -> list[Slope]:
+        def equations(p: Sequence[Derived], n: Sequence[Derived], own: Derived) -> list[Derived]:
             return [p[k] - n[k] * (r * (side / self.size)) - centre[k] for k in (0, 1)]
 
         return Locus(equations, None, within, lambda own: r * side)
@@ -329,12 +331,12 @@ class LocusFinder:
             value, slope, bend = _spline_at(radius, own * piece.turn)
             return value, slope * piece.turn, bend
 
-        def equations(p: Sequence[Slope], n: Sequence[Slope], own: Slope) -> list[Slope]:
+        def equations(p: Sequence[Derived], n: Sequence[Derived], own: Derived) -> list[Derived]:
             (r, slope, bend), (c, s) = at(own.value), balls.cos_sin(own.value)
             x, y = zx * c - zy * s, zx * s + zy * c
             (k,) = own.by
-            value, rate = Slope(r, {k: slope}), Slope(slope, {k: bend})
-            ex, ey = Slope(x, {k: 0.0 - y * degree}), Slope(y, {k: x * degree})
+            value, rate = Derived(r, {k: slope}), Derived(slope, {k: bend})
+            ex, ey = Derived(x, {k: 0.0 - y * degree}), Derived(y, {k: x * degree})
             along = (ex * rate - ey * value * degree, ey * rate + ex * value * degree)
             return [
                 p[0] - ex * value * scale - ox,
