@@ -17,7 +17,7 @@ from icsolve.case import Case, Pair
 from icsolve.case.joints import Mesh
 from icsolve.case.names import ordered_pair
 from icsolve.kinematics.kennedy import BodyPair, Kennedy, LocatedCentre, ordered, sine_between, unit
-from icsolve.numbers.arithmetic import ROUNDING_NOISE, Arithmetic, Showing, all_vanish
+from icsolve.numbers.arithmetic import ROUNDING_NOISE, Showing, all_vanish
 from icsolve.numbers.null_space import ROUNDING
 from icsolve.screws.joints import Points, freedoms, joint_freedoms, joint_points, pitch_point
 from icsolve.screws.plane import Triple, cross, subtract
@@ -205,19 +205,6 @@ class _Moving(Mapping[BodyPair, Triple]):
 
     def __len__(self) -> int:
         return sum(1 for _ in self)
-
-
-def own_centre(top: Topology, pair: Pair, points: Points, arithmetic: Arithmetic) -> Triple | None:
-    """The centre by a joint or a mesh of just these two links; None where there is none."""
-    bodies = ordered(*(top.body_of[link] for link in pair))
-    for bond in top.bonds:
-        if ordered(bond.a, bond.b) == bodies:
-            if isinstance(bond.joint, Mesh):
-                return pitch_point(bond, points, arithmetic)
-            basis = freedoms(bond, points, arithmetic)
-            if len(basis) == 1:
-                return basis[0]
-    return None
 
 
 def _agree(known: LocatedCentre, twist: Triple, slack: float) -> bool:

@@ -42,7 +42,6 @@ class RopePart(NamedTuple):
     length: Scalar
     wrench: Triple
     offset: Scalar
-    """moment of the line about the centre of the first circle"""
 
 
 def rope_parts(rope: Rope, points: Points, scale: float, arithmetic: Arithmetic) -> tuple[RopePart, ...]:
@@ -196,8 +195,3 @@ def tension_ratios(rope: Rope, parts: tuple[RopePart, ...], senses: Sequence[flo
         grown = 0.0 if mu is None else sense * mu.value * wrap_angle(rope, k, parts)
         ratios.append(ratios[-1] * math.exp(grown))
     return tuple(ratios)
-
-
-def rope_points(rope: Rope) -> tuple[str, ...]:
-    """The points whose places a rope needs."""
-    return tuple(dict.fromkeys(rope.points))

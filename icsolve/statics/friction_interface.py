@@ -14,12 +14,12 @@ from collections.abc import Iterable, Sequence
 from icsolve.answer import Term, bodies
 from icsolve.case import Case, Friction, Joint, Screw
 from icsolve.case.joints import Sliding
-from icsolve.numbers.arithmetic import Arithmetic, Scalar
+from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
 from icsolve.numbers.linear import solve_square
 from icsolve.screws.joints import guide_direction
 from icsolve.screws.plane import pairing, subtract, velocity
-from icsolve.statics.equilibrium import Rub, Statics, independent
-from icsolve.statics.power import Balance, Wrench, known_value
+from icsolve.statics.equilibrium import Rub, Statics, independent, powers_of
+from icsolve.statics.power import Balance, force_scale, known_power
 from icsolve.statics.reaction_basis import COUPLE, Force, Position, RopeTie, Tie, thread
 
 
@@ -131,19 +131,13 @@ def unknowns_by_power(
     dict[str, float]
         By name [case units]; not a number where the motions do not determine them.
     """
-    rows = []
-    for m, factors in enumerate(balance.factors):
-        powers = [_power(w, float(f)) for w, f in zip(balance.wrenches, factors, strict=True)]
-        row = [
-            sum(p for w, p in zip(balance.wrenches, powers, strict=True) if w.root == root)
-            for root in statics.roots
-        ]
-        known = sum(p for w, p in zip(balance.wrenches, powers, strict=True) if w.root not in statics.roots)
+    rows, scale = [], force_scale(balance)
+    for m, row in enumerate(powers_of(statics, balance)):
         rates = rates_of(position, statics.ties, statics.rubs, m)
         lost = sum(f * rate for f, rate in zip(friction, rates, strict=True)) / statics.scale
         slipping = (_slipping(position, tie, m) for tie in statics.ropes)
         lost += sum(pull * power for pull, power in zip(pulls, slipping, strict=True))
-        rows.append([*row, -known - lost])
+        rows.append([*row, -float(known_power(balance, m, FLOATS)) / scale - lost])
     chosen = independent(rows, len(statics.roots))
     values = solve_square([row[:-1] for row in chosen], [row[-1] for row in chosen])
     return dict(zip(statics.roots, values or [float("nan")] * len(statics.roots), strict=True))
@@ -157,12 +151,6 @@ def _slipping(position: Position, tie: RopeTie, motion: int) -> float:
         there = twists[part.links[1] or tie.rope.end]
         total -= ratio * float(pairing(part.wrench, subtract(there, twists[part.links[0]])))
     return total
-
-
-def _power(w: Wrench, factor: float) -> float:
-    """Power of a load (of one unit of it, if unknown) in a motion."""
-    value = known_value(w)
-    return (1.0 if value is None else value) * float(w.ratio) * factor * w.measure
 
 
 def efficiency(terms: Sequence[Term]) -> float | None:

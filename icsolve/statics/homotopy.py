@@ -24,6 +24,7 @@ from operator import mul
 from typing import NamedTuple
 
 from icsolve.numbers.linear import solve_square
+from icsolve.numbers.sparse import eliminate
 from icsolve.statics.friction_equations import (
     Form,
     Lengths,
@@ -200,51 +201,35 @@ def all_roots(equations: Lengths) -> list[tuple[float, ...]]:
     for signs in product(*choices):
         for rough in _with_signs(equations, dict(zip(scalars, signs, strict=True))):
             y = newton(equations, rough)
-            if (
-                y is not None
-                and is_sound(equations, y)
-                and not any(_same(equations, y, other) for other in found)
-            ):
+            if y is not None and is_sound(equations, y) and not any(near(y, other) for other in found):
                 found.append(y)
     return found
 
 
-def _same(equations: Lengths, y: Sequence[float], other: Sequence[float]) -> bool:
-    size = max(map(abs, (*y, *other)), default=0.0) or 1.0
-    return max((abs(a - b) for a, b in zip(y, other, strict=True)), default=0.0) <= 1e-7 * size
-
-
 def _with_signs(equations: Lengths, signs: dict[int, float]) -> Iterable[Sequence[float]]:
-    """Rough solutions in which the scalar forces have these signs."""
-    linear = [_minus(equations.lengths[k], equations.vectors[k][0], sign) for k, sign in signs.items()]
-    space = _solution_space(linear, len(equations.lengths))
-    if space is None:
+    """Rough solutions in which the scalar forces have these signs: then only the pins are not linear."""
+    n = len(equations.lengths)
+    both = ((sign, equations.lengths[k], equations.vectors[k][0]) for k, sign in signs.items())
+    linear = [[a - sign * b for a, b in zip(length, force, strict=True)] for sign, length, force in both]
+    general = eliminate([{n: row[0], **dict(enumerate(row[1:]))} for row in linear], n, 1e-12)
+    if general.left:
         return
-    pins = [k for k in range(len(equations.lengths)) if k not in signs]
+    columns = [general.of(c) for c in range(n)]
+    space = [[row.get(q, 0.0) for row in columns] for q in (n, *general.free)]
     quadrics = [
         (_on(equations.lengths[k], space), tuple(_on(form, space) for form in equations.vectors[k]))
-        for k in pins
+        for k in range(n)
+        if k not in signs
     ]
-    scale = scale_at(equations, space[0])
-    for z in quadric_roots(quadrics, scale):
-        y = (
-            [
-                o + sum(a * b for a, b in zip(z, row, strict=True))
-                for o, row in zip(space[0], zip(*space[1:], strict=True), strict=True)
-            ]
-            if z
-            else list(space[0])
-        )
-        rough = all(
-            sign * at(equations.vectors[k][0], y) >= -1e-6 * scale_at(equations, y)
-            for k, sign in signs.items()
-        )
-        if rough:
+    for z in quadric_roots(quadrics, scale_at(equations, space[0])):
+        weights = (1.0, *z)
+        y = [
+            sum(w * part for w, part in zip(weights, parts, strict=True))
+            for parts in zip(*space, strict=True)
+        ]
+        least = -1e-6 * scale_at(equations, y)
+        if all(sign * at(equations.vectors[k][0], y) >= least for k, sign in signs.items()):
             yield y
-
-
-def _minus(length: Form, force: Form, sign: float) -> Form:
-    return tuple(a - sign * b for a, b in zip(length, force, strict=True))
 
 
 def _on(form: Form, space: Sequence[Sequence[float]]) -> Form:
@@ -253,35 +238,6 @@ def _on(form: Form, space: Sequence[Sequence[float]]) -> Form:
         at(form, space[0]),
         *(sum(a * d for a, d in zip(form[1:], direction, strict=True)) for direction in space[1:]),
     )
-
-
-def _solution_space(linear: list[Form], n: int) -> list[list[float]] | None:
-    """Origin and directions of the solutions of affine equations; None where there are none, or too many."""
-    work = [list(form) for form in linear]
-    pivots: list[tuple[int, list[float]]] = []
-    while work:
-        size, r, c = max((abs(row[c + 1]), r, c) for r, row in enumerate(work) for c in range(n))
-        if size <= 1e-12 * max(abs(a) for form in linear for a in form[1:]):
-            return None
-        row = work.pop(r)
-        pivots.append((c, row))
-        for other in work:
-            ratio = other[c + 1] / row[c + 1]
-            other[:] = [a - ratio * b for a, b in zip(other, row, strict=True)]
-    free = [c for c in range(n) if c not in [p for p, _ in pivots]]
-    origin = _completed(pivots, n, {}, 1.0)
-    return [origin, *(_completed(pivots, n, {c: 1.0}, 0.0) for c in free)]
-
-
-def _completed(
-    pivots: list[tuple[int, list[float]]], n: int, chosen: dict[int, float], constant: float
-) -> list[float]:
-    """The vector with these free entries that solves the (homogeneous) equations."""
-    y = [chosen.get(c, 0.0) for c in range(n)]
-    for c, row in reversed(pivots):
-        rest = constant * row[0] + sum(row[k + 1] * y[k] for k in range(n) if k != c)
-        y[c] = -rest / row[c + 1]
-    return y
 
 
 LONGEST_STEP = 0.1
