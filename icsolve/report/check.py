@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 from icsolve.answer import Answer, Centre, Found
 from icsolve.case import Case, Like, Load, Number, Pair, Torque
@@ -26,9 +26,6 @@ from icsolve.case.expected import (
 from icsolve.case.names import pair_name
 from icsolve.wording.bearings import bearing, same_way, turned_at_most
 from icsolve.wording.senses import holding
-
-if TYPE_CHECKING:
-    from icsolve.answer.space import Spatial
 
 AGREES = "agrees"
 DISAGREES = "disagrees"
@@ -216,7 +213,7 @@ def _width(expected: Expected, number: Number, size: float) -> float:
 def _found(answer: Answer, expected: Expected) -> tuple[float, ...]:
     """The value that the published one is about; positive in the published sense where that is in words."""
     if answer.spatial is not None:
-        return (_in_space(answer, answer.spatial, expected),)
+        return (_in_space(answer, expected),)
     match expected.target:
         case LoadIs(load):
             return (_load(answer, load, expected.sense),)
@@ -236,11 +233,11 @@ def _found(answer: Answer, expected: Expected) -> tuple[float, ...]:
             return (_of_bodies(answer, target),)
 
 
-def _in_space(answer: Answer, spatial: Spatial, expected: Expected) -> float:
-    from icsolve.statics.space.report import found_value
+def _in_space(answer: Answer, expected: Expected) -> float:
+    from icsolve.statics.published import found_in_space
 
     try:
-        return found_value(answer, spatial, expected.target, expected.sense)
+        return found_in_space(answer, expected.target, expected.sense)
     except LookupError as error:
         raise _MissingError(str(error)) from None
 

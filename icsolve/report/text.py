@@ -310,11 +310,7 @@ def _points(answer: Answer, show: Format) -> list[str]:
 
 
 def _reactions(answer: Answer, show: Format) -> list[str]:
-    if answer.spatial is not None:
-        from icsolve.statics.space.report import space_lines
-
-        return space_lines(answer, answer.spatial, show, _table)
-    if answer.reactions is None and answer.friction is None:
+    if answer.reactions is None and answer.friction is None and answer.spatial is None:
         return []
     from icsolve.statics.report import bodies_lines
 

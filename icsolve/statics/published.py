@@ -1,4 +1,4 @@
-"""Published reactions, arms and friction radii: the found values that they are about."""
+"""Published reactions, arms, friction radii and values in space: the found values that they are about."""
 
 from __future__ import annotations
 
@@ -6,30 +6,71 @@ import math
 from typing import TYPE_CHECKING
 
 from icsolve.answer.bodies import Reaction
-from icsolve.case import Pin
-from icsolve.case.expected import ArmIs, FrictionRadiusIs, OfBodies, TensionIs
+from icsolve.case import Like, Pin
+from icsolve.case.expected import (
+    ArmIs,
+    DistanceIs,
+    FrictionRadiusIs,
+    LoadIs,
+    OfBodies,
+    ReactionIs,
+    Target,
+    TensionIs,
+)
+from icsolve.case.space import SpatialForceVector, TorqueVector
+from icsolve.screws.space import Vec, add, cross, size, sub, times
 
 if TYPE_CHECKING:
     from icsolve.answer import Answer
+    from icsolve.answer.space import Parts, SpatialReaction
 
 
 def found_value(answer: Answer, target: OfBodies) -> float:
-    """The value of a target, in case units.
+    """The value of a target about joints or ropes, in case units, in the plane or in space.
 
     Raises LookupError, with a sentence, where the answer has none.
     """
-    if isinstance(target, FrictionRadiusIs):
-        return _friction_radius(answer, target.point)
-    if isinstance(target, ArmIs):
-        return _arm(answer, _reaction(answer, target.by, target.on, None), target.point)
-    if isinstance(target, TensionIs):
-        return _tension(answer, target)
-    reaction = _reaction(answer, target.by, target.on, target.at)
-    whole = {"": reaction.magnitude, "x": reaction.x, "y": reaction.y, "moment": reaction.moment}
-    value = whole[target.part] if target.part in whole else _share(reaction, target.part)
-    if value is None:
-        raise LookupError(f"it is not determined: {reaction.why}")
-    return value
+    match target:
+        case FrictionRadiusIs(point):
+            return _friction_radius(answer, point)
+        case ArmIs(by, on, point):
+            return _arm(answer, _reaction(answer, by, on, None), point)
+        case TensionIs():
+            return _tension(answer, target)
+        case ReactionIs(by, on, at=at, part=part):
+            return _part(_reaction(answer, by, on, at), part)
+
+
+def found_in_space(answer: Answer, target: Target, sense: str | None = None) -> float:
+    """The value of any target of a case in space, in case units; positive in a published ``sense``.
+
+    Raises LookupError, with a sentence, where the answer has none.
+    """
+    match target:
+        case LoadIs(load):
+            return _load_in_space(answer, load, sense)
+        case DistanceIs(str() as a, str() as b) if answer.spatial is not None:
+            return math.dist(answer.spatial.points[a], answer.spatial.points[b])
+        case ArmIs() | ReactionIs():
+            return found_value(answer, target)
+    raise LookupError("a case in space has no such value")
+
+
+def _load_in_space(answer: Answer, name: str, sense: str | None) -> float:
+    """A load's number, as found, as given, or as another load has it."""
+    if name in answer.answers:
+        found = answer.answers[name]
+        against = sense is not None and found.sense not in ("", sense)
+        return -abs(found.value) if against else abs(found.value) if sense else found.value
+    assert answer.case.space is not None
+    load = next(load for load in answer.case.space.loads if load.name == name)
+    if isinstance(load, SpatialForceVector | TorqueVector):
+        return math.hypot(*(part.value for part in load.parts))
+    if isinstance(load.value, Like):
+        ratio = 1.0 if load.value.times is None else load.value.times.value
+        return ratio * _load_in_space(answer, load.value.load, None)
+    assert load.value is not None
+    return load.value.value
 
 
 def _tension(answer: Answer, target: TensionIs) -> float:
@@ -40,20 +81,31 @@ def _tension(answer: Answer, target: TensionIs) -> float:
     return found.parts[target.part - 1] if found.parts else found.tension
 
 
-def _share(reaction: Reaction, name: str) -> float | None:
-    """A share of the force by its name; None where the force is open."""
-    shares = dict(reaction.parts)
-    if name not in shares and (reaction.x is None or reaction.y is None):
-        return None
-    if name not in shares:
-        raise LookupError(f"a {reaction.kind} has no '{name}' share; it has {', '.join(shares) or 'none'}")
-    return shares[name]
+def _part(reaction: Reaction | SpatialReaction, part: str) -> float:
+    """Size or component of a force or couple, or a share of it by its name."""
+    parts: dict[str, float | None] = {"": reaction.magnitude, "moment": reaction.moment}
+    if isinstance(reaction, Reaction):
+        parts |= {"x": reaction.x, "y": reaction.y}
+    else:
+        parts |= dict(zip("xyz", reaction.force, strict=True))
+        parts |= dict(zip(("moment x", "moment y", "moment z"), reaction.couple, strict=True))
+    parts |= dict(reaction.parts)
+    is_open = isinstance(reaction, Reaction) and None in (reaction.x, reaction.y)
+    if part not in parts and not is_open:
+        shares = ", ".join(name for name, _ in reaction.parts) or "none"
+        raise LookupError(f"a {reaction.kind} has no '{part}' share; it has {shares}")
+    value = parts.get(part)
+    if value is None:
+        raise LookupError(f"it is not determined: {reaction.why}")
+    return value
 
 
-def _reaction(answer: Answer, by: str, on: str, at: str | None) -> Reaction:
+def _reaction(answer: Answer, by: str, on: str, at: str | None) -> Reaction | SpatialReaction:
     """The one reaction between two links (at a point, where they have several joints)."""
-    both = [r for r in (answer.reactions or {}).values() if {r.by, r.on} == {by, on}]
-    found = both if at is None else [r for r in both if r.where == at]
+    found: list[Reaction | SpatialReaction] = [*(answer.reactions or {}).values()]
+    if answer.spatial is not None:
+        found = [*answer.spatial.reactions.values()]
+    found = [r for r in found if {r.by, r.on} == {by, on} and at in (None, r.where)]
     if not found:
         place = f" at {at}" if at else ""
         raise LookupError(f"links {by} and {on} have no joint{place}")
@@ -63,23 +115,38 @@ def _reaction(answer: Answer, by: str, on: str, at: str | None) -> Reaction:
     return found[0] if (found[0].by, found[0].on) == (by, on) else found[0].reversed()
 
 
-def _arm(answer: Answer, reaction: Reaction, point: str) -> float:
-    """Arm of a force about a point: its moment there, with its couple, over its size.
+def _arm(answer: Answer, reaction: Reaction | SpatialReaction, point: str) -> float:
+    """Arm of a force about a point: the size of its moment there, with its couple, over its own size.
 
     Where a pin of the same link rubs at the point, its reaction is tangent to the friction circle: the arm
     is to that line, as books draw it.
     """
-    if point not in answer.points:
+    points = answer.points if answer.spatial is None else answer.spatial.points
+    if point not in points:
         raise LookupError(f"the point {point} was not found")
-    if reaction.x is None or reaction.y is None or reaction.moment is None:
+    force, couple = _components(reaction)
+    rubbed = _rubbed(answer, reaction, point) if isinstance(reaction, Reaction) else 0.0
+    if None in (*force, *couple):
         raise LookupError(f"the force is not determined: {reaction.why}")
-    size = math.hypot(reaction.x, reaction.y)
-    if size == 0.0:
+    if not any(force):
         raise LookupError("the force is zero: it has no arm")
-    px, py = answer.points[point]
-    couple = (reaction.moment + _rubbed(answer, reaction, point)) / answer.case.units.torque_per_force_length
-    x, y = reaction.at
-    return abs((x - px) * reaction.y - (y - py) * reaction.x + couple) / size
+    per = answer.case.units.torque_per_force_length
+    moment = cross(sub(_in_space(reaction.at), _in_space(points[point])), force)
+    whole = add(moment, times(1.0 / per, add(couple, (0.0, 0.0, rubbed))))
+    return float(size(whole) / size(force))
+
+
+def _components(reaction: Reaction | SpatialReaction) -> tuple[Parts, Parts]:
+    """Force and couple along x, y and z."""
+    if isinstance(reaction, Reaction):
+        return (reaction.x, reaction.y, 0.0), (0.0, 0.0, reaction.moment)
+    return reaction.force, reaction.couple
+
+
+def _in_space(place: tuple[float, ...]) -> Vec:
+    """A place of the plane or of space by three coordinates."""
+    x, y, *z = place
+    return (x, y, z[0] if z else 0.0)
 
 
 def _rubbed(answer: Answer, reaction: Reaction, point: str) -> float:

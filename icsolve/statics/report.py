@@ -1,4 +1,4 @@
-"""Reactions, their witness and friction as lines of text."""
+"""Reactions, their witness and friction as lines of text, in the plane and in space."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 
 from icsolve.answer import Answer
 from icsolve.answer.bodies import FrictionFound, Reaction, Rubbing, Witness
+from icsolve.answer.space import Parts, Spatial, SpatialReaction
 from icsolve.case import Units
 
 Format = Callable[[float], str]
@@ -15,10 +16,12 @@ Table = Callable[..., list[str]]
 
 def bodies_lines(answer: Answer, show: Format, table: Table) -> list[str]:
     """Reactions, friction, and the unknown loads by free bodies."""
+    if answer.spatial is not None:
+        return space_lines(answer, answer.spatial, show, table)
     blocks = [reaction_lines(answer, show, table), tension_lines(answer, show, table)]
     if answer.friction is not None:
         blocks.append(friction_lines(answer.friction, answer.case.units, show, table))
-    blocks.append(witness_lines(answer, show))
+    blocks.append(witness_table(answer.witnesses, show))
     return "\n\n".join("\n".join(lines) for lines in blocks if lines).splitlines()
 
 
@@ -26,11 +29,38 @@ def reaction_lines(answer: Answer, show: Format, table: Table) -> list[str]:
     """A line for each joint: components, size and direction, couple."""
     if not answer.reactions:
         return []
-    units = answer.case.units
+    couples = any(reaction.moment for reaction in answer.reactions.values())
     rows = [(name, *_columns(reaction, show)) for name, reaction in answer.reactions.items()]
-    couples = f"; couples in {units.torque}" if any(r.moment for r in answer.reactions.values()) else ""
-    title = f"Reactions, {units.force}{couples}: the force of the first link on the second"
-    return [title, *table(*(list(column) for column in zip(*rows, strict=True)))]
+    return [_title(answer.case.units, couples), *table(*(list(column) for column in zip(*rows, strict=True)))]
+
+
+def _title(units: Units, couples: bool) -> str:
+    unit = f"{units.force}; couples in {units.torque}" if couples else units.force
+    return f"Reactions, {unit}: the force of the first link on the second"
+
+
+def space_lines(answer: Answer, spatial: Spatial, show: Format, table: Table) -> list[str]:
+    """A line for each joint in space: components, size, couple and shares; then the witness."""
+    couples = any(map(_has_couple, spatial.reactions.values()))
+    rows = [(name, _triple(r.force, show), _shares(r, show)) for name, r in spatial.reactions.items()]
+    title = f"{_title(answer.case.units, couples)}, along x, y, z"
+    lines = [title, *table(*(list(column) for column in zip(*rows, strict=True)))]
+    return [*lines, "", *witness_table(spatial.witnesses, show)] if spatial.witnesses else lines
+
+
+def _triple(parts: Parts, show: Format) -> str:
+    return f"({', '.join(_number(part, show) for part in parts)})"
+
+
+def _has_couple(reaction: SpatialReaction) -> bool:
+    return any(part is None or part != 0.0 for part in reaction.couple)
+
+
+def _shares(reaction: SpatialReaction, show: Format) -> str:
+    size = "" if reaction.magnitude is None else f"= {show(reaction.magnitude)}; "
+    couple = f", couple {_triple(reaction.couple, show)}" if _has_couple(reaction) else ""
+    parts = "".join(f", {name} {_number(part, show)}" for name, part in reaction.parts)
+    return f"{size}{reaction.kind} at {reaction.where}{couple}{parts}"
 
 
 def tension_lines(answer: Answer, show: Format, table: Table) -> list[str]:
@@ -78,11 +108,6 @@ def _rub(rub: Rubbing, units: Units, show: Format) -> tuple[str, str, str]:
 
 def _number(value: float | None, show: Format) -> str:
     return "?" if value is None else show(value)
-
-
-def witness_lines(answer: Answer, show: Format) -> list[str]:
-    """What free bodies make of the unknown loads, beside power."""
-    return witness_table(answer.witnesses, show)
 
 
 def witness_table(witnesses: Sequence[Witness], show: Format) -> list[str]:

@@ -1,36 +1,23 @@
-"""An answer in space: senses, terms of the power equation, and lines of text.
-
-Motions and directions in space in words.
-
-Published values of a case in space: the found values that they are about.
-"""
+"""What is said of loads and motions in space: units, senses, terms of the sum of power, and words."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
-from icsolve.answer import Answer, Term
-from icsolve.answer.space import Parts, Spatial, SpatialReaction
-from icsolve.case import Case, Like, Spring, Toward, Weight
-from icsolve.case.expected import ArmIs, DistanceIs, LoadIs, ReactionIs, Target
+from icsolve.answer import Term
+from icsolve.case import Case, Spring, Toward, Weight
 from icsolve.case.space import (
     Along,
     FromTo,
     Load,
     SpatialForce,
-    SpatialForceVector,
     SpatialTorque,
     TorqueVector,
     Vector,
 )
 from icsolve.screws.space import AXES, Vec, cross, dot, size, sub, times, unit
-from icsolve.statics.report import witness_table
-from icsolve.statics.space.figure import SpatialFigure, in_case, vector_of
+from icsolve.statics.space.figure import SpatialFigure
 from icsolve.statics.space.power import SpatialBalance, Wrenched
-
-Format = Callable[[float], str]
-Table = Callable[..., list[str]]
 
 
 def unit_of(load: Load, case: Case) -> str:
@@ -115,32 +102,6 @@ def advantage_of(loads: Sequence[Wrenched], values: Mapping[str, float]) -> floa
     return values[found[0]] / values[known[0]]
 
 
-def space_lines(answer: Answer, spatial: Spatial, show: Format, table: Table) -> list[str]:
-    """A line for each joint: components, size, couple and shares; then the witness."""
-    units = answer.case.units
-    rows = [(name, _triple(r.force, show), _rest(r, show)) for name, r in spatial.reactions.items()]
-    couples = f"; couples in {units.torque}" if any(map(_has_couple, spatial.reactions.values())) else ""
-    title = f"Reactions, {units.force}{couples}: the force of the first link on the second, along x, y, z"
-    columns = (list(column) for column in zip(*rows, strict=True))
-    lines = [title, *table(*columns)]
-    return [*lines, "", *witness_table(spatial.witnesses, show)] if spatial.witnesses else lines
-
-
-def _triple(parts: Parts, show: Format) -> str:
-    return f"({', '.join('?' if part is None else show(part) for part in parts)})"
-
-
-def _has_couple(reaction: SpatialReaction) -> bool:
-    return any(part is None or part != 0.0 for part in reaction.couple)
-
-
-def _rest(reaction: SpatialReaction, show: Format) -> str:
-    size = "" if reaction.magnitude is None else f"= {show(reaction.magnitude)}; "
-    couple = f", couple {_triple(reaction.couple, show)}" if _has_couple(reaction) else ""
-    parts = "".join(f", {name} {'?' if p is None else show(p)}" for name, p in reaction.parts)
-    return f"{size}{reaction.kind} at {reaction.where}{couple}{parts}"
-
-
 SMALL = 1e-9
 """A part of a twist that is below this fraction of the whole is none (rounding)."""
 
@@ -210,93 +171,3 @@ def moving(motion: Motion, first: Iterable[str]) -> str:
     fastest = max(map(_speed, motion.values()))
     moves = [link for link, twist in motion.items() if _speed(twist) > SMALL * fastest]
     return next((link for link in first if link in moves), moves[0])
-
-
-_AXES = "xyz"
-
-
-def found_value(answer: Answer, spatial: Spatial, target: Target, sense: str | None = None) -> float:
-    """The value of a target, in case units; positive in a published ``sense``.
-
-    Raises LookupError, with a sentence, where the answer has none.
-    """
-    match target:
-        case LoadIs(load):
-            return _load(answer, load, sense)
-        case DistanceIs(str() as a, str() as b):
-            return math.dist(spatial.points[a], spatial.points[b])
-        case ArmIs(by, on, point):
-            return _arm(answer, spatial, _reaction_between(spatial, by, on, None), point)
-        case ReactionIs():
-            return _share(spatial, target)
-    raise LookupError("a case in space has no such value")
-
-
-def _load(answer: Answer, name: str, sense: str | None) -> float:
-    """A load's number, as found, as given, or as another load has it."""
-    if name in answer.answers:
-        found = answer.answers[name]
-        against = sense is not None and found.sense not in ("", sense)
-        return -abs(found.value) if against else abs(found.value) if sense else found.value
-    load = next(load for load in in_case(answer.case).loads if load.name == name)
-    if isinstance(load, SpatialForceVector | TorqueVector):
-        return math.hypot(*vector_of(load.parts))
-    if isinstance(load.value, Like):
-        ratio = 1.0 if load.value.times is None else load.value.times.value
-        return ratio * _load(answer, load.value.load, None)
-    assert load.value is not None
-    return load.value.value
-
-
-def _share(spatial: Spatial, target: ReactionIs) -> float:
-    """Part of a reaction."""
-    reaction = _reaction_between(spatial, target.by, target.on, target.at)
-    value = _part(reaction, target.part)
-    if value is None:
-        raise LookupError(f"it is not determined: {reaction.why}")
-    return value
-
-
-def _part(reaction: SpatialReaction, part: str) -> float | None:
-    """Size or component of the force or couple, or a share of it."""
-    if part == "":
-        return reaction.magnitude
-    if part in ("x", "y", "z"):
-        return reaction.force[_AXES.index(part)]
-    if part == "moment":
-        return reaction.moment
-    if part.startswith("moment "):
-        return reaction.couple[_AXES.index(part[-1])]
-    shares = dict(reaction.parts)
-    if part not in shares:
-        raise LookupError(f"a {reaction.kind} has no '{part}' share; it has {', '.join(shares) or 'none'}")
-    return shares[part]
-
-
-def _reaction_between(spatial: Spatial, by: str, on: str, at: str | None) -> SpatialReaction:
-    """The one reaction between two links (at a point, where they have several joints)."""
-    both = [r for r in spatial.reactions.values() if {r.by, r.on} == {by, on}]
-    found = both if at is None else [r for r in both if r.where == at]
-    if not found:
-        place = f" at {at}" if at else ""
-        raise LookupError(f"links {by} and {on} have no joint{place}")
-    if len(found) > 1:
-        which = f"F{by}-{on}@{found[0].where}"
-        raise LookupError(f"links {by} and {on} have {len(found)} joints: say which, as in {which}")
-    return found[0] if (found[0].by, found[0].on) == (by, on) else found[0].reversed()
-
-
-def _arm(answer: Answer, spatial: Spatial, reaction: SpatialReaction, point: str) -> float:
-    """Arm of a force about a point: the size of its moment there, with its couple, over its own size."""
-    if point not in spatial.points:
-        raise LookupError(f"the point {point} was not found")
-    x, y, z = reaction.force
-    u, v, w = reaction.couple
-    if x is None or y is None or z is None or u is None or v is None or w is None:
-        raise LookupError(f"the force is not determined: {reaction.why}")
-    force = math.hypot(x, y, z)
-    if force == 0.0:
-        raise LookupError("the force is zero: it has no arm")
-    per = answer.case.units.torque_per_force_length
-    mx, my, mz = cross(sub(reaction.at, spatial.points[point]), (x, y, z))
-    return math.hypot(mx + u / per, my + v / per, mz + w / per) / force
