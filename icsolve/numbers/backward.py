@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from icsolve.numbers.adjoint import still_noise
-from icsolve.numbers.passing import Pass, Passed
+from icsolve.numbers.passing import Pass, Passed, Scratch
 from icsolve.numbers.record import Op, Record, Traced, operands
 from icsolve.numbers.replay import Array, Code
 
@@ -60,6 +60,8 @@ class Backward:
         self.rows = SLICE if len(nodes) < MANY else SLICE // 4
         self._still: dict[int, float] = {}
         self._passes: dict[tuple[int, int], Pass] = {}
+        self._scratch: dict[int, Scratch] = {}
+        self._terms = 3 * len(nodes) + 3
 
     def reached(self, targets: Iterable[int]) -> set[int]:
         """The nodes that vary and lead to the targets, through groups as well."""
@@ -89,6 +91,12 @@ class Backward:
         if k not in self._still:
             self._still[k] = still_noise(self.record, k)
         return self._still[k]
+
+    def scratch(self, room: int) -> Scratch:
+        """Buffers of so many rows, which all passes share."""
+        if room not in self._scratch:
+            self._scratch[room] = Scratch([], np.empty((self._terms, room)))
+        return self._scratch[room]
 
     def run(self, given: Mapping[int, Array], rows: int) -> list[Passed]:
         """Bounds of the targets.

@@ -40,6 +40,22 @@ class Source(Protocol):
     def noise(self, k: int) -> float:
         """Bound of the error of a value that is the same in every row."""
 
+    def scratch(self, room: int) -> Scratch:
+        """Buffers of so many rows."""
+
+
+class Scratch(NamedTuple):
+    """Buffers that the passes of one record share: one pass at a time runs on them.
+
+    Attributes
+    ----------
+    free : arrays (room,) for weights
+    products : (terms, room), the terms of a bound
+    """
+
+    free: list[Array]
+    products: Array
+
 
 class Passed(NamedTuple):
     """A target's error, a row each.
@@ -63,11 +79,10 @@ class Pass:
         self.weights: dict[int, Weight] = {}
         self.by: dict[int, Weight] = {}
         self.factors: list[float] = []
-        self.free: list[Array] = []
         self.holders: dict[int, int] = {}
         nodes = sorted(backward.reached((target,)), reverse=True)
         self.merged = _merged(self.record, nodes) - backward.leaves
-        self.products = np.empty((3 * len(nodes) + 3, room))
+        self.free, self.products = backward.scratch(room)
         self.weights[target] = self._held((np.ones(room), 1.0), forever=True)
         for k in nodes:
             self._node(k)
