@@ -9,7 +9,8 @@ revolutions). A numeral is converted by one division of integers, which Python r
 from __future__ import annotations
 
 import re
-from typing import NamedTuple
+
+from icsolve.tuples import NamedTuple
 
 Dimension = tuple[int, int, int, int]
 """Powers of length, mass, time and angle."""

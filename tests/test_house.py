@@ -17,7 +17,7 @@ from icsolve.case import Joint
 
 PACKAGE = Path(__file__).parent.parent / "icsolve"
 ROOMS = (
-    "errors units files numbers case wording answer structure screws assembly kinematics statics cams "
+    "tuples errors units files numbers case wording answer structure screws assembly kinematics statics cams "
     "read scene sweep solve report draw explain page grade manual bench cli"
 ).split()
 """In the order in which they may lean on one another: each only on those before it."""
@@ -102,6 +102,14 @@ def test_no_class_has_its_name_from_another() -> None:
         if isinstance(node, ast.ClassDef)
     )
     assert {name for name, count in names.items() if count > 1} <= {"Group"}
+
+
+def test_named_tuples_are_those_that_start_fast() -> None:
+    for name, file in modules().items():
+        imports = [node for node in ast.walk(ast.parse(file.read_text())) if isinstance(node, ast.ImportFrom)]
+        asked = {(node.module, alias.name) for node in imports for alias in node.names}
+        assert ("typing", "NamedTuple") not in asked or name == "icsolve.tuples", name
+        assert ("icsolve.tuples", "NamedTuple") not in asked or ("__future__", "annotations") in asked, name
 
 
 KINDS = [kind.__name__ for kind in get_args(Joint)]

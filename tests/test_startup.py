@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import inspect
+import pickle
 import subprocess
 import sys
+import typing
 from pathlib import Path
+from typing import Generic, TypeVar
 
 import pytest
 
 from icsolve.manual import kinds, template
 from icsolve.read import load
+from icsolve.tuples import NamedTuple
 
 ROOT = Path(__file__).parent.parent
 
@@ -47,3 +52,57 @@ def test_importing_the_library_imports_no_room() -> None:
 def test_solve_is_the_function_even_after_its_room_was_imported() -> None:
     check = "import icsolve.solve, icsolve; assert icsolve.solve.__name__ == 'solve'; icsolve.solve.__call__"
     assert "icsolve.solve" in imported("-c", check)
+
+
+T = TypeVar("T")
+
+
+class Swift(NamedTuple, Generic[T]):
+    """A named tuple as all of the package are made."""
+
+    one: T
+    two: int = 2
+    three: tuple[int, ...] = ()
+
+    @property
+    def both(self) -> tuple[T, int]:
+        """What a method sees."""
+        return self.one, self.two
+
+
+class Plain(typing.NamedTuple, Generic[T]):
+    """The same by the library."""
+
+    one: T
+    two: int = 2
+    three: tuple[int, ...] = ()
+
+
+class Derived(Swift[float]):
+    """A class over one, as the kinds of joint are."""
+
+
+def test_a_named_tuple_that_is_made_swiftly_is_as_the_library_makes_it() -> None:
+    swift, plain = Swift("a", three=(1,)), Plain("a", three=(1,))
+    assert swift == plain == ("a", 2, (1,)) and hash(swift) == hash(plain)
+    assert repr(swift) == repr(plain).replace("Plain", "Swift") and swift.both == ("a", 2)
+    assert swift._replace(two=5) == plain._replace(two=5) and swift._asdict() == plain._asdict()
+    assert (Swift._fields, Swift._field_defaults) == (Plain._fields, Plain._field_defaults)
+    assert type(pickle.loads(pickle.dumps(Derived(1.0)))) is Derived and Derived(1.0)._replace(two=3).two == 3
+    assert list(inspect.signature(Swift).parameters) == list(inspect.signature(Plain).parameters)
+    match swift:
+        case Swift(one, _, (three,)):
+            assert (one, three) == ("a", 1)
+    for bad in (
+        lambda c: c(),
+        lambda c: c(1, 2, (), 4),
+        lambda c: c(1, four=4),
+        lambda c: c(1)._replace(x=1),
+    ):
+        for kind in (Swift, Plain):
+            with pytest.raises((TypeError, ValueError)):
+                bad(kind)
+    with pytest.raises(AttributeError):
+        swift.four = 4  # type: ignore[attr-defined]
+    with pytest.raises(TypeError):
+        type("Odd", (NamedTuple,), {"__annotations__": {"a": "int", "b": "int"}, "a": 1})

@@ -6,10 +6,11 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar, overload
+from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 from icsolve.case import Case, Pair
 from icsolve.errors import SceneError
+from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
     from icsolve.answer.bodies import FrictionFound, Reactions, Tension, Witness

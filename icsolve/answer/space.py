@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from icsolve.answer.bodies import Witness, names_of
+from icsolve.tuples import NamedTuple
 
 Parts = tuple[float | None, float | None, float | None]
 

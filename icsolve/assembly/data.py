@@ -7,10 +7,10 @@ run again on another case of the same shape.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
 
 from icsolve.case import Case, Centroid, Coordinates, Corner, Guide, Number, Rope
 from icsolve.case.joints import Guided
+from icsolve.tuples import NamedTuple
 
 X, Y, MEAN, GUIDE, LINE, LENGTH, RAY, CORNER = "x", "y", "mean", "guide", "line", "length", "ray", "corner"
 ROPE = "rope"

@@ -7,12 +7,13 @@ certain.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
-from typing import NamedTuple, Protocol, TypeVar
+from typing import Protocol, TypeVar
 
 from icsolve.assembly.loci import gaps_of_circles, gaps_of_line_and_circle, is_round, sine_between
 from icsolve.assembly.steps import Meet, Step, aims
 from icsolve.assembly.workspace import Key, Point, Workspace
 from icsolve.numbers.arithmetic import Scalar
+from icsolve.tuples import NamedTuple
 
 T = TypeVar("T")
 

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -23,6 +22,7 @@ from icsolve.assembly.data import GUIDE, LENGTH, RAY, X, Y
 from icsolve.assembly.groups import Group, Unknown
 from icsolve.assembly.loci import Axis, Values, meet_lines, sine_between
 from icsolve.assembly.workspace import Point, Workspace
+from icsolve.tuples import NamedTuple
 
 Array = npt.NDArray[np.float64]
 Mask = npt.NDArray[np.bool_]

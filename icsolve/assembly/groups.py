@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from itertools import pairwise
-from typing import NamedTuple
 
 from icsolve.assembly.clusters import LooseFigure
 from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, ROPE, Datum, X, Y
@@ -17,6 +16,7 @@ from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.screws.ropes import rope_parts
+from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
 Unknown = tuple[str, int]

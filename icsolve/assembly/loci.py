@@ -6,12 +6,11 @@ points, with the margins that must not be negative; callers test those.
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from icsolve.assembly.data import Datum, X
 from icsolve.assembly.workspace import Key, LineDirection, Point, Span, Workspace, data_in, ends_of
 from icsolve.numbers.arithmetic import Arithmetic, Scalar
 from icsolve.screws.ropes import rope_length
+from icsolve.tuples import NamedTuple
 
 
 class Crossing(NamedTuple):

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import partial
-from typing import NamedTuple
 
 from icsolve.assembly.data import Datum
 from icsolve.assembly.decided import (
@@ -40,6 +39,7 @@ from icsolve.assembly.steps import CLOSED_FORMS, Meet, Step, aims
 from icsolve.assembly.words import plain
 from icsolve.assembly.workspace import Key, Point, Workspace, case_point, normalised
 from icsolve.errors import SceneError, Status
+from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
 U = 2.0**-53

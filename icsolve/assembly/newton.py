@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from itertools import islice, product
-from typing import NamedTuple
 
 from icsolve.assembly.clusters import LooseFigure
 from icsolve.assembly.data import CORNER, LENGTH, LINE, ROPE, facts_of
@@ -22,6 +21,7 @@ from icsolve.assembly.words import datum_words, plain
 from icsolve.assembly.workspace import Workspace
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.linear import inverse, solve_square
+from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
 Spot = tuple[float, float]

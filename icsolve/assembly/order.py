@@ -5,13 +5,15 @@ loose links (their distances then serve as lengths); where these stall too, the 
 points that only all their data together determine.
 """
 
+from __future__ import annotations
+
 from collections.abc import Collection
-from typing import NamedTuple
 
 from icsolve.assembly.clusters import ALL_CLUSTERS, LOOSE_CLUSTERS, NOBODY, Cluster, LooseFigure
 from icsolve.assembly.data import LENGTH, Datum, Facts, facts_of, given_points
 from icsolve.assembly.steps import Base, Step, leading_to, points_of
 from icsolve.case import Case
+from icsolve.tuples import NamedTuple
 
 
 class Order(NamedTuple):

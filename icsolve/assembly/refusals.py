@@ -1,8 +1,9 @@
 """What a figure can be refused for, in words: the facts of a step that failed, and of data that clash."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping
-from typing import NamedTuple
 
 from icsolve.assembly.data import CORNER, LENGTH, LINE, MEAN, RAY, ROPE, Datum, X, Y, number_of
 from icsolve.assembly.loci import CircleLocus, is_round
@@ -12,6 +13,7 @@ from icsolve.assembly.workspace import Workspace, case_point
 from icsolve.case import Coordinates, Number
 from icsolve.errors import Status
 from icsolve.numbers.arithmetic import Floats, turn_of
+from icsolve.tuples import NamedTuple
 
 
 class Miss(NamedTuple):

@@ -7,7 +7,7 @@ and its ``name``, a sentence.
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping, Sequence
-from typing import TYPE_CHECKING, NamedTuple, Union
+from typing import TYPE_CHECKING, Union
 
 from icsolve.assembly.data import Datum
 from icsolve.assembly.loci import Crossing, Locus, crossing, directions_of, is_ray
@@ -24,6 +24,7 @@ from icsolve.assembly.workspace import (
 )
 from icsolve.case import Case
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
+from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
     from icsolve.assembly.groups import Group

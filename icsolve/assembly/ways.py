@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import NamedTuple
 
 from icsolve.assembly.construct import compared
 from icsolve.assembly.data import names_of
@@ -18,6 +17,7 @@ from icsolve.assembly.workspace import Frame, Workspace, case_point, frame_of
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS
+from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
 Place = tuple[float, float]

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from functools import lru_cache
-from typing import NamedTuple
 
 from icsolve.assembly.data import Datum, X, number_of
 from icsolve.case import Case, Coordinates, Number
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Arithmetic, Scalar
+from icsolve.tuples import NamedTuple
 
 SMALLEST_RESOLUTION = 1e-3
 """Coarsest step between neighbouring doubles that still draws a figure, over the figure's size."""

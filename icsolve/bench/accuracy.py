@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable, Iterable, Iterator
 from random import Random
 from statistics import median
-from typing import Any, NamedTuple
+from typing import Any
 
 from icsolve.bench.families import ALL_JOINTS, BOUNDED, EXACT, SIX_BARS, Draw, Family, scaled
 from icsolve.bench.rivals import Failed, Method, OtherData, RivalFigure, drawn
@@ -18,6 +18,7 @@ from icsolve.scene import refusals
 from icsolve.scene.bounds import evaluate_bounded
 from icsolve.scene.program import Program, Want, evaluate, prepare
 from icsolve.solve import solve
+from icsolve.tuples import NamedTuple
 from icsolve.units import ExactRatio
 
 DIGITS = 60

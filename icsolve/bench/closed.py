@@ -9,7 +9,6 @@ import shutil
 import subprocess
 from collections.abc import Callable
 from importlib.resources import files
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -17,6 +16,7 @@ import numpy.typing as npt
 from icsolve.assembly.loci import meet_circles
 from icsolve.numbers.arithmetic import FLOATS, turn_of
 from icsolve.screws.plane import Triple, cross, dyad_twists, pairing, pin_twist
+from icsolve.tuples import NamedTuple
 
 Array = npt.NDArray[np.float64]
 Closed = Callable[[Array], Array]

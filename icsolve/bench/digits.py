@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any, NamedTuple
+from typing import Any
 
 from icsolve.answer import Answer
 from icsolve.bench.accuracy import AsWritten
@@ -17,6 +17,7 @@ from icsolve.solve import solve
 from icsolve.statics.power import Outcome
 from icsolve.sweep import sweep
 from icsolve.sweep.numbers import numbers_of, with_numbers
+from icsolve.tuples import NamedTuple
 
 DIGITS = 140
 NOTHING = 1e-40

@@ -8,10 +8,10 @@ from dataclasses import replace
 from decimal import Context, Decimal
 from itertools import combinations
 from random import Random
-from typing import NamedTuple
 
 from icsolve.case import Case, Centroid, Coordinates, Force, Joint, Load, Number, Torque
 from icsolve.case.joints import Mesh
+from icsolve.tuples import NamedTuple
 
 REACH = 4.0
 """Points of a random figure lie in a square of twice this side."""

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
 
 from icsolve.bench.accuracy import Score
+from icsolve.tuples import NamedTuple
 
 
 def table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

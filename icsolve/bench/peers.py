@@ -10,12 +10,13 @@ import io
 import math
 from collections.abc import Callable
 from importlib.metadata import PackageNotFoundError, version
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
 from icsolve.bench.closed import FOUR_BAR, Array, four_bar
 from icsolve.bench.timing import once
+from icsolve.tuples import NamedTuple
 
 POSITIONS = 3600
 """Of a full turn, here and in the sweeps."""

@@ -9,10 +9,10 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import cycle
-from typing import NamedTuple
 from xml.sax.saxutils import escape
 
 from icsolve.bench.accuracy import FORWARD, Score
+from icsolve.tuples import NamedTuple
 
 SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 STRIP = 104.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from itertools import chain, combinations, islice
-from typing import Any, NamedTuple, Protocol
+from typing import Any, Protocol
 
 import numpy as np
 import numpy.typing as npt
@@ -20,6 +20,7 @@ from icsolve.screws.plane import Point, Triple, cross, pairing, times
 from icsolve.solve import solve
 from icsolve.statics import power
 from icsolve.structure.topology import Topology
+from icsolve.tuples import NamedTuple
 
 Twists = Sequence[Triple]
 """Twist of every body relative to the frame."""

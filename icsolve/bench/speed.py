@@ -6,7 +6,7 @@ import ctypes
 import math
 import tempfile
 from collections.abc import Callable
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from icsolve.bench.timing import least, peak_memory
 from icsolve.case import Case
 from icsolve.read import load
 from icsolve.sweep import sweep
+from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
     from icsolve.bench.peers import Ran

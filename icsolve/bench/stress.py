@@ -6,11 +6,12 @@ import math
 import time
 from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 from icsolve.answer import Answer, Centre
 from icsolve.case import Pair
 from icsolve.errors import CaseError, SceneError
+from icsolve.tuples import NamedTuple
 
 UNREADABLE = "unreadable"
 """The word for a case that the reader refuses."""

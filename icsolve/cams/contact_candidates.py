@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import NamedTuple
 
 from icsolve.cams.curve import Body, Curve, Foot
 from icsolve.cams.pieces import TURN, Point
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.roots import zero_between
+from icsolve.tuples import NamedTuple
 
 SAMPLES = 720
 """Positions that are looked at; touching positions nearer to each other than that may be missed."""

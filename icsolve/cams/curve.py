@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 from icsolve.cams.pieces import TURN, CircularArc, Piece, Point, PolarPiece, Spline, Straight, spline, unit
 from icsolve.case import Number
@@ -26,6 +26,7 @@ from icsolve.case.profiles import (
 )
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import turn_of
+from icsolve.tuples import NamedTuple
 
 CORNER = 1e-9
 """Pieces whose tangents differ by less (sine) meet smoothly."""

@@ -15,7 +15,6 @@ import math
 from bisect import bisect_right
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from decimal import Decimal
-from typing import NamedTuple
 
 from icsolve.assembly import place, solve_figure
 from icsolve.cams.curve import Curve, Foot
@@ -25,6 +24,7 @@ from icsolve.case.profiles import Arc, Arcs, Circle, Follower, Line, Polygon, Ra
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.balls import INEXACT, UP, WIDE, Ball, Balls, MoreDigits
 from icsolve.numbers.krawczyk import enclosed_root
+from icsolve.tuples import NamedTuple
 
 DIGITS = 160
 """More than any scene is evaluated with."""

@@ -14,9 +14,9 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from collections.abc import Callable, Sequence
-from typing import NamedTuple
 
 from icsolve.numbers.arithmetic import Scalar
+from icsolve.tuples import NamedTuple
 
 Point = tuple[float, float]
 Slope = Callable[[float], tuple[float, float]]

@@ -1,9 +1,10 @@
 """What is more than joints between links: their masses, the ropes that run over them, driven screws."""
 
-from typing import NamedTuple
+from __future__ import annotations
 
 from icsolve.case.joints import Guided, Thread
 from icsolve.numbers.given import Number
+from icsolve.tuples import NamedTuple
 
 
 class Inertia(NamedTuple):

@@ -1,9 +1,10 @@
 """Published values, and how near an answer must come to the right one."""
 
-from typing import NamedTuple
+from __future__ import annotations
 
 from icsolve.case.joints import Pair
 from icsolve.numbers.given import Number
+from icsolve.tuples import NamedTuple
 
 
 class LoadIs(NamedTuple):

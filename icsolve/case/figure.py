@@ -1,8 +1,9 @@
 """What places a figure: numbers with their decimals, units, points, lengths, angles, guide lines."""
 
-from typing import NamedTuple
+from __future__ import annotations
 
 from icsolve.numbers.given import Number
+from icsolve.tuples import NamedTuple
 from icsolve.units import ExactRatio
 
 Mark = tuple[int, int]

@@ -7,11 +7,13 @@ free bodies and error bounds follow. Families share answers: `Sliding` surfaces,
 tables: `read.joints`, `wording.joints` and `draw.frame`.
 """
 
+from __future__ import annotations
+
 from functools import cached_property
-from typing import NamedTuple
 
 from icsolve.case.figure import Guide
 from icsolve.numbers.given import Number
+from icsolve.tuples import NamedTuple
 
 Pair = tuple[str, str]
 """Two links."""
@@ -162,7 +164,7 @@ class Guided(Sliding):
     guide: Guide
 
     @property
-    def thread(self) -> "Thread | None":
+    def thread(self) -> Thread | None:
         """Of a screw, whose nut is ``links[1]``."""
         return None
 
@@ -210,11 +212,11 @@ class Mesh(JointKind):
         """Numbers of teeth, or radii."""
         raise NotImplementedError
 
-    def resized(self, sizes: tuple[Number, Number]) -> "Gears | Belt":
+    def resized(self, sizes: tuple[Number, Number]) -> Gears | Belt:
         """The same with other numbers of teeth, or radii."""
         raise NotImplementedError
 
-    def turned_round(self) -> "Gears | Belt":
+    def turned_round(self) -> Gears | Belt:
         """The same with the second wheel turning the other way."""
         raise NotImplementedError
 
@@ -241,7 +243,7 @@ class Mesh(JointKind):
         return None
 
     @property
-    def helix(self) -> "Helix | None":
+    def helix(self) -> Helix | None:
         """The slant of its teeth."""
         return None
 
@@ -396,11 +398,11 @@ class Gears(_Gears, Mesh):
         """Numbers of teeth."""
         return self.teeth
 
-    def resized(self, sizes: tuple[Number, Number]) -> "Gears":
+    def resized(self, sizes: tuple[Number, Number]) -> Gears:
         """With other numbers of teeth."""
         return self._replace(teeth=sizes)
 
-    def turned_round(self) -> "Gears":
+    def turned_round(self) -> Gears:
         """With a wheel internal that was external, or external that was internal."""
         first, second = self.teeth
         sign = "" if second.digits.startswith("-") else "-"
@@ -429,11 +431,11 @@ class Belt(_Belt, Mesh):
         """Radii."""
         return self.radii
 
-    def resized(self, sizes: tuple[Number, Number]) -> "Belt":
+    def resized(self, sizes: tuple[Number, Number]) -> Belt:
         """With other radii."""
         return self._replace(radii=sizes)
 
-    def turned_round(self) -> "Belt":
+    def turned_round(self) -> Belt:
         """Crossed where it was open, open where it was crossed."""
         return self._replace(crossed=not self.crossed)
 

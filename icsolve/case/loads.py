@@ -1,9 +1,10 @@
 """The kinds of load, and the motion that a case gives."""
 
-from typing import NamedTuple
+from __future__ import annotations
 
 from icsolve.case.bodies import Rope
 from icsolve.numbers.given import Number
+from icsolve.tuples import NamedTuple
 from icsolve.units import ExactRatio
 
 

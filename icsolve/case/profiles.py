@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from icsolve.case.joints import Friction
 from icsolve.numbers.given import Number
+from icsolve.tuples import NamedTuple
 
 Direction = Number | str
 """Degrees ccw from +x in this position, or a point that lies that way."""

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from icsolve.case.figure import Centroid
 from icsolve.case.loads import Magnitude, Spring, Toward, Weight
 from icsolve.numbers.given import Number
+from icsolve.tuples import NamedTuple
 
 
 class SpatialPoint(NamedTuple):

@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from icsolve.files import files_of, is_plain, note, reading
+from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

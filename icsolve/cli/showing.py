@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import click
 
@@ -15,6 +15,7 @@ from icsolve.cli.output import write_output
 from icsolve.cli.progress import watched
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain
 from icsolve.errors import CaseError, NotACase
+from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
     from icsolve.page.gallery import Exhibit

@@ -6,12 +6,13 @@ import math
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from icsolve.cli.options import CASES, DIGITS, JOBS, JSON, SET
 from icsolve.cli.run import DONE, Work, for_each
+from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
     from icsolve.answer import Answer

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
 
 import shapely
 
@@ -31,6 +30,7 @@ from icsolve.draw.place import Label, Soft, joined, nearest
 from icsolve.draw.scene import Part, Scene, around, together, with_labels
 from icsolve.draw.words import force_runs, name_runs, quantity
 from icsolve.report.derivation import Acting, acting_loads, pulls_on
+from icsolve.tuples import NamedTuple
 
 LONGEST = 78.0
 """The largest force of all links."""

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
 
 import shapely
 
@@ -35,6 +34,7 @@ from icsolve.draw.place import Label, Soft, clipped
 from icsolve.draw.scene import Part, Scene, around, with_labels
 from icsolve.draw.words import centre_runs, quantity
 from icsolve.report.derivation import Known, Step
+from icsolve.tuples import NamedTuple
 
 BEYOND = 16.0
 """How far a line of centres goes on beyond the last of them."""

@@ -6,7 +6,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from itertools import combinations
-from typing import NamedTuple
 
 import shapely
 
@@ -23,6 +22,7 @@ from icsolve.draw.svg import document
 from icsolve.draw.tikz import standalone
 from icsolve.draw.words import captioned, description
 from icsolve.report.derivation import Known, Step, all_steps, known_of, needed_steps
+from icsolve.tuples import NamedTuple
 
 SHORT, LARGER = 52.0, 1.5
 """A mechanism with a link that would be shorter is drawn so many times larger at most."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import NamedTuple
 
 import shapely
 
@@ -15,6 +14,7 @@ from icsolve.draw.place import Label, Soft, area, bar, joined, nearest, plate, t
 from icsolve.draw.scene import BLOCK, HALF, PIN, RAIL, SLOT, Part, Scene, normal_of, outlines
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.joints import guide_direction
+from icsolve.tuples import NamedTuple
 
 ROD = 5.0
 """Half the width of a rod on which a block slides."""

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from typing import NamedTuple
+
+from icsolve.tuples import NamedTuple
 
 Point = tuple[float, float]
 Box = tuple[float, float, float, float]

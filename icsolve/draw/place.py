@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
 
 import numpy as np
 import shapely
@@ -31,6 +30,7 @@ from icsolve.draw.marks import (
     text_width,
     unit,
 )
+from icsolve.tuples import NamedTuple
 
 # --- outlines by shapely -----------------------------------------------------------------------------------
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from icsolve.draw.marks import AreaMark, Mark, MarkGroup, Point, Stroke, TextMark, TextRun, bounds, text_width
 from icsolve.draw.svg import document
 from icsolve.draw.words import figure_number, name_runs, unit_word, wrapped
 from icsolve.errors import SceneError, Status
 from icsolve.statics.power import is_unknown
+from icsolve.tuples import NamedTuple
 from icsolve.wording.senses import unit_of
 
 if TYPE_CHECKING:

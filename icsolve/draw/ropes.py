@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from typing import NamedTuple
 
 import shapely
 
@@ -23,6 +22,7 @@ from icsolve.numbers.arithmetic import FLOATS
 from icsolve.numbers.given import Number
 from icsolve.report.derivation import tension_name
 from icsolve.screws.ropes import offsets_of, rope_parts
+from icsolve.tuples import NamedTuple
 
 SMALL, LARGER = 10.0, 6.0
 """Radius of a pulley that is given none, and by how much the next one in its place is larger."""

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping
 from types import MappingProxyType
-from typing import NamedTuple
 
 from icsolve.case import (
     Case,
@@ -25,6 +24,7 @@ from icsolve.numbers.arithmetic import FLOATS, turn_of
 from icsolve.report.derivation import Known
 from icsolve.screws.joints import mesh_weights
 from icsolve.structure.topology import Bond, topology
+from icsolve.tuples import NamedTuple
 
 NEAR = 0.02
 """A point is a wheel's centre where it is so near, of the radius, to that distance from the contact."""

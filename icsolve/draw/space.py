@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
-from typing import NamedTuple
 
 import shapely
 
@@ -39,6 +38,7 @@ from icsolve.report.derivation import Known
 from icsolve.report.derivation.spatial import InSpace, Push, in_space
 from icsolve.screws.space import AXES, Vec, add, cross, dot, size, sub, times
 from icsolve.statics.space.reaction_basis import SpatialTie
+from icsolve.tuples import NamedTuple
 
 TURN, RISE = math.radians(32.0), math.radians(24.0)
 """Where the picture is seen from: turned about z, and raised."""

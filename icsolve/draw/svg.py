@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from typing import NamedTuple
 
 from icsolve.draw.marks import (
     LOW,
@@ -24,6 +23,7 @@ from icsolve.draw.marks import (
     TextRun,
     leaves,
 )
+from icsolve.tuples import NamedTuple
 
 
 class Ink(NamedTuple):

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
 
 from icsolve.answer.bodies import Reaction
 from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, formula, words
@@ -12,6 +11,7 @@ from icsolve.explain.formula import Expr, Name, Num, Sum, product
 from icsolve.explain.given import Figures, load_name
 from icsolve.report.derivation import Acting, Known, acting_loads, rope_pulls
 from icsolve.screws.plane import Point
+from icsolve.tuples import NamedTuple
 
 NOTHING = 1e-13
 

@@ -8,9 +8,9 @@ import textwrap
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
-from typing import NamedTuple
 
 from icsolve.explain.formula import LATEX, PLAIN, Expr, Notation, Quantity, ShownEquation
+from icsolve.tuples import NamedTuple
 
 Inline = str | Expr
 """A piece of a paragraph: words, or a symbol or short formula."""

@@ -9,7 +9,9 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from html import escape
-from typing import ClassVar, NamedTuple
+from typing import ClassVar
+
+from icsolve.tuples import NamedTuple
 
 
 class Num(NamedTuple):

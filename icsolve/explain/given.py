@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from icsolve.answer import Centre
 from icsolve.case import (
@@ -35,6 +34,7 @@ from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, 
 from icsolve.explain.formula import Name, Num, Quantity
 from icsolve.report.derivation import Known
 from icsolve.statics.power import is_unknown, reacting
+from icsolve.tuples import NamedTuple
 from icsolve.wording.joints import joint_words
 from icsolve.wording.senses import SPELT, unit_of
 from icsolve.wording.sentences import link_words, listed

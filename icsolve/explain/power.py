@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
 
 from icsolve.answer.bodies import Rubbing
 from icsolve.case import Area, Force, ForceVector, Joint, Pin, Spring, Torque, TorsionSpring, Weight
@@ -17,6 +16,7 @@ from icsolve.explain.levers import lever, motion_name
 from icsolve.report.derivation import Acting, Known, Ratios
 from icsolve.report.derivation.ratios import OneMotion, independent_motions, speed_words
 from icsolve.screws.plane import velocity
+from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
 

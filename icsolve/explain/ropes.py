@@ -6,7 +6,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
-from typing import NamedTuple
 
 from icsolve.answer.bodies import Reaction
 from icsolve.case import Rope, Screw, Torque, Weight
@@ -28,6 +27,7 @@ from icsolve.report.derivation import (
 from icsolve.screws.joints import guide_direction
 from icsolve.screws.plane import velocity
 from icsolve.screws.ropes import rope_parts, wrap_angle
+from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
 Headings = Mapping[str, float]

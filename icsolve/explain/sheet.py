@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 from icsolve.draw import tikz
 from icsolve.draw.figure import Drawing, drawn
@@ -13,6 +12,7 @@ from icsolve.explain.document import Block
 from icsolve.explain.given import asked_section, figures_of, given_section
 from icsolve.explain.typeset import AsTex, picture_tex
 from icsolve.report.derivation import Known
+from icsolve.tuples import NamedTuple
 
 ASKED = Drawing(centres="none", captions=False)
 DIGITS = 6

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
 
 from icsolve.explain.bodies import NOTHING, open_number
 from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, formula, words
@@ -14,6 +13,7 @@ from icsolve.report.derivation.spatial import InSpace, Push, in_space
 from icsolve.screws.space import Vec, size, sub
 from icsolve.statics.space.reaction_basis import SpatialTie
 from icsolve.statics.space.report import direction_words
+from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
 AXES = "xyz"

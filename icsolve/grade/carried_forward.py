@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from typing import NamedTuple
 
 from icsolve.answer import Answer
 from icsolve.case import Load
@@ -23,6 +22,7 @@ from icsolve.grade.mistakes.engine import centres_of
 from icsolve.grade.results import Marked
 from icsolve.grade.solved import SolvedCase, unknowns
 from icsolve.grade.tolerance import NoKeyError
+from icsolve.tuples import NamedTuple
 
 Scales = Mapping[str, float]
 """By what each load's share is multiplied."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 from icsolve.case.expected import Tolerance
 from icsolve.errors import CaseError
@@ -13,6 +13,7 @@ from icsolve.grade.tolerance import DEFAULT
 from icsolve.read.document import Mapping, Node, Scalar, checked, is_null, parse, text_of
 from icsolve.read.expect import tolerance_of
 from icsolve.read.names import Problems, Stop, shown, suggestion
+from icsolve.tuples import NamedTuple
 
 ATTEMPTS = ("last", "first", "best")
 DECIMALS = ("either", "point", "comma")

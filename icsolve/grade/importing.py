@@ -11,7 +11,7 @@ from array import array
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack
 from itertools import islice, pairwise
-from typing import IO, NamedTuple
+from typing import IO
 
 from icsolve.files import is_plain, reading, scratch
 from icsolve.grade.case_store import CaseStore
@@ -22,6 +22,7 @@ from icsolve.grade.tables.hand_ins import METADATA, exported, submissions
 from icsolve.grade.tables.platforms import recognise
 from icsolve.grade.tables.text import AnswerTable
 from icsolve.grade.timestamps import order_of, year_first
+from icsolve.tuples import NamedTuple
 
 _LONGEST = 500
 """Characters of an answer that are kept; the reader takes far fewer."""

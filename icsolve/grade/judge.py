@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-from typing import NamedTuple
 
 from icsolve.grade.course import Policy
 from icsolve.grade.keys import (
@@ -25,6 +24,7 @@ from icsolve.grade.written.directions import direction as direction_of
 from icsolve.grade.written.numerals import AMBIGUOUS, UNREAD, figures, plain
 from icsolve.grade.written.two_numbers import WrittenPlace, WrittenRange, read_place, read_range
 from icsolve.grade.written.units import CASE, ENERGY, unit_word
+from icsolve.tuples import NamedTuple
 
 RIGHT, WRONG, INVALID, IN_REVIEW = "right", "wrong", "invalid", "review"
 OPEN = (IN_REVIEW, INVALID)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping
-from typing import NamedTuple
 
 from icsolve.answer import Answer
 from icsolve.case import Force, ForceVector, Load, Spring, Torque, TorsionSpring, Toward, Weight
@@ -40,6 +39,7 @@ from icsolve.grade.tolerance import (
 from icsolve.grade.written.directions import WrittenDirection
 from icsolve.grade.written.units import UnitWord, factors_between
 from icsolve.report.check import value_of
+from icsolve.tuples import NamedTuple
 from icsolve.units import Unit, UnitError
 
 _SQUARE = 5.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from itertools import chain, groupby, islice, pairwise
 from operator import itemgetter
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from icsolve.grade.carried_forward import CarriedForward
 from icsolve.grade.importing import Issues, StoredAnswer
@@ -18,6 +18,7 @@ from icsolve.grade.timestamps import NEVER, attempt_number, readings
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.written.answer import MISSING, Combined, Reader, WrittenAnswer
 from icsolve.grade.written.two_numbers import WrittenPlace
+from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
     from icsolve.grade.run import MarkingWork

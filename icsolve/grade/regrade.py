@@ -6,7 +6,6 @@ import csv
 import io
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
-from typing import NamedTuple
 
 from icsolve.files import reading
 from icsolve.grade.case_store import CaseStore
@@ -14,6 +13,7 @@ from icsolve.grade.results import OVERRIDE, ResultRow, read_results, safe, shown
 from icsolve.grade.roster import Roster
 from icsolve.grade.tables.columns import TableColumns, identifier
 from icsolve.grade.tables.text import AnswerTable
+from icsolve.tuples import NamedTuple
 
 REVIEW_HEADER = (
     "case", "variant", "answer", "verdict", "code", "count", "student_id", "score", "max_score", "comment",

@@ -7,11 +7,12 @@ import re
 from collections.abc import Iterator
 from functools import lru_cache
 from itertools import groupby
-from typing import Any, NamedTuple
+from typing import Any
 
 from icsolve.grade.judge import OPEN, Judgement
 from icsolve.grade.written.answer import WrittenAnswer
 from icsolve.grade.written.units import UnitWord
+from icsolve.tuples import NamedTuple
 
 
 class Marked:

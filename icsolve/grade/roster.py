@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable
-from typing import NamedTuple
 
 from icsolve.files import reading
 from icsolve.grade.tables.columns import HeaderError, TableColumns, identifier
 from icsolve.grade.tables.text import AnswerTable
+from icsolve.tuples import NamedTuple
 
 Report = Callable[[int, str], None]
 

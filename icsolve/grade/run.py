@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import IO, TYPE_CHECKING, NamedTuple
+from typing import IO, TYPE_CHECKING
 
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
@@ -16,6 +16,7 @@ from icsolve.grade.solved import unknowns
 from icsolve.grade.statistics import Counts
 from icsolve.grade.tables.columns import HeaderError
 from icsolve.grade.tolerance import NoKeyError
+from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
     from icsolve.grade.regrade import Override, Overrides

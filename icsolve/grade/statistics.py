@@ -7,10 +7,10 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
-from typing import NamedTuple
 
 from icsolve.grade.results import Marked, ResultRow, by_student
 from icsolve.grade.roster import Person
+from icsolve.tuples import NamedTuple
 
 _LEAST = 10
 """Students from whom it is told how telling a question is."""

@@ -11,7 +11,6 @@ Mach. Theory 31, 1996.)
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 from icsolve.assembly.workspace import Frame
 from icsolve.case import Case, Joint, Motion, Number, Pin, Rope
@@ -24,6 +23,7 @@ from icsolve.screws.joints import Points, freedoms, guide_direction, mesh_weight
 from icsolve.screws.plane import Point, Triple, add, blend, cross, pairing, subtract, velocity
 from icsolve.screws.ropes import part_changes, rope_parts
 from icsolve.structure.topology import Bond, Topology
+from icsolve.tuples import NamedTuple
 from icsolve.wording.joints import why_no_acceleration
 from icsolve.wording.sentences import listed
 

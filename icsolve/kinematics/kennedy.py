@@ -6,15 +6,17 @@ from the joints, is smallest (a shortest-path search on the estimated error). Wh
 are left the construction has stalled, and a centre from the loop equations lets it go on.
 """
 
+from __future__ import annotations
+
 import heapq
 import math
 from bisect import insort
 from collections.abc import Iterable, Mapping
 from operator import attrgetter
-from typing import NamedTuple
 
 from icsolve.numbers.null_space import ROUNDING
 from icsolve.screws.plane import Triple, cross
+from icsolve.tuples import NamedTuple
 
 BodyPair = tuple[int, int]
 

@@ -5,8 +5,9 @@ wrenches that it transmits do no work on the relative twist of its two bodies. (
 equations on screws: Valderrama-Rodriguez, Rico and others, Robotics 2022, 11(1), 6.)
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Mapping, Sequence
-from typing import NamedTuple
 
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.null_space import ZERO, NullSpace, Vanishes, null_space
@@ -14,6 +15,7 @@ from icsolve.screws.joints import transmitted
 from icsolve.screws.plane import Triple, add, blend, pairing, subtract
 from icsolve.screws.ropes import RopePart
 from icsolve.structure.topology import Topology
+from icsolve.tuples import NamedTuple
 
 Bases = Mapping[int, tuple[Triple, ...]]
 ORIGIN: Triple = (0.0, 0.0, 0.0)

@@ -1,8 +1,9 @@
 """All motions that the joints allow: by the plan where one freedom follows group by group, else from
 the loop equations of the whole scene. What is singular, redundant or rigid is said here."""
 
+from __future__ import annotations
+
 import math
-from typing import NamedTuple
 
 from icsolve.assembly.workspace import Frame
 from icsolve.case import Case
@@ -16,6 +17,7 @@ from icsolve.screws.plane import Triple, cross, subtract, velocity
 from icsolve.screws.ropes import end_twist, rope_parts
 from icsolve.structure.plan import Plan
 from icsolve.structure.topology import Topology
+from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import near_structure, structure
 
 

@@ -4,9 +4,10 @@ The motions form a space with one coefficient per freedom. What the case says of
 combinations of them; what stays open is named as undetermined, never guessed.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 from icsolve.assembly.workspace import Frame
 from icsolve.case import Case
@@ -23,6 +24,7 @@ from icsolve.numbers.arithmetic import (
 )
 from icsolve.numbers.null_space import null_space
 from icsolve.screws.plane import Point, Triple, velocity
+from icsolve.tuples import NamedTuple
 
 Twists = Mapping[str, Sequence[Triple]]
 STILL = ROUNDING_NOISE

@@ -8,8 +8,9 @@ scene to one common scale that is not told: only their ratios mean anything unti
 are those of L. V. Assur (1914): dyads by Cramer's rule, larger ones by elimination.
 """
 
+from __future__ import annotations
+
 import math
-from typing import NamedTuple
 
 from icsolve.case import Pin
 from icsolve.kinematics.loops import ORIGIN, Bases, loop_rows, span, twists_on
@@ -19,6 +20,7 @@ from icsolve.screws.joints import weights_of
 from icsolve.screws.plane import Point, Triple, blend, cross, dyad_twists, monad_twist, shift, subtract, times
 from icsolve.structure.plan import Group, Plan
 from icsolve.structure.topology import Bond, Topology
+from icsolve.tuples import NamedTuple
 
 LONG = 4
 """Plans with more groups are rescaled by powers of two on the way: determinants multiply up."""

@@ -1,8 +1,10 @@
 """A number as the case gives it: its double, its decimals and its unit."""
 
-from collections.abc import Iterator
-from typing import NamedTuple
+from __future__ import annotations
 
+from collections.abc import Iterator
+
+from icsolve.tuples import NamedTuple
 from icsolve.units import ExactRatio
 
 

@@ -9,12 +9,12 @@ there is none the root is 0: whoever asks whether a figure exists asks the radic
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
 from icsolve.numbers.record import Op, Record, operands
 from icsolve.numbers.replay import Array, live
+from icsolve.tuples import NamedTuple
 
 TURN_ULPS = 6
 """Ulps by which a sine or cosine of an angle in degrees is widened: its reduction and its own rounding."""

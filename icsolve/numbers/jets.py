@@ -9,12 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
-from typing import NamedTuple
 
 import numpy as np
 
 from icsolve.numbers.record import Node, Op, Record
 from icsolve.numbers.replay import Array, live
+from icsolve.tuples import NamedTuple
 
 ROUNDED = 2.0**-51
 """Relative rounding of an operation on a midpoint, and of a radius."""

@@ -4,10 +4,12 @@ Complete pivoting is backward stable enough to decide ranks of the small systems
 Higham, Accuracy and Stability of Numerical Algorithms, 2002, ch. 9), and needs no numpy.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
-from typing import NamedTuple
 
 from icsolve.numbers.arithmetic import Scalar
+from icsolve.tuples import NamedTuple
 
 ROUNDING = 2.0**-53
 ZERO = 64 * ROUNDING

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from icsolve.numbers.arithmetic import RADIAN
 from icsolve.numbers.record import Op, Record, Traced, operands
 from icsolve.numbers.replay import Array, Code, Step
 from icsolve.numbers.tape import UNIT
+from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
     from icsolve.assembly.driven.groups import NewtonGroup

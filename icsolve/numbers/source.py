@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import NamedTuple
 
 from icsolve.numbers.record import Op, Record, operands
+from icsolve.tuples import NamedTuple
 
 DEEPEST = 12
 """Brackets in brackets."""

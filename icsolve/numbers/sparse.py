@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import heapq
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.null_space import Vanishes
+from icsolve.tuples import NamedTuple
 
 Row = dict[int, Scalar]
 

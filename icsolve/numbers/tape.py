@@ -11,10 +11,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable
-from typing import NamedTuple, Union
+from typing import Union
 
 from icsolve.numbers.arithmetic import Scalar, turn_of
 from icsolve.numbers.given import Number
+from icsolve.tuples import NamedTuple
 from icsolve.units import ExactRatio, nearest
 
 UNIT = 2.0**-53

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from enum import IntEnum
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from icsolve.numbers.arithmetic import Scalar
+from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
     from icsolve.numbers.record import Record

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from functools import cache
 from html import escape
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -26,6 +26,7 @@ from icsolve.page.model import gain_rows
 from icsolve.page.motion import Array, PageMotion, exact, script_json
 from icsolve.page.pictures import track_svg
 from icsolve.report.derivation import Acting, Known, Step, acting_loads
+from icsolve.tuples import NamedTuple
 
 
 class PageEquation(NamedTuple):

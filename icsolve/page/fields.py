@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from html import escape
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from icsolve.assembly.data import LENGTH, RAY, Datum, X, number_of
 from icsolve.assembly.loci import Axis, CircleLocus, Locus
@@ -21,6 +21,7 @@ from icsolve.read import load
 from icsolve.read.keys import JOINTS, LOADS
 from icsolve.read.settings import places
 from icsolve.sweep.numbers import numbers_of
+from icsolve.tuples import NamedTuple
 from icsolve.wording.senses import unit_of
 
 DEGREES = "°"

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
 
 import numpy as np
 import shapely
@@ -24,6 +23,7 @@ from icsolve.draw.ropes import RopeCourse, belts, courses, filled, free_ends, pu
 from icsolve.draw.scene import ORDER, Part, Scene, Wheel, outlines, round_things, together
 from icsolve.page.motion import Array, PageMotion, moved
 from icsolve.report.derivation import Acting, Known, Step, acting_loads
+from icsolve.tuples import NamedTuple
 
 ROOM = (430.0, 350.0)
 """The largest that the mechanism is drawn, through all its positions."""

@@ -6,7 +6,6 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
-from typing import NamedTuple
 from urllib.parse import quote
 
 from icsolve.case import Case, Pin, Spring
@@ -17,6 +16,7 @@ from icsolve.draw.words import answer_sentences, description
 from icsolve.page import page_html
 from icsolve.report.derivation import Known, known_of
 from icsolve.statics.power import is_unknown
+from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
 FIGURE, PAGE = ".svg", ".html"

@@ -8,7 +8,7 @@ page walks the steps, and eliminates with pivots of its own, so that what is sin
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 from icsolve.assembly.data import CORNER, LENGTH, LINE, MEAN, RAY, data_of, number_of
 from icsolve.assembly.groups import Group
@@ -32,6 +32,7 @@ from icsolve.statics import power
 from icsolve.structure.topology import Bond
 from icsolve.sweep.numbers import numbers_of
 from icsolve.sweep.program import wanted_points
+from icsolve.tuples import NamedTuple
 
 SECTIONS = ("points", "lengths", "angles", "joints", "loads", "motion", "gravity")
 """What is an input of the program."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -18,6 +18,7 @@ from icsolve.errors import Status
 from icsolve.page.figure import PageFigure
 from icsolve.page.motion import FINE, Array, PageMotion, compact
 from icsolve.report.derivation import Known, Step
+from icsolve.tuples import NamedTuple
 from icsolve.wording.senses import unit_of
 
 SIZE = (440.0, 250.0)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from icsolve.case import (
     Case,
@@ -40,6 +40,7 @@ from icsolve.read.keys import JOINTS, SECTIONS, SPACE_JOINTS
 from icsolve.read.loads import driven, read_loads, read_motion
 from icsolve.read.names import Problems, shown
 from icsolve.read.reading import Measures, Reading, number
+from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
     from icsolve.case.expected import Expected, Tolerance

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import os
 import re
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import yaml
 from yaml.events import (
@@ -27,6 +27,7 @@ from yaml.events import (
 from icsolve.case import Mark
 from icsolve.files import reading
 from icsolve.read.names import Problems, Stop, suggestion
+from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
     from fractions import Fraction

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from typing import NamedTuple
 
 from icsolve.case import Number, Pair
 from icsolve.case.expected import (
@@ -28,6 +27,7 @@ from icsolve.read.keys import EXPECTED
 from icsolve.read.load_forms import dimension_of
 from icsolve.read.names import LONGEST_KEY, atoms, is_name, pairs, shown, suggestion
 from icsolve.read.reading import Entry, Reading, number, quantity
+from icsolve.tuples import NamedTuple
 from icsolve.units import DIMENSIONS, UnitError, parse_unit, split_quantity
 
 SHARES = (

@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator
-from typing import NamedTuple
 
 from icsolve.case import (
     Centroid,
@@ -36,6 +35,7 @@ from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.keys import CENTROID, MASSES, UNKNOWN
 from icsolve.read.names import Names, point_key, shown, suggestion
 from icsolve.read.reading import COMPASS, Entry, Reading, number
+from icsolve.tuples import NamedTuple
 
 
 def read_points(reading: Reading, section: Mapping) -> dict[str, Coordinates | Centroid]:

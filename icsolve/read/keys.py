@@ -7,7 +7,7 @@ another (one direction of several, a helix and its hand) is code beside the read
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from icsolve.tuples import NamedTuple
 
 
 class Key(NamedTuple):

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from collections.abc import Mapping as Table
-from typing import Generic, NamedTuple, TypeVar
+from typing import Generic, TypeVar
 
 from icsolve.case import Like, Magnitude, Mark, Number
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.keys import LIKE, LOADS, EntryKind
 from icsolve.read.names import is_name, shown, suggestion, why_no_name
 from icsolve.read.reading import Entry, Reading
+from icsolve.tuples import NamedTuple
 from icsolve.units import exactly, nearest, quotient, split_quantity
 
 VECTORS = {"force": "vector", "torque": "couple"}

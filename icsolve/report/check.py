@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from icsolve.answer import Answer, Centre, Found
 from icsolve.case import Case, Like, Load, Number, Pair, Torque
@@ -24,6 +23,7 @@ from icsolve.case.expected import (
     TensionIs,
 )
 from icsolve.case.names import pair_name
+from icsolve.tuples import NamedTuple
 from icsolve.wording.bearings import bearing, same_way, turned_at_most
 from icsolve.wording.senses import holding
 

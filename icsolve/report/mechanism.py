@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from icsolve.answer import Answer
 from icsolve.case import Case, Pin
@@ -20,6 +20,7 @@ from icsolve.structure.grashof import (
     transmission_in_slider_crank,
     transmission_of,
 )
+from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
     from icsolve.sweep.cam_sweep import Pressure

@@ -6,10 +6,12 @@ leaves open is refused as too near a singular position. Each number is rounded o
 rounding did, and the radius of its ball.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable
 from functools import partial
-from typing import NamedTuple, TypeVar
+from typing import TypeVar
 
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS, Showing
@@ -19,6 +21,7 @@ from icsolve.scene import refusals
 from icsolve.scene.program import Program, evaluate
 from icsolve.screws.plane import Triple
 from icsolve.statics.power import Bounded, Outcome, Value
+from icsolve.tuples import NamedTuple
 
 T = TypeVar("T")
 Run = Callable[[Program, Showing], tuple[Program, Outcome]]

@@ -4,8 +4,9 @@ The program of a case (topology, plan, construction of the figure with its branc
 It runs on floats, on numbers that carry their error bound, on arrays of positions, in more digits.
 """
 
+from __future__ import annotations
+
 from functools import lru_cache
-from typing import NamedTuple
 
 from icsolve.assembly import Figure, place, placed_figure, solve_figure
 from icsolve.assembly.data import names_of
@@ -19,6 +20,7 @@ from icsolve.statics import power
 from icsolve.statics.power import Outcome
 from icsolve.structure.plan import Plan, make_plan
 from icsolve.structure.topology import Topology, topology
+from icsolve.tuples import NamedTuple
 
 
 class Want(NamedTuple):

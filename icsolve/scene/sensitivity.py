@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple
+from typing import Any
 
 from icsolve.answer import Answer, Found
 from icsolve.case import Case, Coordinates, Corner, Direction, Number
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.given import numbers_in
+from icsolve.tuples import NamedTuple
 
 
 class Influence(NamedTuple):

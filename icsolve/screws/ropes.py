@@ -13,12 +13,12 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from itertools import pairwise
-from typing import NamedTuple
 
 from icsolve.case import Rope
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import RADIAN, Arithmetic, Scalar
 from icsolve.screws.plane import Point, Triple, force_wrench, pairing, velocity
+from icsolve.tuples import NamedTuple
 
 Points = Mapping[str, Point]
 

@@ -8,8 +8,6 @@ whether it is stable, `resting` finds the ranges in which friction holds, `two_d
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 from icsolve.answer import Answer
 from icsolve.case import Case, Coordinates, Number
 from icsolve.errors import SceneError, Status
@@ -18,6 +16,7 @@ from icsolve.scene.bounds import EvaluatedScene
 from icsolve.scene.parts import AnswerBuilder
 from icsolve.scene.program import Want, prepare
 from icsolve.statics.power import is_unknown
+from icsolve.tuples import NamedTuple
 
 
 def solve(

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -21,6 +20,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.replay import Array, Code
 from icsolve.solve.load_function import LoadFunction
+from icsolve.tuples import NamedTuple
 
 SAMPLES = 720
 EVEN = 0.99

@@ -11,7 +11,6 @@ import itertools
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -37,6 +36,7 @@ from icsolve.sweep.exact import spring_angles
 from icsolve.sweep.numbers import with_numbers
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep, setting_of, wanted_points
 from icsolve.sweep.recorded_scene import RecordedScene, motions_of
+from icsolve.tuples import NamedTuple
 
 Steps = tuple[Step, ...]
 

@@ -6,7 +6,6 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from decimal import Decimal
-from typing import NamedTuple
 
 import numpy as np
 
@@ -38,6 +37,7 @@ from icsolve.solve.load_function import (
 )
 from icsolve.sweep.exact import RowScenes, counted_about
 from icsolve.sweep.numbers import find_number
+from icsolve.tuples import NamedTuple
 
 PROBE = "@equilibrium"
 """The name of the unknown load by which `icsolve.solve` tells how far a position is from equilibrium."""

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -17,6 +16,7 @@ from icsolve.scene import solve_scene
 from icsolve.solve.branches import Branches
 from icsolve.solve.load_function import LoadFunction, load_functions, refuse_unposed
 from icsolve.solve.positions import PROBE, refuse_history, scene_at, search_modes, whole_range
+from icsolve.tuples import NamedTuple
 
 SAMPLES = 120
 

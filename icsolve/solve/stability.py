@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise
-from typing import NamedTuple
 
 from icsolve.answer import Answer
 from icsolve.answer.equilibrium import Stiffness
@@ -18,6 +17,7 @@ from icsolve.scene.refusals import is_rough
 from icsolve.solve.positions import Rest, balances, described, moved_by
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.numbers import find_number, with_numbers
+from icsolve.tuples import NamedTuple
 
 CUTS = 32
 

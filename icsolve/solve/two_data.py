@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -31,6 +31,7 @@ from icsolve.structure.topology import topology
 from icsolve.sweep.drivers import Drive
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep
 from icsolve.sweep.recorded_scene import motions_of
+from icsolve.tuples import NamedTuple
 
 GRID = 48
 STEPS = 40

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 from icsolve.numbers.arithmetic import Scalar, Showing
 from icsolve.numbers.balls import Balls
@@ -22,6 +21,7 @@ from icsolve.statics.friction_equations import forces_of
 from icsolve.statics.friction_interface import rates_of, rubs_of
 from icsolve.statics.power import Balance
 from icsolve.statics.reaction_basis import Position, ties_of, with_flanks
+from icsolve.tuples import NamedTuple
 
 
 class SceneOnBalls(NamedTuple):

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Generic, NamedTuple, Protocol, TypeVar
+from typing import Generic, Protocol, TypeVar
 
 from icsolve.answer.bodies import Witness
 from icsolve.errors import SceneError, Status
@@ -22,6 +22,7 @@ from icsolve.screws import space
 from icsolve.screws.plane import velocity
 from icsolve.statics.power import Balance, Wrench, force_scale, is_unknown, number_of, place_of
 from icsolve.statics.reaction_basis import Force, Position, RopeTie, Tie
+from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import plural
 
 Components = tuple[Scalar, ...]

@@ -17,7 +17,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
-from typing import NamedTuple
 
 from icsolve.case.joints import Mesh
 from icsolve.kinematics.speeds import Speed
@@ -31,6 +30,7 @@ from icsolve.statics.free_bodies import Solved, carrying_flanks
 from icsolve.statics.friction_interface import rates_of, rubs_of
 from icsolve.statics.power import Bounded, Wrench
 from icsolve.statics.reaction_basis import Force, Position, rope_ties, ties_of
+from icsolve.tuples import NamedTuple
 
 UNBOUND = "no bound was asked for"
 UNSURE = "with friction no bound of the rounding error is proven"

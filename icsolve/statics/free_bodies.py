@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import NamedTuple, Protocol, TypeVar
+from typing import Protocol, TypeVar
 
 from icsolve.answer import Answer
 from icsolve.answer.bodies import FrictionFound, Reactions, Tension, Witness
@@ -37,6 +37,7 @@ from icsolve.statics.friction_interface import efficiency, friction_terms, has_f
 from icsolve.statics.power import Balance, Wrench, force_scale, is_unknown, known_power, known_value
 from icsolve.statics.reaction_basis import Position, Tie, ties_of
 from icsolve.statics.reactions import names_by_tie, notes_of, reactions_of, tensions_of
+from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
-from typing import NamedTuple
 
 from icsolve.answer import Answer, Deferred, Found
 from icsolve.answer.bodies import FrictionFound, Rubbing, Tension, Witness
@@ -47,6 +46,7 @@ from icsolve.statics.reaction_basis import Position, Tie, ties_of
 from icsolve.statics.reactions import names_by_tie, notes_of, reactions_of, tensions_of
 from icsolve.statics.sliding import Slid, slid
 from icsolve.statics.static_range import IMPENDING, End, StaticRange, end_of, pressed, static_range
+from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed, plural
 
 

@@ -14,11 +14,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 from icsolve.numbers.linear import inverse, solve_square
 from icsolve.numbers.sparse import Row
 from icsolve.statics.equilibrium import Statics, independent
+from icsolve.tuples import NamedTuple
 
 Form = tuple[float, ...]
 """An affine form: the constant, then the coefficients of y."""

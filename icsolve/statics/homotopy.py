@@ -21,7 +21,6 @@ import math
 from collections.abc import Iterable, Sequence
 from itertools import product
 from operator import mul
-from typing import NamedTuple
 
 from icsolve.numbers.linear import solve_square
 from icsolve.numbers.sparse import eliminate
@@ -36,6 +35,7 @@ from icsolve.statics.friction_equations import (
     slopes,
     vector,
 )
+from icsolve.tuples import NamedTuple
 
 Y = tuple[float, ...]
 

@@ -5,10 +5,11 @@ number times a unit wrench; its factor for a motion is the pairing of that wrenc
 twist of the bodies between which it acts.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import NamedTuple
 
 from icsolve.assembly.workspace import Frame
 from icsolve.case import (
@@ -35,6 +36,7 @@ from icsolve.numbers.null_space import null_space
 from icsolve.numbers.tape import Tape
 from icsolve.screws.plane import Point, Triple, force_wrench, pairing
 from icsolve.screws.ropes import rope_parts
+from icsolve.tuples import NamedTuple
 
 Points = Mapping[str, Point]
 

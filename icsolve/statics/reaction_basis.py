@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 from icsolve.assembly.residuals import MISFIT
 from icsolve.case import (
@@ -33,6 +32,7 @@ from icsolve.screws.joints import Points, freedoms, guide_direction, pitch_point
 from icsolve.screws.plane import Point, Triple, shift, subtract
 from icsolve.screws.ropes import RopePart, rope_parts
 from icsolve.structure.topology import Bond, Topology, pairs_of
+from icsolve.tuples import NamedTuple
 
 Force = tuple[Scalar, Scalar, Scalar]
 """Force and couple about the tie's point."""

@@ -7,12 +7,12 @@ no rub may give power.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 from icsolve.errors import SceneError, Status
 from icsolve.statics.equilibrium import Statics
 from icsolve.statics.friction_equations import Reduced, error_of, is_sound, reduced, reduced_workless
 from icsolve.statics.homotopy import COUNTED, Solutions, all_roots, can_count, solutions
+from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
 

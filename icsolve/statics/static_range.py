@@ -16,7 +16,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from itertools import pairwise, product
-from typing import NamedTuple
 
 from icsolve.errors import SceneError, Status
 from icsolve.statics.equilibrium import Statics
@@ -31,6 +30,7 @@ from icsolve.statics.friction_equations import (
     reduced_workless,
 )
 from icsolve.statics.homotopy import all_roots, can_count, followed, solutions, without_friction
+from icsolve.tuples import NamedTuple
 
 PROVEN = "proven: no friction within its limits holds more"
 SEARCHED = "every combination of full friction was tried"

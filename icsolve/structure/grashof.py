@@ -7,7 +7,8 @@ Machinery, 3rd ed., chapters 1 and 6; each is the law of cosines on the diagonal
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+
+from icsolve.tuples import NamedTuple
 
 _EVEN = 1e-9
 """Relative to the sum of the lengths: closer than this, two sums of lengths are equal."""

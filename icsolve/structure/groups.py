@@ -8,9 +8,10 @@ groups of the theory of machines).
 from __future__ import annotations
 
 from collections.abc import Collection, Hashable, Iterable, Mapping
-from typing import NamedTuple, TypeVar
+from typing import TypeVar
 
 from icsolve.structure.topology import Topology
+from icsolve.tuples import NamedTuple
 
 T = TypeVar("T", bound=Hashable)
 

@@ -6,12 +6,14 @@ link (monad), two links (dyad), or the smallest larger group. The input is chose
 wanted bodies need the fewest steps.
 """
 
+from __future__ import annotations
+
 from collections import deque
 from collections.abc import Collection, Iterable
-from typing import NamedTuple
 
 from icsolve.structure.groups import Matching
 from icsolve.structure.topology import Topology
+from icsolve.tuples import NamedTuple
 
 
 class Group(NamedTuple):

@@ -3,13 +3,15 @@
 A bond is one joint between two bodies, with the relative freedoms (1 or 2) that it leaves.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterable
 from functools import lru_cache
-from typing import NamedTuple
 
 from icsolve.case import Case, Joint, Pin, Rope
 from icsolve.case.joints import Mesh
 from icsolve.errors import SceneError, Status
+from icsolve.tuples import NamedTuple
 
 
 class Bond(NamedTuple):

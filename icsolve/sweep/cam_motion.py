@@ -14,7 +14,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -47,6 +46,7 @@ from icsolve.sweep.run import SweepRun
 from icsolve.sweep.runner import Key
 from icsolve.sweep.start import start_of
 from icsolve.sweep.table import CODE, Codes
+from icsolve.tuples import NamedTuple
 
 FAR = 4.0
 """Where the way of a sliding follower is measured from, in sizes of the figure: it stays positive."""

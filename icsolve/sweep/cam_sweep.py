@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -31,6 +30,7 @@ from icsolve.sweep.request import Columns, SweepRequest
 from icsolve.sweep.runner import Progress
 from icsolve.sweep.runner import Rows as Which
 from icsolve.sweep.table import KINDS, Sweep, Table, by_kind
+from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
 SAID = "in every row the contacts are found on the profiles."

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 import numpy as np
 
 from icsolve.numbers.arithmetic import RADIAN
 from icsolve.numbers.replay import Array
 from icsolve.sweep.program import CompiledSweep
+from icsolve.tuples import NamedTuple
 
 FAR = 0.35
 """The longest move (normalised, radians) that one step may bring."""

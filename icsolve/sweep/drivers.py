@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
@@ -36,6 +35,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Scalar
 from icsolve.screws.plane import Point
 from icsolve.sweep.numbers import with_numbers
+from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed, plural
 
 SAME = 1e-8

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from typing import NamedTuple
 
 import numpy as np
 
@@ -19,6 +18,7 @@ from icsolve.statics.power import is_unknown
 from icsolve.sweep.request import Columns
 from icsolve.sweep.sweeping import sweep
 from icsolve.sweep.table import CODE, Codes
+from icsolve.tuples import NamedTuple
 
 PLACES = 360
 """Places at which the range is searched."""

@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -18,6 +17,7 @@ import numpy.typing as npt
 from icsolve.cams.curve import CORNER, Body, Curve
 from icsolve.cams.pieces import TURN, CircularArc, Piece, PolarPiece, Spline, Straight
 from icsolve.numbers.replay import Array
+from icsolve.tuples import NamedTuple
 
 CLOSE = 1e-4
 """Of the profile's size: what is as near as this to being otherwise is left open."""

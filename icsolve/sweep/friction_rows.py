@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -25,6 +24,7 @@ from icsolve.statics.friction_interface import rates_of, rubs_of
 from icsolve.statics.power import Balance
 from icsolve.statics.reaction_basis import Position, meshes, ties_of
 from icsolve.sweep.recorded_scene import RecordedScene
+from icsolve.tuples import NamedTuple
 
 SENSE = 1e-7
 """A rubbing rate below this fraction of what it is where the record was made leaves its sense open."""

@@ -7,7 +7,6 @@ followed from the position as written, the main input last.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import NamedTuple
 
 import numpy as np
 
@@ -20,6 +19,7 @@ from icsolve.sweep.program import CompiledSweep, Signs
 from icsolve.sweep.request import Columns
 from icsolve.sweep.runner import Rows, Runner
 from icsolve.sweep.start import Start
+from icsolve.tuples import NamedTuple
 
 WIDEST = 4.0
 """Longest step of a line along an angle, degrees."""

@@ -7,7 +7,6 @@ centres: each with the kernels that one scene has.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 from icsolve.assembly import Figure, place, placed_figure
 from icsolve.assembly.data import names_of, number_of
@@ -37,6 +36,7 @@ from icsolve.sweep.recorded_scene import (
     rested,
     statics,
 )
+from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
 Signs = tuple[tuple[str, float], ...]

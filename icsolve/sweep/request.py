@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +15,7 @@ from icsolve.read.names import pairs, shown, suggestion
 from icsolve.sweep.numbers import find_number
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.recorded_scene import pairs as all_pairs
+from icsolve.tuples import NamedTuple
 
 WORDS = ("answers", "status", "error", "points", "centres", "rates", "velocities", "accelerations")
 

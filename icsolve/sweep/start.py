@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import lru_cache
-from typing import NamedTuple
 
 import numpy as np
 
@@ -17,6 +16,7 @@ from icsolve.sweep.numbers import with_numbers
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, Signs, compile_sweep, setting_of
 from icsolve.sweep.request import Columns
 from icsolve.sweep.runner import Runner
+from icsolve.tuples import NamedTuple
 
 MOST_TRIED = 400
 """Rows that are tried as the position to start from."""

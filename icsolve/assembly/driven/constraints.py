@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from itertools import pairwise
-from typing import NamedTuple
 
 from icsolve.assembly.data import Datum
 from icsolve.assembly.driven.poses import Places, Rotation, Shape, Spot, dot, minus, square
@@ -20,6 +19,7 @@ from icsolve.numbers.arithmetic import RADIAN, Scalar
 from icsolve.numbers.record import Record
 from icsolve.screws.plane import Point, Triple
 from icsolve.screws.ropes import RopePart, part_between
+from icsolve.tuples import NamedTuple
 
 
 class BodyLine(NamedTuple):

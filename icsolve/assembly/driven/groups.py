@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 from itertools import combinations
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -25,6 +24,7 @@ from icsolve.numbers.record import Op, Record, Traced
 from icsolve.numbers.replay import BLOCK, Array, Code
 from icsolve.numbers.sparse import eliminate
 from icsolve.screws.plane import Point
+from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
 DEPENDENT = 1e-10

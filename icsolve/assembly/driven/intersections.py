@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
 
 from icsolve.assembly.driven.constraints import OnLine, RolledStraight, Roped, SpotDistance
 from icsolve.assembly.driven.poses import (
@@ -22,6 +21,7 @@ from icsolve.assembly.driven.poses import (
 from icsolve.numbers.arithmetic import RADIAN, Scalar
 from icsolve.numbers.record import Record
 from icsolve.screws.plane import Point
+from icsolve.tuples import NamedTuple
 
 
 class RoundLocus(NamedTuple):

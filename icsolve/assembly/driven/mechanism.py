@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import NamedTuple
 
 from icsolve.assembly.driven import rolling
 from icsolve.assembly.driven.constraints import BodyLine, Constraint, Immovable, OnLine, Roped, Turning
@@ -27,6 +26,7 @@ from icsolve.screws.joints import guide_direction, joint_freedoms, transmitted
 from icsolve.screws.plane import Point
 from icsolve.screws.ropes import offsets_of, rope_parts
 from icsolve.structure.topology import Bond, Topology
+from icsolve.tuples import NamedTuple
 from icsolve.wording.joints import why_not_moved
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from typing import NamedTuple
 
 from icsolve.assembly.driven.constraints import (
     ConditionRows,
@@ -34,6 +33,7 @@ from icsolve.assembly.workspace import Workspace
 from icsolve.numbers.arithmetic import RADIAN, Scalar
 from icsolve.numbers.record import Traced, varies
 from icsolve.screws.plane import Point
+from icsolve.tuples import NamedTuple
 
 
 class DrivenMotion(NamedTuple):

@@ -8,7 +8,6 @@ the smallest set of links that their conditions determine goes to Newton's metho
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from typing import NamedTuple
 
 from icsolve.assembly.driven.constraints import (
     Constraint,
@@ -24,6 +23,7 @@ from icsolve.assembly.driven.intersections import By, Through, ThroughTurned, re
 from icsolve.assembly.driven.poses import Shape, Spot
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
+from icsolve.tuples import NamedTuple
 
 GONE = 1e-12
 """A factor that elimination leaves below this fraction of its parts is zero."""

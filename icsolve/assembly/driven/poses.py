@@ -8,11 +8,12 @@ and z_ref the same vector in the position as written.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple, Protocol
+from typing import Protocol
 
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record
 from icsolve.screws.plane import Point
+from icsolve.tuples import NamedTuple
 
 Spot = tuple[int, str]
 """A point as a body carries it: the body and the point's name."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import NamedTuple
 
 from icsolve.assembly.driven.constraints import (
     BodyLine,
@@ -19,6 +18,7 @@ from icsolve.case.joints import Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.screws.plane import Point
+from icsolve.tuples import NamedTuple
 
 NEAR = 2e-3
 """A centre may miss its radius by this fraction of it."""

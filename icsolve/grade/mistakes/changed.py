@@ -7,7 +7,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import NamedTuple
 
 from icsolve.answer import Answer
 from icsolve.case import (
@@ -36,6 +35,7 @@ from icsolve.case.joints import without_friction as smooth
 from icsolve.case.names import pair_name
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.ropes import rope_parts, wrap_angle
+from icsolve.tuples import NamedTuple
 
 Place = tuple[float, float]
 

@@ -8,7 +8,8 @@ import math
 from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterable, Iterator
 from functools import cached_property
-from typing import NamedTuple
+
+from icsolve.tuples import NamedTuple
 
 CODES: dict[str, str] = {
     "unit": "The number is right, but not in this unit.",

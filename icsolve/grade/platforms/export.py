@@ -10,7 +10,6 @@ import uuid
 import zipfile
 from collections.abc import Callable, Iterator, Mapping
 from html import escape
-from typing import NamedTuple
 
 from icsolve.case import Case
 from icsolve.files import reading_text, write_whole
@@ -23,6 +22,7 @@ from icsolve.grade.roster import read_roster
 from icsolve.grade.solved import SolvedCase, unknowns
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.record import KEYS, VALUES, read_records
+from icsolve.tuples import NamedTuple
 
 _SERVER = '''\
 """A question of icsolve: values by student, and marks with the cause of a mistake.

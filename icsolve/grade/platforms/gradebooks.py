@@ -10,10 +10,10 @@ import csv
 import io
 import re
 from collections.abc import Iterable, Sequence
-from typing import NamedTuple
 
 from icsolve.grade.results import ResultRow, safe, shown
 from icsolve.grade.roster import Person
+from icsolve.tuples import NamedTuple
 
 Students = Iterable[tuple[str, list[ResultRow]]]
 

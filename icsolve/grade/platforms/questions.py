@@ -17,7 +17,6 @@ import zipfile
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from html import escape
-from typing import NamedTuple
 
 from icsolve.case import Case
 from icsolve.case.expected import LoadIs, PositionIs, Target
@@ -25,6 +24,7 @@ from icsolve.grade.keys import AnyKey, NumberKey, PlaceKey, RangeKey
 from icsolve.grade.mistakes import Wrong, message
 from icsolve.grade.mistakes.lookup import ORDER
 from icsolve.grade.written.units import factors_between
+from icsolve.tuples import NamedTuple
 from icsolve.units import parse_unit
 
 

@@ -13,7 +13,7 @@ import json
 import os
 from collections.abc import Callable, Iterable
 from html import escape
-from typing import Any, NamedTuple
+from typing import Any
 
 from icsolve.files import check_free, write_whole
 from icsolve.grade.platforms.gradebooks import (
@@ -27,6 +27,7 @@ from icsolve.grade.results import ResultRow, by_student, read_results
 from icsolve.grade.roster import Person
 from icsolve.grade.tables.text import encoding_of
 from icsolve.grade.variants.sheets import file_name
+from icsolve.tuples import NamedTuple
 
 
 class PlatformFile(NamedTuple):

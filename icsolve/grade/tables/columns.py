@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Sequence
-from typing import NamedTuple
 
 from icsolve.grade.tables.text import TableRow
+from icsolve.tuples import NamedTuple
 
 
 class Submission(NamedTuple):

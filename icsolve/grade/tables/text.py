@@ -11,7 +11,9 @@ import csv
 import re
 from collections import deque
 from collections.abc import Callable, Iterator
-from typing import IO, NamedTuple
+from typing import IO
+
+from icsolve.tuples import NamedTuple
 
 LARGEST = 2_000_000
 """Characters of one cell or line."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 from bisect import bisect_left, bisect_right
 from collections.abc import Iterable, Iterator
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 from icsolve.files import is_plain, reading
 from icsolve.grade.keys import NumberKey
@@ -19,6 +19,7 @@ from icsolve.grade.tables.text import AnswerTable
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.varied import Varied
 from icsolve.grade.written.numerals import figures
+from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
     from icsolve.grade.case_store import CaseStore

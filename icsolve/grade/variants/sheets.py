@@ -6,7 +6,6 @@ import csv
 import io
 from collections.abc import Iterable, Iterator
 from html import escape
-from typing import NamedTuple
 
 from icsolve.grade.keys import AnyKey, NumberKey, numbers_of
 from icsolve.grade.platforms.given import given
@@ -17,6 +16,7 @@ from icsolve.grade.roster import Person
 from icsolve.grade.solved import SolvedCase, unknowns
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.varied import Draw, Varied
+from icsolve.tuples import NamedTuple
 
 
 class VariantTask(NamedTuple):

@@ -7,7 +7,7 @@ import re
 from collections import OrderedDict
 from collections.abc import Mapping
 from functools import cached_property
-from typing import TYPE_CHECKING, NamedTuple, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from icsolve.answer import Answer
 from icsolve.case import Case, Load, Mark, Number
@@ -27,6 +27,7 @@ from icsolve.read.document import Sequence as Items
 from icsolve.read.names import Problems
 from icsolve.read.variables import count, first_values, names_in, replaced, value_at
 from icsolve.scene.sensitivity import band
+from icsolve.tuples import NamedTuple
 from icsolve.units import converted, parse_unit, split_quantity
 from icsolve.wording.senses import unit_of
 

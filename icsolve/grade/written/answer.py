@@ -6,7 +6,6 @@ What has two readings, or words that are not understood, is flagged: a person lo
 from __future__ import annotations
 
 import re
-from typing import NamedTuple
 
 from icsolve.grade.written.directions import AMBIGUOUS as AMBIGUOUS_DIRECTION
 from icsolve.grade.written.directions import WrittenDirection, direction
@@ -14,6 +13,7 @@ from icsolve.grade.written.numerals import AMBIGUOUS as AMBIGUOUS_NUMBER
 from icsolve.grade.written.numerals import UNREAD, WrittenNumber, numeral, plain
 from icsolve.grade.written.units import AMBIGUOUS as AMBIGUOUS_UNIT
 from icsolve.grade.written.units import UnitWord, unit_word
+from icsolve.tuples import NamedTuple
 from icsolve.units import DIMENSIONS
 
 MISSING = "missing"

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 import re
-from typing import NamedTuple
+
+from icsolve.tuples import NamedTuple
 
 AMBIGUOUS = "ambiguous-direction"
 

@@ -9,7 +9,8 @@ import html
 import math
 import re
 import unicodedata
-from typing import NamedTuple
+
+from icsolve.tuples import NamedTuple
 
 AMBIGUOUS = "ambiguous-number"
 UNREAD = "unread"

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from typing import NamedTuple
 
 from icsolve.grade.written.answer import (
     NO_NUMBER,
@@ -16,6 +15,7 @@ from icsolve.grade.written.answer import (
 from icsolve.grade.written.directions import WrittenDirection
 from icsolve.grade.written.numerals import AMBIGUOUS, UNREAD, WrittenNumber, numeral
 from icsolve.grade.written.units import UnitWord, unit_word
+from icsolve.tuples import NamedTuple
 
 _SIGNED = r"(?<![\w{before}])[-+]? ?(?:\d+(?:{mark}\d*)?|{mark}\d+)(?:[eE][-+]?\d+)?(?: ?/ ?\d+)?(?![\d/])"
 _POINT, _EITHER = (

@@ -8,8 +8,8 @@ pascals) but that an answer may have by mistake.
 from __future__ import annotations
 
 import re
-from typing import NamedTuple
 
+from icsolve.tuples import NamedTuple
 from icsolve.units import (
     DIMENSIONS,
     LISTED,

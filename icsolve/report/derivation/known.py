@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import NamedTuple
 
 from icsolve.answer import Answer, Centre, by_load
 from icsolve.assembly import Frame, case_point, solve_figure
@@ -18,6 +17,7 @@ from icsolve.scene.parts import AnswerBuilder
 from icsolve.screws.plane import Point, Triple
 from icsolve.solve import attempt
 from icsolve.statics.power import Wrench, known_value, place_of, points_of, wrenches
+from icsolve.tuples import NamedTuple
 from icsolve.wording.senses import unit_of
 
 

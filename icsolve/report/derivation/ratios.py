@@ -12,7 +12,6 @@ import heapq
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import combinations
-from typing import NamedTuple
 
 from icsolve.answer import Centre
 from icsolve.case import Case, Pair, Rope, Screw
@@ -23,6 +22,7 @@ from icsolve.scene.parts import wanted_pairs
 from icsolve.scene.program import Want
 from icsolve.screws.plane import Triple
 from icsolve.statics.power import is_unknown, reacting
+from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import link_words
 
 

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable
-from typing import NamedTuple
 
 from icsolve.case import Case, Rope
 from icsolve.errors import SceneError
@@ -15,6 +14,7 @@ from icsolve.numbers.arithmetic import FLOATS
 from icsolve.report.derivation.known import Known
 from icsolve.screws.plane import Point
 from icsolve.screws.ropes import rope_parts
+from icsolve.tuples import NamedTuple
 
 
 class Pull(NamedTuple):

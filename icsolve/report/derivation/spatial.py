@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NamedTuple
 
 from icsolve.case import Case
 from icsolve.case.space import SpatialTorque, TorqueVector
@@ -14,6 +13,7 @@ from icsolve.statics.space.figure import SpatialFigure, figure_of, in_case
 from icsolve.statics.space.power import wrenched
 from icsolve.statics.space.reaction_basis import SpatialTie, ties_of
 from icsolve.statics.space.report import unit_of
+from icsolve.tuples import NamedTuple
 
 
 class Push(NamedTuple):

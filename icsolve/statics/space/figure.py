@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import NamedTuple
 
 from icsolve.case import Case, Centroid, Number, Spring, Toward
 from icsolve.case.space import Along, Axis, FromTo, Space, Vector
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
 from icsolve.screws.space import AXES, Vec, size, sub, times, unit
+from icsolve.tuples import NamedTuple
 
 Places = Mapping[str, Vec]
 

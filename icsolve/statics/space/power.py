@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import NamedTuple
 
 from icsolve.case import Case, Like, Spring, Weight
 from icsolve.case.space import Load, SpatialForce, SpatialForceVector, SpatialTorque, TorqueVector
@@ -29,6 +28,7 @@ from icsolve.statics.space.figure import (
     vector_of,
 )
 from icsolve.statics.space.reaction_basis import SpatialTie
+from icsolve.tuples import NamedTuple
 
 SpatialStatics = Equilibrium[SpatialTie]
 

@@ -12,7 +12,6 @@ m_t cos(h).
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import NamedTuple
 
 from icsolve.case import Case, Toward
 from icsolve.case.space import GearPair, Hinge, Joint, Radial, RigidJoint, SphericalJoint, Teeth, Thrust
@@ -33,6 +32,7 @@ from icsolve.screws.space import (
     unit,
 )
 from icsolve.statics.space.figure import SpatialFigure, direction, heading, in_case
+from icsolve.tuples import NamedTuple
 
 
 class SpatialTie(NamedTuple):

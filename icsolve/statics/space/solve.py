@@ -9,7 +9,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 from icsolve.answer import Answer, Deferred, Found
 from icsolve.answer.space import Spatial
@@ -49,6 +48,7 @@ from icsolve.statics.space.reactions import (
     refuse_unbalanced,
 )
 from icsolve.statics.space.report import advantage_of, sense_of, terms_of_power, unit_of
+from icsolve.tuples import NamedTuple
 
 
 class SpatialSolution(NamedTuple):
