@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from typing import Protocol, TypeVar
 
-from icsolve.assembly.loci import gaps_of_circles, gaps_of_line_and_circle, is_round, sine_between
+from icsolve.assembly.intersections import PlacedCircle, gaps_of
 from icsolve.assembly.steps import Meet, Step, aims
 from icsolve.assembly.workspace import Key, Point, Workspace
 from icsolve.numbers.arithmetic import Scalar
@@ -114,19 +114,13 @@ def _gap(workspace: Workspace, value: Scalar, size: float) -> Gap:
     return Gap(1 if value > 0.0 else -1, float(value))
 
 
-def gaps_of(step: Meet, workspace: Workspace) -> list[Gap]:
-    """What must not be negative for two loci to meet; of two lines the angle's sine.
-
-    Of two circles the distance of the centres comes last: 0 where they are one point.
-    """
-    p, q = step.first.values(workspace), step.second.values(workspace)
-    if not is_round(step.second):
-        return [_gap(workspace, sine_between(p, q), 1.0)]
-    if not is_round(step.first):
-        return [_gap(workspace, gap, 1.0 + abs(q[2])) for gap in gaps_of_line_and_circle(p, q)]
-    d, margins = gaps_of_circles(p, q, workspace.arithmetic)
-    size = 1.0 + abs(d) + abs(p[2]) + abs(q[2])
-    return [_gap(workspace, gap, size) for gap in (*margins, d)]
+def gaps_between(step: Meet, workspace: Workspace) -> list[Gap]:
+    """What must not be negative for two loci to meet, as `gaps_of` has it."""
+    loci = step.loci(workspace)
+    gaps = gaps_of(*loci, workspace.arithmetic)
+    size = sum(abs(locus.radius) for locus in loci if isinstance(locus, PlacedCircle)) + 1.0
+    size = size + abs(gaps[3]) if len(gaps) > 3 else size
+    return [_gap(workspace, gap, size) for gap in gaps]
 
 
 def gaps_ahead(step: Meet, workspace: Workspace) -> list[Gap]:

@@ -20,7 +20,8 @@ import numpy.typing as npt
 
 from icsolve.assembly.data import GUIDE, LENGTH, RAY, X, Y
 from icsolve.assembly.groups import Group, Unknown
-from icsolve.assembly.loci import Axis, Values, meet_lines, sine_between
+from icsolve.assembly.intersections import PlacedLine, intersection, sine_between
+from icsolve.assembly.loci import Axis
 from icsolve.assembly.workspace import Point, Workspace
 from icsolve.tuples import NamedTuple
 
@@ -173,18 +174,18 @@ def _anchors(
         for b, two in lines[:k]:
             sine = sine_between(one, two)
             if b in apart and abs(sine) > SHALLOW:
-                yield a, meet_lines(one, two).middle, apart[b] / abs(sine) * (1.0 + SLACK)
+                yield a, intersection(one, two).middle, apart[b] / abs(sine) * (1.0 + SLACK)
 
 
-def _lines(group: Group, workspace: Workspace) -> Iterator[tuple[str, Values]]:
+def _lines(group: Group, workspace: Workspace) -> Iterator[tuple[str, PlacedLine]]:
     """The points of a group on lines of known place and direction: a point of the line and its direction."""
     own = set(group.targets)
     for datum in group.data():
         if datum.kind in (GUIDE, RAY) and len(own & {*datum.points}) == 1:
             a, b = datum.points if datum.points[0] in own else datum.points[::-1]
-            yield a, (*workspace.points[b], *workspace.turn(datum))
+            yield a, PlacedLine(workspace.points[b], workspace.turn(datum))
         elif datum.kind in (X, Y):
-            yield datum.points[0], Axis(datum).values(workspace)
+            yield datum.points[0], Axis(datum).placed(workspace)
 
 
 def _distances(anchor: str, reach: Mapping[tuple[str, ...], float], own: set[str]) -> dict[str, float]:

@@ -17,11 +17,12 @@ from icsolve.assembly.decided import (
     Gap,
     gaps_ahead,
     gaps_ahead_of,
-    gaps_of,
+    gaps_between,
     merged_pairs,
     places_of,
 )
-from icsolve.assembly.loci import gaps_of_circles, is_ray, is_round
+from icsolve.assembly.intersections import PlacedCircle, gaps_of, side
+from icsolve.assembly.loci import is_ray, is_round
 from icsolve.assembly.order import Order
 from icsolve.assembly.refusals import (
     Miss,
@@ -279,14 +280,14 @@ class Walk:
 
     def _doubtful(self, step: Meet) -> bool:
         """Whether floats may be wrong on whether and where two loci meet."""
-        gaps = gaps_of(step, self.workspace)
+        gaps = gaps_between(step, self.workspace)
         return min(abs(gap.value) for gap in gaps) <= DOUBT * max(1.0, *(abs(gap.value) for gap in gaps))
 
     def _crossings(self, depth: int, path: Path, step: Meet) -> list[Step]:
         """The places where two loci meet, the one nearer to `near` first."""
-        gaps = gaps_of(step, self.workspace)
+        gaps = gaps_between(step, self.workspace)
         if self._doubtful(step):
-            gaps = self.decimals.decided(step, partial(gaps_of, step)) or _rounded(step, gaps)
+            gaps = self.decimals.decided(step, partial(gaps_between, step)) or _rounded(step, gaps)
         signs = [gap.sign for gap in gaps]
         if not is_round(step.second):
             if signs[0] != 0:
@@ -306,12 +307,8 @@ class Walk:
         return []
 
     def _by_near(self, step: Meet) -> list[Step]:
-        found = step.cross(self.workspace)
         near = self.near.get(step.target) if isinstance(step.target, str) else None
-        sign = 1
-        if near is not None and found.half is not None:
-            (x, y), (hx, hy) = found.middle, found.half
-            sign = 1 if (near[0] - x) * hx + (near[1] - y) * hy >= 0.0 else -1
+        sign = 1 if near is None else int(side(*step.loci(self.workspace), near))
         return [step._replace(sign=sign), step._replace(sign=-sign)]
 
     def _ahead(self, path: Path, step: Step) -> Miss | None:
@@ -341,15 +338,17 @@ def _rounded(step: Meet, gaps: list[Gap]) -> list[Gap]:
 
 def _between(step: Meet, workspace: Workspace) -> Point:
     """Where two loci that do not meet come closest: the middle between them."""
-    p, q = step.first.values(workspace), step.second.values(workspace)
-    if not is_round(step.first):
-        (px, py, vx, vy), (cx, cy, r) = p, q
-        along = (cx - px) * vx + (cy - py) * vy
+    one, two = step.loci(workspace)
+    assert isinstance(two, PlacedCircle)
+    (qx, qy), b = two
+    if not isinstance(one, PlacedCircle):
+        (px, py), (vx, vy) = one
+        along = (qx - px) * vx + (qy - py) * vy
         x, y = px + along * vx, py + along * vy
-        share = (1.0 + r / (math.hypot(x - cx, y - cy) or 1.0)) / 2.0
-        return cx + (x - cx) * share, cy + (y - cy) * share
-    d, (far, over, _) = gaps_of_circles(p, q, workspace.arithmetic)
-    (px, py, a), (qx, qy, b) = p, q
+        share = (1.0 + b / (math.hypot(x - qx, y - qy) or 1.0)) / 2.0
+        return qx + (x - qx) * share, qy + (y - qy) * share
+    (px, py), a = one
+    far, over, _, d = gaps_of(one, two, workspace.arithmetic)
     # on the line of centres: between the circles, or where the one inside comes closest to the other
     along = (a + d - b) / 2.0 if far < 0.0 else (a + d + b) / 2.0 if over < 0.0 else -(a + b - d) / 2.0
     return px + along * (qx - px) / (d or 1.0), py + along * (qy - py) / (d or 1.0)

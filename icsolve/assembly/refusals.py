@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping
 
 from icsolve.assembly.data import CORNER, LENGTH, LINE, MEAN, RAY, ROPE, Datum, X, Y, number_of
+from icsolve.assembly.intersections import PlacedCircle
 from icsolve.assembly.loci import CircleLocus, is_round
 from icsolve.assembly.steps import Meet, Polar, Step, Turned
 from icsolve.assembly.words import datum_words, joined, locus_words, plain, span_words
@@ -68,7 +69,7 @@ def _circles(step: Meet, one: CircleLocus, two: CircleLocus, workspace: Workspac
 
 def concentric(step: Meet, workspace: Workspace) -> Miss:
     """Two circles about one centre."""
-    (_, _, a), (_, _, b) = step.first.values(workspace), step.second.values(workspace)
+    a, b = (c.radius for c in step.loci(workspace) if isinstance(c, PlacedCircle))
     at = plain(step.target)
     centres = " and ".join(plain(c.centre) for c in (step.first, step.second) if isinstance(c, CircleLocus))
     if math.isclose(a, b, rel_tol=1e-12, abs_tol=1e-300):
@@ -86,7 +87,7 @@ def concentric(step: Meet, workspace: Workspace) -> Miss:
 
 def parallel(step: Meet, workspace: Workspace) -> Miss:
     """Two lines that are parallel, or are one line."""
-    (px, py, ux, uy), (qx, qy, _, _) = step.first.values(workspace), step.second.values(workspace)
+    ((px, py), (ux, uy)), ((qx, qy), _) = step.loci(workspace)
     off = abs(ux * (qy - py) - uy * (qx - px))
     lines = f"{locus_words(step.first)} and {locus_words(step.second)}"
     at = plain(step.target)

@@ -10,7 +10,8 @@ from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Union
 
 from icsolve.assembly.data import Datum
-from icsolve.assembly.loci import Crossing, Locus, crossing, directions_of, is_ray
+from icsolve.assembly.intersections import PlacedLine, PlacedLocus, gaps_of, intersection
+from icsolve.assembly.loci import Locus, directions_of, is_ray
 from icsolve.assembly.workspace import (
     Apart,
     Frame,
@@ -167,17 +168,9 @@ class Meet(NamedTuple):
         """The step in words: which two loci meet."""
         return told(self)
 
-    def cross(self, workspace: Workspace) -> Crossing:
-        """Where the loci meet, both places."""
-        return crossing(self.first, self.second, workspace, self.sign == 0)
-
-    def put(self, workspace: Workspace, found: Crossing) -> None:
-        """Put the point that ``sign`` takes."""
-        x, y = found.middle
-        if self.sign != 0 and found.half is not None:
-            hx, hy = found.half
-            x, y = (x + hx, y + hy) if self.sign > 0 else (x - hx, y - hy)
-        workspace.points[self.target] = (x, y)
+    def loci(self, workspace: Workspace) -> tuple[PlacedLocus, PlacedLocus]:
+        """Both loci where their points are."""
+        return self.first.placed(workspace), self.second.placed(workspace)
 
     def ahead(self, workspace: Workspace) -> list[float]:
         """How far ahead on each ray among the loci the point lies."""
@@ -185,15 +178,25 @@ class Meet(NamedTuple):
         out = []
         for locus in (self.first, self.second):
             if is_ray(locus):
-                px, py, vx, vy = locus.values(workspace)
+                line = locus.placed(workspace)
+                assert isinstance(line, PlacedLine)
+                (px, py), (vx, vy) = line
                 out.append((x - px) * vx + (y - py) * vy)
         return out
 
     def place(self, workspace: Workspace) -> None:
-        """Put the point, and note the margins."""
-        found = self.cross(workspace)
-        self.put(workspace, found)
-        workspace.margins[self.target] = (*found.margins, *self.ahead(workspace))
+        """Put the point that ``sign`` takes, and note the margins."""
+        loci, a = self.loci(workspace), workspace.arithmetic
+        found = intersection(*loci)
+        gaps: tuple[Scalar, ...] = ()
+        if found.factors is None or self.sign == 0:
+            workspace.points[self.target] = found.middle
+        else:
+            root = a.sqrt(found.factors[0][0] * found.factors[1][0])
+            workspace.points[self.target] = found.at(root if self.sign > 0 else -root)
+        if found.factors is not None:
+            gaps = gaps_of(*loci, a)[:3]
+        workspace.margins[self.target] = (*gaps, *self.ahead(workspace))
 
     def data(self) -> tuple[Datum, ...]:
         """The data of both loci."""

@@ -13,7 +13,7 @@ from importlib.resources import files
 import numpy as np
 import numpy.typing as npt
 
-from icsolve.assembly.loci import meet_circles
+from icsolve.assembly.intersections import PlacedCircle, intersection
 from icsolve.numbers.arithmetic import FLOATS, turn_of
 from icsolve.screws.plane import Triple, cross, dyad_twists, pairing, pin_twist
 from icsolve.tuples import NamedTuple
@@ -181,9 +181,9 @@ def componentwise(
     """
     cosine, sine = turn_of(angle)
     crank = (a * cosine, a * sine)
-    found = meet_circles((*crank, b), (d, 0.0, c), FLOATS, False)
-    assert found.half is not None
-    rod = (found.middle[0] + found.half[0], found.middle[1] + found.half[1])
+    found = intersection(PlacedCircle(crank, b), PlacedCircle((d, 0.0), c))
+    assert found.factors is not None
+    rod = found.at(FLOATS.sqrt(found.factors[0][0] * found.factors[1][0]))
     p12, p23, p34, p14 = HERE, pin_twist(crank), pin_twist(rod), (d, 0.0, 1.0)
     centre = cross(cross(p12, p23), cross(p14, p34))
     factor, _, rocker = dyad_twists(p23, p34, p14, (0.0, 0.0, -1.0))

@@ -12,6 +12,7 @@ from typing import Any
 
 from icsolve.assembly.data import CORNER, LENGTH, LINE, MEAN, RAY, data_of, number_of
 from icsolve.assembly.groups import Group
+from icsolve.assembly.intersections import gaps_of, intersection
 from icsolve.assembly.loci import is_round
 from icsolve.assembly.steps import Given, Mean, Meet, Step, aims, leading_to
 from icsolve.assembly.workspace import Key, Workspace, normalised
@@ -149,21 +150,19 @@ class _ProgramWriter:
     def _meet(self, step: Meet, told: dict[str, Any]) -> list[Scalar]:
         """Two loci, with what must not be negative; a branch is -1, 1 or 0, where a circle touches."""
         ws = self.workspace
-        found = step._replace(sign=step.sign or 1).cross(ws)
-        x, y = found.middle
-        loci = [step.first.values(ws), step.second.values(ws)]
-        gaps = list(found.margins)
-        if found.half is None:
+        pair = step.loci(ws)
+        found, gaps = intersection(*pair), gaps_of(*pair, ws.arithmetic)[:3]
+        ws.points[step.target] = found.middle
+        if found.factors is None:
             told["lines"] = True
-            gaps = [found.scale]
         else:
             sign = self.record.input(f"sign {len(self.order)}", float(step.sign))
             told["sign"] = step.sign
             self.names[sign.index] = f"s[{self._number(step.target)}]"
-            hx, hy = found.half
-            x, y = x + sign * hx, y + sign * hy
+            root = self.record.sqrt(found.factors[0][0] * found.factors[1][0])
+            ws.points[step.target] = found.at(sign * root)
             told["round"] = is_round(step.first)
-        ws.points[step.target] = (x, y)
+        loci = [(*at, *(rest if isinstance(rest, tuple) else (rest,))) for at, rest in pair]
         told["gaps"], told["loci"] = len(gaps), [len(locus) for locus in loci]
         return [*gaps, *loci[0], *loci[1], *step.ahead(ws)]
 

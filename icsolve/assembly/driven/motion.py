@@ -15,7 +15,7 @@ from icsolve.assembly.driven.constraints import (
     Turning,
 )
 from icsolve.assembly.driven.groups import NewtonGroup, settled, smallest
-from icsolve.assembly.driven.intersections import PinLocus, locus, meet, reference, side, sine, swung
+from icsolve.assembly.driven.loci import locus, reference, swung
 from icsolve.assembly.driven.mechanism import Mechanism
 from icsolve.assembly.driven.order import (
     TOUCHING,
@@ -29,6 +29,7 @@ from icsolve.assembly.driven.order import (
     RotateWith,
 )
 from icsolve.assembly.driven.poses import Moved, Rotation, Spot, dot, minus, scaled, square
+from icsolve.assembly.intersections import PlacedLocus, crossing_sine, intersection, side
 from icsolve.assembly.workspace import Workspace
 from icsolve.numbers.arithmetic import RADIAN, Scalar
 from icsolve.numbers.record import Traced, varies
@@ -216,16 +217,19 @@ class _Following:
         first, second = (reference(self.shape, by, step.spot) for by in step.loci)
         written = side(first, second, self._written(step.spot[1], first, second))
         name = f"branch {step.spot[0]} {step.spot[1]}"
-        place = meet(self.record, one, two, self.signs.get(name, written))
+        found = intersection(one, two)
+        place = found.middle
+        if found.factors is not None:
+            place = found.at(self.signs.get(name, written) * self.record.root(*found.factors))
         self._branch(name, written)
         self.moved.located[self.shape.one(step.spot)] = place
 
-    def _written(self, name: str, first: PinLocus, second: PinLocus) -> Point:
+    def _written(self, name: str, first: PlacedLocus, second: PlacedLocus) -> Point:
         """Where a spot is as written; where its loci only touch there, where `near` would have it."""
         x, y = self.shape.ref[name]
         at = (float(x), float(y))
         near = self.mechanism.case.near.get(name)
-        if near is None or sine(first, second, at) > TOUCHING:
+        if near is None or crossing_sine(first, second, at) > TOUCHING:
             return at
         ox, oy, scale = self.mechanism.frame
         return ((near[0] - ox) * scale, (near[1] - oy) * scale)

@@ -19,8 +19,9 @@ from icsolve.assembly.driven.constraints import (
     SpotDistance,
     Turning,
 )
-from icsolve.assembly.driven.intersections import By, Through, ThroughTurned, reference, sine
+from icsolve.assembly.driven.loci import By, Through, ThroughTurned, reference
 from icsolve.assembly.driven.poses import Shape, Spot
+from icsolve.assembly.intersections import crossing_sine
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.tuples import NamedTuple
@@ -298,7 +299,7 @@ class ClosingOrder:
     def _crossing(self, spot: Spot, first: By, second: By) -> float:
         still, at = reference(self.shape, first, spot), reference(self.shape, second, spot)
         place = tuple(map(float, self.shape.ref[spot[1]]))
-        return sine(still, at, (place[0], place[1]))
+        return crossing_sine(still, at, (place[0], place[1]))
 
     def _loci(self, members: list[Spot]) -> Iterator[By]:
         for spot in members:
