@@ -13,6 +13,7 @@ import json
 import math
 import random
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import mpmath
@@ -25,6 +26,7 @@ from icsolve.answer.equilibrium import EquilibriumPosition
 from icsolve.errors import SceneError
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import Record
+from icsolve.scene import solve_scene
 from icsolve.solve.stability import with_stability
 from shell import Shell, exit_status
 from sizes import FULL
@@ -415,6 +417,72 @@ def test_a_torsion_spring_counts_its_turns_over_the_whole_range(seed: int) -> No
     assert places(text) == pytest.approx(wanted, abs=0.02)  # the steps of the samples
     for one in places(text):
         assert push(one) == pytest.approx(0.0, abs=1e-12)
+
+
+SIX_BAR = """icsolve: 1
+points: {A: [0, 0], D: [8, 0], G: [11, 1]}
+lengths: {AB: 2.2, BC: 5.4, CD: 4.5, BE: 3.6, CE: 3.2, EF: 6.3, FG: 6.3}
+angles: {%s: %s}
+%s
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {pin: [1, 4], at: D}
+  - {pin: [3, 5], at: E}
+  - {pin: [5, 6], at: F}
+  - {pin: [1, 6], at: G}
+loads:
+  W: {weight: 10, link: 3, at: E}
+  V: {weight: 6, link: 5, at: F}
+  T: {torque: 12, link: 2}
+  S: {spring: 4, free: 1, link: 4, at: C, to: G}
+"""
+
+
+def heading(one: EquilibriumPosition) -> float:
+    """The direction from G to F."""
+    (x, y), (u, v) = one.answer.points["G"], one.answer.points["F"]
+    return math.degrees(math.atan2(v - y, u - x)) % 360.0
+
+
+def rates(one: EquilibriumPosition) -> dict[str, float]:
+    """How fast the links turn in a position."""
+    found = solve_scene(replace(one.answer.case, near=dict(one.answer.points)), rates=True).rates
+    return {link: rate for link, rate in (found or {}).items() if isinstance(rate, float)}
+
+
+def test_points_that_only_together_have_places_rest_along_their_motion() -> None:
+    """A Stephenson six-bar led by the crank at which four links have places only together: the stiffness is
+    that by its other crank times the square of the ratio of their rates."""
+    near = "near: {B: [-0.2, 2.2], C: [5.1, 3.4], E: [2.3, 4.9], F: [8.3, 6.7]}"
+    found = positions(SIX_BAR % ("GF", "{unknown: [105, 125], from: 115}", near))
+    assert [one.stability for one in found] == ["unstable"]
+    (one,), (own,) = found, positions(SIX_BAR % ("AB", "{unknown: [85, 100]}", near))
+    assert one.at["angles.GF"] == pytest.approx(heading(own), abs=1e-9)
+    assert one.stiffness is not None and own.stiffness is not None
+    ratio = (rates(own)["2"] / rates(own)["6"]) ** 2
+    assert one.stiffness.value == pytest.approx(own.stiffness.value * ratio, rel=1e-9)
+
+
+@pytest.mark.skipif(not FULL, reason="every position of a six-bar twice: ICSOLVE_FULL=1")
+def test_points_that_only_together_have_places_rest_where_they_do_one_by_one() -> None:
+    """All positions by the one crank are those by the other, none missing and none invented."""
+    by_crank, by_other = (positions(SIX_BAR % (pair, "unknown", "")) for pair in ("AB", "GF"))
+    assert len(by_other) > 8
+    for one, two in zip(sorted(by_crank, key=heading), by_other, strict=True):
+        assert two.at["angles.GF"] == pytest.approx(heading(one), abs=1e-9)
+        assert one.stability == two.stability
+
+
+def test_no_position_is_invented_where_the_led_link_comes_to_its_limit() -> None:
+    """There the crank stands still, and a torque on it holds nothing, however fast it turns elsewhere."""
+    text = SIX_BAR % ("AB", "unknown", "")
+    left = ("pin: [3, 5]", "pin: [5, 6]", "pin: [1, 6]", "V: ")
+    four_bar = "\n".join(line for line in text.splitlines() if not any(word in line for word in left))
+    found = positions(four_bar.replace(", EF: 6.3, FG: 6.3", "").replace("to: G", "to: A"))
+    assert len(found) > 4
+    assert all(one.stiffness is not None for one in found)
 
 
 def run(tmp_path: Path, capsys: pytest.CaptureFixture[str], text: str, *words: str) -> str:

@@ -13,7 +13,8 @@ from icsolve.errors import SceneError, Status
 from icsolve.scene import solve_scene
 from icsolve.scene.refusals import is_rough
 from icsolve.solve.load_function import given_at
-from icsolve.solve.positions import Search, find_positions, with_scene
+from icsolve.solve.positions import Search, find_positions
+from icsolve.solve.rest import with_scene
 from icsolve.solve.resting import Range, find_ranges
 from icsolve.solve.two_data import find_pairs
 from icsolve.statics.power import is_unknown

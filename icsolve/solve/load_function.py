@@ -43,8 +43,13 @@ Steps = tuple[Step, ...]
 MOST_MODES = 256
 SAMPLES = 181
 COUNTED = 1441
+TOGETHER = "points of this figure can only all together be placed, which is not searched with friction."
 APART = 1e-6
 """A point's path by the free number and by the motion agree to this fraction of its speed."""
+
+
+class TogetherError(SceneError):
+    """Points of a figure can only all together be placed: no function is written of them."""
 
 
 class LoadFunction(NamedTuple):
@@ -108,11 +113,7 @@ def load_functions(case: Case, path: str, low: float, high: float) -> tuple[list
     found: list[LoadFunction] = []
     order = order_of_all(given_at(case, path, values[SAMPLES // 2]))
     if any(isinstance(step, Group) for step in order.steps):
-        raise SceneError(
-            Status.UNSUPPORTED,
-            "once the unknown has a value, points of this figure can only all together be placed, and no "
-            "search over such a group is complete. Take a datum as the unknown that places them one by one.",
-        )
+        raise TogetherError(Status.UNSUPPORTED, TOGETHER)
     count = 0
     counts = any(isinstance(load, TorsionSpring) for load in case.loads)
     span = (low, high)
@@ -206,9 +207,7 @@ def moving_function(
     compiled = compile_sweep(setting, RowRequest(answers=False))
     record = compiled.record
     if compiled.motion is not None and compiled.motion.groups:
-        raise SceneError(
-            Status.UNSUPPORTED, "points of this mechanism can only all together be placed while it moves."
-        )
+        raise TogetherError(Status.UNSUPPORTED, TOGETHER)
     margins = [node for root in record.roots.values() for node, _ in root.margins]
     return _on_sheet(compiled, path or link, setting.figure, margins, span)
 

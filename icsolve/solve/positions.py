@@ -15,10 +15,6 @@ from icsolve.assembly.ways import ways_of
 from icsolve.case import (
     Case,
     Coordinates,
-    Force,
-    Load,
-    Number,
-    Torque,
     TorsionSpring,
 )
 from icsolve.case.joints import Mesh, Rolling
@@ -26,40 +22,26 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.replay import Code
 from icsolve.scene import solve_scene
-from icsolve.solve.branches import Branches, isolate
+from icsolve.solve.branches import EVEN, Branches, isolate
+from icsolve.solve.followed import LedMechanism, converted, exchanged, led_mechanisms, nearest_led, nearest_of
 from icsolve.solve.load_function import (
     LoadFunction,
+    TogetherError,
     given_at,
     load_functions,
     moving_function,
     refuse_unposed,
     written_function,
 )
+from icsolve.solve.rest import AT_LIMIT, PROBE, Rest, held
 from icsolve.sweep.exact import RowScenes, counted_about
 from icsolve.sweep.numbers import find_number
 from icsolve.tuples import NamedTuple
 
-PROBE = "@equilibrium"
-"""The name of the unknown load by which `icsolve.solve` tells how far a position is from equilibrium."""
 STEPS = 64
 JUMP = 1e-5
 """Beside a zero, even one at which the load rises as steeply as a root, it is smaller than this fraction."""
-NEAR = 1e-6
-"""Loads balance where the torque that would balance them is this small beside the largest times the size."""
-AT_LIMIT = "at a limit of the unknown the other links' rates per unit of it grow without bound."
 DEGREES = 180.0 / math.pi
-
-
-class Rest(NamedTuple):
-    """One position of equilibrium of a mode; ``answer`` is the scene in it, ``function`` the mode."""
-
-    value: float
-    error: float
-    stability: str
-    stiffness: Stiffness | None
-    why: str
-    answer: Answer
-    function: LoadFunction
 
 
 class Search(NamedTuple):
@@ -86,16 +68,18 @@ def find_positions(
 
     Raises SceneError where the figure assembles nowhere, or `near` does not tell branches apart.
     """
+    try:
+        return _find_in_modes(case, path, span, start)
+    except TogetherError:
+        return _find_followed(case, path, span or whole_range(case, path), start, span is None)
+
+
+def _find_in_modes(
+    case: Case, path: str, span: tuple[float, float] | None, start: float | None = None
+) -> Search:
+    """The positions in all modes of a figure whose points have places one by one."""
     low, high = span or whole_range(case, path)
-    if start is None:
-        _refuse_ropes(case, path)
-        functions, complete = load_functions(case, path, low, high)
-        refuse_history(case, functions[0])
-        refuse_unposed(functions[0])
-        if span is None:
-            _refuse_uncounted(case, functions[0])
-    else:
-        functions, complete = _moving_from(case, path, start, (low, high))
+    functions, complete = _functions(case, path, (low, high), start, span is not None)
     branches = Branches(functions, low, high)
     kept = branches.nearest(case) if case.near else None
     notes: list[str] = []
@@ -113,10 +97,7 @@ def find_positions(
     if balanced and not open_modes:
         return Search(path, (), (), True, None)
     if balanced:
-        notes.append(
-            f"in {balanced} of the {len(meant)} ways in which the figure assembles the loads balance in "
-            "every position; the positions of the others are listed."
-        )
+        notes.append(_balanced(balanced, len(meant)))
     searched = search_modes(functions, branches, kept, low, high, span is None, open_modes, notes)
     found = [rest for _, rest in searched]
     if not complete:
@@ -126,13 +107,98 @@ def find_positions(
     return Search(path, tuple(_distinct(found)), tuple(dict.fromkeys(notes)), False, nearest)
 
 
+def _functions(
+    case: Case, path: str, span: tuple[float, float], start: float | None, bounded: bool
+) -> tuple[list[LoadFunction], bool]:
+    """The modes of the figure, and whether these are all."""
+    if start is not None:
+        return _moving_from(case, path, start, span)
+    _refuse_ropes(case, path)
+    functions, complete = load_functions(case, path, *span)
+    refuse_history(case, path, functions[0].links)
+    refuse_unposed(functions[0])
+    if not bounded:
+        _refuse_uncounted(case, path, functions[0].links)
+    return functions, complete
+
+
+def _find_followed(
+    case: Case, path: str, span: tuple[float, float], start: float | None, whole: bool
+) -> Search:
+    """Where points only all together have places: by another datum by which they have them one by one; else
+    along the motion from some ways in which the figure assembles."""
+    found = None
+    if start is None and not any(_history(case)) and not _counts(case):
+        found = _exchanged(case, path, span)
+    if found is not None and (found.any_value or found.positions) and not case.near:
+        return found._replace(path=path, positions=tuple(_settled_turns(found.positions, path, whole)))
+    led, complete = led_mechanisms(case, path, span, start, found.positions if found is not None else ())
+    if start is None:
+        refuse_history(case, path, led[0].links)
+        if whole:
+            _refuse_uncounted(case, path, led[0].links)
+    meant = nearest_led(case, led, EVEN) if case.near else led
+    left = [one for one in meant if not one.balances_everywhere()]
+    if not left:
+        return Search(path, (), (), True, None)
+    notes = [] if len(left) == len(meant) else [_balanced(len(meant) - len(left), len(meant))]
+    rests = [rest for one in left for rest in one.rests()]
+    notes += [note for one in left for note in one.search.notes]
+    if not complete:
+        notes.append("the ways in which the figure assembles are not shown to be all.")
+    nearest = None if rests else nearest_of(left)
+    rests = _settled_turns(rests, path, whole)
+    return Search(path, tuple(rests), tuple(dict.fromkeys(notes)), False, nearest)
+
+
+def _exchanged(case: Case, path: str, span: tuple[float, float]) -> Search | None:
+    """The positions by another datum in place of the unknown one; None where no points have places by it."""
+    for other, by in exchanged(case, path):
+        try:
+            search = _find_in_modes(other, by, None)
+        except SceneError:
+            continue
+        return search._replace(positions=tuple(converted(search.positions, path, span, by)))
+    return None
+
+
+def _settled_turns(rests: Sequence[Rest], path: str, whole: bool) -> list[Rest]:
+    """Positions by rising value, each once; angles of a whole turn within it."""
+    if whole and path.startswith("angles."):
+        rests = [rest._replace(value=_within_a_turn(rest.value, rest.error)) for rest in rests]
+    return _distinct(sorted(rests, key=lambda rest: rest.value))
+
+
+def _balanced(some: int, of: int) -> str:
+    return (
+        f"in {some} of the {of} ways in which the figure assembles the loads balance in every position; the "
+        "positions of the others are listed."
+    )
+
+
 def find_along(case: Case, along: str, low: float, high: float) -> list[Rest]:
     """The positions of equilibrium along a sweep of an ordinary case: by a datum that poses it, or by
     turning a link from the position as written (degrees)."""
     bare = replace(case, motion=(), expect=())
-    function = moved_by(bare, along, (low, high))
+    try:
+        function = moved_by(bare, along, (low, high))
+    except TogetherError:
+        return LedMechanism(bare, _own(bare, along), (low, high)).rests()
     branches = Branches([function], low, high)
     return [rest for _, rest in search_modes([function], branches, None, low, high, False)]
+
+
+def _own(case: Case, along: str) -> str:
+    return along if along in case.links else find_number(case, along).path
+
+
+def rest_of(case: Case, along: str) -> Rest:
+    """The position as written, by a datum or a link; raises as `moved_by`."""
+    value = 0.0 if along in case.links else find_number(case, along).value
+    try:
+        return described(moved_by(case, along), value, 0.0)
+    except TogetherError:
+        return LedMechanism(case, _own(case, along), (value, value)).described(value, 0.0)
 
 
 def moved_by(case: Case, along: str, span: tuple[float, float] | None = None) -> LoadFunction:
@@ -151,7 +217,7 @@ def moved_by(case: Case, along: str, span: tuple[float, float] | None = None) ->
     try:
         function = moving_function(case, path, span=span)
     except SceneError as error:
-        if error.status != Status.UNSUPPORTED:
+        if error.status != Status.UNSUPPORTED or isinstance(error, TogetherError):
             raise
         function = written_function(case, path, span)
     refuse_unposed(function)
@@ -168,15 +234,15 @@ def _moving_from(
     return functions, found.complete
 
 
-def refuse_history(case: Case, function: LoadFunction) -> None:
+def refuse_history(case: Case, path: str, links: Sequence[str]) -> None:
     """Refuse what counts from a position as written, on links that turn, where none is written."""
-    turning = set(function.links)
+    turning = set(links)
     for what, link in _history(case):
         if link in turning:
             raise SceneError(
                 Status.UNDERDETERMINED,
                 f"{what} counts from the position as written, and link {link} turns: say at which "
-                f"{function.path} the figure is written, as in {{unknown: [0, 360], from: 30}}.",
+                f"{path} the figure is written, as in {{unknown: [0, 360], from: 30}}.",
             )
 
 
@@ -192,13 +258,18 @@ def _refuse_ropes(case: Case, path: str) -> None:
             )
 
 
-def _refuse_uncounted(case: Case, function: LoadFunction) -> None:
+def _counts(case: Case) -> bool:
+    """Whether something counts turns, or a length, from where the figure is written."""
+    return bool(case.ropes) or any(isinstance(load, TorsionSpring) for load in case.loads)
+
+
+def _refuse_uncounted(case: Case, path: str, links: Sequence[str]) -> None:
     """Refuse a torsion spring whose turns nothing counts from."""
     for load in case.loads:
-        if isinstance(load, TorsionSpring) and {load.link, load.against} & set(function.links):
+        if isinstance(load, TorsionSpring) and {load.link, load.against} & set(links):
             raise SceneError(
                 Status.UNDERDETERMINED,
-                f"the torsion spring {load.name} turns with {function.path}, and nothing says from where its "
+                f"the torsion spring {load.name} turns with {path}, and nothing says from where its "
                 f"angle counts: give a range or a start, as in {{unknown: [0, 180], from: 30}}.",
             )
 
@@ -260,30 +331,6 @@ def search_modes(
     return found
 
 
-def with_scene(rest: Rest, *, all_centres: bool, rates: bool, reactions: bool) -> Answer:
-    """The scene in a position with what is asked of it; reactions are those of loads that balance."""
-    if not (all_centres or rates or reactions):
-        return replace(rest.answer, rates=None, velocities=None, centres={})
-    case = scene_at(rest.function, rest.value)
-    found = _with_reactions(rest, case, all_centres, rates) if reactions else None
-    found = found or solve_scene(case, all_centres=all_centres, rates=rates)
-    return replace(found, case=rest.answer.case, answers={}, centres=found.centres if all_centres else {})
-
-
-def _with_reactions(rest: Rest, case: Case, all_centres: bool, rates: bool) -> Answer | None:
-    """The scene with its reactions, by the first unknown load that does work in its motion."""
-    refusal: SceneError | None = None
-    for _, probe in probes(rest.function):
-        loaded = replace(case, loads=(*case.loads, probe))
-        try:
-            return solve_scene(loaded, all_centres=all_centres, rates=rates, reactions=True)
-        except SceneError as error:
-            refusal = error
-    if refusal is not None:
-        raise refusal
-    return None
-
-
 def whole_range(case: Case, path: str) -> tuple[float, float]:
     """A whole turn; of a length or a coordinate all that the sizes of the figure allow."""
     if path.startswith("angles."):
@@ -307,7 +354,7 @@ def _balances_everywhere(function: LoadFunction, values: Sequence[float]) -> boo
     loads = []
     for value in some:
         try:
-            loads.append(_probe(function, value)[0])
+            loads.append(_probe(function, value))
         except SceneError as error:
             refusal = error
     if not loads and refusal is not None:
@@ -366,17 +413,17 @@ def _to_the_last_digit(
     """The double nearest to the zero and a bound of its error, by the scene's own answers; None where the
     load jumps from one sign to the other."""
     step = math.ulp(start) or 5e-324
-    here, _ = _probe(function, start)
+    here = _probe(function, start)
     if here == 0.0:
         return start, step
-    side = _probe(function, bracket[1])[0]
+    side = _probe(function, bracket[1])
     toward = 1.0 if (side > 0.0) != (here > 0.0) else -1.0
     low, at_low, reach = start, here, step
     while True:
         high = start + toward * reach
         if not bracket[0] <= high <= bracket[1]:
             high = bracket[1] if toward > 0.0 else bracket[0]
-        at_high, _ = _probe(function, high)
+        at_high = _probe(function, high)
         if at_high == 0.0:
             return high, math.ulp(high) or step
         if (at_high > 0.0) != (at_low > 0.0) or high in bracket:
@@ -388,7 +435,7 @@ def _to_the_last_digit(
             best = low if abs(at_low) <= abs(at_high) else high
             jumps = min(abs(at_low), abs(at_high)) > JUMP * max(abs(here), abs(side))
             return None if jumps else (best, abs(high - low))
-        at_middle, _ = _probe(function, middle)
+        at_middle = _probe(function, middle)
         if at_middle == 0.0:
             return middle, math.ulp(middle)
         if (at_middle > 0.0) == (at_low > 0.0):
@@ -423,42 +470,12 @@ def _given(case: Case) -> set[str]:
     return {name for name, at in places if at.x is not None and at.y is not None}
 
 
-def _probe(function: LoadFunction, value: float, on: str = "") -> tuple[float, str]:
-    """The torque on a link that would balance the loads, as `icsolve.solve` finds it, and that link."""
-    case = scene_at(function, value)
-    refusal: SceneError | None = None
-    for link, probe in probes(function, on):
-        try:
-            found = solve_scene(replace(case, loads=(*case.loads, probe)))
-        except SceneError as error:
-            refusal = error
-            continue
-        answer = found.answers[PROBE].value
-        assert answer is not None
-        return answer, link
-    assert refusal is not None
-    raise refusal
-
-
-def balances(function: LoadFunction, value: float) -> bool:
-    """Whether the loads balance at a value, to what a figure written in decimals can tell."""
-    torque, _ = _probe(function, value)
-    units, frame = function.case.units, function.compiled.scene.frame
-    return abs(torque) * function.force_scale * frame.scale <= NEAR * units.torque_per_force_length
-
-
-def probes(function: LoadFunction, on: str = "") -> Iterator[tuple[str, Load]]:
-    """Unknown loads, one after the other, each of which might hold the mechanism: torques on the links that
-    turn, the fastest first; where none turns, forces on points."""
-    for link in [on] if on else function.links:
-        yield link, Torque(PROBE, link, None)
-    if function.links:
-        return
-    for link, names in function.case.carries.items():
-        for name in names if link != function.case.ground else ():
-            for degrees in ("0", "90"):
-                along = Number(float(degrees), 0.0, f"loads.{PROBE}.angle", degrees)
-                yield link, Force(PROBE, link, name, None, along)
+def _probe(function: LoadFunction, value: float, on: str = "") -> float:
+    """The torque on a link that would balance the loads, as `icsolve.solve` finds it."""
+    answer = held(scene_at(function, value), [on] if on else function.links)
+    assert answer is not None
+    torque: float = answer.answers[PROBE].value
+    return torque
 
 
 def described(function: LoadFunction, value: float, error: float) -> Rest:
@@ -478,8 +495,25 @@ def described(function: LoadFunction, value: float, error: float) -> Rest:
         stability = "stable" if low > 0.0 else "unstable" if high < 0.0 else "neutral"
     else:
         why = AT_LIMIT
-    answer = solve_scene(scene_at(function, value), rates=True)
-    return Rest(value, error, stability, stiffness, why, answer, function)
+    return _rest(function, value, error, stability, stiffness, why)
+
+
+def _rest(
+    function: LoadFunction,
+    value: float,
+    error: float,
+    stability: str,
+    stiffness: Stiffness | None,
+    why: str,
+    at: float | None = None,
+) -> Rest:
+    """A position with its scene; ``at`` is a value beside it that assembles."""
+    case = scene_at(function, value if at is None else at)
+    size = function.case.units.torque_per_force_length / (
+        function.force_scale * function.compiled.scene.frame.scale
+    )
+    answer = solve_scene(case, rates=True)
+    return Rest(value, error, stability, stiffness, why, answer, case, function.links, size)
 
 
 def _apart(rate: Interval) -> bool:
@@ -503,7 +537,7 @@ def _in_open_cells(function: LoadFunction, cluster: tuple[float, float]) -> tupl
     width = max(high - low, 4.0 * math.ulp(abs(low) + abs(high)))
     low, high = low - width, high + width
     try:
-        at_low, at_high = _probe(function, low)[0], _probe(function, high)[0]
+        at_low, at_high = _probe(function, low), _probe(function, high)
         if (at_low > 0.0) != (at_high > 0.0):
             return _to_the_last_digit(function, 0.5 * (low + high), (low, high))
         beside = max(abs(at_low), abs(at_high))
@@ -511,7 +545,7 @@ def _in_open_cells(function: LoadFunction, cluster: tuple[float, float]) -> tupl
         if turning is None:
             return None
         value, error = turning
-        least = abs(_probe(function, value)[0])
+        least = abs(_probe(function, value))
     except SceneError:
         return None
     # beside the place the load rises as the square of the distance: so much is left where that is zero
@@ -597,20 +631,25 @@ def _between(one: LoadFunction, two: LoadFunction, limit: _Limit) -> list[Rest]:
         size = max((abs(c) for at in a.points.values() for c in at), default=1.0)
         if any(math.dist(at, b.points[name]) > 0.02 * size for name, at in a.points.items()):
             return []
-        link = one.links[0]
+        link = _fastest(a, one.links)  # of the motion there: the link that is led stands still
         last = limit.value - limit.side * 2.0 * math.ulp(limit.value)
-        p, q = _probe(one, last, link)[0], _probe(two, last, link)[0]
+        p, q = _probe(one, last, link), _probe(two, last, link)
         if (p > 0.0) == (q > 0.0) and p != 0.0 and q != 0.0:
             return []
-        far, away = _probe(one, here, link)[0], _probe(two, here, link)[0]
+        far, away = _probe(one, here, link), _probe(two, here, link)
         way = _swing(one, two, link, here)
     except SceneError:
         return []
     rises = (away - far) * way
     stability = "stable" if rises > 0.0 else "unstable" if rises < 0.0 else "neutral"
     error = 4.0 * math.ulp(limit.value)
-    scene = solve_scene(scene_at(one, last), rates=True)
-    return [Rest(limit.value, error, stability, None, AT_LIMIT, scene, one)]
+    return [_rest(one, limit.value, error, stability, None, AT_LIMIT, last)]
+
+
+def _fastest(answer: Answer, links: Sequence[str]) -> str:
+    """The link that turns fastest in a solved scene."""
+    rates = {link: rate for link, rate in (answer.rates or {}).items() if isinstance(rate, float)}
+    return max(links, key=lambda link: abs(rates.get(link, 0.0)))
 
 
 def _swing(one: LoadFunction, two: LoadFunction, link: str, value: float) -> float:
@@ -679,5 +718,4 @@ __all__ = [
     "scene_at",
     "search_modes",
     "whole_range",
-    "with_scene",
 ]

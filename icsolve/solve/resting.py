@@ -15,7 +15,8 @@ from icsolve.kinematics.speeds import joint_order
 from icsolve.scene import solve_scene
 from icsolve.solve.branches import Branches
 from icsolve.solve.load_function import LoadFunction, load_functions, refuse_unposed
-from icsolve.solve.positions import PROBE, refuse_history, scene_at, search_modes, whole_range
+from icsolve.solve.positions import refuse_history, scene_at, search_modes, whole_range
+from icsolve.solve.rest import PROBE
 from icsolve.tuples import NamedTuple
 
 SAMPLES = 120
@@ -47,7 +48,7 @@ def find_ranges(case: Case, path: str, span: tuple[float, float] | None) -> Rang
     ropes = tuple(rope._replace(mu=(None,) * len(rope.mu)) for rope in case.ropes)
     smooth = replace(case, joints=tuple(map(without_friction, case.joints)), ropes=ropes)
     functions, _ = load_functions(smooth, path, low, high)
-    refuse_history(smooth, functions[0])
+    refuse_history(smooth, path, functions[0].links)
     refuse_unposed(functions[0])
     branches = Branches(functions, low, high)
     kept = branches.nearest(case) if case.near else None

@@ -12,9 +12,9 @@ from icsolve.answer.equilibrium import Stiffness
 from icsolve.case import Case, ForceVector, Number
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
-from icsolve.scene import solve_scene
 from icsolve.scene.refusals import is_rough
-from icsolve.solve.positions import Rest, balances, described, moved_by
+from icsolve.solve.positions import moved_by, rest_of
+from icsolve.solve.rest import Rest, balances
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.numbers import find_number, with_numbers
 from icsolve.tuples import NamedTuple
@@ -52,13 +52,11 @@ def rest_as_written(case: Case, of: str) -> Rest:
         said = "with friction a position is one of a range, and has no stability: leave out the friction."
         raise SceneError(Status.UNSUPPORTED, said)
     try:
-        function = moved_by(case, of)
+        return rest_of(case, of)
     except SceneError as refusal:
         if refusal.status != Status.UNSUPPORTED or of not in case.links:
             raise
         return _by_another(case, of, refusal)
-    value = 0.0 if of in case.links else find_number(case, of).value
-    return described(function, value, 0.0)
 
 
 def _by_another(case: Case, link: str, refusal: SceneError) -> Rest:
@@ -70,9 +68,9 @@ def _by_another(case: Case, link: str, refusal: SceneError) -> Rest:
     """
     other = _driven(case)
     rest = rest_as_written(case, other)
-    rates = solve_scene(case, rates=True).rates or {}
+    rates = rest.answer.rates or {}
     own, by = rates.get(link), rates.get(other)
-    if not isinstance(own, float) or not isinstance(by, float) or not own or not balances(rest.function, 0.0):
+    if not isinstance(own, float) or not isinstance(by, float) or not own or not balances(rest):
         raise refusal
     if rest.stiffness is None:
         return rest
@@ -105,7 +103,7 @@ def neutral_values(case: Case, path: str, low: float, high: float) -> list[Turni
         rest = rest_as_written(with_numbers(case, {own: value}), link)
         if rest.stiffness is None:
             raise SceneError(Status.DEAD_CENTRE, f"link {link} stands still as written.")
-        if not balances(rest.function, 0.0):
+        if not balances(rest):
             raise SceneError(
                 Status.UNBALANCED,
                 f"the loads do not balance as written where {path} is {value:g}, so no stability is lost "

@@ -11,6 +11,7 @@ and a note says so.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from decimal import Decimal, localcontext
 from itertools import pairwise
 
@@ -18,7 +19,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.case import Case
-from icsolve.errors import SceneError
+from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.jets import BallArray, Cells, Jet
 from icsolve.numbers.record import Op, Record, Traced, terms_of
@@ -27,7 +28,7 @@ from icsolve.numbers.tape import UNIT
 from icsolve.scene import solve_scene
 from icsolve.scene.refusals import rubs
 from icsolve.statics.power import is_unknown
-from icsolve.sweep.exact import CONTEXT, STEP, Unreached, as_written
+from icsolve.sweep.exact import APART, CONTEXT, STEP, Unreached, as_written
 from icsolve.sweep.find_by_scenes import FoundPosition, FoundPositions, Query, Scenes
 from icsolve.sweep.parts import SweepPart, SweepParts
 from icsolve.sweep.program import RowRequest
@@ -90,15 +91,14 @@ def find(
     spots = FoundPositions()
     if start.compiled().refusal is None:
         parts = SweepParts(start, columns)
-        with localcontext(CONTEXT):
-            search = _Search(parts, parts.whole(), along, query)
-            spots.extend(sorted(search.spots(), key=lambda spot: (spot.at, spot.kind)))
+        search = RangeSearch(parts, parts.whole(), along, query)
+        spots.extend(search.found())
         spots.notes = tuple(search.notes)
     return spots
 
 
-class _Search:
-    """Positions in a sweep."""
+class RangeSearch:
+    """Positions in a sweep along one number, ``name``, on the record of its rows."""
 
     def __init__(self, parts: SweepParts, part: SweepPart, name: str, query: Query) -> None:
         self.part, self.query, self.name = part, query, name
@@ -112,6 +112,27 @@ class _Search:
         self.paths = {path: as_written(a[part.rows[0]]) for path, a in parts.columns.paths.items()}
         self.notes: dict[str, None] = {}
         self.touches = sorted({s for s in self.along.touching(name) if self._inside(s)})
+
+    def found(self) -> list[FoundPosition]:
+        """All positions of the kind that is asked, in order."""
+        with localcontext(CONTEXT):
+            return sorted(self.spots(), key=lambda spot: (spot.at, spot.kind))
+
+    def scene(self, s: Decimal) -> Case:
+        """The row at a value as a scene of its own. Raises SceneError where the links do not assemble."""
+        numbers = {**self.paths, self.name: s} if self.name in self.paths else self.paths
+        with localcontext(CONTEXT):
+            try:
+                return self.along.scenes.case(self.along.at(self.name, s), numbers)
+            except Unreached:
+                raise SceneError(Status.CANNOT_ASSEMBLE, APART) from None
+
+    def answer(self, s: Decimal) -> tuple[float, float]:
+        """The unknown load at a value [case units], and its derivative by the number."""
+        (answer,) = self.compiled.outputs["answers", self.query.load]
+        with localcontext(CONTEXT):
+            low, here, high = (self._value(answer, s + k * STEP) for k in (-1, 0, 1))
+            return float(here), float((high - low) / (2 * STEP))
 
     def _inside(self, s: Decimal) -> bool:
         return as_written(self.ends[0]) <= s <= as_written(self.ends[1])
@@ -223,12 +244,8 @@ class _Search:
         at = 0.0 if abs(s) < CLOSED else float(s)
         answer = None
         if load is not None:
-            numbers = {**self.paths, self.name: s} if self.name in self.paths else self.paths
-            try:
-                scene = self.along.scenes.case(self.along.at(self.name, s), numbers)
-                answer = float(solve_scene(scene).answers[load].value)
-            except (SceneError, Unreached):
-                pass
+            with suppress(SceneError):
+                answer = float(solve_scene(self.scene(s)).answers[load].value)
         return FoundPosition(at, kind, answer, abs(at) * UNIT if error is None else error)
 
     # --- zeros ------------------------------------------------------------------------------------

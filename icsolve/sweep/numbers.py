@@ -89,6 +89,12 @@ def _means(own: str, section: str, rest: str) -> bool:
     return False
 
 
+def points_of(path: str) -> tuple[str, ...]:
+    """The points that the path of a number of the figure names."""
+    section, _, rest = path.partition(".")
+    return (rest.partition(".")[0],) if section == "points" else _parts(rest)
+
+
 def _parts(key: str) -> tuple[str, ...]:
     return tuple(key.split("-")) if "-" in key else atoms(key)
 

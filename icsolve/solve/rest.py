@@ -1,0 +1,84 @@
+"""A position in which the loads balance, as the searches find it, and unknown loads that would show how far
+from it another is."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+from icsolve.answer import Answer
+from icsolve.answer.equilibrium import Stiffness
+from icsolve.case import Case, Force, Load, Number, Torque
+from icsolve.errors import SceneError
+from icsolve.scene import solve_scene
+from icsolve.tuples import NamedTuple
+
+PROBE = "@equilibrium"
+"""The name of the unknown load by which `icsolve.solve` tells how far a position is from equilibrium."""
+AT_LIMIT = "at a limit of the unknown the other links' rates per unit of it grow without bound."
+NEAR = 1e-6
+"""Loads balance where the torque that would balance them is this small beside the largest times the size."""
+
+
+class Rest(NamedTuple):
+    """One position of equilibrium of a mode.
+
+    ``answer`` is the solved scene in it and ``case`` that scene, ``links`` those that turn, the
+    fastest first, ``size`` the torque of the largest load at the size of the figure [case units].
+    """
+
+    value: float
+    error: float
+    stability: str
+    stiffness: Stiffness | None
+    why: str
+    answer: Answer
+    case: Case
+    links: list[str]
+    size: float
+
+
+def with_scene(rest: Rest, *, all_centres: bool, rates: bool, reactions: bool) -> Answer:
+    """The scene in a position with what is asked of it; reactions are those of loads that balance."""
+    if not (all_centres or rates or reactions):
+        return replace(rest.answer, rates=None, velocities=None, centres={})
+    asked = {"all_centres": all_centres, "rates": rates}
+    found = held(rest.case, rest.links, **asked, reactions=True) if reactions else None
+    found = found or solve_scene(rest.case, **asked)
+    return replace(found, case=rest.answer.case, answers={}, centres=found.centres if all_centres else {})
+
+
+def balances(rest: Rest) -> bool:
+    """Whether the loads balance there, to what a figure written in decimals can tell."""
+    answer = held(rest.case, rest.links)
+    return answer is None or abs(answer.answers[PROBE].value) <= NEAR * rest.size
+
+
+def held(case: Case, links: Sequence[str], **asked: bool) -> Answer | None:
+    """The scene with the first unknown load that does work in its motion; None where it has none to try.
+
+    Raises SceneError where none does.
+    """
+    refusal: SceneError | None = None
+    for probe in probes(case, links):
+        try:
+            return solve_scene(replace(case, loads=(*case.loads, probe)), **asked)
+        except SceneError as error:
+            refusal = error
+    if refusal is not None:
+        raise refusal
+    return None
+
+
+def probes(case: Case, links: Sequence[str]) -> Iterator[Load]:
+    """Unknown loads, one after the other, each of which might hold the mechanism: torques on ``links``; where
+    there are none, forces on points."""
+    for link in links:
+        yield Torque(PROBE, link, None)
+    if links:
+        return
+    for link, names in case.carries.items():
+        for name in names if link != case.ground else ():
+            for degrees in ("0", "90"):
+                along = Number(float(degrees), 0.0, f"loads.{PROBE}.angle", degrees)
+                yield Force(PROBE, link, name, None, along)
