@@ -198,17 +198,24 @@ class Power(NamedTuple):
 
 def powers_of(loads: Sequence[Wrenched], twists: Twists, arithmetic: Arithmetic) -> list[list[Power]]:
     """The power of every load on every motion, (motions, loads); zero where it is rounding."""
-    return [[_power(w, twists, m, decider(arithmetic)) for w in loads] for m in range(count_of(twists))]
+    vanishes = decider(arithmetic)
+    found: list[list[Power]] = []
+    for m in range(count_of(twists)):
+        speeds = [(float(size(t[m][:3])), float(size(t[m][3:]))) for t in twists.values()]
+        found.append([_power(w, twists, m, speeds, vanishes) for w in loads])
+    return found
 
 
-def _power(w: Wrenched, twists: Twists, m: int, vanishes: Vanishes | None) -> Power:
+def _power(
+    w: Wrenched, twists: Twists, m: int, speeds: Sequence[tuple[float, float]], vanishes: Vanishes | None
+) -> Power:
+    """On the m-th motion, in which the links have these speeds (of the origin; angular)."""
     wrench = w.wrench
     on, off = twists[w.load.link][m], twists[w.against][m]
     twist = tuple(a - b for a, b in zip(on, off, strict=True))
     value = dot(wrench[:3], velocity_of(twist, w.at)) + dot(wrench[3:], twist[3:])
     reach = 1.0 + float(size(w.at))
-    speeds = (float(size(t[m][:3])) + float(size(t[m][3:])) * reach for t in twists.values())
-    most = (float(size(wrench[:3])) + float(size(wrench[3:]))) * max(speeds)
+    most = (float(size(wrench[:3])) + float(size(wrench[3:]))) * max(v + o * reach for v, o in speeds)
     none = vanishes(value, most) if vanishes else abs(value) <= NOTHING * most
     return Power(0.0 if none else value, most)
 

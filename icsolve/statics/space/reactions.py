@@ -65,6 +65,7 @@ class _Reader:
         self.largest = max((abs(statics.value(c, parameters)) for c in range(statics.known)), default=0.0)
         num, den, pi = case.units.exact_torque
         self.per_torque = a.ratio((den, num, -pi)) * frame.scale
+        self.rows = [statics.transmitted(t) for t in range(len(statics.ties))]
 
     def along(self, rows: Sequence[Row], direction: Vec) -> Scalar | None:
         """Of a force (or couple) by its components along x, y, z that along a direction; None where open."""
@@ -82,12 +83,12 @@ class _Reader:
 
     def force(self, t: int, direction: Vec) -> float | None:
         """The force of a tie along a direction, case units; None where it is open."""
-        value = self.along(self.statics.transmitted(t)[:3], direction)
+        value = self.along(self.rows[t][:3], direction)
         return None if value is None else self.a.rounded(value / self.statics.scale)[0]
 
     def couple(self, t: int, direction: Vec) -> float | None:
         """Its couple about a direction, case units; None where it is open."""
-        value = self.along(self.statics.transmitted(t)[3:], direction)
+        value = self.along(self.rows[t][3:], direction)
         return None if value is None else self.a.rounded(value / self.statics.scale / self.per_torque)[0]
 
     def reaction(self, t: int) -> SpatialReaction:
