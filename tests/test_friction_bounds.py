@@ -25,10 +25,10 @@ from icsolve.report.text import answer_text
 from icsolve.scene.program import Want, evaluate, prepare
 from icsolve.scene.sensitivity import influences
 from icsolve.statics import error_bound
-from icsolve.statics.equilibrium import refuse_apart
 from icsolve.statics.error_bound import Exact, SlidingSolution, Weights, step
 from icsolve.statics.friction_interface import rubs_of
 from icsolve.statics.reaction_basis import Position, ties_of
+from icsolve.statics.witness import refuse_apart
 from more_digits import SixtyDigits
 from sizes import MORE
 from test_friction import BLOCK, QUICK_RETURN, SIX_BAR, brake, lever, slider_crank, turning, wedge

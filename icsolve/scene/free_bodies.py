@@ -10,7 +10,7 @@ from icsolve.numbers.arithmetic import FLOATS
 from icsolve.scene.bounds import EvaluatedScene, Evaluation, plain, points_shown
 from icsolve.scene.parts import AnswerBuilder, speed_of
 from icsolve.scene.program import Program, evaluate_still
-from icsolve.statics.enclosed_friction import SceneOnBalls
+from icsolve.statics.error_bound import SceneOnBalls
 from icsolve.statics.free_bodies import FreeBodies, free_bodies
 from icsolve.statics.friction import Enclose, solved
 from icsolve.statics.friction import FrictionScene as Rubbing

@@ -3,27 +3,19 @@ joints transmit. A link has three equations in the plane and six in space; all e
 
 The moments of each link are taken about a point of its own, so that nothing of a long chain is lost
 to its distance from the origin.
-
-The unknown loads from free bodies alone, against those from power.
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Generic, Protocol, TypeVar
 
-from icsolve.answer.bodies import Witness
-from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider
-from icsolve.numbers.linear import inverse, solve_square
 from icsolve.numbers.sparse import General, Row, eliminate
 from icsolve.screws import space
-from icsolve.screws.plane import velocity
 from icsolve.statics.power import Balance, Wrench, force_scale, is_unknown, number_of, place_of
 from icsolve.statics.reaction_basis import Force, Position, RopeTie, Tie
 from icsolve.tuples import NamedTuple
-from icsolve.wording.sentences import plural
 
 Components = tuple[Scalar, ...]
 """Of a point its 2 or 3 coordinates; of a force with its couple 3 or 6 components; of a twist as many."""
@@ -76,8 +68,6 @@ class Action(NamedTuple):
 
 Equations = dict[str, tuple[Components, tuple[Row, ...]]]
 """For each link the point of its moments, and its three or six equations, forces first."""
-Terms = dict[str, tuple[Components, tuple[tuple[float, float], ...]]]
-"""For each link the point of its moments; of its equations the sum of absolute terms, and the sum."""
 
 
 class Rub(NamedTuple):
@@ -351,192 +341,3 @@ def _load_action(w: Wrench, statics: Statics, position: Position) -> Action:
     place = place_of(w.load, position.points, arithmetic)
     at, force = (place, (x, y, 0.0)) if place else ((0.0, 0.0), (0.0, 0.0, couple))
     return Action(column, w.load.link, w.against, at, force)
-
-
-def terms_of(statics: Equilibrium[T], parameters: Mapping[int, Scalar]) -> Terms:
-    """What the equations of every link are summed from, in the solution with these parameters."""
-    x = statics.filled(parameters)
-    return {link: (about, _summed(rows, x)) for link, (about, rows) in statics.equations.items()}
-
-
-def _summed(rows: tuple[Row, ...], x: Mapping[int, Scalar]) -> tuple[tuple[float, float], ...]:
-    """Size and sum of each equation; a moment is as uncertain as the forces on the figure's size."""
-    terms = [[float(a * x[c]) for c, a in row.items()] for row in rows]
-    sizes = [sum(map(abs, row)) for row in terms]
-    forces = 3 if len(rows) == 6 else 2
-    force = sum(sizes[:forces])
-    return tuple(
-        (size + (force if n >= forces else 0.0), math.fsum(row))
-        for n, (size, row) in enumerate(zip(sizes, terms, strict=True))
-    )
-
-
-def residual(terms: Terms) -> float:
-    """What is left of the equilibrium of any link, as a fraction of the largest sum of all; 0 where nothing
-    acts.
-    """
-    sums = [both for _, equations in terms.values() for both in equations]
-    largest = max((size for size, _ in sums), default=0.0)
-    return max((abs(rest) for _, rest in sums), default=0.0) / (largest or 1.0)
-
-
-AGREE = 1e-9
-"""Power and free bodies may differ by this fraction of the largest term, or by the bound if that is more."""
-ROUNDINGS = 32 * 2.0**-53
-"""What the operations from a point to a term of an equation can lose together, of the term."""
-
-
-def unknowns_of(
-    statics: Equilibrium[T], friction: Mapping[int, float] | None = None
-) -> dict[str, Scalar] | None:
-    """The unknown loads [case units] from the equations in which no joint is left.
-
-    Parameters
-    ----------
-    statics : as of `equilibrium`
-    friction : by friction column, its value [scaled]; 0 of those that are not there
-
-    Returns
-    -------
-    dict[str, Scalar] | None
-        None where these equations do not determine them.
-    """
-    fixed = {statics.known: 1.0, **(friction or {})}
-    vanishes = decider(statics.arithmetic)
-    columns = [statics.root(n) for n in range(len(statics.roots))]
-    rows = [
-        [*(left.get(c, 0.0) for c in columns), -sum(a * fixed.get(c, 0.0) for c, a in left.items())]
-        for left in statics.general.left
-    ]
-    rows = independent(rows, len(columns))
-    if len(rows) < len(columns):
-        return None
-    values = solve_square([row[:-1] for row in rows], [row[-1] for row in rows], vanishes)
-    if values is None:
-        return None
-    return {root: value / statics.scale for root, value in zip(statics.roots, values, strict=True)}
-
-
-def independent(rows: Sequence[Sequence[Scalar]], count: int) -> list[list[Scalar]]:
-    """As many rows as there are unknowns (the first ``count`` entries), those with most to say about them.
-
-    Parameters
-    ----------
-    rows : (m, at least ``count``)
-
-    Returns
-    -------
-    list[list[Scalar]]
-        At most ``count`` of the rows as given, in the order of complete pivoting; fewer where m is less.
-    """
-    work = [(row, list(row)) for row in map(list, rows)]
-    chosen = []
-    for _ in range(min(count, len(work))):
-        _, r, c = max((abs(left[c]), r, c) for r, (_, left) in enumerate(work) for c in range(count))
-        row, pivot = work.pop(r)
-        chosen.append(row)
-        if pivot[c]:
-            for _, left in work:
-                ratio = left[c] / pivot[c]
-                left[:] = [a - ratio * b for a, b in zip(left, pivot, strict=True)]
-                left[c] = 0.0
-    return chosen
-
-
-def bounds_of(
-    statics: Equilibrium[T],
-    powers: Sequence[Sequence[float]],
-    twists: Mapping[str, Sequence[Components]],
-    terms: Terms,
-) -> dict[str, float]:
-    """What rounding can make of the difference between power and free bodies, by unknown load [case units].
-
-    The residual of every equation, and the rounding of its terms, does power on the motions; divided by
-    the power of a unit of the unknown that is its error (the motions are the adjoint solution). inf where the
-    motions do not determine the loads.
-
-    Parameters
-    ----------
-    statics : as solved
-    powers : (motions, unknowns), the power of a unit of each unknown load
-    twists : by link, one a motion
-    terms : of the solution
-    """
-    count = len(statics.roots)
-    lost = (_lost(twists, terms, m) for m in range(len(powers)))
-    rows = independent([[*row, rest] for row, rest in zip(powers, lost, strict=True)], count)
-    by_motion = inverse([row[:-1] for row in rows]) if len(rows) == count else None
-    if by_motion is None:
-        return dict.fromkeys(statics.roots, float("inf"))
-    left = [row[-1] / statics.scale for row in rows]
-    sums = [sum(abs(a) * p for a, p in zip(row, left, strict=True)) for row in by_motion]
-    return dict(zip(statics.roots, sums, strict=True))
-
-
-def powers_of(statics: Equilibrium[T], balance: Balance) -> list[list[float]]:
-    """The power of a unit of each unknown load, (motions, unknowns)."""
-    columns = [[n for n, w in enumerate(balance.wrenches) if w.root == root] for root in statics.roots]
-    rows = []
-    for factors in balance.factors:
-        both = zip(balance.wrenches, factors, strict=True)
-        powers = [float(w.ratio) * float(f) * w.measure for w, f in both]
-        rows.append([sum(powers[n] for n in ns) for ns in columns])
-    return rows
-
-
-def _lost(twists: Mapping[str, Sequence[Components]], terms: Terms, motion: int) -> float:
-    """Power of the residuals and of the roundings of all equations on a motion."""
-    lost = 0.0
-    for link, (about, equations) in terms.items():
-        speeds = _speeds(twists[link][motion], about)
-        for speed, (size, rest) in zip(speeds, equations, strict=True):
-            lost += abs(speed) * (ROUNDINGS * size + abs(rest))
-    return lost
-
-
-def _speeds(twist: Components, at: Components) -> Components:
-    """Velocity of the point of a link, then its angular velocity."""
-    if len(twist) == 6:
-        return (*space.velocity_of(twist, at), *twist[3:])
-    x, y, w = twist
-    return (*velocity((x, y, w), (at[0], at[1])), w)
-
-
-def witnesses(
-    power: Mapping[str, tuple[float, float]], bodies: Mapping[str, float], bounds: Mapping[str, float]
-) -> tuple[Witness, ...]:
-    """Both values of each unknown beside each other; that of power comes with its own bound."""
-    return tuple(
-        Witness(q, power[q][0], value, value - power[q][0], bounds[q] + power[q][1])
-        for q, value in bodies.items()
-    )
-
-
-def refuse_apart(found: Sequence[Witness], slack: float) -> None:
-    """Raise SceneError (``near-singular``) where power and free bodies disagree by more than their bounds.
-
-    ``slack`` is how far given centres contradict each other [fraction of the figure's size].
-    """
-    for w in found:
-        room = max(w.bound, max(AGREE, slack) * max(abs(w.power), abs(w.bodies)))
-        if not abs(w.difference) <= room:
-            raise SceneError(Status.NEAR_SINGULAR, _apart(w))
-
-
-def _apart(w: Witness) -> str:
-    return (
-        f"power gives {w.load} = {w.power:.9g} and the equilibrium of the links {w.bodies:.9g}: they should "
-        "be one number, so this position is too near to a singular one. Take another position, or give its "
-        "data with more digits."
-    )
-
-
-def refuse_doubt(freedoms: int, mobility: int) -> None:
-    """Refuse a position in which the links' equilibrium and their motions count different freedoms."""
-    if freedoms != mobility:
-        raise SceneError(
-            Status.NEAR_SINGULAR,
-            f"by its motions the mechanism has {plural(mobility, 'degree')} of freedom, by the "
-            f"equilibrium of its links {freedoms}: this position is too near to a singular one. Take another "
-            "position, or give its data with more digits.",
-        )

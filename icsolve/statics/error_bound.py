@@ -1,15 +1,17 @@
 """The bound of an unknown load that was found with friction, or why none is proven; its slopes.
 
-How far rounding can have moved an unknown load that was found with friction.
-
-In the solution the equilibrium of every link and the friction of every rub leave a residual. Each unknown
-load has weights, one an equation (the adjoint solution): their sum over the residuals is a step of Newton's
-method for that load. Evaluated on a tape, the sum carries the rounding of the figure, of the file's decimals
-and of every term into the load, and gives its slope by every number of the case. Like all bounds of a tape
-it is of first order.
+To first order: in the solution the equilibrium of every link and the friction of every rub leave a residual.
+Each unknown load has weights, one an equation (the adjoint solution): their sum over the residuals is a step
+of Newton's method for that load. Evaluated on a tape, the sum carries the rounding of the figure, of the
+file's decimals and of every term into the load, and gives its slope by every number of the case.
 
 Where next to no force presses, its size has a kink: there the friction is left out of the derivatives and
 counted as open between its limits, for as large a force as rounding can make of it.
+
+Enclosed, where the equations are smooth: that they have one solution near the one that floats found, and how
+far from it (Krawczyk's operator on balls). The unknowns are the loads to find and the friction f of every rub
+that slides: the sums of power are linear in them, and f^2 = limit^2 |N|^2 with the force N that presses
+there, linear too. The sense of each rub is that of its rate in the motion, of which the ball has to say it.
 """
 
 from __future__ import annotations
@@ -20,16 +22,19 @@ from types import MappingProxyType
 
 from icsolve.case.joints import Mesh
 from icsolve.kinematics.speeds import Speed
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.arithmetic import Scalar, Showing
+from icsolve.numbers.balls import Balls
+from icsolve.numbers.krawczyk import enclosed_root
 from icsolve.numbers.sparse import Row, eliminate
 from icsolve.numbers.tape import SMALL
 from icsolve.screws.plane import Point
-from icsolve.statics import reaction_basis
-from icsolve.statics.equilibrium import Components, Rub, Statics, actions_of
+from icsolve.statics.equilibrium import Components, Rub, Statics, actions_of, equilibrium
 from icsolve.statics.free_bodies import Solved, carrying_flanks
+from icsolve.statics.friction_equations import forces_of
 from icsolve.statics.friction_interface import rates_of, rubs_of
-from icsolve.statics.power import Bounded, Wrench
-from icsolve.statics.reaction_basis import Force, Position, rope_ties, ties_of
+from icsolve.statics.power import Balance, Bounded, Wrench
+from icsolve.statics.reaction_basis import Force, Position, rope_ties, ties_of, with_flanks
+from icsolve.statics.witness import independent
 from icsolve.tuples import NamedTuple
 
 UNBOUND = "no bound was asked for"
@@ -128,7 +133,7 @@ def _exact(position: Position, solved: Solved, found: SlidingSolution, traced: B
     tape, outcome = traced.tape, traced.outcome
     placed = position._replace(points=outcome.points, arithmetic=tape)
     flanks = carrying_flanks(position, solved.statics.ties, solved)
-    ties = reaction_basis.with_flanks(placed, ties_of(placed), flanks)
+    ties = with_flanks(placed, ties_of(placed), flanks)
     values = {column: tape.constant(value) for column, value in found.values.items()}
     ropes = rope_ties(position.case, placed.points, position.scale, tape)
     statics = found.statics._replace(ties=ties, rubs=rubs_of(placed, ties), ropes=ropes, arithmetic=tape)
@@ -334,3 +339,91 @@ def open_frictions(
 
 ROUNDS = 60
 """More often than this the frictions at kinks press each other without limit."""
+
+
+class SceneOnBalls(NamedTuple):
+    """A scene on balls, and the share of each of its motions in the one that is meant."""
+
+    position: Position
+    balance: Balance
+    particular: Sequence[Scalar]
+    arithmetic: Showing
+
+
+def enclosed(
+    scene: SceneOnBalls, solved: Solved, senses: Sequence[float]
+) -> Mapping[str, tuple[float, float]] | None:
+    """The unknown loads (case units) rounded once, and their errors; the rubs have these senses.
+
+    None where a sense, or the flank of a tooth, is another than the balls say. Raises MoreDigits where they
+    leave that open, and where no solution is shown.
+    """
+    position, a = scene.position, scene.arithmetic
+    assert isinstance(a, Balls)
+    ties = with_flanks(position, ties_of(position), carrying_flanks(position, solved.statics.ties, solved))
+    rubs = rubs_of(position, ties)
+    rates = [rates_of(position, ties, rubs, m) for m in range(position.mobility)]
+    for k, sense in enumerate(senses):
+        rate = sum((part * row[k] for part, row in zip(scene.particular, rates, strict=True)), 0.0)
+        if a.vanishes(rate, max(map(abs, scene.particular))) == bool(sense):
+            return None
+    statics = equilibrium(position, ties, scene.balance, rubs)
+    slides = [k for k, sense in enumerate(senses) if sense]
+    columns = [statics.root(n) for n in range(len(statics.roots))] + [statics.rub(k) for k in slides]
+    start = [solved.unknowns[root] * statics.scale for root in statics.roots]
+    start += [solved.friction[k] for k in slides]
+    found = enclosed_root(_FrictionSystem(statics, columns, slides), start, a)
+    return {root: a.rounded(x / statics.scale) for root, x in zip(statics.roots, found, strict=False)}
+
+
+class _FrictionSystem:
+    """The equations and their derivatives, by the place of each unknown."""
+
+    def __init__(self, statics: Statics, columns: Sequence[int], slides: Sequence[int]) -> None:
+        self.statics, self.slides = statics, slides
+        self.place = {column: n for n, column in enumerate(columns)}
+        every = (*columns, statics.known)
+        powers = [[left.get(c, 0.0) for c in every] for left in statics.general.left]
+        chosen = independent(powers, len(statics.roots))
+        self.powers = [dict(zip(every, row, strict=True)) for row in chosen]
+        self.pressing = forces_of(statics)
+
+    def __call__(self, x: Sequence[Scalar]) -> tuple[list[Scalar], list[dict[int, Scalar]]]:
+        values, slopes = [], []
+        for row in self.powers:
+            values.append(self._at(row, x))
+            slopes.append({n: row[c] for c, n in self.place.items() if c in row})
+        for k in self.slides:
+            limit, own = self.statics.rubs[k].limit, self.place[self.statics.rub(k)]
+            forces = [self._at(row, x) for row in self.pressing[k]]
+            square = limit * limit
+            values.append(x[own] * x[own] - square * sum((n * n for n in forces), 0.0))
+            slope: dict[int, Scalar] = {own: x[own] * 2.0}
+            for force, row in zip(forces, self.pressing[k], strict=True):
+                for c, n in self.place.items():
+                    if c in row:
+                        slope[n] = slope.get(n, 0.0) - square * force * row[c] * 2.0
+            slopes.append(slope)
+        return values, slopes
+
+    def _at(self, row: Row, x: Sequence[Scalar]) -> Scalar:
+        total = row.get(self.statics.known, 0.0)
+        for c, n in self.place.items():
+            if c in row:
+                total = total + row[c] * x[n]
+        return total
+
+
+def is_smooth(position: Position, solved: Solved) -> bool:
+    """Whether the equations are smooth at a solution, and all of them algebraic, so that it can be enclosed.
+
+    Not where next to no force presses, where ropes slip (by an exponential), or where given centres miss the
+    motion.
+    """
+    frictions = [abs(f) for f in solved.friction]
+    if len(frictions) != len(solved.statics.rubs) or position.slack:
+        return False
+    if any(rope.slips for rope in position.case.ropes):
+        return False
+    largest = max(map(abs, solved.statics.filled(solved.parameters).values()), default=0.0)
+    return all(f > KINK * largest for f in frictions if f) and math.isfinite(largest)

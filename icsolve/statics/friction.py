@@ -19,19 +19,16 @@ from icsolve.kinematics.speeds import STILL, Speed
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.ropes import slip_rates, tension_ratios
 from icsolve.statics import reaction_basis
-from icsolve.statics.enclosed_friction import SceneOnBalls, enclosed, is_smooth
-from icsolve.statics.equilibrium import (
-    Statics,
-    bounds_of,
-    equilibrium,
-    powers_of,
-    refuse_apart,
-    refuse_doubt,
-    residual,
-    terms_of,
-    witnesses,
+from icsolve.statics.equilibrium import Statics, equilibrium
+from icsolve.statics.error_bound import (
+    TOO_CLOSE,
+    UNSURE,
+    ErrorBounds,
+    SceneOnBalls,
+    enclosed,
+    error_bounds,
+    is_smooth,
 )
-from icsolve.statics.error_bound import TOO_CLOSE, UNSURE, ErrorBounds, error_bounds
 from icsolve.statics.free_bodies import (
     FreeBodies,
     Solved,
@@ -41,11 +38,28 @@ from icsolve.statics.free_bodies import (
 )
 from icsolve.statics.friction_equations import forces_of
 from icsolve.statics.friction_interface import rates_of, rubs_of, unknowns_by_power
+from icsolve.statics.friction_limits import (
+    IMPENDING,
+    End,
+    Slid,
+    StaticRange,
+    end_of,
+    pressed,
+    slid,
+    static_range,
+)
 from icsolve.statics.power import Balance, Bounded, Solution, Value, is_unknown
 from icsolve.statics.reaction_basis import Position, Tie, ties_of
 from icsolve.statics.reactions import names_by_tie, notes_of, reactions_of, tensions_of
-from icsolve.statics.sliding import Slid, slid
-from icsolve.statics.static_range import IMPENDING, End, StaticRange, end_of, pressed, static_range
+from icsolve.statics.witness import (
+    bounds_of,
+    powers_of,
+    refuse_apart,
+    refuse_doubt,
+    residual,
+    terms_of,
+    witnesses,
+)
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed, plural
 

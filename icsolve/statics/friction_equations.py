@@ -17,7 +17,8 @@ from collections.abc import Mapping, Sequence
 
 from icsolve.numbers.linear import inverse, solve_square
 from icsolve.numbers.sparse import Row
-from icsolve.statics.equilibrium import Statics, independent
+from icsolve.statics.equilibrium import Statics
+from icsolve.statics.witness import independent
 from icsolve.tuples import NamedTuple
 
 Form = tuple[float, ...]

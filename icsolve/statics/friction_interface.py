@@ -18,9 +18,10 @@ from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
 from icsolve.numbers.linear import solve_square
 from icsolve.screws.joints import guide_direction
 from icsolve.screws.plane import pairing, subtract, velocity
-from icsolve.statics.equilibrium import Rub, Statics, independent, powers_of
+from icsolve.statics.equilibrium import Rub, Statics
 from icsolve.statics.power import Balance, force_scale, known_power
 from icsolve.statics.reaction_basis import COUPLE, Force, Position, RopeTie, Tie, thread
+from icsolve.statics.witness import independent, powers_of
 
 
 def friction_of(joint: Joint) -> Friction | None:

@@ -15,15 +15,6 @@ from icsolve.answer.space import Spatial
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Scalar, Showing
-from icsolve.statics.equilibrium import (
-    bounds_of,
-    refuse_apart,
-    refuse_doubt,
-    residual,
-    terms_of,
-    unknowns_of,
-    witnesses,
-)
 from icsolve.statics.free_bodies import carrying, on_flanks
 from icsolve.statics.space.figure import SpatialFigure, figure_of, in_case
 from icsolve.statics.space.power import (
@@ -48,6 +39,15 @@ from icsolve.statics.space.reactions import (
     refuse_unbalanced,
 )
 from icsolve.statics.space.report import advantage_of, sense_of, terms_of_power, unit_of
+from icsolve.statics.witness import (
+    bounds_of,
+    refuse_apart,
+    refuse_doubt,
+    residual,
+    terms_of,
+    unknowns_of,
+    witnesses,
+)
 from icsolve.tuples import NamedTuple
 
 
