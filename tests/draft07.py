@@ -84,6 +84,7 @@ _WORDS: dict[str, Any] = {
         not isinstance(v, dict) or all(valid(key, said, root) for key in v)
     ),
     "dependencies": _dependencies,
+    "allOf": lambda v, said, _, root: all(valid(v, one, root) for one in said),
     "anyOf": lambda v, said, _, root: any(valid(v, one, root) for one in said),
     "oneOf": lambda v, said, _, root: sum(valid(v, one, root) for one in said) == 1,
     "not": lambda v, said, _, root: not valid(v, said, root),

@@ -23,10 +23,11 @@ from icsolve.case.expected import (
     Tolerance,
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
+from icsolve.read.entry import Entry
 from icsolve.read.keys import EXPECTED
-from icsolve.read.load_forms import dimension_of
+from icsolve.read.loads import dimension_of
 from icsolve.read.names import LONGEST_KEY, atoms, is_name, pairs, shown, suggestion
-from icsolve.read.reading import Entry, Reading, number, quantity
+from icsolve.read.reading import Reading, number, quantity
 from icsolve.tuples import NamedTuple
 from icsolve.units import DIMENSIONS, UnitError, parse_unit, split_quantity
 

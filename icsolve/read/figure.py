@@ -32,9 +32,10 @@ from icsolve.case import (
     Weight,
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
+from icsolve.read.entry import Entry
 from icsolve.read.keys import CENTROID, MASSES, UNKNOWN
 from icsolve.read.names import Names, point_key, shown, suggestion
-from icsolve.read.reading import COMPASS, Entry, Reading, number
+from icsolve.read.reading import COMPASS, Reading, number
 from icsolve.tuples import NamedTuple
 
 

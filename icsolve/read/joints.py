@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Callable, Container
 from collections.abc import Mapping as Table
 from itertools import chain, count
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from icsolve.case import (
     Belt,
@@ -17,6 +17,7 @@ from icsolve.case import (
     Joint,
     KnownCentre,
     Number,
+    Pair,
     Pin,
     Roll,
     Screw,
@@ -26,17 +27,14 @@ from icsolve.case import (
     Weld,
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
+from icsolve.read.entry import Entry, Values
 from icsolve.read.keys import HELICAL, JOINTS, SPACE_JOINTS, EntryKind
 from icsolve.read.names import is_name, meant_by, shown, suggestion
-from icsolve.read.reading import Entry, Reading
+from icsolve.read.reading import Reading
 
 T = TypeVar("T")
-Builder = Callable[[Entry, tuple[str, ...], bool], T | None]
-Builders = Table[str, Builder[T]]
-"""What reads each kind of joint."""
-
-FRICTION = ("mu", "radius", "length")
-"""What a joint with friction has: the coefficient, and with it the size of its pin or block."""
+Builders = Table[str, Callable[[Entry, Any, Values], T | None]]
+"""What makes each kind of joint of its links and values, where nothing was wrong with them."""
 
 
 def mention_links(reading: Reading, section: Node | None) -> None:
@@ -111,22 +109,46 @@ def _joint(
     keys = kinds[kind].keys
     name = "gear pair" if kind == "gears" else kind
     what = f"the {name} of {' and '.join(links)}" if links else f"a {name}"
-    entry = Entry(reading, node, where, what, keys)
-    rubbing = () if "mu" in keys else _rubbing(entry, "hinge" in kinds)
-    entry.check(kind, *rubbing)
-    return builders[kind](entry, links or ("?", "?"), bool(links))
+    entry = Entry(reading, node, where, what, keys, kinds[kind].ties, f"@{pair}")
+    if kind == "contact":
+        _need_place(entry, links)
+    values = entry.read(kind, *_rubbing(entry, "hinge" in kinds))
+    if "along" in keys:
+        _note_guide(reading, values)
+    if entry.whole and links:
+        return builders[kind](entry, links, values)
+    if kind == "screw" and links:
+        reading.unread.add(frozenset(links))
+    return None
+
+
+def _need_place(entry: Entry, links: tuple[str, ...] | None) -> None:
+    """A contact says where it is, or the profiles of both its links do."""
+    if links and not entry.has("at") and {*links} <= entry.reading.profiled:
+        return
+    into = f" from {links[0]} into {links[1]}" if links else ""
+    entry.need("at")
+    entry.need("normal", entry.keys["normal"].says + into)
+
+
+def _note_guide(reading: Reading, values: Values) -> None:
+    """A guide gives its joint's own point, and lies on others."""
+    if values["at"]:
+        reading.given.add(values["at"])
+    ends = values["along"] if not isinstance(values["along"], Number) else None
+    reading.on_guides.extend([*(ends or ()), *([values["through"]] if values["through"] else [])])
 
 
 def _rubbing(entry: Entry, in_space: bool) -> tuple[str, ...]:
     """The keys of friction on a joint that takes none, refused in words."""
-    there = tuple(key for key in FRICTION if entry.has(key)) if entry.has("mu") else ()
-    if there:
-        if in_space:
-            said = "friction is solved in the plane only, and this case is in space; take it out"
-        else:
-            said = "friction is that of a pin, a slide, a slot or a contact; take it out"
-        entry.refuse(entry.node.keys["mu"], f"'mu' of {entry.what}: {said}")
-    return there
+    if "mu" in entry.keys or not entry.has("mu"):
+        return ()
+    if in_space:
+        said = "friction is solved in the plane only, and this case is in space; take it out"
+    else:
+        said = "friction is that of a pin, a slide, a slot or a contact; take it out"
+    entry.refuse(entry.mark("mu"), f"'mu' of {entry.what}: {said}")
+    return ("mu", "radius", "length")
 
 
 def _unlike(where: str, taken: Container[str]) -> str:
@@ -205,190 +227,76 @@ def _twice(links: tuple[str, ...]) -> str:
     return next(link for link in links if links.count(link) > 1)
 
 
-Pair = tuple[str, str]
-
-
 def read_joints(reading: Reading, section: Sequence) -> tuple[Joint, ...]:
     """The joints of a planar case that could be read."""
     return read_list(reading, section, JOINTS, BUILDERS, "{pin: [1, 2], at: B}")
 
 
-def _friction(entry: Entry) -> Friction | None:
+def _friction(values: Values) -> Friction | None:
     """``mu``, with the pin's ``radius`` or the block's ``length``."""
-    mu = entry.number("mu")
-    sizes = {key: entry.number(key) for key in ("radius", "length") if key in entry.keys}
-    return Friction(mu, **sizes) if mu is not None else None
+    return Friction(values["mu"], values.get("radius"), values.get("length")) if values["mu"] else None
 
 
-def _pin(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
-    at, friction = entry.point("at"), _friction(entry)
-    if entry.has("mu") and not entry.has("radius"):
-        entry.refuse(entry.mark("mu"), f"friction of {entry.what} needs 'radius', the pin's own")
-    return Pin(links, at, friction) if at and whole else None
+def _guide(values: Values) -> Guide:
+    """The guide line."""
+    along = values["along"]
+    angle, ends = (along, None) if isinstance(along, Number) else (None, along)
+    return Guide(angle, ends, values["through"])
 
 
-def _slide(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
-    at = entry.point("at")
-    guide, friction = read_guide(entry, at), _friction(entry)
-    return Slide(_two(links), at, guide, friction) if at and guide and whole else None
-
-
-def _slot(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
-    at = entry.point("at")
-    guide, friction = read_guide(entry, at), _friction(entry)
-    return Slot(_two(links), at, guide, friction) if at and guide and whole else None
-
-
-def _two(links: tuple[str, ...]) -> Pair:
-    return links[0], links[1]
-
-
-def read_guide(entry: Entry, at: str | None) -> Guide | None:
-    """The guide line; its joint's own point is then given by it."""
-    if at:
-        entry.reading.given.add(at)
-    along, through = entry.node.items.get("along"), entry.point("through")
-    if along is None or (entry.has("through") and through is None):
+def _gears(entry: Entry, links: Pair, v: Values) -> Joint | None:
+    if not _is_apart(entry, links, v):
         return None
-    if type(along) is not Sequence:
-        angle, ends = entry.number("along"), None
-    else:
-        angle, ends = None, entry.two_points("along", "[A, G]")
-    entry.reading.on_guides.extend([*(ends or ()), *([through] if through else [])])
-    return Guide(angle, ends, through) if angle is not None or ends else None
-
-
-def _roll(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
-    at = entry.point("at")
-    radii = entry.pair("radii", "01", _RADII) if entry.has("radii") else None
-    if radii and max(radius.value for radius in radii) <= 0.0:
-        entry.refuse(entry.mark("radii"), f"one of the radii of {entry.what} should be greater than zero")
-    angle = _pressure_angle(entry)
-    return Roll(_two(links), at, radii, angle) if at and whole else None
-
-
-_RADII = "two radii, as in [1.5, 3]"
-
-
-def _pressure_angle(entry: Entry) -> Number | None:
-    angle = entry.number("pressure angle")
-    if angle is not None and angle.value >= 90.0:
-        entry.refuse(entry.mark("pressure angle"), "a pressure angle is less than 90 degrees")
-    return angle
-
-
-def _gears(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
-    teeth, carrier = _teeth(entry), _carrier(entry, links)
     if any(key in HELICAL for key in entry.node.items):
         from icsolve.read.teeth import read_helical
 
-        form = read_helical(entry)
-        return Gears(_two(links), teeth, carrier, *form) if teeth and form and whole else None
-    entry.one_of(("diametral pitch", "module"))
-    angle = _pressure_angle(entry)
-    pitch, module = entry.number("diametral pitch"), entry.number("module")
-    return Gears(_two(links), teeth, carrier, angle, pitch, module) if teeth and whole else None
+        form = read_helical(entry, v)
+        return Gears(links, v["teeth"], v["carrier"], *form) if form else None
+    return Gears(links, v["teeth"], v["carrier"], v["pressure angle"], v["diametral pitch"], v["module"])
 
 
-MOST_TEETH = 1e9
-
-
-def _teeth(entry: Entry) -> tuple[Number, Number] | None:
-    teeth = entry.pair("teeth", "01") if entry.has("teeth") else None
-    return teeth if teeth is not None and whole_teeth(entry, teeth) else None
-
-
-def whole_teeth(entry: Entry, counts: tuple[Number, ...]) -> bool:
-    """Whether numbers of teeth are whole, and internal teeth surround external ones."""
-    values = [count.value for count in counts]
-    if any(value == 0.0 or abs(value) > MOST_TEETH or value != int(value) for value in values):
-        entry.refuse(entry.mark("teeth"), f"the teeth of {entry.what} should be whole numbers other than 0")
-    elif max(values) < 0.0:
-        entry.refuse(entry.mark("teeth"), f"only one gear of {entry.what} can be internal (negative)")
-    elif min(values) < 0.0 and abs(min(values)) <= max(values):
-        entry.refuse(entry.mark("teeth"), "an internal gear has more teeth than the one inside it")
-    else:
-        return True
-    return False
-
-
-def _carrier(entry: Entry, links: tuple[str, ...]) -> str | None:
-    carrier = entry.link("carrier")
-    if carrier in links:
+def _is_apart(entry: Entry, links: Pair, v: Values) -> bool:
+    """Whether the carrier of two wheels is a third link."""
+    if v["carrier"] in links:
         entry.refuse(entry.mark("carrier"), f"the carrier of {entry.what} is a third link")
-    return carrier
+    return v["carrier"] not in links
 
 
-def _belt(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
-    carrier = _carrier(entry, links)
-    crossed = (entry.word("crossed", ("true", "false", "True", "False")) or "").lower() == "true"
-    radii = entry.pair("radii", "01", _RADII) if entry.has("radii") else None
-    if radii and min(radius.value for radius in radii) <= 0.0:
-        entry.refuse(entry.mark("radii"), f"the radii of {entry.what} should be greater than zero")
-    return Belt(_two(links), radii, crossed, carrier) if radii and whole else None
+def _belt(entry: Entry, links: Pair, v: Values) -> Joint | None:
+    crossed = (v["crossed"] or "").lower() == "true"
+    return Belt(links, v["radii"], crossed, v["carrier"]) if _is_apart(entry, links, v) else None
 
 
-def _contact(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
-    if whole and not entry.has("at") and {*links} <= entry.reading.profiled:
-        _touch(entry, links)
-        return None
-    into = f" from {links[0]} into {links[1]}" if whole else ""
-    entry.need("at")
-    entry.need("normal", entry.keys["normal"].says + into)
-    at, normal, friction = entry.point("at"), entry.number("normal"), _friction(entry)
-    return Contact(_two(links), at, normal, friction) if at and normal is not None and whole else None
-
-
-def _touch(entry: Entry, links: tuple[str, ...]) -> None:
-    """A contact whose place the profiles of its links give; it stands apart from the joints until then."""
+def _contact(entry: Entry, links: Pair, v: Values) -> Joint | None:
+    """A contact; one whose place the profiles of its links give stands apart from the joints until then."""
+    if v["at"] is not None:
+        return Contact(links, v["at"], v["normal"], _friction(v))
     from icsolve.case.profiles import Touch
 
-    touch = Touch(_two(links), entry.reading.joint_number, entry.number("normal"), _friction(entry))
+    touch = Touch(links, entry.reading.joint_number, v["normal"], _friction(v))
     entry.reading.touches.append((touch, entry.node.mark))
+    return None
 
 
-def _centre(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
-    both = entry.one_of(("at", "toward"))
-    if both is None:
-        entry.need("at")
-    if both == "toward":
-        toward = entry.number("toward")
-        return KnownCentre(_two(links), None, toward) if toward is not None and whole else None
-    at = entry.place("at", f"@{'-'.join(links)}") if both else None
-    return KnownCentre(_two(links), at) if at and whole else None
-
-
-def _weld(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
-    at = entry.point("at")
-    return Weld(_two(links), at) if whole else None
-
-
-def _screw(entry: Entry, links: tuple[str, ...], whole: bool) -> Joint | None:
+def _screw(entry: Entry, links: Pair, v: Values) -> Joint:
     """The slide of a screw that a torque turns; the weld of one that is locked."""
-    at = entry.point("at")
-    guide = read_guide(entry, at)
-    lead, radius, mu = entry.number("lead"), entry.number("radius"), entry.number("mu")
-    if entry.has("mu") and not entry.has("radius"):
-        entry.refuse(entry.mark("mu"), f"friction of {entry.what} needs 'radius', the mean one of its thread")
-    if not (at and guide and lead and whole) or (entry.has("mu") and radius is None):
-        return None
-    pair = (links[0], links[1])
-    if frozenset(pair) not in entry.reading.driven:
-        return Weld(pair, at)
-    slide = Slide((pair[1], pair[0]), at, guide, thread=Thread(lead, radius, mu))
-    entry.reading.screws.append(Screw(slide, Thread(lead, radius, mu)))
+    if frozenset(links) not in entry.reading.driven:
+        return Weld(links, v["at"])
+    thread = Thread(v["lead"], v["radius"], v["mu"])
+    slide = Slide((links[1], links[0]), v["at"], _guide(v), thread=thread)
+    entry.reading.screws.append(Screw(slide, thread))
     return slide
 
 
 BUILDERS: Builders[Joint] = {
-    "pin": _pin,
-    "slide": _slide,
-    "slot": _slot,
-    "roll": _roll,
+    "pin": lambda _, links, v: Pin(links, v["at"], _friction(v)),
+    "slide": lambda _, links, v: Slide(links, v["at"], _guide(v), _friction(v)),
+    "slot": lambda _, links, v: Slot(links, v["at"], _guide(v), _friction(v)),
+    "roll": lambda _, links, v: Roll(links, v["at"], v["radii"], v["pressure angle"]),
     "gears": _gears,
     "belt": _belt,
     "contact": _contact,
-    "centre": _centre,
-    "weld": _weld,
+    "centre": lambda _, links, v: KnownCentre(links, v["at"], v["toward"]),
+    "weld": lambda _, links, v: Weld(links, v["at"]),
     "screw": _screw,
 }

@@ -1,8 +1,7 @@
 """The table of keys: what may stand in a case, of what form, and what it means.
 
-The reader asks it what a joint or load takes, in which dimension and within which bound, and words its
-refusals by it; the JSON Schema is written from it, and the paths of ``--set`` follow it. What ties one key to
-another (one direction of several, a helix and its hand) is code beside the reader of that kind.
+The reader reads each entry by it (form, dimension, bound, what ties its keys) and words its refusals by it;
+the JSON Schema is written from it, and the paths of ``--set`` follow it.
 """
 
 from __future__ import annotations
@@ -23,6 +22,19 @@ class Key(NamedTuple):
     bound: str = ""
 
 
+class Rule(NamedTuple):
+    """What ties keys of one entry to one another, and what is said where that is broken.
+
+    ``needs``: where the first stands, so do the others. ``one``, ``at most one``, ``any``: how many stand
+    there. ``direction``: one of them; none where the entry's own key has components. Without ``says`` the key
+    that is missing is told with its meaning.
+    """
+
+    kind: str
+    keys: tuple[str, ...]
+    says: str = ""
+
+
 class EntryKind(NamedTuple):
     """One kind of joint, load or profile: its own key, and those that it takes besides."""
 
@@ -33,6 +45,8 @@ class EntryKind(NamedTuple):
     """of a joint that only the plane has: what stands for it in space"""
     key: str = ""
     """its own key, where that is not the kind's name"""
+    ties: tuple[Rule, ...] = ()
+    """what ties its keys to one another"""
 
 
 def _needed(key: Key, says: str = "", form: str = "") -> Key:
@@ -84,14 +98,13 @@ _MU = _quantity("the coefficient of friction", "number", "not negative")
 _LINKS = Key("the two links that it joins", "two links", True)
 _ALONG = Key("a direction in degrees, or two points of the guide as in [A, G]", "line", True, "angle")
 _THROUGH = Key("a point of the guide line; left out, the line of the two points, or `at` itself")
-_RADII = Key("the two radii, as in [3, 5]", "pair", False, "length")
+_RADII = Key("the two radii, as in [3, 5]", "pair", False, "length", "positive")
 _CARRIER = Key("the link to which both are pinned, where several could be", "link")
-_PRESSURE_ANGLE = _quantity("that of the teeth, such as 20", "angle", "positive")
+_PRESSURE_ANGLE = _quantity("that of the teeth, such as 20", "angle", "acute")
 _PITCH = _quantity("teeth per length of the pitch circle's diameter", "pitch", "positive")
 _MODULE = _quantity("the pitch circle's diameter per tooth", "length", "positive")
-_TEETH = {"pressure angle": _PRESSURE_ANGLE, "diametral pitch": _PITCH, "module": _MODULE}
 _HELIX = {
-    "helix angle": _quantity("the angle of the teeth with the axis, in degrees", "angle", "not negative"),
+    "helix angle": _quantity("the angle of the teeth with the axis, in degrees", "angle", "acute or zero"),
     "hand": Key("of the helix of the gear named first, right or left", "hand"),
     **{
         f"{section} {key}": form._replace(says=f"{form.says}, {where}")
@@ -104,6 +117,12 @@ _HELIX = {
     },
 }
 _TEETH = {"pressure angle": _PRESSURE_ANGLE, "diametral pitch": _PITCH, "module": _MODULE}
+SECTIONS_OF_TEETH = ("", "normal ", "transverse ")
+TOOTH_ANGLES = tuple(f"{section}pressure angle" for section in SECTIONS_OF_TEETH)
+TOOTH_SIZES = tuple(
+    f"{section}{size}" for size in ("diametral pitch", "module") for section in SECTIONS_OF_TEETH
+)
+_TOOTH_FORM = (Rule("at most one", TOOTH_ANGLES), Rule("at most one", TOOTH_SIZES))
 HELICAL = (*_HELIX, "bearing span")
 """What gears take besides where their teeth are helical."""
 
@@ -117,6 +136,7 @@ JOINTS = {
             "radius": _quantity("the pin's own radius, for its friction", "length", "positive"),
         },
         "a `hinge` with its `axis`",
+        ties=(Rule("needs", ("mu", "radius"), "friction of {what} needs 'radius', the pin's own"),),
     ),
     "slide": EntryKind(
         "a prismatic: the block, named first, on a guide of the second link",
@@ -142,10 +162,11 @@ JOINTS = {
         {
             "at": _needed(_AT, "the point of contact"),
             "radii": Key(
-                "the radius of each, where it is to move; 0 straight, negative inside",
+                "the two radii, as in [1.5, 0], where it is to move; 0 straight, negative inside",
                 "pair",
                 False,
                 "length",
+                "one positive",
             ),
             "pressure angle": _PRESSURE_ANGLE,
         },
@@ -166,6 +187,10 @@ JOINTS = {
             **_HELIX,
             "bearing span": _quantity("the distance of each shaft's bearings", "length", "positive"),
         },
+        ties=(
+            *_TOOTH_FORM,
+            *(Rule("needs", (key, "helix angle")) for key in HELICAL if key != "helix angle"),
+        ),
     ),
     "belt": EntryKind(
         "a belt or chain over two pulleys that are pinned to one carrier",
@@ -195,6 +220,7 @@ JOINTS = {
             "toward": _quantity("its direction in degrees, where it is at infinity", "angle"),
         },
         "the joints themselves",
+        ties=(Rule("one", ("at", "toward")),),
     ),
     "weld": EntryKind(
         "two links that move as one", _LINKS, {"at": Key("the point that its reaction is given for")}
@@ -227,6 +253,9 @@ JOINTS = {
             "mu": _MU,
         },
         "a hinge and a load for its force",
+        ties=(
+            Rule("needs", ("mu", "radius"), "friction of {what} needs 'radius', the mean one of its thread"),
+        ),
     ),
 }
 """Joints of the plane."""
@@ -275,13 +304,17 @@ SPACE_JOINTS = {
             **_TEETH,
             **_HELIX,
         },
+        ties=(
+            *_TOOTH_FORM,
+            Rule("needs", ("helix angle", "hand")),
+            Rule("needs", ("hand", "helix angle")),
+        ),
     ),
 }
 """Joints in space."""
 
 # Loads
 _LINK = Key("the link that it acts on", "link", True)
-_BEARER = Key("the link that it acts on; none where it pulls the free end of a rope", "link")
 _PLACE = Key("its point, or [x, y]", "place", True)
 _AGAINST = Key("the link that takes the opposite, in place of the frame", "link")
 _SENSE = Key("the sense in which it is positive, ccw or cw", "sense")
@@ -296,6 +329,7 @@ DIRECTION = {
     "slope": Key("its direction by run and rise, as in [-3, 4]", "slope", False, "number"),
 }
 """One of these gives a force of the plane its direction."""
+_DIRECTED = Rule("direction", tuple(DIRECTION), "{what} needs its direction: angle, toward, away or slope")
 _TURNS_WITH = Key("the link with which its direction turns in a sweep; else it stays", "link")
 
 
@@ -309,23 +343,25 @@ LOADS = {
     "force": EntryKind(
         "a force",
         _size("a number, 'unknown', or two components [Fx, Fy]", "force", "load or vector"),
-        {"link": _BEARER, "at": _PLACE, **DIRECTION, "against": _AGAINST, "turns_with": _TURNS_WITH},
+        {"link": _LINK, "at": _PLACE, **DIRECTION, "against": _AGAINST, "turns_with": _TURNS_WITH},
+        ties=(_DIRECTED,),
     ),
     "torque": EntryKind(
         "a torque, positive counterclockwise or as it `turns`",
         _size(_TORQUE, "torque"),
         {
-            "link": Key("the link that it acts on", "link"),
+            "link": _LINK._replace(needed=False),
             "turns": _SENSE,
             "against": _AGAINST,
             "screw": Key("in place of a link the screw that it turns, by its two links, as in 2-3", "text"),
         },
+        ties=(Rule("any", ("link", "screw"), "{what} needs 'link': the link that it acts on"),),
     ),
-    "weight": EntryKind("a weight, along -y", _size(_TORQUE, "force"), {"link": _BEARER, "at": _PLACE}),
+    "weight": EntryKind("a weight, along -y", _size(_TORQUE, "force"), {"link": _LINK, "at": _PLACE}),
     "mass": EntryKind(
         "a weight by its mass, with its unit",
         _size(_TORQUE, "mass", "load with unit", "not negative"),
-        {"link": _BEARER, "at": _PLACE},
+        {"link": _LINK, "at": _PLACE},
     ),
     "spring": EntryKind(
         "a spring: it pulls when longer than `free`",
@@ -371,6 +407,13 @@ LOADS = {
             "against": _AGAINST,
             "turns_with": _TURNS_WITH,
         },
+        ties=(
+            _DIRECTED,
+            Rule(
+                "one", ("bore", "area"), "{what} needs its area: 'bore', the cylinder's diameter, or 'area'"
+            ),
+            Rule("needs", ("rod", "bore"), "'rod' of {what} goes with a 'bore'; an area is the whole one"),
+        ),
     ),
     "distributed": EntryKind(
         "a force per length along a line, uniform or linear",
@@ -387,14 +430,26 @@ LOADS = {
             "against": _AGAINST,
             "turns_with": _TURNS_WITH,
         },
+        ties=(_DIRECTED._replace(kind="one"),),
     ),
     "power": EntryKind(
         "the torque that transmits a power at a speed",
-        _size("the power, with its unit", "torque", "with unit"),
+        _size("the power, with its unit", "torque", "power"),
         {"speed": _SPEED, "link": _LINK, "turns": _SENSE, "against": _AGAINST},
     ),
 }
 """Loads of the plane; the dimension of each is that of its number (of a power the torque that it makes)."""
+
+PULLS = {
+    name: LOADS[name]._replace(
+        says=f"{LOADS[name].says.partition(',')[0]} that pulls the free end of a rope",
+        own=LOADS[name].own._replace(form="load with unit" if name == "mass" else "load"),
+        keys={"at": _PLACE._replace(says="the free end")},
+        ties=(),
+    )
+    for name in ("force", "weight", "mass")
+}
+"""Loads at the free end of a rope, which gives them their direction: no link is named."""
 
 _SPOT = Key("its point, or [x, y, z]", "spot", True)
 SPACE_DIRECTION = {
@@ -408,6 +463,7 @@ SPACE_LOADS = {
         "a force",
         _size("a number, 'unknown', or three components [x, y, z]", "force", "load or triple"),
         {"link": _LINK, "at": _SPOT, **SPACE_DIRECTION, "against": _AGAINST},
+        ties=(Rule("direction", tuple(SPACE_DIRECTION), "{what} needs its direction: along, toward, away"),),
     ),
     "torque": EntryKind(
         "a torque about an axis",
@@ -417,6 +473,7 @@ SPACE_LOADS = {
             "along": _axis("the axis of the torque, positive by the right-hand rule")._replace(needed=False),
             "against": _AGAINST,
         },
+        ties=(Rule("direction", ("along",)),),
     ),
     "weight": EntryKind("a weight, along -z", _size(_TORQUE, "force"), {"link": _LINK, "at": _SPOT}),
     "mass": EntryKind(
@@ -437,7 +494,7 @@ SPACE_LOADS = {
     ),
     "power": EntryKind(
         "the torque that transmits a power at a speed",
-        _size("the power, with its unit", "torque", "with unit"),
+        _size("the power, with its unit", "torque", "power"),
         {
             "speed": _SPEED,
             "link": _LINK,
@@ -497,16 +554,37 @@ ARC = {
 }
 
 # The rest
-MOTION = {
-    "link": Key("the link that moves", "link", True),
-    "speed": _quantity("its angular speed, or the point's speed", "angular speed"),
-    "turns": Key("the sense in which the link turns, ccw or cw", "sense"),
-    "point": Key("the point of the link whose speed is given"),
-    "angle": _quantity("the direction of the point's velocity in degrees", "angle"),
-    "acceleration": _quantity(
-        "how fast the speed grows, positive in its own sense; 0 by default", "angular acceleration"
+_MOVES = Key("the link that moves", "link", True)
+_GROWS = "how fast the speed grows, positive in its own sense; 0 by default"
+_SPEED_FIRST = Rule(
+    "needs", ("acceleration", "speed"), "motion with an 'acceleration' needs a 'speed', 0 where it starts"
+)
+MOTION_OF_LINK = EntryKind(
+    "the motion of a link",
+    _MOVES,
+    {
+        "link": _MOVES,
+        "speed": _quantity("its angular speed", "angular speed"),
+        "turns": Key("the sense in which the link turns, ccw or cw", "sense"),
+        "acceleration": _quantity(_GROWS, "angular acceleration"),
+    },
+    ties=(
+        Rule("any", ("speed", "turns"), "motion of a link needs 'speed', 'turns: ccw' or 'turns: cw'"),
+        _SPEED_FIRST,
     ),
-}
+)
+MOTION_OF_POINT = EntryKind(
+    "the motion of a point of a link",
+    _MOVES,
+    {
+        "point": Key("the point of the link whose speed is given", "name", True),
+        "link": _MOVES,
+        "speed": _quantity("the point's speed", "speed")._replace(needed=True),
+        "angle": _quantity("the direction of the point's velocity in degrees", "angle")._replace(needed=True),
+        "acceleration": _quantity(_GROWS, "path acceleration"),
+    },
+    ties=(_SPEED_FIRST,),
+)
 MASSES = {
     "points": Key("further points that it carries, as in [G, H]", "points of a link"),
     "mass": Key("its mass, with the unit", "with unit", False, "mass", "not negative"),
@@ -520,6 +598,7 @@ MASSES = {
     ),
 }
 """What `links:` can say of a link besides a list of points."""
+MASSES_TIES = (Rule("needs", ("mass", "centre")),)
 EXPECTED = {
     "value": Key("the published one", "published"),
     "toward": _quantity("the direction in which a centre at infinity lies", "angle"),
@@ -528,6 +607,7 @@ EXPECTED = {
     "within": Key("how near is near enough, as in 1% or 0.02", "width"),
     "erratum": Key("what is wrong with the published value: it is then expected not to agree", "text"),
 }
+EXPECTED_TIES = (Rule("one", ("value", "toward", "holds")),)
 TOLERANCE = {
     "relative": Key("a share of the value, as in 1%", "percent"),
     "absolute": Key("a width, as in 0.5 N", "quantity"),

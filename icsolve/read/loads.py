@@ -1,19 +1,19 @@
-"""Loads of the plane, each known, unknown or like another; power at a speed; the given motion."""
+"""Loads, planar and in space: each of one kind, known, unknown or like another; and the given motion."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from collections.abc import Mapping as Table
+from typing import Any, Generic, TypeVar
 
 from icsolve.case import (
     Area,
     Force,
     ForceVector,
-    Heading,
     Load,
-    Magnitude,
+    Mark,
     Motion,
     Number,
-    Slope,
     Spring,
     Stretch,
     Torque,
@@ -22,11 +22,149 @@ from icsolve.case import (
     Weight,
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
-from icsolve.read.keys import DIRECTION, LOADS, MOTION
-from icsolve.read.load_forms import Forms, Likes, bearer, magnitude, read_section, torque_number, word_at
-from icsolve.read.names import point_key, shown
-from icsolve.read.reading import Entry, Reading
+from icsolve.read.entry import Entry, Values
+from icsolve.read.keys import LOADS, MOTION_OF_LINK, MOTION_OF_POINT, PULLS, EntryKind
+from icsolve.read.names import is_name, point_key, shown, suggestion, why_no_name
+from icsolve.read.reading import Reading
+from icsolve.tuples import NamedTuple
 from icsolve.units import exact_ratio, times
+
+VECTORS = {"force": "vector", "torque": "couple"}
+"""Kinds that can be given by components, and what they are called then."""
+
+T = TypeVar("T")
+
+
+class Forms(NamedTuple, Generic[T]):
+    """The kinds of load and what makes each of its values, an example; and why a key has no place here."""
+
+    kinds: Table[str, EntryKind]
+    build: Table[str, Callable[[Entry, str, Values], T | list[T] | None]]
+    example: str
+    elsewhere: Table[str, str]
+
+    def own_keys(self) -> dict[str, None]:
+        """The keys by which kinds are known, each once."""
+        return dict.fromkeys(kind.key or name for name, kind in self.kinds.items())
+
+
+def dimension_of(kind: str) -> str:
+    """The dimension of the number of a kind of load; of a vector, that of its components; '' for none."""
+    whole = {name: key for key, name in VECTORS.items()}.get(kind, kind)
+    return LOADS[whole].own.dimension if whole in LOADS else ""
+
+
+def read_section(reading: Reading, section: Mapping, forms: Forms[T]) -> tuple[T, ...]:
+    """The loads that could be read."""
+    for key, node in section.items.items():
+        reading.kinds[key] = _kind_of(node, forms)
+    found: list[T] = []
+    for key, node in section.items.items():
+        load = _load(reading, key, node, section.keys[key], forms)
+        found.extend(load if isinstance(load, list) else [load] if load is not None else [])
+    _check_likes(reading)
+    return tuple(found)
+
+
+def _kind_of(node: Node, forms: Forms[T]) -> str:
+    """The kind of a load, '' where that is not clear; vectors have their own."""
+    kinds = [key for key in node.items if key in forms.own_keys()] if type(node) is Mapping else []
+    if len(kinds) != 1 or type(node) is not Mapping:
+        return ""
+    kind = kinds[0]
+    if kind == "spring" and {"corner"} & node.items.keys() and "torsion spring" in forms.kinds:
+        return "torsion spring"
+    return VECTORS.get(kind, kind) if type(node.items[kind]) is Sequence else kind
+
+
+def _load(reading: Reading, name: str, node: Node, mark: Mark, forms: Forms[T]) -> T | list[T] | None:
+    """The load of an entry, None where it can't be read; of an unknown direction, its two components."""
+    if not is_name(name):
+        reading.refuse(mark, f"{shown(name)} is not a name of a load: {why_no_name(name)}")
+        return None
+    mapping = reading.mapping(node, f"load {name}", forms.example)
+    if mapping is None:
+        return None
+    reading.marks[f"loads.{name}"] = mark
+    entry = Entry(reading, mapping, f"loads.{name}", f"load {name}", hidden=f"@{name}")
+    key = _own_key(entry, forms)
+    if key is None:
+        return None
+    sort = "torsion spring" if reading.kinds[name] == "torsion spring" else key
+    kind = forms.kinds[sort]
+    if sort in PULLS and not entry.has("link") and entry.text("at") in reading.ends:
+        from icsolve.read.ropes import read_pull
+
+        return read_pull(entry, name, sort)  # type: ignore[return-value]
+    entry.keys, entry.ties = {key: kind.own, **kind.keys}, kind.ties
+    values = entry.read(*_explain_keys(entry, sort, forms))
+    link = values["link"]
+    if link is not None and link == values.get("against"):
+        entry.refuse(entry.mark("against"), f"{entry.what} acts on link {link} against itself")
+    return forms.build[sort](entry, name, values) if entry.whole else None
+
+
+def _own_key(entry: Entry, forms: Forms[T]) -> str | None:
+    """The key that says of which kind a load is."""
+    own = forms.own_keys()
+    key = entry.one_of(own)
+    if key is None:
+        parts = {key for one in forms.kinds.values() for key in one.keys}
+        strange = [key for key in entry.node.items if key not in parts]
+        likely = suggestion(strange[0], own) if strange else ""
+        mark = entry.mark(strange[0]) if strange else entry.node.mark
+        entry.refuse(mark, f"{entry.what} has none of {', '.join(own)}{likely}")
+    return key if key and entry.reading.kinds[entry.path.removeprefix("loads.")] else None
+
+
+def _explain_keys(entry: Entry, sort: str, forms: Forms[T]) -> list[str]:
+    """Refuse keys of other kinds, and those that have their place elsewhere, in words; which these are."""
+    others = {*forms.own_keys(), *(key for one in forms.kinds.values() for key in one.keys)}
+    told = []
+    for key, mark in entry.node.keys.items():
+        if key in entry.keys or (key not in others and key not in forms.elsewhere):
+            continue
+        told.append(key)
+        if key in others:
+            said = f"is a {sort}, which has no '{key}'; it takes {', '.join(forms.kinds[sort].keys)}"
+        else:
+            said = f"has no '{key}': {forms.elsewhere[key]}"
+            entry.ties = tuple(tie for tie in entry.ties if tie.kind != "direction")
+        entry.refuse(mark, f"{entry.what} {said}")
+    return told
+
+
+def _check_likes(reading: Reading) -> None:
+    """Each other load exists, is a number of the same kind, and does not lead back."""
+    likes = reading.likes
+    circular = _circular(likes)
+    for name, (other, mark) in likes.items():
+        kind, others = reading.kinds[name], reading.kinds.get(other)
+        if others is None:
+            reading.refuse(mark, f"there is no load '{other}'{suggestion(other, reading.kinds)}")
+        elif others in VECTORS.values():
+            reading.refuse(mark, f"load {name} cannot be like {other}, which is given by components")
+        elif kind and others and dimension_of(kind) != dimension_of(others):
+            reading.refuse(mark, f"load {name} is a {kind} and cannot be like {other}, a {others}")
+        elif name in circular:
+            reading.refuse(mark, f"load {name} is like {other}, which leads back to {name}")
+
+
+def _circular(likes: dict[str, tuple[str, Mark]]) -> set[str]:
+    """The loads that are like each other in a ring; each is walked over once."""
+    circular: set[str] = set()
+    seen: dict[str, str] = {}
+    for start in likes:
+        at = start
+        while at in likes and at not in seen:
+            seen[at] = start
+            at = likes[at][0]
+        if seen.get(at) == start:
+            while at not in circular:
+                circular.add(at)
+                at = likes[at][0]
+    return circular
+
 
 _ELSEWHERE = {
     "along": "that is for a case in space, whose points have three coordinates; here it is `angle`, "
@@ -39,130 +177,78 @@ def read_loads(reading: Reading, section: Mapping) -> tuple[Load, ...]:
     return read_section(reading, section, PLANE)
 
 
-def _force(entry: Entry, name: str, kind: str, likes: Likes) -> Load | list[Load] | None:
-    if not entry.has("link") and word_at(entry, "at") in entry.reading.ends:
-        from icsolve.read.ropes import read_pull
-
-        return read_pull(entry, name, kind, likes)
-    link, against, good = bearer(entry)
-    at, turns_with = entry.place("at", f"@{name}"), entry.link("turns_with")
-    node = entry.node.items["force"]
-    if type(node) is Sequence:
-        open_ones = [type(one) is Scalar and one.text == "unknown" for one in node.items]
-        if any(open_ones):
-            pair = _directed(entry, name, node, all(open_ones))
-            whole = pair and good and link and at
-            return [Force(n, link, at, None, h, against) for n, h in pair] if whole and link and at else None
-        parts = _components(entry)
-        if parts is None or not (good and link and at):
+def heading(entry: Entry, v: Values) -> Any:
+    """What directs a force; None, with the reason noted, where it would be its own point."""
+    for key in ("toward", "away"):
+        if v[key] and v[key] == entry.text("at"):
+            entry.refuse(entry.mark(key), f"{entry.what} acts at {v[key]} and cannot point {key} it")
             return None
-        return ForceVector(name, link, at, *parts, against, turns_with)
-    heading = _heading(entry)
-    read, value = magnitude(entry, name, kind, likes)
-    if not (good and read and link and at and heading):
-        return None
-    return Force(name, link, at, value, heading, against, turns_with)
+        if v[key]:
+            return Toward(v[key], key == "away")
+    return next(v[key] for key in ("angle", "slope", "along") if v.get(key) is not None)
 
 
-def _directed(entry: Entry, name: str, node: Sequence, both: bool) -> list[tuple[str, Number]]:
-    """Names and directions of the two components of a force of unknown direction."""
-    entry.reading.marks[entry.path] = node.mark
-    if not both or len(node.items) != 2:
-        said = "along a known line it is `force: unknown` with its direction, else [unknown, unknown]"
-        entry.refuse(node.mark, f"'force' of {entry.what}: {said}")
-        return []
-    heading = entry.one_of(DIRECTION)
-    if heading is not None:
-        entry.refuse(entry.mark(heading), f"{entry.what} is given by components, so it takes no '{heading}'")
-        return []
+def _force(entry: Entry, name: str, v: Values) -> Load | list[Load] | None:
+    value, link, at, against, turns_with = (v[k] for k in ("force", "link", "at", "against", "turns_with"))
+    if type(value) is not tuple:
+        way = heading(entry, v)
+        return Force(name, link, at, value, way, against, turns_with) if way is not None else None
+    if value:
+        x, y = value
+        return ForceVector(name, link, at, x, y, against, turns_with)
     entry.reading.directed.append(name)
-    return [
-        (f"{name}.{axis}", Number(degrees, 0.0, f"{entry.path}.{axis}.angle", f"{degrees:.0f}"))
-        for axis, degrees in (("x", 0.0), ("y", 90.0))
-    ]
+    parts = (("x", 0.0), ("y", 90.0))
+    angles = {axis: Number(a, 0.0, f"{entry.path}.{axis}.angle", f"{a:.0f}") for axis, a in parts}
+    return [Force(f"{name}.{axis}", link, at, None, angle, against) for axis, angle in angles.items()]
 
 
-def _pressure(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
-    link, against, good = bearer(entry)
-    at, turns_with, heading = entry.place("at", f"@{name}"), entry.link("turns_with"), _heading(entry)
-    area = _area(entry)
-    read, value = magnitude(entry, name, kind, likes)
-    if not (good and read and link and at and heading and area):
+def _pressure(entry: Entry, name: str, v: Values) -> Load | None:
+    area, way = _area(entry, v), heading(entry, v)
+    if area is None or way is None:
         return None
-    return Force(name, link, at, value, heading, against, turns_with, area)
+    return Force(name, v["link"], v["at"], v["pressure"], way, v["against"], v["turns_with"], area)
 
 
-def _area(entry: Entry) -> Area | None:
+def _area(entry: Entry, v: Values) -> Area | None:
     """The area under a pressure."""
-    key = entry.one_of(("bore", "area"))
-    if key is None:
-        said = "needs its area: 'bore', the cylinder's diameter, or 'area'"
-        entry.refuse(entry.node.mark, f"{entry.what} {said}")
-        return None
-    if entry.has("rod") and key == "area":
-        entry.refuse(entry.mark("rod"), f"'rod' of {entry.what} goes with a 'bore'; an area is the whole one")
-        return None
-    area, bore, rod = entry.number("area"), entry.number("bore"), entry.number("rod")
-    if bore and rod and rod.value >= bore.value:
+    bore, rod = v["bore"], v["rod"]
+    if rod and rod.value >= bore.value:
         entry.refuse(entry.mark("rod"), f"the rod of {entry.what} should be thinner than its bore")
-        return None
-    if (area is None and bore is None) or (rod is None and entry.has("rod")):
         return None
     targets = entry.reading.targets
     per = times(targets["force"], targets["area"], -1)
     exact = exact_ratio(targets["pressure"], per)
     if bore is not None:
         exact = (exact[0], 4 * exact[1], exact[2] + 1)
-    return Area(exact, area, bore, rod)
+    return Area(exact, v["area"], bore, rod)
 
 
-def _distributed(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
-    link, against, good = bearer(entry)
-    a, b, turns_with = entry.point("from"), entry.point("to"), entry.link("turns_with")
-    heading = _heading(entry)
-    if a is not None and a == b:
+def _distributed(entry: Entry, name: str, v: Values) -> Load | None:
+    a, b, value, way = v["from"], v["to"], v["distributed"], heading(entry, v)
+    if a == b:
         entry.refuse(entry.mark("to"), f"{entry.what} begins and ends at {a}")
         return None
-    ends: tuple[Number, Number] | None = None
-    value: Magnitude = None
-    if type(entry.node.items["distributed"]) is Sequence:
-        ends = entry.pair("distributed", "01")
-        read, value = ends is not None, ends[0] if ends else None
-        for n in "01":
-            entry.reading.marks[f"{entry.path}.{n}"] = entry.reading.marks.get(
-                f"{entry.path}.{kind}.{n}", (1, 1)
-            )
-    else:
-        read, value = magnitude(entry, name, kind, likes)
-    if not (good and read and link and a and b and heading):
-        return None
     over = Stretch(a, b)
-    if ends is not None:
-        first, last = (end._replace(path=f"{entry.path}.{n}") for n, end in enumerate(ends))
+    if type(value) is tuple:
+        first, last = value
         steep = abs(last.value) > abs(first.value)  # per unit of the larger, which is not zero
         value, over = (last, Stretch(b, a, first)) if steep else (first, Stretch(a, b, last))
     entry.reading.middles[f"@{name}"] = (a, b)
-    return Force(name, link, f"@{name}", value, heading, against, turns_with, over)
+    return Force(name, v["link"], f"@{name}", value, way, v["against"], v["turns_with"], over)
 
 
-def _torsion(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
-    link, against, good = bearer(entry)
-    corner, free = _corner(entry), entry.number("free")
-    if corner and len(corner) == 2 and against is not None:
+def _torsion(entry: Entry, name: str, v: Values) -> Load | None:
+    corner = _corner(entry, v["corner"])
+    if corner and len(corner) == 2 and v["against"] is not None:
         said = "two points give the angle to the frame; to another link it has three, as in ABC"
         entry.refuse(entry.mark("against"), f"'corner' of {entry.what}: {said}")
+    if not entry.whole or corner is None:
         return None
-    read, value = magnitude(entry, name, kind, likes)
-    if not (good and read and link and corner and free):
-        return None
-    return TorsionSpring(name, link, corner, value, free, against)
+    return TorsionSpring(name, v["link"], corner, v["spring"], v["free"], v["against"])
 
 
-def _corner(entry: Entry) -> tuple[str, ...] | None:
+def _corner(entry: Entry, node: Node) -> tuple[str, ...] | None:
     """The two or three points of an angle."""
-    node = entry.node.items.get("corner")
-    if node is None:
-        return None
     text = node.text if type(node) is Scalar else ""
     reading = entry.reading
     names = point_key(text, (2, 3), reading.given | reading.used.keys())
@@ -174,80 +260,28 @@ def _corner(entry: Entry) -> tuple[str, ...] | None:
     return names
 
 
-def _components(entry: Entry) -> tuple[Number, Number] | None:
-    """A force by its components, at paths ``loads.P.x``; it takes no direction."""
-    heading = entry.one_of(DIRECTION)
-    if heading is not None:
-        entry.refuse(entry.mark(heading), f"{entry.what} is given by components, so it takes no '{heading}'")
-    parts = entry.pair("force", "xy")
-    if parts is None:
+def _torque(entry: Entry, name: str, v: Values) -> Load | None:
+    if v["screw"] is not None:
+        return _turning(entry, name, v)
+    return Torque(name, v["link"], v["torque"], v["turns"] or "ccw", v["against"])
+
+
+def weight(entry: Entry, name: str, v: Values) -> Weight:
+    """A weight, given by its force or its mass."""
+    mass = "mass" in v
+    return Weight(name, v["link"], v["at"], v["mass" if mass else "weight"], mass)
+
+
+def spring(entry: Entry, name: str, v: Values) -> Spring | None:
+    """A spring between two different points."""
+    if v["at"] == v["to"]:
+        entry.refuse(entry.mark("to"), f"both ends of {entry.what} are at {v['at']}")
         return None
-    for axis in "xy":
-        entry.reading.marks[f"{entry.path}.{axis}"] = entry.reading.marks.pop(f"{entry.path}.force.{axis}")
-    x, y = (part._replace(path=f"{entry.path}.{axis}") for part, axis in zip(parts, "xy", strict=True))
-    return x, y
+    return Spring(name, v["link"], v["at"], v["to"], v["spring"], v["free"], v["against"])
 
 
-def _heading(entry: Entry) -> Heading | None:
-    key = entry.one_of(DIRECTION)
-    if key is None:
-        *first, last = DIRECTION
-        entry.refuse(entry.node.mark, f"{entry.what} needs its direction: {', '.join(first)} or {last}")
-    if key == "angle":
-        return entry.number(key)
-    if key == "slope":
-        return _slope(entry)
-    point = entry.point(key) if key else None
-    if point is not None and point == word_at(entry, "at"):
-        entry.refuse(entry.mark(key or ""), f"{entry.what} acts at {point} and cannot point {key} it")
-        return None
-    return Toward(point, key == "away") if point else None
-
-
-def _slope(entry: Entry) -> Slope | None:
-    pair = entry.pair("slope", "xy")
-    if pair and pair[0].value == 0.0 and pair[1].value == 0.0:
-        entry.refuse(entry.mark("slope"), f"the slope [0, 0] of {entry.what} has no direction")
-        return None
-    return Slope(*pair) if pair else None
-
-
-def _torque(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
-    if entry.has("screw"):
-        return _turning(entry, name, kind, likes)
-    link, against, good = bearer(entry)
-    turns = entry.sense()
-    read, value = magnitude(entry, name, kind, likes)
-    return Torque(name, link, value, turns, against) if good and read and link and turns else None
-
-
-def _weight(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
-    if not entry.has("link") and word_at(entry, "at") in entry.reading.ends:
-        from icsolve.read.ropes import read_pull
-
-        return read_pull(entry, name, kind, likes)
-    link, at = entry.link("link"), entry.place("at", f"@{name}")
-    read, value = magnitude(entry, name, kind, likes)
-    return Weight(name, link, at, value, kind == "mass") if read and link and at else None
-
-
-def _spring(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
-    link, against, good = bearer(entry)
-    at, to = entry.place("at", f"@{name}"), entry.place("to", f"@{name}'")
-    free = entry.number("free")
-    read, value = magnitude(entry, name, kind, likes)
-    if at is not None and at == to:
-        entry.refuse(entry.mark("to"), f"both ends of {entry.what} are at {at}")
-        return None
-    if not (good and read and link and at and to and free):
-        return None
-    return Spring(name, link, at, to, value, free, against)
-
-
-def _power(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
-    link, against, good = bearer(entry)
-    turns, value = entry.sense(), torque_number(entry)
-    return Torque(name, link, value, turns, against) if value and good and link and turns else None
+def _power(entry: Entry, name: str, v: Values) -> Load:
+    return Torque(name, v["link"], v["power"], v["turns"] or "ccw", v["against"])
 
 
 PLANE: Forms[Load] = Forms(
@@ -255,9 +289,9 @@ PLANE: Forms[Load] = Forms(
     {
         "force": _force,
         "torque": _torque,
-        "weight": _weight,
-        "mass": _weight,
-        "spring": _spring,
+        "weight": weight,
+        "mass": weight,
+        "spring": spring,
         "torsion spring": _torsion,
         "pressure": _pressure,
         "distributed": _distributed,
@@ -286,45 +320,18 @@ def _motion(reading: Reading, node: Node, path: str) -> Motion | None:
     if mapping is None:
         return None
     reading.marks[path] = mapping.mark
-    entry = Entry(reading, mapping, path, "motion", MOTION)
-    entry.check()
-    link = entry.link("link")
-    return _of_point(entry, link) if entry.has("point") else _of_link(entry, link, mapping)
-
-
-def _of_link(entry: Entry, link: str | None, mapping: Mapping) -> Motion | None:
-    if entry.has("angle"):
-        entry.refuse(entry.mark("angle"), "a link's motion has no 'angle'; a point's motion has")
+    own, other = MOTION_OF_LINK, MOTION_OF_POINT
+    told = "a link's motion has no '{}'; a point's motion has"
+    if "point" in mapping.items or ("angle" in mapping.items and "turns" not in mapping.items):
+        own, other, told = other, own, "a point's motion has 'speed' and 'angle', not '{}'"
+    entry = Entry(reading, mapping, path, "motion", own.keys, own.ties)
+    strange = [key for key in mapping.items if key in other.keys and key not in own.keys]
+    for key in strange:
+        entry.refuse(entry.mark(key), told.format(key))
+    v = entry.read(*strange)
+    if not entry.whole:
         return None
-    if not entry.has("speed") and not entry.has("turns"):
-        entry.refuse(mapping.mark, "motion of a link needs 'speed', 'turns: ccw' or 'turns: cw'")
-        return None
-    speed = entry.number("speed")
-    turns = entry.word("turns", ("ccw", "cw"))
-    more = _acceleration(entry)
-    good = (speed is not None) == entry.has("speed") and (turns is not None) == entry.has("turns")
-    return Motion(link, speed, turns, acceleration=more) if link and good else None
-
-
-def _acceleration(entry: Entry, dimension: str = "") -> Number | None:
-    """How fast the speed grows; there has to be one."""
-    if entry.has("acceleration") and not entry.has("speed"):
-        mark = entry.mark("acceleration")
-        entry.refuse(mark, "motion with an 'acceleration' needs a 'speed', 0 where it starts")
-    return entry.number("acceleration", dimension)
-
-
-def _of_point(entry: Entry, link: str | None) -> Motion | None:
-    if entry.has("turns"):
-        entry.refuse(entry.mark("turns"), "a point's motion has 'speed' and 'angle', not 'turns'")
-        return None
-    point = entry.point("point")
-    entry.need("speed")
-    entry.need("angle")
-    speed, angle = entry.number("speed", "speed"), entry.number("angle")
-    more = _acceleration(entry, "path acceleration")
-    good = link and point and speed is not None and angle is not None
-    return Motion(link, speed, None, point, angle, more) if good and link else None
+    return Motion(v["link"], v["speed"], v.get("turns"), v.get("point"), v.get("angle"), v["acceleration"])
 
 
 def driven(loads: Node | None) -> set[frozenset[str]]:
@@ -347,20 +354,20 @@ def _pair(node: Node) -> tuple[str, str] | None:
     return (parts[0], parts[1]) if len(parts) == 2 and all(parts) else None
 
 
-def _turning(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
+def _turning(entry: Entry, name: str, v: Values) -> Load | None:
     """A torque that turns a screw: positive where it drives the second link along the axis."""
-    node = entry.node.items["screw"]
-    pair = _pair(node)
+    node, pair = v["screw"], _pair(v["screw"])
     for key in ("link", "against", "turns"):
         if entry.has(key):
             said = f"{entry.what} turns a screw and has no '{key}': it is positive clockwise as one looks"
             entry.refuse(entry.mark(key), f"{said} along the axis")
             return None
+    if pair and frozenset(pair) in entry.reading.unread:
+        return None
     screw = next((s for s in entry.reading.screws if pair and {*s.links} == {*pair}), None)
     if screw is None:
         what = shown(node.text) if type(node) is Scalar else "that"
         said = f"{entry.what} should turn a screw by its two links, as in 2-3, and no screw joins {what}"
         entry.refuse(node.mark, said)
         return None
-    read, value = magnitude(entry, name, kind, likes)
-    return Torque(name, screw.rotor, value) if read else None
+    return Torque(name, screw.rotor, v["torque"])

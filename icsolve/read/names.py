@@ -18,14 +18,16 @@ class Stop(Exception):
 
 
 class Problems:
-    """Notes problems of one file."""
+    """Notes problems of one file; ``noted`` counts them, those told before too."""
 
     def __init__(self, path: str) -> None:
         self.path = path
         self.found: list[Problem] = []
+        self.noted = 0
 
     def refuse(self, mark: Mark, message: str) -> None:
         """Note a problem; stops at the hundredth."""
+        self.noted += 1
         problem = Problem(printable(self.path), mark[0], mark[1], printable(message))
         if problem not in self.found:
             self.found.append(problem)

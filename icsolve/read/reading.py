@@ -1,17 +1,15 @@
-"""What is known while a file is read; its numbers; and one entry, taken key by key."""
+"""What is known while a file is read; its numbers and units."""
 
 from __future__ import annotations
 
 import math
 import re
 from collections.abc import Callable, Iterable
-from collections.abc import Mapping as Table
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from icsolve.case import Coordinates, Mark, Number, Units, Unknown
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null, missing_space
 from icsolve.read.keys import UNITS as UNIT_KEYS
-from icsolve.read.keys import Key
 from icsolve.read.names import Problems, is_name, meant_by, shown, suggestion, why_no_name
 from icsolve.units import (
     DIMENSIONS,
@@ -36,6 +34,7 @@ if TYPE_CHECKING:
 
     from icsolve.case import Rope, Screw
     from icsolve.case.profiles import Touch
+    from icsolve.case.space import SpatialPoint
 
 
 class Reading:
@@ -51,11 +50,14 @@ class Reading:
     of ropes, ``ends`` those that have a free end, by its point, ``noticed`` sentences on what may be a slip,
     ``unknowns`` the data of the figure that are to find, ``middles`` the hidden points in the middle of two,
     ``directed`` the forces of unknown direction. ``driven`` are the pairs of links whose screws torques turn,
-    ``screws`` these.
+    ``screws`` these, ``unread`` those that can't be read. ``likes`` are loads that are like another: its
+    name, and where that stands. ``forms`` read values of forms that only some sections have, ``coordinates``
+    makes a point of its numbers.
     """
 
     axes = "xy"
     couples = ""
+    coordinates: type[Coordinates | SpatialPoint] = Coordinates
 
     def __init__(self, problems: Problems, targets: dict[str, Unit], shown_units: dict[str, str]) -> None:
         self.problems = problems
@@ -68,8 +70,10 @@ class Reading:
         self.measured: set[str] = set()
         self.on_guides: list[str] = []
         self.centroids: dict[str, tuple[str, ...]] = {}
-        self.hidden: dict[str, Coordinates] = {}
+        self.hidden: dict[str, Any] = {}
         self.kinds: dict[str, str] = {}
+        self.forms: dict[str, Callable[..., Any]] = {}
+        self.likes: dict[str, tuple[str, Mark]] = {}
         self.joint_number = 0
         self.profiled: set[str] = set()
         self.noticed: list[str] = []
@@ -81,6 +85,7 @@ class Reading:
         self.ropes: set[str] = set()
         self.driven: set[frozenset[str]] = set()
         self.screws: list[Screw] = []
+        self.unread: set[frozenset[str]] = set()
 
     def refuse(self, mark: Mark, message: str) -> None:
         """Note a problem."""
@@ -431,160 +436,3 @@ def _shown(units: Units) -> dict[str, str]:
         "angular acceleration": "rad/s^2",
         "path acceleration": f"{units.length}/s^2",
     }
-
-
-_BOUNDS: dict[str, tuple[Callable[[float], bool], str]] = {
-    "positive": (lambda v: v > 0.0, "should be greater than zero"),
-    "not negative": (lambda v: v >= 0.0, "should not be negative"),
-}
-
-
-class Entry:
-    """A mapping at ``path``, called ``what`` in messages, with the keys of a table.
-
-    Every value asked for is checked and read as the table says of its key.
-    """
-
-    def __init__(
-        self, reading: Reading, node: Mapping, path: str, what: str, keys: Table[str, Key] | None = None
-    ) -> None:
-        self.reading = reading
-        self.node = node
-        self.path = path
-        self.what = what
-        self.keys = keys or {}
-
-    def has(self, key: str) -> bool:
-        """Whether the key stands there."""
-        return key in self.node.items
-
-    def mark(self, key: str) -> Mark:
-        """Where the key stands."""
-        return self.node.keys[key]
-
-    def refuse(self, mark: Mark, message: str) -> None:
-        """Note a problem."""
-        self.reading.refuse(mark, message)
-
-    def check(self, *besides: str) -> None:
-        """Refuse keys that the table has not, nor are named ``besides``; and miss those that it needs."""
-        self.reading.check_keys(self.node, (*self.keys, *besides), self.what)
-        for name, key in self.keys.items():
-            if key.needed:
-                self.need(name)
-
-    def need(self, key: str, meaning: str = "") -> Node | None:
-        """The value of a key that must stand there; a missing one is refused with its meaning."""
-        node = self.node.items.get(key)
-        if node is None:
-            self.refuse(self.node.mark, f"{self.what} needs '{key}': {meaning or self.keys[key].says}")
-        return node
-
-    def one_of(self, keys: Iterable[str]) -> str | None:
-        """The one key of several that stands there; None for none; two are refused."""
-        there = [key for key in keys if key in self.node.items]
-        if len(there) > 1:
-            said = " and ".join(f"'{key}'" for key in there)
-            self.refuse(self.mark(there[1]), f"{self.what} has {said}; give one of them")
-        return there[0] if there else None
-
-    def number(self, key: str, dimension: str = "", bound: str = "") -> Number | None:
-        """A number if the key stands there, within its bound; by the table unless a dimension is given."""
-        node = self.node.items.get(key)
-        if node is None:
-            return None
-        if not dimension:
-            dimension, bound = self.keys[key].dimension, self.keys[key].bound
-        return self.value(node, dimension, f"{self.path}.{key}", key, bound)
-
-    def value(self, node: Node, dimension: str, path: str, key: str, bound: str = "") -> Number | None:
-        """The number of a node, within its bound."""
-        found = number(self.reading, node, dimension, path)
-        if found is None or not bound or _BOUNDS[bound][0](found.value):
-            return found
-        self.refuse(node.mark, f"the {key} {found.digits} of {self.what} {_BOUNDS[bound][1]}")
-        return None
-
-    def pair(self, key: str, names: str, meaning: str = "") -> tuple[Number, Number] | None:
-        """A list of two numbers, at paths ``key.x`` and ``key.y`` for names ``xy``."""
-        node = self.node.items.get(key)
-        if type(node) is not Sequence or len(node.items) != 2:
-            mark = node.mark if node is not None else self.node.mark
-            self.refuse(mark, f"'{key}' of {self.what} should be {meaning or self.keys[key].says}")
-            return None
-        first, second = (
-            number(self.reading, item, self.keys[key].dimension, f"{self.path}.{key}.{name}")
-            for item, name in zip(node.items, names, strict=True)
-        )
-        return (first, second) if first is not None and second is not None else None
-
-    def point(self, key: str) -> str | None:
-        """The name of a point if the key stands there."""
-        node = self.node.items.get(key)
-        if type(node) is Sequence:
-            self.refuse(
-                node.mark, f"'{key}' of {self.what} should be a point's name; coordinates stand in 'points'"
-            )
-            return None
-        return self.reading.point(node, f"'{key}' of {self.what}") if node is not None else None
-
-    def place(self, key: str, hidden: str) -> str | None:
-        """A point's name, or that of the hidden point whose coordinates stand in its stead."""
-        node = self.node.items.get(key)
-        if type(node) is not Sequence:
-            return self.point(key)
-        pair = self.coordinates(key, node)
-        if pair is None:
-            return None
-        while hidden in self.reading.hidden:
-            hidden += "'"
-        self.reading.hidden[hidden] = Coordinates(*pair)
-        self.reading.marks[f"points.{hidden}"] = node.mark
-        return hidden
-
-    def coordinates(self, key: str, node: Sequence) -> tuple[Number, Number] | None:
-        """Two lengths in place of a point."""
-        if len(node.items) != 2:
-            self.refuse(node.mark, f"'{key}' of {self.what} should be a point, or two coordinates [x, y]")
-            return None
-        x, y = (
-            number(self.reading, item, "length", f"{self.path}.{key}.{axis}")
-            for item, axis in zip(node.items, "xy", strict=True)
-        )
-        return (x, y) if x is not None and y is not None else None
-
-    def link(self, key: str) -> str | None:
-        """The name of a link if the key stands there."""
-        node = self.node.items.get(key)
-        return self.reading.link(node, f"'{key}' of {self.what}") if node is not None else None
-
-    def two_points(self, key: str, form: str) -> tuple[str, str] | None:
-        """A line by two of its points, in a list that stands there."""
-        node = self.node.items[key]
-        items = self.reading.names(node, f"'{key}' of {self.what}", form)
-        if items is None:
-            return None
-        for item in items:
-            self.reading.used.setdefault(item.text, item.mark)
-        if len(items) == 2 and items[0].text != items[1].text:
-            return items[0].text, items[1].text
-        self.refuse(node.mark, f"'{key}' of {self.what} should be a direction or two different points")
-        return None
-
-    def sense(self) -> str | None:
-        """How it `turns`: ccw unless it says so; None where that can't be read."""
-        turns = self.word("turns", ("ccw", "cw"))
-        return "ccw" if not self.has("turns") else turns
-
-    def word(self, key: str, words: tuple[str, ...]) -> str | None:
-        """One word of several if the key stands there."""
-        node = self.node.items.get(key)
-        if node is None:
-            return None
-        text = node.text if type(node) is Scalar else ""
-        if text in words:
-            return text
-        likely = suggestion(text, words) if text else ""
-        said = f", not {shown(text)}" if text else ""
-        self.refuse(node.mark, f"'{key}' of {self.what} should be {' or '.join(words)}{said}{likely}")
-        return None

@@ -7,10 +7,10 @@ from typing import TypeVar
 
 from icsolve.case import AlongRope, Force, Load, Number, Rope, Weight
 from icsolve.read.document import Mapping, Node, Sequence
-from icsolve.read.keys import JOINTS
-from icsolve.read.load_forms import Likes, magnitude, word_at
+from icsolve.read.entry import Entry
+from icsolve.read.keys import JOINTS, PULLS
 from icsolve.read.names import shown, suggestion
-from icsolve.read.reading import Entry, Reading
+from icsolve.read.reading import Reading
 
 _FORM = "{rope: [A, P, B], on: [4, 3, 1]}"
 T = TypeVar("T")
@@ -138,16 +138,16 @@ def _check_wraps(
         entry.refuse(entry.mark("radii"), said)
 
 
-def read_pull(entry: Entry, name: str, kind: str, likes: Likes) -> Load | None:
+def read_pull(entry: Entry, name: str, kind: str) -> Load | None:
     """A load without a link, which pulls the free end of a rope."""
-    rope = entry.reading.ends[word_at(entry, "at")]
-    others = [key for key in entry.node.items if key not in (kind, "at")]
+    rope = entry.reading.ends[entry.text("at")]
+    entry.keys = {kind: PULLS[kind].own, **PULLS[kind].keys}
+    others = [key for key in entry.node.items if key not in entry.keys]
     for key in others:
         said = f"{entry.what} pulls the free end of the rope {rope.name}, along it: take out '{key}'"
         entry.refuse(entry.mark(key), said)
-    entry.point("at")
-    read, value = magnitude(entry, name, kind, likes)
-    if not read or others:
+    value = entry.read(*others)[kind]
+    if not entry.whole:
         return None
     if kind in ("weight", "mass"):
         return Weight(name, rope.end, rope.points[-1], value, kind == "mass")

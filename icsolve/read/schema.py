@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Any
 
 from icsolve.read import keys
-from icsolve.read.keys import EntryKind, Key
+from icsolve.read.keys import EntryKind, Key, Rule
 
 Schema = dict[str, Any]
 ID = "icsolve.schema.json"
@@ -79,25 +79,42 @@ def _keyed(table: dict[str, Key], *needed: str) -> Schema:
 
 
 def _of_kind(name: str, kind: EntryKind) -> Schema:
-    """A mapping of one kind of joint, load or profile."""
-    return {**_keyed({kind.key or name: kind.own, **kind.keys}), "description": kind.says}
+    """A mapping of one kind of joint, load or profile, with what ties its keys."""
+    own = kind.key or name
+    return {**_keyed({own: kind.own, **kind.keys}), **_tied(kind.ties, own), "description": kind.says}
 
 
-def _one(table: dict[str, EntryKind], **more: Schema) -> list[Schema]:
-    """The kinds of a table, each with what only code can tell of it."""
-    return [{**_of_kind(name, kind), **more.get(name, {})} for name, kind in table.items()]
+def _tied(ties: tuple[Rule, ...], own: str = "") -> Schema:
+    """What ties keys of a mapping to one another."""
+    conditions = [_tie(tie, own) for tie in ties]
+    return conditions[0] if len(conditions) == 1 else {"allOf": conditions} if conditions else {}
 
 
-def _directed(kind: str, headings: dict[str, Key]) -> Schema:
+def _tie(tie: Rule, own: str) -> Schema:
+    match tie.kind:
+        case "needs":
+            return {"dependencies": {tie.keys[0]: list(tie.keys[1:])}}
+        case "direction":
+            return _directed(own, tie.keys)
+        case "any":
+            return {"anyOf": [{"required": [name]} for name in tie.keys]}
+        case "one":
+            return {"oneOf": [{"required": [name]} for name in tie.keys]}
+    none = {"not": {"anyOf": [{"required": [name]} for name in tie.keys]}}
+    return {"oneOf": [none, *({"required": [name]} for name in tie.keys)]}
+
+
+def _one(table: dict[str, EntryKind]) -> list[Schema]:
+    """The kinds of a table."""
+    return [_of_kind(name, kind) for name, kind in table.items()]
+
+
+def _directed(kind: str, headings: tuple[str, ...]) -> Schema:
     """One direction; none where the load is given by components."""
     alone = {"required": [kind], "properties": {kind: {"type": "array"}}}
     without = {"not": {"anyOf": [{"required": [key]} for key in headings]}}
     others = [{"required": [key], "properties": {kind: {"not": {"type": "array"}}}} for key in headings]
     return {"oneOf": [{**alone, **without}, *others]}
-
-
-def _either(*names: str) -> Schema:
-    return {"oneOf": [{"required": [name]} for name in names]}
 
 
 _LOAD = (_ref("quantity"), _ref("unknown"), _ref("like"))
@@ -118,6 +135,7 @@ FORMS: dict[str, Schema] = {
     "quantity": _ref("quantity"),
     "number": _ref("number"),
     "with unit": _ref("with unit"),
+    "power": _ref("with unit"),
     "percent": _pattern(r"^\s*[0-9.]+ ?%\s*$"),
     "width": _any({"type": "number", "minimum": 0}, _pattern(_QUANTITY)),
     "pair": _ref("pair"),
@@ -180,9 +198,6 @@ FORMS: dict[str, Schema] = {
 
 
 def _definitions() -> Schema:
-    motion = _keyed(keys.MOTION)
-    of_link = {key: form for key, form in motion["properties"].items() if key not in ("point", "angle")}
-    of_point = {key: form for key, form in motion["properties"].items() if key != "turns"}
     return {
         "text": {"type": ["string", "number", "boolean", "null"]},
         "name": _any(_pattern(f"^{_NAME}$"), {"type": "integer", "minimum": 0}, {"type": "boolean"}),
@@ -196,33 +211,17 @@ def _definitions() -> Schema:
         "unknown datum": _keyed(keys.UNKNOWN),
         "like": _keyed(keys.LIKE),
         "units": {**_keyed(keys.UNITS), "type": ["object", "null"]},
-        "masses": {**_keyed(keys.MASSES), "dependencies": {"mass": ["centre"]}},
+        "masses": {**_keyed(keys.MASSES), **_tied(keys.MASSES_TIES)},
         "centroid": _keyed(keys.CENTROID),
         "gravity in space": _keyed(keys.GRAVITY),
-        "joint": {"oneOf": _one(keys.JOINTS, **_TIES)},
+        "joint": {"oneOf": _one(keys.JOINTS)},
         "joint in space": _any(*_one(keys.SPACE_JOINTS)),
-        "load": {
-            "oneOf": _one(
-                keys.LOADS,
-                force=_any(_FREE_END, {"required": ["link"], **_directed("force", keys.DIRECTION)}),
-                pressure={**_either(*keys.DIRECTION), "anyOf": _either("bore", "area")["oneOf"]},
-                distributed=_either(*keys.DIRECTION),
-            )
-        },
-        "load in space": _any(*_one(keys.SPACE_LOADS, force=_directed("force", keys.SPACE_DIRECTION))),
+        "load": {"oneOf": [*_one(keys.LOADS), *_one(keys.PULLS)]},
+        "load in space": _any(*_one(keys.SPACE_LOADS)),
         "profile": _any(*_one(keys.PROFILES)),
         "arc": _keyed(keys.ARC),
-        "motion": {
-            "oneOf": [
-                {
-                    **motion,
-                    "properties": of_link,
-                    "anyOf": [{"required": ["speed"]}, {"required": ["turns"]}],
-                },
-                {**motion, "properties": of_point, "required": ["point", "link", "speed", "angle"]},
-            ]
-        },
-        "published": {**_keyed(keys.EXPECTED), **_either("value", "toward", "holds")},
+        "motion": {"oneOf": [_of_kind("link", keys.MOTION_OF_LINK), _of_kind("link", keys.MOTION_OF_POINT)]},
+        "published": {**_keyed(keys.EXPECTED), **_tied(keys.EXPECTED_TIES)},
         "tolerance": {**_keyed(keys.TOLERANCE), "minProperties": 1},
         "variable": {
             "oneOf": [
@@ -231,18 +230,3 @@ def _definitions() -> Schema:
             ]
         },
     }
-
-
-_FREE_END: Schema = {
-    "required": ["force", "at"],
-    "properties": {"force": {"not": {"type": "array"}}},
-    "not": {"anyOf": [{"required": [key]} for key in ("link", *keys.DIRECTION)]},
-}
-"""A force that pulls the free end of a rope: the rope gives it its direction."""
-_TIES: dict[str, Schema] = {
-    "pin": {"dependencies": {"mu": ["radius"]}},
-    "screw": {"dependencies": {"mu": ["radius"]}},
-    "centre": _either("at", "toward"),
-    "gears": {"not": {"required": ["diametral pitch", "module"]}},
-}
-"""What only code can tell of a joint's keys."""
