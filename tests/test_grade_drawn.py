@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import icsolve
-from grade_shell import PRESS, Class
+from grade_shell import CASES, PRESS, Class
 from icsolve.case.expected import LoadIs
 from icsolve.grade import tolerance as drawn
 from icsolve.grade.case_store import CaseStore
@@ -58,6 +58,14 @@ def test_the_band_of_a_drawing_by_differences_is_that_of_the_backward_pass(a_cla
     assert near.keys() <= exact.keys()
     for path, slope in near.items():
         assert slope == pytest.approx(abs(exact[path]), rel=1e-6, abs=1e-6)
+
+
+def test_a_drawing_allows_a_band_where_a_scene_has_no_derivatives(a_class: Class) -> None:
+    """A rope that slips on a post, F = W exp(mu beta), level to B and upright to A: beta changes by what A, B
+    and the post are off across the rope, over the 2 and 3 m between. Differences leave some millionths."""
+    a_class.case("rope", (CASES / "ropes" / "capstan.yaml").read_text() + "tolerance: {drawing: 1 mm}\n")
+    value, half = widths(a_class, "rope")
+    assert half == pytest.approx(0.25 * value * 0.001 * (1.0 / 2.0 + 1.0 / 3.0) * 2.0, rel=1e-5)
 
 
 def test_a_drawing_that_leaves_the_answer_open_is_refused_by_name(a_class: Class) -> None:

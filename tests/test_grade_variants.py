@@ -8,10 +8,11 @@ from pathlib import Path
 import pytest
 
 import icsolve
-from grade_shell import PRESS, Class
+from grade_shell import CASES, PRESS, Class
 from icsolve.case.expected import Variable
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
+from icsolve.grade.keys import NumberKey
 from icsolve.grade.variants.varied import Varied, drawn, label
 
 VARIABLES = (Variable("P", start="100", stop="500", step="10"), Variable("a", choices=("1.5", "2", "2.5")))
@@ -104,6 +105,35 @@ def test_with_friction_variants_near_a_dead_centre_are_not_given_either(a_class:
     drawn_angles = {int(found.draw(str(n)).values["phi"]) for n in range(80)}
     assert min(drawn_angles) > 3
     assert len(drawn_angles) > 30
+
+
+@pytest.mark.parametrize(
+    ("name", "number"),
+    [
+        ("ropes/capstan", "weight: 100"),
+        ("tools/screw_jack", "weight: 10 kN"),
+        ("dynamics/hoist_starting", "mass: 40 kg"),
+        ("tools/toggle_clamp", "force: 80"),
+        ("ropes/differential_hoist", "weight: 1000"),
+    ],
+)
+def test_variants_of_what_has_no_derivatives_and_of_what_is_near_a_dead_centre_by_nature(
+    a_class: Class, name: str, number: str
+) -> None:
+    """Ropes that slip, screws, inertia; toggles and differential hoists amplify, whatever their numbers."""
+    text = (CASES / f"{name}.yaml").read_text()
+    kind, _, written = number.partition(": ")
+    plain, _, unit = written.partition(" ")
+    assert number in text
+    text = text.replace(number, f"{kind}: $P {unit}")
+    a_class.case("press", f"{text}variables: {{P: {{range: [{plain}, {2 * int(plain)}], step: 1}}}}\n")
+    found = varied(a_class)
+    for student in "ab":
+        values = found.draw(student).values
+        settings = {f"variables.{name}": value for name, value in values.items()}
+        ((_, one),) = icsolve.solve(icsolve.load(a_class.path("cases/press.yaml"), settings)).answers.items()
+        key = found.key("press", student)
+        assert isinstance(key, NumberKey) and key.value == pytest.approx(one.value, rel=1e-12)
 
 
 def test_a_case_none_of_whose_variants_suits_says_so(a_class: Class) -> None:

@@ -29,7 +29,7 @@ from icsolve.case.expected import (
     TensionIs,
     Tolerance,
 )
-from icsolve.errors import IcsolveError
+from icsolve.errors import IcsolveError, SceneError
 from icsolve.grade.mistakes import solved_for
 from icsolve.grade.written.units import factors_between, unit_word
 from icsolve.numbers.given import numbers_in
@@ -236,14 +236,22 @@ def drawn_width(accuracy: str, target: Target, answer: Answer) -> float:
 
     Raises NoKeyError where the target does not hang on the drawing.
     """
-    width = _length(accuracy, answer)
-    slopes = _exact(target, answer) or _differences(target, answer)
-    found = band(replace(answer, sensitivities={_NAME: slopes}), _NAME, width)
+    found = drawn_band(target, answer, _length(accuracy, answer))
     if not found > 0.0:
         raise NoKeyError(
             f"a drawing accurate to {accuracy} leaves no room for this answer; give it a tolerance such as 2%"
         )
     return found
+
+
+def drawn_band(target: Target, answer: Answer, width: float) -> float:
+    """The band of a target, in its unit, where all of the drawing may be off by ``width`` (case units): by
+    exact derivatives where the scene has them, else by differences.
+
+    Raises NoKeyError near a limit, where the drawing says nothing of it.
+    """
+    slopes = _exact(target, answer) or _differences(target, answer)
+    return band(replace(answer, sensitivities={_NAME: slopes}), _NAME, width)
 
 
 def _length(accuracy: str, answer: Answer) -> float:
@@ -256,12 +264,15 @@ def _length(accuracy: str, answer: Answer) -> float:
 
 
 def _exact(target: Target, answer: Answer) -> dict[str, float]:
-    """Derivatives of an unknown load; none where its backward pass has none, as with friction."""
+    """Derivatives of an unknown load; none where its backward pass has none, as with screws and inertia."""
     from icsolve.solve import solve
 
     if not isinstance(target, LoadIs):
         return {}
-    return dict(solve(answer.case).sensitivities.get(target.load, {}))
+    try:
+        return dict(solve(answer.case).sensitivities.get(target.load, {}))
+    except SceneError:
+        return {}
 
 
 def _differences(target: Target, answer: Answer) -> dict[str, float]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import math
 import re
 from collections import OrderedDict
 from collections.abc import Mapping
@@ -11,22 +12,20 @@ from typing import TYPE_CHECKING, TypeVar
 
 from icsolve.answer import Answer
 from icsolve.case import Case, Load, Mark, Number
-from icsolve.case.expected import Variable
+from icsolve.case.expected import LoadIs, Variable
 from icsolve.errors import CaseError, IcsolveError, SceneError
 from icsolve.grade.course import Course
 from icsolve.grade.keys import (
     AnyKey,
 )
 from icsolve.grade.mistakes import WrongAnswers
-from icsolve.grade.mistakes.changed import without_friction
 from icsolve.grade.solved import SolvedCase
-from icsolve.grade.tolerance import NoKeyError, size_of
+from icsolve.grade.tolerance import NoKeyError, drawn_band, size_of
 from icsolve.read.document import Mapping as Tree
 from icsolve.read.document import Node, Scalar, parse
 from icsolve.read.document import Sequence as Items
 from icsolve.read.names import Problems
 from icsolve.read.variables import count, first_values, names_in, replaced, value_at
-from icsolve.scene.sensitivity import band
 from icsolve.tuples import NamedTuple
 from icsolve.units import converted, parse_unit, split_quantity
 from icsolve.wording.senses import unit_of
@@ -155,45 +154,18 @@ class Seen(NamedTuple):
     swallowed: frozenset[Mistake]
 
 
-def looked_at(answer: Answer) -> Seen:
-    """A variant that was solved with all centres and rates."""
-    far = far_from_dead_centres(answer)
-    return Seen(far, swallowed(answer) if far else frozenset())
-
-
-def far_from_dead_centres(answer: Answer) -> bool:
-    """Whether rounding the figure to a thousandth of its size leaves the answers within 10 %.
-
-    Where friction has no sensitivities, those of the smooth mechanism stand for them.
-    """
-    from icsolve.solve import solve
-
-    width = DRAWING * size_of(answer)
-    try:
-        bounded = answer if without_friction(answer.case) is None else solve(answer.case)
-    except IcsolveError:
-        return False
+def swing(answer: Answer) -> float:
+    """The largest part of itself by which an answer changes where every point of the figure is off by a
+    thousandth of its size; infinite at a dead centre, and where an answer is zero."""
+    width, largest = DRAWING * size_of(answer), 0.0
     for name, found in answer.answers.items():
-        if found.holds is not None:
-            continue
-        smooth = bounded if name in bounded.sensitivities else _smooth(answer)
-        if name not in smooth.sensitivities:
-            continue
-        swing = band(smooth, name, width)
-        if found.value == 0.0 or not swing <= SWING * abs(found.value):
-            return False
-    return True
-
-
-def _smooth(answer: Answer) -> Answer:
-    """The case without its friction; itself where that has no answer."""
-    from icsolve.solve import solve
-
-    case = without_friction(answer.case)
-    try:
-        return solve(case) if case is not None else answer
-    except IcsolveError:
-        return answer
+        if found.holds is None:
+            try:
+                change = drawn_band(LoadIs(name), answer, width)
+            except (NoKeyError, IcsolveError):
+                return math.inf
+            largest = max(largest, change / abs(found.value) if found.value else math.inf)
+    return largest
 
 
 def swallowed(answer: Answer) -> frozenset[Mistake]:
@@ -214,8 +186,10 @@ _SHOWN = frozenset({"missed-load", "load-sense", "inverse-ratio", "no-cos", "sin
 
 
 Texts = dict[str, str]
+_STEADY = 1.0
+"""Part of itself by which an answer may swing for the task to be one at all."""
 _REFERENCES = 8
-"""Draws by which it is told which mistakes no variant shows."""
+"""Draws by which it is told how near to a dead centre the task is, and which mistakes no variant shows."""
 _KEPT = 1000
 """Figures that are kept solved."""
 _KNOWN = 100_000
@@ -396,23 +370,37 @@ class Varied:
         seen = self._seen.get(key)
         if seen is None:
             solved = self._exactly(values, full=True)
-            seen = looked_at(solved.answer) if solved is not None else _UNFIT
+            far = solved is not None and swing(solved.answer) <= self._limit
+            seen = Seen(True, swallowed(solved.answer)) if solved is not None and far else _UNFIT
             _keep(self._seen, key, seen, _KNOWN)
         return seen
 
     def _always_swallowed(self) -> frozenset[tuple[str, str, str]]:
         """Mistakes that hardly any variant shows: they lie in the task, not in its numbers."""
         if self._inherent is None:
-            sets = [seen.swallowed for _, seen in self._references if seen.far]
+            seen = map(self._looked_at, self._references)
+            sets = [one.swallowed for one in seen if one.far]
             found = frozenset().union(*sets)
             self._inherent = frozenset(m for m in found if 2 * sum(m in s for s in sets) > len(sets))
         return self._inherent
 
     @cached_property
-    def _references(self) -> list[tuple[Texts, Seen]]:
-        """A few variants, each looked at as a scene of its own."""
+    def _limit(self) -> float:
+        """How much an answer may swing: where even the steadiest of a few variants swings more, as a toggle
+        does, that lies in the task, and it stands for all."""
+        steadiest = math.inf
+        for figure in self._references:
+            solved = self._exactly(figure, full=True)
+            steadiest = min(steadiest, swing(solved.answer) if solved is not None else math.inf)
+            if steadiest <= SWING:
+                return SWING
+        return 1.5 * steadiest if steadiest <= _STEADY else SWING
+
+    @cached_property
+    def _references(self) -> list[Texts]:
+        """A few variants, by which it is told what lies in the task and not in its numbers."""
         draws = (drawn(self.name, self.case.variables, "", "", trial) for trial in range(_REFERENCES))
-        return [(figure, self._looked_at(figure)) for figure in map(self._figure, draws)]
+        return list(map(self._figure, draws))
 
 
 K = TypeVar("K")
