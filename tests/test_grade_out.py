@@ -433,6 +433,46 @@ def test_questions_whose_answer_is_zero_are_exported(a_class: Class) -> None:
         assert (ran.code, kind) == (0, kind)
 
 
+def test_a_question_of_several_right_answers_takes_each_of_them(a_class: Class) -> None:
+    """A bar of 2 m with 10 N at its end and a couple of 10 N*m rests at 60 and at 300 degrees; as the readers
+    of Moodle, of GIFT and of Canvas take it: with whole turns, and no other angle."""
+    text = (
+        "icsolve: 1\npoints: {A: [0, 0]}\nlengths: {AB: 2}\nangles: {AB: unknown}\n"
+        "joints: [{pin: [1, 2], at: A}]\n"
+        "loads: {W: {weight: 10, link: 2, at: B}, T: {torque: 10, link: 2}}\n"
+    )
+    a_class.case("bar", text)
+    path, bands = str(a_class.path("cases/bar.yaml")), []
+    question = moodle(a_class, path, "--no-figures")[1]
+    rows = [
+        [a.findtext("text"), a.findtext("tolerance")]
+        for a in question.iter("answer")
+        if a.get("fraction") == "100"
+    ]
+    bands.append([(float(value or 0), float(half or 0)) for value, half in rows])
+    out = {kind: a_class.path(f"bar.{kind}") for kind in ("gift", "qti", "prairielearn")}
+    assert [a_class.run("export", kind, path, "-o", str(at)).code for kind, at in out.items()] == [0, 0, 0]
+    found = re.findall(r"=%100%([-.\d]+):([-.\d]+)#", out["gift"].read_text())
+    bands.append([(float(value), float(half)) for value, half in found])
+    with zipfile.ZipFile(out["qti"]) as archive:
+        (name,) = [n for n in archive.namelist() if re.fullmatch(r"(quiz_\w+)/\1\.xml", n)]
+        root = ElementTree.fromstring(archive.read(name))
+    ends = [[float(e.text or 0) for e in root.iter(f"{QTI}{tag}")] for tag in ("vargte", "varlte")]
+    bands.append([((a + b) / 2.0, (b - a) / 2.0) for a, b in zip(*ends, strict=True)])
+    for accepted in bands:
+        for angle in (60.2, 300.2, -60.2, -300.2):
+            assert any(abs(angle - value) <= half for value, half in accepted)
+        for angle in (0.0, 66.0, 120.0, 180.0, 240.0):
+            assert not any(abs(angle - value) <= half for value, half in accepted)
+    scope: dict[str, Any] = {"__file__": str(out["prairielearn"] / "bar" / "server.py")}
+    server = (out["prairielearn"] / "bar" / "server.py").read_text()
+    exec(server, scope)
+    marks = [
+        scope["task"]({"variant_seed": "1"}).grade("", answer)["score"] for answer in ("60", "300 deg", "66")
+    ]
+    assert marks == [1.0, 1.0, 0.0]
+
+
 def test_exports_carry_no_number_of_one_variant_in_titles(a_class: Class) -> None:
     a_class.case("press", PRESS.replace("title: Press", "title: Press with P = $P"))
     folder = a_class.path("elements")

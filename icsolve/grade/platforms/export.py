@@ -15,7 +15,7 @@ from icsolve.case import Case
 from icsolve.files import reading_text, write_whole
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
-from icsolve.grade.keys import NumberKey, RangeKey
+from icsolve.grade.keys import ChoiceKey, RangeKey, numbers_of
 from icsolve.grade.platforms.given import given
 from icsolve.grade.platforms.questions import SMALLEST, Question, asked, figure, gift, moodle_xml, qti_zip
 from icsolve.grade.roster import read_roster
@@ -141,6 +141,8 @@ class ExportOrder(NamedTuple):
     """the least answer that the platform can hold"""
     records: tuple[str, ...] = ()
     """files of the numbers that were handed out"""
+    words: bool = False
+    """whether the platform hands answers on as they are written, ranges and directions among them"""
 
 
 def questions(order: ExportOrder, complain: Complain) -> Iterator[Question]:
@@ -167,16 +169,19 @@ def _of_case(solved: SolvedCase, case: Case, name: str, order: ExportOrder, titl
     for what in names:
         own = case.name if len(names) == 1 else f"{case.name}:{what}"
         key = solved.key(own)
-        if not isinstance(key, NumberKey):
-            why = "holds over a range" if isinstance(key, RangeKey) else "has several right values"
-            raise NoKeyError(f"{what} {why}, for which no such question can ask")
-        if key.expected.asked:
+        first, *others = numbers_of(key)
+        choices = key.keys if isinstance(key, ChoiceKey) else (key,)
+        if not order.words and any(isinstance(one, RangeKey) for one in choices):
+            raise NoKeyError(f"{what} holds over a range, for which no such question can ask")
+        if not order.words and first.expected.asked:
             raise NoKeyError(f"{what} asks for a direction too, for which no such question can ask")
-        if order.smallest and 0.0 < abs(key.value) < order.smallest:
-            raise NoKeyError(f"{what} is {key.value:.3g} {key.unit_name}, and Canvas keeps four decimals")
+        least = min(abs(one.value) for one in (first, *others))
+        if 0.0 < least < order.smallest:
+            raise NoKeyError(f"{what} is {least:.3g} {key.unit_name}, and Canvas keeps four decimals")
         text = asked(key, solved.target(own))
         shown = name if len(names) == 1 else f"{name}:{what}"
-        yield Question(shown, tuple(given(case)), text, key, picture, title)
+        first = first._replace(accepted=key.accepted)
+        yield Question(shown, tuple(given(case)), text, first, picture, title, tuple(others))
 
 
 def export(kind: str, order: ExportOrder, complain: Complain) -> int:
@@ -190,7 +195,7 @@ def export(kind: str, order: ExportOrder, complain: Complain) -> int:
     if kind == "gradescope-zip":
         return _zip(order)
     if kind == "prairielearn":
-        return _elements(order._replace(variants=1), complain)
+        return _elements(order._replace(variants=1, words=True), complain)
     smallest = SMALLEST if kind == "qti" else 0.0
     order = order._replace(figures=order.figures and kind != "gift", smallest=smallest)
     found = list(questions(order, complain))

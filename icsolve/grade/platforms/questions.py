@@ -80,7 +80,10 @@ _UNITS = {
 
 
 class Question(NamedTuple):
-    """One question: its name, what is given and asked, the key, and a picture (SVG text) if there is one."""
+    """One question: its name, what is given and asked, the key, and a picture (SVG text) if there is one.
+
+    ``others`` are the keys of further right answers: other positions of equilibrium.
+    """
 
     name: str
     given: tuple[tuple[str, str], ...]
@@ -88,6 +91,7 @@ class Question(NamedTuple):
     key: NumberKey
     picture: str = ""
     title: str = ""
+    others: tuple[NumberKey, ...] = ()
 
 
 def moodle_xml(questions: Iterable[Question], category: str) -> str:
@@ -111,7 +115,10 @@ def _xml_question(question: Question) -> str:
         '<generalfeedback format="html"><text/></generalfeedback>',
         f"<defaultgrade>{key.policy.points:.10g}</defaultgrade><penalty>0.3333333</penalty>",
         "<hidden>0</hidden>",
-        *(_answer(100.0, right, _half(key), f"Right: {key.accepted} is accepted.") for right in rights(key)),
+        *(
+            _answer(100.0, right, _half(own), f"Right: {key.accepted} is accepted.")
+            for own, right in rights(question)
+        ),
         *(
             _answer(share, w.value, reach, message(w.code, w.where, key.kind))
             for w, share, reach in wrong_rows(key)
@@ -215,7 +222,7 @@ def _gift_question(question: Question) -> str:
     values = "; ".join(f"{name} = {value}" for name, value in question.given)
     text = _gift(f"{_sentence(question.title)}Given: {values}. {question.asked}")
     told = _gift(f"Right: {key.accepted} is accepted.")
-    rows = [f"=%100%{number(right)}:{number(key.half)}#{told}" for right in rights(key)]
+    rows = [f"=%100%{number(right)}:{number(own.half)}#{told}" for own, right in rights(question)]
     for wrong, share, reach in wrong_rows(key):
         said = _gift(message(wrong.code, wrong.where, key.kind))
         rows.append(f"=%{share:.7g}%{number(wrong.value)}:{number(reach)}#{said}")
@@ -241,11 +248,13 @@ def number(value: float) -> str:
     return f"{value:.12g}"
 
 
-def rights(key: NumberKey) -> list[float]:
-    """The right answer, and what a whole turn makes of it."""
-    value = float(sensible(key))
-    turned = (value - math.copysign(key.period, value),) if key.period else ()
-    return [value, *turned]
+def rights(question: Question) -> Iterator[tuple[NumberKey, float]]:
+    """The right answers, each with its key, and what a whole turn makes of them."""
+    for key in (question.key, *question.others):
+        value = float(sensible(key))
+        yield key, value
+        if key.period:
+            yield key, value - math.copysign(key.period, value)
 
 
 def _half(key: NumberKey) -> float:
@@ -365,7 +374,7 @@ def _section(group: list[Question]) -> str:
 
 def _item(question: Question) -> str:
     key, ident = question.key, _ident("item", question.name)
-    right = "".join(_right_condition(key, value - float(sensible(key))) for value in rights(key))
+    right = "".join(_right_condition(own, value - float(sensible(own))) for own, value in rights(question))
     about = "".join(
         _field(label, entry)
         for label, entry in (
