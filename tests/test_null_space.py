@@ -21,6 +21,7 @@ from chains import STALLED_TEN_BARS
 from growth import random_mechanism
 from loading import drawn
 from reference import MANY
+from sizes import FULL
 from solving import (
     LAW,
     MORE,
@@ -46,7 +47,7 @@ def test_the_joints_null_space_agrees_on_every_kind(generator: mechanisms.Genera
         check_rates(scene)
 
 
-@pytest.mark.parametrize("block", range(8))
+@pytest.mark.parametrize("block", range(8 if FULL else 4))
 def test_the_joints_null_space_agrees_on_random_mechanisms(block: int) -> None:
     for scene in random_scenes(1000 * block, 15):
         found = reference.motions(transcribe.case(scene), digits=MANY)
@@ -58,7 +59,7 @@ def test_the_joints_null_space_agrees_on_random_mechanisms(block: int) -> None:
 @pytest.mark.parametrize("block", range(3))
 def test_two_freedoms_want_two_unknowns(block: int) -> None:
     """Both are balanced for every motion; what the second freedom leaves open is said to be so."""
-    for seed in range(1000 * block, 1000 * block + 12 * MORE):
+    for seed in range(1000 * block, 1000 * block + 6 * MORE):
         scene = random_mechanism(Random(seed), 2)
         found = reference.motions(transcribe.case(scene), digits=MANY)
         check_answers(scene, found)

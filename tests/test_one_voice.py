@@ -86,7 +86,7 @@ def case_of(name: str) -> Case:
 
 
 NAMES = [*FILES, *(f"{maker.__name__}-{seed}" for maker, seed in RANDOM)]
-WITH_PAGE = [*PAGED, *sample(NAMES[len(FILES) :], 3, "pages")]
+WITH_PAGE = [*PAGED, *sample(NAMES[len(FILES) :], 5, "pages")]
 
 
 @cache

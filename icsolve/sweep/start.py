@@ -30,7 +30,7 @@ def setting(case: Case, paths: tuple[str, ...], links: tuple[str, ...]) -> Setti
     return setting_of(case, paths, links)
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=16)
 def runner(
     case: Case, paths: tuple[str, ...], links: tuple[str, ...], asked: RowRequest, signs: Signs
 ) -> Runner:
