@@ -52,6 +52,9 @@ SOME = {
     "rolling/rack_and_pinion": "a rolling wheel",
     "ch13/13_10_black_box": "a given centre",
     "tools/toggle_clamp": "a toggle",
+    "ropes/crank_and_rope": "a rope that is a condition",
+    "ropes/single_movable_pulley": "a rope with a free end",
+    "tools/scissor_jack": "a screw",
 }
 """Mechanisms of all kinds, and what each is here for."""
 CHANGES = 30 if FULL else 8
@@ -182,6 +185,29 @@ def test_statuses_where_half_of_the_changes_leave_no_answer(shown: Any) -> None:
     changes += [{"angles.AB": "90", "lengths.AB": s} for s in ("300", "600", "500.001", "1")]
     found += compare(page, path, changes)
     assert len(found) >= 38 and 14 <= sum(status != "ok" for status in found) <= 26
+
+
+ROPED = """icsolve: 1
+title: Two blocks on a rope over a pulley, and a rope with a free end
+points: {A: [0, 0], P: [2, 3], C: [3, 0], Q: [3, 4], E: [4, 2]}
+joints:
+  - {slide: [2, 1], at: A, along: 60}
+  - {slide: [3, 1], at: C, along: 90}
+  - {rope: [A, P, C], on: [2, 1, 3], radii: {P: 0.2}, wraps: {P: cw}}
+  - {rope: [C, Q, E], on: [3, 1]}
+loads:
+  W: {force: 40, link: 3, at: C, angle: -90}
+  E1: {force: 15, at: E}
+  F: {force: unknown, link: 2, at: A, angle: 200}
+"""
+
+
+def test_a_rope_that_would_push_is_slack(shown: Any) -> None:
+    """Pulls of all signs on both ropes, and a pulley too large for its rope."""
+    changes = [{"loads.W": w, "loads.E1": e} for w in ("-40", "10", "40") for e in ("-15", "0", "15", "60")]
+    changes += [{"joints.A-P-C.radii.P": "9"}, {"points.E.x": "2.9", "points.P.y": "2"}]
+    seen = compare(shown(ROPED), ROPED, changes)
+    assert {"ok", "slack", "inconsistent"} <= set(seen)
 
 
 def test_a_handle_is_dragged_by_mouse_and_by_finger(shown: Any) -> None:
@@ -388,7 +414,11 @@ def test_the_forces_on_a_link_are_the_reactions(name: str, shown: Any) -> None:
 
 
 def test_friction_and_cams_stay_as_solved_beforehand() -> None:
-    some = {"tools/vice": "With friction", "cams/offset_roller_follower": "With cam profiles"}
+    some = {
+        "tools/vice": "With friction",
+        "dynamics/hoist_starting": "With inertia forces",
+        "cams/offset_roller_follower": "With cam profiles",
+    }
     for name, words in some.items():
         html = page_html(icsolve.load(ROOT / f"{name}.yaml"))
         assert words in html and "data-path" not in html.split("<script")[0]

@@ -99,6 +99,16 @@ def _joints(case: Case, held: Mapping[str, Number]) -> Iterable[FieldLine]:
             words += f" at {at.lstrip('@')}" if at and not isinstance(joint, Pin) else ""
             yield FieldLine(words, tuple(_of_joint(case, n, words) for n in own))
 
+    for rope in case.ropes:
+        words, unit = f"rope {rope.name}", unit_word(case.units.length)
+        fields = []
+        for number in numbers_in(rope.radii, rope.length):
+            key, at = (*number.path.split(".")[2:], "")[:2]
+            shown = f"radius at {at}" if at else key
+            fields.append(_field(number, shown, unit, f"{shown} of the {words}", "not negative"))
+        if fields:
+            yield FieldLine(words, tuple(fields))
+
 
 def _of_joint(case: Case, number: Number, words: str) -> Field:
     key, place = _key(number.path, 2)
@@ -152,7 +162,8 @@ def _motion(case: Case, held: Mapping[str, Number]) -> Iterable[FieldLine]:
             if number is not None and number.path in held:
                 speed = "rad/s" if given.point is None else f"{unit_word(case.units.length)}/s"
                 unit = DEGREES if name == "angle" else speed
-                fields.append(_field(number, name, unit, f"{name} of link {given.link}", "positive"))
+                bound = "positive" if name == "speed" else ""
+                fields.append(_field(number, name, unit, f"{name} of link {given.link}", bound))
         if fields:
             point = f", point {given.point}" if given.point else ""
             yield FieldLine(f"link {given.link}{point}", tuple(fields))

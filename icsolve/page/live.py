@@ -8,6 +8,7 @@ page walks the steps, and eliminates with pivots of its own, so that what is sin
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import pairwise
 from typing import Any
 
 from icsolve.assembly.data import CORNER, LENGTH, LINE, MEAN, RAY, data_of, number_of
@@ -16,10 +17,11 @@ from icsolve.assembly.intersections import gaps_of, intersection
 from icsolve.assembly.loci import is_round
 from icsolve.assembly.steps import Given, Mean, Meet, Step, aims, leading_to
 from icsolve.assembly.workspace import Key, Workspace, normalised
-from icsolve.case import Coordinates, Motion, Number, Pin
+from icsolve.case import Coordinates, Motion, Number, Pin, Rope, Screw
 from icsolve.case.joints import Guided, Mesh
 from icsolve.draw.words import unit_word
-from icsolve.kinematics.loops import ORIGIN, Bases, Tree, loop_rows, span
+from icsolve.kinematics.loops import ORIGIN, Bases, Tree, loop_rows, rope_row, span
+from icsolve.kinematics.motion import TURN
 from icsolve.kinematics.speeds import joint_order
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record
@@ -27,8 +29,9 @@ from icsolve.numbers.source import JAVASCRIPT, JAVASCRIPT_FUNCTIONS, straight_li
 from icsolve.page.fields import handles_of, text_data
 from icsolve.report.derivation import Known
 from icsolve.scene.program import Program
-from icsolve.scene.refusals import rubs
-from icsolve.screws.joints import freedoms
+from icsolve.scene.refusals import HANGS, rubs
+from icsolve.screws.joints import freedoms, guide_direction
+from icsolve.screws.ropes import RopePart, rope_parts
 from icsolve.statics import power
 from icsolve.structure.topology import Bond
 from icsolve.sweep.numbers import numbers_of
@@ -66,8 +69,8 @@ def why_presolved(known: Known) -> str:
     for held, what in (
         (rubs(case), "With friction"),
         (known.answer.case.profiles is not None, "With cam profiles"),
-        (bool(case.ropes), "With ropes"),
-        (bool(case.screws), "With screws"),
+        (bool(case.ropes and case.screws), "With ropes and screws"),
+        (any(rope.length is not None for rope in case.ropes), "With the length of a rope"),
         (case.dynamic, "With inertia forces"),
         (known.answer.positions is not None, "Where a position is asked for"),
     ):
@@ -183,9 +186,12 @@ class _ProgramWriter:
     # --- motions and loads ------------------------------------------------------------------------
 
     def _scene(self, bases: Bases, tree: Tree) -> list[Any]:
-        """Loop equations, the path of joints to every body, wrenches, basis twists, directions of guides."""
+        """Loop equations, the path of joints to every body, wrenches, basis twists, the parts of ropes, and
+        what screws turn by."""
         roots = {self.top.ground: ORIGIN}
         rows = [row[:-1] for row in loop_rows(self.top, tree, bases, roots)]
+        ropes = {rope.name: self._rope(rope) for rope in self.case.ropes}
+        rows += [rope_row(self.top, tree, ropes[rope.name]) for rope in self.top.ropes]
         paths = [
             [[column, *basis] for column, basis in tree.branches[body].path]
             for body in range(len(self.top.members))
@@ -194,7 +200,16 @@ class _ProgramWriter:
         for w in power.wrenches(self.case, self.workspace.frame, self._points(), self.record):
             loads.append([*w.unit, w.gain, w.ratio, self._value(w)])
         freed = [[list(twist) for twist in basis] for _, basis in sorted(bases.items())]
-        return [rows, paths, loads, freed]
+        courses = [[[p.length, *p.wrench, *p.along] for p in parts] for parts in ropes.values()]
+        return [rows, paths, loads, freed, courses, [self._thread(screw) for screw in self.case.screws]]
+
+    def _rope(self, rope: Rope) -> tuple[RopePart, ...]:
+        return rope_parts(rope, self._points(), self.figure.frame.scale, self.record)
+
+    def _thread(self, screw: Screw) -> list[Scalar]:
+        """By how much a screw turns as its slide moves, along its two axes."""
+        per = self.record.given(TURN) / (self.record.given(screw.thread.lead) * self.figure.frame.scale)
+        return [per * part for part in guide_direction(screw.slide.guide, self._points(), self.record)]
 
     def _value(self, w: power.Wrench) -> Scalar:
         """The number of a known load; 0 of an unknown one."""
@@ -237,7 +252,10 @@ class _ProgramWriter:
             },
             "frame": list(frame),
             "unit": unit_word(case.units.length),
-            "body": top.body_of,
+            "body": self._bodies(),
+            "ropes": [self._rope_data(rope) for rope in case.ropes],
+            "hangs": HANGS,
+            "screws": [[*screw.links, place[screw.slide.at], screw.rotor] for screw in case.screws],
             "ground": top.ground,
             "bodies": len(top.members),
             "columns": tree.columns,
@@ -248,7 +266,10 @@ class _ProgramWriter:
             "halves": [numbers[path].half for path in self.paths],
             "handles": handles_of(case, self.figure.steps, self.paths),
             "text": text_data(case, self.paths),
-            "links": {link: [p for p in names if p in place] for link, names in case.carries.items()},
+            "links": {
+                **{link: [p for p in names if p in place] for link, names in case.carries.items()},
+                **{rope.end: [rope.points[-1]] for rope in case.ropes if rope.is_free},
+            },
             "aims": [
                 [place[p] for p in ends] for ends in self._ends() if ends[0] in place and ends[1] in place
             ],
@@ -279,6 +300,19 @@ class _ProgramWriter:
             },
             "guides": self._guides(),
         }
+
+    def _bodies(self) -> dict[str, int]:
+        """The body of every link, and of what stands for one: ends of ropes that loads pull, screws."""
+        ends = [rope.end for rope in self.case.ropes if rope.is_free]
+        others = (*ends, *(screw.rotor for screw in self.case.screws))
+        first = len(self.top.members)
+        return {**self.top.body_of, **{name: n for n, name in enumerate(others, first)}}
+
+    def _rope_data(self, rope: Rope) -> dict[str, Any]:
+        """The points that it goes through, the links of its parts, and its free end."""
+        parts = [list(pair) for pair in pairwise((*rope.links, "") if rope.is_free else rope.links)]
+        end = rope.end if rope.is_free else ""
+        return {"name": rope.name, "points": rope.points, "parts": parts, "end": end}
 
     def _checks(self, place: Mapping[Key, int]) -> Iterable[list[Any]]:
         """All data of the figure: kind, points, and the number's place among the inputs."""
@@ -311,6 +345,8 @@ class _ProgramWriter:
         """How each number that a motion changes is measured: kind, number, points or the link it turns with;
         None where one can't be."""
         case, found = self.case, list[list[Any]]()
+        if case.ropes or case.screws:
+            return None
         number = {path: n for n, path in enumerate(self.paths)}
         for name, at in case.points.items():
             if isinstance(at, Coordinates) and name in place:

@@ -64,10 +64,12 @@ function senseOf(name, solved) {
   }
   const load = live.loads[n];
   const wrench = solved.loads[n];
+  const stands = load.on.startsWith("@");
   const turns = (yes) => (yes ? "counterclockwise" : "clockwise");
-  if (load.kind === "Torque") return turns(value > 0 !== load.cw);
+  if (load.kind === "Torque") return turns(value > 0 !== (load.cw || stands));
   if (load.kind === "TorsionSpring") return turns(value * wrench[3] > 0);
   if (load.kind === "Spring") return value * wrench[3] > 0 ? "pull" : "push";
+  if (load.kind === "Force" && stands) return value > 0 ? "pull" : "push";
   if (load.kind === "Force" && load.toward) {
     const pulls = value > 0 !== load.away;
     if (load.held) return pulls ? "pull" : "push";

@@ -423,12 +423,29 @@ function figureOf(program, told, x) {
 const pairing = (w, t) => w[0] * t[0] + w[1] * t[1] + w[2] * t[2];
 const less = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
 
+/* The twists of what stands for links: ends of ropes that loads pull, along their last parts; screws. */
+function withEnds(told, twists, courses, threads, points) {
+  const of = (link) => twists[told.body[link]];
+  told.ropes.forEach((rope, k) => {
+    if (!rope.end) return;
+    const [x, y] = courses[k][courses[k].length - 1].slice(4);
+    twists.push(twists[0].map((_, m) => {
+      const speed = rope.parts.reduce((sum, [a, b], n) => {
+        const w = courses[k][n].slice(1);
+        return sum + pairing(w, of(a)[m]) - (b ? pairing(w, of(b)[m]) : 0);
+      }, 0);
+      return [-speed * y, speed * x, 0];
+    }));
+  });
+  told.screws.forEach(([by, on, at], k) =>
+    twists.push(of(on).map((t, m) => [0, 0, dot(threads[k], velocity(less(t, of(by)[m]), points[at]))])));
+}
 /* For each body a twist per freedom. */
-function motionsOf(told, [rows, paths]) {
+function motionsOf(told, [rows, paths, , , courses, threads], points) {
   let found = nullSpace(rows, told.columns, 64 * UNIT, 1);
   const last = found.pivots.length ? found.pivots[found.pivots.length - 1] : 1;
   const exact = found.basis.length > 0;
-  if (!exact && told.inexact && last < 2e-3) {
+  if (!exact && told.inexact && last < 2e-3 && told.ropes.every((rope) => rope.end)) {
     const nearly = nullSpace(rows, told.columns, 2e-3 / found.pivots.length, 1);
     if (nearly.basis.length === 1) found = nearly;
   }
@@ -440,6 +457,7 @@ function motionsOf(told, [rows, paths]) {
     found.basis.map((rates) =>
       path.reduce((t, [k, a, b, c]) => [t[0] + rates[k] * a, t[1] + rates[k] * b, t[2] + rates[k] * c], [0, 0, 0])));
   const mobility = found.basis.length;
+  withEnds(told, twists, courses, threads, points);
   return { twists, mobility, redundant: Math.max(mobility - told.freedoms, 0), trust: exact ? last : 1 };
 }
 
@@ -578,8 +596,16 @@ const LEAST_TRUST = 1e-11;
 function solvedScene(told, x, figure) {
   refuseMisfit(told, x, figure.points);
   const parts = figure.scene();
-  const [, , loads, bases] = parts;
-  const motions = motionsOf(told, parts);
+  const [, , loads, bases, courses] = parts;
+  if (courses.flat().some((part) => !(part[0] > 0)))
+    throw new Refusal("inconsistent", "a rope has no straight part between two of its points");
+  told.loads.forEach(({ kind, on }) => {
+    const k = kind === "Weight" ? told.ropes.findIndex((rope) => rope.end === on) : -1;
+    const last = k < 0 ? [0, -1] : courses[k][courses[k].length - 1].slice(4);
+    if (Math.abs(last[0]) > told.hangs || last[1] > 0)
+      throw new Refusal("inconsistent", "a weight hangs from a part of a rope that does not hang");
+  });
+  const motions = motionsOf(told, parts, figure.points);
   const found = balanceOf(told, loads, motions);
   refuseUnbalanced(told, motions, found);
   if (Math.min(motions.trust, found.trust) < LEAST_TRUST) throw new Refusal("near-singular");
@@ -590,5 +616,10 @@ function solvedScene(told, x, figure) {
     speed.open.some((by) => largest(mix(by, ts)) > 1e-9 * fast) ? null : mix(speed.meant, ts));
   const root = new Map(found.unknown.map((n, k) => [told.loads[n].root, found.values ? found.values[k] : 0]));
   const values = told.loads.map((load, n) => loads[n][4] * (root.has(load.root) ? root.get(load.root) : loads[n][5]));
-  return { motions, twists, values, loads, bases, own: ownOf(told, bases), power: found.power };
+  const solved = { motions, twists, values, loads, bases, courses, own: ownOf(told, bases), power: found.power };
+  if (told.ropes.length && found.unknown.length) {
+    const { ropes, most } = reactionsOf({ solved });
+    if (ropes.some((pull) => pull !== null && pull < -1e-11 * most)) throw new Refusal("slack");
+  }
+  return solved;
 }

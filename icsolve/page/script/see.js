@@ -175,9 +175,12 @@ function transmitted(basis) {
   const [x, y, w] = basis[0];
   return w === 0 ? [[0, 0, 1], [y, -x, 0]] : [[w, 0, -x], [0, w, -y]];
 }
-/* The wrench of every joint on its second link, and of every load; null for a joint that statics leaves open. */
+/* The wrench of every joint on its second link, of every load, and the pull of every rope; null for what
+   statics leaves open. */
 function reactionsOf({ solved }) {
   const columns = live.bonds.flatMap((_, k) => transmitted(solved.bases[k]).map((w) => [k, w]));
+  const pulled = (k, body, m) =>
+    live.ropes[k].parts.reduce((sum, [a, b], n) => sum + solved.courses[k][n][1 + m] * ((live.body[a] === body) - (live.body[b] === body)), 0);
   const loadsNow = live.loads.map((load, n) => [0, 1, 2].map((m) => solved.loads[n][m] * solved.loads[n][3] * load.measure * solved.values[n]));
   const rows = [];
   const most = largest(loadsNow.flat()) || 1;
@@ -186,26 +189,34 @@ function reactionsOf({ solved }) {
     for (let m = 0; m < 3; m++) {
       const row = columns.map(([k, w]) => w[m] * ((live.body[live.bonds[k][1]] === body) - (live.body[live.bonds[k][0]] === body)));
       const sum = loadsNow.reduce((all, w, n) => all + w[m] * ((live.body[live.loads[n].on] === body) - (live.body[live.loads[n].against] === body)), 0);
-      rows.push([...row, sum / most]);
+      rows.push([...row, ...live.ropes.map((_, k) => pulled(k, body, m)), sum / most]);
     }
   }
-  const count = columns.length;
+  live.ropes.forEach((rope, k) => {
+    if (!rope.end) return;
+    const [x, y] = solved.courses[k][rope.parts.length - 1].slice(4);
+    const own = loadsNow.filter((_, n) => live.loads[n].on === rope.end);
+    rows.push([...columns.map(() => 0), ...live.ropes.map((_, n) => (n === k ? -1 : 0)), own.reduce((sum, w) => sum + w[1] * x - w[0] * y, 0) / most]);
+  });
+  const count = columns.length + live.ropes.length;
   const { basis } = nullSpace(rows, count + 1, 1e-12);
   const first = basis.reduce((best, v) => (!best || Math.abs(v[count]) > Math.abs(best[count]) ? v : best), null);
-  if (!first || Math.abs(first[count]) < 1e-9) return { loads: loadsNow, joints: live.bonds.map(() => null) };
+  if (!first || Math.abs(first[count]) < 1e-9) return { loads: loadsNow, most, joints: live.bonds.map(() => null), ropes: live.ropes.map(() => null) };
   const unit = first.map((v) => v / first[count]);
   const open = basis.filter((v) => v !== first).map((v) => v.map((x, k) => x - v[count] * unit[k]));
+  const isOpen = (n) => open.some((v) => Math.abs(v[n]) > 1e-9);
+  const ropes = live.ropes.map((_, k) => (isOpen(columns.length + k) ? null : unit[columns.length + k] * most));
   const joints = live.bonds.map((_, k) => {
     const own = columns.map((c, n) => n).filter((n) => columns[n][0] === k);
-    if (own.some((n) => open.some((v) => Math.abs(v[n]) > 1e-9))) return null;
+    if (own.some(isOpen)) return null;
     return [0, 1, 2].map((m) => own.reduce((sum, n) => sum + unit[n] * most * columns[n][1][m], 0));
   });
-  return { loads: loadsNow, joints };
+  return { loads: loadsNow, most, joints, ropes };
 }
 /* What acts on a link: names, forces, couples about where they act. */
 function actingOn(state, link) {
   const body = live.body[link];
-  const { loads: loadsNow, joints } = reactionsOf(state);
+  const { loads: loadsNow, joints, ropes } = reactionsOf(state);
   const found = [];
   const add = (name, w, at, sign, known) => {
     const force = [sign * w[1], -sign * w[0]];
@@ -220,6 +231,13 @@ function actingOn(state, link) {
     if (!joints[k]) found.push({ name: `F${by}${on}`, open: true });
     else add(`F${by.length + on.length === 2 ? by + on : `${by}-${on}`}`, joints[k], live.at[k], onSecond ? 1 : -1, false);
   });
+  live.ropes.forEach(({ name, points, parts }, k) =>
+    parts.forEach((pair, n) =>
+      pair.forEach((one, end) => {
+        if (live.body[one] !== body) return;
+        if (ropes[k] === null) found.push({ name: `T ${name}`, open: true });
+        else add(`T ${name}`, state.solved.courses[k][n].slice(1, 4).map((v) => v * ropes[k]), points[n + end], end ? -1 : 1, false);
+      })));
   live.loads.forEach((load, n) => {
     if (live.body[load.on] === body) add(load.name, loadsNow[n], load.at, 1, true);
     if (live.body[load.against] === body && load.held) add(`−${load.name}`, loadsNow[n], load.to || load.at, -1, true);
@@ -280,7 +298,7 @@ function see() {
   const rotations = ticked("[data-rotation]");
   const curves = ticked("[data-curve]");
   const rolls = ticked("[data-centrode]");
-  const body = byId("see-body").value;
+  const body = byId("see-body") && byId("see-body").value;
   byId("body-panel").hidden = !body;
   const wanted = byId("see-velocities").checked || rotations.length || rolls.length || body;
   const state = wanted ? stateAt(row) : null;
