@@ -275,4 +275,7 @@ def _reaction_in_space(reaction: space.SpatialReaction) -> dict[str, Any]:
         "joint": reaction.kind,
         **dict(reaction.parts),
     }
+    if reaction.errors is not None:
+        force, couple = reaction.errors
+        entry["errors"] = {**dict(zip("xyz", force, strict=True)), "moment": list(couple)}
     return {**entry, "undetermined": reaction.why} if reaction.why else entry

@@ -15,7 +15,8 @@ class SpatialReaction(NamedTuple):
 
     ``force`` and ``couple`` are along x, y, z; a component that equilibrium leaves open is None, and ``why``
     says so. ``kind`` is the joint's, ``where`` the name of its point. ``parts`` are shares by name:
-    ``radial``, ``thrust``, ``tangential``, ``separating``, ``axial`` (None where open).
+    ``radial``, ``thrust``, ``tangential``, ``separating``, ``axial`` (None where open). ``errors`` bounds the
+    errors of the components of force and couple; empty where none is proven.
     """
 
     by: str
@@ -27,6 +28,7 @@ class SpatialReaction(NamedTuple):
     couple: Parts
     why: str = ""
     parts: tuple[tuple[str, float | None], ...] = ()
+    errors: tuple[Parts, Parts] | None = None
 
     @property
     def magnitude(self) -> float | None:

@@ -27,6 +27,7 @@ from icsolve.case.space import (
     TorqueVector,
     Vector,
 )
+from icsolve.numbers.balls import PRECISIONS, Balls
 from icsolve.read.build import TEXTS, ground_of, readable, section_of, tolerance_of_case
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.entry import Entry, Values
@@ -315,8 +316,9 @@ def _gravity_vector(reading: SpaceReading, root: Mapping, node: Sequence) -> tup
     if value == 0.0:
         reading.refuse(node.mark, f"gravity of nothing has no direction; write {meaning}")
         return None, Along("-z")
-    digits = shown(" ".join(part.digits for part in parts))
-    return Number(value, max(part.half for part in parts), "gravity", digits), Vector(*parts)
+    balls = Balls(2 * PRECISIONS[-1])
+    size = balls.sqrt(sum((balls.given(part) * balls.given(part) for part in parts), 0.0))
+    return Number(value, max(part.half for part in parts), "gravity", str(size.value)), Vector(*parts)
 
 
 def _expect(reading: SpaceReading, root: Mapping) -> tuple[Expected, ...]:

@@ -42,7 +42,7 @@ def solve_scene(
     if case.space is not None:
         from icsolve.statics.space.solve import solve_space
 
-        return solve_space(case)
+        return solve_space(case, bound)
     if case.profiles is not None and case.profiles.touches:
         from icsolve.cams.solving import solve_touching
 

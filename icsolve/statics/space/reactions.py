@@ -83,23 +83,35 @@ class _Reader:
 
     def force(self, t: int, direction: Vec) -> float | None:
         """The force of a tie along a direction, case units; None where it is open."""
-        value = self.along(self.rows[t][:3], direction)
-        return None if value is None else self.a.rounded(value / self.statics.scale)[0]
+        return self._rounded(self.rows[t][:3], direction, self.statics.scale)[0]
 
-    def couple(self, t: int, direction: Vec) -> float | None:
-        """Its couple about a direction, case units; None where it is open."""
-        value = self.along(self.rows[t][3:], direction)
-        return None if value is None else self.a.rounded(value / self.statics.scale / self.per_torque)[0]
+    def _rounded(
+        self, rows: Sequence[Row], direction: Vec, per: Scalar
+    ) -> tuple[float, float] | tuple[None, None]:
+        """A force or couple along a direction over a unit, and the bound of its error; None where open."""
+        value = self.along(rows, direction)
+        return (None, None) if value is None else self.a.rounded(value / per)
 
     def reaction(self, t: int) -> SpatialReaction:
         """The reaction of a tie, in the order of its links' names."""
-        tie = self.statics.ties[t]
-        x, y, z = (self.force(t, axis) for axis in AXES)
-        u, v, w = (self.couple(t, axis) for axis in AXES)
-        at, kind = self.frame.shown(tie.at), tie.joint_kind
+        tie, scale, rows = self.statics.ties[t], self.statics.scale, self.rows[t]
+        (x, dx), (y, dy), (z, dz) = (self._rounded(rows[:3], axis, scale) for axis in AXES)
+        per = scale * self.per_torque
+        (u, du), (v, dv), (w, dw) = (self._rounded(rows[3:], axis, per) for axis in AXES)
+        i, j, k = map(float, self.frame.shown(tie.at))
         why = SHARED if None in (x, y, z, u, v, w) else ""
-        parts = tuple(self.parts(t, tie))
-        found = SpatialReaction(tie.by, tie.on, kind, tie.where, at, (x, y, z), (u, v, w), why, parts)
+        both, errors = ((x, y, z), (u, v, w)), ((dx, dy, dz), (du, dv, dw))
+        found = SpatialReaction(
+            tie.by,
+            tie.on,
+            tie.joint_kind,
+            tie.where,
+            (i, j, k),
+            *both,
+            why,
+            tuple(self.parts(t, tie)),
+            errors if decider(self.a) else None,
+        )
         ordered = ordered_pair(self.case, tie.by, tie.on) == (tie.by, tie.on)
         return found if ordered else found.reversed()
 

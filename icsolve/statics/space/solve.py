@@ -8,13 +8,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import replace
 
 from icsolve.answer import Answer, Deferred, Found
 from icsolve.answer.space import Spatial
-from icsolve.case import Case
+from icsolve.case import Case, Number
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Scalar, Showing
+from icsolve.numbers.balls import PRECISIONS, Balls, HalfUnits, MoreDigits, is_long
+from icsolve.statics.equilibrium import (
+    bounds_of,
+    refuse_apart,
+    refuse_doubt,
+    residual,
+    terms_of,
+    unknowns_of,
+    witnesses,
+)
 from icsolve.statics.free_bodies import carrying, on_flanks
 from icsolve.statics.space.figure import SpatialFigure, figure_of, in_case
 from icsolve.statics.space.power import (
@@ -49,6 +62,7 @@ from icsolve.statics.witness import (
     witnesses,
 )
 from icsolve.tuples import NamedTuple
+from icsolve.wording.sentences import EXPLAINED
 
 
 class SpatialSolution(NamedTuple):
@@ -73,11 +87,57 @@ class SpatialSolution(NamedTuple):
         return carrying(self.statics, self.parameters, t)
 
 
-def solve_space(case: Case, a: Showing = FLOATS) -> Answer:
-    """The answer of a case in space.
+def solve_space(case: Case, bound: bool = True) -> Answer:
+    """The answer of a case in space, in as many digits as its questions need; without ``bound`` in doubles.
 
-    Raises SceneError where it has none.
+    Raises SceneError where it has none, and where the highest precision leaves it open.
     """
+    if not bound:
+        return _solve(case, FLOATS)
+    try:
+        return _exactly(case, [Balls(p, highest=p == PRECISIONS[-1]) for p in PRECISIONS])
+    except SceneError as refusal:
+        if refusal.status not in INEXACT or not any(map(is_long, _numbers(case))):
+            raise
+        try:  # what half a unit of the last digits of long numbers may make zero is zero
+            answer = _exactly(case, [HalfUnits(PRECISIONS[0])])
+        except SceneError:
+            raise refusal from None
+    return replace(answer, notes=(EXPLAINED, *answer.notes))
+
+
+INEXACT = (Status.STRUCTURE, Status.MOBILITY, Status.NEAR_SINGULAR, Status.CONTRADICTORY, Status.NO_VALUE)
+"""What a case may seem whose numbers a program has rounded."""
+
+
+def _exactly(case: Case, arithmetics: Sequence[Balls]) -> Answer:
+    """The answer by the fewest digits that settle every question."""
+    for arithmetic in arithmetics:
+        with suppress(MoreDigits):
+            return _solve(case, arithmetic)
+    raise SceneError(
+        Status.NEAR_SINGULAR,
+        "the position is so near a singular one that 120 digits do not settle what the joints carry: move a "
+        "point, or an axis.",
+    )
+
+
+def _numbers(case: Case) -> Iterator[Number]:
+    """The numbers of a case in space."""
+    space = in_case(case)
+    stack: list[object] = [space.points, space.joints, space.loads, space.down, case.gravity]
+    while stack:
+        item = stack.pop()
+        if isinstance(item, Number):
+            yield item
+        elif isinstance(item, Mapping):
+            stack.extend(item.values())
+        elif isinstance(item, tuple):
+            stack.extend(item)
+
+
+def _solve(case: Case, a: Showing) -> Answer:
+    """The answer in an arithmetic; raises SceneError where there is none, and MoreDigits."""
     figure = figure_of(in_case(case), a)
     ties = ties_of(case, figure)
     refuse_loose(case, ties)
@@ -92,12 +152,13 @@ def solve_space(case: Case, a: Showing = FLOATS) -> Answer:
     unknowns = unknowns_of(statics)
     if unknowns is None:
         refuse_doubt(0, solved.mobility)
-    found = witnesses({q: (float(x), 0.0) for q, x in balance.unknowns.items()}, unknowns or {}, bounds)
+    by_power = {q: (float(x), 0.0) for q, x in balance.unknowns.items()}
+    found = witnesses(by_power, {q: float(x) for q, x in (unknowns or {}).items()}, bounds)
     refuse_apart(found, 0.0)
     reactions = reactions_of(case, figure.frame, statics, solved.parameters, a)
     spatial = Spatial(_named(figure), reactions, found, residual(terms))
     notes = notes_of(figure, solved.twists, loads, balance, statics, reactions)
-    return _answer(case, solved, loads, bounds, spatial, notes)
+    return _answer(case, solved, loads, bounds, spatial, notes, a)
 
 
 def _on_carrying_flanks(
@@ -135,16 +196,17 @@ def _answer(
     bounds: Mapping[str, float],
     spatial: Spatial,
     notes: tuple[str, ...],
+    a: Showing,
 ) -> Answer:
-    values = {}
+    values, found = {}, {}
     for w in loads:
-        number = float(solved.balance.unknowns[w.root] if w.known is None else w.known)
-        is_zero = w.known is None and abs(number) <= bounds[w.root]
-        values[w.load.name] = 0.0 if is_zero else float(w.ratio) * number + 0.0
-    found = {}
-    for w in loads:
+        number = w.known if w.known is not None else solved.balance.unknowns[w.root]
+        value, error = a.rounded(w.ratio * number)
+        if w.known is None and not error < math.inf:  # in doubles
+            error = abs(float(w.ratio)) * bounds[w.root]
+            value = 0.0 if abs(value) <= error else value
+        values[w.load.name] = value
         if w.known is None:
-            value, error = values[w.load.name], abs(float(w.ratio)) * bounds[w.root]
             found[w.load.name] = Found(value, unit_of(w.load, case), sense_of(w, value), error)
     return Answer(
         case=case,
