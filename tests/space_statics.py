@@ -6,13 +6,14 @@ dense, and the SVD says what it determines.
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from icsolve import Case
-from icsolve.case import Centroid
+from icsolve.case import Centroid, Number
 from icsolve.case.space import (
     Along,
     FromTo,
@@ -42,29 +43,44 @@ class Solution(NamedTuple):
     rest: float
 
 
-def place(case: Case, name: str) -> Array:
+Read = Callable[[Number], Any]
+"""What is taken of a number: its double, or more digits."""
+
+
+def double(number: Number) -> float:
+    """The nearest double."""
+    return number.value
+
+
+def place(case: Case, name: str, read: Read = double) -> Array:
     """A point's coordinates."""
     assert case.space is not None
     given = case.space.points[name]
     if isinstance(given, Centroid):
-        return np.mean([place(case, other) for other in given.of], axis=0)
-    return np.array([number.value for number in given])
+        return sum(place(case, other, read) for other in given.of) / len(given.of)
+    return np.array([read(number) for number in given])
 
 
-def along(case: Case, axis: object) -> Array:
+def along(case: Case, axis: object, read: Read = double) -> Array:
     """Unit vector of an axis."""
     if isinstance(axis, Along):
         vector = np.eye(3)["xyz".index(axis.word[-1])] * (-1.0 if axis.word.startswith("-") else 1.0)
     elif isinstance(axis, Vector):
-        vector = np.array([number.value for number in axis])
+        vector = np.array([read(number) for number in axis])
     else:
         assert isinstance(axis, FromTo)
-        vector = place(case, axis.b) - place(case, axis.a)
-    return vector / np.linalg.norm(vector)
+        vector = place(case, axis.b, read) - place(case, axis.a, read)
+    return vector / (vector @ vector) ** 0.5
 
 
 def solve(case: Case) -> Solution:
     """All joints of a case without gears, and its unknown forces and torques along axes."""
+    matrix, right, count, names = system(case)
+    return solved(matrix, right, count, names)
+
+
+def system(case: Case, read: Read = double) -> tuple[Array, Array, int, list[str]]:
+    """The equations of all links and of what the joints cannot carry: matrix, right side, joints, unknowns."""
     assert case.space is not None
     links = [link for link in case.links if link != case.ground]
     row_of = {link: 6 * n for n, link in enumerate(links)}
@@ -73,19 +89,20 @@ def solve(case: Case) -> Solution:
         load for load in loads if isinstance(load, SpatialForce | SpatialTorque) and load.value is None
     ]
     columns = 6 * len(joints) + len(unknown)
-    rows, right = [np.zeros((6 * len(links), columns))], [np.zeros(6 * len(links))]
+    kind = np.array([read(case.gravity)]).dtype
+    rows, right = [np.zeros((6 * len(links), columns), kind)], [np.zeros(6 * len(links), kind)]
     for n, joint in enumerate(joints):
-        spread = wrench_matrix(place(case, joint.at))
+        spread = wrench_matrix(place(case, joint.at, read))
         for link, sign in ((joint.links[1], 1.0), (joint.links[0], -1.0)):
             if link in row_of:
                 rows[0][row_of[link] : row_of[link] + 6, 6 * n : 6 * n + 6] += sign * spread
-        for limit in limits(case, joint):
-            row = np.zeros((1, columns))
+        for limit in limits(case, joint, read):
+            row = np.zeros((1, columns), kind)
             row[0, 6 * n : 6 * n + 6] = limit
             rows.append(row)
             right.append(np.zeros(1))
     for load in loads:
-        wrench = load_wrench(case, load)
+        wrench = load_wrench(case, load, read)
         for link, sign in ((load.link, 1.0), (getattr(load, "against", None) or case.ground, -1.0)):
             if link not in row_of:
                 continue
@@ -94,7 +111,7 @@ def solve(case: Case) -> Solution:
                 rows[0][row_of[link] : row_of[link] + 6, column] += sign * wrench
             else:
                 right[0][row_of[link] : row_of[link] + 6] -= sign * wrench
-    return solved(np.vstack(rows), np.concatenate(right), len(joints), [load.name for load in unknown])
+    return np.vstack(rows), np.concatenate(right), len(joints), [load.name for load in unknown]
 
 
 def solved(matrix: Array, right: Array, joints: int, names: list[str]) -> Solution:
@@ -115,32 +132,32 @@ def solved(matrix: Array, right: Array, joints: int, names: list[str]) -> Soluti
 def wrench_matrix(p: Array) -> Array:
     """A force and couple at p to force and moment about the origin."""
     x, y, z = p
-    spread = np.eye(6)
+    spread = np.eye(6).astype(p.dtype)
     spread[3:, :3] = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
     return spread
 
 
-def limits(case: Case, joint: object) -> list[Array]:
+def limits(case: Case, joint: object, read: Read = double) -> list[Array]:
     """What a joint cannot carry, as rows whose product with its components is zero."""
     couples = [np.eye(6)[k] for k in (3, 4, 5)]
     if isinstance(joint, SphericalJoint | Thrust):
         return couples
     if isinstance(joint, Radial):
-        return [*couples, np.concatenate([along(case, joint.axis), np.zeros(3)])]
+        return [*couples, np.concatenate([along(case, joint.axis, read), np.zeros(3)])]
     if isinstance(joint, Hinge):
-        return [np.concatenate([np.zeros(3), along(case, joint.axis)])]
+        return [np.concatenate([np.zeros(3), along(case, joint.axis, read)])]
     return []
 
 
-def load_wrench(case: Case, load: object) -> Array:
+def load_wrench(case: Case, load: object, read: Read = double) -> Array:
     """Force and moment about the origin; of an unknown load for a number of 1."""
     if isinstance(load, SpatialTorque):
-        size = 1.0 if load.value is None else load.value.value  # type: ignore[union-attr]
-        return np.concatenate([np.zeros(3), size * along(case, load.heading)])
+        size = 1.0 if load.value is None else read(load.value)
+        return np.concatenate([np.zeros(3), size * along(case, load.heading, read)])
     if isinstance(load, SpatialForceVector):
-        force = np.array([part.value for part in load.parts])
+        force = np.array([read(part) for part in load.parts])
     else:
         assert isinstance(load, SpatialForce)
-        size = 1.0 if load.value is None else load.value.value  # type: ignore[union-attr]
-        force = size * along(case, load.heading)
-    return np.concatenate([force, np.cross(place(case, load.at), force)])
+        size = 1.0 if load.value is None else read(load.value)
+        force = size * along(case, load.heading, read)
+    return np.concatenate([force, np.cross(place(case, load.at, read), force)])

@@ -152,7 +152,7 @@ NEARLY = 1e-5
 
 
 def motions_of(case: Case, ties: Sequence[SpatialTie], arithmetic: Arithmetic) -> Twists:
-    """A basis of the motions of the links, each scaled to a largest component of 1.
+    """A basis of the motions of the links, each scaled by a power of two to a largest component of 1/2 to 1.
 
     Parameters
     ----------
@@ -167,10 +167,10 @@ def motions_of(case: Case, ties: Sequence[SpatialTie], arithmetic: Arithmetic) -
     found: dict[str, list[Components]] = {link: [] for link in (case.ground, *links)}
     for free in general.free:
         x = {c: row.get(free, 0.0) for c, row in general.solved.items()} | {free: 1.0}
-        largest = max(abs(float(value)) for value in x.values())
+        scale = math.ldexp(1.0, -math.frexp(max(abs(float(value)) for value in x.values()))[1])
         found[case.ground].append((0.0,) * 6)
         for link, at in place.items():
-            found[link].append(tuple(x.get(at + n, 0.0) / largest for n in range(6)))
+            found[link].append(tuple(x.get(at + n, 0.0) * scale for n in range(6)))
     return found
 
 
