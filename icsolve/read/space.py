@@ -36,7 +36,7 @@ from icsolve.read.figure import centroid_of
 from icsolve.read.joints import Builders, mention_links, read_list
 from icsolve.read.keys import GRAVITY, SECTIONS, SPACE_JOINTS, SPACE_LOADS
 from icsolve.read.loads import Forms, heading, read_section, spring, weight
-from icsolve.read.names import Problems, shown, suggestion
+from icsolve.read.names import Problems, suggestion
 from icsolve.read.reading import Measures, Reading, number
 from icsolve.read.teeth import read_teeth
 from icsolve.units import Unit

@@ -9,16 +9,17 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import replace
 
 from icsolve.answer import Answer, Deferred, Found
 from icsolve.answer.space import Spatial
-from icsolve.case import Case, Number
+from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Scalar, Showing
 from icsolve.numbers.balls import PRECISIONS, Balls, HalfUnits, MoreDigits, is_long
+from icsolve.numbers.given import numbers_in
 from icsolve.statics.equilibrium import (
     bounds_of,
     refuse_apart,
@@ -97,7 +98,7 @@ def solve_space(case: Case, bound: bool = True) -> Answer:
     try:
         return _exactly(case, [Balls(p, highest=p == PRECISIONS[-1]) for p in PRECISIONS])
     except SceneError as refusal:
-        if refusal.status not in INEXACT or not any(map(is_long, _numbers(case))):
+        if refusal.status not in INEXACT or not any(map(is_long, numbers_in(in_case(case)))):
             raise
         try:  # what half a unit of the last digits of long numbers may make zero is zero
             answer = _exactly(case, [HalfUnits(PRECISIONS[0])])
@@ -120,20 +121,6 @@ def _exactly(case: Case, arithmetics: Sequence[Balls]) -> Answer:
         "the position is so near a singular one that 120 digits do not settle what the joints carry: move a "
         "point, or an axis.",
     )
-
-
-def _numbers(case: Case) -> Iterator[Number]:
-    """The numbers of a case in space."""
-    space = in_case(case)
-    stack: list[object] = [space.points, space.joints, space.loads, space.down, case.gravity]
-    while stack:
-        item = stack.pop()
-        if isinstance(item, Number):
-            yield item
-        elif isinstance(item, Mapping):
-            stack.extend(item.values())
-        elif isinstance(item, tuple):
-            stack.extend(item)
 
 
 def _solve(case: Case, a: Showing) -> Answer:
