@@ -20,15 +20,6 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Scalar, Showing
 from icsolve.numbers.balls import PRECISIONS, Balls, HalfUnits, MoreDigits, is_long
 from icsolve.numbers.given import numbers_in
-from icsolve.statics.equilibrium import (
-    bounds_of,
-    refuse_apart,
-    refuse_doubt,
-    residual,
-    terms_of,
-    unknowns_of,
-    witnesses,
-)
 from icsolve.statics.free_bodies import carrying, on_flanks
 from icsolve.statics.space.figure import SpatialFigure, figure_of, in_case
 from icsolve.statics.space.power import (
