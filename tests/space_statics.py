@@ -80,7 +80,7 @@ def solve(case: Case) -> Solution:
 
 
 def system(case: Case, read: Read = double) -> tuple[Array, Array, int, list[str]]:
-    """The equations of all links and of what the joints cannot carry: matrix, right side, joints, unknowns."""
+    """The equations of all links, and what joints cannot carry: matrix, right side, joints, unknowns."""
     assert case.space is not None
     links = [link for link in case.links if link != case.ground]
     row_of = {link: 6 * n for n, link in enumerate(links)}
