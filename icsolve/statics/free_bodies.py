@@ -73,20 +73,46 @@ def free_bodies(
     """
     known = position.mobility and not any(is_unknown(w.load) for w in balance.wrenches)
     left = refuse_imbalance(position, balance, a) if known else ()
-    ties = ties_of(position)
-    solved = frictionless(position, balance, ties)
+    solved = frictionless(position, balance, ties_of(position))
+    found = told(position, frame, balance, solved, power, a)
+    return found._replace(notes=(*left, *found.notes))
+
+
+def told(
+    position: Position,
+    frame: Frame,
+    balance: Balance,
+    solved: Solved,
+    power: Mapping[str, tuple[float, float]] | None,
+    a: Showing,
+) -> FreeBodies:
+    """What a solution of the free bodies says: reactions, pulls, the unknown loads beside those from power.
+
+    Parameters
+    ----------
+    position, frame, balance : the scene
+    solved : its equilibrium, with friction or without
+    power : by unknown load its value by power and the bound of that [case units]; None where power says none
+    a : arithmetic of the solution
+
+    Raises
+    ------
+    SceneError
+        ``near-singular`` where power and free bodies disagree, ``slack`` where a rope would have to push.
+    """
     statics, parameters = solved.statics, solved.parameters
-    shown = {root: a.rounded(value) for root, value in solved.unknowns.items()}
-    bounds = {root: error for root, (_, error) in shown.items()}
-    if a is FLOATS and position.mobility:
-        terms = terms_of(statics, parameters)
-        bounds = bounds_of(statics, powers_of(statics, balance), position.twists, terms)
-    both = witnesses(power, {root: value for root, (value, _) in shown.items()}, bounds)
-    refuse_apart(both, position.slack)
+    both: tuple[Witness, ...] = ()
+    if power is not None:
+        shown = {root: a.rounded(value) for root, value in solved.unknowns.items()}
+        bounds = {root: error for root, (_, error) in shown.items()}
+        if a is FLOATS and position.mobility:
+            terms = terms_of(statics, parameters)
+            bounds = bounds_of(statics, powers_of(statics, balance), position.twists, terms)
+        both = witnesses(power, {root: value for root, (value, _) in shown.items()}, bounds)
+        refuse_apart(both, position.slack)
     reactions = reactions_of(position, frame, statics, parameters, a)
     notes = notes_of(statics, reactions, names_by_tie(position.case, statics.ties))
-    pulls = tensions_of(statics, parameters, a)
-    return FreeBodies(reactions, both, (*left, *notes), tensions=pulls)
+    return FreeBodies(reactions, both, notes, tensions=tensions_of(statics, parameters, a))
 
 
 class Solved(NamedTuple):

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from icsolve.answer import Answer, Deferred, Found
-from icsolve.answer.bodies import FrictionFound, Rubbing, Tension, Witness
+from icsolve.answer.bodies import FrictionFound, Rubbing, Tension
 from icsolve.assembly import Frame
 from icsolve.case import Rope
 from icsolve.case.joints import Mesh
@@ -35,6 +35,7 @@ from icsolve.statics.free_bodies import (
     carrying_flanks,
     frictionless,
     on_flanks,
+    told,
 )
 from icsolve.statics.friction_equations import forces_of
 from icsolve.statics.friction_interface import rates_of, rubs_of, unknowns_by_power
@@ -50,15 +51,11 @@ from icsolve.statics.friction_limits import (
 )
 from icsolve.statics.power import Balance, Bounded, Solution, Value, is_unknown
 from icsolve.statics.reaction_basis import Position, Tie, ties_of
-from icsolve.statics.reactions import names_by_tie, notes_of, reactions_of, tensions_of
+from icsolve.statics.reactions import names_by_tie
 from icsolve.statics.witness import (
-    bounds_of,
-    powers_of,
-    refuse_apart,
     refuse_doubt,
     residual,
     terms_of,
-    witnesses,
 )
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed, plural
@@ -89,7 +86,7 @@ def in_motion(scene: FrictionScene) -> tuple[dict[str, float], FreeBodies, Error
     first = _flanks(scene, ties, workless)
     solved = on_flanks(first, lambda flanks: solve(reaction_basis.with_flanks(scene.position, ties, flanks)))
     sure = _certain(scene, solved, senses_of(scene, solved.statics).signs)
-    return {**solved.unknowns, **sure.values}, _bodies(scene, solved, slides[-1], workless), sure
+    return {**solved.unknowns, **sure.values}, _bodies(scene, solved, slides[-1]), sure
 
 
 def _certain(scene: FrictionScene, solved: Solved, senses: Sequence[float]) -> ErrorBounds:
@@ -294,25 +291,20 @@ def _shared(tie: Tie, ties: Sequence[Tie]) -> str:
     )
 
 
-def _bodies(scene: FrictionScene, solved: Solved, found: Slid, workless: bool) -> FreeBodies:
-    position, statics, parameters = scene.position, solved.statics, solved.parameters
-    terms = terms_of(statics, parameters)
-    senses = senses_of(scene, statics)
-    shown: tuple[Witness, ...] = ()
+def _bodies(scene: FrictionScene, solved: Solved, found: Slid) -> FreeBodies:
+    """What the free bodies say, and what rubs."""
+    statics, by_power = solved.statics, None
     if scene.solution.verdict not in ("no value", "any value"):
-        bounds = bounds_of(statics, powers_of(statics, scene.balance), position.twists, terms)
         by_power = {q: (value, 0.0) for q, value in _by_power(scene, solved).items()}
-        shown = witnesses(by_power, solved.unknowns, bounds)
-        refuse_apart(shown, position.slack)
-    reactions = reactions_of(position, scene.frame, statics, parameters, FLOATS)
-    pulls = tensions_of(statics, parameters, FLOATS)
-    rubbing = (*rubbing_of(scene, solved, found, senses), *_ropes_rubbing(scene, statics, pulls))
+    bodies = told(scene.position, scene.frame, scene.balance, solved, by_power, FLOATS)
+    senses = senses_of(scene, statics)
+    rubbing = (*rubbing_of(scene, solved, found, senses), *_ropes_rubbing(scene, statics, bodies.tensions))
     refuse_power(rubbing)
     error, losses = found.error if math.isfinite(found.error) else None, sum(r.loss for r in rubbing)
-    friction = FrictionFound(rubbing, residual(terms), error, found.unique, losses)
-    notes = notes_of(statics, reactions, names_by_tie(position.case, statics.ties))
-    notes = (*notes, *notes_in_motion(scene, statics, found, senses))
-    return FreeBodies(reactions, shown, notes, friction, pulls)
+    left = residual(terms_of(statics, solved.parameters))
+    friction = FrictionFound(rubbing, left, error, found.unique, losses)
+    notes = (*bodies.notes, *notes_in_motion(statics, found, senses))
+    return bodies._replace(notes=notes, friction=friction)
 
 
 def _ropes_rubbing(scene: FrictionScene, statics: Statics, pulls: Sequence[Tension]) -> Iterator[Rubbing]:
@@ -446,10 +438,12 @@ def _open(tie: Tie) -> str:
 
 
 def place_of(tie: Tie) -> str:
+    """`` at B``; nothing where the joint's point has no name."""
     return f" at {tie.where}" if tie.where else ""
 
 
 def rubbing_of(scene: FrictionScene, solved: Solved, found: Slid, senses: Sense) -> tuple[Rubbing, ...]:
+    """Friction, its limit, rate and loss at every rub, case units."""
     statics, case = solved.statics, scene.position.case
     names = names_by_tie(case, statics.ties)
     rows = []
@@ -472,7 +466,8 @@ def refuse_power(rubbing: Sequence[Rubbing]) -> None:
             raise AssertionError(f"friction at {rub.joint} gives power")
 
 
-def notes_in_motion(scene: FrictionScene, statics: Statics, found: Slid, senses: Sense) -> Sequence[str]:
+def notes_in_motion(statics: Statics, found: Slid, senses: Sense) -> Sequence[str]:
+    """Sentences about what does not rub, and about other solutions."""
     notes = []
     still = [statics.ties[rub.tie] for rub, rate in zip(statics.rubs, senses.rates, strict=True) if not rate]
     if still:
