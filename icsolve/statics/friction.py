@@ -40,12 +40,12 @@ from icsolve.statics.free_bodies import (
 from icsolve.statics.friction_equations import forces_of
 from icsolve.statics.friction_interface import rates_of, rubs_of, unknowns_by_power
 from icsolve.statics.friction_limits import (
-    IMPENDING,
     End,
     Slid,
     StaticRange,
     end_of,
     pressed,
+    range_of,
     slid,
     static_range,
 )
@@ -191,21 +191,16 @@ def _range_with_ropes(scene: FrictionScene) -> StaticRange:
     side on which the unknown load draws the ropes tighter.
     """
     ends: list[End] = []
-    senses: tuple[float, ...] = ()
     for direction in (1.0, -1.0):
         one = slipping(scene, direction)
         ties = ties_of(one.position)
         flanks = _flanks(one, ties, False)
         statics = _statics(one, reaction_basis.with_flanks(one.position, ties, flanks))
-        senses = tuple(direction * s for s in senses_of(one, statics).signs)
-        end = end_of(statics, senses)
+        end = end_of(statics, [direction * s for s in senses_of(one, statics).signs])
         if end is None:
             raise SceneError(Status.NO_VALUE, _nothing_slips(statics))
         ends.append(_pulling(statics, end))
-    least, most = min(end.value for end in ends), max(end.value for end in ends)
-    locks = math.isinf(least) or math.isinf(most) or (least <= 0.0 <= most and least < most)
-    moving = tuple(end for end in ends if math.isfinite(end.value))
-    return StaticRange(least, most, (least, most), IMPENDING, locks, moving)
+    return range_of(ends)
 
 
 def _pulling(statics: Statics, end: End) -> End:

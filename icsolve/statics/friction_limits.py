@@ -234,13 +234,19 @@ def static_range(statics: Statics, senses: Sequence[float]) -> StaticRange:
         Self-locking: it holds with the unknown at zero (against loads), or no value moves it one way.
     """
     ends = [end for d in (1.0, -1.0) if (end := _end(statics, [d * s for s in senses])) is not None]
+    found = range_of(ends)
+    possible, how = _possible(statics, senses, (found.least, found.most))
+    unbounded = math.isinf(found.least) or math.isinf(found.most)
+    again = _again(statics, senses, found.least, found.most) if unbounded else ()
+    return found._replace(possible=possible, how=how, again=again)
+
+
+def range_of(ends: Sequence[End]) -> StaticRange:
+    """The interval between equilibria that are about to move one way and the other."""
     least, most = min(end.value for end in ends), max(end.value for end in ends)
-    unbounded = math.isinf(least) or math.isinf(most)
-    locks = unbounded or (least <= 0.0 <= most and least < most)
+    locks = math.isinf(least) or math.isinf(most) or (least <= 0.0 <= most and least < most)
     about_to_move = tuple(end for end in ends if math.isfinite(end.value))
-    possible, how = _possible(statics, senses, (least, most))
-    again = _again(statics, senses, least, most) if unbounded else ()
-    return StaticRange(least, most, possible, how, locks, about_to_move, again)
+    return StaticRange(least, most, (least, most), IMPENDING, locks, about_to_move)
 
 
 def _again(statics: Statics, senses: Sequence[float], least: float, most: float) -> tuple[float, ...]:

@@ -35,7 +35,15 @@ class SpatialFrame(NamedTuple):
 
 
 class SpatialFigure(NamedTuple):
-    """Every point of a case: in case units and normalised, in an arithmetic."""
+    """Every point of a case.
+
+    Attributes
+    ----------
+    places : by name, (3,) [case length]
+    points : the same (3,) [frame]
+    frame : origin and scale of the points
+    arithmetic : of both
+    """
 
     places: Places
     points: Places
@@ -46,7 +54,11 @@ class SpatialFigure(NamedTuple):
 def figure_of(space: Space, arithmetic: Arithmetic = FLOATS) -> SpatialFigure:
     """The points of a case in space.
 
-    Raises SceneError where centroids are of each other, and where coordinates cannot resolve the figure.
+    Raises
+    ------
+    SceneError
+        ``underdetermined`` where centroids are of each other, ``near-singular`` where doubles cannot resolve
+        the figure.
     """
     places: dict[str, Vec] = {}
     for name in space.points:

@@ -12,6 +12,7 @@ m_t cos(h).
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from typing import assert_never
 
 from icsolve.case import Case, Toward
 from icsolve.case.space import GearPair, Hinge, Joint, Radial, RigidJoint, SphericalJoint, Teeth, Thrust
@@ -63,9 +64,12 @@ class SpatialTie(NamedTuple):
 
 
 def ties_of(case: Case, figure: SpatialFigure) -> tuple[SpatialTie, ...]:
-    """Every joint of a case in space.
+    """Every joint of a case in space, in its order, in the arithmetic of the figure.
 
-    Raises SceneError where an axis has no direction, gears do not fit, or hinges are out of line.
+    Raises
+    ------
+    SceneError
+        ``inconsistent`` where an axis has no direction, gears do not fit, or hinges are out of line.
     """
     lines = (case.marks.get(f"joints[{n}]", (0, 0))[0] for n, _ in enumerate(in_case(case).joints))
     ties = tuple(_tie(joint, figure, line) for joint, line in zip(in_case(case).joints, lines, strict=True))
@@ -93,7 +97,7 @@ def _tie(joint: Joint, figure: SpatialFigure, line: int) -> SpatialTie:
 
 
 def _units(joint: Joint, axis: Vec, arithmetic: Arithmetic) -> tuple[Components, ...]:
-    """The forces, then the couples, that a joint passes."""
+    """The forces, then the couples, that a joint passes: what does no work on the motions that it leaves."""
     forces: tuple[Vec, ...] = AXES
     couples: tuple[Vec, ...] = ()
     match joint:
@@ -105,6 +109,10 @@ def _units(joint: Joint, axis: Vec, arithmetic: Arithmetic) -> tuple[Components,
             couples = square_to(axis, arithmetic)
         case RigidJoint():
             couples = AXES
+        case SphericalJoint() | GearPair():  # what gears pass, `_meshing` tells
+            pass
+        case _:
+            assert_never(joint)
     return (*((*e, *ZERO) for e in forces), *((*ZERO, *e) for e in couples))
 
 
@@ -118,7 +126,10 @@ def _meshing(joint: GearPair, figure: SpatialFigure, what: str) -> SpatialTie:
 
 
 def flanked(ties: tuple[SpatialTie, ...], flanks: Mapping[int, float]) -> tuple[SpatialTie, ...]:
-    """The ties with the whole tooth force of each mesh, on the flank that ``flanks`` has for it."""
+    """The ties with the whole tooth force of each mesh, on the flank that ``flanks`` has for it.
+
+    ``flanks`` has, by the place of a tie, the sign of its tangential force.
+    """
     return tuple(
         tie._replace(units=((*tie.mesh.force(flanks[t]), *ZERO),)) if tie.mesh and t in flanks else tie
         for t, tie in enumerate(ties)
@@ -160,9 +171,14 @@ MISFIT = 2e-3
 class SpatialMesh(NamedTuple):
     """Where two gears touch, and the parts of the force there on the link ``on`` (an external gear).
 
-    ``tangent`` is along the motion of ``on`` for positive turning about ``axis``, ``inward`` toward its own
-    axis. ``separating`` and ``axial`` are per unit of tangential force. ``radii`` are the pitch radii of the
-    gears that the case shows, case lengths.
+    Attributes
+    ----------
+    at : pitch point [case length]
+    axis : unit vector of both axes
+    tangent : unit vector along the motion of ``on`` for positive turning about ``axis``
+    inward : unit vector toward the axis of ``on``
+    separating, axial : parts of the force along ``inward`` and ``axis``, per unit of the tangential one
+    radii : pitch radii of the gears that the case shows [case length]
     """
 
     by: str
@@ -208,7 +224,17 @@ def _transverse_module(teeth: Teeth, arithmetic: Arithmetic) -> Scalar | None:
 def mesh_of(joint: GearPair, axis: Vec, figure: SpatialFigure, what: str) -> SpatialMesh:
     """The mesh of a joint.
 
-    Raises SceneError where the wheels do not lie in one plane square to the axis, or do not fit each other.
+    Parameters
+    ----------
+    joint : gears with parallel axes
+    axis : unit vector of both
+    figure : places of the centres
+    what : the joint in words, for refusals
+
+    Raises
+    ------
+    SceneError
+        ``inconsistent`` where the wheels do not lie in one plane square to the axis, or do not fit.
     """
     if joint.toward is not None:
         return _alone(joint, axis, figure, what)
