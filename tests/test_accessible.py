@@ -7,6 +7,7 @@ import os
 from functools import cache
 from html.parser import HTMLParser
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import pytest
 
@@ -15,6 +16,7 @@ from browser import Browser
 from icsolve.explain import explain
 from icsolve.page import page_html
 from icsolve.page.gallery import exhibit, index_html
+from shell import exit_status
 
 CASES = Path(__file__).parent.parent / "cases"
 AXE = os.environ.get("AXE_CORE", "")
@@ -62,11 +64,27 @@ class Outline(HTMLParser):
                 return
 
 
+def graded() -> tuple[str, str]:
+    """The summary of a class with all that it can tell, and a student's own page."""
+    written = ("29.67", "-29.67", "7", "7", "1,234", "x")
+    rows = [f's{n},13_08_four_bar,"{text}"' for n, text in enumerate(written)]
+    with TemporaryDirectory() as name:
+        table, old, page, pages = (Path(name) / one for one in ("a.csv", "old.csv", "s.html", "students"))
+        table.write_text("\n".join(["student_id,case,answer", *rows]))
+        words = ("grade", table, "--cases", CASES / "ch13" / "13_08_four_bar.yaml", "-q")
+        exit_status(*words, "-o", old)
+        exit_status(*words, "-o", pages / "r.csv", "--against", old, "--html", page, "--students", pages)
+        return page.read_text(), (pages / "s1.html").read_text()
+
+
 @cache
 def documents() -> dict[str, str]:
     four = icsolve.load(CASES / "ch13" / "13_08_four_bar.yaml")
     rope = icsolve.load(CASES / "ropes" / "capstan.yaml")
+    summary, student = graded()
     return {
+        "summary": summary,
+        "student": student,
         "explain": explain(four, "html", bodies=True),
         "rope": explain(rope, "html"),
         "page": page_html(four),
@@ -76,7 +94,7 @@ def documents() -> dict[str, str]:
     }
 
 
-@pytest.mark.parametrize("name", ["explain", "rope", "page", "gallery"])
+@pytest.mark.parametrize("name", ["summary", "student", "explain", "rope", "page", "gallery"])
 def test_all_has_a_name_and_headings_come_in_order(name: str) -> None:
     outline = Outline()
     outline.feed(documents()[name])

@@ -341,6 +341,45 @@ def test_errors_are_carried_forward_to_one_of_two_unknowns(a_class: Class) -> No
     assert "carried" not in found["b", "two:T2"][1]
 
 
+@pytest.mark.parametrize(
+    ("name", "first", "second", "of_first"),
+    [
+        # link 2 held: Q goes round B, 180 to the left and 360 up, and 360 Qx + 180 Qy balances P
+        ("linkages/pantograph", "Qx", "Qy", -2.0),
+        # the train turned as a whole: the three torques add up to nothing
+        ("gears/differential_train", "T12", "T15", -1.0),
+        # the motion of the case, w5 = 2 w2: T12 + 2 T15 and the power of P add up to nothing
+        ("linkages/five_bar", "T12", "T15", -0.5),
+    ],
+)
+def test_the_second_of_two_unknowns_follows_from_a_wrong_first(
+    a_class: Class, name: str, first: str, second: str, of_first: float
+) -> None:
+    """The first off by 30 %, the second as the equation has it that holds both; not without the first, nor
+    where it does not follow; a right second stays right, and the first keeps its own causes."""
+    path = CASES / f"{name}.yaml"
+    case, answers = path.stem, icsolve.solve(icsolve.load(path)).answers
+    off = 0.3 * answers[first].value
+    one, two = answers[first].value + off, answers[second].value + of_first * off
+    rows = [
+        ("a", first, one), ("a", second, two), ("b", second, two), ("c", first, one),
+        ("c", second, 1.37 * two), ("d", first, one), ("d", second, answers[second].value),
+        ("e", first, -answers[first].value), ("e", second, two - 2.3 * of_first * off / 0.3),
+    ]  # fmt: skip
+    lines = [f"{student},{case}:{what},{value:.6g}\n" for student, what, value in rows]
+    table = a_class.file("x.csv", "".join(["student_id,case,answer\n", *lines]))
+    ran = a_class.run("grade", table, "--cases", str(path), "-o", "-", "--quiet")
+    found = {(row["student_id"], row["case"].partition(":")[2]): row for row in ran.rows()}
+    assert found["a", second]["code"].split()[0] == "carried"
+    assert f"earlier answer ({first})" in found["a", second]["feedback"]
+    assert found["e", second]["code"].split()[0] == "carried"
+    assert "carried" not in found["a", first]["code"]
+    assert "carried" not in found["b", second]["code"]
+    assert "carried" not in found["c", second]["code"]
+    assert found["d", second]["verdict"] == "right"
+    assert found["e", first]["code"].split()[0] == "sign"
+
+
 BLOCK = """\
 icsolve: 1
 points: {A: [0, 0]}

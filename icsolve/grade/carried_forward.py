@@ -1,13 +1,15 @@
 """Errors carried forward: a final answer that follows by the right method from a wrong intermediate one.
 
 An unknown is a sum of shares, one a load, each a product of velocity ratios and distances; a wrong
-ratio or distance scales the shares in which it stands, as a factor or as a divisor.
+ratio or distance scales the shares in which it stands, as a factor or as a divisor. Of two unknowns the
+second may follow from a wrong first by a sum of power that has both.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from itertools import combinations
 
 from icsolve.answer import Answer
 from icsolve.case import Load
@@ -22,8 +24,11 @@ from icsolve.grade.mistakes.engine import centres_of
 from icsolve.grade.results import Marked
 from icsolve.grade.solved import SolvedCase, unknowns
 from icsolve.grade.tolerance import NoKeyError
+from icsolve.screws.plane import Triple
 from icsolve.tuples import NamedTuple
 
+_NOTHING = 1e-9
+"""Less than this is rounding."""
 Scales = Mapping[str, float]
 """By what each load's share is multiplied."""
 
@@ -52,6 +57,40 @@ def carried(wrongs: WrongAnswers, unknown: str, wrong: list[Intermediate]) -> li
         product = {name: math.prod(scales[name] for scales in together) for name in parts}
         found.append(Wrong("carried", _total(parts, product), ", ".join(i.what for i in wrong)))
     return [w for w in found if math.isfinite(w.value)]
+
+
+def coupled(answer: Answer, first: str, second: str) -> Iterator[float]:
+    """By how much the second of two unknowns of a mechanism of two freedoms changes with the first, in each
+    sum of power that a student may write: for the motion that the case gives, and for those in which two
+    links move as one (one of them the frame, or a part that goes round as a whole)."""
+    if answer.scene is None or answer.friction is not None or answer.mobility != 2:
+        return
+    outcome = answer.scene.outcome
+
+    def powers(unknown: str) -> list[float]:
+        """The power of a unit of an unknown in each of the two motions."""
+        own = [(n, w) for n, w in enumerate(outcome.balance.wrenches) if w.root == unknown]
+        return [float(sum(row[n] * w.measure * w.ratio for n, w in own)) for row in outcome.balance.factors]
+
+    (a, b), (c, d) = powers(first), powers(second)
+    sums = [(a * q - b * p, c * q - d * p) for p, q in _locked(outcome.motions.twists)]
+    if answer.case.motion:
+        factors = {term.load: term.factor for term in answer.terms}
+        sums.append((factors[first], factors[second]))
+    for over, under in sums:
+        if min(abs(over), abs(under)) > _NOTHING * max(map(abs, (a, b, c, d))):
+            yield -over / under
+
+
+def _locked(twists: Mapping[str, Sequence[Triple]]) -> Iterator[tuple[float, float]]:
+    """Of every two links how fast one turns on the other (or moves on it, where it can't turn) in each of two
+    motions: with ``p`` and ``q`` they are as one in ``q`` times the first less ``p`` times the second."""
+    for one, other in combinations(twists.values(), 2):
+        for k in (2, 0, 1):
+            p, q = (float(one[m][k] - other[m][k]) for m in range(2))
+            if max(abs(p), abs(q)) > _NOTHING:
+                yield p, q
+                break
 
 
 def _total(parts: Mapping[str, float], scales: Scales) -> float:
@@ -151,11 +190,14 @@ class CarriedForward:
         for case in dict.fromkeys(item.partition(":")[0] for item in wrong):
             finals = self._finals(case)
             own = [marked[item] for item in wrong if item.startswith(f"{case}:") and item not in finals]
-            for item in finals if own else ():
-                final = marked.get(item)
-                judged = final[1].judged if final is not None else None
-                if final and judged and judged.verdict == WRONG and judged.value is not None:
-                    marked[item] = self._again(final, own)
+            last = [item for item in finals if item in marked and _is_wrong_number(marked[item][1])]
+            for item in last:
+                marked[item] = self._again(marked[item], self._from_steps(marked[item][0], own))
+            if len(last) == len(finals) == 2:
+                first, second = sorted(last, key=lambda item: not marked[item][1].judged.mistakes)
+                marked[second] = self._again(
+                    marked[second], self._from_other(marked[first], marked[second][0])
+                )
         return list(marked.values())
 
     def _finals(self, case: str) -> list[str]:
@@ -166,17 +208,33 @@ class CarriedForward:
             return []
         return [case] if len(names) == 1 else [f"{case}:{name}" for name in names]
 
-    def _again(self, final: Found, wrong: list[Found]) -> Found:
-        """The final answer with its cause, if it follows from the wrong steps."""
+    def _from_steps(self, entry: StoredAnswer, wrong: list[Found]) -> Iterator[Wrong]:
+        """What a final answer is by the right method from wrong steps."""
+        solved = self._solved(entry)
+        name = getattr(solved.target(entry.item), "load", "")
+        for unscaled in carried(solved.wrongs, name, list(_steps(solved, wrong))) if wrong else ():
+            yield unscaled._replace(value=unscaled.value * solved.scale)
+
+    def _from_other(self, first: Found, entry: StoredAnswer) -> Iterator[Wrong]:
+        """What the second unknown is by a sum of power with the student's first in it."""
+        solved = self._solved(entry)
+        names = [getattr(solved.target(item), "load", "") for item in (first[0].item, entry.item)]
+        keys = [solved.key(item) for item in (first[0].item, entry.item)]
+        if isinstance(keys[0], NumberKey) and isinstance(keys[1], NumberKey) and len(first[1].given) == 1:
+            off = first[1].given[0] - keys[0].value
+            for per in coupled(solved.answer, *names):
+                yield Wrong("carried", keys[1].value + per * off, names[0])
+
+    def _solved(self, entry: StoredAnswer) -> SolvedCase:
+        return self._case_store.solved(entry.item.partition(":")[0], entry.student)
+
+    def _again(self, final: Found, causes: Iterable[Wrong]) -> Found:
+        """The final answer with the first of these causes that it follows from."""
         entry, before = final
-        solved = self._case_store.solved(entry.item.partition(":")[0], entry.student)
-        key, name = solved.key(entry.item), getattr(solved.target(entry.item), "load", "")
-        value = before.judged.value
-        if not isinstance(key, NumberKey) or value is None:
-            return final
-        for unscaled in carried(solved.wrongs, name, list(_steps(solved, wrong))):
-            cause = unscaled._replace(value=unscaled.value * solved.scale)
-            close = abs(value - cause.value) <= key.wrongs.reach * abs(cause.value)
+        key, value = self._solved(entry).key(entry.item), before.judged.value
+        for cause in causes if isinstance(key, NumberKey) and value is not None else ():
+            assert isinstance(key, NumberKey) and value is not None
+            close = abs(value - cause.value) <= key.wrongs.width(cause.code) * abs(cause.value)
             if close and abs(cause.value - key.value) > key.half:
                 return entry, self._with_cause(key, before, cause)
         return final
@@ -193,6 +251,10 @@ class CarriedForward:
         again = Marked(before.item, before.raw, judged, before.points, told, before.written)
         self._keep(again)
         return again
+
+
+def _is_wrong_number(marked: Marked) -> bool:
+    return marked.judged.verdict == WRONG and marked.judged.value is not None
 
 
 def _steps(solved: SolvedCase, wrong: list[Found]) -> Iterator[Intermediate]:

@@ -229,11 +229,13 @@ class Wrongs:
             return wrongs
         kept: list[Wrong] = []
         for wrong in sorted(wrongs, key=lambda w: ORDER[w.code]):
-            if _is_known(wrong.value, kept) or self._room.take(wrong.value, self._width(wrong.code, _FOUR)):
+            if _is_known(wrong.value, kept) or self._room.take(wrong.value, self.width(wrong.code, _FOUR)):
                 kept.append(wrong)
         return kept
 
-    def _width(self, code: str, digits: float) -> float:
+    def width(self, code: str, digits: float = _DIGITS) -> float:
+        """The relative half-width within which a mistake is recognised; half a unit of an answer's last
+        figure is ``digits`` of it."""
         return self.reach if code in PLAIN else min(self.reach, digits + _ROUNDING)
 
     @cached_property
@@ -253,7 +255,7 @@ class Wrongs:
         if last - first == 1 and some[0].code in PLAIN:
             return some if abs(value - some[0].value) <= reach * abs(some[0].value) else ()
         last_figure = _last_figure(digits)
-        fitting = [w for w in some if abs(value - w.value) <= self._width(w.code, last_figure) * abs(w.value)]
+        fitting = [w for w in some if abs(value - w.value) <= self.width(w.code, last_figure) * abs(w.value)]
         return tuple(fitting) if len(fitting) < 2 else _simplest(fitting, value)
 
     @cached_property
