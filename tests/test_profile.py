@@ -25,7 +25,7 @@ from icsolve.case.profiles import points_of
 from icsolve.errors import CaseError, SceneError, Status
 from icsolve.numbers.roots import zero_between
 from icsolve.read import load
-from icsolve.read.keys import PROFILES as KEYS
+from icsolve.read.profiles import PROFILES as KEYS
 from icsolve.solve import solve
 from icsolve.sweep.numbers import with_numbers
 from texts import PAGES

@@ -12,7 +12,7 @@ import pytest
 from corpus import ALL
 from draft07 import valid
 from icsolve.errors import CaseError
-from icsolve.read import keys, load
+from icsolve.read import joints, keys, load, profiles
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.schema import FORMS, schema
 from shell import exit_status
@@ -76,7 +76,7 @@ def test_every_key_has_its_description() -> None:
 
 def table() -> Iterator[keys.Key]:
     """Every key of the table that the reader reads by."""
-    for value in vars(keys).values():
+    for value in (value for table in (keys, joints, profiles) for value in vars(table).values()):
         for entry in value.values() if isinstance(value, dict) else ():
             if isinstance(entry, keys.EntryKind):
                 yield entry.own

@@ -18,7 +18,8 @@ from icsolve.draw.words import unit_word
 from icsolve.errors import CaseError
 from icsolve.numbers.given import numbers_in
 from icsolve.read import load
-from icsolve.read.keys import JOINTS, LOADS
+from icsolve.read.joints import JOINTS
+from icsolve.read.keys import LOADS
 from icsolve.read.settings import places
 from icsolve.sweep.numbers import numbers_of
 from icsolve.tuples import NamedTuple

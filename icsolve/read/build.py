@@ -35,8 +35,8 @@ from icsolve.read.figure import (
     read_near,
     read_points,
 )
-from icsolve.read.joints import mention_links, read_joints
-from icsolve.read.keys import JOINTS, SECTIONS, SPACE_JOINTS
+from icsolve.read.joints import JOINTS, mention_links, read_joints
+from icsolve.read.keys import SECTIONS, SPACE_JOINTS
 from icsolve.read.loads import driven, read_loads, read_motion
 from icsolve.read.names import Problems, shown
 from icsolve.read.reading import Measures, Reading, number

@@ -28,7 +28,20 @@ from icsolve.case import (
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.entry import Entry, Values
-from icsolve.read.keys import HELICAL, JOINTS, SPACE_JOINTS, EntryKind
+from icsolve.read.keys import (
+    HELICAL,
+    HELIX,
+    LINKS,
+    PRESSURE_ANGLE,
+    SPACE_JOINTS,
+    TEETH,
+    TOOTH_FORM,
+    EntryKind,
+    Key,
+    Rule,
+    needed,
+    quantity_key,
+)
 from icsolve.read.names import is_name, meant_by, shown, suggestion
 from icsolve.read.reading import Reading
 
@@ -61,10 +74,6 @@ def _named(item: Node) -> list[Scalar]:
         for name in value.items
         if type(name) is Scalar
     ]
-
-
-NAMES = frozenset((*JOINTS, *SPACE_JOINTS))
-"""All kinds, of the plane and of space."""
 
 
 def read_list(
@@ -225,6 +234,149 @@ def _links(reading: Reading, kind: str, node: Node) -> tuple[str, ...] | None:
 
 def _twice(links: tuple[str, ...]) -> str:
     return next(link for link in links if links.count(link) > 1)
+
+
+_AT = Key("its point", "name", True)
+_MU = quantity_key("the coefficient of friction", "number", "not negative")
+_ALONG = Key("a direction in degrees, or two points of the guide as in [A, G]", "line", True, "angle")
+_THROUGH = Key("a point of the guide line; left out, the line of the two points, or `at` itself")
+_RADII = Key("the two radii, as in [3, 5]", "pair", False, "length", "positive")
+_CARRIER = Key("the link to which both are pinned, where several could be", "link")
+JOINTS = {
+    "pin": EntryKind(
+        "a revolute: its links turn about one point",
+        Key("the links that it joins, two or more", "links", True),
+        {
+            "at": needed(_AT, "the point about which its links turn"),
+            "mu": _MU,
+            "radius": quantity_key("the pin's own radius, for its friction", "length", "positive"),
+        },
+        "a `hinge` with its `axis`",
+        ties=(Rule("needs", ("mu", "radius"), "friction of {what} needs 'radius', the pin's own"),),
+    ),
+    "slide": EntryKind(
+        "a prismatic: the block, named first, on a guide of the second link",
+        LINKS,
+        {
+            "at": needed(_AT, "the point of the block"),
+            "along": _ALONG,
+            "through": _THROUGH,
+            "mu": _MU,
+            "length": quantity_key("the block's own length: its two ends rub", "length", "positive"),
+        },
+        "bearings with their `axis`",
+    ),
+    "slot": EntryKind(
+        "a pin of the first link in a slot of the second",
+        LINKS,
+        {"at": needed(_AT, "the pin's point"), "along": _ALONG, "through": _THROUGH, "mu": _MU},
+        "an unknown force along the normal",
+    ),
+    "roll": EntryKind(
+        "rolling without slip; a rack and its pinion",
+        LINKS,
+        {
+            "at": needed(_AT, "the point of contact"),
+            "radii": Key(
+                "the two radii, as in [1.5, 0], where it is to move; 0 straight, negative inside",
+                "pair",
+                False,
+                "length",
+                "one positive",
+            ),
+            "pressure angle": PRESSURE_ANGLE,
+        },
+        "an unknown force along each direction",
+    ),
+    "gears": EntryKind(
+        "a mesh; their pivots are the pins of both to one carrier",
+        LINKS,
+        {
+            "teeth": Key(
+                "the two numbers of teeth, as in [31, 57], or [31, -92] where 92 are internal",
+                "counts",
+                True,
+                "number",
+            ),
+            "carrier": _CARRIER,
+            **TEETH,
+            **HELIX,
+            "bearing span": quantity_key("the distance of each shaft's bearings", "length", "positive"),
+        },
+        ties=(
+            *TOOTH_FORM,
+            *(Rule("needs", (key, "helix angle")) for key in HELICAL if key != "helix angle"),
+        ),
+    ),
+    "belt": EntryKind(
+        "a belt or chain over two pulleys that are pinned to one carrier",
+        LINKS,
+        {
+            "radii": needed(_RADII),
+            "carrier": _CARRIER,
+            "crossed": Key("whether the belt is crossed: true or false", "truth"),
+        },
+        "a load for the pull of each strand",
+    ),
+    "contact": EntryKind(
+        "a contact that rolls and slips, as of a cam; without `at` and `normal` by the links' profiles",
+        LINKS,
+        {
+            "at": Key("the point of contact"),
+            "normal": quantity_key("the direction of the common normal in degrees", "angle"),
+            "mu": _MU,
+        },
+        "an unknown force along the normal",
+    ),
+    "centre": EntryKind(
+        "a relative centre that is known, without the joints between",
+        LINKS,
+        {
+            "at": Key("its place, or 'toward', its direction where it is at infinity", "place"),
+            "toward": quantity_key("its direction in degrees, where it is at infinity", "angle"),
+        },
+        "the joints themselves",
+        ties=(Rule("one", ("at", "toward")),),
+    ),
+    "weld": EntryKind(
+        "two links that move as one", LINKS, {"at": Key("the point that its reaction is given for")}
+    ),
+    "rope": EntryKind(
+        "a rope: fixed at its ends, over pulleys in between",
+        Key("the points that it runs through, as in [A, P, B]", "points of a rope", True),
+        {
+            "on": Key(
+                "the link at each of its points, in order; the last left out where loads pull its end",
+                "links of a rope",
+                True,
+            ),
+            "radii": Key("radii of pulleys and drums, as in {P: 0.1}", "sizes", False, "length", "positive"),
+            "wraps": Key("the sense in which one goes round each, as in {P: ccw}", "senses"),
+            "mu": Key("friction where it slips, as in {P: 0.3}", "numbers", False, "number", "not negative"),
+            "length": quantity_key("its own length, where the figure leaves it open", "length", "positive"),
+        },
+        "loads for its pull on each link",
+    ),
+    "screw": EntryKind(
+        "a screw: the second link moves on the first along its axis, as far as a torque load turns it",
+        LINKS,
+        {
+            "at": needed(_AT, "the point of the second link"),
+            "along": _ALONG,
+            "through": _THROUGH,
+            "lead": Key("how far it moves in a turn", "quantity", True, "length", "positive"),
+            "radius": quantity_key("the thread's mean radius, for its friction", "length", "positive"),
+            "mu": _MU,
+        },
+        "a hinge and a load for its force",
+        ties=(
+            Rule("needs", ("mu", "radius"), "friction of {what} needs 'radius', the mean one of its thread"),
+        ),
+    ),
+}
+"""Joints of the plane."""
+NAMES = frozenset((*JOINTS, *SPACE_JOINTS))
+"""All kinds, of the plane and of space."""
 
 
 def read_joints(reading: Reading, section: Sequence) -> tuple[Joint, ...]:

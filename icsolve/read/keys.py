@@ -49,12 +49,12 @@ class EntryKind(NamedTuple):
     """what ties its keys to one another"""
 
 
-def _needed(key: Key, says: str = "", form: str = "") -> Key:
+def needed(key: Key, says: str = "", form: str = "") -> Key:
     """The same key where it must stand there."""
     return key._replace(needed=True, says=says or key.says, form=form or key.form)
 
 
-def _quantity(says: str, dimension: str, bound: str = "") -> Key:
+def quantity_key(says: str, dimension: str, bound: str = "") -> Key:
     return Key(says, "number" if dimension == "number" else "quantity", False, dimension, bound)
 
 
@@ -93,172 +93,33 @@ UNITS = {
 }
 
 # Joints
-_AT = Key("its point", "name", True)
-_MU = _quantity("the coefficient of friction", "number", "not negative")
-_LINKS = Key("the two links that it joins", "two links", True)
-_ALONG = Key("a direction in degrees, or two points of the guide as in [A, G]", "line", True, "angle")
-_THROUGH = Key("a point of the guide line; left out, the line of the two points, or `at` itself")
-_RADII = Key("the two radii, as in [3, 5]", "pair", False, "length", "positive")
-_CARRIER = Key("the link to which both are pinned, where several could be", "link")
-_PRESSURE_ANGLE = _quantity("that of the teeth, such as 20", "angle", "acute")
-_PITCH = _quantity("teeth per length of the pitch circle's diameter", "pitch", "positive")
-_MODULE = _quantity("the pitch circle's diameter per tooth", "length", "positive")
-_HELIX = {
-    "helix angle": _quantity("the angle of the teeth with the axis, in degrees", "angle", "acute or zero"),
+LINKS = Key("the two links that it joins", "two links", True)
+PRESSURE_ANGLE = quantity_key("that of the teeth, such as 20", "angle", "acute")
+_PITCH = quantity_key("teeth per length of the pitch circle's diameter", "pitch", "positive")
+_MODULE = quantity_key("the pitch circle's diameter per tooth", "length", "positive")
+HELIX = {
+    "helix angle": quantity_key("the angle of the teeth with the axis, in degrees", "angle", "acute or zero"),
     "hand": Key("of the helix of the gear named first, right or left", "hand"),
     **{
         f"{section} {key}": form._replace(says=f"{form.says}, {where}")
         for section, where in (("normal", "square to the teeth"), ("transverse", "in the plane of the wheel"))
         for key, form in (
-            ("pressure angle", _PRESSURE_ANGLE),
+            ("pressure angle", PRESSURE_ANGLE),
             ("diametral pitch", _PITCH),
             ("module", _MODULE),
         )
     },
 }
-_TEETH = {"pressure angle": _PRESSURE_ANGLE, "diametral pitch": _PITCH, "module": _MODULE}
+TEETH = {"pressure angle": PRESSURE_ANGLE, "diametral pitch": _PITCH, "module": _MODULE}
 SECTIONS_OF_TEETH = ("", "normal ", "transverse ")
 TOOTH_ANGLES = tuple(f"{section}pressure angle" for section in SECTIONS_OF_TEETH)
 TOOTH_SIZES = tuple(
     f"{section}{size}" for size in ("diametral pitch", "module") for section in SECTIONS_OF_TEETH
 )
-_TOOTH_FORM = (Rule("at most one", TOOTH_ANGLES), Rule("at most one", TOOTH_SIZES))
-HELICAL = (*_HELIX, "bearing span")
+TOOTH_FORM = (Rule("at most one", TOOTH_ANGLES), Rule("at most one", TOOTH_SIZES))
+HELICAL = (*HELIX, "bearing span")
 """What gears take besides where their teeth are helical."""
 
-JOINTS = {
-    "pin": EntryKind(
-        "a revolute: its links turn about one point",
-        Key("the links that it joins, two or more", "links", True),
-        {
-            "at": _needed(_AT, "the point about which its links turn"),
-            "mu": _MU,
-            "radius": _quantity("the pin's own radius, for its friction", "length", "positive"),
-        },
-        "a `hinge` with its `axis`",
-        ties=(Rule("needs", ("mu", "radius"), "friction of {what} needs 'radius', the pin's own"),),
-    ),
-    "slide": EntryKind(
-        "a prismatic: the block, named first, on a guide of the second link",
-        _LINKS,
-        {
-            "at": _needed(_AT, "the point of the block"),
-            "along": _ALONG,
-            "through": _THROUGH,
-            "mu": _MU,
-            "length": _quantity("the block's own length: its two ends rub", "length", "positive"),
-        },
-        "bearings with their `axis`",
-    ),
-    "slot": EntryKind(
-        "a pin of the first link in a slot of the second",
-        _LINKS,
-        {"at": _needed(_AT, "the pin's point"), "along": _ALONG, "through": _THROUGH, "mu": _MU},
-        "an unknown force along the normal",
-    ),
-    "roll": EntryKind(
-        "rolling without slip; a rack and its pinion",
-        _LINKS,
-        {
-            "at": _needed(_AT, "the point of contact"),
-            "radii": Key(
-                "the two radii, as in [1.5, 0], where it is to move; 0 straight, negative inside",
-                "pair",
-                False,
-                "length",
-                "one positive",
-            ),
-            "pressure angle": _PRESSURE_ANGLE,
-        },
-        "an unknown force along each direction",
-    ),
-    "gears": EntryKind(
-        "a mesh; their pivots are the pins of both to one carrier",
-        _LINKS,
-        {
-            "teeth": Key(
-                "the two numbers of teeth, as in [31, 57], or [31, -92] where 92 are internal",
-                "counts",
-                True,
-                "number",
-            ),
-            "carrier": _CARRIER,
-            **_TEETH,
-            **_HELIX,
-            "bearing span": _quantity("the distance of each shaft's bearings", "length", "positive"),
-        },
-        ties=(
-            *_TOOTH_FORM,
-            *(Rule("needs", (key, "helix angle")) for key in HELICAL if key != "helix angle"),
-        ),
-    ),
-    "belt": EntryKind(
-        "a belt or chain over two pulleys that are pinned to one carrier",
-        _LINKS,
-        {
-            "radii": _needed(_RADII),
-            "carrier": _CARRIER,
-            "crossed": Key("whether the belt is crossed: true or false", "truth"),
-        },
-        "a load for the pull of each strand",
-    ),
-    "contact": EntryKind(
-        "a contact that rolls and slips, as of a cam; without `at` and `normal` by the links' profiles",
-        _LINKS,
-        {
-            "at": Key("the point of contact"),
-            "normal": _quantity("the direction of the common normal in degrees", "angle"),
-            "mu": _MU,
-        },
-        "an unknown force along the normal",
-    ),
-    "centre": EntryKind(
-        "a relative centre that is known, without the joints between",
-        _LINKS,
-        {
-            "at": Key("its place, or 'toward', its direction where it is at infinity", "place"),
-            "toward": _quantity("its direction in degrees, where it is at infinity", "angle"),
-        },
-        "the joints themselves",
-        ties=(Rule("one", ("at", "toward")),),
-    ),
-    "weld": EntryKind(
-        "two links that move as one", _LINKS, {"at": Key("the point that its reaction is given for")}
-    ),
-    "rope": EntryKind(
-        "a rope: fixed at its ends, over pulleys in between",
-        Key("the points that it runs through, as in [A, P, B]", "points of a rope", True),
-        {
-            "on": Key(
-                "the link at each of its points, in order; the last left out where loads pull its end",
-                "links of a rope",
-                True,
-            ),
-            "radii": Key("radii of pulleys and drums, as in {P: 0.1}", "sizes", False, "length", "positive"),
-            "wraps": Key("the sense in which one goes round each, as in {P: ccw}", "senses"),
-            "mu": Key("friction where it slips, as in {P: 0.3}", "numbers", False, "number", "not negative"),
-            "length": _quantity("its own length, where the figure leaves it open", "length", "positive"),
-        },
-        "loads for its pull on each link",
-    ),
-    "screw": EntryKind(
-        "a screw: the second link moves on the first along its axis, as far as a torque load turns it",
-        _LINKS,
-        {
-            "at": _needed(_AT, "the point of the second link"),
-            "along": _ALONG,
-            "through": _THROUGH,
-            "lead": Key("how far it moves in a turn", "quantity", True, "length", "positive"),
-            "radius": _quantity("the thread's mean radius, for its friction", "length", "positive"),
-            "mu": _MU,
-        },
-        "a hinge and a load for its force",
-        ties=(
-            Rule("needs", ("mu", "radius"), "friction of {what} needs 'radius', the mean one of its thread"),
-        ),
-    ),
-}
-"""Joints of the plane."""
 
 _AXIS = "x, y, z, -z, components such as [0, 3, 4], or two points [A, B]"
 
@@ -272,21 +133,21 @@ _CENTRE = Key("the point through which its force acts", "name", True)
 
 
 def _bearing(says: str, axis: str) -> EntryKind:
-    return EntryKind(says, _LINKS, {"at": _CENTRE, "axis": _axis(axis)})
+    return EntryKind(says, LINKS, {"at": _CENTRE, "axis": _axis(axis)})
 
 
 SPACE_JOINTS = {
-    "ball": EntryKind("a spherical joint: it carries a force and no couple", _LINKS, {"at": _CENTRE}),
+    "ball": EntryKind("a spherical joint: it carries a force and no couple", LINKS, {"at": _CENTRE}),
     "radial": _bearing("a bearing that carries force square to its axis only", "the direction of the shaft"),
     "thrust": _bearing("a bearing that carries force along its axis too", "the direction of the shaft"),
     "hinge": _bearing(
         "a hinge: it carries a force, and couples square to its axis",
         "the direction about which its links turn",
     ),
-    "weld": EntryKind("a rigid joint: it carries a force and a couple", _LINKS, {"at": _CENTRE}),
+    "weld": EntryKind("a rigid joint: it carries a force and a couple", LINKS, {"at": _CENTRE}),
     "gears": EntryKind(
         "a mesh of gears with parallel axes",
-        _LINKS,
+        LINKS,
         {
             "teeth": Key(
                 "the number of teeth of each gear, as in [31, 57]; one number where the mate is not shown",
@@ -301,11 +162,11 @@ SPACE_JOINTS = {
             ),
             "axis": _axis("the direction of the shafts"),
             "toward": Key("where the mate lies, seen from the centre of the gear", "axis or point"),
-            **_TEETH,
-            **_HELIX,
+            **TEETH,
+            **HELIX,
         },
         ties=(
-            *_TOOTH_FORM,
+            *TOOTH_FORM,
             Rule("needs", ("helix angle", "hand")),
             Rule("needs", ("hand", "helix angle")),
         ),
@@ -323,7 +184,7 @@ _SPEED = Key(
     "the angular speed at which the power is transmitted, such as 1500 rpm", "quantity", True, "angular speed"
 )
 DIRECTION = {
-    "angle": _quantity("its direction in degrees, counterclockwise from +x", "angle"),
+    "angle": quantity_key("its direction in degrees, counterclockwise from +x", "angle"),
     "toward": Key("a point toward which it acts"),
     "away": Key("a point away from which it acts"),
     "slope": Key("its direction by run and rise, as in [-3, 4]", "slope", False, "number"),
@@ -369,9 +230,9 @@ LOADS = {
         {
             "free": _FREE,
             "link": _LINK,
-            "at": _needed(_PLACE, "the point of its link that it is fixed to, or [x, y]"),
+            "at": needed(_PLACE, "the point of its link that it is fixed to, or [x, y]"),
             "against": _AGAINST,
-            "to": _needed(_PLACE, "the point of its other end, or [x, y]"),
+            "to": needed(_PLACE, "the point of its other end, or [x, y]"),
         },
     ),
     "torsion spring": EntryKind(
@@ -398,9 +259,9 @@ LOADS = {
         "a pressure on an area, along a line as a force",
         _size(_TORQUE, "pressure"),
         {
-            "bore": _quantity("the diameter of the cylinder", "length", "positive"),
-            "rod": _quantity("the diameter of the rod, on its side of the piston", "length", "positive"),
-            "area": _quantity("the area, as in 1963 mm^2, in place of a bore", "area", "positive"),
+            "bore": quantity_key("the diameter of the cylinder", "length", "positive"),
+            "rod": quantity_key("the diameter of the rod, on its side of the piston", "length", "positive"),
+            "area": quantity_key("the area, as in 1963 mm^2, in place of a bore", "area", "positive"),
             "link": _LINK,
             "at": _PLACE,
             **DIRECTION,
@@ -487,9 +348,9 @@ SPACE_LOADS = {
         {
             "free": _FREE,
             "link": _LINK,
-            "at": _needed(_SPOT, "the point of its link that it is fixed to, or [x, y, z]"),
+            "at": needed(_SPOT, "the point of its link that it is fixed to, or [x, y, z]"),
             "against": _AGAINST,
-            "to": _needed(_SPOT, "the point of its other end, or [x, y, z]"),
+            "to": needed(_SPOT, "the point of its other end, or [x, y, z]"),
         },
     ),
     "power": EntryKind(
@@ -505,55 +366,6 @@ SPACE_LOADS = {
 }
 """Loads in space."""
 
-# Profiles
-_RADIUS = Key("its radius", "quantity", True, "length", "positive")
-_OWN = Key("a point, or [x, y] in this position", "place", True)
-_FACE = Key("the direction of the face in degrees, or two of its points as in [D, E]", "line", True, "angle")
-PROFILES = {
-    "polygon": EntryKind(
-        "corners joined by straight edges, back to the first",
-        Key("three or more corners, as in [A, B, C]", "corners", True),
-        {},
-    ),
-    "arcs": EntryKind(
-        "arcs one after the other, joined by straight lines where their ends are apart",
-        Key("a list of arcs, as in [{centre: C, from: P, to: Q}]", "arcs", True),
-        {},
-    ),
-    "circle": EntryKind(
-        "a circle", _OWN._replace(says="its centre"), {"radius": _needed(_RADIUS, "that of the circle")}
-    ),
-    "radii": EntryKind(
-        "radius against angle: a periodic cubic spline",
-        Key("radii by angle, as in {0: 20, 30: 21.5}; four or more", "table", True, "length", "positive"),
-        {
-            "about": Key("the point of the cam from which the radii are measured", "place", True),
-            "zero": Key(
-                "the direction of the angle 0 in degrees, or two points of the cam as in [A, B]",
-                "line",
-                True,
-                "angle",
-            ),
-            "turns": Key("the sense in which the angles run, ccw or cw", "sense"),
-        },
-    ),
-    "flat": EntryKind("a flat face", _OWN._replace(says="a point of the face"), {"along": _FACE}),
-    "roller": EntryKind(
-        "a roller", _OWN._replace(says="its centre"), {"radius": _needed(_RADIUS, "that of the roller")}
-    ),
-    "knife": EntryKind("a knife edge", _OWN._replace(says="where the edge is"), {}),
-}
-"""Profiles of cams, and of their followers."""
-_END = Key("where it ends: a point, or a direction from its centre in degrees", "end", True, "angle")
-ARC = {
-    "centre": Key("its centre, a point or [x, y]", "place", True),
-    "radius": _quantity("or 'from' as a point of the arc", "length", "positive"),
-    "from": _needed(_END, "where it begins: a point, or a direction from its centre in degrees"),
-    "to": _END,
-    "turns": Key("the sense from its beginning to its end, ccw or cw", "sense"),
-}
-
-# The rest
 _MOVES = Key("the link that moves", "link", True)
 _GROWS = "how fast the speed grows, positive in its own sense; 0 by default"
 _SPEED_FIRST = Rule(
@@ -564,9 +376,9 @@ MOTION_OF_LINK = EntryKind(
     _MOVES,
     {
         "link": _MOVES,
-        "speed": _quantity("its angular speed", "angular speed"),
+        "speed": quantity_key("its angular speed", "angular speed"),
         "turns": Key("the sense in which the link turns, ccw or cw", "sense"),
-        "acceleration": _quantity(_GROWS, "angular acceleration"),
+        "acceleration": quantity_key(_GROWS, "angular acceleration"),
     },
     ties=(
         Rule("any", ("speed", "turns"), "motion of a link needs 'speed', 'turns: ccw' or 'turns: cw'"),
@@ -579,9 +391,11 @@ MOTION_OF_POINT = EntryKind(
     {
         "point": Key("the point of the link whose speed is given", "name", True),
         "link": _MOVES,
-        "speed": _quantity("the point's speed", "speed")._replace(needed=True),
-        "angle": _quantity("the direction of the point's velocity in degrees", "angle")._replace(needed=True),
-        "acceleration": _quantity(_GROWS, "path acceleration"),
+        "speed": needed(quantity_key("the point's speed", "speed")),
+        "angle": quantity_key("the direction of the point's velocity in degrees", "angle")._replace(
+            needed=True
+        ),
+        "acceleration": quantity_key(_GROWS, "path acceleration"),
     },
     ties=(_SPEED_FIRST,),
 )
@@ -601,7 +415,7 @@ MASSES = {
 MASSES_TIES = (Rule("needs", ("mass", "centre")),)
 EXPECTED = {
     "value": Key("the published one", "published"),
-    "toward": _quantity("the direction in which a centre at infinity lies", "angle"),
+    "toward": quantity_key("the direction in which a centre at infinity lies", "angle"),
     "holds": Key("the range in which it holds still, as in [113, 287]; null where it has no end", "ends"),
     "stability": Key("of which kind the position is: stable, unstable or neutral", "stability"),
     "within": Key("how near is near enough, as in 1% or 0.02", "width"),
@@ -621,7 +435,7 @@ VARIABLE = {
 }
 LIKE = {
     "like": Key("the name of another load, as in {like: M2, times: -1}", "name", True),
-    "times": _quantity("how many times as large as the other load", "number"),
+    "times": quantity_key("how many times as large as the other load", "number"),
 }
 CENTROID = {"centroid": Key("the points of which it is the mean; of two, the middle", "several", True)}
 UNKNOWN = {
@@ -630,6 +444,6 @@ UNKNOWN = {
 }
 """What a datum of the figure says that is to find."""
 GRAVITY = {
-    "size": _quantity("its size, 9.81 m/s^2 by default", "acceleration", "not negative"),
+    "size": quantity_key("its size, 9.81 m/s^2 by default", "acceleration", "not negative"),
     "along": _axis("where weights pull to"),
 }

@@ -22,11 +22,57 @@ from icsolve.case.profiles import (
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.entry import Entry
-from icsolve.read.keys import ARC, PROFILES
+from icsolve.read.keys import EntryKind, Key, needed, quantity_key
 from icsolve.read.names import shown, suggestion
 from icsolve.read.reading import Reading, number
 from icsolve.units import UnitError, split_quantity
 
+_RADIUS = Key("its radius", "quantity", True, "length", "positive")
+_OWN = Key("a point, or [x, y] in this position", "place", True)
+_FACE = Key("the direction of the face in degrees, or two of its points as in [D, E]", "line", True, "angle")
+PROFILES = {
+    "polygon": EntryKind(
+        "corners joined by straight edges, back to the first",
+        Key("three or more corners, as in [A, B, C]", "corners", True),
+        {},
+    ),
+    "arcs": EntryKind(
+        "arcs one after the other, joined by straight lines where their ends are apart",
+        Key("a list of arcs, as in [{centre: C, from: P, to: Q}]", "arcs", True),
+        {},
+    ),
+    "circle": EntryKind(
+        "a circle", _OWN._replace(says="its centre"), {"radius": needed(_RADIUS, "that of the circle")}
+    ),
+    "radii": EntryKind(
+        "radius against angle: a periodic cubic spline",
+        Key("radii by angle, as in {0: 20, 30: 21.5}; four or more", "table", True, "length", "positive"),
+        {
+            "about": Key("the point of the cam from which the radii are measured", "place", True),
+            "zero": Key(
+                "the direction of the angle 0 in degrees, or two points of the cam as in [A, B]",
+                "line",
+                True,
+                "angle",
+            ),
+            "turns": Key("the sense in which the angles run, ccw or cw", "sense"),
+        },
+    ),
+    "flat": EntryKind("a flat face", _OWN._replace(says="a point of the face"), {"along": _FACE}),
+    "roller": EntryKind(
+        "a roller", _OWN._replace(says="its centre"), {"radius": needed(_RADIUS, "that of the roller")}
+    ),
+    "knife": EntryKind("a knife edge", _OWN._replace(says="where the edge is"), {}),
+}
+"""Profiles of cams, and of their followers."""
+_END = Key("where it ends: a point, or a direction from its centre in degrees", "end", True, "angle")
+ARC = {
+    "centre": Key("its centre, a point or [x, y]", "place", True),
+    "radius": quantity_key("or 'from' as a point of the arc", "length", "positive"),
+    "from": needed(_END, "where it begins: a point, or a direction from its centre in degrees"),
+    "to": _END,
+    "turns": Key("the sense from its beginning to its end, ccw or cw", "sense"),
+}
 _FORM = "as in {circle: C, radius: 40} or {roller: R, radius: 5}"
 _ARC = "as in {centre: C, from: P, to: Q}"
 LEAST = 4

@@ -8,7 +8,8 @@ from typing import TypeVar
 from icsolve.case import AlongRope, Force, Load, Number, Rope, Weight
 from icsolve.read.document import Mapping, Node, Sequence
 from icsolve.read.entry import Entry
-from icsolve.read.keys import JOINTS, PULLS
+from icsolve.read.joints import JOINTS
+from icsolve.read.keys import PULLS
 from icsolve.read.names import shown, suggestion
 from icsolve.read.reading import Reading
 

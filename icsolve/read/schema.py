@@ -9,7 +9,9 @@ from __future__ import annotations
 from typing import Any
 
 from icsolve.read import keys
+from icsolve.read.joints import JOINTS
 from icsolve.read.keys import EntryKind, Key, Rule
+from icsolve.read.profiles import ARC, PROFILES
 
 Schema = dict[str, Any]
 ID = "icsolve.schema.json"
@@ -214,12 +216,12 @@ def _definitions() -> Schema:
         "masses": {**_keyed(keys.MASSES), **_tied(keys.MASSES_TIES)},
         "centroid": _keyed(keys.CENTROID),
         "gravity in space": _keyed(keys.GRAVITY),
-        "joint": {"oneOf": _one(keys.JOINTS)},
+        "joint": {"oneOf": _one(JOINTS)},
         "joint in space": _any(*_one(keys.SPACE_JOINTS)),
         "load": {"oneOf": [*_one(keys.LOADS), *_one(keys.PULLS)]},
         "load in space": _any(*_one(keys.SPACE_LOADS)),
-        "profile": _any(*_one(keys.PROFILES)),
-        "arc": _keyed(keys.ARC),
+        "profile": _any(*_one(PROFILES)),
+        "arc": _keyed(ARC),
         "motion": {"oneOf": [_of_kind("link", keys.MOTION_OF_LINK), _of_kind("link", keys.MOTION_OF_POINT)]},
         "published": {**_keyed(keys.EXPECTED), **_tied(keys.EXPECTED_TIES)},
         "tolerance": {**_keyed(keys.TOLERANCE), "minProperties": 1},

@@ -8,8 +8,8 @@ from collections.abc import Mapping as Named
 
 from icsolve.case import Mark
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, parse
-from icsolve.read.joints import NAMES
-from icsolve.read.keys import JOINTS, LOADS
+from icsolve.read.joints import JOINTS, NAMES
+from icsolve.read.keys import LOADS
 from icsolve.read.names import Problems, atoms, shown, suggestion
 
 _FORM = "a path is like angles.AB, lengths.AB, points.D.x, loads.P, loads.P.angle or joints.B.mu"

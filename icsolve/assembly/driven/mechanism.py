@@ -5,7 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 
 from icsolve.assembly.driven import rolling
-from icsolve.assembly.driven.constraints import BodyLine, Constraint, Immovable, OnLine, Roped, Turning
+from icsolve.assembly.driven.constraints import (
+    BodyLine,
+    Constraint,
+    Immovable,
+    OnLine,
+    Roped,
+    SpotDistance,
+    Turning,
+)
 from icsolve.assembly.driven.poses import Shape, Spot, dot, minus, square
 from icsolve.assembly.driven.rolling import ROUNDED, RollingSide
 from icsolve.assembly.workspace import Frame
@@ -18,7 +26,7 @@ from icsolve.case import (
     Rope,
     Toward,
 )
-from icsolve.case.joints import Guided, Mesh, Rolling
+from icsolve.case.joints import CentreAt, Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Scalar
 from icsolve.numbers.record import Record
@@ -79,9 +87,7 @@ def mechanism(case: Case, top: Topology, frame: Frame, record: Record, ref: Mapp
     constraints: list[Constraint] = []
     contacts: dict[str, rolling.RollingContact] = {}
     for i, joint in enumerate(case.joints):
-        if isinstance(joint, Guided):
-            constraints += _guided(joint, lines[i], top, places)
-        elif isinstance(joint, Rolling):
+        if isinstance(joint, Rolling):
             try:
                 found = rolling.rolling(joint, _sides(joint, case, top, frame, record), places)
             except SceneError as unknown:
@@ -94,6 +100,8 @@ def mechanism(case: Case, top: Topology, frame: Frame, record: Record, ref: Mapp
         elif not joint.stays_known:
             refusal = SceneError(Status.UNSUPPORTED, why_not_moved(joint))
             constraints += _immovable(joint, top, places, refusal)
+        else:
+            constraints += _conditions(joint, lines.get(i), shape, top.body_of)
     constraints += [_meshed(bond, top, record) for bond in top.bonds if isinstance(bond.joint, Mesh)]
     constraints += [_roped(rope, top, frame, record, places) for rope in top.ropes]
     _base(spots, lines.values(), places)
@@ -199,14 +207,22 @@ def _line(guide: Guide, at: str, body: int, ref: Mapping[str, Point], record: Re
     return BodyLine(body, ref[name] if abs(float(off)) <= ROUNDED else ref[at], along)
 
 
-def _guided(joint: Guided, line: BodyLine, top: Topology, ref: Mapping[str, Point]) -> list[Constraint]:
-    body = top.body_of[joint.links[0]]
-    if body == line.body:
-        return []
-    on: list[Constraint] = [OnLine((body, joint.at), line)]
-    if joint.keeps_direction:
-        on.append(Turning(((body, 1.0), (line.body, -1.0))))
-    return on
+def _conditions(
+    joint: Joint, line: BodyLine | None, shape: Shape, body_of: Mapping[str, int]
+) -> Iterator[Constraint]:
+    """What the centres that span a joint's freedoms say of its links as they move; of a pin nothing, which is
+    one spot of several bodies."""
+    if body_of[joint.links[0]] == body_of[joint.links[1]]:
+        return
+    if line is not None and joint.at is not None:
+        yield OnLine((body_of[joint.links[0]], joint.at), line)
+        if joint.keeps_direction:
+            yield Turning(((body_of[joint.links[0]], 1.0), (line.body, -1.0)))
+        return
+    match joint.centres:
+        case (CentreAt(a, one), CentreAt(b, two)):
+            ends = (body_of[one], a), (body_of[two], b)
+            yield SpotDistance(*ends, shape.span(*ends))
 
 
 def _sides(

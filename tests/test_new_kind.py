@@ -1,0 +1,81 @@
+"""A kind of joint that only says which centres span its freedoms: positions, forces and motion follow.
+
+A bar of a kind of its own, between points of two links, against the link with two pins that it stands for.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cached_property
+
+import numpy as np
+
+import icsolve
+from icsolve.case import Case
+from icsolve.case.joints import CentreAt, JointCentre, JointKind, Pair
+from icsolve.tuples import NamedTuple
+
+FOUR_BAR = """\
+icsolve: 1
+points: {A: [0, 0], D: [4, 0]}
+lengths: {AB: 1, BC: 3.5, CD: 2.5, DE: 1.5}
+angles: {AB: 60, CDE: 0}
+near: {C: [3.5, 2.4]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {pin: [4, 1], at: D}
+loads:
+  P: {force: 100, link: 4, at: E, angle: 180}
+  T12: {torque: unknown, link: 2}
+"""
+
+
+class _Ends(NamedTuple):
+    links: Pair
+    at: str
+    to: str
+
+
+class Bar(_Ends, JointKind):
+    """It keeps the distance of ``at`` on its first link from ``to`` on its second."""
+
+    @cached_property
+    def centres(self) -> tuple[JointCentre, ...]:
+        return CentreAt(self.at, self.links[0]), CentreAt(self.to, self.links[1])
+
+    @property
+    def points(self) -> tuple[str, ...]:
+        return self.at, self.to
+
+    @property
+    def carried(self) -> tuple[tuple[str, str], ...]:
+        return (self.links[0], self.at), (self.links[1], self.to)
+
+
+def barred() -> Case:
+    """The four-bar with a bar for its coupler."""
+    case = icsolve.load(FOUR_BAR)
+    first, _, _, last = case.joints
+    carries = {link: points for link, points in case.carries.items() if link != "3"}
+    joints = (first, Bar(("2", "4"), "B", "C"), last)
+    return replace(case, links=("1", "2", "4"), joints=joints, carries=carries)  # type: ignore[arg-type]
+
+
+def test_the_force_rates_and_centre_are_those_of_the_link_for_which_it_stands() -> None:
+    pinned, bar = icsolve.solve(icsolve.load(FOUR_BAR)), icsolve.solve(barred())
+    assert bar.mobility == pinned.mobility == 1
+    assert np.isclose(bar.answers["T12"].value, pinned.answers["T12"].value, rtol=1e-14, atol=0.0)
+    assert np.allclose(bar.centres["2", "4"].place, pinned.centres["2", "4"].place, rtol=1e-13)
+
+
+def test_it_moves_as_that_link_does() -> None:
+    angles = np.linspace(0.0, 360.0, 73)
+    want = ("answers", "status", "points")
+    pinned = icsolve.sweep(icsolve.load(FOUR_BAR), vary={"angles.AB": angles}, want=want)
+    bar = icsolve.sweep(barred(), vary={"angles.AB": angles}, want=want)
+    assert np.all(bar.status == "ok")
+    # rounding of two elimination orders: some hundred ulps of the largest force
+    assert np.allclose(bar.answers["T12"], pinned.answers["T12"], rtol=0.0, atol=1e-11)
+    assert np.allclose(bar.points["C"], pinned.points["C"], rtol=0.0, atol=1e-13)
