@@ -17,10 +17,9 @@ from icsolve.tuples import NamedTuple
 
 FOUR_BAR = """\
 icsolve: 1
-points: {A: [0, 0], D: [4, 0]}
-lengths: {AB: 1, BC: 3.5, CD: 2.5, DE: 1.5}
+points: {A: [0, 0], C: [3.6, 2.5], D: [4, 0]}
+lengths: {AB: 1, DE: 1.5}
 angles: {AB: 60, CDE: 0}
-near: {C: [3.5, 2.4]}
 joints:
   - {pin: [1, 2], at: A}
   - {pin: [2, 3], at: B}
