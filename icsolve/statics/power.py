@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
+from typing import TYPE_CHECKING, TypeVar
 
 from icsolve.assembly.workspace import Frame
 from icsolve.case import (
@@ -37,6 +38,9 @@ from icsolve.numbers.tape import Tape
 from icsolve.screws.plane import Point, Triple, force_wrench, pairing
 from icsolve.screws.ropes import rope_parts
 from icsolve.tuples import NamedTuple
+
+if TYPE_CHECKING:
+    from icsolve.case.space import Load as SpatialLoad
 
 Points = Mapping[str, Point]
 
@@ -85,7 +89,7 @@ def wrenches(case: Case, frame: Frame, points: Points, arithmetic: Arithmetic) -
     by_name = {load.name: load for load in case.loads}
     result = []
     for load in case.loads:
-        source, ratio = _source(load, by_name, arithmetic)
+        source, ratio = source_of(load, by_name, arithmetic)
         unit, gain = _unit_wrench(load, case, frame, points, arithmetic)
         measure = frame.scale if isinstance(load, Torque | TorsionSpring) else 1.0
         reach = magnitude(gain) + _beside(load, case)
@@ -138,13 +142,16 @@ def line_of(load: Load) -> tuple[str, str] | None:
     return None
 
 
-def _source(load: Load, by_name: Mapping[str, Load], arithmetic: Arithmetic) -> tuple[Load, Scalar]:
-    """The load whose number another takes, and how many times."""
+L = TypeVar("L")
+
+
+def source_of(load: L, by_name: Mapping[str, L], arithmetic: Arithmetic) -> tuple[L, Scalar]:
+    """The load whose number another takes (itself, where it has its own), and how many times."""
     ratio: Scalar = 1.0
-    while not isinstance(load, ForceVector) and isinstance(load.value, Like):
-        if load.value.times is not None:
-            ratio = ratio * arithmetic.given(load.value.times)
-        load = by_name[load.value.load]
+    while isinstance(like := getattr(load, "value", None), Like):
+        if like.times is not None:
+            ratio = ratio * arithmetic.given(like.times)
+        load = by_name[like.load]
     return load, ratio
 
 
@@ -383,9 +390,9 @@ def solve_balance(b: Balance, arithmetic: Arithmetic) -> Solution:
     return solution
 
 
-def is_unknown(load: Load) -> bool:
-    """Whether a load's own number is to find."""
-    return not isinstance(load, ForceVector) and load.value is None
+def is_unknown(load: Load | SpatialLoad) -> bool:
+    """Whether a load's own number is to find; what is given by components has none."""
+    return getattr(load, "value", 0.0) is None
 
 
 def has_number(load: Load) -> bool:

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from icsolve.answer.bodies import Reaction
-from icsolve.case import Like, Pin
+from icsolve.case import Number, Pin
 from icsolve.case.expected import (
     ArmIs,
     DistanceIs,
@@ -18,7 +18,9 @@ from icsolve.case.expected import (
     TensionIs,
 )
 from icsolve.case.space import SpatialForceVector, TorqueVector
+from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.space import Vec, add, cross, size, sub, times
+from icsolve.statics.power import source_of
 
 if TYPE_CHECKING:
     from icsolve.answer import Answer
@@ -63,14 +65,12 @@ def _load_in_space(answer: Answer, name: str, sense: str | None) -> float:
         against = sense is not None and found.sense not in ("", sense)
         return -abs(found.value) if against else abs(found.value) if sense else found.value
     assert answer.case.space is not None
-    load = next(load for load in answer.case.space.loads if load.name == name)
-    if isinstance(load, SpatialForceVector | TorqueVector):
-        return math.hypot(*(part.value for part in load.parts))
-    if isinstance(load.value, Like):
-        ratio = 1.0 if load.value.times is None else load.value.times.value
-        return ratio * _load_in_space(answer, load.value.load, None)
-    assert load.value is not None
-    return load.value.value
+    by_name = {load.name: load for load in answer.case.space.loads}
+    source, ratio = source_of(by_name[name], by_name, FLOATS)
+    if isinstance(source, SpatialForceVector | TorqueVector):
+        return float(ratio) * math.hypot(*(part.value for part in source.parts))
+    assert isinstance(source.value, Number)
+    return float(ratio) * source.value.value
 
 
 def _tension(answer: Answer, target: TensionIs) -> float:

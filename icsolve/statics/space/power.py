@@ -18,6 +18,7 @@ from icsolve.numbers.null_space import Vanishes
 from icsolve.numbers.sparse import Row, eliminate
 from icsolve.screws.space import ZERO, Components, Vec, dot, moved, size, times, unit, velocity_of
 from icsolve.statics.equilibrium import NOTHING_SOLVED, Action, Equilibrium, columns_of, solve_statics
+from icsolve.statics.power import is_unknown, source_of
 from icsolve.statics.space.figure import (
     SpatialFigure,
     between,
@@ -79,22 +80,12 @@ def wrenched(case: Case, figure: SpatialFigure) -> tuple[Wrenched, ...]:
 
 
 def _wrenched(case: Case, figure: SpatialFigure, load: Load, by_name: Mapping[str, Load]) -> Wrenched:
-    root, ratio = _root(load, by_name, figure.arithmetic)
+    root, ratio = source_of(load, by_name, figure.arithmetic)
     unit_wrench, gain = _unit(case, figure, load)
     at = figure.points[load.at] if not isinstance(load, SpatialTorque | TorqueVector) else ZERO
     against = getattr(load, "against", None) or case.ground
     known = _number(root, figure.arithmetic)
     return Wrenched(load, against, at, unit_wrench, gain, root.name, ratio, known)
-
-
-def _root(load: Load, by_name: Mapping[str, Load], arithmetic: Arithmetic) -> tuple[Load, Scalar]:
-    """The load whose number it takes, and how many times that."""
-    ratio: Scalar = 1.0
-    while not isinstance(load, SpatialForceVector | TorqueVector) and isinstance(load.value, Like):
-        if load.value.times is not None:
-            ratio = ratio * arithmetic.given(load.value.times)
-        load = by_name[load.value.load]
-    return load, ratio
 
 
 def _number(load: Load, arithmetic: Arithmetic) -> Scalar | None:
@@ -135,11 +126,6 @@ def scale_of(loads: Sequence[Wrenched]) -> float:
     """A power of two that brings the largest known load near 1."""
     largest = max((w.size * abs(float(w.known)) for w in loads if w.known is not None), default=0.0)
     return math.ldexp(1.0, -math.frexp(largest)[1]) if largest else 1.0
-
-
-def is_unknown(load: Load) -> bool:
-    """Whether a load is one to find."""
-    return not isinstance(load, SpatialForceVector | TorqueVector) and load.value is None
 
 
 Twists = Mapping[str, Sequence[Components]]

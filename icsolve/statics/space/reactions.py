@@ -17,6 +17,7 @@ from icsolve.numbers.arithmetic import Scalar, Showing, decider, zero_of
 from icsolve.numbers.sparse import Row
 from icsolve.screws.space import AXES, Vec, dot, square_to
 from icsolve.statics.equilibrium import value_of
+from icsolve.statics.power import is_unknown
 from icsolve.statics.reactions import SHARED, names_by_tie
 from icsolve.statics.space.figure import SpatialFigure, SpatialFrame
 from icsolve.statics.space.power import (
@@ -26,7 +27,6 @@ from icsolve.statics.space.power import (
     Twists,
     Wrenched,
     count_of,
-    is_unknown,
 )
 from icsolve.statics.space.reaction_basis import SpatialTie
 from icsolve.statics.space.report import motion_words, moving
