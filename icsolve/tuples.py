@@ -1,4 +1,4 @@
-"""Named tuples that cost little to make: those of `typing`, without its checks of every annotation and name.
+"""Named tuples and frozen classes that cost little to make: those of `typing` and `dataclasses`, uncompiled.
 
 A hundred are made at each start, and each by `typing.NamedTuple` takes as long as ten plain classes. Modules
 that have some put annotations off (``from __future__``), so that making one evaluates none.
@@ -9,9 +9,10 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-__all__ = ["NamedTuple"]
+__all__ = ["NamedTuple", "dataclass", "field", "replace"]
 
 if TYPE_CHECKING:
+    from dataclasses import dataclass, field, replace
     from typing import NamedTuple
 else:
     from operator import itemgetter
@@ -77,3 +78,60 @@ else:
         return eval(f"lambda _cls, {names}: _new(_cls, ({names}))").__code__
 
     NamedTuple = type.__new__(_Maker, "NamedTuple", (), {})
+
+    class _Made:
+        """The default of a field that is made anew for every object."""
+
+        def __init__(self, default_factory):
+            self.make = default_factory
+
+    field = _Made
+
+    def dataclass(**how: bool):
+        """A class whose frozen objects keep what the annotated names say; any two are different."""
+        assert how == {"frozen": True, "eq": False, "repr": False}
+
+        def finished(kind: type) -> type:
+            kind._fields = tuple(kind.__annotations__)
+            defaults = {name: kind.__dict__[name] for name in kind._fields if name in kind.__dict__}
+            kind._made = {name: default.make for name, default in defaults.items() if type(default) is _Made}
+            for name in kind._made:
+                delattr(kind, name)
+            kind._plain = {name: default for name, default in defaults.items() if name not in kind._made}
+            kind.__init__, kind.__replace__ = _keep, replace
+            kind.__setattr__ = kind.__delattr__ = _refuse
+            kind.__dataclass_fields__ = _LibraryFields()
+            return kind
+
+        return finished
+
+    def _keep(self, *values, **named) -> None:
+        kind = type(self)
+        given = {**dict(zip(kind._fields, values, strict=False)), **named}
+        made = {name: make() for name, make in kind._made.items() if name not in given}
+        self.__dict__.update({**kind._plain, **made, **given})
+        if len(self.__dict__) != len(kind._fields) or len(given) != len(values) + len(named):
+            odd = set(kind._fields) ^ set(self.__dict__) or "too many values, or one twice"
+            raise TypeError(f"{kind.__name__}: wrong values: {odd}")
+
+    def replace(value, /, **changes):
+        """The same with other values in some fields."""
+        kind, old = type(value), value.__dict__
+        other = object.__new__(kind)
+        other.__dict__.update({name: old[name] for name in kind._fields}, **changes)
+        if len(other.__dict__) != len(kind._fields):
+            raise TypeError(f"{kind.__name__} has no {set(changes) - set(kind._fields)}")
+        return other
+
+    def _refuse(self, name: str, *value: object) -> None:
+        raise AttributeError(
+            f"{name!r} is of a frozen {type(self).__name__}: `dataclasses.replace` makes another"
+        )
+
+    class _LibraryFields:
+        """What the library's own `dataclasses.replace` and `fields` ask for."""
+
+        def __get__(self, instance: object, kind: type) -> dict[str, Any]:
+            from dataclasses import make_dataclass
+
+            return make_dataclass(kind.__name__, kind._fields).__dataclass_fields__

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import copy
+import dataclasses
 import inspect
 import pickle
 import subprocess
 import sys
 import typing
+from functools import cached_property
 from pathlib import Path
 from typing import Generic, TypeVar
 
@@ -14,7 +17,7 @@ import pytest
 
 from icsolve.manual import kinds, template
 from icsolve.read import load
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, dataclass, field, replace
 
 ROOT = Path(__file__).parent.parent
 
@@ -106,3 +109,36 @@ def test_a_named_tuple_that_is_made_swiftly_is_as_the_library_makes_it() -> None
         swift.four = 4  # type: ignore[attr-defined]
     with pytest.raises(TypeError):
         type("Odd", (NamedTuple,), {"__annotations__": {"a": "int", "b": "int"}, "a": 1})
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Frozen:
+    """A frozen class as cases and answers are."""
+
+    one: int
+    two: dict[str, int] = field(default_factory=dict)
+    three: float = 3.0
+
+    @cached_property
+    def four(self) -> float:
+        """Kept when it is first asked."""
+        return self.one + self.three
+
+
+def test_a_frozen_class_that_is_made_swiftly_is_one_of_the_library_too() -> None:
+    first, second = Frozen(1), Frozen(one=1, three=5.0)
+    assert (first.two, first.four, second.four) == ({}, 4.0, 6.0) and first.two is not second.two
+    for change in (replace, dataclasses.replace):
+        other = change(first, three=7.0)
+        assert type(other) is Frozen and (other.four, first.four) == (8.0, 4.0) and other.two is first.two
+        with pytest.raises(TypeError):
+            change(first, five=1)
+    assert [each.name for each in dataclasses.fields(first)] == ["one", "two", "three"]
+    assert pickle.loads(pickle.dumps(second)).four == copy.copy(second).four == 6.0
+    for bad in (Frozen, lambda: Frozen(1, 2, 3, 4), lambda: Frozen(1, one=1), lambda: Frozen(1, x=1)):
+        with pytest.raises(TypeError):
+            bad()
+    with pytest.raises(AttributeError):
+        first.one = 2  # type: ignore[misc]
+    with pytest.raises(AttributeError):
+        del first.two

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 from icsolve.case import Case, Pair
 from icsolve.errors import SceneError
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, dataclass, field
 
 if TYPE_CHECKING:
     from icsolve.answer.bodies import FrictionFound, Reactions, Tension, Witness

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 from icsolve.assembly.construct import compared
 from icsolve.assembly.data import names_of
@@ -17,7 +16,7 @@ from icsolve.assembly.workspace import Frame, Workspace, case_point, frame_of
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed
 
 Place = tuple[float, float]

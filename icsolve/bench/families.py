@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable
-from dataclasses import replace
 from decimal import Context, Decimal
 from itertools import combinations
 from random import Random
 
 from icsolve.case import Case, Centroid, Coordinates, Force, Joint, Load, Number, Torque
 from icsolve.case.joints import Mesh
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 
 REACH = 4.0
 """Points of a random figure lie in a square of twice this side."""

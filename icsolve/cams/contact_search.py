@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from contextlib import suppress
-from dataclasses import replace
 
 from icsolve.answer.contacts import Touching
 from icsolve.assembly import case_point, solve_figure
@@ -40,7 +39,7 @@ from icsolve.case.profiles import Flat, Follower, Knife, Profiles, Roller, Shape
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar, turn_of
 from icsolve.numbers.balls import Balls, BelowZero, MoreDigits
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 
 FITS = 2e-3
 """A follower whose place is given may miss the profile by this fraction of the profile's size."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from typing import Any
 
 from icsolve.answer import Answer, Deferred
@@ -14,6 +13,7 @@ from icsolve.cams.words import contact_said, lost_said
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.statics.power import is_unknown
+from icsolve.tuples import replace
 
 WHY = (
     "it is not shown that the profile is touched where it was found to be: at a corner, or where pieces meet"

@@ -6,7 +6,8 @@ times in s). Points are named; a position that a load or a centre gives by coord
 hidden name that starts with ``@``.
 """
 
-from dataclasses import dataclass, field
+from __future__ import annotations
+
 from functools import cached_property
 from typing import TYPE_CHECKING
 
@@ -48,6 +49,7 @@ from icsolve.case.loads import (
     Weight,
 )
 from icsolve.numbers.given import Number
+from icsolve.tuples import dataclass, field
 
 if TYPE_CHECKING:
     from icsolve.case.expected import Expected, Tolerance, Variable
@@ -130,7 +132,7 @@ class Case:
     directed: tuple[str, ...] = ()
     """forces of unknown direction by name: ``P`` stands among the loads as ``P.x`` and ``P.y``"""
     motion: tuple[Motion, ...] = ()
-    expect: "tuple[Expected, ...]" = ()
+    expect: tuple[Expected, ...] = ()
     carries: dict[str, tuple[str, ...]] = field(default_factory=dict)
     gravity: Number = Number(9.81, 0.005, "gravity", "9.81")
     """m/s^2, along -y"""
@@ -139,11 +141,11 @@ class Case:
     dynamic: bool = False
     """whether the inertia forces of the given motion are among the loads"""
     ropes: tuple[Rope, ...] = ()
-    tolerance: "Tolerance | None" = None
-    variables: "tuple[Variable, ...]" = ()
-    profiles: "Profiles | None" = None
+    tolerance: Tolerance | None = None
+    variables: tuple[Variable, ...] = ()
+    profiles: Profiles | None = None
     """shapes of cams and followers, and the contacts that they place; these are not among the joints"""
-    space: "Space | None" = None
+    space: Space | None = None
     """figure, joints and loads where the points have three coordinates; those of the plane are then empty"""
     noticed: tuple[str, ...] = ()
     """sentences of the reader on what may be a slip, for the notes of an answer"""

@@ -5,14 +5,13 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from icsolve.cli.options import CASES, DIGITS, JOBS, JSON, SET
 from icsolve.cli.run import DONE, Work, for_each
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 
 if TYPE_CHECKING:
     from icsolve.answer import Answer

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +14,7 @@ from icsolve.cli.options import DIGITS, SET
 from icsolve.cli.output import OUTPUT, one_source, write_output
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, for_each, on_stderr
 from icsolve.cli.spans import MOST_ROWS, SweepSpan
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 
 if TYPE_CHECKING:
     from icsolve.case import Case

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 from icsolve.answer import Answer
 from icsolve.case import (
@@ -35,6 +34,7 @@ from icsolve.grade.written.units import factors_between, unit_word
 from icsolve.numbers.given import numbers_in
 from icsolve.report.check import value_of
 from icsolve.scene.sensitivity import band
+from icsolve.tuples import replace
 from icsolve.units import DIMENSIONS, Unit, nearest, parse_unit, split_quantity
 
 SLACK = 1e-9

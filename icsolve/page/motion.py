@@ -7,7 +7,6 @@ import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -37,7 +36,7 @@ from icsolve.screws.ropes import rope_length, rope_parts
 from icsolve.statics.inertia import as_given
 from icsolve.statics.power import is_unknown
 from icsolve.sweep import Sweep, sweep
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 
 Array = np.ndarray
 

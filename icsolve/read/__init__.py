@@ -83,9 +83,8 @@ def _case(root: Mapping, settings: Settings, problems: Problems, name: str) -> C
     if "variables" not in root.items:
         apply(root, settings, problems)
         return _built(root, problems, name)
-    from dataclasses import replace
-
     from icsolve.read.variables import read_variables, substitute
+    from icsolve.tuples import replace
 
     variables = read_variables(root, problems)
     given = {path[10:]: str(value) for path, value in settings.items() if path.startswith("variables.")}

@@ -8,7 +8,6 @@ friction and pictures treat them as they treat all loads.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from icsolve.answer import Answer, Deferred
@@ -21,7 +20,7 @@ from icsolve.numbers.given import Number
 from icsolve.scene.program import Program, Want, evaluate, prepare
 from icsolve.screws.plane import Point
 from icsolve.statics.inertia import COUPLE, FORCE, _forces
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed
 
 if TYPE_CHECKING:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from contextlib import suppress
-from dataclasses import replace
 from decimal import Decimal
 from functools import cached_property
 
@@ -34,6 +33,7 @@ from icsolve.scene.terms import advantage, power_terms
 from icsolve.screws.plane import Triple
 from icsolve.statics import power
 from icsolve.statics.power import Bounded, Outcome, Value
+from icsolve.tuples import replace
 from icsolve.wording import sentences
 from icsolve.wording.senses import sense_of, unit_of
 

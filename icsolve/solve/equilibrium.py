@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 from icsolve.answer import Answer
 from icsolve.answer.equilibrium import EquilibriumPosition
@@ -19,6 +18,7 @@ from icsolve.solve.resting import Range, find_ranges
 from icsolve.solve.two_data import find_pairs
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.program import wanted_points
+from icsolve.tuples import replace
 
 
 def solve_positions(

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -32,6 +31,7 @@ from icsolve.sweep.parts import SweepParts
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.request import columns_of
 from icsolve.sweep.start import start_of
+from icsolve.tuples import replace
 
 STARTS = (0.5, 0.1, 0.9, 0.3, 0.7, 0.02, 0.98)
 """Where in the range the ways of assembling are sought."""

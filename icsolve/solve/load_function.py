@@ -10,7 +10,6 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 
 import numpy as np
 
@@ -36,7 +35,7 @@ from icsolve.sweep.exact import spring_angles
 from icsolve.sweep.numbers import with_numbers
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep, setting_of, wanted_points
 from icsolve.sweep.recorded_scene import RecordedScene, motions_of
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 
 Steps = tuple[Step, ...]
 

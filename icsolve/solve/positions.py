@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from decimal import Decimal
 
 import numpy as np
@@ -36,7 +35,7 @@ from icsolve.solve.load_function import (
 from icsolve.solve.rest import AT_LIMIT, PROBE, Rest, held
 from icsolve.sweep.exact import RowScenes, counted_about
 from icsolve.sweep.numbers import find_number
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 
 STEPS = 64
 JUMP = 1e-5

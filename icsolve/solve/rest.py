@@ -4,14 +4,13 @@ from it another is."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 
 from icsolve.answer import Answer
 from icsolve.answer.equilibrium import Stiffness
 from icsolve.case import Case, Force, Load, Number, Torque
 from icsolve.errors import SceneError
 from icsolve.scene import solve_scene
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 
 PROBE = "@equilibrium"
 """The name of the unknown load by which `icsolve.solve` tells how far a position is from equilibrium."""

@@ -4,7 +4,6 @@ wherever else friction is enough."""
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -17,7 +16,7 @@ from icsolve.solve.branches import Branches
 from icsolve.solve.load_function import LoadFunction, load_functions, refuse_unposed
 from icsolve.solve.positions import refuse_history, scene_at, search_modes, whole_range
 from icsolve.solve.rest import PROBE
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 
 SAMPLES = 120
 

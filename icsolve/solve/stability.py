@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from itertools import pairwise
 
 from icsolve.answer import Answer
@@ -17,7 +16,7 @@ from icsolve.solve.positions import moved_by, rest_of
 from icsolve.solve.rest import Rest, balances
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.numbers import find_number, with_numbers
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 
 CUTS = 32
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -31,7 +30,7 @@ from icsolve.structure.topology import topology
 from icsolve.sweep.drivers import Drive
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep
 from icsolve.sweep.recorded_scene import motions_of
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 
 GRID = 48
 STEPS = 40

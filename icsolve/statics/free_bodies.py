@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 from typing import Protocol, TypeVar
 
 from icsolve.answer import Answer
@@ -34,7 +33,7 @@ from icsolve.statics.witness import (
     unknowns_of,
     witnesses,
 )
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed
 
 

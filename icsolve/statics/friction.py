@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
 
 from icsolve.answer import Answer, Deferred, Found
 from icsolve.answer.bodies import FrictionFound, Rubbing, Tension
@@ -57,7 +56,7 @@ from icsolve.statics.witness import (
     residual,
     terms_of,
 )
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed, plural
 
 

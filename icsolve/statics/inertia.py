@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 
 from icsolve.assembly.workspace import Frame
 from icsolve.case import Case, ForceVector, Torque
@@ -12,6 +11,7 @@ from icsolve.numbers.arithmetic import Arithmetic, Scalar
 from icsolve.screws.plane import Point, Triple, force_wrench
 from icsolve.statics.power import Wrench, known_value, vector_size
 from icsolve.structure.topology import Topology
+from icsolve.tuples import replace
 from icsolve.units import exact_ratio, parse_unit
 
 FORCE = "inertia force {}"

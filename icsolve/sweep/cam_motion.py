@@ -13,7 +13,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import replace
 
 import numpy as np
 
@@ -46,7 +45,7 @@ from icsolve.sweep.run import SweepRun
 from icsolve.sweep.runner import Key
 from icsolve.sweep.start import start_of
 from icsolve.sweep.table import CODE, Codes
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 
 FAR = 4.0
 """Where the way of a sliding follower is measured from, in sizes of the figure: it stays positive."""

@@ -6,7 +6,6 @@ The pressure angles of a cam for `solve --report`: now, and over a turn.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
 
 import numpy as np
 
@@ -30,7 +29,7 @@ from icsolve.sweep.request import Columns, SweepRequest
 from icsolve.sweep.runner import Progress
 from icsolve.sweep.runner import Rows as Which
 from icsolve.sweep.table import KINDS, Sweep, Table, by_kind
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed
 
 SAID = "in every row the contacts are found on the profiles."

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import replace
 
 import numpy as np
 
@@ -35,7 +34,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, Scalar
 from icsolve.screws.plane import Point
 from icsolve.sweep.numbers import with_numbers
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed, plural
 
 SAME = 1e-8

@@ -8,7 +8,6 @@ dead centre is solved as a scene of its own, so each row says what `icsolve.solv
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
 from math import atan2, degrees, inf, isfinite, sqrt
 from typing import Any
 
@@ -31,6 +30,7 @@ from icsolve.sweep.drivers import Drive
 from icsolve.sweep.numbers import find_number, with_numbers
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep, setting_of
 from icsolve.sweep.request import RequestError, SweepRequest, request_of
+from icsolve.tuples import dataclass, field, replace
 
 FEW = 24
 """So many rows at most run as Python: numpy's own cost a step is that of some twenty floats."""
@@ -43,7 +43,7 @@ FINE = np.array((str(Status.OK),), dtype="<U24")
 Key = tuple[str, str]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Evaluated:
     """The rows of one call; n is their number.
 
@@ -67,6 +67,9 @@ class Evaluated:
 
     def __len__(self) -> int:
         return len(self.status)
+
+    def __repr__(self) -> str:
+        return f"<Evaluated: {len(self)} rows of {', '.join(self.answers)}>"
 
 
 def evaluator(

@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import replace
 from decimal import Context, Decimal, DivisionByZero, localcontext
 from functools import lru_cache
 
@@ -23,6 +22,7 @@ from icsolve.statics.power import Points, spring_angle
 from icsolve.sweep.branches import live_roots
 from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.sweep.program import CompiledSweep
+from icsolve.tuples import replace
 
 DIGITS = 120
 ZERO = Decimal("1e-40")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
@@ -11,6 +10,7 @@ from icsolve.case import Case, ForceVector, Number
 from icsolve.errors import CaseError, Problem
 from icsolve.numbers.given import numbers_in
 from icsolve.read.names import atoms, shown, suggestion
+from icsolve.tuples import replace
 
 _FORM = "a path is like angles.AB, lengths.AB, points.D.x, loads.P, loads.P.angle or joints.B.mu"
 _SECTIONS = ("points", "lengths", "angles", "joints", "profile", "loads", "motion", "gravity", "links")

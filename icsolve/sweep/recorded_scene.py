@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from dataclasses import replace
 
 from icsolve.assembly.driven.mechanism import Mechanism
 from icsolve.assembly.driven.poses import Moved, Spot, plus, product
@@ -40,7 +39,7 @@ from icsolve.statics.equilibrium import equilibrium
 from icsolve.statics.reaction_basis import Position, ties_of
 from icsolve.structure.plan import make_plan
 from icsolve.structure.topology import Topology, topology
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 
 Points = dict[str, Point]
 

@@ -7,7 +7,6 @@ import os
 import threading
 import time
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import replace
 
 import numpy as np
 
@@ -22,6 +21,7 @@ from icsolve.sweep.program import wanted_points
 from icsolve.sweep.request import Columns
 from icsolve.sweep.runner import Progress, Rows
 from icsolve.sweep.table import Table
+from icsolve.tuples import replace
 
 FEW = 8
 PATIENCE, WORTH = 0.3, 0.8

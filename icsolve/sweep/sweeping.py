@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -23,6 +22,7 @@ from icsolve.sweep.runner import Progress
 from icsolve.sweep.scenes import by_scenes, families
 from icsolve.sweep.start import Start, start_of
 from icsolve.sweep.table import CODE, Sweep, Table
+from icsolve.tuples import replace
 
 BY_SCENES = "each row is solved as a scene of its own."
 IN_SPACE = (

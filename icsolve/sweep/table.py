@@ -7,7 +7,6 @@ import io
 import json
 from collections import Counter
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -22,6 +21,7 @@ from icsolve.numbers.replay import Array
 from icsolve.numbers.tape import UNIT
 from icsolve.sweep.program import RowRequest
 from icsolve.sweep.runner import Key, Rows
+from icsolve.tuples import dataclass, field
 
 WORDS = (
     Status.OK,
@@ -57,7 +57,7 @@ OTHER = CODE["near-singular"]
 # --- a sweep as it is read ------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Sweep:
     """The rows of a sweep; n is their number. Arrays that were not wanted are not there.
 

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 
 from icsolve.answer import Answer
 from icsolve.case import (
@@ -35,7 +34,7 @@ from icsolve.case.joints import without_friction as smooth
 from icsolve.case.names import pair_name
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.ropes import rope_parts, wrap_angle
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 
 Place = tuple[float, float]
 

@@ -4,7 +4,6 @@ links move, and what every load exerts."""
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 from icsolve.answer import Answer, Centre, by_load
 from icsolve.assembly import Frame, case_point, solve_figure
@@ -17,7 +16,7 @@ from icsolve.scene.parts import AnswerBuilder
 from icsolve.screws.plane import Point, Triple
 from icsolve.solve import attempt
 from icsolve.statics.power import Wrench, known_value, place_of, points_of, wrenches
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.senses import unit_of
 
 

@@ -11,7 +11,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import replace
 
 from icsolve.answer import Answer, Deferred, Found
 from icsolve.answer.space import Spatial
@@ -53,7 +52,7 @@ from icsolve.statics.witness import (
     unknowns_of,
     witnesses,
 )
-from icsolve.tuples import NamedTuple
+from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import EXPLAINED
 
 
