@@ -490,3 +490,13 @@ def test_random_numbers_seldom_get_a_cause_in_the_library() -> None:
             named += judged.verdict == "wrong" and bool(judged.code)
     assert wrong > 900
     assert named <= 0.08 * wrong
+
+
+def test_the_bare_size_of_a_negative_answer_seldom_gets_a_cause_either() -> None:
+    """With thirty misreadings and an answer of -196 N*m, positive sizes are looked up twice: 8 % in all."""
+    rng, key = random.Random(7), CaseStore(CASES, Course()).key("v_engine")
+    assert isinstance(key, NumberKey) and key.value < 0.0
+    combined = Combined(Reader())
+    found = [judge_answer(key, combined, f"{key.value * rng.uniform(-3.0, 3.0):.4g}")[0] for _ in range(4000)]
+    wrong = [judged for judged in found if judged.verdict == "wrong"]
+    assert sum(bool(judged.code) for judged in wrong) <= 0.08 * len(wrong)

@@ -155,7 +155,7 @@ _DIGITS = 0.005
 """Half a unit in the last of three figures, where it is not known how many were written."""
 _FOUR = 0.0003
 """That of four figures, in the middle."""
-_CHANCE = 0.07
+_CHANCE = 0.076
 """Part of all answers that named mistakes may cover together, so that a cause is seldom told by chance."""
 _SPAN = 3.0
 
@@ -172,16 +172,20 @@ class Room:
     """What mistakes may cover of all answers, those that are even up to three times the right one, and those
     that are even in their powers of ten from a thousandth to a thousand times of it; of an angle, which whole
     turns do not change, those that are even over the ``period``. With ``others`` right answers beside this
-    one each has its part."""
+    one each has its part. Near misses, within three times ``half`` a band, have theirs first."""
 
-    def __init__(self, right: float, period: float, others: int) -> None:
+    def __init__(self, right: float, half: float, period: float, others: int) -> None:
         self._right = right
         self._period = period
         self._even = self._decades = _CHANCE / (1.0 + others)
+        if right:
+            self.take(right, 2.0 * half / abs(right))
 
     def take(self, value: float, width: float) -> bool:
-        """Whether there is room for a value with its relative half-width; it is taken then."""
+        """Whether there is room for a value with its relative half-width; it is taken then. Of a negative one
+        the bare size is an answer too."""
         size = abs(value / self._right)
+        width *= 2.0 if self._right < 0.0 and value < 0.0 and not self._period else 1.0
         even = size * width / _SPAN if size <= _SPAN else 0.0
         if self._period:
             even, size = 2.0 * abs(value) * width / self._period, 0.0
@@ -211,7 +215,7 @@ class Wrongs:
         others: int = 0,
     ) -> None:
         self._make = make
-        self._room = Room(right, period, others)
+        self._room = Room(right, half, period, others)
         self._right = right
         self._half = half
         self.reach = min(half / abs(right), 0.05) if right else 0.01
@@ -229,7 +233,8 @@ class Wrongs:
             return wrongs
         kept: list[Wrong] = []
         for wrong in sorted(wrongs, key=lambda w: ORDER[w.code]):
-            if _is_known(wrong.value, kept) or self._room.take(wrong.value, self.width(wrong.code, _FOUR)):
+            beyond = min((abs(1.0 - other.value / wrong.value) for other in kept), default=math.inf) / 2.0
+            if self._room.take(wrong.value, min(self.width(wrong.code, _FOUR), beyond)):
                 kept.append(wrong)
         return kept
 
@@ -341,10 +346,6 @@ def _likeliest(pairs: Iterable[Pair]) -> list[Pair]:
         return tier, ORDER[pair.one.code] + ORDER[pair.two.code]
 
     return sorted(pairs, key=rank)
-
-
-def _is_known(value: float, kept: list[Wrong]) -> bool:
-    return any(abs(value - other.value) <= _ROUNDING * abs(value) for other in kept)
 
 
 def _simplest(fitting: list[Wrong], value: float) -> tuple[Wrong, ...]:
