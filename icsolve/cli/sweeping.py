@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import csv
+import io
+import json
 import math
 import os
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,12 +17,12 @@ from icsolve.cli.options import DIGITS, SET
 from icsolve.cli.output import OUTPUT, one_source, write_output
 from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, for_each, on_stderr
 from icsolve.cli.spans import MOST_ROWS, SweepSpan
+from icsolve.errors import SceneError, Status
 from icsolve.tuples import NamedTuple, replace
 
 if TYPE_CHECKING:
     from icsolve.case import Case
     from icsolve.cli.spans import Values
-    from icsolve.errors import SceneError
     from icsolve.sweep import Sweep
 
 Ranges = tuple[tuple[str, "Values"], ...]
@@ -145,13 +148,12 @@ def _table(read: Case, path: str, asked: SweepOptions) -> int:
 
     varied, driven = _columns(asked)
     if read.unknowns:
-        from icsolve.cli.resting import positions_table
         from icsolve.sweep.request import RequestError
 
         if driven or asked.plot is not None:
             what, path = "--drive" if driven else "--plot", read.unknowns[0].path
             raise RequestError(f"{path} is unknown, and {what} is for a case in which it is given")
-        content, some = positions_table(read, varied, asked.suffix)
+        content, some = _positions_table(read, varied, asked.suffix)
         return _written([content], asked.output, asked) or (DONE if some else NO_ANSWER)
     with Progress(math.prod(len(values) for _, values in (*asked.vary, *asked.drive))) as progress:
         found = sweep(read, varied, asked.want, drive=driven, progress=progress.told)
@@ -180,33 +182,17 @@ def _written(content: str | Iterable[bytes], path: str | None, asked: SweepOptio
 
 def _find(read: Case, path: str, asked: SweepOptions) -> int:
     """Positions that are looked for."""
-    from icsolve.cli.resting import WORDS, equilibrium_text
-    from icsolve.cli.seeking import as_json, as_text, query_of
-    from icsolve.sweep.find_on_record import find
-    from icsolve.sweep.request import along_of, columns_of
+    from icsolve.cli.finding import as_json, as_text, finding
 
-    varied, driven = _columns(asked)
-    columns = columns_of(read, varied, driven)
-    own = along_of(columns)
-    along = columns.names[own]
-    if asked.find in WORDS:
-        values = columns.arrays[own]
-        text = equilibrium_text(read, asked.find, own, values, asked.as_json, asked.digits)
-        return _written(text, asked.output, asked)
-
-    query = query_of(read, asked.find or "")
-    spots = find(read, varied, query, drive=driven)
-    if asked.as_json:
-        text = as_json(read, along, query, spots)
-    else:
-        text = as_text(read, along, query, spots, asked.digits)
-        for note in spots.notes:
-            complain(f"{path}: {note}")
+    found = finding(read, asked.find or "", *_columns(asked))
+    text = as_json(read, found) if asked.as_json else as_text(read, found, asked.digits)
+    for note in () if asked.as_json else found.notes:
+        complain(f"{path}: {note}")
     return _written(text, asked.output, asked)
 
 
 def _refuse_json(case: Case, path: str, error: SceneError) -> None:
-    from icsolve.cli.seeking import refusal
+    from icsolve.cli.finding import refusal
 
     click.echo(refusal(case, error), nl=False)
 
@@ -221,3 +207,49 @@ def _columns(asked: SweepOptions) -> tuple[Mapping[str, Values], Mapping[str, Va
     count = len(asked.vary)
     varied = {path: column for (path, _), column in zip(asked.vary, columns[:count], strict=True)}
     return varied, {link: column for (link, _), column in zip(asked.drive, columns[count:], strict=True)}
+
+
+def _positions_table(case: Case, columns: Mapping[str, Values], suffix: str) -> tuple[bytes, bool]:
+    """A row a position of a case with an unknown datum, for every value of what is varied; whether any has
+    one.
+
+    Raises RequestError for a form that has no rows of words.
+    """
+    from icsolve.sweep.request import RequestError
+
+    if suffix not in (".csv", ".jsonl"):
+        raise RequestError(f"positions are written as .csv or .jsonl, not {suffix}")
+    rows = list(_positions(case, columns))
+    if suffix == ".jsonl":
+        text = "".join(json.dumps({k: v for k, v in row.items() if v is not None}) + "\n" for row in rows)
+    else:
+        out = io.StringIO()
+        header = list(dict.fromkeys(key for row in rows for key in row))
+        table = csv.DictWriter(out, header, lineterminator="\n")
+        table.writeheader()
+        table.writerows(rows)
+        text = out.getvalue()
+    return text.encode(), any(row["status"] == Status.OK for row in rows)
+
+
+def _positions(case: Case, columns: Mapping[str, Values]) -> Iterator[dict[str, Any]]:
+    from icsolve.solve import solve
+    from icsolve.sweep.numbers import find_number, with_numbers
+
+    own = {find_number(case, path).path: path for path in columns}
+    for numbers in zip(*(columns[path].tolist() for path in own.values()), strict=True):
+        varied = dict(zip(own.values(), numbers, strict=True))
+        try:
+            found = solve(with_numbers(case, dict(zip(own, numbers, strict=True)))).positions or ()
+        except SceneError as refusal:
+            yield {**varied, "status": refusal.status}
+            continue
+        for one in found:
+            at: dict[str, Any] = {}
+            for path, value in one.at.items():
+                if isinstance(value, tuple):
+                    at |= {f"{path} from": value[0], f"{path} to": value[1]}
+                else:
+                    at[path] = value
+            stiffness = one.stiffness.value if one.stiffness is not None else None
+            yield {**varied, "status": Status.OK, **at, "stability": one.stability, "stiffness": stiffness}

@@ -1,0 +1,261 @@
+"""`icsolve sweep --find`: positions to the last digit, as text or JSON."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+from icsolve.errors import Status
+from icsolve.tuples import NamedTuple
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    from icsolve.case import Case
+    from icsolve.errors import SceneError
+    from icsolve.sweep.find_on_record import Query
+
+    Values = npt.NDArray[np.float64]
+
+SCHEMA = "icsolve/find/1"
+WORDS = ("dead", "max")
+KINDS = {
+    "dead": Status.DEAD_CENTRE,
+    "limit": "limit",
+    "change-point": Status.CHANGE_POINT,
+    "max": "max",
+    "value": "value",
+}
+"""The kinds of positions as they are written."""
+NONE = {
+    "dead": "no dead centre, limit or change point",
+    "max": "no greatest {name}",
+    "value": "{name} is nowhere {value}",
+    "rest": "the loads balance nowhere",
+    "neutral": "the stability does not change",
+    "hold": "it neither begins nor ceases to hold still",
+}
+SAID = {
+    Status.DEAD_CENTRE: "dead centre, no {name} balances",
+    "limit": "limit, the links reach no further",
+    Status.CHANGE_POINT: "change point, it can go on in more than one way",
+    "max": "{name} is largest, {answer}",
+    "value": "{name} = {answer}",
+    "rest": "rests, {stability}{stiffness}",
+    "neutral": "from {from} to {to}",
+    "hold": "from {from} to {to}",
+}
+
+
+class Finding(NamedTuple):
+    """What was looked for along a number or a link, and an entry for each position.
+
+    Attributes
+    ----------
+    kind : of what was looked for
+    load : whose values the entries have
+    value : that is looked for [``unit``]
+    """
+
+    kind: str
+    along: str
+    found: Sequence[Mapping[str, Any]]
+    load: str = ""
+    value: float = 0.0
+    unit: str | None = None
+    notes: Sequence[str] = ()
+
+
+def finding(case: Case, word: str, varied: Mapping[str, Values], driven: Mapping[str, Values]) -> Finding:
+    """What ``--find WORD`` finds over the range of the main number or link.
+
+    Raises RequestError for a word that means nothing for this case.
+    """
+    from icsolve.sweep.request import along_of, columns_of
+
+    columns = columns_of(case, varied, driven)
+    own = along_of(columns)
+    if word in _EQUILIBRIUM:
+        values = columns.arrays[own]
+        return _equilibrium(case, word, own, float(values.min()), float(values.max()))
+    return _places(case, word, columns.names[own], varied, driven)
+
+
+def as_json(case: Case, one: Finding) -> str:
+    """One object on one line."""
+    what = f"{one.load}={_plain(one.value)}" if one.kind == "value" else one.kind
+    entry = {"schema": SCHEMA, "case": case.name, "status": Status.OK, "find": what, "found": one.found}
+    if one.notes:
+        entry["notes"] = list(one.notes)
+    return json.dumps(entry, allow_nan=False) + "\n"
+
+
+def as_text(case: Case, one: Finding, digits: int) -> str:
+    """A line for each position; a sentence where there is none."""
+    axis = f"link {one.along} turned by" if one.along in case.links else f"{one.along} ="
+    lines = [
+        f"{axis} {_plain(entry['at'][one.along])}: {SAID[entry['kind']].format(**_words(entry, one, digits))}"
+        for entry in one.found
+    ]
+    none = NONE[one.kind].format(name=one.load, value=f"{one.value + 0.0:.{digits}g} {one.unit}")
+    return "\n".join(lines or [f"{none} in this range of {one.along}"]) + "\n"
+
+
+def refusal(case: Case, error: SceneError) -> str:
+    """The object of a case in which nothing can be looked for."""
+    entry = {"schema": SCHEMA, "case": case.name, "status": error.status, "message": error.message}
+    return json.dumps(entry) + "\n"
+
+
+def _words(entry: Mapping[str, Any], one: Finding, digits: int) -> dict[str, Any]:
+    """What the sentence of an entry names."""
+    answers, stiffness = entry.get("answers", {}), entry.get("stiffness", {"value": None})
+    return {
+        **entry,
+        "name": one.load,
+        "answer": "".join(f"{a['value']:.{digits}g} {a['unit']}" for a in answers.values()),
+        "stiffness": ""
+        if stiffness["value"] is None
+        else f", {stiffness['value']:.{digits}g} {stiffness['unit']}",
+    }
+
+
+def _plain(value: float) -> str:
+    """All digits of a number, a whole one without a point."""
+    return repr(value + 0.0).removesuffix(".0")
+
+
+# --- dead centres, peaks and values of an unknown load --------------------------------------------------
+
+
+def _places(
+    case: Case, word: str, along: str, varied: Mapping[str, Values], driven: Mapping[str, Values]
+) -> Finding:
+    from icsolve.sweep.find_on_record import find
+
+    query = _query(case, word)
+    unit = _unit(case, query.load)
+    spots = find(case, varied, query, drive=driven)
+    found = [
+        {
+            "kind": KINDS[spot.kind],
+            "at": {along: spot.at + 0.0},
+            "error": {along: spot.error},
+            "answers": {}
+            if spot.answer is None
+            else {query.load: {"value": spot.answer + 0.0, "unit": unit}},
+        }
+        for spot in spots
+    ]
+    return Finding(query.kind, along, found, query.load, query.value, unit, spots.notes)
+
+
+def _query(case: Case, word: str) -> Query:
+    """What to look for: ``dead``, ``max``, or ``NAME=VALUE`` with or without a unit.
+
+    Raises RequestError for anything else, and where nothing is unknown.
+    """
+    from icsolve.statics.power import is_unknown
+    from icsolve.sweep.find_on_record import Query
+    from icsolve.sweep.request import RequestError
+
+    unknown = next((load.name for load in case.loads if is_unknown(load)), None)
+    if unknown is None:
+        raise RequestError("--find looks at an unknown load, and this case has none")
+    if word in WORDS:
+        return Query(word, unknown)
+    name, equals, value = (part.strip() for part in word.partition("="))
+    if not (name and equals and value):
+        raise RequestError(f"--find takes dead, max or NAME=VALUE, as {unknown}=0; {word!r} is none of these")
+    return Query("value", name, _value(case, name, value))
+
+
+def _value(case: Case, name: str, text: str) -> float:
+    """The value in case units."""
+    from icsolve.read.names import shown, suggestion
+    from icsolve.sweep.request import RequestError
+    from icsolve.units import UnitError, converted, kind_of, parse_unit, split_quantity
+
+    target = _unit(case, name)
+    if target is None:
+        likely = suggestion(name, [load.name for load in case.loads])
+        raise RequestError(f"there is no load {shown(name)}{likely}")
+    try:
+        parts = split_quantity(text)
+        if parts is None:
+            raise UnitError("there is no number")
+        unit, wanted = parse_unit(parts[1] or target), parse_unit(target)
+        if unit.dims != wanted.dims:
+            given = kind_of(unit.dims) or "something else"
+            raise UnitError(f"'{parts[1]}' is a unit of {given}, and {name} is in {target}")
+        return converted(parts[0], unit, wanted)
+    except (UnitError, OverflowError) as error:
+        raise RequestError(f"{text!r} is no value of {name}: {error}") from None
+
+
+def _unit(case: Case, name: str) -> str | None:
+    """The unit of a load; None where there is none of this name."""
+    from icsolve.wording.senses import unit_of
+
+    return next((unit_of(load, case) for load in case.loads if load.name == name), None)
+
+
+# --- equilibrium of loads that are all known ------------------------------------------------------------
+
+
+def _equilibrium(case: Case, word: str, along: str, low: float, high: float) -> Finding:
+    """``rest``, ``neutral`` or ``hold``.
+
+    Raises RequestError where the case has an unknown load, or another number than a load's is varied for
+    ``neutral``.
+    """
+    from icsolve.statics.power import is_unknown
+    from icsolve.sweep.request import RequestError
+
+    unknown = next((load.name for load in case.loads if is_unknown(load)), None)
+    if unknown is not None:
+        raise RequestError(f"--find {word} asks of loads that are all known, and {unknown} is unknown")
+    if case.unknowns:
+        raise RequestError(
+            f"{case.unknowns[0].path} is unknown: `icsolve solve` lists the positions of equilibrium"
+        )
+    if word == "neutral" and not along.startswith("loads."):
+        raise RequestError(f"--find neutral varies a load's number, as loads.P, not {along}")
+    found = [
+        {"kind": word, "at": {along: one.value + 0.0}, "error": {along: one.error}, **told}
+        for one, told in _EQUILIBRIUM[word](case, along, low, high)
+    ]
+    return Finding(word, along, found)
+
+
+def _rest(case: Case, along: str, low: float, high: float) -> Iterable[tuple[Any, dict[str, Any]]]:
+    from icsolve.answer.equilibrium import stiffness_dict
+    from icsolve.solve.positions import find_along
+
+    for one in find_along(case, along, low, high):
+        yield one, {"stability": one.stability, "stiffness": stiffness_dict(one.stiffness, one.why)}
+
+
+def _neutral(case: Case, along: str, low: float, high: float) -> Iterable[tuple[Any, dict[str, Any]]]:
+    from icsolve.solve.stability import neutral_values
+
+    return _changes(neutral_values(case, along, low, high))
+
+
+def _hold(case: Case, along: str, low: float, high: float) -> Iterable[tuple[Any, dict[str, Any]]]:
+    from icsolve.solve.stability import holding_values
+
+    return _changes(holding_values(case, along, low, high))
+
+
+def _changes(found: Iterable[Any]) -> Iterable[tuple[Any, dict[str, Any]]]:
+    return ((one, {"from": one.before, "to": one.after}) for one in found)
+
+
+_EQUILIBRIUM: dict[str, Callable[[Case, str, float, float], Iterable[tuple[Any, dict[str, Any]]]]] = {
+    "rest": _rest,
+    "neutral": _neutral,
+    "hold": _hold,
+}
