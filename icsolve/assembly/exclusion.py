@@ -18,8 +18,9 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 import numpy.typing as npt
 
+from icsolve.assembly.conditions import Unknown
 from icsolve.assembly.data import GUIDE, LENGTH, RAY, X, Y
-from icsolve.assembly.groups import Group, Unknown
+from icsolve.assembly.groups import Group
 from icsolve.assembly.intersections import PlacedLine, intersection, sine_between
 from icsolve.assembly.loci import Axis
 from icsolve.assembly.workspace import Point, Workspace

@@ -4,135 +4,18 @@ and the smallest group that only all its data together place."""
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from itertools import pairwise
 
 from icsolve.assembly.clusters import LooseFigure
-from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, ROPE, Datum, X, Y
-from icsolve.assembly.loci import length_of
+from icsolve.assembly.conditions import FigureEquation, Unknown
+from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, X, Y
 from icsolve.assembly.steps import told
 from icsolve.assembly.words import plain
 from icsolve.assembly.workspace import Key, Workspace
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
-from icsolve.screws.ropes import rope_parts
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
-
-Unknown = tuple[str, int]
-"""A coordinate: the point and 0 for x, 1 for y."""
-
-
-class JacobianRow(NamedTuple):
-    """An equation at the points on a workspace.
-
-    Attributes
-    ----------
-    value : how far it is from being met; zero at a solution [frame, or frame squared]
-    by : its derivatives by the coordinates that bear on it
-    """
-
-    value: Scalar
-    by: dict[Unknown, Scalar]
-
-
-class FigureEquation(NamedTuple):
-    """A datum, or one coordinate of a centroid."""
-
-    datum: Datum
-    part: int = 0
-
-    def unknowns(self) -> list[Unknown]:
-        """The coordinates that bear on it."""
-        kind, points = self.datum.kind, self.datum.points
-        if kind in (X, Y):
-            return [(points[0], 0 if kind == X else 1)]
-        parts = (self.part,) if kind == MEAN else (0, 1)
-        return [(p, part) for p in dict.fromkeys(points) for part in parts]
-
-    def row(self, workspace: Workspace) -> JacobianRow:
-        """Value and derivatives at the points on a workspace."""
-        return ROWS[self.datum.kind](workspace, self)
-
-
-def _sum(value: Scalar, *parts: tuple[str, Scalar, Scalar]) -> JacobianRow:
-    """A row whose points may repeat."""
-    by: dict[Unknown, Scalar] = {}
-    for point, dx, dy in parts:
-        by[point, 0] = by[point, 0] + dx if (point, 0) in by else dx
-        by[point, 1] = by[point, 1] + dy if (point, 1) in by else dy
-    return JacobianRow(value, by)
-
-
-def _length(workspace: Workspace, equation: FigureEquation) -> JacobianRow:
-    """(d^2 - l^2) / 2."""
-    a, b = equation.datum.points
-    (ax, ay), (bx, by), length = workspace.points[a], workspace.points[b], workspace.length(equation.datum)
-    dx, dy = bx - ax, by - ay
-    return _sum((dx * dx + dy * dy - length * length) / 2.0, (a, -dx, -dy), (b, dx, dy))
-
-
-def _along(workspace: Workspace, equation: FigureEquation) -> JacobianRow:
-    """The second point lies along a known direction from the first, or against it."""
-    a, b = equation.datum.points
-    (ax, ay), (bx, by), (c, s) = workspace.points[a], workspace.points[b], workspace.turn(equation.datum)
-    return _sum(c * (by - ay) - s * (bx - ax), (a, s, -c), (b, -s, c))
-
-
-def _corner(workspace: Workspace, equation: FigureEquation) -> JacobianRow:
-    """The first arm, turned by the angle, lies along the second."""
-    a, v, b = equation.datum.points
-    (ax, ay), (vx, vy), (bx, by) = (workspace.points[p] for p in equation.datum.points)
-    c, s = workspace.turn(equation.datum)
-    px, py, qx, qy = ax - vx, ay - vy, bx - vx, by - vy
-    tx, ty = c * px - s * py, s * px + c * py
-    dax, day = c * qy - s * qx, -s * qy - c * qx
-    return _sum(tx * qy - ty * qx, (a, dax, day), (b, -ty, tx), (v, ty - dax, -tx - day))
-
-
-def _line(workspace: Workspace, equation: FigureEquation) -> JacobianRow:
-    """From through to at is parallel to from e1 to e2."""
-    at, through, a, b = equation.datum.points
-    (x, y), (tx, ty), (ax, ay), (bx, by) = (workspace.points[p] for p in equation.datum.points)
-    dx, dy, wx, wy = bx - ax, by - ay, x - tx, y - ty
-    return _sum(dx * wy - dy * wx, (at, -dy, dx), (through, dy, -dx), (a, -wy, wx), (b, wy, -wx))
-
-
-def _mean(workspace: Workspace, equation: FigureEquation) -> JacobianRow:
-    """n times a coordinate of the centroid less the sum of the points'."""
-    part = equation.part
-    whole, *of = equation.datum.points
-    n = float(len(of))
-    by: dict[Unknown, Scalar] = {(whole, part): n}
-    value = n * workspace.points[whole][part]
-    for p in of:
-        value = value - workspace.points[p][part]
-        by[p, part] = by.get((p, part), 0.0) - 1.0
-    return JacobianRow(value, by)
-
-
-def _rope(workspace: Workspace, equation: FigureEquation) -> JacobianRow:
-    """The rope's length less the given one; its pull at each place is the derivative by it."""
-    rope = workspace.case.ropes[equation.datum.ref]  # type: ignore[index]
-    parts = rope_parts(rope, workspace.points, workspace.frame.scale, workspace.arithmetic)  # type: ignore[arg-type]
-    pulls: list[tuple[str, Scalar, Scalar]] = []
-    for part, (a, b) in zip(parts, pairwise(rope.points), strict=True):
-        (x, y) = part.along
-        pulls += [(a, -x, -y), (b, x, y)]
-    return _sum(length_of(workspace, equation.datum) - workspace.length(equation.datum), *pulls)
-
-
-def _axis(workspace: Workspace, equation: FigureEquation) -> JacobianRow:
-    ((point, part),) = equation.unknowns()
-    return JacobianRow(
-        workspace.points[point][part] - workspace.coordinate(equation.datum), {(point, part): 1.0}
-    )
-
-
-ROWS: dict[str, Callable[[Workspace, FigureEquation], JacobianRow]] = {
-    LENGTH: _length, RAY: _along, GUIDE: _along, CORNER: _corner,
-    LINE: _line, MEAN: _mean, X: _axis, Y: _axis, ROPE: _rope,
-}  # fmt: skip
 
 
 class Pivot(NamedTuple):

@@ -12,8 +12,9 @@ from collections.abc import Iterator, Mapping
 from itertools import islice, product
 
 from icsolve.assembly.clusters import LooseFigure
+from icsolve.assembly.conditions import Unknown
 from icsolve.assembly.data import CORNER, LENGTH, LINE, ROPE, facts_of
-from icsolve.assembly.groups import Group, Unknown, pivots, solved
+from icsolve.assembly.groups import Group, pivots, solved
 from icsolve.assembly.order import grow
 from icsolve.assembly.refusals import Miss, measure
 from icsolve.assembly.steps import Given, Meet, Step

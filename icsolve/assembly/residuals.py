@@ -6,8 +6,8 @@ import math
 from collections.abc import Callable, Collection
 from typing import TYPE_CHECKING
 
-from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, ROPE, Datum, X, Y, number_of
-from icsolve.assembly.loci import length_of
+from icsolve.assembly.conditions import FigureEquation
+from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, number_of
 from icsolve.assembly.refusals import Miss, clash, measure
 from icsolve.assembly.steps import Given, leading_to
 from icsolve.assembly.words import datum_words, joined
@@ -30,6 +30,9 @@ TOO_CLOSE = 1e-12
 
 Residual = tuple[float, bool]
 """A signed distance (normalised), and False where a ray points the other way."""
+Scale = tuple[float, bool | None]
+"""What the condition of a datum is divided by to be a distance, and whether its ray points ahead; None where
+points that are one have no direction, with how far the others are."""
 
 
 ROUNDING = 1e-10
@@ -52,68 +55,51 @@ def agrees(workspace: Workspace, data: Collection[Datum], size: float) -> bool:
 
 def residual(workspace: Workspace, datum: Datum) -> Residual:
     """How far the points on a workspace are from a datum: a signed distance [frame], of an angle its error on
-    the longer arm; and False where a ray points the other way.
+    the longer arm; and False where a ray points the other way, or has no direction.
     """
-    return RESIDUALS[datum.kind](workspace, datum)
+    if datum.kind == MEAN:
+        offs = (FigureEquation(datum, part).at(workspace).value for part in (0, 1))
+        return max(offs, key=abs) / float(len(datum.points) - 1), True
+    size, ahead = DISTANCES.get(datum.kind, _as_it_is)(workspace, datum)
+    if ahead is None:
+        return size, False
+    return float(FigureEquation(datum).at(workspace).value) / (size or 1.0), ahead
 
 
-def _length(workspace: Workspace, datum: Datum) -> Residual:
-    (ax, ay), (bx, by) = (workspace.points[p] for p in datum.points)
-    return math.hypot(bx - ax, by - ay) - workspace.length(datum), True
+def _as_it_is(workspace: Workspace, datum: Datum) -> Scale:
+    return 1.0, True
 
 
-def _ray(workspace: Workspace, datum: Datum) -> Residual:
+def _length(workspace: Workspace, datum: Datum) -> Scale:
+    """(d^2 - l^2) / 2 is d - l times their mean."""
+    return (math.dist(*(workspace.points[p] for p in datum.points)) + workspace.length(datum)) / 2.0, True
+
+
+def _ray(workspace: Workspace, datum: Datum) -> Scale:
     (ax, ay), (bx, by) = (workspace.points[p] for p in datum.points)
     c, s = workspace.turn(datum)
     dx, dy = bx - ax, by - ay
-    return c * dy - s * dx, c * dx + s * dy > TOO_CLOSE or math.hypot(dx, dy) <= TOO_CLOSE
+    return 1.0, c * dx + s * dy > TOO_CLOSE or math.hypot(dx, dy) <= TOO_CLOSE
 
 
-def _corner(workspace: Workspace, datum: Datum) -> Residual:
+def _corner(workspace: Workspace, datum: Datum) -> Scale:
     """The angle's error, on the longer arm."""
     (ax, ay), (vx, vy), (bx, by) = (workspace.points[p] for p in datum.points)
     c, s = workspace.turn(datum)
     px, py, qx, qy = ax - vx, ay - vy, bx - vx, by - vy
     p, q = math.hypot(px, py), math.hypot(qx, qy)
     if min(p, q) <= TOO_CLOSE:
-        return max(p, q), False
-    tx, ty = c * px - s * py, s * px + c * py
-    return (tx * qy - ty * qx) / min(p, q), tx * qx + ty * qy > 0.0
+        return max(p, q), None
+    return min(p, q), (c * px - s * py) * qx + (s * px + c * py) * qy > 0.0
 
 
-def _guide(workspace: Workspace, datum: Datum) -> Residual:
-    (x, y), (tx, ty) = (workspace.points[p] for p in datum.points)
-    c, s = workspace.turn(datum)
-    return c * (y - ty) - s * (x - tx), True
+def _line(workspace: Workspace, datum: Datum) -> Scale:
+    size = math.dist(*(workspace.points[p] for p in datum.points[2:]))
+    return size, True if size > TOO_CLOSE else None
 
 
-def _line(workspace: Workspace, datum: Datum) -> Residual:
-    (x, y), (tx, ty), (ax, ay), (bx, by) = (workspace.points[p] for p in datum.points)
-    dx, dy = bx - ax, by - ay
-    d = math.hypot(dx, dy)
-    if d <= TOO_CLOSE:
-        return d, False
-    return (dx * (y - ty) - dy * (x - tx)) / d, True
-
-
-def _mean(workspace: Workspace, datum: Datum) -> Residual:
-    (x, y), *of = (workspace.points[p] for p in datum.points)
-    mx, my = sum(p[0] for p in of) / len(of), sum(p[1] for p in of) / len(of)
-    return max(x - mx, y - my, key=abs), True
-
-
-def _axis(workspace: Workspace, datum: Datum) -> Residual:
-    x, y = workspace.points[datum.points[0]]
-    return (x if datum.kind == X else y) - workspace.coordinate(datum), True
-
-
-def _rope(workspace: Workspace, datum: Datum) -> Residual:
-    return float(length_of(workspace, datum) - workspace.length(datum)), True
-
-
-RESIDUALS: dict[str, Callable[[Workspace, Datum], Residual]] = {
-    LENGTH: _length, RAY: _ray, CORNER: _corner, GUIDE: _guide, LINE: _line, MEAN: _mean, X: _axis, Y: _axis,
-    ROPE: _rope,
+DISTANCES: dict[str, Callable[[Workspace, Datum], Scale]] = {
+    LENGTH: _length, RAY: _ray, CORNER: _corner, LINE: _line,
 }  # fmt: skip
 
 

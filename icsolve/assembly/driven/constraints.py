@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from itertools import pairwise
 
+from icsolve.assembly.conditions import FigureEquation, at_distance, on_line
 from icsolve.assembly.data import Datum
 from icsolve.assembly.driven.poses import Places, Rotation, Shape, Spot, dot, minus, square
-from icsolve.assembly.groups import FigureEquation
 from icsolve.assembly.workspace import Workspace
 from icsolve.case import Rope
 from icsolve.errors import SceneError
@@ -306,15 +306,13 @@ class ConditionRows:
 
     def _on_line(self, c: OnLine) -> ConditionRow:
         p, through = self.places.place(c.spot), self.places.point(c.line.body, c.line.through)
-        normal = square(self.places.vector(c.line.body, c.line.along))
-        by = self._pushed((c.spot[0], normal, p), (c.line.body, _less(normal), p))
-        return ConditionRow(dot(normal, minus(p, through)) - c.offset, by)
+        value, (pull, back) = on_line(p, through, self.places.vector(c.line.body, c.line.along), c.offset)
+        return ConditionRow(value, self._pushed((c.spot[0], pull, p), (c.line.body, back, p)))
 
     def _apart(self, c: SpotDistance) -> ConditionRow:
         p, q = self.places.place(c.one), self.places.place(c.two)
-        e = minus(p, q)
-        value = (dot(e, e) - c.distance * c.distance) * 0.5
-        return ConditionRow(value, self._pushed((c.one[0], e, p), (c.two[0], _less(e), q)))
+        value, (pull, back) = at_distance(p, q, c.distance)
+        return ConditionRow(value, self._pushed((c.one[0], pull, p), (c.two[0], back, q)))
 
     def _turning(self, c: Turning) -> ConditionRow:
         by = {(body, 2): factor for body, factor in c.terms if body in self.bases}
@@ -380,13 +378,10 @@ class ConditionRows:
         owners = {name: (body, name) for body, name in c.owners}
         for name, spot in owners.items():
             self.workspace.points[name] = self.places.place(spot)
-        row = FigureEquation(c.datum).row(self.workspace)
-        by: dict[tuple[int, int], Scalar] = {}
-        for (name, axis), value in row.by.items():
-            w = (value, 0.0) if axis == 0 else (0.0, value)
-            for key, part in self._pushed((owners[name][0], w, self.workspace.points[name])).items():
-                by[key] = by.get(key, 0.0) + part
-        return ConditionRow(row.value, by)
+        value, pulls = FigureEquation(c.datum).at(self.workspace)
+        pairs = zip(c.datum.points, pulls, strict=True)
+        pushes = ((owners[name][0], pull, self.workspace.points[name]) for name, pull in pairs)
+        return ConditionRow(value, self._pushed(*pushes))
 
 
 def _less(v: Point) -> Point:
