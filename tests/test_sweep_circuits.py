@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import icsolve
-from icsolve.assembly.driven.order import ClosingOrder
+from icsolve.assembly.driven.order import AssemblyOrder
 from test_sweep_status import PARALLELOGRAM
 
 CASES = Path(__file__).parent.parent / "cases"
@@ -69,7 +69,7 @@ def test_a_group_at_its_change_point_says_so(
     monkeypatch: pytest.MonkeyPatch, start: float, rows: list[float]
 ) -> None:
     """The parallelogram without closed forms, a row exactly in line: also as the last of the way."""
-    monkeypatch.setattr(ClosingOrder, "_meets", lambda self: iter(()))
+    monkeypatch.setattr(AssemblyOrder, "_at_intersection", lambda self: iter(()))
     near = 2.0 + np.cos(np.radians(start)), np.sin(np.radians(start))
     text = PARALLELOGRAM.replace("AB: 60", f"AB: {start}").replace("[2.5, 0.9]", f"[{near[0]}, {near[1]}]")
     sweep = icsolve.sweep(icsolve.load(text), {"angles.AB": rows})

@@ -123,10 +123,10 @@ def test_a_pole_is_no_peak() -> None:
 
 
 def test_positions_of_a_group_that_is_followed(monkeypatch: pytest.MonkeyPatch) -> None:
-    from icsolve.assembly.driven.order import ClosingOrder
+    from icsolve.assembly.driven.order import AssemblyOrder
 
     whole = found(UNKNOWN_TORQUE, "angles.AB", DEGREES, Query("max"))
-    monkeypatch.setattr(ClosingOrder, "_meets", lambda self: iter(()))
+    monkeypatch.setattr(AssemblyOrder, "_at_intersection", lambda self: iter(()))
     stepped = found(UNKNOWN_TORQUE, "angles.AB", DEGREES, Query("max"))
     assert [at for _, at, _ in stepped] == pytest.approx([at for _, at, _ in whole], rel=1e-12)
 

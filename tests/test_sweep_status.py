@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import icsolve
-from icsolve.assembly.driven.order import ClosingOrder
+from icsolve.assembly.driven.order import AssemblyOrder
 
 ALL = ("answers", "status", "error", "points", "centres", "rates")
 
@@ -101,7 +101,7 @@ def test_near_a_change_point_the_branch_stays() -> None:
 
 def test_newtons_method_keeps_the_branch_too(monkeypatch: pytest.MonkeyPatch) -> None:
     """The parallelogram without closed forms: as a group, followed step by step through its change points."""
-    monkeypatch.setattr(ClosingOrder, "_meets", lambda self: iter(()))
+    monkeypatch.setattr(AssemblyOrder, "_at_intersection", lambda self: iter(()))
     degrees = np.arange(0.5, 360.0, 1.0)
     sweep = icsolve.sweep(icsolve.load(PARALLELOGRAM), {"angles.AB": degrees}, ALL)
     assert np.abs(sweep.points["C"] - of_circle(degrees)).max() < 1e-12
@@ -195,7 +195,7 @@ def test_no_row_that_assembles() -> None:
 
 def test_beyond_a_limit_a_group_is_not_taken_up_elsewhere(monkeypatch: pytest.MonkeyPatch) -> None:
     """Followed step by step, a rocker's second range (another circuit) is not reached, nor jumped into."""
-    monkeypatch.setattr(ClosingOrder, "_meets", lambda self: iter(()))
+    monkeypatch.setattr(AssemblyOrder, "_at_intersection", lambda self: iter(()))
     degrees = np.arange(90.0, 280.0, 2.0)
     sweep = icsolve.sweep(icsolve.load(FOUR_BAR), {"angles.DC": degrees}, ALL)
     reached = (degrees > 95.74) & (degrees < 143.13)
@@ -204,7 +204,7 @@ def test_beyond_a_limit_a_group_is_not_taken_up_elsewhere(monkeypatch: pytest.Mo
 
 
 def test_a_turn_later_a_group_is_as_it_was(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(ClosingOrder, "_meets", lambda self: iter(()))
+    monkeypatch.setattr(AssemblyOrder, "_at_intersection", lambda self: iter(()))
     degrees = np.array([100.0, 120.0, 460.0, 480.0])
     sweep = icsolve.sweep(icsolve.load(FOUR_BAR), {"angles.DC": degrees}, ALL)
     assert (sweep.status == "ok").all()

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from icsolve.assembly.data import Datum
+from collections.abc import Callable
+from typing import TypeVar
+
 from icsolve.assembly.modes import Mode, Walk, choose, far_from_near, nearest, overridden, refusal
 from icsolve.assembly.order import Order, order_of
 from icsolve.assembly.refusals import Miss, mirrored
-from icsolve.assembly.residuals import agrees, size_of
+from icsolve.assembly.residuals import notes_of, size_of
 from icsolve.assembly.steps import Figure, Given, leading_to, points_of
 from icsolve.assembly.workspace import Frame, Workspace
 from icsolve.case import Case
@@ -14,6 +16,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS
 
 MOST_RETRIES = 20
+Outcome = TypeVar("Outcome")
 
 
 def construct(case: Case, frame: Frame, goal: list[str], names: list[str]) -> Figure:
@@ -46,7 +49,16 @@ def _by_the_rest(case: Case, frame: Frame, goal: list[str], names: list[str]) ->
 
 
 def _constructed(case: Case, frame: Frame, goal: list[str], best_effort: bool) -> Figure:
-    """Construct, and again by other data where two loci turned out to be one."""
+    return by_other_data(case, goal, lambda order: _assembled(case, frame, order), best_effort)
+
+
+def by_other_data(
+    case: Case, goal: list[str], attempt: Callable[[Order], Outcome | Miss], best_effort: bool = False
+) -> Outcome:
+    """What an attempt makes of an order of construction; of another where two loci turned out to be one.
+
+    Raises SceneError where the attempt misses for another reason, or no order is left.
+    """
     first: Miss | None = None
     banned: frozenset[frozenset[object]] = frozenset()
     for _ in range(MOST_RETRIES):
@@ -56,8 +68,8 @@ def _constructed(case: Case, frame: Frame, goal: list[str], best_effort: bool) -
             if first is not None:
                 raise SceneError(first.status, first.message) from error
             raise
-        outcome = _assembled(case, frame, order)
-        if isinstance(outcome, Figure):
+        outcome = attempt(order)
+        if not isinstance(outcome, Miss):
             return outcome
         first = first or outcome
         if outcome.loci is None:
@@ -71,38 +83,16 @@ def _constructed(case: Case, frame: Frame, goal: list[str], best_effort: bool) -
 
 def _assembled(case: Case, frame: Frame, order: Order) -> Figure | Miss:
     """The one mode in which an order of construction is meant to assemble, or why it does not."""
-    workspace = Workspace(case, frame, FLOATS)
-    used = order.used()
-    offs: dict[int, dict[Datum, float]] = {}
-
-    def contradicted(mode: Mode) -> Miss | None:
-        miss, offs[id(mode.path)] = compared(workspace, order, mode, used)
-        return miss
-
-    walk = Walk(order, workspace, contradicted).run()
+    walk = Walk(order, Workspace(case, frame, FLOATS)).run()
     if not walk.modes or walk.gave_up:
         return refusal(walk)
     miss = overridden(walk, nearest(walk))
     if miss is not None:
         return miss
-    mode = walk.modes[0] if len(walk.modes) == 1 else choose(walk, order.points)
-    return _figure(walk, mode, offs[id(mode.path)], used)
+    return _figure(walk, walk.modes[0] if len(walk.modes) == 1 else choose(walk, order.points))
 
 
-def compared(
-    workspace: Workspace, order: Order, mode: Mode, used: frozenset[Datum]
-) -> tuple[Miss | None, dict[Datum, float]]:
-    """Compare the points with the data that did not make them."""
-    size = size_of(workspace, order.points)
-    data = [d for d in order.facts.data if all(p in mode.points for p in d.points)]
-    if used.issuperset(data) and agrees(workspace, data, size):
-        return None, {}
-    from icsolve.assembly.residuals import compare
-
-    return compare(workspace, mode.steps, data, size)
-
-
-def _figure(walk: Walk, mode: Mode, offs: dict[Datum, float], used: frozenset[Datum]) -> Figure | Miss:
+def _figure(walk: Walk, mode: Mode) -> Figure | Miss:
     """The figure of the mode that is meant; a miss where what lies at `near` is another."""
     order, workspace = walk.order, walk.workspace
     workspace.points = mode.points
@@ -110,10 +100,8 @@ def _figure(walk: Walk, mode: Mode, offs: dict[Datum, float], used: frozenset[Da
     if miss is not None:
         return miss
     notes: tuple[str, ...] = ()
-    if offs:
-        from icsolve.assembly.residuals import notes_of
-
+    if mode.offs:
         given = any(isinstance(step, Given) for step in order.steps)
-        notes = notes_of(workspace, offs, used, given, size_of(workspace, order.points))
+        notes = notes_of(workspace, mode.offs, walk.used, given, size_of(workspace, order.points))
     notes += far_from_near(walk, mode, order.points)
     return Figure(workspace.frame, {p: mode.points[p] for p in order.points}, mode.steps, notes, ())

@@ -8,7 +8,6 @@ from collections.abc import Callable, Iterable, Sequence
 from icsolve.assembly.clusters import LooseFigure
 from icsolve.assembly.conditions import FigureEquation, Unknown
 from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, X, Y
-from icsolve.assembly.steps import told
 from icsolve.assembly.words import plain
 from icsolve.assembly.workspace import Key, Workspace
 from icsolve.case import Case
@@ -287,11 +286,6 @@ class Group(NamedTuple):
     equations: tuple[FigureEquation, ...]
     start: tuple[tuple[float, float], ...] = ()
     order: tuple[Pivot, ...] = ()
-
-    @property
-    def name(self) -> str:
-        """The step in words: which points its data place together."""
-        return told(self)
 
     def place(self, workspace: Workspace) -> None:
         """Put the points, and improve them; in balls the one solution there is enclosed."""

@@ -8,7 +8,7 @@ lies clearly nearer to `near` than that mode, and does not go on, is a refusal: 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import partial
 
 from icsolve.assembly.data import Datum
@@ -35,7 +35,7 @@ from icsolve.assembly.refusals import (
     parallel,
     too_far,
 )
-from icsolve.assembly.residuals import TOO_CLOSE, residual, size_of
+from icsolve.assembly.residuals import TOO_CLOSE, agrees, compare, residual, size_of
 from icsolve.assembly.steps import CLOSED_FORMS, Meet, Step, aims
 from icsolve.assembly.words import plain
 from icsolve.assembly.workspace import Key, Point, Workspace, case_point, normalised
@@ -91,11 +91,15 @@ START = Path(None, None, 0.0, {})
 
 
 class Mode(NamedTuple):
-    """One way of assembling: the steps as they were settled, the points, and the end of its path."""
+    """One way of assembling: the steps as they were settled, the points, and the end of its path.
+
+    ``offs`` is how far the data that made no points are from them [frame].
+    """
 
     steps: tuple[Step, ...]
     points: dict[Key, Point]
     path: Path
+    offs: Mapping[Datum, float] = {}
 
 
 class DeadEnd(NamedTuple):
@@ -120,18 +124,11 @@ class Walk:
     """The walk over the steps of an order on one workspace.
 
     ``modes`` has what it found, ``dead_ends`` what failed; ``gave_up`` tells that there were too many
-    branches to try. ``contradicted`` says what data that made no points have against a mode. With ``every``
-    the walk leaves out none, however far from `near`.
+    branches to try. With ``every`` the walk leaves out none, however far from `near`.
     """
 
-    def __init__(
-        self,
-        order: Order,
-        workspace: Workspace,
-        contradicted: Callable[[Mode], Miss | None],
-        every: bool = False,
-    ) -> None:
-        self.order, self.workspace, self.contradicted = order, workspace, contradicted
+    def __init__(self, order: Order, workspace: Workspace, every: bool = False) -> None:
+        self.order, self.workspace, self.used = order, workspace, order.used()
         self.near = {p: normalised(workspace.frame, xy) for p, xy in workspace.case.near.items()}
         self.checks = _due(order)
         self.budget = (10 if every else 1) * (20_000 + 20 * len(order.steps))
@@ -167,12 +164,20 @@ class Walk:
     def _arrived(self, path: Path) -> None:
         """Keep a mode that no datum contradicts."""
         mode = Mode(path.steps(), dict(self.workspace.points), path)
-        miss = self.contradicted(mode)
+        miss, offs = self._compared(mode)
         if miss is None:
-            self.modes.append(mode)
+            self.modes.append(mode._replace(offs=offs))
             self.best = min(self.best, path.off)
         else:
             self.dead_ends.append(DeadEnd(len(self.order.steps), miss, path))
+
+    def _compared(self, mode: Mode) -> tuple[Miss | None, Mapping[Datum, float]]:
+        """What data that made no points have against a mode, and how far off they are."""
+        size = size_of(self.workspace, self.order.points)
+        data = [d for d in self.order.facts.data if all(p in mode.points for p in d.points)]
+        if self.used.issuperset(data) and agrees(self.workspace, data, size):
+            return None, {}
+        return compare(self.workspace, mode.steps, data, size)
 
     def _beyond(self, path: Path) -> bool:
         """Whether a way is clearly farther from `near` already than the best mode so far."""

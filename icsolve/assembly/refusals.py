@@ -9,7 +9,7 @@ from icsolve.assembly.data import CORNER, LENGTH, LINE, MEAN, RAY, ROPE, Datum, 
 from icsolve.assembly.intersections import PlacedCircle
 from icsolve.assembly.loci import CircleLocus, is_round
 from icsolve.assembly.steps import Meet, Polar, Step, Turned
-from icsolve.assembly.words import datum_words, joined, locus_words, plain, span_words
+from icsolve.assembly.words import datum_words, joined, locus_words, plain, span_words, step_words
 from icsolve.assembly.workspace import Workspace, case_point
 from icsolve.case import Coordinates, Number
 from icsolve.errors import Status
@@ -123,7 +123,7 @@ def degenerate(step: Step, workspace: Workspace) -> Miss:
     """A step that divides by zero: parallel lines, concentric circles."""
     if isinstance(step, Meet):
         return concentric(step, workspace) if is_round(step.second) else parallel(step, workspace)
-    message = f"{plain(step.targets[0])} has no place ({step.name})"
+    message = f"{plain(step.targets[0])} has no place ({step_words(step)})"
     return Miss(Status.CANNOT_ASSEMBLE, message, vague=True)
 
 

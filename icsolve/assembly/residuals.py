@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Mapping
 from typing import TYPE_CHECKING
 
 from icsolve.assembly.conditions import FigureEquation
@@ -183,7 +183,7 @@ def _numbers(workspace: Workspace, cone: tuple[Step, ...], datum: Datum) -> list
 
 
 def notes_of(
-    workspace: Workspace, offs: dict[Datum, float], used: frozenset[Datum], given: bool, size: float
+    workspace: Workspace, offs: Mapping[Datum, float], used: frozenset[Datum], given: bool, size: float
 ) -> tuple[str, ...]:
     """Which data set the points and which were only compared, where there were more than needed."""
     spare = {

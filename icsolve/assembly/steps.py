@@ -1,7 +1,6 @@
 """The steps of a construction: given points, a centroid, a length along a direction, two loci, rigid shapes.
 
-Each puts points on a workspace (``place``), and tells its ``targets``, what it ``needs``, its ``data``
-and its ``name``, a sentence.
+Each puts points on a workspace (``place``), and tells its ``targets``, what it ``needs`` and its ``data``.
 """
 
 from __future__ import annotations
@@ -31,22 +30,10 @@ if TYPE_CHECKING:
     from icsolve.assembly.groups import Group
 
 
-def told(step: Step) -> str:
-    """A step as a sentence."""
-    from icsolve.assembly.words import step_words
-
-    return step_words(step)
-
-
 class Given(NamedTuple):
     """Points whose coordinates the case gives."""
 
     targets: tuple[Key, ...]
-
-    @property
-    def name(self) -> str:
-        """The step in words: which points are given."""
-        return told(self)
 
     def place(self, workspace: Workspace) -> None:
         """Put the points."""
@@ -82,11 +69,6 @@ class Mean(NamedTuple):
     def targets(self) -> tuple[Key, ...]:
         """The point placed."""
         return (self.target,)
-
-    @property
-    def name(self) -> str:
-        """The step in words: of which points a point is the mean."""
-        return told(self)
 
     def place(self, workspace: Workspace) -> None:
         """Put the point."""
@@ -125,11 +107,6 @@ class Polar(NamedTuple):
         """The point placed."""
         return (self.target,)
 
-    @property
-    def name(self) -> str:
-        """The step in words: from which point, how far and in which direction."""
-        return told(self)
-
     def place(self, workspace: Workspace) -> None:
         """Put the point."""
         x, y = workspace.points[self.base]
@@ -162,11 +139,6 @@ class Meet(NamedTuple):
     def targets(self) -> tuple[Key, ...]:
         """The point placed."""
         return (self.target,)
-
-    @property
-    def name(self) -> str:
-        """The step in words: which two loci meet."""
-        return told(self)
 
     def loci(self, workspace: Workspace) -> tuple[PlacedLocus, PlacedLocus]:
         """Both loci where their points are."""
@@ -222,11 +194,6 @@ class Base(NamedTuple):
         """Both points."""
         return (self.a, self.b)
 
-    @property
-    def name(self) -> str:
-        """The step in words: which two points begin a cluster."""
-        return told(self)
-
     def place(self, workspace: Workspace) -> None:
         """Put both points."""
         workspace.points[self.a] = (0.0, 0.0)
@@ -256,11 +223,6 @@ class Transfer(NamedTuple):
     def targets(self) -> tuple[Key, ...]:
         """The point placed."""
         return (self.target,)
-
-    @property
-    def name(self) -> str:
-        """The step in words: on which points a shape is laid."""
-        return told(self)
 
     def place(self, workspace: Workspace) -> None:
         """Put the point: the shape turned as p to q is, and not stretched."""
@@ -298,11 +260,6 @@ class Turned(NamedTuple):
     def targets(self) -> tuple[Key, ...]:
         """The point placed."""
         return (self.target,)
-
-    @property
-    def name(self) -> str:
-        """The step in words: about which point a shape is turned."""
-        return told(self)
 
     def place(self, workspace: Workspace) -> None:
         """Put the point: the shape turned until its pair lies in the known direction."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from icsolve.assembly.construct import compared
+from icsolve.assembly.construct import by_other_data
 from icsolve.assembly.data import names_of
 from icsolve.assembly.groups import Group
 from icsolve.assembly.modes import Mode, Walk, differing, distinct, refusal
@@ -21,7 +21,6 @@ from icsolve.wording.sentences import listed
 
 Place = tuple[float, float]
 
-MOST_RETRIES = 20
 DIGITS = 6
 """Significant digits of `near`, where these tell the ways apart."""
 
@@ -58,17 +57,12 @@ def ways_of(case: Case) -> Ways:
     case = replace(case, near={})
     frame = frame_of(case)
     goal, loose = _placed(case)
-    banned: frozenset[frozenset[object]] = frozenset()
-    for _ in range(MOST_RETRIES):
-        order = order_of(case, goal, banned)
-        walk = _walk(case, frame, order)
-        if walk.modes:
-            return _ways(case, walk, order, loose)
-        miss = refusal(walk)
-        if miss.loci is None:
-            raise SceneError(miss.status, miss.message)
-        banned |= {miss.loci}
-    raise SceneError(Status.NEAR_SINGULAR, "too many lines and circles of the figure coincide")
+
+    def attempt(order: Order) -> Ways | Miss:
+        walk = Walk(order, Workspace(case, frame, FLOATS), every=True).run()
+        return _ways(case, walk, order, loose) if walk.modes else refusal(walk)
+
+    return by_other_data(case, goal, attempt)
 
 
 def _placed(case: Case) -> tuple[list[str], list[str]]:
@@ -96,16 +90,6 @@ def _can_be_placed(case: Case, name: str) -> bool:
     except SceneError:
         return False
     return True
-
-
-def _walk(case: Case, frame: Frame, order: Order) -> Walk:
-    workspace = Workspace(case, frame, FLOATS)
-    used = order.used()
-
-    def contradicted(mode: Mode) -> Miss | None:
-        return compared(workspace, order, mode, used)[0]
-
-    return Walk(order, workspace, contradicted, every=True).run()
 
 
 def _ways(case: Case, walk: Walk, order: Order, loose: list[str]) -> Ways:

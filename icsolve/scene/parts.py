@@ -347,7 +347,9 @@ def _skipped(program: Program, outcome: Outcome) -> tuple[str, ...]:
 
 def _steps(program: Program) -> tuple[str, ...]:
     """The steps of the plan that ran."""
-    figure = tuple(step.name for step in program.figure.steps)
+    from icsolve.assembly.words import step_words
+
+    figure = tuple(map(step_words, program.figure.steps))
     if program.plan is None:
         return (*figure, "motions: loop equations of the whole scene")
     top = program.top

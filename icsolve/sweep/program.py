@@ -1,7 +1,7 @@
 """The program of a sweep: a case and what is varied become one record, made once for any number of rows.
 
-First the position as written, then the drivers and the closings of the links, then statics, rates and
-centres: each with the kernels that one scene has.
+First the position as written, then the drivers and the order in which the links assemble, then statics,
+rates and centres: each with the kernels that one scene has.
 """
 
 from __future__ import annotations

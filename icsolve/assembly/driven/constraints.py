@@ -11,7 +11,7 @@ from itertools import pairwise
 
 from icsolve.assembly.conditions import FigureEquation, at_distance, on_line
 from icsolve.assembly.data import Datum
-from icsolve.assembly.driven.poses import Places, Rotation, Shape, Spot, dot, minus, square
+from icsolve.assembly.driven.poses import Places, Rotation, Shape, Spot, dot, minus, scaled, square
 from icsolve.assembly.workspace import Workspace
 from icsolve.case import Rope
 from icsolve.errors import SceneError
@@ -331,7 +331,7 @@ class ConditionRows:
     def _straight(self, c: RolledStraight) -> ConditionRow:
         o, b = self.places.place(c.centre), c.line.body
         along = self.places.vector(b, c.line.along)
-        contact = minus(o, _times(c.radius, square(along)))
+        contact = minus(o, scaled(c.radius, square(along)))
         turned = (self.places.degrees(c.centre[0]) - self.places.degrees(b)) * RADIAN
         value = dot(along, minus(o, self.places.point(c.line.body, c.line.through))) + c.radius * turned
         return ConditionRow(value, self._pushed((c.centre[0], along, contact), (b, _less(along), contact)))
@@ -386,7 +386,3 @@ class ConditionRows:
 
 def _less(v: Point) -> Point:
     return (-v[0], -v[1])
-
-
-def _times(k: Scalar, v: Point) -> Point:
-    return (k * v[0], k * v[1])

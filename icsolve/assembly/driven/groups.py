@@ -15,8 +15,8 @@ import numpy.typing as npt
 
 from icsolve.assembly.driven.constraints import ConditionRow, ConditionRows, Constraint
 from icsolve.assembly.driven.mechanism import Mechanism
-from icsolve.assembly.driven.order import AssurGroup, ClosingOrder, touching
-from icsolve.assembly.driven.poses import Moved, Rotation, Spot, Still, minus, plus, product
+from icsolve.assembly.driven.order import AssemblyOrder, AssurGroup, touching
+from icsolve.assembly.driven.poses import Moved, Rotation, Spot, Still, plus, rotated
 from icsolve.assembly.workspace import Workspace
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, RADIAN, Scalar
@@ -116,7 +116,7 @@ def rank(m: Matrix) -> int:
     return int(np.sum(values > DEPENDENT * values[0]))
 
 
-def smallest(mechanism: Mechanism, order: ClosingOrder, left: Sequence[int]) -> AssurGroup:
+def smallest(mechanism: Mechanism, order: AssemblyOrder, left: Sequence[int]) -> AssurGroup:
     """The smallest set of the bodies that are left whose conditions determine it.
 
     Raises SceneError where no set is determined.
@@ -133,7 +133,7 @@ def smallest(mechanism: Mechanism, order: ClosingOrder, left: Sequence[int]) -> 
     raise _refusal(mechanism, order, left)
 
 
-def _group(mechanism: Mechanism, order: ClosingOrder, bodies: Sequence[int]) -> AssurGroup | None:
+def _group(mechanism: Mechanism, order: AssemblyOrder, bodies: Sequence[int]) -> AssurGroup | None:
     reach = {*bodies, *order.full}
     constraints = tuple(c for c in order.constraints if c.bodies <= reach and c.bodies & set(bodies))
     shape = _held(mechanism, order, bodies)
@@ -144,7 +144,7 @@ def _group(mechanism: Mechanism, order: ClosingOrder, bodies: Sequence[int]) -> 
     return AssurGroup(tuple(bodies), constraints) if rank(found) == 3 * len(bodies) else None
 
 
-def _held(mechanism: Mechanism, order: ClosingOrder, bodies: Collection[int]) -> Moved:
+def _held(mechanism: Mechanism, order: AssemblyOrder, bodies: Collection[int]) -> Moved:
     """The spots that are located, as written."""
     moved = Moved(mechanism.shape)
     for one in order.located:
@@ -153,7 +153,7 @@ def _held(mechanism: Mechanism, order: ClosingOrder, bodies: Collection[int]) ->
     return moved
 
 
-def _refusal(mechanism: Mechanism, order: ClosingOrder, left: Sequence[int]) -> SceneError:
+def _refusal(mechanism: Mechanism, order: AssemblyOrder, left: Sequence[int]) -> SceneError:
     names = [mechanism.top.members[body][0] for body in left]
     plural = "link" if len(names) == 1 else "links"
     if order.nearest is not None:
@@ -177,35 +177,25 @@ SOLVED = 1e-11
 """The largest residual of a solution (normalised)."""
 
 
-class Guess:
-    """Where the bodies of a group are supposed to be; the others are where they are."""
+class Guess(Moved):
+    """The bodies of a group where they are supposed to be, wherever that puts their pins, and the others."""
 
     def __init__(self, moved: Moved, bases: Mapping[int, Spot], q: Mapping[int, tuple[Scalar, ...]]) -> None:
-        self.moved, self.bases, self.q = moved, bases, q
-        self.turns = {body: moved.shape.record.turned(state[2]) for body, state in q.items()}
+        super().__init__(moved.shape)
+        self.located, self.free = moved.located, q
+        self.bases = {**moved.bases, **bases}
+        self.rotations = {
+            **moved.rotations,
+            **{body: rotated(moved.shape, state[2]) for body, state in q.items()},
+        }
 
     def place(self, spot: Spot) -> Point:
         """Where a body's point is."""
         body = spot[0]
-        if body not in self.q:
-            return self.moved.place(spot)
-        x, y, _ = self.q[body]
-        return plus((x, y), self.vector(body, self.moved.shape.between(self.bases[body], spot)))
-
-    def point(self, body: int, at: Point) -> Point:
-        """Where a place of a body is."""
-        if body not in self.q:
-            return self.moved.point(body, at)
-        x, y, _ = self.q[body]
-        return plus((x, y), self.vector(body, minus(at, self.moved.shape.ref[self.bases[body][1]])))
-
-    def vector(self, body: int, v: Point) -> Point:
-        """A vector that a body carries."""
-        return product(self.turns[body], v) if body in self.q else self.moved.vector(body, v)
-
-    def degrees(self, body: int) -> Scalar:
-        """By how much a body has turned."""
-        return self.q[body][2] if body in self.q else self.moved.degrees(body)
+        if body not in self.free:
+            return super().place(spot)
+        x, y, _ = self.free[body]
+        return plus((x, y), self.vector(body, self.shape.between(self.bases[body], spot)))
 
 
 class NewtonGroup(NamedTuple):
@@ -256,7 +246,7 @@ def settled(mechanism: Mechanism, moved: Moved, step: AssurGroup, number: int) -
     states = {body: solved[3 * n : 3 * n + 3] for n, body in enumerate(step.bodies)}
     return group._replace(
         solved=tuple(s.index for s in solved),
-        rotations={b: Rotation(record.turned(s[2]), (1.0, 0.0), s[2]) for b, s in states.items()},
+        rotations={b: rotated(mechanism.shape, s[2]) for b, s in states.items()},
         places={b: (s[0], s[1]) for b, s in states.items()},
     )
 

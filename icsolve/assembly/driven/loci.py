@@ -23,7 +23,7 @@ from icsolve.screws.plane import Point
 from icsolve.tuples import NamedTuple
 
 
-def swung(record: Record, e: Point, along: Point, h: Scalar, sign: Scalar) -> Point:
+def rotation_to_line(record: Record, e: Point, along: Point, h: Scalar, sign: Scalar) -> Point:
     """The rotation after which a line passes a place at a given distance.
 
     Parameters

@@ -1,4 +1,4 @@
-"""A mechanism in motion on a record: the closings run in order, each place an expression of the drivers."""
+"""A mechanism in motion on a record: its steps run in order, each place an expression of the drivers."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from icsolve.assembly.driven.constraints import (
     Turning,
 )
 from icsolve.assembly.driven.groups import NewtonGroup, settled, smallest
-from icsolve.assembly.driven.loci import locus, reference, swung
+from icsolve.assembly.driven.loci import locus, reference, rotation_to_line
 from icsolve.assembly.driven.mechanism import Mechanism
 from icsolve.assembly.driven.order import (
     TOUCHING,
+    AssemblyOrder,
+    AssemblyStep,
     AssurGroup,
-    Closing,
-    ClosingOrder,
     PlaceAtIntersection,
     PlaceByPoint,
     PlaceByTwoPoints,
     RotateToLine,
     RotateWith,
 )
-from icsolve.assembly.driven.poses import Moved, Rotation, Spot, dot, minus, scaled, square
+from icsolve.assembly.driven.poses import Moved, Rotation, Spot, dot, minus, rotated, scaled, square
 from icsolve.assembly.intersections import PlacedLocus, crossing_sine, intersection, side
 from icsolve.assembly.workspace import Workspace
 from icsolve.numbers.arithmetic import RADIAN, Scalar
@@ -43,7 +43,7 @@ class DrivenMotion(NamedTuple):
     Attributes
     ----------
     moved : places and rotations of the bodies
-    steps : the closings in their order
+    steps : the steps of its assembly in their order
     branches : for each root of the record the name by which its sign is set
     written : by that name, the sign in the position as written
     groups : those that Newton's method solves row by row
@@ -52,7 +52,7 @@ class DrivenMotion(NamedTuple):
 
     mechanism: Mechanism
     moved: Moved
-    steps: tuple[Closing, ...]
+    steps: tuple[AssemblyStep, ...]
     branches: dict[int, str]
     written: dict[str, float]
     groups: tuple[NewtonGroup, ...]
@@ -60,7 +60,7 @@ class DrivenMotion(NamedTuple):
     """what the conditions leave that were not needed: it is to vanish"""
 
 
-def order_of(mechanism: Mechanism, drivers: list[Constraint]) -> ClosingOrder:
+def order_of(mechanism: Mechanism, drivers: list[Constraint]) -> AssemblyOrder:
     """The order in which the mechanism closes.
 
     Raises SceneError where a joint cannot be moved, links stay loose, or the position as written is singular.
@@ -69,7 +69,7 @@ def order_of(mechanism: Mechanism, drivers: list[Constraint]) -> ClosingOrder:
     for constraint in constraints:
         if isinstance(constraint, Immovable):
             raise constraint.refusal
-    order = ClosingOrder(mechanism.shape, mechanism.spots, constraints, mechanism.case.near)
+    order = AssemblyOrder(mechanism.shape, mechanism.spots, constraints, mechanism.case.near)
     while True:
         while order.advance():
             pass
@@ -79,9 +79,9 @@ def order_of(mechanism: Mechanism, drivers: list[Constraint]) -> ClosingOrder:
         order.take(smallest(mechanism, order, left))
 
 
-def set_moving(mechanism: Mechanism, order: ClosingOrder, signs: Mapping[str, Scalar]) -> DrivenMotion:
-    """Run the closings; ``signs`` has those of branches that change on the way, by name."""
-    run = _Following(mechanism, signs)
+def set_moving(mechanism: Mechanism, order: AssemblyOrder, signs: Mapping[str, Scalar]) -> DrivenMotion:
+    """Run the steps; ``signs`` has those of branches that change on the way, by name."""
+    run = _Placing(mechanism, signs)
     for step in order.steps:
         run.take(step)
     return DrivenMotion(
@@ -95,8 +95,8 @@ def set_moving(mechanism: Mechanism, order: ClosingOrder, signs: Mapping[str, Sc
     )
 
 
-class _Following:
-    """The closings on a record."""
+class _Placing:
+    """The steps on a record."""
 
     def __init__(self, mechanism: Mechanism, signs: Mapping[str, Scalar]) -> None:
         self.mechanism, self.shape, self.signs = mechanism, mechanism.shape, signs
@@ -114,8 +114,8 @@ class _Following:
         for spot in spots:
             self.moved.located.setdefault(self.shape.one(spot), self.moved.place(spot))
 
-    def take(self, step: Closing) -> None:
-        """Run one closing."""
+    def take(self, step: AssemblyStep) -> None:
+        """Run one step."""
         match step:
             case RotateWith(body, by):
                 self.moved.rotations[body] = self._rotation(body, by)
@@ -128,7 +128,7 @@ class _Following:
             case PlaceAtIntersection():
                 self._meet(step)
             case RotateToLine():
-                self._swing(step)
+                self._rotate_to_line(step)
             case AssurGroup():
                 self._newton(step)
 
@@ -162,10 +162,10 @@ class _Following:
             case Turning():
                 return self._from_others(body, by)
             case RolledStraight():
-                return self._turned(self._on_flank(body, by))
+                return rotated(self.shape, self._on_flank(body, by))
             case Roped():
-                return self._turned(self._wound(body, by))
-        return self._turned(self._on_round(body, by))
+                return rotated(self.shape, self._wound(body, by))
+        return rotated(self.shape, self._on_round(body, by))
 
     def _wound(self, body: int, by: Roped) -> Scalar:
         """A drum takes up what the rope has become longer elsewhere."""
@@ -174,9 +174,6 @@ class _Following:
             gain = gain + each if drum == body else gain
         more = by.longer(self.moved, self.record, self.record.turns, still=body)
         return -more / gain / RADIAN
-
-    def _turned(self, degrees: Scalar) -> Rotation:
-        return Rotation(self.record.turned(degrees), (1.0, 0.0), degrees)
 
     def _from_others(self, body: int, by: Turning) -> Rotation:
         if by.alike:
@@ -188,7 +185,7 @@ class _Following:
                 own = factor
             else:
                 total = total - factor * self.moved.degrees(other)
-        return self._turned(total / own)
+        return rotated(self.shape, total / own)
 
     def _on_flank(self, body: int, by: RolledStraight) -> Scalar:
         """The centre's way along the flank is the turning times the radius, backwards."""
@@ -234,7 +231,7 @@ class _Following:
         ox, oy, scale = self.mechanism.frame
         return ((near[0] - ox) * scale, (near[1] - oy) * scale)
 
-    def _swing(self, step: RotateToLine) -> None:
+    def _rotate_to_line(self, step: RotateToLine) -> None:
         line, c, moved = step.by.line, step.by, self.moved
         name = f"swing {step.bodies[0]} {c.spot[1]}"
         e = minus(moved.place(step.aim), moved.place(step.pivot))
@@ -244,16 +241,16 @@ class _Following:
             h = h - dot(normal, minus(self.shape.ref[c.spot[1]], self.shape.ref[step.aim[1]]))
         written = minus(self.shape.ref[step.aim[1]], self.shape.ref[step.pivot[1]])
         sign = 1.0 if float(dot(line.along, written)) >= 0.0 else -1.0
-        rotation = Rotation(self._swung(e, line.along, h, self.signs.get(name, sign)))
+        rotation = Rotation(self._to_line(e, line.along, h, self.signs.get(name, sign)))
         self._branch(name, sign)
         for body in step.bodies:
             moved.rotations[body] = rotation
 
-    def _swung(self, e: Point, along: Point, h: Scalar, sign: Scalar) -> Point:
+    def _to_line(self, e: Point, along: Point, h: Scalar, sign: Scalar) -> Point:
         """The rotation of a swing; a line that passes its pivot by rounding only passes through it."""
         if varies(h) or abs(float(h)) > FLUSH:
-            return swung(self.record, e, along, h, sign)
-        z = swung(self.record, e, along, 0.0, sign)
+            return rotation_to_line(self.record, e, along, h, sign)
+        z = rotation_to_line(self.record, e, along, 0.0, sign)
         if isinstance(h, float) and h == 0.0:
             return z
         return scaled(self.record.about(1.0, FLUSH), z)

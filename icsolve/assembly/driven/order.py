@@ -101,7 +101,7 @@ TOUCHING = 1e-7
 
 class RotateWith(NamedTuple):
     """A body's rotation from those of the others in a `Turning`, or from a driver; ``instead`` of a
-    condition where several were taken train_ratios."""
+    condition where several were taken together."""
 
     body: int
     by: Turning | Pointed | RolledStraight | RolledRound | Roped
@@ -139,17 +139,17 @@ class RotateToLine(NamedTuple):
 
 
 class AssurGroup(NamedTuple):
-    """Bodies that only all their conditions train_ratios determine."""
+    """Bodies that only all their conditions together determine."""
 
     bodies: tuple[int, ...]
     constraints: tuple[Constraint, ...]
 
 
-Closing = RotateWith | PlaceByPoint | PlaceByTwoPoints | PlaceAtIntersection | RotateToLine | AssurGroup
+AssemblyStep = RotateWith | PlaceByPoint | PlaceByTwoPoints | PlaceAtIntersection | RotateToLine | AssurGroup
 
 
-class ClosingOrder:
-    """The closings as they are found; ``full`` bodies are placed, ``turned`` have their rotation.
+class AssemblyOrder:
+    """The steps as they are found; ``full`` bodies are placed, ``turned`` have their rotation.
 
     A point in ``near`` may be where two loci only touch as written: `near` tells which way it goes on.
     """
@@ -164,7 +164,7 @@ class ClosingOrder:
         self.shape, self.spots, self.constraints, self.near = shape, spots, constraints, near
         self.full, self.turned = {shape.ground}, {shape.ground}
         self.located = {shape.one(spot) for spot in spots.get(shape.ground, ())}
-        self.steps: list[Closing] = []
+        self.steps: list[AssemblyStep] = []
         self.used: set[int] = set()
         self.nearest: str | None = None
         """a spot whose loci only touch as written"""
@@ -175,15 +175,22 @@ class ClosingOrder:
 
     def advance(self) -> bool:
         """Take the next closed form; False where there is none."""
-        for rule in (self._turns, self._hangs, self._holds, self._swings, self._meets, self._trains):
+        for rule in (
+            self._rotations,
+            self._by_point,
+            self._by_two_points,
+            self._to_line,
+            self._at_intersection,
+            self._by_gears,
+        ):
             step = next(rule(), None)
             if step is not None:
                 self.take(step)
                 return True
         return False
 
-    def take(self, step: Closing) -> None:
-        """Note what a closing makes known."""
+    def take(self, step: AssemblyStep) -> None:
+        """Note what a step makes known."""
         self.steps.append(step)
         match step:
             case RotateWith(body, by, instead):
@@ -216,7 +223,7 @@ class ClosingOrder:
 
     # --- rules ------------------------------------------------------------------------------------
 
-    def _turns(self) -> Iterator[RotateWith]:
+    def _rotations(self) -> Iterator[RotateWith]:
         for c in self.constraints:
             wheels = {body for body, _ in c.drums()} if isinstance(c, Roped) else c.bodies
             left = [body for body in wheels if body not in self.turned]
@@ -227,8 +234,8 @@ class ClosingOrder:
             if self._tells(c):
                 yield RotateWith(left[0], c)
 
-    def _trains(self) -> Iterator[RotateWith]:
-        """A rotation that several ratios of wheels tell train_ratios."""
+    def _by_gears(self) -> Iterator[RotateWith]:
+        """A rotation that several ratios of wheels tell together."""
         ratios = [c for c in self.constraints if isinstance(c, Turning) and id(c) not in self.used]
         found = train_ratios(ratios, self.turned)
         if found is not None:
@@ -242,12 +249,12 @@ class ClosingOrder:
             return c.line.body in self.full and self.known(c.centre)
         return not isinstance(c, RolledRound) or (self.known(c.one) and self.known(c.two))
 
-    def _hangs(self) -> Iterator[PlaceByPoint]:
+    def _by_point(self) -> Iterator[PlaceByPoint]:
         for body in self._open():
             if body in self.turned:
                 yield from (PlaceByPoint(body, spot) for spot in self.spots[body] if self.known(spot))
 
-    def _holds(self) -> Iterator[PlaceByTwoPoints]:
+    def _by_two_points(self) -> Iterator[PlaceByTwoPoints]:
         """By the two known spots that are farthest apart."""
         for body in self._open():
             known = [spot for spot in self.spots[body] if self.known(spot)]
@@ -256,7 +263,7 @@ class ClosingOrder:
             if apart is not None and self.shape.apart(*apart) > TOUCHING:
                 yield PlaceByTwoPoints(body, apart)
 
-    def _swings(self) -> Iterator[RotateToLine]:
+    def _to_line(self) -> Iterator[RotateToLine]:
         for c in self.constraints:
             if not isinstance(c, OnLine) or c.line.body in self.turned:
                 continue
@@ -279,7 +286,7 @@ class ClosingOrder:
             isinstance(c, Turning) and c.alike and c.bodies == frozenset((a, b)) for c in self.constraints
         )
 
-    def _meets(self) -> Iterator[PlaceAtIntersection]:
+    def _at_intersection(self) -> Iterator[PlaceAtIntersection]:
         """The spot whose two loci cross best."""
         best: tuple[float, PlaceAtIntersection] | None = None
         for one, members in self.members.items():

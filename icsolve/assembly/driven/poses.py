@@ -81,6 +81,11 @@ class Rotation(NamedTuple):
     arm: tuple[Spot, Spot, Scalar] | None = None
 
 
+def rotated(shape: Shape, degrees: Scalar) -> Rotation:
+    """The rotation by an angle."""
+    return Rotation(shape.record.turned(degrees), (1.0, 0.0), degrees)
+
+
 class Places(Protocol):
     """What a place, a vector, an angle can be asked of: the bodies moved, or still as written."""
 
