@@ -254,7 +254,8 @@ def settled(mechanism: Mechanism, moved: Moved, step: AssurGroup, number: int) -
 def _equations(
     mechanism: Mechanism, moved: Moved, step: AssurGroup, guess: Guess, workspace: Workspace
 ) -> Iterator[ConditionRow]:
-    rows = ConditionRows(mechanism.shape, guess, dict(guess.bases), workspace)
+    own = {body: guess.bases[body] for body in step.bodies}
+    rows = ConditionRows(mechanism.shape, guess, own, workspace)
     return equations(mechanism, rows, step.constraints, moved)
 
 
