@@ -28,6 +28,7 @@ from icsolve.statics import error_bound
 from icsolve.statics.error_bound import Exact, SlidingSolution, Weights, step
 from icsolve.statics.friction_interface import rubs_of
 from icsolve.statics.reaction_basis import Position, ties_of
+from icsolve.statics.reactions import names_by_tie
 from icsolve.statics.witness import refuse_apart
 from more_digits import SixtyDigits
 from sizes import MORE
@@ -89,7 +90,13 @@ def rubbed(found: SlidingSolution, exact: Exact, values: dict[int, Any], k: int)
 
 
 def true_load(case: icsolve.Case, found: SlidingSolution) -> Any:
-    """The first unknown load (case units) in sixty digits, after Newton's method on all equations."""
+    """The first unknown load (case units) in sixty digits."""
+    exact = true_solution(case, found)
+    return exact.values[found.statics.root(0)] / mpf(found.statics.scale)
+
+
+def true_solution(case: icsolve.Case, found: SlidingSolution) -> Exact:
+    """All columns in sixty digits, after Newton's method on all equations."""
     exact = many_digits(case, found)
     picked = units(case, found, exact)
     columns = sorted(c for c in exact.values if c != found.statics.known)
@@ -117,7 +124,7 @@ def true_load(case: icsolve.Case, found: SlidingSolution) -> Any:
         for c, row in zip(columns, inverse, strict=True):
             values[c] -= sum(mpf(float(a)) * r for a, r in zip(row, rest, strict=True))
     assert max(map(abs, residuals(values))) <= mpf(10) ** -25 * max(map(abs, values.values()))
-    return values[found.statics.root(0)] / mpf(found.statics.scale)
+    return exact._replace(values=values)
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -257,6 +264,29 @@ def test_loads_with_friction_are_exact_and_rounded_once(name: str, monkeypatch: 
     assert answer.error is not None
     assert answer.error <= 2.0 * unit
     assert abs(true_load(case, seen.found[-1]) - mpf(answer.value)) <= min(unit, answer.error)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_reactions_with_friction_are_exact_and_rounded_once(
+    name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Forces and couples of every joint, within a unit in the last place and the error that is stated."""
+    seen = Seen(monkeypatch)
+    case = icsolve.load("icsolve: 1\n" + SCENES[name][0])
+    answer = icsolve.solve(case, reactions=True)
+    exact = true_solution(case, seen.found[-1])
+    statics, values = exact.statics, exact.values
+    largest = max(map(abs, values.values())) / statics.scale
+    for t, joint in enumerate(names_by_tie(case, statics.ties)):
+        tie, shown = statics.ties[t], answer.reactions[joint]
+        sign = 1 if (shown.by, shown.on) == (tie.by, tie.on) else -1
+        acting = [(unit, values[statics.first[t] + n]) for n, unit in enumerate(tie.units)]
+        acting += [(rub.unit, values[statics.rub(k)]) for k, rub in enumerate(statics.rubs) if rub.tie == t]
+        for n, part in enumerate(("x", "y")):
+            true = sign * sum(unit[n] * value for unit, value in acting) / statics.scale
+            value, off = getattr(shown, part), abs(mpf(getattr(shown, part)) - true)
+            assert off <= shown.errors[part] + mpf(10) ** -25 * largest, (joint, part)
+            assert value == 0.0 or off <= shown.errors[part] <= 2.0 * math.ulp(value), (joint, part)
 
 
 @pytest.mark.parametrize("mu", ["0.1", "0.3"])

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from typing import TypeVar
 
 from icsolve.answer import Answer
 from icsolve.errors import SceneError
@@ -17,6 +18,8 @@ from icsolve.statics.friction import FrictionScene as Rubbing
 from icsolve.statics.friction_interface import has_friction
 from icsolve.statics.power import Value, is_unknown
 from icsolve.statics.reaction_basis import Position, rope_ties
+
+T = TypeVar("T")
 
 
 def with_bodies(parts: AnswerBuilder, reactions: bool) -> Answer:
@@ -53,7 +56,10 @@ def _enclose(parts: AnswerBuilder) -> Enclose:
         speed = speed_of(found)
         return SceneOnBalls(_position(found), found.outcome.balance, speed.particular, found.arithmetic)
 
-    return lambda question: parts.scene.ask(lambda found: question(placed(found)))
+    def ask(question: Callable[[SceneOnBalls], T]) -> T:
+        return parts.scene.ask(lambda found: question(placed(found)))
+
+    return ask
 
 
 def _position(found: Evaluation) -> Position:

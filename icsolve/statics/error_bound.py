@@ -350,10 +350,8 @@ class SceneOnBalls(NamedTuple):
     arithmetic: Showing
 
 
-def enclosed(
-    scene: SceneOnBalls, solved: Solved, senses: Sequence[float]
-) -> Mapping[str, tuple[float, float]] | None:
-    """The unknown loads (case units) rounded once, and their errors; the rubs have these senses.
+def enclosed(scene: SceneOnBalls, solved: Solved, senses: Sequence[float]) -> Solved | None:
+    """The solution on balls; the rubs have these senses.
 
     None where a sense, or the flank of a tooth, is another than the balls say. Raises MoreDigits where they
     leave that open, and where no solution is shown.
@@ -373,7 +371,9 @@ def enclosed(
     start = [solved.unknowns[root] * statics.scale for root in statics.roots]
     start += [solved.friction[k] for k in slides]
     found = enclosed_root(_FrictionSystem(statics, columns, slides), start, a)
-    return {root: a.rounded(x / statics.scale) for root, x in zip(statics.roots, found, strict=False)}
+    unknowns = {root: x / statics.scale for root, x in zip(statics.roots, found, strict=False)}
+    sliding = dict(zip(slides, found[len(statics.roots) :], strict=True))
+    return Solved(statics, unknowns, tuple(sliding.get(k, 0.0) for k in range(len(rubs))))
 
 
 class _FrictionSystem:

@@ -119,7 +119,7 @@ class Solved(NamedTuple):
 
     statics: Statics
     unknowns: dict[str, Scalar]
-    friction: tuple[float, ...] = ()
+    friction: tuple[Scalar, ...] = ()
 
     @property
     def parameters(self) -> Row:

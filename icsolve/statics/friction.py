@@ -7,9 +7,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from typing import Protocol, TypeVar
 
 from icsolve.answer import Answer, Deferred, Found
-from icsolve.answer.bodies import FrictionFound, Rubbing, Tension
+from icsolve.answer.bodies import FrictionFound, Reactions, Rubbing, Tension
 from icsolve.assembly import Frame
 from icsolve.case import Rope
 from icsolve.case.joints import Mesh
@@ -60,8 +62,10 @@ from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed, plural
 
 
-def in_motion(scene: FrictionScene) -> tuple[dict[str, float], FreeBodies, ErrorBounds]:
-    """The unknown loads that keep up the given motion, the free bodies, and bounds.
+def in_motion(
+    scene: FrictionScene, reactions: bool = False
+) -> tuple[dict[str, float], FreeBodies, ErrorBounds]:
+    """The unknown loads that keep up the given motion, the free bodies, and bounds; of reactions if asked.
 
     Returns
     -------
@@ -84,8 +88,31 @@ def in_motion(scene: FrictionScene) -> tuple[dict[str, float], FreeBodies, Error
 
     first = _flanks(scene, ties, workless)
     solved = on_flanks(first, lambda flanks: solve(reaction_basis.with_flanks(scene.position, ties, flanks)))
-    sure = _certain(scene, solved, senses_of(scene, solved.statics).signs)
-    return {**solved.unknowns, **sure.values}, _bodies(scene, solved, slides[-1]), sure
+    senses = senses_of(scene, solved.statics).signs
+    sure, bodies = _certain(scene, solved, senses), _bodies(scene, solved, slides[-1])
+    if reactions and sure.values and scene.enclose is not None:
+        with suppress(SceneError):
+            exact = scene.enclose(lambda placed: _enclosed_reactions(scene, placed, solved, senses))
+            bodies = bodies._replace(reactions=exact or bodies.reactions)
+    return {**solved.unknowns, **sure.values}, bodies, sure
+
+
+def _enclosed_reactions(
+    scene: FrictionScene, placed: SceneOnBalls, solved: Solved, senses: Sequence[float]
+) -> Reactions | None:
+    """The reactions of a solution, each number rounded once."""
+    found = enclosed(placed, solved, senses)
+    if found is None:
+        return None
+    return reactions_of(placed.position, scene.frame, found.statics, found.parameters, placed.arithmetic)
+
+
+def _enclosed_loads(
+    placed: SceneOnBalls, solved: Solved, senses: Sequence[float]
+) -> Mapping[str, tuple[float, float]] | None:
+    """The unknown loads of a solution rounded once, and their errors."""
+    found = enclosed(placed, solved, senses)
+    return None if found is None else {q: placed.arithmetic.rounded(x) for q, x in found.unknowns.items()}
 
 
 def _certain(scene: FrictionScene, solved: Solved, senses: Sequence[float]) -> ErrorBounds:
@@ -93,7 +120,7 @@ def _certain(scene: FrictionScene, solved: Solved, senses: Sequence[float]) -> E
     if scene.enclose is None or scene.traced is None or not is_smooth(scene.position, solved):
         return found
     try:
-        both = scene.enclose(lambda placed: enclosed(placed, solved, senses))
+        both = scene.enclose(lambda placed: _enclosed_loads(placed, solved, senses))
     except SceneError:  # no digits show that the solution stands alone
         return found
     if both is None:
@@ -344,7 +371,7 @@ def solved(
 def _moving(
     scene: FrictionScene, answer_with: Callable[[Mapping[str, Value]], Answer], reactions: bool
 ) -> Answer:
-    unknowns, bodies, sure = in_motion(scene)
+    unknowns, bodies, sure = in_motion(scene, reactions)
     bounds = {root: sure.bounds.get(root) for root in unknowns}
     why = {root: sure.why if bounds[root] is None else "" for root in unknowns}
     values = {root: Value(value, bounds[root], why[root]) for root, value in unknowns.items()}
@@ -378,8 +405,14 @@ def _held(scene: FrictionScene, name: str, found: StaticRange, shown: Found) -> 
     return shown._replace(value=math.nan, sense="", holds=(ends[0], ends[1]), self_locking=found.self_locking)
 
 
-Both = Mapping[str, tuple[float, float]] | None
-Enclose = Callable[[Callable[[SceneOnBalls], Both]], Both]
+T = TypeVar("T")
+
+
+class Enclose(Protocol):
+    """Asks a question of the scene on balls."""
+
+    def __call__(self, question: Callable[[SceneOnBalls], T]) -> T:
+        """The answer by the fewest digits that settle it; SceneError where none do."""
 
 
 class FrictionScene(NamedTuple):
