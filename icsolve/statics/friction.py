@@ -52,7 +52,7 @@ from icsolve.statics.friction_limits import (
 )
 from icsolve.statics.power import Balance, Bounded, Solution, Value, is_unknown
 from icsolve.statics.reaction_basis import Position, Tie, ties_of
-from icsolve.statics.reactions import names_by_tie
+from icsolve.statics.reactions import names_by_tie, reactions_of
 from icsolve.statics.witness import (
     refuse_doubt,
     residual,
