@@ -7,9 +7,8 @@ comes from the loop equations group by group, must agree with it.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
-from typing import Any
 
 from icsolve.answer import Centre
 from icsolve.assembly.workspace import Frame
@@ -51,7 +50,7 @@ class CentreFinder:
         self.twists = {top.body_of[link]: twists[link] for link in top.body_of if link in twists}
         self.points, self.arithmetic = points, a
         self.fastest = max((_length(t) for ts in twists.values() for t in ts), default=0.0)
-        self.relative = cache(self._relative)
+        self.relative, self.moving = cache(self._relative), cache(self._moving)
 
     def find(self, pairs: Iterable[Pair], slack: float = 0.0) -> dict[Pair, Centre]:
         """A `Centre` for every pair of links.
@@ -68,18 +67,17 @@ class CentreFinder:
             ``undetermined`` where they have more than one relative freedom: nothing is refused.
         """
         pairs = list(pairs)
-        moving = _Moving(self._seen)
         primaries, normals = self._by_inspection()
         joints = {pair: (_in_floats(point), by) for pair, (point, by) in primaries.items()}
         guides = {pair: tuple(map(_in_floats, lines)) for pair, lines in normals.items()}
-        search = Kennedy(self.twists, joints, guides, moving, self.top.ground)
+        search = Kennedy(self.twists, joints, guides, self.moving, self.top.ground)
         search.find(ordered(self.top.body_of[a], self.top.body_of[b]) for a, b in pairs)
-        return {pair: self._centre(pair, search, moving, primaries, slack) for pair in pairs}
+        return {pair: self._centre(pair, search, primaries, slack) for pair in pairs}
 
-    def _seen(self, i: int, j: int) -> Triple | None:
-        """The same in floats."""
-        twist = self.relative(i, j)
-        return twist if twist is None or twist is REST else _in_floats(twist)
+    def _moving(self, pair: BodyPair) -> Triple | None:
+        """The relative twist in floats of two bodies that have one centre in all motions meant; else None."""
+        twist = self.relative(*pair)
+        return None if twist is None or twist is REST else _in_floats(twist)
 
     def _relative(self, i: int, j: int) -> Triple | None:
         """The relative twist; REST where the two move as one, None where the centre is open."""
@@ -120,24 +118,24 @@ class CentreFinder:
         self,
         pair: Pair,
         search: Kennedy,
-        moving: Mapping[BodyPair, Triple],
         primaries: Mapping[BodyPair, tuple[Triple, str]],
         slack: float,
     ) -> Centre:
         i, j = (self.top.body_of[link] for link in pair)
         bodies = ordered(i, j)
         own = self._own(pair)
-        if own is not None or (bodies in primaries and bodies in moving):
+        rough = self.moving(bodies)
+        if own is not None or (bodies in primaries and rough is not None):
             point, by = own or primaries[bodies]
             return self._placed(pair, point, LocatedCentre(point, ROUNDING, by))
-        if i == j or (bodies not in moving and self.relative(*bodies) == REST):
+        if i == j or self.relative(*bodies) == REST:
             return Centre(pair, "undefined", why=f"{pair[0]} and {pair[1]} move as one")
-        if bodies not in moving:
+        if rough is None:
             why = f"{pair[0]} and {pair[1]} have no one centre: they have more than one relative freedom"
             return Centre(pair, "undetermined", why=why)
         known = search.known[bodies]
-        if known.error > TRUSTED or not _agree(known, moving[bodies], slack):
-            known = LocatedCentre(unit(moving[bodies]), ROUNDING, "loop equations")
+        if known.error > TRUSTED or not _agree(known, rough, slack):
+            known = LocatedCentre(unit(rough), ROUNDING, "loop equations")
         twist = self.relative(*bodies)
         assert twist is not None
         return self._placed(pair, twist, known)
@@ -173,38 +171,6 @@ class CentreFinder:
 
     def _names(self, pair: BodyPair) -> Pair:
         return ordered_pair(self.case, self.top.members[pair[0]][0], self.top.members[pair[1]][0])
-
-
-class _Moving(Mapping[BodyPair, Triple]):
-    """Relative twists of the pairs of bodies that have one centre in all motions meant, each made when it
-    is asked for."""
-
-    def __init__(self, relative: Callable[[int, int], Triple | None]) -> None:
-        self._relative = relative
-        self._made: dict[BodyPair, Triple | None] = {}
-
-    def get(self, pair: BodyPair, default: Any = None) -> Any:
-        """The twist of a pair; the default where it has no one centre."""
-        if pair not in self._made:
-            twist = self._relative(*pair)
-            self._made[pair] = None if twist == REST else twist
-        twist = self._made[pair]
-        return default if twist is None else twist
-
-    def __getitem__(self, pair: BodyPair) -> Triple:
-        if pair not in self:
-            raise KeyError(pair)
-        twist: Triple = self.get(pair)
-        return twist
-
-    def __contains__(self, pair: object) -> bool:
-        return isinstance(pair, tuple) and self.get(pair) is not None
-
-    def __iter__(self) -> Iterator[BodyPair]:
-        return (pair for pair, twist in self._made.items() if twist is not None)
-
-    def __len__(self) -> int:
-        return sum(1 for _ in self)
 
 
 def _agree(known: LocatedCentre, twist: Triple, slack: float) -> bool:

@@ -11,7 +11,7 @@ from __future__ import annotations
 import heapq
 import math
 from bisect import insort
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from operator import attrgetter
 
 from icsolve.numbers.null_space import ROUNDING
@@ -61,7 +61,8 @@ class Kennedy:
     bodies : indices
     primaries : by pair (lower index first), the centre by inspection as (X, Y, W) and how it is known
     normals : by pair, the common normals of slots and contacts, as lines
-    twists : by pair that moves, its relative twist: a seed where the construction stalls
+    twist_of : of a pair its relative twist, None where it has no one centre: a seed where the construction
+        stalls
     hub : the body (the frame) with which pairs are looked at in any case
 
     All are floats, in a frame of size 1 (errors are measured as angles between homogeneous vectors).
@@ -72,11 +73,11 @@ class Kennedy:
         bodies: Iterable[int],
         primaries: Mapping[BodyPair, tuple[Triple, str]],
         normals: Mapping[BodyPair, tuple[Triple, ...]],
-        twists: Mapping[BodyPair, Triple],
+        twist_of: Callable[[BodyPair], Triple | None],
         hub: int,
     ) -> None:
         self.bodies = frozenset(bodies)
-        self.twists = twists
+        self.twist_of = twist_of
         self.hub = hub
         self.known: dict[BodyPair, LocatedCentre] = {}
         self.missing: set[BodyPair] = set()
@@ -98,7 +99,7 @@ class Kennedy:
 
         Pairs without one (they move as one, or have no one centre) are passed over.
         """
-        self.missing = {pair for pair in wanted if pair in self.twists and pair not in self.known}
+        self.missing = {pair for pair in wanted if pair not in self.known and self.twist_of(pair) is not None}
         if 2 * len(self.missing) < len(self.bodies):
             self.partners = self._near({body for pair in self.missing for body in pair} | {self.hub})
         while self.missing:
@@ -110,7 +111,9 @@ class Kennedy:
                     self._spread(pair)
                 continue
             seed = self._seed(self.missing)
-            self._offer(seed, LocatedCentre(unit(self.twists[seed]), ROUNDING, "loop equations"))
+            twist = self.twist_of(seed)
+            assert twist is not None
+            self._offer(seed, LocatedCentre(unit(twist), ROUNDING, "loop equations"))
 
     def _near(self, centre: set[int]) -> dict[int, frozenset[int]]:
         """For every body those with which its centre is sought: ``centre``, and those two joints away at
@@ -143,9 +146,9 @@ class Kennedy:
                 continue
             ik, jk = ordered(i, k), ordered(j, k)
             if jk in known:
-                if ik not in known and ik in self.twists:
+                if ik not in known and self.twist_of(ik) is not None:
                     self._join(ik, pair, jk)
-            elif ik in known and jk in self.twists:
+            elif ik in known and self.twist_of(jk) is not None:
                 self._join(jk, pair, ik)
 
     def _join(self, target: BodyPair, one: BodyPair, two: BodyPair) -> None:
