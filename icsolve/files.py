@@ -7,6 +7,8 @@ pipe and one's own open files (``/dev/stdout``) are written to and stay what the
 Below that, work in processes that share what was read and solved; where systems can't, all is done in one.
 """
 
+from __future__ import annotations
+
 import os
 import stat
 import sys

@@ -8,8 +8,6 @@ revolutions). A numeral is converted by one division of integers, which Python r
 
 from __future__ import annotations
 
-import re
-
 from icsolve.tuples import NamedTuple
 
 Dimension = tuple[int, int, int, int]
@@ -265,8 +263,14 @@ def _unknown(name: str, whole: str) -> str:
     return f"there is no unit '{name}'" + (f"; did you mean {meant}?" if meant else "")
 
 
-_NUMERAL = re.compile(r"([-+−]?)(?:(\d+)(?:\.(\d*))?|\.(\d+))(?:[eE]([-+−]?\d+))?", re.ASCII)
 _MOST_DIGITS = 320
+
+
+def _signed(text: str) -> tuple[str, str, str]:
+    """The sign at the start of a text, the digits after it, and the rest."""
+    bare = text[1:] if text[:1] in ("-", "+", "−") else text
+    rest = bare.lstrip("0123456789")
+    return text[: len(text) - len(bare)].replace("−", "-"), bare[: len(bare) - len(rest)], rest
 
 
 def split_quantity(text: str) -> tuple[Numeral, str] | None:
@@ -277,17 +281,20 @@ def split_quantity(text: str) -> tuple[Numeral, str] | None:
     UnitError
         A numeral of too many digits.
     """
-    found = _NUMERAL.match(text)
-    if found is None:
+    sign, whole, rest = _signed(text)
+    after, decimals, end = _signed(rest[1:]) if rest[:1] == "." else ("", "", rest)
+    if after or not (whole or decimals):
+        decimals, end = "", rest[1:] if rest[:1] == "." else rest
+    if not (whole or decimals):
         return None
-    sign, whole, part, bare, power = found.groups()
-    digits = found.group().replace("−", "-")
-    decimals = bare or part or ""
-    if len(digits) > _MOST_DIGITS or (power and len(power) > 5):
+    minus, power, behind = _signed(end[1:]) if end[:1] in ("e", "E") else ("", "", "")
+    end = behind if power else end
+    digits = text[: len(text) - len(end)].replace("−", "-")
+    if len(digits) > _MOST_DIGITS or len(minus + power) > 5:
         raise UnitError("the numeral is too long: a number has at most 17 digits that count")
-    exponent = int(power.replace("−", "-")) if power else 0
-    mantissa = int((whole or "") + decimals) * (-1 if sign in ("-", "−") else 1)
-    return Numeral(digits, mantissa, exponent - len(decimals)), text[found.end() :].strip()
+    exponent = int(minus + power) if power else 0
+    mantissa = int(sign + whole + decimals)
+    return Numeral(digits, mantissa, exponent - len(decimals)), end.strip()
 
 
 def exact_ratio(unit: Unit, target: Unit) -> ExactRatio:

@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import math
+import random
+import re
+from decimal import Decimal
 from fractions import Fraction
 
 import pytest
@@ -193,3 +196,19 @@ def test_american_abbreviations_may_end_with_a_full_stop(dotted: str, plain: str
 def test_a_full_stop_elsewhere_is_no_unit(text: str) -> None:
     with pytest.raises(UnitError):
         parse_unit(text)
+
+
+NUMERAL = re.compile(r"([-+−]?)(?:(\d+)(?:\.(\d*))?|\.(\d+))(?:[eE]([-+−]?\d+))?", re.ASCII)
+
+
+def test_a_numeral_is_split_off_as_its_grammar_says() -> None:
+    """Signs, points and powers in any order, and digits of other scripts, against a regular expression."""
+    draw = random.Random(2026)
+    for _ in range(5000):
+        text = "".join(draw.choices("10.-+−eEm 3٣²", k=draw.randint(0, 9)))
+        found, split = NUMERAL.match(text), split_quantity(text)
+        assert (split is None) == (found is None), text
+        if found is not None and split is not None:
+            numeral = split[0].digits
+            assert (numeral, split[1]) == (found[0].replace("−", "-"), text[found.end() :].strip()), text
+            assert Decimal(split[0].mantissa).scaleb(split[0].exponent) == Decimal(numeral), text

@@ -82,13 +82,13 @@ def _likely_file(path: str | os.PathLike[str], error: OSError | ValueError) -> s
 
 
 def _decoded(data: bytes, problems: Problems) -> str:
-    encoding = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig"
+    encoding = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8"
     if encoding != "utf-16" and b"\0" in data:
         raise problems.stop((1, 1), "this is a binary file, not the text of a case")
     try:
         return data.decode(encoding)
     except UnicodeDecodeError as error:
-        before = data[: error.start].decode(encoding, "replace")
+        before = data[: error.start].decode(encoding, "replace").removeprefix("\ufeff")
         raise problems.stop(_place(before, len(before)), _not_utf8(data[error.start])) from None
 
 

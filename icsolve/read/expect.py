@@ -429,9 +429,9 @@ def _dimension(reading: Reading, target: Target) -> str:
     return "number"
 
 
-_PERCENT = re.compile(r"(\d+(?:\.\d+)?|\.\d+) ?%$")
-_COUNT = re.compile(r"(\d{1,2}) ?(?:sf|s\.f\.|sig figs?|figures?|significant figures?)$")
-_WIDTH = re.compile(r"(\d+(?:\.\d+)?(?:[eE][-+]?\d+)?|\.\d+) ?([^\d\s%].*)?$")
+_PERCENT = r"(\d+(?:\.\d+)?|\.\d+) ?%$"
+_COUNT = r"(\d{1,2}) ?(?:sf|s\.f\.|sig figs?|figures?|significant figures?)$"
+_WIDTH = r"(\d+(?:\.\d+)?(?:[eE][-+]?\d+)?|\.\d+) ?([^\d\s%].*)?$"
 _FORM = "write 1%, 3 sf, a width such as 0.5 N, or {drawing: 0.02 in}"
 
 
@@ -477,7 +477,7 @@ def _with_part(found: Tolerance, key: str, text: str) -> Tolerance:
 
 
 def _length(text: str) -> None:
-    width = _WIDTH.match(text)
+    width = re.match(_WIDTH, text)
     unit = width.group(2) if width else None
     try:
         if width and (unit is None or parse_unit(unit).dims == DIMENSIONS["length"]):
@@ -493,7 +493,7 @@ def parse_tolerance(text: str) -> Tolerance:
     Raises ValueError, with a sentence, where the text is none of these.
     """
     text = " ".join(text.split())
-    percent, count, width = _PERCENT.match(text), _COUNT.match(text), _WIDTH.match(text)
+    percent, count, width = (re.match(form, text) for form in (_PERCENT, _COUNT, _WIDTH))
     if percent:
         return _limited(Tolerance(relative=float(percent.group(1)) / 100.0))
     if count:

@@ -6,7 +6,6 @@ import math
 
 from icsolve.case import Case, Weight
 from icsolve.errors import SceneError, Status
-from icsolve.kinematics.collinear import aligned, lined_up, tightest
 from icsolve.kinematics.motion import Motions
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, all_vanish
 from icsolve.screws.joints import Points
@@ -138,6 +137,8 @@ def _why_at_rest(top: Topology, motions: Motions, link: str, arithmetic: Arithme
     """Which centres on one line hold a link at rest."""
     body = top.body_of.get(link, -1)  # none of a screw, or of a rope's end
     own_first = sorted(motions.closures, key=lambda closure: body not in closure.group.bodies)
+    from icsolve.kinematics.collinear import aligned, lined_up
+
     clauses = (aligned(top, lined_up(closure, top, body, arithmetic)) for closure in own_first)
     return next(filter(None, clauses), "")
 
@@ -155,6 +156,8 @@ def overflow(load: str) -> SceneError:
 
 def too_close(top: Topology, motions: Motions, load: str, open_by: float | None) -> SceneError:
     """The refusal of a scene whose data do not decide it."""
+    from icsolve.kinematics.collinear import aligned, tightest
+
     group = tightest(motions.closures)
     why = aligned(top, sorted(group.group.bonds), "lie nearly on") if group else ""
     return SceneError(Status.NEAR_SINGULAR, sentences.too_close(load, why, open_by))
