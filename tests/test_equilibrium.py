@@ -598,6 +598,41 @@ def test_a_coordinate_that_nothing_fixes_is_what_is_asked() -> None:
 LIBRARY = Path(__file__).parent.parent / "cases" / "equilibrium"
 
 
+@pytest.mark.parametrize("given", ["", ", C: [unknown, 0]"])
+@pytest.mark.parametrize("rod", [200, 250])
+def test_a_guide_that_is_told_twice_is_told_once(given: str, rod: int) -> None:
+    """A toggle of two bars: the slide puts C on its line, and a coordinate may say so too. The force D at the
+    middle pin against P at the end: D dyB = -P dxC."""
+    text = f"""icsolve: 1
+units: {{length: mm}}
+points: {{A: [0, 0]{given}}}
+lengths: {{AB: 200, BC: {rod}}}
+angles: {{AB: {{unknown: [1, 80]}}}}
+near: {{C: [380, 0]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{slide: [4, 1], at: C, along: 0, through: A}}
+loads:
+  P: {{force: 628, link: 4, at: C, angle: 180}}
+  D: {{force: 500, link: 3, at: B, angle: -90}}
+"""
+    (place,) = places(text)
+    turn = math.radians(place)
+    own = rod * math.cos(math.asin(200 / rod * math.sin(turn)))
+    moved = 200 * math.sin(turn) * (1 + 200 * math.cos(turn) / own)
+    assert 628 * moved == pytest.approx(500 * 200 * math.cos(turn), rel=1e-12)
+
+
+def test_a_range_that_friction_holds_is_explained_and_has_no_reactions(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = pendulum("", friction=", mu: 0.3, radius: 0.1")
+    assert "so no reactions are told" in run(tmp_path, capsys, text, "solve", "CASE", "--reactions")
+    assert "holds still from" in run(tmp_path, capsys, text, "explain", "CASE")
+
+
 @pytest.mark.parametrize("name", sorted(POTENTIALS))
 def test_cases_of_the_library_rest_where_their_potentials_say(name: str) -> None:
     """All zeros of the derivative over the range that the case gives, and the sign of the second."""

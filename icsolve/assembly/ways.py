@@ -55,14 +55,36 @@ def ways_of(case: Case) -> Ways:
         said = f"{path} is unknown: the ways of assembling are those at a value of it, --set {path}=..."
         raise SceneError(Status.UNSUPPORTED, said)
     case = replace(case, near={})
-    frame = frame_of(case)
     goal, loose = _placed(case)
+    frame = frame_of(case)
 
     def attempt(order: Order) -> Ways | Miss:
-        walk = Walk(order, Workspace(case, frame, FLOATS), every=True).run()
+        walk = every_mode(case, order, frame)
         return _ways(case, walk, order, loose) if walk.modes else refusal(walk)
 
     return by_other_data(case, goal, attempt)
+
+
+def order_that_assembles(case: Case, goal: list[str]) -> Order:
+    """An order of construction in which no two loci of a point are one; one with points that only together
+    have places as it stands.
+
+    Raises SceneError where the case assembles in none.
+    """
+    frame = frame_of(case)
+
+    def attempt(order: Order) -> Order | Miss:
+        if any(isinstance(step, Group) for step in order.steps):
+            return order
+        walk = every_mode(case, order, frame)
+        return order if walk.modes else refusal(walk)
+
+    return by_other_data(case, goal, attempt)
+
+
+def every_mode(case: Case, order: Order, frame: Frame) -> Walk:
+    """All modes of an order of construction."""
+    return Walk(order, Workspace(case, frame, FLOATS), every=True).run()
 
 
 def _placed(case: Case) -> tuple[list[str], list[str]]:

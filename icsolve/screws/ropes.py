@@ -20,6 +20,9 @@ from icsolve.numbers.arithmetic import RADIAN, Arithmetic, Scalar
 from icsolve.screws.plane import Point, Triple, force_wrench, pairing, velocity
 from icsolve.tuples import NamedTuple
 
+MOST_GROWN = 300.0
+"""Exponents of a pull beyond this leave no room for the loads beside it."""
+
 Points = Mapping[str, Point]
 
 
@@ -187,11 +190,17 @@ def tension_ratios(rope: Rope, parts: tuple[RopePart, ...], senses: Sequence[flo
     """The tension of each part over that of the first, where the rope slips in these senses.
 
     The pull grows in the sense in which the rope runs on by exp(mu beta), with the angle of wrap beta
-    (Euler's and Eytelwein's formula).
+    (Euler's and Eytelwein's formula). Raises SceneError where no number holds that.
     """
     ratios = [1.0]
     for k, sense in enumerate(senses, start=1):
         mu = rope.mu[k]
         grown = 0.0 if mu is None else sense * mu.value * wrap_angle(rope, k, parts)
+        if grown > MOST_GROWN:
+            raise SceneError(
+                Status.UNSUPPORTED,
+                f"the rope {rope.name} slips at {rope.points[k]}, where its pull grows by exp({grown:.4g}): "
+                "no number holds that. Look at its mu.",
+            )
         ratios.append(ratios[-1] * math.exp(grown))
     return tuple(ratios)

@@ -148,7 +148,7 @@ def _resting(case: Case, unknown: Unknown, all_centres: bool, rates: bool, react
         raise no_value(unknown.path, search.nearest, (*case.noticed, *search.notes))
 
     def scene_of(one: Range) -> Answer:
-        scene = solve_scene(one.case, all_centres=all_centres, rates=rates, reactions=reactions)
+        scene = solve_scene(one.case, all_centres=all_centres, rates=rates)
         return replace(
             scene,
             centres=scene.centres if all_centres else {},
@@ -162,4 +162,7 @@ def _resting(case: Case, unknown: Unknown, all_centres: bool, rates: bool, react
         )
         for one in search.ranges
     ]
+    if reactions:
+        said = "how much of the friction acts nothing says while it holds still, so no reactions are told."
+        search = search._replace(notes=(*search.notes, said))
     return Answer(case, positions=tuple(found), mobility=1, notes=(*case.noticed, *search.notes))

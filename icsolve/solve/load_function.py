@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import suppress
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from icsolve.assembly.groups import Group
 from icsolve.assembly.loci import is_round
 from icsolve.assembly.order import Order, order_of
 from icsolve.assembly.steps import Meet, Step
+from icsolve.assembly.ways import order_that_assembles
 from icsolve.assembly.workspace import frame_of
 from icsolve.case import Case, Coordinates, Number, TorsionSpring
 from icsolve.errors import SceneError, Status
@@ -42,6 +44,8 @@ Steps = tuple[Step, ...]
 MOST_MODES = 256
 SAMPLES = 181
 COUNTED = 1441
+PARTS = (0.498, 0.13, 0.87, 0.31, 0.69, 0.05, 0.95, 0.22, 0.78, 0.41, 0.59, 0.01, 0.99)
+"""Where in the range an order of construction is looked for."""
 TOGETHER = "points of this figure can only all together be placed, which is not searched with friction."
 APART = 1e-6
 """A point's path by the free number and by the motion agree to this fraction of its speed."""
@@ -110,7 +114,7 @@ def load_functions(case: Case, path: str, low: float, high: float) -> tuple[list
     values = [low + (high - low) * (k + 0.37) / SAMPLES for k in range(SAMPLES)]
     refusal: SceneError | None = None
     found: list[LoadFunction] = []
-    order = order_of_all(given_at(case, path, values[SAMPLES // 2]))
+    order = order_of_all(given_at(case, path, low + part * (high - low)) for part in PARTS)
     if any(isinstance(step, Group) for step in order.steps):
         raise TogetherError(Status.UNSUPPORTED, TOGETHER)
     count = 0
@@ -143,15 +147,26 @@ def load_functions(case: Case, path: str, low: float, high: float) -> tuple[list
     return found, True
 
 
-def order_of_all(case: Case) -> Order:
-    """The order of construction of all points, or where some may be anywhere, of those that are needed."""
+def order_of_all(cases: Iterable[Case]) -> Order:
+    """The order of construction of all points, or where some may be anywhere, of those that are needed: in
+    the first of some positions in which the figure assembles, else in the first of all.
+    """
+    first, *others = (replace(case, near={}) for case in cases)
+
+    for case in (first, *others):
+        with suppress(SceneError):
+            return _order_of_all(case, order_that_assembles)
+    return _order_of_all(first, order_of)
+
+
+def _order_of_all(case: Case, order: Callable[[Case, list[str]], Order]) -> Order:
     wanted, needed = wanted_points(case)
     try:
-        return order_of(case, wanted)
+        return order(case, wanted)
     except SceneError as error:
         if error.status != Status.UNDERDETERMINED:
             raise
-        return order_of(case, needed)
+        return order(case, needed)
 
 
 def given_at(case: Case, path: str, value: float) -> Case:

@@ -23,7 +23,7 @@ from icsolve.numbers.record import varies
 from icsolve.numbers.replay import Array, Code
 from icsolve.scene import solve_scene
 from icsolve.screws.plane import velocity
-from icsolve.solve.load_function import given_at, modes_of, order_of_all
+from icsolve.solve.load_function import PARTS, given_at, modes_of, order_of_all
 from icsolve.solve.positions import DEGREES, whole_range
 from icsolve.statics import power
 from icsolve.structure.topology import topology
@@ -83,8 +83,9 @@ def find_pairs(case: Case, paths: Sequence[str], spans: Sequence[Span | None]) -
 
 
 def _surfaces(case: Case, paths: Sequence[str], limits: Sequence[Span]) -> list[Surface]:
-    middle = _at(case, paths, [a + 0.37 * (b - a) for a, b in limits])
-    order = order_of_all(middle)
+    order = order_of_all(
+        _at(case, paths, [a + part * (b - a) for a, b in limits]) for part in (0.37, *PARTS)
+    )
     surfaces: list[Surface] = []
     refusal: SceneError | None = None
     draw = np.random.default_rng(11)
