@@ -385,6 +385,9 @@ def test_a_double_helical_pair_leaves_open_how_its_halves_share() -> None:
     answer = solve(load(text.replace("loads:", f"{twin}loads:")))
     assert answer.answers["T3"].value == pytest.approx(60.0, rel=1e-12)
     assert any("not determined" in note for note in answer.notes)
+    assert answer.spatial is not None
+    halves = [r for r in answer.spatial.reactions.values() if r.kind == "gears"]
+    assert [r.force for r in halves] == [(None, None, None)] * 2  # of each all parts go with the tangential
 
 
 # --- refusals ------------------------------------------------------------------------------------
