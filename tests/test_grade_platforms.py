@@ -35,6 +35,10 @@ MOODLE = {
     "Calificación/10.00,Respuesta 1",
     "Italian": "Cognome,Nome,Indirizzo email,Stato,Iniziato,Terminato,Tempo "
     "impiegato,Valutazione/10.00,Risposta 1",
+    "Portuguese": "Sobrenome,Nome,Endereço de email,Estado,Iniciado em,Completo,Tempo "
+    "utilizado,Avaliar/10.00,Resposta 1",
+    "Dutch": "Achternaam;Voornaam;E-mailadres;Status;Gestart op;Voltooid;Verstreken "
+    "tijd;Cijfer/10,00;Antwoord 1",
 }
 
 
@@ -49,6 +53,26 @@ def test_moodle_in_its_common_languages(a_class: Class, language: str) -> None:
     column = header.split(d)[-1]
     table = "\n".join([header, *(d.join(row) for row in rows)]) + "\n"
     assert marks(a_class.grade(table, "--map", f"{column}=lever")) == RIGHT
+
+
+ID_NUMBERS = {
+    "German": "Nachname,Vorname,ID-Nummer,E-Mail-Adresse,Status,Begonnen am,Antwort 1",
+    "French": "Nom,Prénom,Numéro d\u2019identification,Adresse de courriel,Statut,Commencé le,Réponse 1",
+    "Spanish": "Apellido(s),Nombre,Número de ID,Dirección de correo,Estado,Comenzado el,Respuesta 1",
+    "Dutch": "Achternaam,Voornaam,ID-nummer,E-mailadres,Status,Gestart op,Antwoord 1",
+}
+
+
+@pytest.mark.parametrize("language", ID_NUMBERS)
+def test_id_numbers_are_known_by_the_answers_and_by_a_roster_of_the_same_language(
+    a_class: Class, language: str
+) -> None:
+    """The roster is Moodle's own list of people; the answers have the id number alone."""
+    header = ID_NUMBERS[language].split(",")
+    roster = a_class.file("people.csv", ",".join(header[:4]) + "\nA,Ann,0042,a@x.test\n")
+    table = ",".join(header) + "\nA,Ann,0042,,x,,200\n"
+    ran = a_class.grade(table, "--map", f"{header[-1]}=lever", "--roster", roster)
+    assert marks(ran) == {("0042", "lever"): "right"}
 
 
 FORMS = (
@@ -151,7 +175,7 @@ def test_canvas_gradebooks_with_other_separators_and_names(a_class: Class, heade
 
 
 def test_a_comma_of_a_blank_that_canvas_escapes(a_class: Class) -> None:
-    table = "name,id,sis_id,991: lever,1.0\nAnn,1,a,\"200\\,0 N*m\",1\n"
+    table = 'name,id,sis_id,991: lever,1.0\nAnn,1,a,"200\\,0 N*m",1\n'
     assert marks(a_class.grade(table)) == {("a", "lever"): "right"}
 
 

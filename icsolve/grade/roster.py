@@ -66,9 +66,6 @@ class Roster:
         return ""
 
 
-_IDS = ("sid", "sis user id", "id number", "id-nummer")
-
-
 def read_roster(path: str | os.PathLike[str], report: Report) -> Roster:
     """The roster of a CSV file: canonical, or a platform's own (Gradescope, Canvas, Moodle).
 
@@ -105,13 +102,9 @@ def _read(path: str | os.PathLike[str], report: Report) -> Roster:
 
 def _id_columns(columns: TableColumns) -> list[int]:
     """The columns that may hold an id, best first."""
-    found = [
-        columns.field("student_id"),
-        *(columns.names.index(n) if n in columns.names else None for n in _IDS),
-    ]
-    if "id" in columns.names:
-        found.append(columns.names.index("id"))
-    found += [columns.field("email")]
+    named = {name: index for index, name in reversed(list(enumerate(columns.names)))}
+    found = [columns.field("student_id"), named.get("sid"), named.get("sis user id")]
+    found += [columns.field("id_number"), named.get("id"), columns.field("email")]
     usable = list(dict.fromkeys(i for i in found if i is not None))
     if columns.names[0] == "student" and len(usable) > 1:
         usable.remove(0)  # in a gradebook the first column has names

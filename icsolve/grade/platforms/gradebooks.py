@@ -13,6 +13,7 @@ from collections.abc import Iterable, Sequence
 
 from icsolve.grade.results import ResultRow, safe, shown
 from icsolve.grade.roster import Person
+from icsolve.grade.tables.columns import FIELDS, plain_name
 from icsolve.tuples import NamedTuple
 
 Students = Iterable[tuple[str, list[ResultRow]]]
@@ -45,7 +46,7 @@ class Template:
             raise ValueError("the template is empty: it should be the platform's own export")
         width = len(table[0])
         self.header, *self.rows = [row + [""] * (width - len(row)) for row in table]
-        self.names = [name.strip().lower() for name in self.header]
+        self.names = [plain_name(name) for name in self.header]
         cells = [cell.strip() for row in self.rows for cell in row]
         commas, points = (sum(bool(re.fullmatch(rf"\d+{m}\d+", c)) for c in cells) for m in (",", r"\."))
         self.comma = commas > points
@@ -225,15 +226,9 @@ _WORKSHEET = (
     "Identifier", "Full name", "Email address", "Status", "Grade", "Maximum Grade", "Grade can be changed",
     "Last modified (submission)", "Last modified (grade)", "Feedback comments",
 )  # fmt: skip
-_GRADE = ("grade", "bewertung", "note", "calificación", "valutazione", "nota", "puntuación")
 _MOST = re.compile(r"maxim|máxim|massim|bestwertung|höchst")
 _COMMENTS = re.compile(r"feedback|comment|kommentar|comentario|retroalimentación|commenti")
-_MOODLE_IDS = re.compile(
-    r"(?:id number|id-nummer|numéro d.identification|número de id|numero id|codice id|e-?mail.*"
-    r"|adresse de courriel|adresse e-?mail|courriel|dirección de correo.*|correo.*|indirizzo e?-?mail"
-    r"|username|benutzername|nom d.utilisateur|nombre de usuario|full name|vollständiger name|nom complet"
-    r"|nombre completo|nome completo)$"
-)
+_MOODLE_IDS = ("id_number", "email", "full_name")
 
 
 def comment(rows: Iterable[ResultRow]) -> str:
@@ -266,10 +261,10 @@ def moodle_filled(template: str, students: Students, people: dict[str, Person]) 
     Raises ValueError where it has no column for grades, for comments or for a student's id.
     """
     book = Template(template)
-    grade = next((book.names.index(name) for name in _GRADE if name in book.names), None)
+    grade = next((book.names.index(name) for name in FIELDS["grade"] if name in book.names), None)
     most = next((i for i, name in enumerate(book.names) if _MOST.search(name)), None)
     comments = next((i for i, name in enumerate(book.names) if _COMMENTS.search(name)), None)
-    ids = [i for i, name in enumerate(book.names) if _MOODLE_IDS.match(name)]
+    ids = [i for i, name in enumerate(book.names) if any(name in FIELDS[field] for field in _MOODLE_IDS)]
     if grade is None or comments is None or not ids:
         raise ValueError(
             "the worksheet needs the columns Grade, Feedback comments and Email address or ID number"

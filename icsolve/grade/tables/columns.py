@@ -80,17 +80,32 @@ FIELDS = {
         "|marca temporal|informazioni cronologiche|completion time|fertigstellungszeit|heure de fin"
         "|hora de finalización|ora di completamento|attempt end",
         "email": "email|email address|e-mail-adresse|e-mail address|e-mail|username|sis login id"
-        "|adresse de courriel|adresse e-mail|adresse de messagerie|courriel|dirección de correo|correo "
-        "electrónico"
-        "|dirección de correo electrónico|indirizzo email|indirizzo e-mail|posta elettronica"
-        "|benutzername|user name",
-        "first_name": "first_name|first name|firstname|vorname|prénom|nombre|nome",
+        "|adresse de courriel|adresse e-mail|adresse de messagerie|courriel|dirección de correo"
+        "|correo electrónico|dirección de correo electrónico|indirizzo email|indirizzo e-mail"
+        "|posta elettronica|endereço de email|endereço de e-mail|e-mailadres|benutzername|user name"
+        "|nom d'utilisateur|nombre de usuario|nome utente|nome de usuário|gebruikersnaam",
+        "id_number": "id number|id-nummer|numéro d'identification|número de id|numero id|codice id"
+        "|codice identificativo|número de identificação",
+        "first_name": "first_name|first name|firstname|vorname|prénom|nombre|nome|voornaam",
         "last_name": "last_name|last name|lastname|surname|nachname|nom|nom de famille|apellido(s)"
-        "|apellidos|cognome",
+        "|apellidos|cognome|sobrenome|apelido|achternaam",
+        "full_name": "full name|vollständiger name|nom complet|nombre completo|nome completo|volledige naam",
         "section": "section|sections",
+        "institution": "institution|institución|istituzione|instituição|instelling|department|departamento"
+        "|dipartimento|abteilung|département|afdeling",
+        "state": "state|status|started|started on|completed|begonnen am|beendet|statut|état|commencé le"
+        "|terminé|estado|comenzado el|finalizado|stato|iniziato|terminato|completato|iniciado em|completo"
+        "|gestart op|voltooid",
+        "duration": "time taken|duration|verbrauchte zeit|dauer|temps utilisé|durée|tiempo requerido"
+        "|tempo impiegato|tempo utilizado|verstreken tijd",
+        "grade": "grade|bewertung|note|calificación|valutazione|nota|puntuación|punteggio|avaliar|cijfer",
     }.items()
 }
-"""Fields that can be mapped, and the headers by which each is known."""
+"""What columns are for, those that can be mapped first, and the headers by which each is known: in English,
+German, French, Spanish, Italian, Portuguese and Dutch."""
+_ANSWERED = {"case", "answer", "unit", "direction", "variant"}
+ABOUT_STUDENTS = frozenset(text for name, texts in FIELDS.items() if name not in _ANSWERED for text in texts)
+"""Headers that are of no question."""
 
 _ASIDE = re.compile(
     r"(?:points|score|feedback|punkte|puntos|punti|commentaires?|comentarios|rückmeldung|grade|max "
@@ -111,8 +126,8 @@ Find = Callable[[str], "str | None"]
 
 
 def plain_name(text: str) -> str:
-    """A header in small letters with single spaces."""
-    return " ".join(text.replace("\ufeff", "").lower().split())
+    """A header in small letters with single spaces and plain apostrophes."""
+    return " ".join(text.replace("\ufeff", "").replace("\u2019", "'").lower().split())
 
 
 class TableColumns:

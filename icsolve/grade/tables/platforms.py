@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from operator import itemgetter
 
 from icsolve.grade.tables.columns import (
+    ABOUT_STUDENTS,
     FIELDS,
     HeaderError,
     Submission,
@@ -19,36 +20,28 @@ from icsolve.grade.tables.columns import (
 )
 from icsolve.grade.tables.text import TableRow
 
-_RESPONSE = re.compile(r"(?:response|antwort|réponse|respuesta|risposta) \d+$")
-_MOODLE_STATE = (
-    "state", "status", "started on", "completed", "begonnen am", "beendet", "statut", "état", "commencé le",
-    "terminé", "estado", "comenzado el", "finalizado", "stato", "iniziato",
-)  # fmt: skip
+_RESPONSE = re.compile(r"(?:response|antwort|réponse|respuesta|risposta|resposta|antwoord) \d+$")
 _META = re.compile(
-    r"(?:name|id|#|sis_id|section|section_id|section_sis_id|submitted|attempt|attempt #|n correct|n "
-    r"incorrect|score|total"
-    r"|grade(?:/.*)?|bewertung(?:/.*)?|note(?:/.*)?|calificación(?:/.*)?|valutazione(?:/.*)?|punteggio(?:/.*)?"
-    r"|total score|total points|max points|quiz feedback|status|submission id|submission time|view count"
-    r"|lateness \(h:m:s\)|submission count|user id|sis user id|sis login id|root account|integration id"
-    r"|institution|institución|istituzione|department|departamento|dipartimento|abteilung|département"
-    r"|id number|id-nummer|numéro d'identification|número de id|numero id|codice id"
-    r"|state|started|started on|completed|time taken|begonnen am|beendet|verbrauchte zeit"
-    r"|statut|état|commencé le|terminé|temps utilisé|durée|estado|comenzado el|finalizado|tiempo requerido"
-    r"|stato|iniziato|completato|tempo impiegato|dauer|duration|time spent.*"
-    r"|section_name|section #|sections|(?:question|right answer|frage|richtige antwort|réponse correcte"
-    r"|respuesta correcta|risposta corretta|question id|possible points|auto score|manual score|domanda"
-    r"|pregunta) ?\d*"
-    r"|current score|final score|unposted .*|current grade|final grade|current points|final points|timestamp"
-    r"|start time|completion time|last modified time|startzeit|fertigstellungszeit|heure de (?:début|fin)"
-    r"|hora de (?:inicio|finalización)|ora di (?:inizio|completamento)|hora de la última modificación"
-    r"|feedback|comments?|email.*|e-mail.*|adresse .*|courriel|correo.*|dirección .*|indirizzo .*|posta .*"
-    r"|first.?name|last.?name|full.?name|surname|vorname|nachname|nom|prénom|nombre|apellido.*|cognome|nome"
-    r"|student|user(?:name)?|benutzername|last access|availability|child course id|end-of-line indicator"
-    r"|ip.?address|ip|attempt (?:start|end)|out of|difficulty|q (?:#|type|text)|bonus\?|answer match"
-    r"|language|sprache"
-    r"|\d+(?:[.,]\d+)?)$"
+    r"(?:name|id|#|sis_id|section_id|section_sis_id|n correct|n incorrect|score|total"
+    r"|total score|total points|max points|quiz feedback|submission id|view count"
+    r"|lateness \(h:m:s\)|submission count|user id|sis user id|root account|integration id"
+    r"|time spent.*|section_name|section #|(?:question|right answer|frage|richtige antwort|réponse correcte"
+    r"|respuesta correcta|risposta corretta|resposta correta|juiste antwoord|question id|possible points"
+    r"|auto score|manual score|domanda|pregunta|questão|vraag) ?\d*"
+    r"|current score|final score|unposted .*|current grade|final grade|current points|final points"
+    r"|start time|last modified time|startzeit|heure de début|hora de inicio|ora di inizio"
+    r"|hora de la última modificación|feedback|comments?"
+    r"|email.*|e-mail.*|adresse .*|correo.*|dirección .*|indirizzo .*|posta .*|endereço .*"
+    r"|first.?name|last.?name|full.?name|apellido.*"
+    r"|student|user|last access|availability|child course id|end-of-line indicator"
+    r"|ip.?address|ip|attempt start|out of|difficulty|q (?:#|type|text)|bonus\?|answer match"
+    r"|language|sprache|\d+(?:[.,]\d+)?)$"
 )
-"""Columns that platforms add and that are no question."""
+"""Other columns that platforms add and that are no question."""
+
+
+Asked = tuple[str, str, str]
+"""A question, the answer to it, and what is wrong with that."""
 
 
 def recognise(columns: TableColumns) -> TableLayout:
@@ -120,35 +113,34 @@ def _wide(columns: TableColumns, kind: str) -> TableLayout:
         raise HeaderError(
             f'no column names a case: {columns.listed()}; name them with --map, such as --map "Q3=press"'
         )
-    attempt, time = columns.field("attempt"), columns.field("submitted_at")
     if kind == "wide":  # a column much like a case is meant for one, and is listed answer by answer
         meant = [i for i in strange if columns.is_near(columns.header[i])]
         asked |= {i: columns.header[i] for i in meant}
         strange = [i for i in strange if i not in meant]
-    read = _wide_reader(ids, dict(sorted(asked.items())), (attempt, time), len(columns.header), kind)
+    cells_of = sorted(asked.items())
+    read = _rows(columns, kind, ids, lambda cells: [(what, cells[i], "") for i, what in cells_of])
     notes = tuple(f"the column '{columns.header[i][:60]}' names no case and is passed over" for i in strange)
     return TableLayout(kind, read, tuple(dict.fromkeys(asked.values())), notes)
 
 
-def _wide_reader(
-    ids: list[int], asked: dict[int, str], tried_at: tuple[int | None, int | None], width: int, kind: str
+def _rows(
+    columns: TableColumns, kind: str, ids: list[int], answers: Callable[[list[str]], Iterable[Asked]]
 ) -> Callable[[TableRow], Sequence[Submission]]:
-    attempt, time = tried_at
-    skipped = _SKIPPED.get(kind, _no_row)
+    """Reads a row a student, by the ``answers`` that its cells hold."""
+    width, skipped = len(columns.header), _SKIPPED.get(kind, _no_row)
+    tried, when = (width if (i := columns.field(name)) is None else i for name in ("attempt", "submitted_at"))
 
     def read(row: TableRow) -> Sequence[Submission]:
-        cells = row.cells
-        if skipped(cells):
+        if skipped(row.cells):
             return ()
-        trouble = row.trouble or _wrong_width(cells, width)
-        cells = cells + [""] * (width - len(cells))
+        trouble = row.trouble or _wrong_width(row.cells, width)
+        cells = padded(row.cells, width)
         found = (identifier(cells[i]) for i in ids if cells[i].strip().lower() not in _NOBODY)
         student = tuple(dict.fromkeys(found)) or ("",)
-        tried = cells[attempt] if attempt is not None else ""
-        when = cells[time] if time is not None else ""
+        attempt, time = cells[tried], cells[when]
         return [
-            Submission(row.line, student, question, cells[index], "", "", tried, "", when, trouble)
-            for index, question in asked.items()
+            Submission(row.line, student, question, answer, "", "", attempt, "", time, trouble or why)
+            for question, answer, why in answers(cells)
         ]
 
     return read
@@ -171,13 +163,18 @@ def _questions(columns: TableColumns, kind: str, ids: set[int]) -> tuple[dict[in
         if (index in taken and not mapped) or (not mapped and name in ("", *FIELDS["attempt"])):
             continue
         exact = columns.find(columns.header[index]) is not None
-        meta = not exact and (bool(_META.match(name)) or is_aside(name))
+        meta = not exact and _is_meta(name)
         question = columns.question_of(index) if mapped or not meta else None
         if question is not None:
             asked[index] = question
         elif _RESPONSE.match(name) or not meta:
             strange.append(index)
     return asked, strange
+
+
+def _is_meta(name: str) -> bool:
+    """Whether a column is about the student or the hand-in: ``Grade/10.00``."""
+    return name.partition("/")[0] in ABOUT_STUDENTS or bool(_META.match(name)) or is_aside(name)
 
 
 def _no_row(cells: list[str]) -> bool:
@@ -209,16 +206,7 @@ _IDS = {
     "gradescope": ("sid", "student_id", "email"),
     "canvas-quiz": ("student_id", "sis_id", "id", "email"),
     "canvas-gradebook": ("sis user id", "sis login id", "integration id", "id"),
-    "moodle": (
-        "student_id",
-        "id number",
-        "id-nummer",
-        "numéro d'identification",
-        "número de id",
-        "numero id",
-        "codice id",
-        "email",
-    ),
+    "moodle": ("student_id", "id_number", "email"),
     "google-forms": ("student_id", "email"),
     "microsoft-forms": ("student_id", "email"),
 }
@@ -228,24 +216,15 @@ _IDS = {
 def _prairielearn(columns: TableColumns, kind: str) -> TableLayout:
     """A question a row; its answers are JSON."""
     uid, qid, answers = (columns.names.index(name) for name in ("uid", "qid", "submitted_answer"))
-    number = _index(columns, "submission_id")
-    width = len(columns.header)
 
-    def read(row: TableRow) -> Sequence[Submission]:
-        cells = row.cells
-        trouble = row.trouble or _wrong_width(cells, width)
-        cells = cells + [""] * (width - len(cells))
-        student = (identifier(cells[uid]),)
-        attempt = cells[number] if number is not None else ""
+    def answered(cells: list[str]) -> Iterator[Asked]:
         case = cells[qid].strip().rsplit("/", 1)[-1]
-        found = []
         for what, answer, wrong in _json_answers(cells[answers]):
-            question = f"{case}:{what}" if what not in ("", "answer", case) else case
-            why = trouble or wrong
-            found.append(Submission(row.line, student, question, answer, attempt=attempt, trouble=why))
-        return found
+            yield f"{case}:{what}" if what not in ("", "answer", case) else case, answer, wrong
 
-    return TableLayout(kind, read)
+    if "attempt" not in columns.fields and columns.has("submission_id"):
+        columns.fields["attempt"] = columns.names.index("submission_id")
+    return TableLayout(kind, _rows(columns, kind, [uid], answered))
 
 
 def _json_answers(text: str) -> Iterator[tuple[str, str, str]]:
@@ -299,20 +278,14 @@ def _blackboard(columns: TableColumns, kind: str) -> TableLayout:
         for index, name in enumerate(columns.names)
         if re.fullmatch(r"answer \d+", name) and f"question {name.removeprefix('answer ')}" in columns.names
     ]
-    who, width = columns.field("student_id") or columns.field("email") or 0, len(columns.header)
+    who = columns.field("student_id") or columns.field("email") or 0
 
-    def read(row: TableRow) -> Sequence[Submission]:
-        trouble = row.trouble or _wrong_width(row.cells, width)
-        cells = padded(row.cells, width)
-        student = (identifier(cells[who]),)
-        return [
-            Submission(row.line, student, columns.questions.get(answer) or _by_text(columns, cells[question]),
-                       cells[answer], trouble=trouble)
-            for question, answer in pairs
-            if cells[question].strip()
-        ]  # fmt: skip
+    def answered(cells: list[str]) -> Iterator[Asked]:
+        for question, answer in pairs:
+            if cells[question].strip():
+                yield columns.questions.get(answer) or _by_text(columns, cells[question]), cells[answer], ""
 
-    return TableLayout(kind, read)
+    return TableLayout(kind, _rows(columns, kind, [who], answered))
 
 
 _STAMPS = ("timestamp", "zeitstempel", "horodateur", "marca temporal", "informazioni cronologiche")
@@ -350,7 +323,7 @@ _KINDS: tuple[tuple[str, Callable[[TableColumns], bool], Callable[[TableColumns,
     ),
     ("canvas-gradebook", _is_gradebook, _wide),
     ("gradescope", lambda c: c.has("sid", "email"), _wide),
-    ("moodle", lambda c: c.field("email") is not None and any(s in c.names for s in _MOODLE_STATE), _wide),
+    ("moodle", lambda c: c.field("email") is not None and c.field("state") is not None, _wide),
     ("google-forms", lambda c: c.names[0] in _STAMPS, _wide),
     ("wide", _is_wide, _wide),
 )
