@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 
 from icsolve.files import reading
 from icsolve.grade.case_store import CaseStore
-from icsolve.grade.results import OVERRIDE, ResultRow, read_results, safe, shown
+from icsolve.grade.results import OVERRIDE, ResultRow, csv_text, read_results, safe, shown
 from icsolve.grade.roster import Roster
 from icsolve.grade.tables.columns import TableColumns, identifier
 from icsolve.grade.tables.text import AnswerTable
@@ -105,15 +103,13 @@ def review_queue(results: str) -> str:
     for row in read_results(results):
         if row.score is None and row.student_id:
             groups.setdefault((row.case, row.variant, " ".join(row.raw_answer.split())), []).append(row)
-    out = io.StringIO()
-    table = csv.writer(out, lineterminator="\n")
-    table.writerow(REVIEW_HEADER)
+    lines = []
     for (case, variant, answer), rows in sorted(groups.items(), key=lambda item: (-len(item[1]), item[0])):
         first = rows[0]
         students = ";".join(row.student_id for row in rows)
         cells = (case, variant, safe(answer), first.verdict, first.code, str(len(rows)), safe(students))
-        table.writerow((*cells, "", shown(first.max_score), ""))
-    return out.getvalue()
+        lines.append((*cells, "", shown(first.max_score), ""))
+    return csv_text(REVIEW_HEADER, lines)
 
 
 # --- against earlier results ------------------------------------------------------------------------
@@ -186,15 +182,13 @@ def _said(row: ResultRow | None) -> str:
 
 def changes_csv(changes: Iterable[Change]) -> str:
     """The changes as a table."""
-    out = io.StringIO()
-    table = csv.writer(out, lineterminator="\n")
-    table.writerow(CHANGES_HEADER)
+    lines = []
     for one in changes:
         old_verdict, old_score, old_answer = _fields(one.before)
         verdict, score, answer = _fields(one.now)
         cells = (old_verdict, verdict, old_score, score, one.why, safe(old_answer), safe(answer))
-        table.writerow((safe(one.student), one.case, *cells))
-    return out.getvalue()
+        lines.append((safe(one.student), one.case, *cells))
+    return csv_text(CHANGES_HEADER, lines)
 
 
 def _fields(row: ResultRow | None) -> tuple[str, str, str]:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import csv
+import io
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
 from itertools import groupby
 from typing import Any
@@ -96,6 +97,15 @@ def safe(text: str) -> str:
     if text.startswith(_RISKY) and not _SIGNED.match(text):
         return "'" + text
     return text
+
+
+def csv_text(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """A table as CSV."""
+    out = io.StringIO()
+    table = csv.writer(out, lineterminator="\n")
+    table.writerow(header)
+    table.writerows(rows)
+    return out.getvalue()
 
 
 _PLAIN = re.compile(r"[A-Za-z0-9_.](?:[^,\"\r\n]*[^,\"\r\n ])?\Z|\Z")

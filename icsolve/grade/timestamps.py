@@ -25,16 +25,22 @@ _FORMATS = (
 )
 _MONTHS = {
     word: english
-    for words, english in (
-        ("januar janvier enero gennaio", "January"), ("februar février fevrier febrero febbraio", "February"),
-        ("märz mars marzo", "March"), ("avril abril aprile", "April"), ("mai mayo maggio", "May"),
-        ("juni juin junio giugno", "June"), ("juli juillet julio luglio", "July"),
-        ("août aout agosto", "August"), ("septembre septiembre settembre", "September"),
-        ("oktober octobre octubre ottobre", "October"), ("novembre noviembre", "November"),
-        ("dezember décembre decembre diciembre dicembre", "December"),
-    )
+    for english, words in {
+        "January": "januar janvier enero gennaio janeiro januari",
+        "February": "februar février fevrier febrero febbraio fevereiro februari",
+        "March": "märz mars marzo março maart",
+        "April": "avril abril aprile",
+        "May": "mai mayo maggio maio mei",
+        "June": "juni juin junio giugno junho",
+        "July": "juli juillet julio luglio julho",
+        "August": "août aout agosto augustus",
+        "September": "septembre septiembre settembre setembro",
+        "October": "oktober octobre octubre ottobre outubro",
+        "November": "novembre noviembre novembro",
+        "December": "dezember décembre decembre diciembre dicembre dezembro",
+    }.items()
     for word in words.split()
-}  # fmt: skip
+}
 _FOREIGN = re.compile(rf"\b({'|'.join(_MONTHS)})\b", re.IGNORECASE)
 _SLASHED = re.compile(r"(?<!\d)(\d{1,2})([/-])(\d{1,2})\2(\d{4}|\d{2})(?![\d/-])")
 _SLASHED_BYTES = re.compile(rb"(?<![\d/-])(\d{1,2})([/-])(\d{1,2})\2(?:\d{4}|\d{2})(?![\d/-])")

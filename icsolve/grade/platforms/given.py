@@ -32,6 +32,8 @@ from icsolve.case.bodies import Inertia, Rope
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Knife, Polygon, Radii, Roller, Shape
 
+_TURNS = {"cw": "clockwise", "ccw": "counterclockwise"}
+
 
 def outlines(case: Case) -> Iterator[tuple[str, str]]:
     """A row for each link with a profile."""
@@ -49,7 +51,7 @@ def _in_words(shape: Shape | Follower, unit: str) -> str:
         case Polygon(corners):
             return f"polygon {'-'.join(corners)}"
         case Circle(centre, radius):
-            return f"circle about {centre}, radius {_number(radius)} {unit}"
+            return f"circle about {centre}, radius {_shown(radius)} {unit}"
         case Arcs(arcs):
             return "; ".join(_arc(arc, unit) for arc in arcs)
         case Radii():
@@ -57,33 +59,27 @@ def _in_words(shape: Shape | Follower, unit: str) -> str:
         case Flat(at, along):
             return f"flat face through {at}, along {_line(along)}"
         case Roller(at, radius):
-            return f"roller about {at}, radius {_number(radius)} {unit}"
+            return f"roller about {at}, radius {_shown(radius)} {unit}"
         case Knife(at):
             return f"knife edge at {at}"
 
 
 def _arc(arc: Arc, unit: str) -> str:
-    radius = f", radius {_number(arc.radius)} {unit}" if arc.radius is not None else ""
-    turns = "clockwise" if arc.turns == "cw" else "counterclockwise"
-    return f"arc about {arc.centre}{radius}, from {_way(arc.start)} to {_way(arc.stop)} {turns}"
+    radius = f", radius {_shown(arc.radius)} {unit}" if arc.radius is not None else ""
+    return f"arc about {arc.centre}{radius}, from {_way(arc.start)} to {_way(arc.stop)} {_TURNS[arc.turns]}"
 
 
 def _table(shape: Radii, unit: str) -> str:
-    turns = "clockwise" if shape.turns == "cw" else "counterclockwise"
-    rows = ", ".join(f"{_number(angle)} deg: {_number(radius)}" for angle, radius in shape.table)
-    return f"radii about {shape.about} in {unit}, {turns} from {_line(shape.zero)}: {rows}"
+    rows = ", ".join(f"{_shown(angle)} deg: {_shown(radius)}" for angle, radius in shape.table)
+    return f"radii about {shape.about} in {unit}, {_TURNS[shape.turns]} from {_line(shape.zero)}: {rows}"
 
 
 def _line(line: Number | tuple[str, str]) -> str:
-    return f"{_number(line)} deg" if isinstance(line, Number) else "-".join(line)
+    return f"{_shown(line)} deg" if isinstance(line, Number) else "-".join(line)
 
 
 def _way(direction: Number | str) -> str:
-    return f"{_number(direction)} deg" if isinstance(direction, Number) else direction
-
-
-def _number(number: Number) -> str:
-    return number.digits if number.factor == 1.0 else f"{number.value:.10g}"
+    return f"{_shown(direction)} deg" if isinstance(direction, Number) else direction
 
 
 def given(case: Case) -> list[tuple[str, str]]:
@@ -164,7 +160,7 @@ def _load(load: Load, case: Case) -> str:
         case Torque(value=None):
             return f"{size}, {on}"
         case Torque():
-            return f"{size} {'counterclockwise' if load.turns == 'ccw' else 'clockwise'} {on}"
+            return f"{size} {_TURNS[load.turns]} {on}"
         case Weight():
             return f"{size}, {'mass' if load.mass else 'weight'} {where}"
         case Spring():
@@ -301,14 +297,10 @@ def _inertia(link: str, inertia: Inertia) -> tuple[str, str]:
 
 def _motion(given: Motion, case: Case) -> tuple[str, str]:
     """Which way, and how fast."""
-    turns = {"ccw": "counterclockwise", "cw": "clockwise"}.get(given.turns or "", "")
-    speed = _shown(given.speed) if given.speed is not None else ""
-    if given.point is None:
-        gains = _shown(given.acceleration) if given.acceleration is not None else ""
-        parts = (f"{speed} rad/s" if speed else "", turns, f"{gains} rad/s^2" if gains else "")
-        return f"link {given.link} turns", ", ".join(part for part in parts if part)
-    heading = f"at {_shown(given.angle)} deg" if given.angle is not None else ""
-    gains = _shown(given.acceleration) if given.acceleration is not None else ""
-    length = case.units.length
-    parts = (f"{speed} {length}/s" if speed else "", heading, f"{gains} {length}/s^2" if gains else "")
-    return f"{given.point} on link {given.link} moves", ", ".join(part for part in parts if part)
+    unit = "rad" if given.point is None else case.units.length
+    parts = [f"{_shown(given.speed)} {unit}/s"] if given.speed is not None else []
+    parts += [_TURNS[given.turns]] if given.turns is not None else []
+    parts += [f"at {_shown(given.angle)} deg"] if given.angle is not None else []
+    parts += [f"{_shown(given.acceleration)} {unit}/s^2"] if given.acceleration is not None else []
+    moves = f"link {given.link} turns" if given.point is None else f"{given.point} on link {given.link} moves"
+    return moves, ", ".join(parts)

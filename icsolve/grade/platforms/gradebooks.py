@@ -11,7 +11,7 @@ import io
 import re
 from collections.abc import Iterable, Sequence
 
-from icsolve.grade.results import ResultRow, safe, shown
+from icsolve.grade.results import ResultRow, csv_text, safe, shown
 from icsolve.grade.roster import Person
 from icsolve.grade.tables.columns import FIELDS, plain_name
 from icsolve.tuples import NamedTuple
@@ -127,16 +127,13 @@ def canvas_gradebook(students: Students, people: dict[str, Person], total: str =
     points = _questions(rows for _, rows in found)
     if total:
         points = {total: max((total_of(rows)[1] for _, rows in found), default=0.0)}
-    out = io.StringIO()
-    table = csv.writer(out, lineterminator="\n")
-    table.writerow([*_CANVAS, *points])
-    table.writerow([_POINTS, "", "", "", "", *map(shown, points.values())])
+    lines = [[_POINTS, "", "", "", "", *map(shown, points.values())]]
     for student, rows in found:
         if student:
             marks = {name: score for name, (score, _) in _marks(rows, total).items()}
             scores = [shown(mark) if (mark := marks.get(q)) is not None else "" for q in points]
-            table.writerow([*map(safe, _ids(student, people)), *scores])
-    return out.getvalue()
+            lines.append([*map(safe, _ids(student, people)), *scores])
+    return csv_text([*_CANVAS, *points], lines)
 
 
 def _ids(student: str, people: dict[str, Person]) -> tuple[str, ...]:
@@ -238,9 +235,7 @@ def comment(rows: Iterable[ResultRow]) -> str:
 
 def moodle_worksheet(students: Students, people: dict[str, Person]) -> str:
     """A worksheet with one grade for all questions together; blank where one of them was not judged."""
-    out = io.StringIO()
-    table = csv.writer(out, lineterminator="\n")
-    table.writerow(_WORKSHEET)
+    lines = []
     for student, rows in students:
         if student:
             person = people.get(student, Person(student))
@@ -248,8 +243,8 @@ def moodle_worksheet(students: Students, people: dict[str, Person]) -> str:
             score, most = total_of(rows)
             graded = (shown(score), safe(comment(rows))) if score is not None else ("", "")
             grades = (graded[0], shown(most), "Yes", "-", "-", graded[1])
-            table.writerow((safe(student), safe(name), safe(person.email), "Submitted for grading", *grades))
-    return out.getvalue()
+            lines.append((safe(student), safe(name), safe(person.email), "Submitted for grading", *grades))
+    return csv_text(_WORKSHEET, lines)
 
 
 def moodle_filled(template: str, students: Students, people: dict[str, Person]) -> Filled:

@@ -7,8 +7,6 @@ as a test of zero points out of zero.
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 import os
 from collections.abc import Callable, Iterable
@@ -23,7 +21,7 @@ from icsolve.grade.platforms.gradebooks import (
     moodle_filled,
     moodle_worksheet,
 )
-from icsolve.grade.results import ResultRow, by_student, read_results
+from icsolve.grade.results import ResultRow, by_student, csv_text, read_results
 from icsolve.grade.roster import Person
 from icsolve.grade.tables.text import encoding_of
 from icsolve.grade.variants.sheets import file_name
@@ -214,15 +212,13 @@ def _points(row: ResultRow) -> dict[str, Any]:
 
 def prairielearn_scores(students: Iterable[tuple[str, list[ResultRow]]]) -> str:
     """``uid,instance,qid,score_perc,feedback``, to be uploaded as manual grades; only what was judged."""
-    out = io.StringIO()
-    table = csv.writer(out, lineterminator="\n")
-    table.writerow(("uid", "instance", "qid", "score_perc", "feedback"))
+    lines = []
     for student, rows in students:
         for row in rows:
             if student and row.score is not None:
                 percent = 100.0 * row.score / row.max_score if row.max_score else 0.0
-                table.writerow((student, "1", row.case, f"{percent:.6g}", row.feedback))
-    return out.getvalue()
+                lines.append((student, "1", row.case, f"{percent:.6g}", row.feedback))
+    return csv_text(("uid", "instance", "qid", "score_perc", "feedback"), lines)
 
 
 # --- JUnit ------------------------------------------------------------------------------------------

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Iterable, Iterator
 from html import escape
 
@@ -11,7 +9,7 @@ from icsolve.grade.keys import AnyKey, NumberKey, numbers_of
 from icsolve.grade.platforms.given import given
 from icsolve.grade.platforms.questions import asked
 from icsolve.grade.platforms.questions import figure as drawn
-from icsolve.grade.results import safe
+from icsolve.grade.results import csv_text, safe
 from icsolve.grade.roster import Person
 from icsolve.grade.solved import SolvedCase, unknowns
 from icsolve.grade.tolerance import NoKeyError
@@ -38,28 +36,29 @@ def tasks(varied: Varied, people: Iterable[Person]) -> Iterator[VariantTask | No
 
 def values_csv(varied: Varied, found: Iterable[VariantTask]) -> str:
     """``student_id,email,variant`` and a column for each variable: for a mail merge."""
-    out = io.StringIO()
-    table = csv.writer(out, lineterminator="\n")
     names = [variable.name for variable in varied.case.variables]
-    table.writerow(["student_id", "email", "variant", *names])
-    for person, draw in found:
-        cells = [safe(person.student_id), safe(person.email), draw.label]
-        table.writerow([*cells, *(safe(draw.values[name]) for name in names)])
-    return out.getvalue()
+    rows = (
+        [
+            safe(person.student_id),
+            safe(person.email),
+            draw.label,
+            *(safe(draw.values[name]) for name in names),
+        ]
+        for person, draw in found
+    )
+    return csv_text(["student_id", "email", "variant", *names], rows)
 
 
 def key_csv(varied: Varied, found: Iterable[VariantTask]) -> str:
     """The right answers: ``student_id,variant,case,value,unit,sense,from,to``."""
-    out = io.StringIO()
-    table = csv.writer(out, lineterminator="\n")
-    table.writerow(["student_id", "variant", "case", "value", "unit", "sense", "from", "to"])
+    rows = []
     for person, draw in found:
         for question in questions(varied):
             for key in numbers_of(varied.key(question, person.student_id)):
                 low, high = max(abs(key.value) - key.half, 0.0), abs(key.value) + key.half
                 cells = (draw.label, question, f"{key.value:.12g}", key.unit_name, sense(varied, draw, key))
-                table.writerow([safe(person.student_id), *cells, f"{low:.10g}", f"{high:.10g}"])
-    return out.getvalue()
+                rows.append([safe(person.student_id), *cells, f"{low:.10g}", f"{high:.10g}"])
+    return csv_text(["student_id", "variant", "case", "value", "unit", "sense", "from", "to"], rows)
 
 
 def questions(varied: Varied) -> list[str]:
