@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from typing import Any
 
 from icsolve.numbers.arithmetic import ROUNDING_NOISE, Scalar, turn_of
 from icsolve.numbers.given import Number
@@ -35,6 +36,8 @@ class Record:
         """by path, what stands for a number of the case; the number itself where there is nothing"""
         self.directions: dict[int, tuple[Number, Scalar, Scalar]] = {}
         """by the number's id: cosine and sine of a direction that moves with a link"""
+        self.kept: dict[tuple[str, tuple[int, ...]], Any] = {}
+        """what was made of some of its nodes, by what it is: nodes never change"""
         self._known: dict[tuple[int, int, int], Traced] = {}
         self._constants: dict[tuple[float, str], Traced] = {}
 

@@ -214,3 +214,12 @@ def turn(degrees: Array, cosine: Array | None, sine: Array | None, a: Array, b: 
         np.add(np.multiply(c, along, cosine), s * quarters, cosine)
     if sine is not None:
         np.subtract(np.multiply(s, along, sine), c * quarters, sine)
+
+
+def code_of(record: Record, wanted: Sequence[int]) -> Code:
+    """The code of these nodes, kept with the record. Others may run it: copy what has to last."""
+    key = ("code", tuple(wanted))
+    if key not in record.kept:
+        record.kept[key] = Code(record, wanted)
+    found: Code = record.kept[key]
+    return found

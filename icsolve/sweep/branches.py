@@ -13,8 +13,9 @@ from functools import cached_property
 
 import numpy as np
 
-from icsolve.numbers.record import Root, Traced
-from icsolve.numbers.replay import BLOCK, Array, Code, live
+from icsolve.assembly.driven.groups import NewtonGroup
+from icsolve.numbers.record import Record, Root, Traced
+from icsolve.numbers.replay import BLOCK, Array, code_of, live
 from icsolve.sweep.continuation import ChangePoints, InputLine, State
 from icsolve.sweep.path_tracking import PathTracker
 from icsolve.sweep.program import CompiledSweep, Signs
@@ -99,7 +100,7 @@ class Radicands:
         list[Array]
             (places,) each; not a number where the links do not assemble.
         """
-        code = Code(self.compiled.record, nodes)
+        code = code_of(self.compiled.record, nodes)
         parts = []
         for start in range(0, len(at), BLOCK):
             here = at[start : start + BLOCK]
@@ -312,6 +313,14 @@ def live_roots(compiled: CompiledSweep) -> list[Root]:
     stack = [
         v.index for values in compiled.outputs.values() for v in values if isinstance(v, Traced) and v.row
     ]
+    key = ("live roots", tuple(stack))
+    if key not in record.kept:
+        record.kept[key] = _live_roots(record, groups, stack)
+    found: list[Root] = record.kept[key]
+    return found
+
+
+def _live_roots(record: Record, groups: Iterable[NewtonGroup], stack: list[int]) -> list[Root]:
     alive: set[int] = set()
     while stack:
         alive.update(live(record, stack, ()))

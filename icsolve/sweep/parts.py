@@ -10,7 +10,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from icsolve.numbers.replay import BLOCK, Array, Code
+from icsolve.numbers.replay import BLOCK, Array, code_of
 from icsolve.sweep.branches import STEEP, Followed, Radicands, follow, grid_of, live_roots, signs_of
 from icsolve.sweep.continuation import ChangePoints, InputLine, State, written_state
 from icsolve.sweep.numbers import numbers_of
@@ -158,7 +158,7 @@ class SweepParts:
     ) -> Mask:
         """Which sets of numbers lead away from no branch, where these shares reach them from those as
         written (and other inputs go along)."""
-        code = Code(compiled.record, [root.radicand for root in live_roots(compiled)])
+        code = code_of(compiled.record, [root.radicand for root in live_roots(compiled)])
         clear = np.ones(len(sets), dtype=bool)
         step = max(1, 4 * BLOCK // len(share))
         for start in range(0, len(sets), step):
