@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from icsolve.case import (
     Case,
@@ -83,8 +83,41 @@ def build(root: Mapping, problems: Problems, name: str, measured: Measures) -> C
         figure = FigureData(parts.joints, parts.lengths, parts.angles, parts.points, _shaped(parts))
         if not reading.problems.found:
             reading.noticed += check_loads(reading, root, figure, parts.loads, parts.motion, ground)
-    texts = {key: reading.text(root.items[key], key) for key in TEXTS if key in root.items}
-    return _case(name, problems.path, units, ground, reading, parts, texts, root)
+    links = tuple(reading.links or ())
+    return Case(
+        **told_of_itself(reading, root, name, units, ground),
+        points=parts.points,
+        lengths=parts.lengths,
+        angles=parts.angles,
+        near=parts.near,
+        joints=parts.joints,
+        loads=parts.loads,
+        motion=parts.motion,
+        expect=parts.expect,
+        carries=carried(links, ground, parts.joints, parts.loads, _shaped(parts), parts.motion),
+        gravity=_gravity(reading, root) or Case.gravity,
+        profiles=parts.profiles,
+        directed=tuple(reading.directed),
+        unknowns=tuple(reading.unknowns),
+        inertia=parts.inertia,
+        ropes=parts.ropes,
+        dynamic=read_dynamic(reading, root.items.get("dynamic")),
+        noticed=tuple(reading.noticed),
+    )
+
+
+def told_of_itself(reading: Reading, root: Mapping, name: str, units: Units, ground: str) -> dict[str, Any]:
+    """What every case says of itself, in the plane and in space."""
+    return {
+        "name": name,
+        "path": reading.problems.path,
+        **{key: reading.text(root.items[key], key) for key in TEXTS if key in root.items},
+        "units": units,
+        "ground": ground,
+        "links": tuple(reading.links or ()),
+        "tolerance": _tolerance(reading, root),
+        "marks": reading.marks,
+    }
 
 
 def is_in_space(root: Mapping) -> bool:
@@ -210,7 +243,7 @@ def _gravity(reading: Reading, root: Mapping) -> Number | None:
     return value
 
 
-def tolerance_of_case(reading: Reading, root: Mapping) -> Tolerance | None:
+def _tolerance(reading: Reading, root: Mapping) -> Tolerance | None:
     """How far a student's answer may lie from the right one, where the case says so."""
     if not stands(root, "tolerance"):
         return None
@@ -224,48 +257,6 @@ def _hyphened(root: Mapping) -> set[str]:
     sections: list[Node | None] = [root.items.get("lengths"), root.items.get("angles")]
     keys = [key for node in sections if type(node) is Mapping for key in node.items if "-" in key]
     return {name for key in keys for name in key.split("-")}
-
-
-def _case(
-    name: str,
-    path: str,
-    units: Units,
-    ground: str,
-    reading: Reading,
-    parts: _Parts,
-    texts: dict[str, str],
-    root: Mapping,
-) -> Case:
-    links = tuple(reading.links or ())
-    return Case(
-        name=name,
-        path=path,
-        title=texts.get("title", ""),
-        source=texts.get("source", ""),
-        reconstructed=texts.get("reconstructed", ""),
-        units=units,
-        ground=ground,
-        links=links,
-        points=parts.points,
-        lengths=parts.lengths,
-        angles=parts.angles,
-        near=parts.near,
-        joints=parts.joints,
-        loads=parts.loads,
-        motion=parts.motion,
-        expect=parts.expect,
-        carries=carried(links, ground, parts.joints, parts.loads, _shaped(parts), parts.motion),
-        gravity=_gravity(reading, root) or Case.gravity,
-        tolerance=tolerance_of_case(reading, root),
-        profiles=parts.profiles,
-        directed=tuple(reading.directed),
-        unknowns=tuple(reading.unknowns),
-        inertia=parts.inertia,
-        ropes=parts.ropes,
-        dynamic=read_dynamic(reading, root.items.get("dynamic")),
-        noticed=tuple(reading.noticed),
-        marks=reading.marks,
-    )
 
 
 def _shaped(parts: _Parts) -> dict[str, tuple[str, ...]]:

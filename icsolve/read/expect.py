@@ -24,9 +24,9 @@ from icsolve.case.expected import (
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
 from icsolve.read.entry import Entry
-from icsolve.read.keys import EXPECTED
+from icsolve.read.keys import EXPECTED, EXPECTED_TIES
 from icsolve.read.loads import dimension_of
-from icsolve.read.names import LONGEST_KEY, atoms, is_name, pairs, shown, suggestion
+from icsolve.read.names import LONGEST_KEY, is_name, pairs, parts, shown, suggestion
 from icsolve.read.reading import Reading, number, quantity
 from icsolve.tuples import NamedTuple
 from icsolve.units import DIMENSIONS, UnitError, parse_unit, split_quantity
@@ -69,8 +69,7 @@ def _position(reading: Reading, key: str) -> Target | str:
 
 
 def _names_of(path: str) -> tuple[str, ...]:
-    name = path.partition(".")[2]
-    names = tuple(name.split("-")) if "-" in name else atoms(name)
+    names = parts(path.partition(".")[2])
     return tuple(sorted(names)) if path.startswith("lengths.") else names
 
 
@@ -250,13 +249,13 @@ def _expected(reading: Reading, key: str, target: Target, node: Node) -> Expecte
     if type(node) is not Mapping:
         bare = _value(reading, node, target, f"expect.{key}")
         return Expected(key, target, *bare) if bare is not None else None
-    entry = Entry(reading, node, f"expect.{key}", f"the expected {key}", EXPECTED)
+    entry = Entry(reading, node, f"expect.{key}", f"the expected {key}", EXPECTED, EXPECTED_TIES)
     entry.check()
     if isinstance(target, LoadIs) and not _dimension(reading, target):
         return None  # the load can't be read, and that is told
-    which = entry.one_of(("value", "toward", "holds"))
+    entry.check_ties()
+    which = next((key for key in ("value", "toward", "holds") if entry.has(key)), None)
     if which is None:
-        entry.need("value")
         return None
     toward = which == "toward"
     holds, value = None, None

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator
+from typing import TYPE_CHECKING, Any
 
 from icsolve.case import (
     Centroid,
@@ -33,24 +34,27 @@ from icsolve.case import (
 )
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.entry import Entry
-from icsolve.read.keys import CENTROID, MASSES, UNKNOWN
+from icsolve.read.keys import CENTROID, MASSES, MASSES_TIES, UNKNOWN
 from icsolve.read.names import Names, point_key, shown, suggestion
 from icsolve.read.reading import COMPASS, Reading, number
 from icsolve.tuples import NamedTuple
 
+if TYPE_CHECKING:
+    from icsolve.case.space import SpatialPoint
 
-def read_points(reading: Reading, section: Mapping) -> dict[str, Coordinates | Centroid]:
+
+def read_points(reading: Reading, section: Mapping) -> dict[str, Any]:
     """Coordinates and centroids by point."""
-    points: dict[str, Coordinates | Centroid] = {}
+    points: dict[str, Any] = {}
     for key, node in section.items.items():
         name = reading.name(Scalar(key, False, section.keys[key]), "a point")
         if name is None:
             continue
         reading.given.add(name)
         reading.marks[f"points.{name}"] = section.keys[key]
-        value: Coordinates | Centroid | None
+        value: Centroid | Coordinates | SpatialPoint | None
         if type(node) is Mapping:
-            value = centroid_of(reading, name, node)
+            value = _centroid(reading, name, node)
         else:
             value = _coordinates(reading, name, node)
         if value is not None:
@@ -58,26 +62,30 @@ def read_points(reading: Reading, section: Mapping) -> dict[str, Coordinates | C
     return points
 
 
-def _coordinates(reading: Reading, name: str, node: Node) -> Coordinates | None:
-    if type(node) is not Sequence or len(node.items) != 2:
+def _coordinates(reading: Reading, name: str, node: Node) -> Coordinates | SpatialPoint | None:
+    """A point by its coordinates, in the plane one of them unknown or none."""
+    axes = reading.axes
+    if type(node) is not Sequence or len(node.items) != len(axes):
         if type(node) is Scalar and node.text[:1] == "(" and node.text[-1] != ")":
             return None  # refused where the comma cut it
         form = decimals(node) or "as in [3, 0.5] or [unknown, 0.5]"
-        reading.refuse(node.mark, f"point {name} should have two coordinates, {form}")
+        said = f"point {name} should have two coordinates, {form}"
+        if len(axes) == 3:
+            said = f"point {name}: in space every point has three coordinates, as in [3, 0.5, 0]"
+        reading.refuse(node.mark, said)
         return None
-    open_ones = [_is_unknown(item) for item in node.items]
+    open_ones = [len(axes) == 2 and _is_unknown(item) for item in node.items]
     if all(open_ones):
         reading.refuse(node.mark, f"both coordinates of {name} are unknown; leave the point out of 'points'")
         return None
-    for item, axis in zip(node.items, "xy", strict=True):
-        if type(item) is Mapping and "unknown" in item.items:
-            _unknown(reading, item, "length", f"points.{name}.{axis}")
-    values = [
-        None if is_open else number(reading, item, "length", f"points.{name}.{axis}")
-        for item, is_open, axis in zip(node.items, open_ones, "xy", strict=True)
-    ]
-    missing = sum(value is None for value in values) - sum(open_ones)
-    return None if missing else Coordinates(*values)
+    values = []
+    for item, is_open, axis in zip(node.items, open_ones, axes, strict=True):
+        path = f"points.{name}.{axis}"
+        if is_open and type(item) is Mapping:
+            _unknown(reading, item, "length", path)
+        values.append(None if is_open else number(reading, item, "length", path))
+    missing = values.count(None) - sum(open_ones)
+    return None if missing else reading.coordinates(*values)  # type: ignore[arg-type]
 
 
 def decimals(node: Node) -> str:
@@ -90,7 +98,7 @@ def decimals(node: Node) -> str:
     return f"with decimal points, [{a}.{b}, {c}.{d}]" if b.isdigit() and d.isdigit() else ""
 
 
-def centroid_of(reading: Reading, name: str, node: Mapping) -> Centroid | None:
+def _centroid(reading: Reading, name: str, node: Mapping) -> Centroid | None:
     """A point as the mean of others."""
     reading.check_keys(node, CENTROID, f"point {name}")
     value = node.items.get("centroid")
@@ -252,7 +260,7 @@ def read_links(reading: Reading, section: Mapping) -> tuple[dict[str, tuple[str,
         link = reading.link(Scalar(key, False, section.keys[key]), "a link")
         inertia, listed = None, node
         if type(node) is Mapping:
-            entry = Entry(reading, node, f"links.{key}", f"link {shown(key)}", MASSES)
+            entry = Entry(reading, node, f"links.{key}", f"link {shown(key)}", MASSES, MASSES_TIES)
             inertia, listed = _inertia(entry), node.items.get("points", Sequence([], node.mark))
         items = reading.names(listed, f"the points of link {shown(key)}", "{3: [G, H]}")
         for item in items or ():
@@ -274,8 +282,7 @@ def _inertia(entry: Entry) -> Inertia | None:
         if entry.has("centre"):
             entry.refuse(entry.mark("centre"), f"{entry.what} has a centre of mass and no 'mass'; give it")
         return None
-    if entry.has("mass"):
-        entry.need("centre")
+    entry.check_ties()
     centre, mass, moment = entry.point("centre"), entry.number("mass"), entry.number("inertia")
     read = all(value is not None for key, value in (("mass", mass), ("inertia", moment)) if entry.has(key))
     return Inertia(mass, centre, moment) if read and (centre or mass is None) else None

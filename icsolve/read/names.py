@@ -145,6 +145,11 @@ def atoms(key: str) -> Names:
     return tuple(found)
 
 
+def parts(key: str) -> Names:
+    """The names of which a key is made: ``O2-A``, or ``AB`` of one-character names."""
+    return tuple(key.split("-")) if "-" in key else atoms(key)
+
+
 def splits(key: str, parts: int, known: Callable[[str], bool]) -> Iterator[Names]:
     """Every way to cut a key without hyphens into so many known names."""
     if parts == 1:

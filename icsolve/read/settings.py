@@ -10,7 +10,7 @@ from icsolve.case import Mark
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, parse
 from icsolve.read.joints import JOINTS, NAMES
 from icsolve.read.keys import LOADS
-from icsolve.read.names import Problems, atoms, shown, suggestion
+from icsolve.read.names import Problems, parts, shown, suggestion
 
 _FORM = "a path is like angles.AB, lengths.AB, points.D.x, loads.P, loads.P.angle or joints.B.mu"
 
@@ -72,7 +72,7 @@ def _of_named(section: Mapping, name: str, steps: list[str], text: str) -> str:
 
 
 def _missing(section: Mapping, name: str, key: str) -> str:
-    turned = _same(section, tuple(reversed(_parts(key)))) if name == "angles" else None
+    turned = _same(section, parts(key)[::-1]) if name == "angles" else None
     if turned is not None:
         return f"the case gives the angle {turned}, which is not {key}; set angles.{turned}"
     return f"the case has no {key} under '{name}'{suggestion(key, section.items)}"
@@ -82,17 +82,13 @@ def _key(section: Mapping, name: str, key: str) -> str | None:
     """The key as the file writes it: ``A-B`` for ``AB``, and of a length also ``BA``."""
     if key in section.items or name not in ("lengths", "angles"):
         return key if key in section.items else None
-    parts = _parts(key)
-    found = _same(section, parts)
-    return found or (_same(section, tuple(reversed(parts))) if name == "lengths" else None)
+    names = parts(key)
+    found = _same(section, names)
+    return found or (_same(section, names[::-1]) if name == "lengths" else None)
 
 
-def _parts(key: str) -> tuple[str, ...]:
-    return tuple(key.split("-")) if "-" in key else atoms(key)
-
-
-def _same(section: Mapping, parts: tuple[str, ...]) -> str | None:
-    return next((key for key in section.items if _parts(key) == parts), None)
+def _same(section: Mapping, names: tuple[str, ...]) -> str | None:
+    return next((key for key in section.items if parts(key) == names), None)
 
 
 def _axis(node: Node, steps: list[str], text: str, path: str) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-from icsolve.case import Case, Centroid, Number, Pair, Toward
+from icsolve.case import Case, Number, Pair, Toward
 from icsolve.case.expected import Expected
 from icsolve.case.space import (
     Along,
@@ -28,11 +28,11 @@ from icsolve.case.space import (
     Vector,
 )
 from icsolve.numbers.balls import PRECISIONS, Balls
-from icsolve.read.build import TEXTS, ground_of, readable, section_of, tolerance_of_case
+from icsolve.read.build import ground_of, readable, section_of, told_of_itself
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.entry import Entry, Values
 from icsolve.read.expect import read_expect
-from icsolve.read.figure import centroid_of
+from icsolve.read.figure import read_points
 from icsolve.read.joints import Builders, mention_links, read_list
 from icsolve.read.keys import GRAVITY, SECTIONS, SPACE_JOINTS, SPACE_LOADS
 from icsolve.read.loads import Forms, heading, read_section, spring, weight
@@ -204,25 +204,15 @@ def build_space(root: Mapping, problems: Problems, name: str, measures: Measures
     gravity, down = _gravity(reading, root)
     joints = _joints(reading, root)
     loads = read_space_loads(reading, section_of(reading, root, "loads", _FORMS["loads"]))
-    points = _points(reading, section_of(reading, root, "points", _FORMS["points"]))
+    points = read_points(reading, section_of(reading, root, "points", _FORMS["points"]))
     if readable(root, "points"):
         _check_given(reading)
     space = Space({**points, **reading.hidden}, joints, loads, down)
-    texts = {key: reading.text(root.items[key], key) for key in TEXTS if key in root.items}
     return Case(
-        name=name,
-        path=problems.path,
-        title=texts.get("title", ""),
-        source=texts.get("source", ""),
-        reconstructed=texts.get("reconstructed", ""),
-        units=units,
-        ground=ground,
-        links=tuple(reading.links or ()),
+        **told_of_itself(reading, root, name, units, ground),
         expect=_expect(reading, root),
         gravity=gravity or Case.gravity,
-        tolerance=tolerance_of_case(reading, root),
         space=space,
-        marks=reading.marks,
     )
 
 
@@ -242,36 +232,6 @@ def _joints(reading: SpaceReading, root: Mapping) -> tuple[Joint, ...]:
     mark = root.keys.get("joints", root.mark)
     reading.refuse(mark, "the case has no joints; list them, as in joints: [{ball: [1, 2], at: A}]")
     return ()
-
-
-def _points(reading: SpaceReading, section: Mapping) -> dict[str, SpatialPoint | Centroid]:
-    """Coordinates and centroids by point."""
-    found: dict[str, SpatialPoint | Centroid] = {}
-    for key, node in section.items.items():
-        name = reading.name(Scalar(key, False, section.keys[key]), "a point")
-        if name is None:
-            continue
-        reading.given.add(name)
-        reading.marks[f"points.{name}"] = section.keys[key]
-        value = (
-            centroid_of(reading, name, node) if type(node) is Mapping else _coordinates(reading, name, node)
-        )
-        if value is not None:
-            found[name] = value
-    return found
-
-
-def _coordinates(reading: SpaceReading, name: str, node: Node) -> SpatialPoint | None:
-    if type(node) is not Sequence or len(node.items) != 3:
-        said = "in space every point has three coordinates, as in [3, 0.5, 0]"
-        reading.refuse(node.mark, f"point {name}: {said}")
-        return None
-    parts = [
-        number(reading, item, "length", f"points.{name}.{letter}")
-        for item, letter in zip(node.items, "xyz", strict=True)
-    ]
-    good = [part for part in parts if part is not None]
-    return SpatialPoint(*good) if len(good) == 3 else None
 
 
 def _check_given(reading: SpaceReading) -> None:

@@ -9,7 +9,7 @@ from typing import Any
 from icsolve.case import Case, ForceVector, Number
 from icsolve.errors import CaseError, Problem
 from icsolve.numbers.given import numbers_in
-from icsolve.read.names import atoms, shown, suggestion
+from icsolve.read.names import parts, shown, suggestion
 from icsolve.tuples import replace
 
 _FORM = "a path is like angles.AB, lengths.AB, points.D.x, loads.P, loads.P.angle or joints.B.mu"
@@ -76,7 +76,7 @@ def _means(own: str, section: str, rest: str) -> bool:
     if head != section:
         return False
     if section in ("lengths", "angles"):
-        asked, given = _parts(rest), _parts(tail)
+        asked, given = parts(rest), parts(tail)
         return asked == given or (section == "lengths" and asked == given[::-1])
     if section == "joints" and own.split(".")[-2] in ("mu", "radii"):  # of a rope, by a point of it
         *_, key, point = own.split(".")
@@ -92,11 +92,7 @@ def _means(own: str, section: str, rest: str) -> bool:
 def points_of(path: str) -> tuple[str, ...]:
     """The points that the path of a number of the figure names."""
     section, _, rest = path.partition(".")
-    return (rest.partition(".")[0],) if section == "points" else _parts(rest)
-
-
-def _parts(key: str) -> tuple[str, ...]:
-    return tuple(key.split("-")) if "-" in key else atoms(key)
+    return (rest.partition(".")[0],) if section == "points" else parts(rest)
 
 
 def _missing(case: Case, known: Mapping[str, Number], path: str, section: str, rest: str) -> str:
@@ -104,7 +100,7 @@ def _missing(case: Case, known: Mapping[str, Number], path: str, section: str, r
     if section not in _SECTIONS:
         return _FORM + suggestion(path, known)
     if section == "angles":
-        turned = [own for own in known if own.startswith("angles.") and _parts(own[7:]) == _parts(rest)[::-1]]
+        turned = [own for own in known if own.startswith("angles.") and parts(own[7:]) == parts(rest)[::-1]]
         if turned:
             return f"the case gives {turned[0]}, which is another angle; vary that"
     if section == "loads" and any(load.name == rest for load in case.loads):
