@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import TypeVar
-
 from icsolve.case import AlongRope, Force, Load, Number, Rope, Weight
-from icsolve.read.document import Mapping, Node, Sequence
+from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.entry import Entry
 from icsolve.read.joints import JOINTS
 from icsolve.read.keys import PULLS
@@ -14,11 +11,11 @@ from icsolve.read.names import shown, suggestion
 from icsolve.read.reading import Reading
 
 _FORM = "{rope: [A, P, B], on: [4, 3, 1]}"
-T = TypeVar("T")
 
 
 def read_ropes(reading: Reading, section: Sequence) -> tuple[tuple[Rope, ...], Sequence]:
     """The ropes among the joints, and the other joints."""
+    reading.forms.update(FORMS)
     others: list[Node] = []
     found = []
     for item in section.items:
@@ -44,29 +41,17 @@ def _rope(reading: Reading, node: Mapping) -> Rope | None:
     name = path.partition(".")[2]
     reading.marks[path] = node.mark
     entry = Entry(reading, node, path, f"the rope {name}", JOINTS["rope"].keys)
-    entry.check("rope")
-    links = _links(entry, points)
     if len(points) < 2 and names is not None:
         said = f"{entry.what} needs two points or more: its ends and its pulleys"
         entry.refuse(node.items["rope"].mark, said)
+        names = None
+    v = entry.read("rope")
+    if names is None or v["on"] is None:
         return None
-    if names is None or links is None:
-        return None
-    before = len(reading.problems.found)
-    radii = _by_place(entry, "radii", points, lambda one, at: one.value(*_number(entry, one, "radii", at)))
-    wraps = _by_place(entry, "wraps", points, lambda one, at: one.word(at, ("ccw", "cw")))
-    mu = _by_place(entry, "mu", points, lambda one, at: one.value(*_number(entry, one, "mu", at)))
-    length = entry.number("length")
-    _check_wraps(entry, points, len(links), radii, wraps, mu)
-    if len(reading.problems.found) > before:
-        return None
-    return Rope(name, points, links, radii, wraps, mu, length)
-
-
-def _number(entry: Entry, one: Entry, key: str, at: str) -> tuple[Node, str, str, str, str]:
-    """What is read of a number for one place: its node, dimension, path, name and bound."""
-    own = entry.keys[key]
-    return one.node.items[at], own.dimension, f"{one.path}.{at}", at, own.bound
+    none = (None,) * len(points)
+    radii, wraps, mu = (v[key] or none for key in ("radii", "wraps", "mu"))
+    _check_wraps(entry, points, len(v["on"]))
+    return Rope(name, points, v["on"], radii, wraps, mu, v["length"])
 
 
 def _unlike(path: str, reading: Reading) -> str:
@@ -77,13 +62,19 @@ def _unlike(path: str, reading: Reading) -> str:
     return own
 
 
-def _links(entry: Entry, points: tuple[str, ...]) -> tuple[str, ...] | None:
+def _through(entry: Entry) -> tuple[str, ...]:
+    """The points that a rope runs through."""
+    node = entry.node.items["rope"]
+    return tuple(i.text for i in node.items if type(i) is Scalar) if type(node) is Sequence else ()
+
+
+def _links(entry: Entry, key: str, node: Node) -> tuple[str, ...] | None:
     """One link for each point, or one less where the last end is free."""
-    node = entry.node.items.get("on")
-    items = entry.reading.names(node, f"'on' of {entry.what}", "[4, 3, 1]") if node is not None else None
-    if node is None or items is None:
+    items = entry.reading.names(node, f"'on' of {entry.what}", "[4, 3, 1]")
+    if items is None:
         return None
     links = [entry.reading.link(item, f"'on' of {entry.what}") for item in items]
+    points = _through(entry)
     if len(items) not in (len(points), len(points) - 1) or not items:
         said = f"{entry.what} runs through {len(points)} points, and 'on' names {len(items)} links"
         entry.refuse(node.mark, f"{said}: give one for each point, or one less where its last end is free")
@@ -91,33 +82,32 @@ def _links(entry: Entry, points: tuple[str, ...]) -> tuple[str, ...] | None:
     return tuple(link for link in links if link is not None) if None not in links else None
 
 
-def _by_place(
-    entry: Entry, key: str, points: tuple[str, ...], read: Callable[[Entry, str], T | None]
-) -> tuple[T | None, ...]:
-    """What a mapping from points has for each place of the rope."""
-    node = entry.node.items.get(key)
-    form = entry.keys[key].says.partition(" as in ")[2]
-    mapping = None
-    if node is not None:
-        mapping = entry.reading.mapping(node, f"'{key}' of {entry.what}", f"as in {form}")
+def _by_place(entry: Entry, key: str, node: Node) -> tuple[Number | str | None, ...] | None:
+    """What a mapping from points has for each place of the rope: a number, or a sense."""
+    own, points = entry.keys[key], _through(entry)
+    form = own.says.partition(" as in ")[2]
+    mapping = entry.reading.mapping(node, f"'{key}' of {entry.what}", f"as in {form}")
     if mapping is None:
-        return (None,) * len(points)
+        return None
     inner = Entry(entry.reading, mapping, f"{entry.path}.{key}", f"'{key}' of {entry.what}")
     for name, mark in mapping.keys.items():
         if name not in points:
             entry.refuse(mark, f"{entry.what} does not run through {shown(name)}{suggestion(name, points)}")
-    found = {name: read(inner, name) for name in mapping.items if name in points}
+
+    def read(at: str) -> Number | str | None:
+        if own.form == "senses":
+            return inner.word(at, ("ccw", "cw"))
+        return inner.value(mapping.items[at], own.dimension, f"{inner.path}.{at}", at, own.bound)
+
+    found = {name: read(name) for name in mapping.items if name in points}
     return tuple(found.get(point) for point in points)
 
 
-def _check_wraps(
-    entry: Entry,
-    points: tuple[str, ...],
-    links: int,
-    radii: tuple[Number | None, ...],
-    wraps: tuple[str | None, ...],
-    mu: tuple[Number | None, ...],
-) -> None:
+FORMS = {"links of a rope": _links, "sizes": _by_place, "senses": _by_place, "numbers": _by_place}
+"""What reads the forms that only ropes have."""
+
+
+def _check_wraps(entry: Entry, points: tuple[str, ...], links: int) -> None:
     """A pulley with a size has its sense, and one that rubs has both."""
     given = {key: {*node.items} for key, node in entry.node.items.items() if type(node) is Mapping}
     sized, wound, rubbing = (given.get(key, set()) for key in ("radii", "wraps", "mu"))
