@@ -14,6 +14,7 @@ import pytest
 
 import icsolve
 from icsolve.draw.words import answer_sentences
+from icsolve.explain.sheet import exercise, sheet_tex
 from icsolve.page.gallery import ENDINGS, KINDS, exhibit, index_html
 from icsolve.report.derivation import known_of
 from pictures import parsed
@@ -247,6 +248,19 @@ def test_exercises_give_no_answer_away(tmp_path: Path) -> None:
 
 
 # --- the README's pictures ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["slider_crank_piston", "hoist_starting"])
+def test_an_exercise_asks_for_inertia_forces_and_tells_the_acceleration(name: str) -> None:
+    """Neither its figure nor its sheet has an inertia force, which is to be found; the key has the answer."""
+    case = icsolve.load(LIBRARY / "dynamics" / f"{name}.yaml")
+    one = exercise(known_of(case))
+    figure = exhibit(case, name, "a.yaml", exercise=True).files[".svg"]
+    sheet, _, key = sheet_tex("Exercises", [("", [one])]).rpartition("section*{Key")
+    for text in (figure, sheet):
+        assert not re.search(r"inertia (force|couple)|>i\d|_\{i\d", text)
+    assert f"speeds up at {case.motion[0].acceleration.digits} rad/s" in sheet.replace("\\", "")
+    assert f"{icsolve.solve(case).answers['T'].value:.4g}" in key
 
 
 def test_the_readme_shows_three_pictures_of_the_gallery() -> None:

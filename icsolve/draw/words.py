@@ -45,7 +45,10 @@ def quantity(value: float, unit: str, digits: int = DIGITS) -> str:
 
 
 def name_runs(name: str) -> tuple[TextRun, ...]:
-    """``T12`` as a T with 12 set low, ``B'`` as it is."""
+    """``T12`` as a T with 12 set low, an inertia force as F with i and the link low, ``B'`` as it is."""
+    if name.startswith("inertia "):
+        _, kind, link = name.split(" ", 2)
+        return (TextRun("F" if kind == "force" else "T"), TextRun(f"i{link}", True))
     found = re.fullmatch(r"([^\W\d_]+)_?(\d+)('*)", name)
     if found is None:
         return (TextRun(name),)

@@ -30,6 +30,7 @@ from icsolve.case import (
 )
 from icsolve.case.names import pair_name
 from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Knife, Polygon, Radii, Roller, Shape
+from icsolve.draw.words import name_runs
 from icsolve.explain.document import Block, Inline, Items, Section, ShownTable, words
 from icsolve.explain.formula import Name, Num, Quantity
 from icsolve.report.derivation import Known
@@ -91,9 +92,8 @@ def centre_name(known: Known, pair: tuple[str, str]) -> Name:
 def load_name(name: str) -> Name:
     """A load as a symbol: ``T12`` as T with 12 low, an inertia force as F with i and the link low, others
     whole."""
-    if name.startswith(("inertia force ", "inertia couple ")):
-        _, kind, link = name.split(" ", 2)
-        return Name("F" if kind == "force" else "T", f"i{link}")
+    if name.startswith("inertia "):
+        return Name(*(run.text for run in name_runs(name)))
     letters = name.rstrip("0123456789")
     return Name(letters, name[len(letters) :]) if len(letters) == 1 else Name(name)
 
@@ -340,7 +340,15 @@ def _motion(figures: Figures, motion: Motion) -> str:
     if motion.point is not None:
         size = "" if speed is None else f" at {figures.number(speed).digits} {figures.units.length}/s"
         way = "" if motion.angle is None else f", at {motion.angle.digits} deg"
-        return f"Point {motion.point} of link {motion.link} moves{size}{way}."
+        return f"Point {motion.point} of link {motion.link} moves{size}{way}{_gain(figures, motion)}."
     clockwise = (motion.turns == "cw") != (speed is not None and speed < 0.0)
     size = "" if speed is None else f" at {figures.number(abs(speed)).digits} rad/s"
-    return f"Link {motion.link} turns{size}, {SPELT['cw' if clockwise else 'ccw']}."
+    return f"Link {motion.link} turns{size}, {SPELT['cw' if clockwise else 'ccw']}{_gain(figures, motion)}."
+
+
+def _gain(figures: Figures, motion: Motion) -> str:
+    """Its acceleration, which counts in the sense of the speed."""
+    gain = 0.0 if motion.acceleration is None else motion.acceleration.value
+    unit = "rad" if motion.point is None else figures.units.length
+    said = "speeds up" if gain > 0.0 else "slows down"
+    return f", and {said} at {figures.number(abs(gain)).digits} {unit}/s^2" if gain else ""

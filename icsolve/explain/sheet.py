@@ -8,8 +8,8 @@ from icsolve.draw import tikz
 from icsolve.draw.figure import Drawing, drawn
 from icsolve.draw.marks import Mark
 from icsolve.draw.words import answer_sentences
-from icsolve.explain.document import Block
-from icsolve.explain.given import asked_section, figures_of, given_section
+from icsolve.explain.document import Block, Inline
+from icsolve.explain.given import asked_section, figures_of, given_section, load_name
 from icsolve.explain.typeset import AsTex, picture_tex
 from icsolve.report.derivation import Known
 from icsolve.tuples import NamedTuple
@@ -24,12 +24,12 @@ class Exercise(NamedTuple):
     title: str
     figure: tuple[Mark, ...]
     blocks: tuple[Block, ...]
-    key: tuple[str, ...]
+    key: tuple[Inline, ...]
 
 
 def exercise(known: Known) -> Exercise:
     """A case as an exercise: its figure has neither answer nor centres."""
-    asked = known._replace(answer=None, refusal=None)
+    asked = known.as_asked
     figures = figures_of(known, DIGITS)
     if known.case.space is not None:
         from icsolve.explain.space import asked_in_space, given_in_space
@@ -37,7 +37,10 @@ def exercise(known: Known) -> Exercise:
         sections = (given_in_space(asked, figures), asked_in_space(asked, figures))
     else:
         sections = (given_section(asked, figures), asked_section(known, figures))
-    key = tuple(f"{sentence}." for sentence in answer_sentences(known))
+    answers = () if known.answer is None else zip(known.answer.answers, answer_sentences(known), strict=True)
+    key: tuple[Inline, ...] = tuple(
+        part for name, told in answers for part in (load_name(name), f"{told.removeprefix(name)}. ")
+    )
     if known.refusal is not None:
         key = (f"No answer ({known.refusal.status}): {known.refusal.message}",)
     blocks = tuple(block for section in sections for block in section.blocks)
@@ -55,7 +58,7 @@ def sheet_tex(title: str, sheets: Sequence[tuple[str, Sequence[Exercise]]]) -> s
         questions += [_question(layout, n, one) for n, one in enumerate(some, 1)]
         questions.append("\\clearpage\n")
         name = f"Key {layout.text(who)}".rstrip()
-        items = "".join(f"\\item {layout.text(' '.join(one.key))}\n" for one in some)
+        items = "".join(f"\\item {layout.inline(one.key)}\n" for one in some)
         keys.append(f"\\section*{{{name}}}\n\\begin{{enumerate}}\n{items}\\end{{enumerate}}\n")
     return (
         f"\\documentclass[11pt]{{article}}\n{tikz.PREAMBLE}{layout.packages}{layout.page}"

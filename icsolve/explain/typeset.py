@@ -3,6 +3,7 @@ document with TikZ."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from icsolve.draw import tikz
@@ -87,7 +88,7 @@ class AsTex(Layout):
         self.figure = tuple(figure)
 
     def text(self, text: str) -> str:
-        return tikz.escaped(dotted(text))
+        return re.sub(r"(?<![\w)$-])-(?=\d)", "$-$", tikz.escaped(dotted(text)))
 
     def symbol(self, expression: Expr) -> str:
         return f"${self.notation.expression(expression)}$"

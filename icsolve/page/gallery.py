@@ -78,7 +78,7 @@ def exhibit(case: Case, name: str, source: str, *, exercise: bool = False) -> Ex
     status, reason = ("ok", "") if refusal is None else (refusal.status, refusal.message)
     kind = kind_of(known)
     if exercise:
-        bare = known._replace(answer=None, refusal=None)
+        bare = known.as_asked
         files = {FIGURE: draw(case, ASKED, bare)}
         return Exhibit(
             name,
@@ -125,7 +125,7 @@ def kind_of(known: Known) -> str:
 def asked(known: Known) -> tuple[str, ...]:
     """What an exercise asks for."""
     names = [load.name for load in known.case.loads if is_unknown(load)]
-    return (f"Find {listed(names)}.",) if names else _answers(known._replace(answer=None, refusal=None))
+    return (f"Find {listed(names)}.",) if names else _answers(known.as_asked)
 
 
 def unreadable(name: str, source: str, reason: str) -> Exhibit:

@@ -375,13 +375,14 @@ DEAD = (Status.DEAD_CENTRE, Status.NO_VALUE)
 
 
 def _dead(case: Case, by: PageInput, degrees: Array, reach: tuple[float, float], found: Sweep) -> list[float]:
-    """The dead centres within reach, each to its last digit; where they can't be looked for, the rows that
+    """The dead centres within reach, each to its last digit (friction has no part in where the link of the
+    unknown load stands still); where they can't be looked for, the rows that
     are, and with them the places where an answer runs off to infinity (a jump of friction is none).
 
     Where each position is a scene they are looked for only if an answer changes its sign or is missing."""
     quiet = _one_by_one(case) and all(np.all(v > 0.0) or np.all(v < 0.0) for v in found.answers.values())
     by_rows = by.slides or case.dynamic
-    some = [] if quiet else None if by_rows else dead_centres(case, by.driven(degrees))
+    some = [] if quiet else None if by_rows else dead_centres(_smooth(case), by.driven(degrees))
     if some is None:
         x = degrees.tolist()
         some = [at for at, word in zip(x, found.status, strict=True) if word in DEAD]

@@ -15,6 +15,7 @@ from icsolve.numbers.arithmetic import FLOATS, turn_of
 from icsolve.scene.parts import AnswerBuilder
 from icsolve.screws.plane import Point, Triple
 from icsolve.solve import attempt
+from icsolve.statics.inertia import as_given
 from icsolve.statics.power import Wrench, known_value, place_of, points_of, wrenches
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.senses import unit_of
@@ -52,6 +53,11 @@ class Known(NamedTuple):
     def title(self) -> str:
         """What the case is called."""
         return self.case.title or self.case.name
+
+    @property
+    def as_asked(self) -> Known:
+        """The case as an exercise has it: without its answer, and without inertia forces, which are found."""
+        return self._replace(answer=None, refusal=None, case=as_given(self.case))
 
     def centre(self, a: str, b: str) -> Centre | None:
         """The centre of two links, where one is known."""
