@@ -372,23 +372,38 @@ def motion_of(known: Known, pairs: Sequence[Pair]) -> PageMotion | None:
 
 
 DEAD = (Status.DEAD_CENTRE, Status.NO_VALUE)
+BESIDE, GROWN = 1e-3, 3.0
+"""Degrees beside a dead centre, and by how much an answer grows at least from ten times as far away."""
 
 
 def _dead(case: Case, by: PageInput, degrees: Array, reach: tuple[float, float], found: Sweep) -> list[float]:
-    """The dead centres within reach, each to its last digit (friction has no part in where the link of the
-    unknown load stands still); where they can't be looked for, the rows that
-    are, and with them the places where an answer runs off to infinity (a jump of friction is none).
+    """The dead centres within reach, each to its last digit; where they can't be looked for, the rows that
+    are, and with them the places where an answer runs off to infinity.
 
-    Where each position is a scene they are looked for only if an answer changes its sign or is missing."""
-    quiet = _one_by_one(case) and all(np.all(v > 0.0) or np.all(v < 0.0) for v in found.answers.values())
-    by_rows = by.slides or case.dynamic
-    some = [] if quiet else None if by_rows else dead_centres(_smooth(case), by.driven(degrees))
+    Where each position is a scene they are looked for only if an answer changes its sign or is missing; with
+    friction they are those of the mechanism without, at which the answer jams or grows all the same.
+    """
+    if _one_by_one(case) and all(np.all(v > 0.0) or np.all(v < 0.0) for v in found.answers.values()):
+        return []
+    some = None if by.slides or case.dynamic else dead_centres(_smooth(case), by.driven(degrees))
     if some is None:
         x = degrees.tolist()
         some = [at for at, word in zip(x, found.status, strict=True) if word in DEAD]
         for values in () if rubs(case) else found.answers.values():
             some = asymptotes(x, values.tolist(), some)
+    elif rubs(case):
+        some = [at for at in some if _jams(case, by, at)]
     return [at + 0.0 for at in some if reach[0] <= at <= reach[1]]
+
+
+def _jams(case: Case, by: PageInput, at: float) -> bool:
+    """Whether with friction there is no answer beside a place, or one that grows toward it (a jump of
+    friction is neither)."""
+    beside = _swept(case, by, at + BESIDE * np.array([-1.0, 1.0, -10.0, 10.0]), ("answers",))
+    if beside is None:
+        return True
+    values = (np.abs(v).reshape(2, 2).max(axis=1) for v in beside.answers.values())
+    return any(not near <= GROWN * far for near, far in values)
 
 
 def why_still(known: Known) -> str:
