@@ -8,7 +8,7 @@ lies clearly nearer to `near` than that mode, and does not go on, is a refusal: 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 
 from icsolve.assembly.data import Datum
@@ -237,17 +237,18 @@ class Walk:
         """The step with each of the branches that it has here, one after another put on the workspace."""
         close = self._close(path, step)
         if close is None:
-            yield from self._put(path, step, self._branches(depth, path, step), in_doubt=False)
+            yield from self._put(self._branches(depth, path, step), in_doubt=False)
         elif not close:
-            yield from self._put(path, step, self._branches(depth, path, step), in_doubt=True)
+            yield from self._put(self._branches(depth, path, step), in_doubt=True)
         else:
             miss = merged(plain(step.targets[0]), *map(plain, close[0]))
             self.dead_ends.append(DeadEnd(depth, miss, path))
 
-    def _put(self, path: Path, step: Step, branches: Iterable[Step], in_doubt: bool) -> Iterator[Step]:
+    def _put(self, branches: Sequence[Step], in_doubt: bool) -> Iterator[Step]:
         """Put each branch on the workspace: by the decimals as written where floats lose too much."""
+        first = branches[0] if branches else None  # the loci of all branches are the same
+        doubtful = in_doubt or (isinstance(first, Meet) and _doubtful(gaps_between(first, self.workspace)))
         for branch in branches:
-            doubtful = in_doubt or (isinstance(branch, Meet) and self._doubtful(branch))
             question = partial(places_of, branch)
             places = self.decimals.decided(branch, question) if doubtful else None
             if places is None:
@@ -265,7 +266,7 @@ class Walk:
         found = self.decimals.decided(step, partial(merged_pairs, step))
         return [pair for pair, d in apart.items() if d <= TOO_CLOSE] if found is None else found
 
-    def _branches(self, depth: int, path: Path, step: Step) -> Iterable[Step]:
+    def _branches(self, depth: int, path: Path, step: Step) -> Sequence[Step]:
         if isinstance(step, Meet):
             return self._crossings(depth, path, step)
         if isinstance(step, CLOSED_FORMS):
@@ -283,15 +284,10 @@ class Walk:
         self.complete &= found.complete
         return found.groups
 
-    def _doubtful(self, step: Meet) -> bool:
-        """Whether floats may be wrong on whether and where two loci meet."""
-        gaps = gaps_between(step, self.workspace)
-        return min(abs(gap.value) for gap in gaps) <= DOUBT * max(1.0, *(abs(gap.value) for gap in gaps))
-
     def _crossings(self, depth: int, path: Path, step: Meet) -> list[Step]:
         """The places where two loci meet, the one nearer to `near` first."""
         gaps = gaps_between(step, self.workspace)
-        if self._doubtful(step):
+        if _doubtful(gaps):
             gaps = self.decimals.decided(step, partial(gaps_between, step)) or _rounded(step, gaps)
         signs = [gap.sign for gap in gaps]
         if not is_round(step.second):
@@ -333,6 +329,12 @@ class Walk:
             if not ahead or abs(off) > COARSE * reach:
                 return clash(self.workspace, datum, off, ahead)
         return None
+
+
+def _doubtful(gaps: list[Gap]) -> bool:
+    """Whether floats may be wrong on whether and where two loci meet."""
+    sizes = [abs(gap.value) for gap in gaps]
+    return min(sizes) <= DOUBT * max(1.0, *sizes)
 
 
 def _rounded(step: Meet, gaps: list[Gap]) -> list[Gap]:

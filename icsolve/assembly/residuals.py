@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Collection, Mapping
 from typing import TYPE_CHECKING
 
-from icsolve.assembly.conditions import FigureEquation
+from icsolve.assembly.conditions import CONDITIONS
 from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, number_of
 from icsolve.assembly.refusals import Miss, clash, measure
 from icsolve.assembly.steps import Given, leading_to
@@ -58,12 +58,12 @@ def residual(workspace: Workspace, datum: Datum) -> Residual:
     the longer arm; and False where a ray points the other way, or has no direction.
     """
     if datum.kind == MEAN:
-        offs = (FigureEquation(datum, part).at(workspace).value for part in (0, 1))
+        offs = (CONDITIONS[MEAN](workspace, datum, part).value for part in (0, 1))
         return max(offs, key=abs) / float(len(datum.points) - 1), True
     size, ahead = DISTANCES.get(datum.kind, _as_it_is)(workspace, datum)
     if ahead is None:
         return size, False
-    return float(FigureEquation(datum).at(workspace).value) / (size or 1.0), ahead
+    return float(CONDITIONS[datum.kind](workspace, datum, 0).value) / (size or 1.0), ahead
 
 
 def _as_it_is(workspace: Workspace, datum: Datum) -> Scale:
