@@ -362,3 +362,39 @@ def test_a_row_where_links_fold_up_is_refused_and_its_neighbours_are_not() -> No
     )
     assert sweep.status.tolist() == ["ok", "change-point", "ok", "change-point"]
     assert sweep.answers["Q"][0] == pytest.approx(-sweep.answers["Q"][2], rel=1e-12)
+
+
+LOCKED = """
+icsolve: 1
+points:
+  P1: [1.0053, -0.2402]
+  P2: [0.1961, 1.1498]
+  P3: [1.9157, -2.4219]
+  P4: [3.3635, -0.4504]
+  P5: [-0.2177, 1.22]
+  P6: [-2.7456, 1.5106]
+  P7: [-3.1352, 2.7973]
+  P8: [-0.671, 0.3141]
+joints:
+  - {pin: [1, 2], at: P1}
+  - {weld: [2, 3]}
+  - {pin: [2, 4], at: P1}
+  - {pin: [4, 5], at: P2}
+  - {slide: [2, 5], at: P3, along: 151.198}
+  - {roll: [3, 6], at: P4}
+  - {slot: [4, 6], at: P5, along: 65.0}
+  - {pin: [6, 7], at: P6}
+  - {pin: [7, 8], at: P7}
+  - {slide: [5, 8], at: P8, along: 131.462}
+loads: {K: {torque: 7.5, link: 5}, U: {torque: unknown, link: 5, against: 6}}
+"""
+
+
+@pytest.mark.parametrize("path", ["loads.K", "gravity"])
+def test_a_load_that_is_varied_in_a_dead_centre_finds_it(path: str) -> None:
+    """Only loads differ from row to row: what the figure leaves open in doubles is the scene's to decide."""
+    case = icsolve.load(LOCKED)
+    with pytest.raises(icsolve.SceneError) as refused:
+        icsolve.solve(case)
+    rows = icsolve.sweep(case, {path: [7.5, 9.81]}, ("answers", "status"))
+    assert list(rows.status) == [refused.value.status] * 2

@@ -102,8 +102,30 @@ def _checked(start: Start) -> Start:
         if start.setting.moves:
             raise
         return start._replace(one_by_one=True)
-    special = (compiled.delicate or compiled.refusal is not None) and not compiled.setting.moves
-    return start._replace(one_by_one=special and any(map(_shapes, start.paths)))
+    if compiled.setting.moves:
+        return start
+    if not any(map(_shapes, start.paths)):
+        return start._replace(one_by_one=compiled.refusal is None and _is_open(start.runner()))
+    return start._replace(one_by_one=compiled.delicate or compiled.refusal is not None)
+
+
+LOOSE = 1e-3
+"""In a figure that stands, an answer with a bound above this fraction of it is left to the scene."""
+
+
+def _is_open(runner: Runner) -> bool:
+    """Whether doubles leave an answer open in the figure as written, in which only loads are varied."""
+    record, values = runner.compiled.record, runner.still
+    sizes = [
+        (value, off)
+        for (_, _, value), (key, _, off) in zip(values, runner.constants, strict=True)
+        if key[0] == "answers"
+    ]
+    if runner.answers:
+        given = {k: np.array([record.nodes[k].value]) for k in runner.compiled.inputs.values()}
+        bounds = (float(np.ravel(one.bound)[0]) for one in runner.bounds.run(given, 1))
+        sizes += [(record.nodes[k].value, off) for (_, k), off in zip(runner.answers, bounds, strict=True)]
+    return any(not off <= LOOSE * abs(value) for value, off in sizes if value)
 
 
 def _shapes(path: str) -> bool:
