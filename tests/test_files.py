@@ -39,6 +39,7 @@ WRITERS = {
     "jsonl": "grade hand --cases cases -q --force --jsonl {}",
     "summary": "grade hand --cases cases -q --force --html {}",
     "review": "grade hand --cases cases -q --force --review {}",
+    "changes": "grade hand --cases cases -q --force --against old.csv --changes {}",
     "canvas": "grade hand --cases cases -q --force --write canvas={}",
     "moodle": "export moodle-xml cases --no-figures --force -o {}",
     "autograder": "export gradescope-zip cases --force -o {}",
@@ -71,6 +72,10 @@ def here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     Path("cases/varied.yaml").write_text(VARIED)
     Path("hand/first.csv").write_text("student_id,case,answer\n1,press,33.76 cw\n2,press,3 N\n")
     Path("roster.csv").write_text("student_id\n1\n2\n3\n")
+    Path("old.csv").write_text(
+        "student_id,case,variant,attempt,raw_answer,value,unit,direction,verdict,score,max_score,rel_error,"
+        "code,feedback\n1,press,,,33.76 cw,33.76,,cw,wrong,0,1,,,Not right.\n"
+    )
     monkeypatch.setenv("TMPDIR", str(tmp_path / "scratch"))
     return tmp_path
 
