@@ -558,6 +558,23 @@ def test_the_stability_by_any_link_goes_with_the_square_of_its_rate() -> None:
     assert per_rate["4"] == pytest.approx(per_rate["2"], rel=1e-9)
 
 
+def test_the_stability_by_a_block_is_along_its_guide() -> None:
+    """A slider-crank with x = cos t + sqrt(9 - sin^2 t): U'' by x is that by t over x'(t)^2 at U' = 0."""
+    case = icsolve.load(
+        "icsolve: 1\npoints: {A: [0, 0]}\nlengths: {AB: 1, BC: 3}\nangles: {AB: 60}\nnear: {C: [3, 0]}\n"
+        "joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, "
+        "{slide: [4, 1], at: C, along: 0, through: A}]\n"
+        "loads: {P: {force: 100, link: 4, at: C, angle: 180}, T: {torque: unknown, link: 2}}\n"
+    )
+    answer = icsolve.solve(case)
+    turned, slid = (with_stability(case, answer, link).stiffness for link in "24")
+    assert turned is not None and slid is not None
+    sine, cosine = math.sin(math.pi / 3), 0.5
+    moved = sine * (1.0 + cosine / math.sqrt(9.0 - sine * sine))
+    assert slid.unit == "N/m"
+    assert slid.value == pytest.approx(turned.value / moved**2, rel=1e-9)
+
+
 def test_gears_count_from_where_the_figure_is_written(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

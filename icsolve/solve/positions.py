@@ -197,7 +197,15 @@ def rest_of(case: Case, along: str) -> Rest:
     try:
         return described(moved_by(case, along), value, 0.0)
     except TogetherError:
-        return LedMechanism(case, _own(case, along), (value, value)).described(value, 0.0)
+        if along in case.links:
+            raise
+        return led_rest(case, along)
+
+
+def led_rest(case: Case, along: str) -> Rest:
+    """The same where points only together have places."""
+    value = 0.0 if along in case.links else find_number(case, along).value
+    return LedMechanism(case, _own(case, along), (value, value)).described(value, 0.0)
 
 
 def moved_by(case: Case, along: str, span: tuple[float, float] | None = None) -> LoadFunction:

@@ -12,7 +12,7 @@ from icsolve.case import Case, ForceVector, Number
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
 from icsolve.scene.refusals import is_rough
-from icsolve.solve.positions import moved_by, rest_of
+from icsolve.solve.positions import led_rest, moved_by, rest_of
 from icsolve.solve.rest import Rest, balances
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.numbers import find_number, with_numbers
@@ -53,32 +53,42 @@ def rest_as_written(case: Case, of: str) -> Rest:
     try:
         return rest_of(case, of)
     except SceneError as refusal:
-        if refusal.status != Status.UNSUPPORTED or of not in case.links:
+        if refusal.status not in (Status.UNSUPPORTED, Status.MOBILITY) or of not in case.links:
             raise
         return _by_another(case, of, refusal)
 
 
 def _by_another(case: Case, link: str, refusal: SceneError) -> Rest:
-    """The position for a link that the search can't lead (a coupler), by one that it can.
+    """The position for a link that the search can't lead (a coupler, a block that slides), by one that it
+    can.
 
     Where the loads balance, the second derivative of their work by one coordinate is that by another times
     the square of the ratio of their rates. Raises ``refusal`` where they do not, or where the link stands
-    still.
+    still; where none can be led alone, the link is led with all the others.
     """
-    other = _driven(case)
+    try:
+        other = _driven(case)
+    except SceneError:
+        return led_rest(case, link)
     rest = rest_as_written(case, other)
-    rates = rest.answer.rates or {}
+    rates, velocities = rest.answer.rates or {}, rest.answer.velocities or {}
     own, by = rates.get(link), rates.get(other)
+    slides = own == 0.0
+    if slides:
+        speeds = (v for (_, on), v in velocities.items() if on == link and isinstance(v, tuple))
+        own = next((math.hypot(*v) for v in speeds), 0.0)
     if not isinstance(own, float) or not isinstance(by, float) or not own or not balances(rest):
         raise refusal
     if rest.stiffness is None:
         return rest
-    ratio = (by / own) ** 2
+    ratio, unit = (by / own) ** 2, rest.stiffness.unit
+    if slides:
+        ratio, unit = ratio / case.units.torque_per_force_length, f"{case.units.force}/{case.units.length}"
     value = rest.stiffness.value * ratio
     error = None
     if rest.stiffness.error is not None:
         error = rest.stiffness.error * ratio + 8.0 * math.ulp(value)
-    return rest._replace(stiffness=rest.stiffness._replace(value=value, error=error))
+    return rest._replace(stiffness=Stiffness(value, unit, error))
 
 
 class TurningPower(NamedTuple):
