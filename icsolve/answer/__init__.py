@@ -231,6 +231,11 @@ class Answer:
         found = [f"{name} = {one.holds or one.value} {one.unit}" for name, one in self.answers.items()]
         return f"<Answer {self.case.name}: {', '.join(found) or self.status}>"
 
+    @property
+    def shown_points(self) -> dict[str, tuple[float, float]]:
+        """The points that have a name in the case (hidden ones start with ``@``)."""
+        return {name: place for name, place in self.points.items() if not name.startswith("@")}
+
     def __getstate__(self) -> dict[str, Any]:
         """What is sent to another process."""
         return {**self.__dict__, "scene": None}

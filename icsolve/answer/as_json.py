@@ -17,11 +17,6 @@ if TYPE_CHECKING:
 SCHEMA = "icsolve/solve/1"
 
 
-def shown_points(answer: Answer) -> dict[str, tuple[float, float]]:
-    """The points that have a name in the case (hidden ones start with ``@``)."""
-    return {name: place for name, place in answer.points.items() if not name.startswith("@")}
-
-
 def to_dict(answer: Answer) -> dict[str, Any]:
     """The object that ``icsolve solve --json`` prints for a case.
 
@@ -144,7 +139,7 @@ def _contacts(answer: Answer) -> dict[str, Any]:
 
 def _places(answer: Answer) -> Mapping[str, tuple[float, ...]]:
     """The points to show; of a case in space they have three coordinates."""
-    return shown_points(answer) if answer.spatial is None else answer.spatial.points
+    return answer.shown_points if answer.spatial is None else answer.spatial.points
 
 
 def _bodies(answer: Answer) -> dict[str, Any]:

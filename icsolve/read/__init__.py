@@ -11,7 +11,6 @@ from icsolve.read.build import build, check_version, is_in_space
 from icsolve.read.document import Mapping, Node, checked, parse, text_of
 from icsolve.read.names import Problems, Stop
 from icsolve.read.reading import measures
-from icsolve.read.settings import apply
 
 Settings = Named[str, str | float]
 """Values by path: ``{"angles.AB": "30", "loads.P": "500 lbf"}``."""
@@ -81,7 +80,7 @@ def read_text(text: str, path: str = "<text>", settings: Settings | None = None)
 def _case(root: Mapping, settings: Settings, problems: Problems, name: str) -> Case:
     """The case of a tree with its settings, and with values for its variables."""
     if "variables" not in root.items:
-        apply(root, settings, problems)
+        _set(root, settings, problems)
         return _built(root, problems, name)
     from icsolve.read.variables import read_variables, substitute
     from icsolve.tuples import replace
@@ -89,8 +88,16 @@ def _case(root: Mapping, settings: Settings, problems: Problems, name: str) -> C
     variables = read_variables(root, problems)
     given = {path[10:]: str(value) for path, value in settings.items() if path.startswith("variables.")}
     substitute(root, variables, given, problems)
-    apply(root, {p: v for p, v in settings.items() if not p.startswith("variables.")}, problems)
+    _set(root, {p: v for p, v in settings.items() if not p.startswith("variables.")}, problems)
     return replace(_built(root, problems, name), variables=variables)
+
+
+def _set(root: Mapping, settings: Settings, problems: Problems) -> None:
+    """Put the settings into the tree, if there are any."""
+    if settings:
+        from icsolve.read.settings import apply
+
+        apply(root, settings, problems)
 
 
 def _built(root: Mapping, problems: Problems, name: str) -> Case:

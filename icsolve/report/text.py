@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from icsolve.answer import Answer, Centre, Found, Term
-from icsolve.answer.as_json import shown_points
 from icsolve.case import Case, Coordinates, Pair, Torque
 from icsolve.case.names import link_order, pair_name
 from icsolve.wording.senses import SPELT, holding, spelt
@@ -302,7 +301,7 @@ def _points(answer: Answer, show: Format) -> list[str]:
     """The points that the figure's data, and not their coordinates, determine."""
     coordinates = {n: data for n, data in answer.case.points.items() if isinstance(data, Coordinates)}
     given = {name for name, data in coordinates.items() if None not in data}
-    points = {name: place for name, place in shown_points(answer).items() if name not in given}
+    points = {name: place for name, place in answer.shown_points.items() if name not in given}
     if not points:
         return []
     places = [", ".join(_coordinate(answer, c, show) for c in place) for place in points.values()]
