@@ -15,11 +15,11 @@ from contextlib import suppress
 import numpy as np
 
 from icsolve.assembly import Figure, place, solve_figure
+from icsolve.assembly.construct import order_that_assembles
 from icsolve.assembly.groups import Group
 from icsolve.assembly.loci import is_round
 from icsolve.assembly.order import Order, order_of
 from icsolve.assembly.steps import Meet, Step
-from icsolve.assembly.ways import order_that_assembles
 from icsolve.assembly.workspace import frame_of
 from icsolve.case import Case, Coordinates, Number, TorsionSpring
 from icsolve.errors import SceneError, Status

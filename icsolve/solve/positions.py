@@ -10,7 +10,7 @@ import numpy as np
 
 from icsolve.answer import Answer
 from icsolve.answer.equilibrium import Stiffness
-from icsolve.assembly.ways import ways_of
+from icsolve.assembly.construct import ways_of
 from icsolve.case import (
     Case,
     Coordinates,
