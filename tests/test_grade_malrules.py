@@ -19,6 +19,7 @@ from icsolve.grade.keys import NumberKey
 from icsolve.grade.mistakes import CODES, Wrong, WrongAnswers, Wrongs, message
 from icsolve.grade.mistakes import solved_for as solved
 from icsolve.grade.mistakes.engine import shares
+from icsolve.grade.mistakes.lookup import near_miss
 from icsolve.grade.written.answer import Combined, Reader
 
 CAM = """\
@@ -500,3 +501,9 @@ def test_the_bare_size_of_a_negative_answer_seldom_gets_a_cause_either() -> None
     found = [judge_answer(key, combined, f"{key.value * rng.uniform(-3.0, 3.0):.4g}")[0] for _ in range(4000)]
     wrong = [judged for judged in found if judged.verdict == "wrong"]
     assert sum(bool(judged.code) for judged in wrong) <= 0.08 * len(wrong)
+
+
+def test_a_near_miss_of_an_angle_is_not_a_percent_of_a_turn() -> None:
+    """3 % of 350 degrees are ten: more than one random angle in twenty would be a near miss."""
+    assert near_miss(3.5, 360.0) == 5.0 and near_miss(0.6, 360.0) == pytest.approx(1.8)
+    assert near_miss(8.0, 360.0) == 8.0 and near_miss(8.0, 0.0) == 24.0

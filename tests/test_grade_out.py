@@ -473,6 +473,25 @@ def test_a_question_of_several_right_answers_takes_each_of_them(a_class: Class) 
     assert marks == [1.0, 1.0, 0.0]
 
 
+def test_a_question_of_prairielearn_takes_a_range_in_words(a_class: Class) -> None:
+    """A block on rough ground, 0.2 * 100 N about 50 N; Moodle, which takes one number, refuses it by name."""
+    a_class.case(
+        "block",
+        "icsolve: 1\npoints: {A: [0, 0]}\njoints: [{slide: [2, 1], at: A, along: 0, mu: 0.2}]\nloads:\n"
+        "  N: {force: 100, link: 2, at: A, angle: -90}\n  F: {force: 50, link: 2, at: A, angle: 180}\n"
+        "  P: {force: unknown, link: 2, at: A, angle: 0}\n",
+    )
+    path, folder = str(a_class.path("cases/block.yaml")), a_class.path("elements")
+    refused = a_class.run("export", "moodle-xml", path, "-o", str(a_class.path("block.xml")))
+    assert refused.code == 1 and "P holds over a range" in refused.err
+    assert a_class.run("export", "prairielearn", path, "-o", str(folder)).code == 0
+    scope: dict[str, Any] = {"__file__": str(folder / "block" / "server.py")}
+    exec((folder / "block" / "server.py").read_text(), scope)
+    task = scope["task"]({"variant_seed": "1"})
+    answers = (task.right(), "30 N to 70 N", "30 N", "30 N to 60 N")
+    assert [task.grade("", answer)["verdict"] for answer in answers] == ["right", "right", "wrong", "wrong"]
+
+
 def test_exports_carry_no_number_of_one_variant_in_titles(a_class: Class) -> None:
     a_class.case("press", PRESS.replace("title: Press", "title: Press with P = $P"))
     folder = a_class.path("elements")

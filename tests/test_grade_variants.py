@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,8 @@ from icsolve.case.expected import Variable
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
 from icsolve.grade.keys import NumberKey
+from icsolve.grade.roster import Person
+from icsolve.grade.variants.sheets import VariantTask, key_csv
 from icsolve.grade.variants.varied import Varied, drawn, label
 
 VARIABLES = (Variable("P", start="100", stop="500", step="10"), Variable("a", choices=("1.5", "2", "2.5")))
@@ -134,6 +137,20 @@ def test_variants_of_what_has_no_derivatives_and_of_what_is_near_a_dead_centre_b
         ((_, one),) = icsolve.solve(icsolve.load(a_class.path("cases/press.yaml"), settings)).answers.items()
         key = found.key("press", student)
         assert isinstance(key, NumberKey) and key.value == pytest.approx(one.value, rel=1e-12)
+
+
+def test_the_key_of_a_position_says_what_is_accepted_of_it(a_class: Class) -> None:
+    """A bar of 2 m with 10 N at its end on a couple rests at -60 degrees: of an angle the sign counts."""
+    a_class.case(
+        "press",
+        "icsolve: 1\nvariables: {W: {range: [10, 12], step: 1}}\npoints: {A: [0, 0]}\nlengths: {AB: 2}\n"
+        "angles: {AB: {unknown: [-90, 0]}}\njoints: [{pin: [1, 2], at: A}]\n"
+        "loads: {W: {weight: $W, link: 2, at: B}, T: {torque: 10, link: 2}}\n",
+    )
+    found = varied(a_class)
+    tasks = [VariantTask(Person(student), found.draw(student)) for student in "abc"]
+    for row in csv.DictReader(io.StringIO(key_csv(found, tasks))):
+        assert float(row["from"]) < float(row["value"]) < float(row["to"]) < 0.0
 
 
 def test_a_case_none_of_whose_variants_suits_says_so(a_class: Class) -> None:

@@ -17,6 +17,7 @@ from icsolve.grade.keys import (
     unit_factor,
 )
 from icsolve.grade.mistakes import Wrong, message, together
+from icsolve.grade.mistakes.lookup import near_miss
 from icsolve.grade.tolerance import SLACK
 from icsolve.grade.written.answer import MISSING, NO_NUMBER, Combined, WrittenAnswer, flagged
 from icsolve.grade.written.directions import WrittenDirection
@@ -32,8 +33,6 @@ OPEN = (IN_REVIEW, INVALID)
 VERDICTS = (RIGHT, WRONG, INVALID, IN_REVIEW, MISSING)
 SQUARE = "square-direction"
 BY_ANGLE = "direction-in-words"
-_NEAR = 3.0
-"""A near miss lies within this many half-widths."""
 
 
 class Judgement(NamedTuple):
@@ -176,7 +175,7 @@ def _wrong_size(
     if not mistakes and may_be_size and written.direction is None:
         mistakes = wrongs.near(-value, digits)
     off = abs(abs(value) - size)
-    if direction and off <= _NEAR * key.half * (1.0 + SLACK) and size:
+    if direction and off <= near_miss(key.half, key.period) * (1.0 + SLACK) and size:
         mistakes = (*mistakes, Wrong("near-miss", value))
     parts = (False, unit, direction)
     earned = policy.credit is not None or policy.mistakes
@@ -395,7 +394,7 @@ def _judged(key: PlaceKey, at: tuple[float, float], off: float, unit: bool) -> J
 
 def _mistakes(key: PlaceKey, at: tuple[float, float], off: float) -> tuple[Wrong, ...]:
     found = {w.code: w for x, y, w in reversed(key.wrongs) if math.dist(at, (x, y)) <= key.half}
-    if off <= _NEAR * key.half:
+    if off <= near_miss(key.half, 0.0):
         found["near-miss"] = Wrong("near-miss", 0.0)
     return tuple(found.values())[:3]
 

@@ -160,6 +160,12 @@ _CHANCE = 0.076
 _SPAN = 3.0
 
 
+def near_miss(half: float, period: float) -> float:
+    """How far off an answer is close: three times the tolerance; of an angle, of which a percent is much near
+    a whole turn, a 72nd of a turn at most."""
+    return min(3.0 * half, max(half, period / 72.0)) if period else 3.0 * half
+
+
 class Pair(NamedTuple):
     """Two mistakes at once, and the value that they give together."""
 
@@ -172,14 +178,14 @@ class Room:
     """What mistakes may cover of all answers, those that are even up to three times the right one, and those
     that are even in their powers of ten from a thousandth to a thousand times of it; of an angle, which whole
     turns do not change, those that are even over the ``period``. With ``others`` right answers beside this
-    one each has its part. Near misses, within three times ``half`` a band, have theirs first."""
+    one each has its part. Near misses have theirs first."""
 
     def __init__(self, right: float, half: float, period: float, others: int) -> None:
         self._right = right
         self._period = period
         self._even = self._decades = _CHANCE / (1.0 + others)
         if right:
-            self.take(right, 2.0 * half / abs(right))
+            self.take(right, (near_miss(half, period) - half) / abs(right))
 
     def take(self, value: float, width: float) -> bool:
         """Whether there is room for a value with its relative half-width; it is taken then. Of a negative one

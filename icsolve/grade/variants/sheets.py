@@ -55,7 +55,8 @@ def key_csv(varied: Varied, found: Iterable[VariantTask]) -> str:
     for person, draw in found:
         for question in questions(varied):
             for key in numbers_of(varied.key(question, person.student_id)):
-                low, high = max(abs(key.value) - key.half, 0.0), abs(key.value) + key.half
+                size = key.value if key.kind == "position" else abs(key.value)
+                low, high = size - key.half if size < 0.0 else max(size - key.half, 0.0), size + key.half
                 cells = (draw.label, question, f"{key.value:.12g}", key.unit_name, sense(varied, draw, key))
                 rows.append([safe(person.student_id), *cells, f"{low:.10g}", f"{high:.10g}"])
     return csv_text(["student_id", "variant", "case", "value", "unit", "sense", "from", "to"], rows)
