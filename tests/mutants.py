@@ -38,7 +38,7 @@ FIRST = {
     "kinematics": "digits three_routes second_order reference",
     "statics": "reaction_digits bodies bodies_gears bodies_scenes friction friction_bounds ropes",
     "scene": "digits reaction_digits sensitivity bodies_scenes",
-    "space": "space space_random",
+    "space": "space space_random space_digits",
 }
 """The tests that know most of a room."""
 THEN = (

@@ -9,6 +9,7 @@ from fractions import Fraction
 from random import Random
 from statistics import median
 
+import numpy as np
 import pytest
 from mpmath import mpf, pi, workdps
 
@@ -18,7 +19,10 @@ import loading
 import mechanisms
 import transcribe
 from figures import from_lengths, without_order
+from icsolve.case import Number
 from icsolve.errors import SceneError
+from icsolve.numbers.jets import BallArray, Jet
+from icsolve.numbers.tape import decimal_noise
 from icsolve.report.text import answer_text
 from icsolve.scene.bounds import EvaluatedScene, unknown_values
 from icsolve.scene.program import Want, evaluate, prepare
@@ -195,3 +199,27 @@ def test_rates_and_centres_of_two_given_motions_have_bounds_that_hold() -> None:
         assert centre.error is not None
         assert abs(centre.place[0] - x) + abs(centre.place[1] - y) <= centre.error < 1e-12
     assert all(one.error is not None for one in answer.centres.values())
+
+
+@pytest.mark.parametrize("written", ["0.1", "2.7182818284590452353", "-123456.789", "1e-7"])
+def test_a_written_decimal_is_half_a_unit_of_its_double_off_and_no_more(written: str) -> None:
+    """Of a number without a unit's factor the rounding is that of reading it: 2^-53 of it."""
+    number = Number(float(written), 0.0, "lengths.AB", written)
+    true = abs(Fraction(written) - Fraction(number.value))
+    assert true <= Fraction(decimal_noise(number)) <= Fraction(abs(number.value)) / 2**53
+
+
+def test_bounds_about_the_middle_of_a_wide_cell_hold_the_whole_cell() -> None:
+    """x^3 on cells of half-width 3: value, slope and bend of every place lie in their balls."""
+    middles, half = np.array([-4.0, 0.0, 5.0]), np.full(3, 3.0)
+
+    def cube(mid: np.ndarray, rad: np.ndarray) -> Jet:
+        one, none = BallArray(np.ones(3), np.zeros(3)), BallArray(np.zeros(3), np.zeros(3))
+        x = Jet(BallArray(mid, rad), one, none)
+        return x * x * x
+
+    found = cube(middles, half).within(cube(middles, np.zeros(3)), half)
+    for share in np.linspace(-1.0, 1.0, 21):
+        x = middles + share * half
+        for ball, true in zip(found, (x**3, 3.0 * x**2, 6.0 * x), strict=True):
+            assert (np.abs(true - ball.mid) <= ball.rad * (1.0 + 1e-12)).all()
