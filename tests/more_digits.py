@@ -7,7 +7,7 @@ from typing import Any
 from mpmath import mp, mpf
 
 from icsolve.case import Number
-from icsolve.units import ExactRatio
+from icsolve.numbers.units import ExactRatio
 
 mp.dps = 60
 

@@ -17,7 +17,7 @@ from icsolve.case import Joint
 
 PACKAGE = Path(__file__).parent.parent / "icsolve"
 ROOMS = (
-    "tuples errors units files numbers case wording answer structure screws assembly kinematics statics cams "
+    "tuples errors files numbers case wording answer structure screws assembly kinematics statics cams "
     "read scene sweep solve report draw explain page grade manual bench cli"
 ).split()
 """In the order in which they may lean on one another: each only on those before it."""

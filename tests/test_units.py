@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from icsolve.units import (
+from icsolve.numbers.units import (
     DIMENSIONS,
     UNITS,
     UnitError,

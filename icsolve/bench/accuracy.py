@@ -13,13 +13,13 @@ from icsolve.bench.families import ALL_JOINTS, BOUNDED, EXACT, SIX_BARS, Draw, F
 from icsolve.bench.rivals import Failed, Method, OtherData, RivalFigure, drawn
 from icsolve.case import Case, Coordinates, Force, Number
 from icsolve.errors import SceneError
+from icsolve.numbers.units import ExactRatio
 from icsolve.read import load
 from icsolve.scene import refusals
 from icsolve.scene.bounds import evaluate_bounded
 from icsolve.scene.program import Program, Want, evaluate, prepare
 from icsolve.solve import solve
 from icsolve.tuples import NamedTuple
-from icsolve.units import ExactRatio
 
 DIGITS = 60
 UNIT = 2.0**-53

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from icsolve.numbers.given import Number
+from icsolve.numbers.units import ExactRatio
 from icsolve.tuples import NamedTuple
-from icsolve.units import ExactRatio
 
 Mark = tuple[int, int]
 """Line and column of a key or value in its file, both from 1."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from icsolve.case.bodies import Rope
 from icsolve.numbers.given import Number
+from icsolve.numbers.units import ExactRatio
 from icsolve.tuples import NamedTuple
-from icsolve.units import ExactRatio
 
 
 class Like(NamedTuple):

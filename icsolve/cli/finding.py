@@ -174,9 +174,9 @@ def _query(case: Case, word: str) -> Query:
 
 def _value(case: Case, name: str, text: str) -> float:
     """The value in case units."""
+    from icsolve.numbers.units import UnitError, converted, kind_of, parse_unit, split_quantity
     from icsolve.read.names import shown, suggestion
     from icsolve.sweep.request import RequestError
-    from icsolve.units import UnitError, converted, kind_of, parse_unit, split_quantity
 
     target = _unit(case, name)
     if target is None:

@@ -38,9 +38,9 @@ from icsolve.grade.tolerance import (
 )
 from icsolve.grade.written.directions import WrittenDirection
 from icsolve.grade.written.units import UnitWord, factors_between
+from icsolve.numbers.units import Unit, UnitError
 from icsolve.report.check import value_of
 from icsolve.tuples import NamedTuple
-from icsolve.units import Unit, UnitError
 
 _SQUARE = 5.0
 """Degrees: words this near to square to the answer say neither way."""

@@ -32,10 +32,10 @@ from icsolve.errors import IcsolveError, SceneError
 from icsolve.grade.mistakes import solved_for
 from icsolve.grade.written.units import factors_between, unit_word
 from icsolve.numbers.given import numbers_in
+from icsolve.numbers.units import DIMENSIONS, Unit, nearest, parse_unit, split_quantity
 from icsolve.report.check import value_of
 from icsolve.scene.sensitivity import band
 from icsolve.tuples import replace
-from icsolve.units import DIMENSIONS, Unit, nearest, parse_unit, split_quantity
 
 SLACK = 1e-9
 """Relative room, so that 101 passes for 100 within 1 %."""

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 from typing import Any, Protocol
 
 from icsolve.numbers.given import Number
-from icsolve.units import ExactRatio, nearest
+from icsolve.numbers.units import ExactRatio, nearest
 
 Scalar = Any
 """A float, an array of them, or any number type with + - * /."""

@@ -29,7 +29,7 @@ from typing import Union, final
 
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.given import Number
-from icsolve.units import ExactRatio
+from icsolve.numbers.units import ExactRatio
 
 UP = 1.0 + 2.0**-49
 """Times this, a few roundings of floats err upward."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from icsolve.numbers.units import ExactRatio
 from icsolve.tuples import NamedTuple
-from icsolve.units import ExactRatio
 
 
 class Number(NamedTuple):

@@ -15,7 +15,7 @@ from icsolve.numbers.arithmetic import ROUNDING_NOISE, Scalar, turn_of
 from icsolve.numbers.given import Number
 from icsolve.numbers.tape import decimal_noise
 from icsolve.numbers.traced import Node, Op, Root, Traced, is_plainly, varies
-from icsolve.units import ExactRatio, nearest
+from icsolve.numbers.units import ExactRatio, nearest
 
 TWO = frozenset((Op.ADD, Op.SUB, Op.MUL, Op.DIV, Op.ANGLE))
 """The operations on two nodes."""

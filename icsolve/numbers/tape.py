@@ -15,8 +15,8 @@ from typing import Union
 
 from icsolve.numbers.arithmetic import Scalar, turn_of
 from icsolve.numbers.given import Number
+from icsolve.numbers.units import ExactRatio, nearest
 from icsolve.tuples import NamedTuple
-from icsolve.units import ExactRatio, nearest
 
 UNIT = 2.0**-53
 TURN_NOISE = 3.0 * UNIT

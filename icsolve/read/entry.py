@@ -11,11 +11,11 @@ from collections.abc import Mapping as Table
 from typing import Any
 
 from icsolve.case import Like, Magnitude, Mark, Number, Slope
+from icsolve.numbers.units import exactly, nearest, quotient, split_quantity
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.keys import LIKE, Key, Rule
 from icsolve.read.names import shown, suggestion
 from icsolve.read.reading import Reading, number
-from icsolve.units import exactly, nearest, quotient, split_quantity
 
 Values = dict[str, Any]
 """What an entry holds under each key of its table; None of what is left out."""

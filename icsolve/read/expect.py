@@ -22,6 +22,7 @@ from icsolve.case.expected import (
     TensionIs,
     Tolerance,
 )
+from icsolve.numbers.units import DIMENSIONS, UnitError, parse_unit, split_quantity
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
 from icsolve.read.entry import Entry
 from icsolve.read.keys import EXPECTED, EXPECTED_TIES
@@ -29,7 +30,6 @@ from icsolve.read.loads import dimension_of
 from icsolve.read.names import LONGEST_KEY, is_name, pairs, parts, shown, suggestion
 from icsolve.read.reading import Reading, number, quantity
 from icsolve.tuples import NamedTuple
-from icsolve.units import DIMENSIONS, UnitError, parse_unit, split_quantity
 
 SHARES = (
     *("normal", "friction", "tangential", "separating", "transverse", "axial", "radial", "thrust"),

@@ -21,13 +21,13 @@ from icsolve.case import (
     Toward,
     Weight,
 )
+from icsolve.numbers.units import exact_ratio, times
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.entry import Entry, Values
 from icsolve.read.keys import LOADS, MOTION_OF_LINK, MOTION_OF_POINT, PULLS, EntryKind
 from icsolve.read.names import is_name, point_key, shown, suggestion, why_no_name
 from icsolve.read.reading import Reading
 from icsolve.tuples import NamedTuple
-from icsolve.units import exact_ratio, times
 
 VECTORS = {"force": "vector", "torque": "couple"}
 """Kinds that can be given by components, and what they are called then."""

@@ -20,12 +20,12 @@ from icsolve.case.profiles import (
     Roller,
     Shape,
 )
+from icsolve.numbers.units import UnitError, split_quantity
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.entry import Entry
 from icsolve.read.keys import EntryKind, Key, needed, quantity_key
 from icsolve.read.names import shown, suggestion
 from icsolve.read.reading import Reading, number
-from icsolve.units import UnitError, split_quantity
 
 _RADIUS = Key("its radius", "quantity", True, "length", "positive")
 _OWN = Key("a point, or [x, y] in this position", "place", True)

@@ -8,10 +8,7 @@ from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any
 
 from icsolve.case import Coordinates, Mark, Number, Units, Unknown
-from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null, missing_space
-from icsolve.read.keys import UNITS as UNIT_KEYS
-from icsolve.read.names import Problems, is_name, meant_by, shown, suggestion, why_no_name
-from icsolve.units import (
+from icsolve.numbers.units import (
     DIMENSIONS,
     ONE,
     UNITS,
@@ -28,6 +25,9 @@ from icsolve.units import (
     split_quantity,
     times,
 )
+from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null, missing_space
+from icsolve.read.keys import UNITS as UNIT_KEYS
+from icsolve.read.names import Problems, is_name, meant_by, shown, suggestion, why_no_name
 
 if TYPE_CHECKING:
     from fractions import Fraction

@@ -28,6 +28,7 @@ from icsolve.case.space import (
     Vector,
 )
 from icsolve.numbers.balls import PRECISIONS, Balls
+from icsolve.numbers.units import Unit
 from icsolve.read.build import ground_of, readable, section_of, told_of_itself
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.entry import Entry, Values
@@ -39,7 +40,6 @@ from icsolve.read.loads import Forms, heading, read_section, spring, weight
 from icsolve.read.names import Problems, suggestion
 from icsolve.read.reading import Measures, Reading, number
 from icsolve.read.teeth import read_teeth
-from icsolve.units import Unit
 
 WORDS = ("x", "y", "z", "-x", "-y", "-z")
 _FORM = "x, y, z, -z, components such as [0, 3, 4], or two points [A, B]"

@@ -8,11 +8,11 @@ from icsolve.assembly.workspace import Frame
 from icsolve.case import Case, ForceVector, Torque
 from icsolve.kinematics.accelerations import Moving, moving
 from icsolve.numbers.arithmetic import Arithmetic, Scalar
+from icsolve.numbers.units import exact_ratio, parse_unit
 from icsolve.screws.plane import Point, Triple, force_wrench
 from icsolve.statics.power import Wrench, known_value, vector_size
 from icsolve.structure.topology import Topology
 from icsolve.tuples import replace
-from icsolve.units import exact_ratio, parse_unit
 
 FORCE = "inertia force {}"
 

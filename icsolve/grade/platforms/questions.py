@@ -24,8 +24,8 @@ from icsolve.grade.keys import AnyKey, NumberKey, PlaceKey, RangeKey
 from icsolve.grade.mistakes import Wrong, message
 from icsolve.grade.mistakes.lookup import ORDER
 from icsolve.grade.written.units import factors_between
+from icsolve.numbers.units import parse_unit
 from icsolve.tuples import NamedTuple
-from icsolve.units import parse_unit
 
 
 def figure(case: Case) -> str:

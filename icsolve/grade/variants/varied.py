@@ -21,13 +21,13 @@ from icsolve.grade.keys import (
 from icsolve.grade.mistakes import WrongAnswers
 from icsolve.grade.solved import SolvedCase
 from icsolve.grade.tolerance import NoKeyError, drawn_band, size_of
+from icsolve.numbers.units import converted, parse_unit, split_quantity
 from icsolve.read.document import Mapping as Tree
 from icsolve.read.document import Node, Scalar, parse
 from icsolve.read.document import Sequence as Items
 from icsolve.read.names import Problems
 from icsolve.read.variables import count, first_values, names_in, replaced, value_at
 from icsolve.tuples import NamedTuple
-from icsolve.units import converted, parse_unit, split_quantity
 from icsolve.wording.senses import unit_of
 
 if TYPE_CHECKING:

@@ -13,8 +13,8 @@ from icsolve.grade.written.numerals import AMBIGUOUS as AMBIGUOUS_NUMBER
 from icsolve.grade.written.numerals import UNREAD, WrittenNumber, numeral, plain
 from icsolve.grade.written.units import AMBIGUOUS as AMBIGUOUS_UNIT
 from icsolve.grade.written.units import UnitWord, unit_word
+from icsolve.numbers.units import DIMENSIONS
 from icsolve.tuples import NamedTuple
-from icsolve.units import DIMENSIONS
 
 MISSING = "missing"
 NO_NUMBER = "no-number"

@@ -9,8 +9,7 @@ from __future__ import annotations
 
 import re
 
-from icsolve.tuples import NamedTuple
-from icsolve.units import (
+from icsolve.numbers.units import (
     DIMENSIONS,
     LISTED,
     UNITS,
@@ -22,6 +21,7 @@ from icsolve.units import (
     parse_unit,
     times,
 )
+from icsolve.tuples import NamedTuple
 
 CASE = "unit-case"
 AMBIGUOUS = "ambiguous-unit"
