@@ -15,7 +15,7 @@ import numpy as np
 from icsolve.answer.equilibrium import EquilibriumPosition, Stiffness
 from icsolve.assembly import Figure, place
 from icsolve.assembly.workspace import frame_of
-from icsolve.case import Case
+from icsolve.case import Case, TorsionSpring
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.adjoint import gradient
 from icsolve.numbers.intervals import Interval, enclose
@@ -67,6 +67,12 @@ def find_pairs(case: Case, paths: Sequence[str], spans: Sequence[Span | None]) -
     Raises SceneError where the mechanism has not two freedoms, or the figure assembles for no start.
     """
     limits = [span or whole_range(case, path) for path, span in zip(paths, spans, strict=True)]
+    turned = any(
+        b - a > 360.0 for path, (a, b) in zip(paths, limits, strict=True) if path.startswith("angles.")
+    )
+    if turned and any(isinstance(load, TorsionSpring) for load in case.loads):
+        said = "two unknown angles with torsion springs are searched over one turn: shorten the ranges."
+        raise SceneError(Status.UNSUPPORTED, said)
     found: list[EquilibriumPosition] = []
     surfaces = _surfaces(case, paths, limits)
     if case.near:
@@ -83,13 +89,12 @@ def find_pairs(case: Case, paths: Sequence[str], spans: Sequence[Span | None]) -
 
 
 def _surfaces(case: Case, paths: Sequence[str], limits: Sequence[Span]) -> list[Surface]:
-    order = order_of_all(
-        _at(case, paths, [a + part * (b - a) for a, b in limits]) for part in (0.37, *PARTS)
-    )
+    order = order_of_all(_at(case, paths, [a + part * (b - a) for a, b in limits]) for part in (0.37, *PARTS))
     surfaces: list[Surface] = []
     refusal: SceneError | None = None
     draw = np.random.default_rng(11)
-    starts = [[float(draw.uniform(a, b)) for a, b in limits] for _ in range(200)]
+    starts = [[0.5 * (a + b) for a, b in limits]]  # where the turns of torsion springs count from
+    starts += [[float(draw.uniform(a, b)) for a, b in limits] for _ in range(200)]
     for steps in modes_of(order.steps):
         for start in starts:
             written = _at(case, paths, start)
