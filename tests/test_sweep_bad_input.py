@@ -49,7 +49,7 @@ def refused(*words: str) -> Callable[[str], bool]:
         (["--vary", "angles.AB=1e300,1e301"], ["is not PATH=FROM:TO:STEP"]),
         (["--vary", "=0:1:1"], ["is not PATH=FROM:TO:STEP"]),
         (["--vary", "angles.AB=0:1e30:1e-20"], ["rows fit"]),
-        (["--vary", "angles.AB=0:1e4:1e-3", "--vary", "loads.P=0:1e4:1"], ["rows together"]),
+        (["--vary", "angles.AB=0:100:1e-3", "--vary", "loads.P=0:1e4:1"], ["rows together"]),
         (["--vary", "angles.AB=0:1e4:1e-3", "--points", "--centres", "--error"], ["numbers", "fewer rows"]),
         (["--vary", "angles.AB=0:9:1", "--vary", "angles.AB=0:9:1"], ["angles.AB is given twice"]),
         (["--vary", "lengths.AB=1:2:1", "--vary", "lengths.BA=1:2:1"], ["are the same number"]),

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from functools import lru_cache
 
 import numpy as np
 
@@ -161,9 +162,9 @@ class Follow(NamedTuple):
             roller = (follower.at, off * follower.radius.value)
         return RestingContact(touch.place, joint, (place.x.value, place.y.value), roller)
 
-    def contact(self, case: Case, pose: LinkPose, line: Candidate) -> tuple[Case, Touching]:
+    def contact(self, case: Case, pose: LinkPose, met: Candidate) -> tuple[Case, Touching]:
         """A row's case with this contact."""
-        meeting = meeting_of(self.curve, line.body, self.side, self.seeking.what)
+        meeting = meeting_of(self.curve, met.body, self.side, self.seeking.what)
         return self.seeking.contact(case, self.curve, pose.meeting(meeting), self.freedom, note=False)
 
 
@@ -244,13 +245,19 @@ class CamMotion:
         return math.hypot(max(xs) - min(xs), max(ys) - min(ys)) + 2.0 * math.fsum(radii)
 
 
+@lru_cache(maxsize=16)
+def cam_motion(case: Case) -> CamMotion:
+    """The motion of a case, once a case."""
+    return CamMotion(case)
+
+
 class Rows:
     """The rows of a sweep that one course runs through."""
 
     def __init__(self, course: CamMotion, columns: Columns) -> None:
         self.course, self.columns = course, columns
         self.codes: Codes = np.zeros(columns.rows, dtype=np.int8)
-        self.lines: dict[tuple[int, int], tuple[LinkPose, Candidate] | None] = {}
+        self.contacts: dict[tuple[int, int], tuple[LinkPose, Candidate] | None] = {}
         self.frames: list[tuple[Array, Array]] = []
         self.rested: list[FirstContacts] = []
         """where each follower touches in every row, in the figure"""
@@ -283,21 +290,21 @@ class Rows:
         self.frames.append((first, second))
         self.rested.append(rested)
         for row in np.flatnonzero(turned & placed & ~rested.sure).tolist():
-            one = self._way(len(self.rested) - 1, row)
+            one = self._contact(len(self.rested) - 1, row)
             if one is None:
                 self.codes[row] = CODE[Status.CANNOT_ASSEMBLE]
             rested.by[row] = one[1].by if one is not None else 0.0
         by = np.where(turned & placed & np.isfinite(rested.by), rested.by, 0.0)
         self.drivers[follow.driver] = follow.driven(by)
 
-    def _way(self, k: int, row: int) -> tuple[LinkPose, Candidate] | None:
+    def _contact(self, k: int, row: int) -> tuple[LinkPose, Candidate] | None:
         """Where a follower meets its cam in a row, with every rule of a single scene."""
-        if (k, row) not in self.lines:
+        if (k, row) not in self.contacts:
             first, second = self.frames[k]
             pose = pose_of(self.course.follows[k].written, (_point(first[row]), _point(second[row])))
-            line = self.course.follows[k].met(pose)
-            self.lines[k, row] = (pose, line) if line is not None else None
-        return self.lines[k, row]
+            found = self.course.follows[k].met(pose)
+            self.contacts[k, row] = (pose, found) if found is not None else None
+        return self.contacts[k, row]
 
     def together(self, asked: RowRequest) -> tuple[dict[Key, Array], Mask]:
         """What is asked of the rows, from one record.
@@ -349,7 +356,7 @@ class Rows:
         """A case with the contacts of a row."""
         touching = []
         for k, follow in enumerate(self.course.follows):
-            one = self._way(k, row)
+            one = self._contact(k, row)
             assert one is not None
             case, touched = follow.contact(case, *one)
             touching.append(touched)

@@ -21,7 +21,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.replay import Array
 from icsolve.scene import solve_scene
 from icsolve.statics.power import is_unknown
-from icsolve.sweep.cam_motion import CamMotion, Rows
+from icsolve.sweep.cam_motion import CamMotion, Rows, cam_motion
 from icsolve.sweep.first_contact import Mask
 from icsolve.sweep.numbers import with_numbers
 from icsolve.sweep.program import RowRequest, setting_of
@@ -97,7 +97,7 @@ def sweep_touching(
     Raises SceneError as `icsolve.sweep`, and where a follower cannot be followed.
     """
     table, seen, parts = Table(columns.rows, wanted.asked), _Seen(), []
-    first = CamMotion(case)
+    first = cam_motion(case)
     moving = _moving(first, columns)
     for part in _parts(case, columns, moving, table):
         parts.append(part)
@@ -167,7 +167,7 @@ def _run(case: Case, columns: Columns, rows: Which, moving: set[str], shaping: l
         return None
     paths = {path: a[rows] for path, a in columns.paths.items() if path not in shaping}
     links = {link: a[rows] for link, a in columns.links.items()}
-    return Rows(CamMotion(case), Columns(paths, links, columns.names))
+    return Rows(cam_motion(case), Columns(paths, links, columns.names))
 
 
 def _written(case: Case, columns: Columns, row: int) -> Case:
@@ -283,7 +283,7 @@ def _over_a_turn(case: Case, cam: str) -> Mapping[tuple[str, str], tuple[float, 
     if not any(isinstance(j, Pin) and {cam, case.ground} <= {*j.links} for j in case.joints):
         return {}
     try:
-        rows = Rows(CamMotion(case), Columns({}, {cam: np.arange(0.0, 360.0, STEP)}, {cam: cam}))
+        rows = Rows(cam_motion(case), Columns({}, {cam: np.arange(0.0, 360.0, STEP)}, {cam: cam}))
         if rows.codes.any():
             return {}
         seen: dict[tuple[str, str], list[float]] = {}
