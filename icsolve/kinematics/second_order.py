@@ -37,6 +37,8 @@ def goes_on(top: Topology, bases: Bases) -> bool | None:
     if any(top.bonds[k].joint.freedom > 1 or not top.bonds[k].joint.stays_known for k in bases):
         return None
     tree = span(top, sorted(bases), (top.ground,), bases)
+    if any(body not in tree.branches for k in bases for body in (top.bonds[k].a, top.bonds[k].b)):
+        return None  # what no joint ties to the frame floats: more motions than one
     rows = [row[:-1] for row in loop_rows(top, tree, bases, {top.ground: ORIGIN})]
     motion = null_space(rows, tree.columns, unit=1.0).basis
     if len(motion) != 1:
