@@ -41,6 +41,7 @@ KEYS = {
     "home": "\ue011",
     "end": "\ue010",
     "enter": "\ue007",
+    "tab": "\ue004",
 }
 
 

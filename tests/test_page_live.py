@@ -314,6 +314,45 @@ def test_a_crank_is_turned_by_its_handle_and_by_keys(shown: Any) -> None:
     assert found[0] == status and float(found[1]) == pytest.approx(values["T12"], rel=1e-9)
 
 
+FOCUSED = """const e = document.activeElement;
+const style = getComputedStyle(e);
+return [e.id, e.getAttribute('role'), e.getAttribute('aria-label'), e.matches(':focus-visible'),
+  [style.strokeWidth, style.strokeDasharray, style.strokeOpacity].join()]"""
+
+
+@pytest.mark.parametrize("name", ["linkages/jansen_leg", "sliders/quick_return", "tools/scissor_jack"])
+def test_every_handle_is_reached_and_moved_by_keys(name: str, shown: Any) -> None:
+    """Tab goes from each to the next, which says what it is and shows that it has the focus; arrows change the
+    numbers that place it (of a point on a circle those along it), and the answer is that of the numbers."""
+    path = ROOT / f"{name}.yaml"
+    page = shown(path)
+    ids = page.run("return [...document.querySelectorAll('.handle')].map((e) => e.id)")
+    assert ids
+    unfocused = """const style = getComputedStyle(document.getElementById(arguments[0]));
+        return [style.strokeWidth, style.strokeDasharray, style.strokeOpacity].join()"""
+    for k, own in enumerate(ids):
+        plain = page.run(unfocused, own)
+        if k == 0:
+            page.run("document.getElementById(arguments[0]).focus({ focusVisible: true })", own)
+        else:
+            page.press(f"#{ids[k - 1]}", "tab")
+        found, role, said, visible, style = page.run(FOCUSED)
+        assert (found, role, visible) == (own, "button", True)
+        assert own.removeprefix("handle-") in said and "arrow keys" in said
+        assert style != plain
+        moved = set()
+        for key in ("left", "up", "right", "down"):
+            before = dict(zip(*page.run(FIELDS), strict=True))
+            page.press(f"#{own}", key)
+            after = dict(zip(*page.run(FIELDS), strict=True))
+            moved |= {p for p in after if after[p] != before[p]}
+            assert page.run("return document.activeElement.id") == own
+            status = page.run("return document.querySelector('[id^=answer-]').dataset.status")
+            assert status == (solved(path, after) or (None,))[0], (own, key)
+        assert moved, own
+        page.run("document.getElementById('reset').click()")
+
+
 def test_the_case_is_copied_with_its_numbers_and_a_link_leads_back(shown: Any, tmp_path: Path) -> None:
     """Dragged beyond `near` too: what is copied solves to what the page shows."""
     path = ROOT / "linkages/jansen_leg.yaml"
