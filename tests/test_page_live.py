@@ -210,6 +210,61 @@ def test_a_rope_that_would_push_is_slack(shown: Any) -> None:
     assert {"ok", "slack", "inconsistent"} <= set(seen)
 
 
+PUT = """const field = document.getElementById('number-' + arguments[0]);
+field.value = arguments[1]; field.dispatchEvent(new Event('input'));"""
+ROUNDS = """const circles = [...document.querySelectorAll('#mechanism circle')].map((e) => Number(e.getAttribute('r')));
+return [circles, [...document.querySelectorAll('[data-rope] path')].map((e) => e.getAttribute('d'))]"""
+
+
+@pytest.mark.parametrize("name", ["ropes/windlass", "ropes/differential_hoist", "ROPED"])
+def test_wheels_and_ropes_are_drawn_with_the_radii_that_are_typed(name: str, shown: Any) -> None:
+    """Each radius of a rope 0.9 as large: a circle of the figure shrinks so, the rope lies on it; both come back."""
+    page = shown(ROPED if name == "ROPED" else ROOT / f"{name}.yaml")
+    written, ropes = page.run(ROUNDS)
+    radii = {p: v for p, v in zip(*page.run(FIELDS), strict=True) if ".radii." in p}
+    assert radii
+    for path, text in radii.items():
+        page.run(PUT, path, repr(0.9 * float(text)))
+        circles, laid = page.run(ROUNDS)
+        changed_ones = [(a, b) for a, b in zip(written, circles, strict=True) if a != b]
+        assert changed_ones and all(b == pytest.approx(0.9 * a, abs=0.02) for a, b in changed_ones)
+        assert laid != ropes
+        page.run(PUT, path, text)
+        assert page.run(ROUNDS)[0] == pytest.approx(written, abs=0.011)
+
+
+CUT = """const [left, top, width, height] = document.getElementById('figure').getAttribute('viewBox').split(' ').map(Number);
+const m = document.getElementById('figure').getScreenCTM().inverse();
+return [...document.querySelectorAll('#loads [data-load]:not(.ghost) path')].flatMap((e) => {
+  const b = e.getBoundingClientRect();
+  return [[b.left, b.top], [b.right, b.bottom]].map(([x, y]) => new DOMPoint(x, y).matrixTransform(m));
+}).filter((p) => p.x < left - 1 || p.y < top - 1 || p.x > left + width + 1 || p.y > top + height + 1).length"""
+
+
+@pytest.mark.parametrize("name", ["linkages/four_bar", "ropes/windlass", "linkages/jansen_leg"])
+def test_no_arrow_of_a_load_is_cut_at_the_edge(name: str, shown: Any) -> None:
+    """Turned through, then with loads that point each way, by fields and by the keys of a handle."""
+    page = shown(ROOT / f"{name}.yaml", moves=True)
+    turns = page.run(
+        "const s = document.getElementById('turn'); return s ? [Number(s.min), Number(s.max)] : null"
+    )
+    turn = """const slider = document.getElementById('turn'); slider.value = arguments[0];
+        slider.dispatchEvent(new Event('input'))"""
+    for n in range(9 if turns else 0):
+        page.run(turn, str(turns[0] + (turns[1] - turns[0]) * n / 8))
+        assert page.run(CUT) == 0, n
+    page.click("#reset")
+    headings = [p for p in page.run(FIELDS)[0] if p.startswith("loads.") and p.endswith(".angle")]
+    for path in headings:
+        for angle in ("0", "90", "180", "270"):
+            page.run(PUT, path, angle)
+            assert page.run(CUT) == 0, (path, angle)
+    handle = page.run("return document.querySelector('.handle').id")
+    for key in ("left", "up", "right", "down"):
+        page.press(f"#{handle}", *[key] * 8)
+        assert page.run(CUT) == 0, key
+
+
 def test_a_handle_is_dragged_by_mouse_and_by_finger(shown: Any) -> None:
     """The pin goes where it is pulled, the fields follow, and the answer is that of their numbers."""
     path = ROOT / "linkages/four_bar.yaml"

@@ -282,9 +282,11 @@ def _place(view: View, x: Array, y: Array, fine: int = FINE["px"]) -> dict[str, 
 
 
 def _circles(scene: Scene, course: RopeCourse) -> list[list[Any]]:
-    """What a rope goes round, in order: point, place as written, radius (positive: clockwise)."""
-    ends = zip(course.rope.points, course.radii, strict=True)
-    return [[p, *(round(c, 1) for c in scene.at[p]), round(radius, 2)] for p, radius in ends]
+    """What a rope goes round, in order: point, place as written, radius (positive: clockwise), and where
+    that is a number of the case its path."""
+    paths = ("" if given is None else given.path for given in course.rope.radii)
+    ends = zip(course.rope.points, course.radii, paths, strict=True)
+    return [[p, *(round(c, 1) for c in scene.at[p]), round(radius, 2), path] for p, radius, path in ends]
 
 
 def _anchors(known: Known, steps: Sequence[Step], figure: PageFigure) -> dict[str, list[float]]:

@@ -8,10 +8,11 @@ const make = (name, attributes, parent) => {
 const stage = byId("centres");
 let [LEFT, TOP, RIGHT, BOTTOM] = data.window;
 let MIDDLE = [(LEFT + RIGHT) / 2, (TOP + BOTTOM) / 2];
-/* The window with some more places in it. */
-function fit(more) {
+/* The window with some more places in it, and the ends of arrows. */
+function fit(more, ends = []) {
   const [left, top, right, bottom] = data.window;
-  const room = (n, end, pick) => pick(end, ...more.map((p) => p[n] + (pick === Math.min ? -46 : 46)));
+  const room = (n, end, pick) =>
+    [[more, 46], [ends, 12]].reduce((far, [some, by]) => some.reduce((all, p) => pick(all, p[n] + (pick === Math.min ? -by : by)), far), end);
   [LEFT, TOP] = [room(0, left, Math.min), room(1, top, Math.min)];
   [RIGHT, BOTTOM] = [room(0, right, Math.max), room(1, bottom, Math.max)];
   MIDDLE = [(LEFT + RIGHT) / 2, (TOP + BOTTOM) / 2];

@@ -47,11 +47,12 @@ function changed(dragged, driven = false, pulled = null) {
   liveHint.textContent = scene.status === "ok" ? "" : `No answer (${scene.status}): ${scene.words ? scene.words + "." : words}`;
   if (!driven) rested();
   byId("mechanism").classList.toggle("stale", scene.status !== "ok" && !scene.placed);
-  if (!dragged) fitNow();
+  if (!dragged || driven) fitNow(driven ? [[LEFT + 12, TOP + 12], [RIGHT - 12, BOTTOM - 12]] : []);
   render();
   placeHandles();
 }
-const fitNow = () => fit(row === LIVE ? Object.keys(live.points).map((name) => [points[name].x[row], points[name].y[row]]) : []);
+const fitNow = (kept = []) =>
+  row === LIVE ? fit(Object.keys(live.points).map((name) => [points[name].x[row], points[name].y[row]]), [...arrows(row), ...kept]) : fit([]);
 /* From here the sliders count. */
 function rested() {
   for (const e of all('[id^="turn"]')) e.value = "0";
@@ -197,6 +198,8 @@ function grip(name, moves) {
     const by = (event.shiftKey ? 20 : 4) / view[0];
     const [x, y] = fromFrame(laboratory.points[live.points[name]]);
     pull(h, [x + way[0] * by, y + way[1] * by]);
+    fitNow();
+    render();
   });
   return h;
 }

@@ -107,6 +107,10 @@ function arrows(r) {
   }
   return found;
 }
+if (stage) {
+  fit([], [...Array(rows).keys()].flatMap(arrows).filter((p) => p.every(Number.isFinite)));
+  data.window = [LEFT, TOP, RIGHT, BOTTOM];
+}
 function pins(r) {
   return pinned.map(([x, y, name]) => {
     const p = own(points, name);

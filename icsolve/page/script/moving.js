@@ -86,11 +86,17 @@ function moveRail(e, r) {
   set(e, "transform", `translate(${f(p[0] + across * now[1])} ${f(p[1] + across * now[0])}) rotate(${f(-turned(before, now))}) translate(${-p[0]} ${-p[1]})`);
 }
 const rails = all("[data-rail]", figure);
+/* How many times as large as written a radius is. */
+function grown(path, r) {
+  const n = r === LIVE ? live.paths.indexOf(path) : -1;
+  return n < 0 ? 1 : numbers[n] / live.numbers[n];
+}
 /* A rope round its circles: parts that touch two of them, and arcs between. */
 function layRope(e, circles, r) {
-  const where = ([name, x, y, s]) => {
+  const where = ([name, x, y, s, path]) => {
     const p = own(points, name);
-    return p ? [x + p.x[r] - p.x[zero], y + p.y[r] - p.y[zero], s] : [x, y, s];
+    const now = s * grown(path, r);
+    return p ? [x + p.x[r] - p.x[zero], y + p.y[r] - p.y[zero], now] : [x, y, now];
   };
   const round = circles.map(where);
   let d = "";
@@ -113,7 +119,22 @@ function layRope(e, circles, r) {
   if (laid) set(e.querySelector("path"), "d", d);
 }
 const ropes = all("[data-rope]", figure).map((e) => [e, data.ropes[e.dataset.rope]]);
+/* The wheels that ropes go round, with the paths of their radii. */
+const rounds = new Map();
+for (const [, x, y, s, path] of Object.values(data.ropes || {}).flat())
+  for (const e of path ? all("#mechanism circle", figure) : []) {
+    const [cx, cy, size] = ["cx", "cy", "r"].map((name) => Number(e.getAttribute(name)));
+    if (apart([cx, cy], [x, y]) > 0.15 || Math.abs(size - Math.abs(s)) > 0.15) continue;
+    const before = rounds.get(e);
+    const spokes = [...e.parentNode.querySelectorAll("path.faint")];
+    rounds.set(e, before ? { ...before, paths: [...before.paths, path] } : { at: [cx, cy], size, spokes, paths: [path] });
+  }
 function moveParts(r) {
+  for (const [e, { at: [x, y], size, spokes, paths }] of rounds) {
+    const k = Math.max(...paths.map((path) => grown(path, r)));
+    set(e, "r", f(size * k));
+    for (const spoke of spokes) set(spoke, "transform", `translate(${x} ${y}) scale(${k}) translate(${-x} ${-y})`);
+  }
   for (const [e, circles] of ropes) layRope(e, circles, r);
   for (const [e, l] of turning)
     if (!bent(e, r))
