@@ -320,9 +320,7 @@ def test_the_stress_catalogue_is_printed_with_its_verdicts(monkeypatch: pytest.M
     assert "WRONG (M1 = -0.538" in ran.stdout
 
 
-def test_a_broken_law_is_told_and_fails_the_command(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_broken_law_is_told_and_fails_the_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """And so does a time that is not kept; what is kept is a success."""
     kept = nothing()
     monkeypatch.setattr(report, "run", lambda full, say: kept)

@@ -165,14 +165,17 @@ motion: {link: 2, speed: 20, acceleration: 50}
 
 def test_units_of_pounds_and_inches() -> None:
     """A rotor of 3 lbm at 4 in, started with 12 rad/s^2: the couple of its mass and its inertia."""
-    answer = solved("""
+    answer = solved(
+        """
 units: {length: in, force: lbf}
 points: {A: [0, 0], G: [4, 0]}
 links: {2: {mass: 3 lbm, centre: G, inertia: 5 lbm*in^2}}
 joints: [{pin: [1, 2], at: A}]
 loads: {T: {torque: unknown, link: 2}}
 motion: {link: 2, speed: 0, acceleration: 12}
-""", reactions=True)
+""",
+        reactions=True,
+    )
     lbf = 0.45359237 * 0.0254 / 4.4482216152605
     assert answer.answers["T"].value == pytest.approx((3 * 16 + 5) * 12 * lbf, rel=1e-15)
     assert answer.reactions is not None
@@ -203,6 +206,7 @@ def test_a_positive_acceleration_makes_the_link_faster_in_its_own_sense(way: str
 
 def heavy(case: Case, rng: Random) -> Case:
     """Masses on all links, at points that they carry."""
+
     def number(path: str) -> Number:
         digits = f"{rng.uniform(0.1, 9.0):.3f}"
         return Number(float(digits), 0.0, path, digits)

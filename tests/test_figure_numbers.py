@@ -275,6 +275,7 @@ def test_one_recorded_step_carries_the_derivatives(name: str) -> None:
         slope = (ends[0] - ends[1]) / 2e-6
         assert by_path.get(length.value.path, 0.0) == pytest.approx(slope, abs=2e-8)
 
+
 # --- beside a limit, by the decimals as written ---
 
 

@@ -18,37 +18,43 @@ from icsolve.grade.run import Job, Sinks, grade
 CORPUS = Path(__file__).parent / "data" / "written_answers.txt"
 HEAD = "icsolve: 1\njoints:\n  - {pin: [1, 2], at: A}\n"
 QUESTIONS = {
-    "torque": HEAD + """\
+    "torque": HEAD
+    + """\
 points: {A: [0, 0], B: [1, 0]}
 loads:
   P: {force: 64.5, link: 2, at: B, angle: 90}
   T12: {torque: unknown, link: 2}
 """,
-    "pull": HEAD + """\
+    "pull": HEAD
+    + """\
 points: {A: [0, 0], B: [1, 0], C: [2, 2]}
 loads:
   M: {torque: -993.7086, link: 2}
   Q: {force: unknown, link: 2, at: B, toward: C}
 """,
-    "right": HEAD + """\
+    "right": HEAD
+    + """\
 points: {A: [0, 0], B: [0, 1]}
 loads:
   M: {torque: 387, link: 2}
   F: {force: unknown, link: 2, at: B, angle: 0}
 """,
-    "large": HEAD + """\
+    "large": HEAD
+    + """\
 points: {A: [0, 0], B: [1, 0]}
 loads:
   M: {torque: -12345, link: 2}
   L: {force: unknown, link: 2, at: B, angle: 90}
 """,
-    "zero": HEAD + """\
+    "zero": HEAD
+    + """\
 points: {A: [0, 0], B: [2, 0]}
 loads:
   P: {force: 100, link: 2, at: B, angle: 180}
   T12: {torque: unknown, link: 2}
 """,
-    "reaction": HEAD + """\
+    "reaction": HEAD
+    + """\
 points: {A: [0, 0], B: [1, 0]}
 loads:
   W: {weight: 58.2, link: 2, at: B}

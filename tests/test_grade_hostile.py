@@ -42,7 +42,7 @@ def test_a_quoted_cell_of_several_lines_is_one_cell(a_class: Class) -> None:
 
 def test_numbers_that_no_double_holds_in_the_answers_unit(a_class: Class) -> None:
     """1e308 MN*m is a number, and wrong; the results stay valid JSON."""
-    table = HEADER + "01,lever,1e308 MN*m\n02,lever,-1e308 kip*ft\n03,lever:I12,\"(1e308, 1e308)\"\n"
+    table = HEADER + '01,lever,1e308 MN*m\n02,lever,-1e308 kip*ft\n03,lever:I12,"(1e308, 1e308)"\n'
     path = str(a_class.path("out.jsonl"))
     ran = a_class.grade(table, "--jsonl", path, "--html", str(a_class.path("out.html")))
     assert [row["verdict"] for row in ran.rows()] == ["wrong", "wrong", "missing", "wrong"]

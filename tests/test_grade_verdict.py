@@ -240,9 +240,7 @@ def test_an_error_carried_forward_is_recognised(a_class: Class) -> None:
         ("v C on 4", "60 in/s", 197.078254 * 47.8225160 / 60.0),
     ],
 )
-def test_an_error_carried_forward_to_a_slider(
-    a_class: Class, what: str, given: str, follows: float
-) -> None:
+def test_an_error_carried_forward_to_a_slider(a_class: Class, what: str, given: str, follows: float) -> None:
     """P = T12 / I24-A = T12 w2 / v: by the right method from a wrong centre, distance or speed."""
     case = "slider_crank_offset"
     table = f'student_id,case,answer\na,{case}:{what},"{given}"\na,{case},{follows:.6g} lbf\n'

@@ -309,9 +309,7 @@ def test_what_interpolation_leaves_open_is_said_and_shrinks() -> None:
 def test_radii_that_turn_clockwise_are_the_mirror_image() -> None:
     pairs = [(30.0 * k, 40.0 + 8.0 * math.sin(math.radians(30.0 * k)) ** 2 + k % 3) for k in range(12)]
     ccw = solve(sliding(table(pairs), "{knife: B}", degrees=90.0, e=10.0))
-    cw = solve(
-        sliding(table(pairs).replace("radii", "turns: cw, radii"), "{knife: B}", degrees=90.0, e=10.0)
-    )
+    cw = solve(sliding(table(pairs).replace("radii", "turns: cw, radii"), "{knife: B}", degrees=90.0, e=10.0))
     assert cw.points["B"] == pytest.approx(ccw.points["B"], abs=1e-12)
     assert torque(cw) == pytest.approx(-torque(ccw), abs=1e-9)
 
@@ -463,9 +461,9 @@ def test_bad_profiles_are_refused_at_their_place(name: str) -> None:
     old, new, line, column, words = WRONG[name]
     with pytest.raises(CaseError) as found:
         load(text.replace(old, new, 1))
-    assert any(
-        (p.line, p.column) == (line, column) and words in p.message for p in found.value.problems
-    ), found.value
+    assert any((p.line, p.column) == (line, column) and words in p.message for p in found.value.problems), (
+        found.value
+    )
 
 
 def test_curve_is_found_from_either_order_of_its_corners() -> None:

@@ -78,7 +78,8 @@ def test_scissor_jack_by_its_screw(half: float) -> None:
     """Four arms at an angle t: the screw pulls W / tan t, whatever their length."""
     t = math.radians(half)
     x, y = 200 * math.cos(t), 200 * math.sin(t)
-    answer = solved(f"""
+    answer = solved(
+        f"""
 units: {{length: mm, force: N, torque: N*m}}
 points: {{O: [0, 0], L: [{-x!r}, {y!r}], R: [{x!r}, {y!r}], H: [0, {2 * y!r}]}}
 joints:
@@ -91,7 +92,9 @@ joints:
 loads:
   W: {{weight: 5000, link: 6, at: H}}
   T: {{torque: unknown, screw: 8-7}}
-""", reactions=True)
+""",
+        reactions=True,
+    )
     pull = 5000 / math.tan(t)
     assert answer.answers["T"].value == pytest.approx(pull * 0.004 / (2 * math.pi), rel=1e-9)
 

@@ -108,9 +108,7 @@ def test_values_of_a_range_are_the_decimals_that_were_meant(press: Path, tmp_pat
 
 
 @settings(derandomize=True)
-@given(
-    st.decimals(-1000, 1000, places=6), st.decimals(-3, 3, places=5).filter(bool), st.integers(1, 500)
-)
+@given(st.decimals(-1000, 1000, places=6), st.decimals(-3, 3, places=5).filter(bool), st.integers(1, 500))
 def test_every_value_of_a_range_is_rounded_once(first: Decimal, step: Decimal, count: int) -> None:
     found = progression(Fraction(first), Fraction(step), count).tolist()
     assert found == [float(Fraction(first) + k * Fraction(step)) for k in range(count)]
