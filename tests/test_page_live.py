@@ -218,7 +218,7 @@ return [circles, [...document.querySelectorAll('[data-rope] path')].map((e) => e
 
 @pytest.mark.parametrize("name", ["ropes/windlass", "ropes/differential_hoist", "ROPED"])
 def test_wheels_and_ropes_are_drawn_with_the_radii_that_are_typed(name: str, shown: Any) -> None:
-    """Each radius of a rope 0.9 as large: a circle of the figure shrinks so, the rope lies on it; both come back."""
+    """Each radius 0.9 as large: a circle of the figure shrinks so, and the rope lies on it; both come back."""
     page = shown(ROPED if name == "ROPED" else ROOT / f"{name}.yaml")
     written, ropes = page.run(ROUNDS)
     radii = {p: v for p, v in zip(*page.run(FIELDS), strict=True) if ".radii." in p}
@@ -233,21 +233,20 @@ def test_wheels_and_ropes_are_drawn_with_the_radii_that_are_typed(name: str, sho
         assert page.run(ROUNDS)[0] == pytest.approx(written, abs=0.011)
 
 
-CUT = """const [left, top, width, height] = document.getElementById('figure').getAttribute('viewBox').split(' ').map(Number);
+CUT = """const box = document.getElementById('figure').getAttribute('viewBox').split(' ').map(Number);
+const [left, top, right, bottom] = [box[0], box[1], box[0] + box[2], box[1] + box[3]];
 const m = document.getElementById('figure').getScreenCTM().inverse();
 return [...document.querySelectorAll('#loads [data-load]:not(.ghost) path')].flatMap((e) => {
   const b = e.getBoundingClientRect();
-  return [[b.left, b.top], [b.right, b.bottom]].map(([x, y]) => new DOMPoint(x, y).matrixTransform(m));
-}).filter((p) => p.x < left - 1 || p.y < top - 1 || p.x > left + width + 1 || p.y > top + height + 1).length"""
+  return [[b.left, b.top], [b.right, b.bottom]].map((p) => new DOMPoint(...p).matrixTransform(m));
+}).filter((p) => p.x < left - 1 || p.y < top - 1 || p.x > right + 1 || p.y > bottom + 1).length"""
 
 
 @pytest.mark.parametrize("name", ["linkages/four_bar", "ropes/windlass", "linkages/jansen_leg"])
 def test_no_arrow_of_a_load_is_cut_at_the_edge(name: str, shown: Any) -> None:
     """Turned through, then with loads that point each way, by fields and by the keys of a handle."""
     page = shown(ROOT / f"{name}.yaml", moves=True)
-    turns = page.run(
-        "const s = document.getElementById('turn'); return s ? [Number(s.min), Number(s.max)] : null"
-    )
+    turns = page.run("const s = document.getElementById('turn'); return s && [s.min, s.max].map(Number)")
     turn = """const slider = document.getElementById('turn'); slider.value = arguments[0];
         slider.dispatchEvent(new Event('input'))"""
     for n in range(9 if turns else 0):
@@ -377,8 +376,8 @@ return [e.id, e.getAttribute('role'), e.getAttribute('aria-label'), e.matches(':
 
 @pytest.mark.parametrize("name", ["linkages/jansen_leg", "sliders/quick_return", "tools/scissor_jack"])
 def test_every_handle_is_reached_and_moved_by_keys(name: str, shown: Any) -> None:
-    """Tab goes from each to the next, which says what it is and shows that it has the focus; arrows change the
-    numbers that place it (of a point on a circle those along it), and the answer is that of the numbers."""
+    """Tab goes from each to the next, which says what it is and shows that it has the focus; arrows change
+    the numbers that place it (of a point on a circle along it), and the status is that of the numbers."""
     path = ROOT / f"{name}.yaml"
     page = shown(path)
     ids = page.run("return [...document.querySelectorAll('.handle')].map((e) => e.id)")
