@@ -212,13 +212,14 @@ def test_a_rope_that_would_push_is_slack(shown: Any) -> None:
 
 PUT = """const field = document.getElementById('number-' + arguments[0]);
 field.value = arguments[1]; field.dispatchEvent(new Event('input'));"""
-ROUNDS = """const circles = [...document.querySelectorAll('#mechanism circle')].map((e) => Number(e.getAttribute('r')));
-return [circles, [...document.querySelectorAll('[data-rope] path')].map((e) => e.getAttribute('d'))]"""
+ROUNDS = """const all = (marks) => [...document.querySelectorAll(marks)];
+const told = (marks, name) => all(marks).map((e) => e.getAttribute(name));
+return [told('#mechanism circle', 'r').map(Number), told('[data-rope] path', 'd')]"""
 
 
 @pytest.mark.parametrize("name", ["ropes/windlass", "ropes/differential_hoist", "ROPED"])
 def test_wheels_and_ropes_are_drawn_with_the_radii_that_are_typed(name: str, shown: Any) -> None:
-    """Each radius 0.9 as large: a circle of the figure shrinks so, and the rope lies on it; both come back."""
+    """Each radius 0.9 as large: a circle of the figure shrinks so, the rope follows, and both come back."""
     page = shown(ROPED if name == "ROPED" else ROOT / f"{name}.yaml")
     written, ropes = page.run(ROUNDS)
     radii = {p: v for p, v in zip(*page.run(FIELDS), strict=True) if ".radii." in p}
