@@ -18,6 +18,7 @@ import pytest
 import icsolve
 from browser import Browser
 from icsolve.errors import CaseError, SceneError
+from icsolve.explain import explain
 from icsolve.page import motion, page_html
 from icsolve.page.motion import motion_of
 from sizes import FULL
@@ -355,6 +356,24 @@ def test_a_changed_mechanism_is_turned_as_the_sweep_turns_it(name: str, shown: A
         for load, (value, status) in row.items():
             assert status == rows.status[n]
             assert float(value) == pytest.approx(rows.answers[load][n], rel=1e-7, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    "change", [{}, {"points.E.x": "480", "loads.P": "75"}, {"angles.BC": "35", "lengths.ED": "230"}]
+)
+def test_power_of_two_freedoms_is_an_equation_for_each(change: dict[str, str], shown: Any) -> None:
+    """The equations of a five-bar are those of the worked solution of the same numbers."""
+    path = ROOT / "linkages/five_bar.yaml"
+    page = shown(path)
+    for number, text in change.items():
+        page.run(PUT, number, text)
+    wanted = re.findall(r"The sum of power:\n +(.+)\n", explain(icsolve.load(path, change)))
+    assert len(wanted) == 2
+    seen = [page.text(f"#motion-{n}").replace("×", "x").replace("−", "-") for n in (0, 1)]
+    assert seen == wanted
+    couple = re.search(r"T12 = (\S+) N·m", page.run(SEEN, "2"))
+    value = float(page.run("return document.getElementById('answer-T12').dataset.value"))
+    assert couple is not None and float(couple[1].replace("−", "-")) == pytest.approx(value, rel=1e-3)
 
 
 def test_a_crank_is_turned_by_its_handle_and_by_keys(shown: Any) -> None:

@@ -407,8 +407,10 @@ def _unbroken(sentence: str) -> str:
 def _power(parts: PageParts) -> str:
     """The equation of power, and a table of its terms."""
     equation, known = parts.equation, parts.known
-    if equation is None or known.answer is None:
+    if known.answer is None:
         return ""
+    if equation is None:
+        return _power_of_motions(parts)
     rows = ""
     unit_of_all = _text(unit_word(equation.root[1]))
     for n, (symbol, ratio, unit, own) in enumerate(equation.rows):
@@ -426,6 +428,21 @@ def _power(parts: PageParts) -> str:
         f'<div class="scroll"><table><thead><tr>{heads}</tr></thead><tbody>{rows}'
         f'<tr class="sum"><td>{equation.root[0]}</td><td></td><td>{less}</td><td>{total}</td></tr>'
         "</tbody></table></div></section>"
+    )
+
+
+def _power_of_motions(parts: PageParts) -> str:
+    """The equation of power of each motion of a live case with several freedoms, which the script writes."""
+    drivers = parts.model["live"]["drivers"] if parts.live is not None else []
+    items = ""
+    for n, driver in enumerate(drivers):
+        held = " and ".join(f"link {other}" for other in drivers if other != driver)
+        items += (
+            f"<h3>Motion {n + 1}: link {_text(driver)} turns at 1 rad/s counterclockwise, {_text(held)} held"
+            f'</h3><p class="scroll" id="motion-{n}"></p>'
+        )
+    return f'<section aria-label="Power"><h2>The sum of the powers is zero</h2>{items}</section>' * bool(
+        items
     )
 
 

@@ -28,6 +28,7 @@ from icsolve.numbers.record import Record
 from icsolve.numbers.source import JAVASCRIPT, JAVASCRIPT_FUNCTIONS, straight_line
 from icsolve.page.fields import handles_of, text_data
 from icsolve.report.derivation import Known
+from icsolve.report.derivation.ratios import independent_motions
 from icsolve.scene.program import Program
 from icsolve.scene.refusals import HANGS, rubs
 from icsolve.screws.joints import freedoms, guide_direction
@@ -83,7 +84,11 @@ def live_of(known: Known) -> Live | None:
     """The scene of a case as a program; None where it has to be solved beforehand."""
     if why_presolved(known) or known.scene is None:
         return None
-    return _ProgramWriter(known.scene.program).live()
+    live = _ProgramWriter(known.scene.program).live()
+    motions = independent_motions(known)
+    several = len(motions) > 1 and all(motion.turns for motion in motions)
+    live.data["drivers"] = [motion.driver for motion in motions] if several else []
+    return live
 
 
 class _ProgramWriter:

@@ -222,7 +222,7 @@ function actingOn(state, link) {
     const force = [sign * w[1], -sign * w[0]];
     const place = at && state.places[at] ? state.frame[live.points[at]] : null;
     const couple = sign * w[2] - (place ? place[0] * force[1] - place[1] * force[0] : 0);
-    found.push({ name, force, couple: (couple / live.frame[2]) / live.torque, at: place && state.places[at], known });
+    found.push({ name, force, couple: (couple / live.frame[2]) * live.torque, at: place && state.places[at], known });
   };
   live.bonds.forEach(([a, b], k) => {
     if (live.body[a] !== body && live.body[b] !== body) return;
@@ -252,7 +252,7 @@ function drawBody(state, link) {
     said.textContent = "No position here in which forces are known.";
     return;
   }
-  const found = actingOn(state, link).filter((one) => one.open || Math.hypot(...one.force) > 1e-9 || Math.abs(one.couple) > 1e-12);
+  const found = actingOn(state, link).filter((one) => one.open || Math.hypot(...one.force) > 1e-9 || Math.abs(one.couple) > 1e-12 * live.torque);
   const forces = found.filter((one) => !one.open && Math.hypot(...one.force) > 0);
   const most = Math.max(...forces.map((one) => Math.hypot(...one.force)), 1e-300);
   const real = forces.filter((one) => Math.hypot(...one.force) > 1e-9 * most);
@@ -287,13 +287,37 @@ function drawBody(state, link) {
   const [force, torque] = live.units;
   const toward = (one) => degreesWords((Math.atan2(one.force[1], one.force[0]) * 180) / Math.PI);
   const words = real.map((one) => `${one.name} = ${number(Math.hypot(...one.force), 4)} ${force} at ${toward(one)}`);
-  const couples = found.filter((one) => !one.open && Math.abs(one.couple) > 1e-9 * most / live.frame[2]);
+  const couples = found.filter((one) => !one.open && Math.abs(one.couple) > ((1e-9 * most) / live.frame[2]) * live.torque);
   words.push(...couples.map((one) => `${one.at ? "couple of " : ""}${one.name} = ${number(one.couple, 4)} ${torque}`));
   words.push(...found.filter((one) => one.open).map((one) => `${one.name} is not determined by statics`));
   said.textContent = `${words.join("; ")}.`;
 }
+/* The equation of power of each motion in which one driver turns at 1 rad/s and the others are held. */
+function tellMotions() {
+  if (!live.drivers.length) return;
+  const state = stateAt(row);
+  const count = live.drivers.length;
+  live.drivers.forEach((_, n) => (byId(`motion-${n}`).textContent = state ? equationOf(state.solved, n, count) : "No position here in which it is known."));
+}
+function equationOf({ motions, loads, power, values }, n, count) {
+  const rates = live.drivers.map((link, k) => [...motions.twists[live.body[link]].map((t) => t[2]), k === n ? -1 : 0]);
+  const { basis } = nullSpace(rates, count + 1, 1e-12);
+  if (basis.length !== 1 || Math.abs(basis[0][count]) < 1e-12) return "The drivers do not move apart from each other here.";
+  const mix = basis[0].slice(0, count).map((v) => v / basis[0][count]);
+  const fastest = largest(motions.twists.map((ts) => [0, 1, 2].map((m) => dot(mix, ts.map((t) => t[m])))).flat());
+  const terms = live.loads.flatMap((load, k) => {
+    const factor = dot(mix, power[k]);
+    if (Math.abs(factor) <= 1e-12 * fastest * Math.abs(loads[k][3]) * largest(loads[k].slice(0, 3))) return [];
+    const told = number(((factor * load.measure) / live.frame[2]) * live.torque, 6);
+    const first = load.unknown ? load.name : number(values[k], 6);
+    const bracketed = told.startsWith("−") ? `(${told})` : told;
+    return [told === "1" ? first : `${first.startsWith("−") ? `(${first})` : first} × ${bracketed}`];
+  });
+  return terms.length ? `${terms.join(" + ")} = 0` : "In this motion no load does work.";
+}
 function see() {
   if (!overlay) return;
+  tellMotions();
   overlay.textContent = "";
   const rotations = ticked("[data-rotation]");
   const curves = ticked("[data-curve]");
