@@ -415,3 +415,22 @@ def test_text_stays_text(title: str) -> None:
     lead = said["md"].partition("\n\n## ")[0]
     assert not re.search(r"(?<!\\)[<>$`|]", lead)
     assert words(case.title) in words(re.sub(r"\\(.)", r"\1", lead))
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["dynamics/hoist_starting", "dynamics/slider_crank_piston", "tools/bolt_cutter", "ropes/band_brake"],
+)
+def test_the_sum_is_solved_without_double_signs(name: str) -> None:
+    """What goes to the other side of the equation of power has one sign, and a lone number no brackets."""
+    text = explain(icsolve.load(ROOT / f"cases/{name}.yaml"))
+    solved = [block.splitlines()[0] for block in text.split("\nSo\n")[1:]]
+    assert not any(re.search(r"- ?\(-|= \(\d", line) for line in solved), solved
+    assert "needs 1, which are" not in text
+
+
+def test_speeds_without_a_given_one_say_what_they_are_for() -> None:
+    """In place of rows for the frame, which stands still."""
+    text = explain(icsolve.load(ROOT / "cases/equilibrium/piston_under_pressure.yaml"))
+    assert "No speed is given; these are the speeds while w2 = 1." in text
+    assert not re.search(r"^ +(w1|\w on 1) ", text, re.MULTILINE)

@@ -54,7 +54,11 @@ def centre_sections(known: Known, figures: Figures, steps: Sequence[Step]) -> li
 def _count(known: Known, needed: int) -> Block:
     n = len(known.case.links)
     total = n * (n - 1) // 2
-    these = "all of them are" if needed == total else f"the answer needs {needed}, which are"
+    these = (
+        "all of them are"
+        if needed == total
+        else f"the answer needs {needed}, which {'is' if needed == 1 else 'are'}"
+    )
     if total == 1:
         return words(f"The {n} links have 1 centre.")
     return words(f"The {n} links have {n}({n} - 1)/2 = {total} centres; {these} found here.")

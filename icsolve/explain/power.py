@@ -344,7 +344,10 @@ def _solved(
     found = known.answer.answers[root.load.name]
     powers = [(t.sign, (t.acting.value or 0.0) * t.factor) for t in terms if not t.acting.unknown]
     powers += [(1, r.power) for r in friction]
-    over = Sum(tuple((-sign, figures.number(power)) for sign, power in powers)) if powers else Num("0")
+    moved = tuple((sign if power < 0.0 else -sign, figures.number(abs(power))) for sign, power in powers)
+    over: Expr = Sum(moved) if powers else Num("0")
+    if len(moved) == 1 and moved[0][0] > 0:
+        over = moved[0][1]
     parts = tuple(
         (t.sign, product(figures.number(_times(t.acting, root)), figures.number(t.factor))) for t in unknown
     )
@@ -354,7 +357,7 @@ def _solved(
     name = load_name(root.load.name)
     if under != Num("1"):
         yield formula(name, Quotient(over, under), value)
-    elif len(powers) == 1 and powers[0][0] * powers[0][1] > 0.0:
+    elif len(powers) == 1:
         yield formula(name, value)
     else:
         yield formula(name, over, value)

@@ -91,12 +91,16 @@ def rates_section(known: Known, figures: Figures) -> Iterable[Section]:
     unit = "rad/s" if timed else "scaled"
     rows: list[tuple[tuple[Inline, ...], ...]] = []
     for link, rate in whole.rates.items():
+        if link == known.case.ground:
+            continue
         value = f"left open: {rate}" if isinstance(rate, str) else figures.number(rate)
         rows.append(((rate_name(link),), (value,)))
     yield from worked_speeds(known, figures)
-    blocks: list[Block] = [
-        ShownTable(("link", f"angular velocity, {unit}, counterclockwise positive"), tuple(rows))
-    ]
+    one = next((link for link, rate in whole.rates.items() if rate == 1.0), None)
+    blocks: list[Block] = []
+    if not timed and one is not None:
+        blocks = [words("No speed is given; these are the speeds while ", rate_name(one), " = 1.")]
+    blocks += [ShownTable(("link", f"angular velocity, {unit}, counterclockwise positive"), tuple(rows))]
     blocks += _velocities(known, figures, timed)
     yield Section("Speeds", tuple(blocks))
 
@@ -108,7 +112,7 @@ def _velocities(known: Known, figures: Figures, timed: bool) -> Iterable[Block]:
     unit = f"{known.case.units.length}/s" if timed else "scaled"
     rows: list[tuple[tuple[Inline, ...], ...]] = []
     for (point, link), v in whole.velocities.items():
-        if isinstance(v, str) or point.startswith("@"):
+        if isinstance(v, str) or point.startswith("@") or link == known.case.ground:
             continue
         rows.append(((f"{point} on {link}",), (figures.number(v[0]),), (figures.number(v[1]),)))
     if rows:
