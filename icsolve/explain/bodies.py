@@ -142,7 +142,8 @@ def _moments(
             if abs(dx * force.y) > least:
                 terms.append((1, product(figures.length(dx), figures.number(force.y))))
             if abs(dy * force.x) > least:
-                terms.append((-1, product(figures.length(dy), figures.number(force.x))))
+                sign = 1 if dy < 0.0 else -1
+                terms.append((sign, product(figures.length(abs(dy)), figures.number(force.x))))
         if abs(force.couple) > least:
             terms.append((1, figures.number(force.couple)))
     if terms:

@@ -227,7 +227,7 @@ def friction_section(known: Known, figures: Figures) -> Section | None:
 
 RULE = (
     "Where a joint rubs, its force leans against the motion by the angle phi, with tan phi = mu. In a pin of "
-    "radius r it is so tangent to the friction circle, of radius r sin phi about the pin; on a guide, in a "
+    "radius r it is then tangent to the friction circle, of radius r sin phi about the pin; on a guide, in a "
     "slot or at a contact it makes phi with the normal."
 )
 

@@ -119,6 +119,10 @@ def _velocities(known: Known, figures: Figures, timed: bool) -> Iterable[Block]:
         yield ShownTable(("point", f"x, {unit}", f"y, {unit}"), tuple(rows))
 
 
+SAME = 1e-12
+"""Two ways to an answer that differ by less, of it, gave the same: that is what rounding leaves."""
+
+
 def check_section(known: Known, figures: Figures) -> Iterable[Section]:
     """The unknown loads a second time, by the equilibrium of every link."""
     answer = known.answer
@@ -130,7 +134,8 @@ def check_section(known: Known, figures: Figures) -> Iterable[Section]:
         unit = units.get(w.load, "")
         off = Quantity(Num(f"{abs(w.difference):.1g}"), unit)
         found = figures.quantity(w.bodies, unit)
-        but: tuple[Inline, ...] = (" but for ", off) if w.difference else ()
+        seen = abs(w.difference) > SAME * abs(w.bodies)
+        but: tuple[Inline, ...] = (" but for ", off) if seen else ()
         same = " by free bodies alone; power gave the same"
         entries.append((load_name(w.load), " = ", found, same, *but, "."))
     said = words("The equations of equilibrium of all links, without power or centres, give:")
@@ -165,7 +170,8 @@ def _skipped(
         names: list[Inline] = []
         for n, pair in enumerate(others):
             names += [", " if n else "", centre_name(known, pair)]
-        yield ("The centres ", *names, ": the loaded links are related without them.")
+        what, them = ("The centre ", "it") if len(others) == 1 else ("The centres ", "them")
+        yield (what, *names, f": the loaded links are related without {them}.")
     if answer.answers and not bodies:
         idle = "do no work" if answer.friction is None else "do work by friction alone"
         yield (f"The forces in the joints: they {idle}, and the equation of power is without them.",)
