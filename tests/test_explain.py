@@ -419,14 +419,21 @@ def test_text_stays_text(title: str) -> None:
 
 @pytest.mark.parametrize(
     "name",
-    ["dynamics/hoist_starting", "dynamics/slider_crank_piston", "tools/bolt_cutter", "ropes/band_brake"],
+    [
+        "dynamics/hoist_starting",
+        "dynamics/slider_crank_piston",
+        "tools/bolt_cutter",
+        "ropes/band_brake",
+        "ch13/13_18_slider_crank_friction_everywhere",
+    ],
 )
 def test_the_sum_is_solved_without_double_signs(name: str) -> None:
-    """What goes to the other side of the equation of power has one sign, and a lone number no brackets."""
-    text = explain(icsolve.load(ROOT / f"cases/{name}.yaml"))
-    solved = [block.splitlines()[0] for block in text.split("\nSo\n")[1:]]
+    """What goes to the other side of the equation of power has one sign; so has each arm of a moment."""
+    text = explain(icsolve.load(ROOT / f"cases/{name}.yaml"), bodies=True)
+    solved = re.findall(r"^(?:So|Moments about \w+:)\n(.+)", text, re.MULTILINE)
+    assert len(solved) > 1
     assert not any(re.search(r"- ?\(-|= \(\d", line) for line in solved), solved
-    assert "needs 1, which are" not in text
+    assert "needs 1, which are" not in text and not re.search(r"The centres \w+:", text)
 
 
 def test_speeds_without_a_given_one_say_what_they_are_for() -> None:

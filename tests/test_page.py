@@ -23,6 +23,7 @@ import numpy as np
 import pytest
 
 import icsolve
+from icsolve.case import Pin
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.page import page_html
 from icsolve.page.motion import motion_of
@@ -487,3 +488,22 @@ def test_a_jump_of_friction_is_no_dead_centre() -> None:
     """Where the slider turns round the force jumps with the friction; it does not run off to infinity."""
     model = model_of(page_of("ch13/13_19_slider_crank_friction_at_pins.yaml"))
     assert not [degrees for degrees in model["motion"]["dead"] if 80.0 < degrees < 95.0]
+
+
+@pytest.mark.parametrize(
+    "name", ["13_18_slider_crank_friction_everywhere", "13_19_slider_crank_friction_at_pins"]
+)
+def test_friction_circles_have_their_radius_and_go_with_their_pins(name: str) -> None:
+    """r sin phi, tan phi = mu, to the hundredth of a picture unit that is written."""
+    case = icsolve.load(ROOT / f"cases/ch13/{name}.yaml")
+    html = page_html(case)
+    scale = float(re.findall(r'"scale":([^,]+),', html)[0])
+    rubbing = [j for j in case.joints if isinstance(j, Pin) and j.friction and j.friction.radius]
+    circles = dict(
+        re.findall(r'<g id="joint-pin[^>]* data-at="(\w+)">\s*<circle class="box"[^>]* r="([^"]+)"', html)
+    )
+    assert circles.keys() == {pin.at for pin in rubbing} != set()
+    for pin in rubbing:
+        assert pin.friction is not None and pin.friction.radius is not None
+        wanted = pin.friction.radius.value * math.sin(math.atan(pin.friction.mu.value)) * scale
+        assert float(circles[str(pin.at)]) == pytest.approx(wanted, abs=0.006)
