@@ -42,7 +42,13 @@ def cos(degrees: float) -> float:
     return math.cos(math.radians(degrees))
 
 
-FUNCTIONS = {"sin": sin, "cos": cos, "sqrt": lambda x: math.sqrt(max(x, 0.0)), "__builtins__": {}}
+FUNCTIONS = {
+    "sin": sin,
+    "cos": cos,
+    "sqrt": lambda x: math.sqrt(max(x, 0.0)),
+    "pi": math.pi,
+    "__builtins__": {},
+}
 
 
 def text_equations(text: str) -> list[list[str]]:
@@ -59,7 +65,7 @@ def python_of_text(side: str) -> str:
 
 
 def only_numbers(side: str) -> bool:
-    bare = re.sub(r"sqrt|sin|cos", "", NUMERAL.sub("", side))
+    bare = re.sub(r"sqrt|sin|cos|pi", "", NUMERAL.sub("", side))
     return not re.search(r"[A-Za-z|_]", bare)
 
 
@@ -82,7 +88,7 @@ def python_of_latex(side: str) -> str:
         side = opened(side, r"\sqrt", "root({0})", 1)
     side = side.replace("^{2}", "**2").replace("root", "sqrt")
     side = re.sub(r"\\(sin|cos) (-?[\d.]+)", r"\1(\2)", side)
-    side = re.sub(r"\\(sin|cos)\(", r"\1(", side).replace(r"\cdot", "*")
+    side = re.sub(r"\\(sin|cos)\(", r"\1(", side).replace(r"\cdot", "*").replace(r"\pi", "pi")
     return side if only_numbers(side) and "\\" not in side else ""
 
 
@@ -185,6 +191,68 @@ def test_equations_of_random_mechanisms_recompute(block: int) -> None:
         scene = loading.drawn(seed % 40, kind) if seed % 2 else random_mechanism(Random(seed))
         case = icsolve.load(transcribe.text(scene))
         assert check(text_equations(explain(case, digits=DIGITS)), known_of(case).size or 1.0) >= 1
+
+
+AT_REST = sorted(name for name in FILES if name.startswith("equilibrium/"))
+
+
+@pytest.mark.parametrize("name", sample(AT_REST, 4, "virtual work"))
+def test_positions_are_told_by_virtual_work(name: str) -> None:
+    """Every position has its sum of virtual work, which recomputes, and the derivative of the answer."""
+    case = icsolve.load(FILES[name])
+    known = known_of(case, reactions=True)
+    assert known.answer and known.answer.positions
+    said = {form: explain(case, form, DIGITS, known=known) for form in ("text", "md", "html", "tex")}
+    check(text_equations(said["text"]), known.size or 1.0)
+    check(latex_equations(said["md"]), known.size or 1.0)
+    well_formed(said["html"])
+    sums = re.findall(r"^    Q = .*0$", said["text"], re.M)
+    slopes = re.findall(r"^    dQ / dq = (\S+)", said["text"], re.M)
+    assert len(sums) == len(slopes) == len(known.answer.positions)
+    for slope, position in zip(slopes, known.answer.positions, strict=True):
+        assert position.stiffness and float(slope) == pytest.approx(-position.stiffness.value, rel=1e-5)
+
+
+TWO_BARS = """
+icsolve: 1
+points: {A: [0, 0]}
+angles: {AB: {unknown: [0, 360]}, BC: {unknown: [0, 360]}}
+lengths: {AB: 0.4, BC: 0.3}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}]
+loads:
+  W: {weight: 30, link: 2, at: B}
+  V: {weight: 20, link: 3, at: C}
+  P: {force: 10, link: 3, at: C, angle: 0}
+  M: {torque: 2, link: 3}
+  T: {spring: 4, corner: ABC, free: 150, link: 3, against: 2}
+"""
+ON_A_STROKE = """
+icsolve: 1
+units: {length: ft, force: lbf, torque: lbf*in}
+points: {A: [0, 0]}
+lengths: {AB: 2, AC: {unknown: [0.5, 4.5]}, BC: 3}
+angles: {AC: 0}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C},
+  {slide: [4, 1], at: C, along: 0, through: A}]
+loads:
+  W: {weight: 30, link: 2, at: B}
+  P: {force: 20, link: 4, at: C, angle: 180}
+  M: {torque: 100, link: 2}
+  T: {spring: 40 lbf*in/rad, corner: ABC, free: 90, link: 3, against: 2}
+"""
+
+
+@pytest.mark.parametrize("text", [TWO_BARS, ON_A_STROKE])
+def test_virtual_work_of_two_unknowns_and_of_a_stroke(text: str) -> None:
+    """One sum and row of derivatives an unknown; the ways that the figure assembles are all told, none asked."""
+    case = icsolve.load(text)
+    known = known_of(case, reactions=True)
+    assert known.answer and known.answer.positions
+    said = explain(case, digits=DIGITS, known=known)
+    check(text_equations(said), known.size or 1.0)
+    count = len(known.answer.positions[0].at)
+    assert len(re.findall(r"^    Q\d? = .*0$", said, re.M)) == count * len(known.answer.positions)
+    assert len(re.findall(r"^    dQ\d? / dq\d? = ", said, re.M)) == count**2 * len(known.answer.positions)
 
 
 ROPE = """

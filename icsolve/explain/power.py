@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Sequence
 
 from icsolve.answer.bodies import Rubbing
-from icsolve.case import Area, Force, ForceVector, Joint, Pin, Spring, Torque, TorsionSpring, Weight
+from icsolve.case import Area, Force, ForceVector, Joint, Pin, Spring, Torque, TorsionSpring, Units, Weight
 from icsolve.case.joints import Friction
 from icsolve.explain.document import Block, Items, Section, formula, words
 from icsolve.explain.formula import Expr, Name, Num, Quotient, Sum, Trig, product
@@ -77,10 +77,10 @@ def term_of(
         said += more
     if not ends:
         return None, said
-    gain, value, more = _gain(known, figures, acting)
+    gain, value, more = gain_of(known, figures, acting)
     name = load_name(acting.load.name)
     if isinstance(acting.load, Spring | TorsionSpring) and acting.value is not None and not acting.unknown:
-        name, acting, said_so = _sprung(known, figures, acting, gain, value)
+        name, acting, said_so = sprung(known, figures, acting, gain, value)
         more, gain, value = [*more, *said_so], (), 1.0
     scale = conversion(known, ratios, acting)
     parts = tuple((end.sign, product(end.number, figures.number(ratios.rates[end.link]))) for end in ends)
@@ -91,7 +91,7 @@ def term_of(
     return ShownTerm(acting, tuple(ends), gain, numbers, sign * total * value * scale, name), [*said, *more]
 
 
-def _sprung(
+def sprung(
     known: Known, figures: Figures, acting: Acting, gain: tuple[Expr, ...], value: float
 ) -> tuple[Name, Acting, list[Block]]:
     """A spring as the force, or the moment, that it exerts."""
@@ -121,7 +121,7 @@ def conversion(known: Known, ratios: Ratios, acting: Acting) -> float:
     return 1.0 / ratio if torque else 1.0
 
 
-def _gain(known: Known, figures: Figures, acting: Acting) -> tuple[tuple[Expr, ...], float, list[Block]]:
+def gain_of(known: Known, figures: Figures, acting: Acting) -> tuple[tuple[Expr, ...], float, list[Block]]:
     """What a kilogram weighs, or by how much a spring is stretched: symbol, number and words."""
     load = acting.load
     if isinstance(load, Weight) and load.mass:
@@ -131,8 +131,9 @@ def _gain(known: Known, figures: Figures, acting: Acting) -> tuple[tuple[Expr, .
         slack = acting.gain * known.case.units.torque_per_force_length
         name, size = Name("s", load.name), figures.quantity(slack, "rad")
         angles = (load.free.value, load.free.value - math.degrees(slack))
-        begin, end = (figures.quantity(angle, "deg") for angle in angles)
-        turn = formula(name, Sum(((1, begin), (-1, end))), size)
+        begin, end = (figures.number(angle) for angle in angles)
+        turned = product(Sum(((1, begin), (-1, end))), Name("pi"))
+        turn = formula(name, Quotient(turned, Num("180")), size)
         return (name,), slack, [words("By how much ", load_name(load.name), " is turned:"), turn]
     if isinstance(load, Force) and load.over is not None:
         over = load.over
@@ -307,8 +308,7 @@ def _numbers(
     units, reference = known.case.units, ratios.reference
     unit = units.torque if known.turns(reference) else units.force
     if any(conversion(known, ratios, term.acting) != 1.0 for term in terms):
-        per = f"{1.0 / units.torque_per_force_length:.12g} {units.force}*{units.length}"
-        yield words(f"1 {units.torque} is {per}.")
+        yield from torque_words(units)
     yield words("Over ", motion_name(known, reference), f", a load at a time, in {unit}:")
     for term in terms:
         yield from _term(known, figures, reference, term, unit)
@@ -363,6 +363,13 @@ def _solved(
         yield formula(name, over, value)
 
 
+def torque_words(units: Units) -> Iterable[Block]:
+    """What a unit of torque is, where it is not a force times a length of the case."""
+    if units.torque_per_force_length != 1.0:
+        per = f"{1.0 / units.torque_per_force_length:.12g} {units.force}*{units.length}"
+        yield words(f"1 {units.torque} is {per}.")
+
+
 def _is_root(acting: Acting) -> bool:
     """Whether a load's own number is asked for (another may be like it)."""
     return not isinstance(acting.load, ForceVector) and acting.load.value is None
@@ -391,10 +398,7 @@ def motions_section(known: Known, figures: Figures, loads: Sequence[Acting]) -> 
         else (f"{count} freedoms: the powers of all loads add up to zero in each of {count} motions.")
     )
     blocks: list[Block] = [words(f"The mechanism has {freedoms}")]
-    units = known.case.units
-    if units.torque_per_force_length != 1.0:
-        per = f"{1.0 / units.torque_per_force_length:.12g} {units.force}*{units.length}"
-        blocks.append(words(f"1 {units.torque} is {per}."))
+    blocks += torque_words(known.case.units)
     rows = []
     friction = rubbed(known, motions[0].driver) if motions[0].driver in known.twists else []
     if count > 1 and any(r.value for r in friction):
@@ -437,7 +441,7 @@ def _motion(
     blocks: list[Block] = [words(f"Motion {n}: " if n else "", f"{speed_words(motion)}{others}.")]
     factors: Factors = []
     for acting in loads:
-        factor, said = _factor(known, figures, acting, motion, n)
+        factor, said = factor_of(known, figures, acting, motion, n)
         blocks += said
         factors += [(acting, factor)] if factor else []
     if not factors:
@@ -457,14 +461,13 @@ def _summed(figures: Figures, factors: Factors, *, found: bool) -> Block:
     return formula(Sum(tuple(terms)), Num("0"))
 
 
-def _factor(
+def factor_of(
     known: Known, figures: Figures, acting: Acting, motion: OneMotion, n: int
 ) -> tuple[float, list[Block]]:
     """Power per unit of a load: the rate of its link, or the part of its point's velocity along it."""
     name = Name("k", "".join(load_name(acting.load.name)) + (f",{n}" if n else ""))
     if acting.at is None:
-        return _turned(figures, acting, motion, name)
-    assert acting.at is not None
+        return _turned(known, figures, acting, motion, name)
     (ax, ay), (bx, by) = (velocity(motion.twists[link], acting.at) for link in (acting.link, acting.against))
     v = (ax - bx, ay - by)
     dx, dy = acting.direction
@@ -483,16 +486,18 @@ def _factor(
     return value, [words("", load_name(acting.load.name), said), formula(name, whole, figures.number(value))]
 
 
-def _turned(figures: Figures, acting: Acting, motion: OneMotion, name: Name) -> tuple[float, list[Block]]:
+def _turned(
+    known: Known, figures: Figures, acting: Acting, motion: OneMotion, name: Name
+) -> tuple[float, list[Block]]:
     on, off = motion.twists[acting.link][2], motion.twists[acting.against][2]
-    turn = -1 if acting.gain < 0.0 else 1
-    value = turn * (on - off)
-    if abs(value) <= NOTHING * (abs(on) + abs(off)):
+    per = acting.gain * known.case.units.torque_per_force_length  # of a torsion spring its turn
+    turn = -1 if per < 0.0 else 1
+    value = per * (on - off)
+    if not per or abs(on - off) <= NOTHING * (abs(on) + abs(off)):
         return 0.0, []
-    rates = Sum(((turn, figures.number(on)), (-turn, figures.number(off))))
-    return value, [
-        formula(name, rates if off else figures.number(value), *([figures.number(value)] if off else []))
-    ]
+    both = Sum(((turn, figures.number(on)), (-turn, figures.number(off))))
+    whole = product(figures.number(abs(per)), both if off else figures.number(turn * on))
+    return value, [formula(name, whole, figures.number(value))]
 
 
 def _found(known: Known, figures: Figures) -> Iterable[Block]:

@@ -10,6 +10,7 @@ from icsolve.case import Spring, Torque
 from icsolve.errors import SceneError
 from icsolve.explain.centres import centre_sections, ratio_section, worked_speeds
 from icsolve.explain.document import Block, Document, Inline, Items, Section, ShownTable, words
+from icsolve.explain.equilibrium import equilibrium_section
 from icsolve.explain.formula import Name, Num, Quantity, Quotient
 from icsolve.explain.given import (
     Figures,
@@ -40,6 +41,8 @@ def answer_section(known: Known, figures: Figures) -> Iterable[Section]:
     if answer is None:
         return
     if answer.positions:
+        work = equilibrium_section(known, figures)
+        yield from () if work is None else (work,)
         rests = tuple((line,) for line in positions_text(answer, figures.digits))
         yield Section("Positions of equilibrium", (words(SEARCHED), Items(rests)))
     if answer.answers:

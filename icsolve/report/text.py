@@ -12,7 +12,7 @@ from icsolve.case.names import link_order, pair_name
 from icsolve.wording.senses import SPELT, holding, spelt
 
 if TYPE_CHECKING:
-    from icsolve.answer.equilibrium import Stiffness
+    from icsolve.answer.equilibrium import EquilibriumPosition, Stiffness
 
 Format = Callable[[float], str]
 """A number with the digits that were asked for."""
@@ -68,15 +68,20 @@ def positions_text(answer: Answer, digits: int) -> list[str]:
     """Where it rests: a line a position with what becomes of a small push."""
     lines = []
     for position in answer.positions or ():
-        at = ", ".join(
-            f"{path} {_held(answer.case, path, value, position.error[path], digits)}"
-            for path, value in position.at.items()
-        )
+        at = place_text(answer.case, position, digits)
         lines.append(f"{at}{_kind(position.stability, position.stiffness, position.why, digits)}")
     if answer.stability is not None:
         kind = _kind(answer.stability, answer.stiffness, answer.why_no_stiffness, digits)
         lines.append(f"the position as written{kind}")
     return lines
+
+
+def place_text(case: Case, position: EquilibriumPosition, digits: int) -> str:
+    """The free data of a position: ``angles.AB = 42.7786 deg``."""
+    return ", ".join(
+        f"{path} {_held(case, path, value, position.error[path], digits)}"
+        for path, value in position.at.items()
+    )
 
 
 def _held(case: Case, path: str, value: Any, error: Any, digits: int) -> str:

@@ -140,10 +140,22 @@ def _at_rest(case: Case, answer: Answer | None, refusal: SceneError | None) -> K
     own = replace(case, unknowns=(), expect=())
     for path, value in at.items():
         own = given_at(own, path, value)
+    if positions and not any(
+        one.start for one in case.unknowns
+    ):  # other ways in which the figure assembles at this value are not meant
+        placed = {name for name, place in own.points.items() if isinstance(place, Coordinates)}
+        here = positions[0].answer.shown_points
+        own = replace(own, near={name: at for name, at in here.items() if name not in placed})
     known = known_of(own)
     if answer is None or known.answer is None:
         return known._replace(answer=None, refusal=refusal or known.refusal)
     return known._replace(answer=replace(known.answer, positions=answer.positions, notes=answer.notes))
+
+
+def known_at(known: Known, answer: Answer) -> Known:
+    """The same of a position that was found, from the answer in it."""
+    points = _points(answer.case, answer, answer.scene)
+    return known._replace(case=answer.case, answer=answer, whole=answer, points=points, twists={})
 
 
 def _somewhere(unknown: Unknown) -> float:

@@ -1,0 +1,205 @@
+"""Positions of equilibrium by virtual work: the generalised load of each unknown datum, the condition that it
+vanishes, its numbers in each position, and what its derivative says of a small push."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+
+from icsolve.answer.equilibrium import EquilibriumPosition
+from icsolve.case import Case, Spring, TorsionSpring
+from icsolve.case.figure import Corner, Direction
+from icsolve.explain.document import Block, Section, formula, words
+from icsolve.explain.formula import Expr, Name, Num, Quotient, Sum, product
+from icsolve.explain.given import Figures, load_name
+from icsolve.explain.power import AGREE, NOTHING, factor_of, gain_of, sprung, torque_words
+from icsolve.report.derivation import Acting, Known, acting_loads, known_at
+from icsolve.report.derivation.ratios import OneMotion, independent_motions, speed_words
+from icsolve.report.text import place_text
+from icsolve.screws.plane import Point, Triple, velocity
+
+WORK = (
+    "Let the unknown q grow by dq, in radians for an angle, while the mechanism moves as its joints allow. "
+    "Each load does the work of its force times how far its point goes along it, or of its moment times how "
+    "far its link turns: k for each unit of q, with the factor that makes a force of a mass, a pressure or a "
+    "load along a line. Forces in the joints do none. The virtual work, dU = Q dq, has the generalised load"
+)
+CONDITION = (
+    "a function of q as every k is. The loads balance where Q is zero. Where Q falls as q grows, the loads "
+    "drive a small push back: the position is stable; where it rises, unstable."
+)
+LEAST = 1e-7
+"""An unknown that moves less than this fraction of the figure stands at a limit."""
+
+
+def equilibrium_section(known: Known, figures: Figures) -> Section | None:
+    """The virtual work of the loads in each position; None where none is told so."""
+    positions = () if known.answer is None else known.answer.positions or ()
+    said = [block for one in positions for block in _position(known, figures, one)]
+    if not said:
+        return None
+    terms = tuple((1, product(_exerted(acting), _way(acting))) for acting in acting_loads(known))
+    blocks = (words(WORK), formula(Name("Q"), Sum(terms)), words(CONDITION))
+    return Section("Virtual work", (*blocks, *said))
+
+
+def _exerted(acting: Acting) -> Name:
+    """What a load exerts as a symbol; a spring's force is not its stiffness."""
+    if isinstance(acting.load, Spring | TorsionSpring):
+        return Name("T" if isinstance(acting.load, TorsionSpring) else "F", acting.load.name)
+    return load_name(acting.load.name)
+
+
+def _way(acting: Acting) -> Name:
+    return Name("k", "".join(load_name(acting.load.name)))
+
+
+def _position(known: Known, figures: Figures, position: EquilibriumPosition) -> list[Block]:
+    """One position: the equation of each unknown, then the derivative; nothing where friction holds it."""
+    if position.stability is None or position.answer.scene is None:
+        return []
+    here = known_at(known, position.answer)
+    motions = _by_unknowns(here, known.case, list(position.at))
+    blocks: list[Block] = [words(f"In the position {place_text(here.case, position, figures.digits)}:")]
+    blocks += torque_words(here.case.units)
+    loads = []
+    least = (
+        max((abs(acting.value or 0.0) for acting in acting_loads(here)), default=0.0) * NOTHING * here.size
+    )
+    for acting in acting_loads(here):
+        exerted, said = _force(here, figures, acting)
+        loads.append(exerted)
+        blocks += said
+    for n, (told, motion) in enumerate(motions, 1):
+        low = str(n) if len(motions) > 1 else ""
+        blocks.append(words(f"While {told}:"))
+        terms: list[tuple[int, Expr]] = []
+        works = []
+        for acting in loads:
+            k, said = factor_of(here, figures, acting, motion, int(low or 0))
+            blocks += said
+            works.append((acting.value or 0.0) * k)
+            if k:
+                terms.append((1, product(figures.number(acting.value or 0.0), figures.number(k))))
+        if abs(sum(works)) > AGREE * max(map(abs, works), default=0.0) + least:
+            return []  # a rope or a screw takes a part, which its own equations tell
+        if not terms:
+            blocks.append(words("No load does work."))
+        whole = terms[0][1] if len(terms) == 1 else Sum(tuple(terms))
+        blocks.append(formula(Name("Q", low), whole if terms else Num("0"), Num("0")))
+    return [*blocks, *_derivative(figures, position)] if motions else []
+
+
+def _force(known: Known, figures: Figures, acting: Acting) -> tuple[Acting, list[Block]]:
+    """A load by what it exerts: a spring by its force or moment in the position."""
+    if not isinstance(acting.load, Spring | TorsionSpring):
+        return acting, []
+    symbol, value, stretched = gain_of(known, figures, acting)
+    _, force, said = sprung(known, figures, acting, symbol, value)
+    turns = force.at is None
+    gain = 1.0 / known.case.units.torque_per_force_length if turns else 1.0
+    return force._replace(gain=gain), [*stretched, *said]
+
+
+def _derivative(figures: Figures, position: EquilibriumPosition) -> Iterable[Block]:
+    """The sign of the derivative, and what it says."""
+    stiffness, told = position.stiffness, position.stability
+    if stiffness is None:
+        yield words(
+            f"Here there is no derivative: {position.why} By the change of Q along the motion it is {told}."
+        )
+        return
+    single = isinstance(stiffness.value, float)
+    rows = [[stiffness.value]] if single else stiffness.value
+    largest = 0.0 if single else max(abs(value) for row in rows for value in row)
+    units = [[stiffness.unit]] if single else stiffness.unit
+    for i, row in enumerate(rows, 1):
+        for j, value in enumerate(row, 1):
+            above, below = (Name(s, "" if single else str(n)) for s, n in (("dQ", i), ("dq", j)))
+            shown = -value if abs(value) > NOTHING * largest else 0.0
+            yield formula(Quotient(above, below), figures.quantity(shown, units[i - 1][j - 1]))
+    signs = {
+        "stable": "less than zero",
+        "unstable": "greater than zero",
+        "neutral": "zero to within its error",
+    }
+    if single:
+        yield words(f"It is {signs[told or '']}: {told}.")
+    else:
+        yield words(f"By the eigenvalues of the symmetric part of these the position is {told}.")
+
+
+# --- the motion by an unknown ------------------------------------------------------------------------
+
+
+def _by_unknowns(known: Known, written: Case, paths: Sequence[str]) -> list[tuple[str, OneMotion]]:
+    """The motion in which each unknown grows at 1 and the others stand still, in words and by its twists; at
+    a limit of an unknown, that which the mechanism has."""
+    motions = independent_motions(known)
+    if len(motions) != len(paths):
+        return []
+    rates = [[_rate(known, written, path, motion) for motion in motions] for path in paths]
+    determinant = rates[0][0] if len(paths) == 1 else rates[0][0] * rates[1][1] - rates[0][1] * rates[1][0]
+    if not abs(determinant) > LEAST:
+        return [(speed_words(motion), motion) for motion in motions]
+    told = [
+        f"{path} grows at 1 {'rad' if path.startswith('angles.') else known.case.units.length}/s"
+        for path in paths
+    ]
+    if len(paths) == 1:
+        return [(told[0], _mixed(motions, [1.0 / determinant]))]
+    (a, b), (c, d) = rates
+    return [
+        (f"{told[0]} and {paths[1]} stands still", _mixed(motions, [d / determinant, -c / determinant])),
+        (f"{told[1]} and {paths[0]} stands still", _mixed(motions, [-b / determinant, a / determinant])),
+    ]
+
+
+def _mixed(motions: Sequence[OneMotion], weights: Sequence[float]) -> OneMotion:
+    def twist(link: str) -> Triple:
+        parts = [(w, m.twists[link]) for w, m in zip(weights, motions, strict=True)]
+        return (
+            sum(w * t[0] for w, t in parts),
+            sum(w * t[1] for w, t in parts),
+            sum(w * t[2] for w, t in parts),
+        )
+
+    return motions[0]._replace(twists={link: twist(link) for link in motions[0].twists})
+
+
+def _rate(known: Known, written: Case, path: str, motion: OneMotion) -> float:
+    """How fast a datum grows in a motion [rad/s for an angle, length/s]."""
+    if path.startswith("points."):
+        along: float = _velocity(known, path.split(".")[1], motion)["xy".index(path[-1])]
+        return along
+    data = (*written.angles, *written.lengths)
+    datum = next(one for one in data if one.value.path == path)
+    if isinstance(datum, Corner):
+        return _turning(known, datum.at, datum.b, motion) - _turning(known, datum.at, datum.a, motion)
+    if isinstance(datum, Direction):
+        return _turning(known, datum.a, datum.b, motion)
+    (x, y), (u, v) = _apart(known, datum.a, datum.b, motion)
+    rate: float = (x * u + y * v) / math.hypot(x, y)
+    return rate
+
+
+def _turning(known: Known, a: str, b: str, motion: OneMotion) -> float:
+    (x, y), (u, v) = _apart(known, a, b, motion)
+    rate: float = (x * v - y * u) / (x * x + y * y)
+    return rate
+
+
+def _apart(known: Known, a: str, b: str, motion: OneMotion) -> tuple[Point, Point]:
+    """From a to b, and how fast that changes."""
+    (ax, ay), (bx, by) = known.points[a], known.points[b]
+    (au, av), (bu, bv) = _velocity(known, a, motion), _velocity(known, b, motion)
+    return (bx - ax, by - ay), (bu - au, bv - av)
+
+
+def _velocity(known: Known, point: str, motion: OneMotion) -> Point:
+    """Of a point, on a link that carries it and on whose guide it does not run."""
+    case = known.case
+    runs = {joint.links[1] for joint in case.joints if joint.guide is not None and joint.at == point}
+    links = [link for link, names in case.carries.items() if point in names]
+    link = min(links, key=lambda one: one in runs)
+    return velocity(motion.twists[link], known.points[point])
