@@ -244,7 +244,7 @@ loads:
 
 @pytest.mark.parametrize("text", [TWO_BARS, ON_A_STROKE])
 def test_virtual_work_of_two_unknowns_and_of_a_stroke(text: str) -> None:
-    """One sum and row of derivatives an unknown; the ways that the figure assembles are all told, none asked."""
+    """One sum and one row of derivatives for each unknown, in every way in which the figure assembles."""
     case = icsolve.load(text)
     known = known_of(case, reactions=True)
     assert known.answer and known.answer.positions
