@@ -14,6 +14,7 @@ import math
 import random
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import mpmath
@@ -305,25 +306,44 @@ def circles(
 
 
 def stationary(potential: Potential, samples: int = 720) -> list[mpmath.mpf]:
-    """The angles at which a potential's derivative vanishes: sign changes on a fine grid, closed in on."""
-    fast = [potential(mpmath.radians(360.0 * (n + 0.31) / samples)) for n in range(samples + 2)]
+    """The angles at which a potential's derivative vanishes: sign changes on a grid, closed in on.
+
+    The grid is even, and toward a limit, where the potential is steep, each step is half the last.
+    """
+    step = mpmath.radians(360) / samples
+    even = [mpmath.radians(360.0 * (n + 0.31) / samples) for n in range(samples + 2)]
+    grid = sorted({*even, *(u for a, b in pairwise(even) for u in _toward_limit(potential, a, b, step))})
+    fast = [potential(u) for u in grid]
     real = [abs(mpmath.im(v)) == 0 for v in fast]
 
     def slope(u: mpmath.mpf) -> mpmath.mpf:
         return mpmath.diff(lambda t: mpmath.re(potential(t)), u)
 
     found = []
-    for n in range(1, samples + 1):
+    for n in range(1, len(grid) - 1):
         if real[n - 1] and real[n] and real[n + 1] and (fast[n] - fast[n - 1]) * (fast[n + 1] - fast[n]) <= 0:
-            ends = [mpmath.radians(360.0 * (m + 0.31) / samples) for m in (n - 1, n + 1)]
-            found.append(mpmath.findroot(slope, ends, solver="anderson", tol=1e-60))
+            root = mpmath.findroot(slope, (grid[n - 1], grid[n + 1]), solver="anderson", tol=1e-60)
+            if even[0] <= root < even[0] + mpmath.radians(360):
+                found.append(root)
     return found
+
+
+def _toward_limit(potential: Potential, a: mpmath.mpf, b: mpmath.mpf, step: mpmath.mpf) -> list[mpmath.mpf]:
+    """Places ever nearer to where a potential ceases to be real between two angles, if it does."""
+    inside, outside = (a, b) if mpmath.im(potential(a)) == 0 else (b, a)
+    if (mpmath.im(potential(inside)) == 0) == (mpmath.im(potential(outside)) == 0):
+        return []
+    sense = mpmath.sign(inside - outside)
+    for _ in range(60):
+        middle = (inside + outside) / 2
+        inside, outside = (middle, outside) if mpmath.im(potential(middle)) == 0 else (inside, middle)
+    return [inside + sense * step / mpmath.mpf(2) ** k for k in range(1, 40)]
 
 
 KINDS = {"four-bar": four_bar, "slider-crank": slider_crank, "six-bar": six_bar}
 
 
-@pytest.mark.parametrize("seed", range(150 if FULL else 2))
+@pytest.mark.parametrize("seed", range(700 if FULL else 2))
 @pytest.mark.parametrize("kind", KINDS)
 def test_all_positions_none_missing_none_invented(kind: str, seed: int) -> None:
     text, modes = KINDS[kind](random.Random(f"{kind} {seed}"))
@@ -338,11 +358,14 @@ def test_all_positions_none_missing_none_invented(kind: str, seed: int) -> None:
             positions(text)
         return
     found = positions(text)
-    got = sorted((one.at["angles.AB"], one) for one in found if one.stiffness is not None)
-    assert [at for at, _ in got] == pytest.approx([at for at, _ in sorted(expected)], abs=1e-11)
-    for (at, one), (_, second) in zip(got, sorted(expected), strict=True):
-        assert one.stiffness is not None
-        assert one.stiffness.value == pytest.approx(second, rel=1e-8)
+    got = sorted(
+        (one.at["angles.AB"], one.stiffness.value, one) for one in found if one.stiffness is not None
+    )
+    expected.sort(key=lambda pair: (round(pair[0], 9), pair[1]))  # two modes may rest at one angle
+    got.sort(key=lambda one: (round(one[0], 9), one[1]))
+    assert [at for at, *_ in got] == pytest.approx([at for at, _ in expected], abs=1e-11)
+    for (at, stiffness, one), (_, second) in zip(got, expected, strict=True):
+        assert stiffness == pytest.approx(second, rel=1e-8)
         assert one.stability == ("stable" if second > 0 else "unstable")
         assert one.error["angles.AB"] <= 4.0 * math.ulp(at)
 
