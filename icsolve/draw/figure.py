@@ -158,7 +158,7 @@ def draw(case: Case, drawing: Drawing = PLAIN, known: Known | None = None, form:
 
     A case that has no answer is drawn as far as it is known, with the reason below.
     """
-    known = known or known_of(case, reactions=drawing.bodies or bool(case.ropes))
+    known = known or known_of(case, reactions=drawing.bodies)
     marks = drawn(known, drawing)
     if form == "tex":
         return standalone(marks, known.title)

@@ -108,8 +108,8 @@ def _by_roller(known: Known, centre: Centre) -> Centre:
 
 
 def known_of(case: Case, *, reactions: bool = False) -> Known:
-    """Solve a case as far as it goes; never raises `SceneError`."""
-    found = attempt(case, reactions=reactions)
+    """Solve a case as far as it goes, with the pulls of its ropes; never raises `SceneError`."""
+    found = attempt(case, reactions=reactions or bool(case.ropes))
     if case.unknowns or (found.answer is not None and found.answer.positions):
         return _at_rest(case, found.answer, found.refusal)
     if case.space is not None:
