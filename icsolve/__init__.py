@@ -105,16 +105,23 @@ def _case_figure(case: Case) -> str:
     return draw(case)
 
 
+def _as_posed(answer: Answer) -> Case:
+    """The case of an answer as it was asked: inertia forces among its loads were found, not given."""
+    from icsolve.statics.inertia import as_posed
+
+    return as_posed(answer.case)
+
+
 def _answer_figure(answer: Answer) -> str:
     """The figure of an answer."""
-    return _case_figure(answer.case)
+    return _case_figure(_as_posed(answer))
 
 
 def _worked_solution(answer: Answer) -> str:
     """The worked solution with LaTeX formulas."""
     from icsolve.explain import explain
 
-    return explain(answer.case, "md")
+    return explain(_as_posed(answer), "md")
 
 
 def _sweep_curve(found: Sweep) -> str | None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -37,6 +38,22 @@ def test_an_answer_shows_its_worked_solution_and_its_figure(capsys: pytest.Captu
     answer = icsolve.solve(icsolve.load(FILE))
     assert answer._repr_markdown_() == printed(capsys, "explain", str(FILE), "--format", "md")
     assert answer._repr_svg_() == printed(capsys, "draw", str(FILE))
+
+
+@pytest.mark.parametrize("name", ["hoist_starting", "slider_crank_piston"])
+def test_an_answer_with_inertia_forces_is_shown_as_the_commands_show_it(
+    name: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The case of such an answer has its inertia forces among its loads; they are found, not given."""
+    file = ROOT / "cases" / "dynamics" / f"{name}.yaml"
+    case = icsolve.load(file)
+    worked, figure = (
+        printed(capsys, "explain", str(file), "--format", "md"),
+        printed(capsys, "draw", str(file)),
+    )
+    for answer in (icsolve.solve(case), icsolve.solve(replace(case, dynamic=False), dynamic=True)):
+        assert answer._repr_markdown_() == worked
+        assert answer._repr_svg_() == figure
 
 
 @pytest.mark.parametrize("text", [FOUR_BAR.format(title="too long", crank=20), DEAD_CENTRE])

@@ -31,6 +31,11 @@ def as_given(case: Case) -> Case:
     return case if loads == case.loads else replace(case, loads=loads)
 
 
+def as_posed(case: Case) -> Case:
+    """The case as it asks for its inertia forces, where they are among its loads."""
+    return replace(as_given(case), dynamic=True) if is_loaded(case) else case
+
+
 def exactly(
     case: Case,
     top: Topology,
