@@ -311,7 +311,7 @@ def stationary(potential: Potential, samples: int = 720) -> list[mpmath.mpf]:
     The grid is even, and toward a limit, where the potential is steep, each step is half the last.
     """
     step = mpmath.radians(360) / samples
-    even = [mpmath.radians(360.0 * (n + 0.31) / samples) for n in range(samples + 2)]
+    even = [mpmath.radians(360.0 * (n + 0.31) / samples) for n in range(-2, samples + 2)]
     grid = sorted({*even, *(u for a, b in pairwise(even) for u in _toward_limit(potential, a, b, step))})
     fast = [potential(u) for u in grid]
     real = [abs(mpmath.im(v)) == 0 for v in fast]
@@ -322,9 +322,15 @@ def stationary(potential: Potential, samples: int = 720) -> list[mpmath.mpf]:
     found = []
     for n in range(1, len(grid) - 1):
         if real[n - 1] and real[n] and real[n + 1] and (fast[n] - fast[n - 1]) * (fast[n + 1] - fast[n]) <= 0:
-            root = mpmath.findroot(slope, (grid[n - 1], grid[n + 1]), solver="anderson", tol=1e-60)
-            if even[0] <= root < even[0] + mpmath.radians(360):
-                found.append(root)
+            low, high = grid[n - 1], grid[n + 1]
+            rises = slope(high) > 0
+            assert (slope(low) > 0) != rises
+            for _ in range(120):
+                middle = (low + high) / 2
+                low, high = (low, middle) if (slope(middle) > 0) == rises else (middle, high)
+            smooth = abs(slope(low)) < 1e-12  # at a change point a mode has a corner: no position
+            if smooth and 0 <= low < 2 * mpmath.pi:
+                found.append(low)
     return found
 
 
