@@ -587,3 +587,19 @@ def test_a_lever_pushed_through_its_pivot_draws_no_band() -> None:
     with pytest.raises(icsolve.SceneError, match="draws no rope that slips") as refused:
         icsolve.solve(icsolve.load(text.replace("angle: -90", "angle: 180")))
     assert refused.value.status == "no-value"
+
+
+def test_a_rope_told_in_another_order_is_sent_back_to_its_order() -> None:
+    """A gun tackle whose links are told one place off: the rope would push, and it says where to look."""
+    told = """icsolve: 1
+points: {P: [-0.1, 0], Q: [0, -2], E: [0.2, 0], B: [0.3, -1]}
+joints:
+  - {slide: [2, 1], at: Q, along: 90}
+  - {rope: [P, Q, E, B], on: [2, 1, 1]}
+loads:
+  W: {weight: 100, link: 2, at: Q}
+  F: {force: unknown, at: B}
+"""
+    with pytest.raises(SceneError, match=r"rope P-Q-E-B.* in the order in which it runs") as refused:
+        icsolve.solve(icsolve.load(told))
+    assert refused.value.status == "slack"

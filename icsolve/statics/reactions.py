@@ -102,7 +102,8 @@ SHARED = "the joints share the load in a way that equilibrium alone does not det
 def _slack(rope: Rope, value: float) -> str:
     return (
         f"the rope {rope.name} would have to push ({value:.6g}): it goes slack, and the links do not hold "
-        "so. Turn the load round that pulls it, or put a link in its place."
+        "so. Turn the load round that pulls it, see that the rope names its points and links in the order in "
+        "which it runs past them, or put a link in its place."
     )
 
 
