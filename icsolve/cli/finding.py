@@ -164,16 +164,16 @@ def _query(case: Case, word: str) -> Query:
     unknown = next((load.name for load in case.loads if is_unknown(load)), None)
     if unknown is None:
         raise RequestError(
-            "--find looks at an unknown load, and this case has none; of loads that are all known it finds "
-            "rest, neutral and hold"
+            "--find looks at an unknown load, and this case has none; of loads that are all known it "
+            "finds rest, neutral and hold"
         )
     if word in WORDS:
         return Query(word, unknown)
     name, equals, value = (part.strip() for part in word.partition("="))
     if not (name and equals and value):
         raise RequestError(
-            f"--find takes dead, max or NAME=VALUE, as {unknown}=0 (of loads that are all known rest, neutral "
-            f"or hold); {word!r} is none of these"
+            f"--find takes dead, max or NAME=VALUE, as {unknown}=0 (of loads that are all known rest, "
+            f"neutral or hold); {word!r} is none of these"
         )
     return Query("value", name, _value(case, name, value))
 
