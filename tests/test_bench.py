@@ -7,11 +7,14 @@ import shutil
 import sys
 from pathlib import Path
 from random import Random
+from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
 
 import icsolve
 from icsolve.bench import report
@@ -39,7 +42,7 @@ from icsolve.bench.closed import (
 from icsolve.bench.families import BOUNDED, FAMILIES, Family, all_joints, linkage
 from icsolve.bench.gates import Effort, Gate, gate_table, lawful, nothing, ratio
 from icsolve.bench.peers import PEERS, TORQUE, Peer, ran
-from icsolve.bench.picture import picture, spread
+from icsolve.bench.picture import figure, picture
 from icsolve.bench.rivals import METHODS, Method
 from icsolve.bench.speed import BOUNDED as BOUNDED_SWEEP
 from icsolve.bench.speed import BY_HAND, IN_C, SWEPT
@@ -218,10 +221,9 @@ def test_families_are_drawn_the_same_again_and_have_answers() -> None:
 # --- what is printed -------------------------------------------------------------------------------
 
 
-def drawn(words: str, of: str) -> list[ElementTree.Element]:
-    """The shapes of the picture whose title has these words."""
-    root = ElementTree.fromstring(of)
-    return [mark[0] for mark in root.iter(f"{SVG}g") if words in "".join(mark.itertext())]
+def marks(words: str, of: Figure) -> list[Any]:
+    """The curves and marks of the diagram whose names have these words."""
+    return [line for panel in of.findobj(Axes) for line in panel.lines if words in str(line.get_gid())]
 
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -236,14 +238,14 @@ def test_the_picture_draws_every_method_its_failures_and_its_refusals() -> None:
         Score("bad", "easy", 1e-14, 10.0, 400.0, 0, 0, 9),
         Score("bad", "hard", math.nan, math.nan, 500.0, 9, 0, 9),
     ]
-    text = picture(scores, [], [])
-    assert len(drawn("icsolve, easy: error", text)) == len(drawn("bad, easy: error", text)) == 2
-    failed = drawn("bad, hard: error nan, 500 µs; 9 of 9 without an answer", text)
-    assert [shape.tag for shape in failed] == [f"{SVG}path"] * 2
-    refused = drawn("icsolve, hardest: error nan, 60 µs; 9 of 9 refused", text)
-    assert [shape.get("fill") for shape in refused] == ["none", "none"]
-    curves = [e for e in ElementTree.fromstring(text).iter(f"{SVG}polyline") if e.get("points")]
-    assert len(curves) == 2 * 2
+    sheet = figure(scores, [], [])
+    for method in ("icsolve", "bad"):
+        assert len(marks(f"{method}, easy: error", sheet)) == 2
+    failed = marks("bad, hard: error nan, 500 µs; 9 of 9 without an answer", sheet)
+    assert [mark.get_marker() for mark in failed] == ["x", "x"]
+    refused = marks("icsolve, hardest: error nan, 60 µs; 9 of 9 refused", sheet)
+    assert [mark.get_markerfacecolor() for mark in refused] == ["none", "none"]
+    assert [list(curve.get_xdata()) for curve in marks("icsolve, easy", sheet)] == [[1e-16, 1e-9], [0.5, 0.5]]
 
 
 def test_the_picture_names_the_programs_of_a_full_turn_and_those_that_did_not_run() -> None:
@@ -261,11 +263,6 @@ def test_the_picture_in_the_readme_shows_every_method() -> None:
     words = {e.text or "" for e in ElementTree.parse(root / place).iter(f"{SVG}text")}
     assert {*(method.name for method in METHODS), SWEPT, BOUNDED_SWEEP, BY_HAND, IN_C, "kinepy"} <= words
     assert any(line.startswith(f"{len(FAMILIES)} families of up to") for line in words)
-
-
-def test_names_at_the_edge_keep_their_distance_and_their_order() -> None:
-    placed = spread([10.0, 11.0, 12.0, 98.0, 99.0], 10.0, 0.0, 100.0)
-    assert placed == [10.0, 20.0, 30.0, 90.0, 100.0]
 
 
 def test_a_figure_is_held_to_its_limit_from_the_right_side() -> None:
@@ -337,8 +334,9 @@ def test_a_broken_law_is_told_and_fails_the_command(tmp_path: Path, monkeypatch:
     assert "not kept: bounds that are less than the error" in ran.stderr
 
 
-def test_without_mpmath_it_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "mpmath", None)
+@pytest.mark.parametrize("missing", ["mpmath", "matplotlib"])
+def test_without_its_tools_it_says_what_to_install(missing: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, missing, None)
     ran = CliRunner().invoke(command, ["bench"], standalone_mode=False)
     assert ran.return_value == 2
     assert "icsolve[bench]" in ran.stderr

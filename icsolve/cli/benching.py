@@ -30,7 +30,7 @@ def bench_command(stress: bool, full: bool, output: str) -> int:
     """Measure run time against error, and print Markdown.
 
     \b
-    icsolve bench                   two minutes; needs mpmath (the extra icsolve[bench])
+    icsolve bench                   two minutes; needs the extra icsolve[bench]
     icsolve bench --stress          every scene of the stress catalogue and its verdict
 
     Exit status: 1 where a verdict of the catalogue is not the one asked, or a promise is not kept: a law on
@@ -50,9 +50,10 @@ def _stress() -> int:
 
 def _bench(full: bool, output: str) -> int:
     try:
+        import matplotlib as mpl  # noqa: F401
         import mpmath  # noqa: F401
-    except ImportError:
-        complain("icsolve bench needs mpmath for its sixty digits: pip install 'icsolve[bench]'")
+    except ImportError as error:
+        complain(f"icsolve bench needs {error.name}: pip install 'icsolve[bench]'")
         return UNREADABLE
     for library in ONE_CORE:
         os.environ.setdefault(library, "1")
