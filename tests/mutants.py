@@ -1,27 +1,33 @@
 """Mutants of the core: does a test die when an operator, a comparison or a constant is changed?
 
-    python tests/mutants.py [count] [seed] [first]
+    python tests/mutants.py [count] [seed] [first] [map]
 
-Draws so many mutants from a seed over the rooms of `ROOMS`, each in a copy of the project, and runs the
-quick tests that are nearest to its room first, with -x and a time limit. Prints a line for each, and at the
-end how many died. `EQUIVALENT` has those that change no answer, with the reason; they do not count. Not a
-test itself: 200 mutants take some hours of one core.
+Draws so many mutants from a seed over the rooms of `ROOMS`; a function's stay the same while others change.
+The tests are run once to see which functions each of them calls (kept in the file ``map`` where it is named);
+then, on a copy with the mutant, those that call the mutated function, quick and special ones first, until
+one fails. Prints a line for each, and at the end how many died. `EQUIVALENT` has those that change no
+answer, with the reason; they do not count. Not a test itself.
 """
 
 from __future__ import annotations
 
 import ast
+import json
 import os
 import resource
 import shutil
 import signal
 import sys
 import tempfile
+import time
+from collections.abc import Iterator
 from pathlib import Path
 from random import Random
-from typing import NamedTuple
+from types import FrameType
+from typing import Any, NamedTuple
 
 import click  # noqa: F401 - what a fork need not import again
+import mpmath  # noqa: F401
 import numpy as np  # noqa: F401
 import pytest
 import shapely  # noqa: F401
@@ -29,23 +35,15 @@ import yaml  # noqa: F401
 
 ROOT = Path(__file__).resolve().parent.parent
 ROOMS = ("numbers", "screws", "assembly", "kinematics", "statics", "scene")
-LIMIT = 60
-"""Seconds of CPU a step of the tests may take, three times what the slowest does: what hangs is dead."""
-FIRST = {
-    "numbers": "balls krawczyk digits bounds reaction_digits",
-    "screws": "screws digits reaction_digits ropes",
-    "assembly": "figure figure_refusals ways krawczyk digits figure_random",
-    "kinematics": "digits three_routes second_order reference",
-    "statics": "reaction_digits bodies bodies_gears bodies_scenes friction friction_bounds ropes",
-    "scene": "digits reaction_digits sensitivity bodies_scenes",
-    "space": "space space_random space_digits",
-}
-"""The tests that know most of a room."""
-THEN = (
-    "result bodies_scenes more_loads figures_measured friction ropes three_routes space sensitivity",
-    "sweep_numbers sweep_find sweep_friction profile reference stress cases dynamics near null_space",
-)
-"""Those that follow, for all."""
+BUDGET = 60.0
+"""Seconds of CPU that the tests of one mutant take in all: of those that call its function the nearest."""
+HUNG = 5
+"""What takes so many times as long as it should hangs, and is dead."""
+APART = (
+    "accessible as_people_write bad_input bench check draw explain files fuzz gallery grade growth house "
+    "notebook one_voice page picture plot readme reading report schema slips startup"
+).split()
+"""Tests of other rooms: names begin so."""
 SWAPS: dict[type, list[type]] = {
     ast.Add: [ast.Sub],
     ast.Sub: [ast.Add],
@@ -65,70 +63,72 @@ SWAPS: dict[type, list[type]] = {
     ast.NotIn: [ast.In],
 }
 EQUIVALENT: dict[str, str] = {}
-"""``file:line kind`` of mutants that change no answer, with the reason."""
+"""Mutants, as they are listed, that change no answer, with the reason."""
 
 
 class Mutant(NamedTuple):
-    """A change of one node of a file."""
+    """A change of one node in a function (``""``: of the module itself) of a file."""
 
     file: str
+    function: str
     line: int
     what: str
     text: str
 
     @property
     def name(self) -> str:
-        """As it is listed."""
-        return f"{self.file}:{self.line} {self.what}"
+        """As it is listed, wherever the line stands."""
+        return f"{self.file} {self.function or 'module'}: {self.what}"
 
 
 class _Change(ast.NodeTransformer):
-    """Counts the places that can be changed, and changes the one that is asked for."""
+    """Counts the places of each function that can be changed, and changes the one that is asked for."""
 
-    def __init__(self, at: int, rng: Random) -> None:
-        self.at, self.rng, self.count, self.line, self.what = at, rng, -1, 0, ""
+    def __init__(self, at: tuple[str, int] = ("", -1), rng: Random | None = None) -> None:
+        self.at, self.rng, self.line, self.what = at, rng or Random(0), 0, ""
+        self.scope, self.counts = "", dict[str, int]()
 
     def _here(self) -> bool:
-        self.count += 1
-        return self.count == self.at
+        k = self.counts[self.scope] = self.counts.get(self.scope, -1) + 1
+        return self.at == (self.scope, k)
 
-    def _swapped(self, node: ast.AST, op: ast.AST) -> ast.AST:
-        new = self.rng.choice(SWAPS[type(op)])()
-        self.line, self.what = node.lineno, f"{type(op).__name__} -> {type(new).__name__}"  # type: ignore[attr-defined]
-        return new
+    def _became(self, node: ast.AST, was: str, now: ast.AST) -> ast.AST:
+        self.line, self.what = node.lineno, f"{was} -> {ast.unparse(now)}"  # type: ignore[attr-defined]
+        return now
 
-    def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+    def _other(self, op: ast.AST) -> Any:
+        return self.rng.choice(SWAPS[type(op)])()
+
+    def visit_BinOp(self, node: Any) -> ast.AST:
         self.generic_visit(node)
         if type(node.op) in SWAPS and not _is_text(node) and self._here():
-            node.op = self._swapped(node, node.op)  # type: ignore[assignment]
+            was, node.op = ast.unparse(node), self._other(node.op)
+            return self._became(node, was, node)
         return node
 
-    visit_AugAssign = visit_BinOp  # type: ignore[assignment]  # noqa: N815
-    visit_BoolOp = visit_BinOp  # type: ignore[assignment]  # noqa: N815
+    visit_AugAssign = visit_BinOp  # noqa: N815
+    visit_BoolOp = visit_BinOp  # noqa: N815
 
     def visit_Compare(self, node: ast.Compare) -> ast.AST:
         self.generic_visit(node)
         for k, op in enumerate(node.ops):
             if self._here():
-                node.ops[k] = self._swapped(node, op)  # type: ignore[call-overload]
+                was, node.ops[k] = ast.unparse(node), self._other(op)
+                return self._became(node, was, node)
         return node
 
     def visit_UnaryOp(self, node: ast.UnaryOp) -> ast.AST:
         self.generic_visit(node)
         if isinstance(node.op, ast.USub | ast.Not) and self._here():
-            self.line, self.what = node.lineno, f"{type(node.op).__name__} -> nothing"
-            return node.operand
+            return self._became(node, ast.unparse(node), node.operand)
         return node
 
     def visit_Constant(self, node: ast.Constant) -> ast.AST:
-        if type(node.value) in (int, float) and self._here():
-            new = node.value + 1 if abs(node.value) < 10 else node.value * 1.5
-            self.line, self.what = node.lineno, f"{node.value} -> {new}"
-            return ast.copy_location(ast.Constant(new), node)
-        if type(node.value) is bool and self._here():
-            self.line, self.what = node.lineno, f"{node.value} -> {not node.value}"
-            return ast.copy_location(ast.Constant(not node.value), node)
-        return node
+        if type(node.value) not in (int, float, bool) or not self._here():
+            return node
+        value = node.value
+        new = not value if type(value) is bool else value + 1 if abs(value) < 10 else value * 1.5
+        return self._became(node, repr(value), ast.copy_location(ast.Constant(new), node))
 
     def visit_keyword(self, node: ast.keyword) -> ast.AST:
         return node if node.arg == "strict" else self.generic_visit(node)
@@ -136,8 +136,19 @@ class _Change(ast.NodeTransformer):
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
         if node.name in ("__repr__", "__str__"):
             return node
-        for part in node.body:  # annotations and defaults of types are left alone
-            self.visit(part)
+        return self._inside(node, f"{self.scope}{node.name}", ".<locals>.")
+
+    def visit_ClassDef(self, node: ast.ClassDef) -> ast.AST:
+        return self._inside(node, f"{self.scope}{node.name}", ".")
+
+    def _inside(self, node: Any, name: str, joined: str) -> ast.AST:
+        """A function or a class; annotations and defaults of types are left alone."""
+        outer = self.scope
+        for k, part in enumerate(node.body):
+            inner = isinstance(part, ast.FunctionDef | ast.ClassDef)
+            self.scope = f"{name}{joined}" if inner else name
+            node.body[k] = self.visit(part)
+        self.scope = outer
         return node
 
     def visit_AnnAssign(self, node: ast.AnnAssign) -> ast.AST:
@@ -154,44 +165,99 @@ def _is_text(node: ast.AST) -> bool:
 
 
 def drawn(count: int, seed: int) -> list[Mutant]:
-    """The mutants of a seed: rooms weighed by what can be changed in them."""
-    rng = Random(seed)
-    files = sorted(f for room in ROOMS for f in (ROOT / "icsolve" / room).rglob("*.py"))
-    trees = {file: file.read_text(encoding="utf-8") for file in files}
+    """The mutants of a seed, by a hash of the place: what changes elsewhere moves none."""
+    trees = {}
     places = []
-    for file, text in trees.items():
-        counted = _Change(-1, rng)
+    for file in (f for room in ROOMS for f in (ROOT / "icsolve" / room).rglob("*.py")):
+        name, text = str(file.relative_to(ROOT)), file.read_text(encoding="utf-8")
+        counted = _Change()
         counted.visit(ast.parse(text))
-        places += [(file, k) for k in range(counted.count + 1)]
+        trees[name] = text
+        for scope, last in counted.counts.items():
+            places += [(name, scope, k) for k in range(last + 1)]
     found = []
-    for file, k in rng.sample(places, count):
-        change = _Change(k, rng)
-        tree = change.visit(ast.parse(trees[file]))
+    for name, scope, k in sorted(places, key=lambda place: Random(f"{seed} {place}").random())[:count]:
+        change = _Change((scope, k), Random(f"{seed} {name} {scope} {k}"))
+        tree = change.visit(ast.parse(trees[name]))
         text = ast.unparse(ast.fix_missing_locations(tree))
-        found.append(Mutant(str(file.relative_to(ROOT)), change.line, change.what, text))
+        found.append(Mutant(name, scope.removesuffix(".<locals>."), change.line, change.what, text))
     return found
 
 
-def steps_of(room: str) -> list[list[str]]:
-    """The tests that are run on a mutant in a room, nearest first."""
-    taken: set[str] = set()
-    steps = []
-    for names in (FIRST[room], *THEN):
-        step = [name for name in names.split() if name not in taken]
-        taken |= {*step}
-        steps.append([f"tests/test_{name}.py" for name in step])
-    return steps
+class Calls:
+    """Writes what each test that passes calls of the core, ``file function``, and its seconds of CPU."""
+
+    def __init__(self, copy: Path, out: Path) -> None:
+        self.rooms = {str(copy / "icsolve" / room) + os.sep: room for room in ROOMS}
+        self.copy, self.out, self.passed = copy, out, True
+        self.tests: dict[str, tuple[float, list[str]]] = {}
+
+    @pytest.hookimpl(hookwrapper=True)
+    def pytest_runtest_protocol(self, item: pytest.Item) -> Iterator[None]:
+        """Around a test with its fixtures."""
+        seen: set[Any] = set()
+
+        def called(frame: FrameType, _event: str, _arg: object) -> None:
+            seen.add(frame.f_code)
+
+        self.passed, start = True, time.process_time()
+        sys.settrace(called)
+        yield
+        sys.settrace(None)
+        spent = time.process_time() - start
+        if self.passed:
+            own = [c for c in seen if c.co_filename.startswith(tuple(self.rooms))]
+            names = {f"{Path(c.co_filename).relative_to(self.copy)} {c.co_qualname}" for c in own}
+            self.tests[item.nodeid] = spent, sorted(names)
+
+    def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+        """Tests that are skipped or fail judge no mutant."""
+        self.passed = self.passed and report.passed
+
+    def pytest_sessionfinish(self) -> None:
+        """All is written at once."""
+        self.out.write_text(json.dumps(self.tests))
 
 
-def killer(mutant: Mutant, copy: Path) -> str:
+def calls_of(copy: Path, kept: Path) -> dict[str, tuple[float, list[str]]]:
+    """Seconds and called functions of the tests, by name; made in a run of them all where not ``kept``."""
+    if not kept.exists():
+        files = sorted(f.name for f in (copy / "tests").glob("test_*.py"))
+        near = [f"tests/{name}" for name in files if not name.startswith(tuple(f"test_{a}" for a in APART))]
+        if not os.fork():
+            _enter(copy, mutated=False)
+            os._exit(pytest.main(["-q", "--tb=no", "-p", "no:cacheprovider", *near], [Calls(copy, kept)]))
+        os.wait()
+    return json.loads(kept.read_text())  # type: ignore[no-any-return]
+
+
+def tests_of(mutant: Mutant, calls: dict[str, tuple[float, list[str]]]) -> list[str]:
+    """The tests that call the mutated function (of the module itself and its classes: any there), quick and
+    special ones first, as many as the budget has time for."""
+    own = f"{mutant.file} {mutant.function}"
+    inside = not mutant.function or mutant.function.split(".")[-1][:1].lstrip("_").isupper()
+    near = []
+    for test, (spent, names) in calls.items():
+        if own in names or (inside and any(name.startswith(own) for name in names)):
+            near.append((spent * len(names), spent, test))
+    taken, total = [], 0.0
+    for _, spent, test in sorted(near):
+        total += spent
+        if taken and total > BUDGET:
+            break
+        taken.append(test)
+    return taken
+
+
+def killer(mutant: Mutant, copy: Path, calls: dict[str, tuple[float, list[str]]]) -> str:
     """What kills a mutant; '' where nothing does."""
     file = copy / mutant.file
     whole, times = file.read_text(encoding="utf-8"), file.stat()
     file.write_text(mutant.text, encoding="utf-8")
+    tests = tests_of(mutant, calls)
     try:
-        room = mutant.file.split("/")[1]
-        for tests in steps_of("space" if "/space/" in mutant.file else room):
-            said = _run(copy, tests)
+        for step in (tests[:20], tests[20:]):
+            said = _run(copy, step, HUNG * (2 + sum(calls[test][0] for test in step))) if step else ""
             if said:
                 return said
         return ""
@@ -200,19 +266,24 @@ def killer(mutant: Mutant, copy: Path) -> str:
         os.utime(file, ns=(times.st_atime_ns, times.st_mtime_ns))
 
 
-def _run(copy: Path, tests: list[str], mutated: bool = True) -> str:
-    """The first test that fails in a fork of this process, which has all packages but the project's."""
+def _enter(copy: Path, mutated: bool) -> None:
+    """Into the copy, in a fork of this process, which has all packages but the project's."""
+    os.chdir(copy)
+    sys.path.insert(0, str(copy))
+    os.environ["PYTHONPATH"] = str(copy)
+    if mutated:  # compiled files are those of the tree as it is
+        sys.dont_write_bytecode = True
+        os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
+
+
+def _run(copy: Path, tests: list[str], limit: float) -> str:
+    """The first test that fails in so many seconds of CPU; '' where none does."""
     out = copy / "said.txt"
     child = os.fork()
     if not child:
-        resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT + 5))
+        resource.setrlimit(resource.RLIMIT_CPU, (int(limit), int(limit) + 5))
         os.dup2(os.open(out, os.O_CREAT | os.O_TRUNC | os.O_WRONLY), 1)
-        os.chdir(copy)
-        sys.path.insert(0, str(copy))
-        os.environ["PYTHONPATH"] = str(copy)
-        if mutated:  # compiled files are those of the tree as it is
-            sys.dont_write_bytecode = True
-            os.environ["PYTHONDONTWRITEBYTECODE"] = "1"
+        _enter(copy, mutated=True)
         os._exit(pytest.main(["-x", "-q", "--tb=no", "-p", "no:cacheprovider", *tests]))
     status = os.waitpid(child, 0)[1]
     if os.WIFSIGNALED(status):
@@ -227,31 +298,26 @@ def say(line: str) -> None:
     sys.stdout.flush()
 
 
-def main(count: int = 200, seed: int = 2026, first: int = 0) -> int:
-    """Run mutants from the ``first`` on; the exit status is 0 where 95 % of the effective ones die, 2 where
-    the tests do not pass as they are."""
+def main(count: int = 200, seed: int = 2026, first: int = 0, kept: str = "") -> int:
+    """Run mutants from the ``first`` on; the exit status is 0 where 95 % of the effective ones die."""
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder) / "copy"
         skipped = shutil.ignore_patterns(".git", ".venv", "__pycache__", ".*_cache")
         shutil.copytree(ROOT, copy, ignore=skipped)
-        for tests in dict.fromkeys(tuple(step) for room in FIRST for step in steps_of(room)):
-            broken = _run(copy, list(tests), mutated=False)
-            if broken:
-                say(f"without a mutant: {broken}")
-                return 2
+        calls = calls_of(copy, Path(kept or Path(folder) / "calls.json").absolute())
         alive, dead, same = [], 0, 0
         for n, mutant in enumerate(drawn(count, seed)[first:], start=first):
             if mutant.name in EQUIVALENT:
                 same += 1
                 say(f"{n:3d} same     {mutant.name}: {EQUIVALENT[mutant.name]}")
                 continue
-            by = killer(mutant, copy)
+            by = killer(mutant, copy, calls)
             dead += bool(by)
             alive += [] if by else [mutant]
-            say(f"{n:3d} {'dead' if by else 'SURVIVES'}  {mutant.name}  {by[:90]}")
+            say(f"{n:3d} {'dead' if by else 'SURVIVES'}  {mutant.name} (line {mutant.line})  {by[:90]}")
     say(f"{dead} dead, {len(alive)} alive, {same} equivalent")
     return 0 if dead >= 0.95 * (dead + len(alive)) else 1
 
 
 if __name__ == "__main__":
-    sys.exit(main(*map(int, sys.argv[1:])))
+    sys.exit(main(*(int(a) if a.isdigit() else a for a in sys.argv[1:])))  # type: ignore[arg-type]

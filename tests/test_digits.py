@@ -235,3 +235,37 @@ def test_all_rates_go_with_the_given_speed(speed: float) -> None:
     assert many is not None
     assert many["2"] == -speed
     assert many == pytest.approx({link: speed * float(rate) for link, rate in one.items()}, rel=1e-15)
+
+
+KNEE = """
+icsolve: 1
+points: {{A: [{x}, {y}]}}
+lengths: {{AB: {bar}, BC: {bar}}}
+angles: {{AB: {angle}}}
+near: {{C: [{x}, {y}]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{slide: [4, 1], at: C, along: {along}, through: A}}
+loads:
+  S: {{{load}, link: 4, at: C}}
+  P: {{force: unknown, link: 2, at: B, angle: -90}}
+"""
+
+
+@pytest.mark.parametrize(
+    "load", ["spring: 2, free: 400, to: A", "force: 3, toward: A", "spring: 2, free: 0, to: A"]
+)
+@pytest.mark.parametrize("seed", range(60 if FULL else 6))
+def test_two_points_that_the_decimals_make_one_give_no_direction(load: str, seed: int) -> None:
+    """Folded together a knee has its end on its foot, wherever rounding of doubles puts it."""
+    rng = Random(f"knee {seed}")
+    near = {key: f"{rng.uniform(1, 80):.2f}" for key in ("x", "y", "bar", "angle", "along")}
+    case = icsolve.load(KNEE.format(load=load, **near))
+    if "free: 0" in load:
+        assert icsolve.solve(case).answers["P"].value == 0.0
+        return
+    with pytest.raises(SceneError, match="lie at one place") as refusal:
+        icsolve.solve(case)
+    assert refusal.value.status == "inconsistent"

@@ -16,6 +16,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.kinematics import motion, speeds
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic
 from icsolve.scene import refusals
+from icsolve.screws.joints import Points
 from icsolve.statics import power
 from icsolve.statics.power import Outcome
 from icsolve.structure.plan import Plan, make_plan
@@ -39,13 +40,15 @@ class Want(NamedTuple):
 
 
 class Program(NamedTuple):
-    """A case with its topology, the plan for what is wanted, and the construction of its figure."""
+    """A case with its topology, the plan for what is wanted, the construction of its figure, and what has
+    its direction from two points."""
 
     case: Case
     want: Want
     top: Topology
     plan: Plan | None
     figure: Figure
+    directions: tuple[tuple[str, tuple[str, str]], ...]
 
 
 @lru_cache(maxsize=32)
@@ -62,13 +65,12 @@ def prepare(case: Case, want: Want) -> Program:
         plan = None
     bonds = motion.needed_bonds(plan, top)
     figure = _figure(case, top, bonds, want)
-    refusals.refuse_no_direction(case, top, figure.points)
     refusals.refuse_no_hanging(case, figure.points, figure.frame.scale)
     if any(isinstance(joint, Mesh) for joint in case.joints):
         from icsolve.assembly.residuals import refuse_misfit
 
         refuse_misfit(case, top, figure.points, figure.frame.scale)
-    return Program(case, want, top, plan, figure)
+    return Program(case, want, top, plan, figure, refusals.directions(case, top))
 
 
 def without_plan(program: Program) -> Program:
@@ -119,6 +121,14 @@ def _wanted_points(case: Case, top: Topology, bonds: tuple[int, ...], want: Want
     return list(dict.fromkeys(points))
 
 
+def _placed(program: Program, arithmetic: Arithmetic, rounds: int = 1) -> Points:
+    """The points; refused where two of them should give a direction and are one."""
+    figure = program.figure
+    points = figure.points if arithmetic is FLOATS else place(figure, program.case, arithmetic, rounds).points
+    refusals.refuse_no_direction(program.directions, points, arithmetic)
+    return points
+
+
 def evaluate(program: Program, arithmetic: Arithmetic = FLOATS, rounds: int = 1) -> tuple[Program, Outcome]:
     """Places, motions and unknown loads; the program that ran (without a plan where a group of it
     is singular in this position).
@@ -127,7 +137,7 @@ def evaluate(program: Program, arithmetic: Arithmetic = FLOATS, rounds: int = 1)
     """
     figure, case, top = program.figure, program.case, program.top
     # position
-    points = figure.points if arithmetic is FLOATS else place(figure, case, arithmetic, rounds).points
+    points = _placed(program, arithmetic, rounds)
     # centres, which keep their weight: the twists of the links
     motions = None
     if program.plan is not None:
@@ -151,7 +161,7 @@ def evaluate(program: Program, arithmetic: Arithmetic = FLOATS, rounds: int = 1)
 def evaluate_still(program: Program, arithmetic: Arithmetic = FLOATS) -> tuple[Program, Outcome]:
     """The same of a structure: its places, and the loads on it; nothing moves."""
     figure, case = program.figure, program.case
-    points = figure.points if arithmetic is FLOATS else place(figure, case, arithmetic).points
+    points = _placed(program, arithmetic)
     still = motion.Motions(dict.fromkeys((*case.links, case.ground), ()), {}, 0, 0, (), ())
     loads = power.wrenches(case, figure.frame, points, arithmetic)
     return program, Outcome(points, still, power.Balance(loads, (), ()), power.Solution("balanced", {}))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from icsolve.case import Case, Weight
 from icsolve.errors import SceneError, Status
@@ -30,19 +31,26 @@ def refuse_loose(case: Case, top: Topology) -> None:
         raise SceneError(Status.LOOSE, sentences.loose(case, names))
 
 
-def refuse_no_direction(case: Case, top: Topology, points: Points) -> None:
-    """Refuse loads, guides and wheels whose direction two points give that lie at one place."""
+def directions(case: Case, top: Topology) -> tuple[tuple[str, tuple[str, str]], ...]:
+    """What has its direction from two points, and these: loads, guides and wheels."""
     lines = [(f"load {load.name}", power.line_of(load)) for load in case.loads if not power.may_vanish(load)]
     for bond in top.bonds:
         names = sentences.listed(bond.links)
         guide = bond.joint.guide
         lines.append((f"the guide of links {names}", guide.ends if guide is not None else None))
         lines.append((f"the wheels {names}", bond.pivots if bond.pivots[0] else None))
-    for what, ends in lines:
-        if ends and ends[0] in points and ends[1] in points and points[ends[0]] == points[ends[1]]:
+    return tuple([(what, ends) for what, ends in lines if ends is not None])
+
+
+def refuse_no_direction(
+    lines: Sequence[tuple[str, tuple[str, str]]], points: Points, arithmetic: Arithmetic
+) -> None:
+    """Refuse directions that two points give that lie at one place [frame]."""
+    for what, (a, b) in lines:
+        if a in points and b in points and power.at_one_place(points[a], points[b], arithmetic):
             raise SceneError(
                 Status.INCONSISTENT,
-                f"there is no direction for {what}: {sentences.listed(ends)} lie at one place. Give it by an "
+                f"there is no direction for {what}: {sentences.listed((a, b))} lie at one place. Give it by an "
                 "angle, or correct the points.",
             )
 

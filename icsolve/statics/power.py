@@ -32,7 +32,7 @@ from icsolve.case import (
 )
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import Motions
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, decider, magnitude
+from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, all_vanish, decider, magnitude
 from icsolve.numbers.null_space import null_space
 from icsolve.numbers.tape import Tape
 from icsolve.screws.plane import Point, Triple, force_wrench, pairing
@@ -168,9 +168,7 @@ def _unit_wrench(
             if load.mass:
                 gain = arithmetic.given(case.gravity) * arithmetic.ratio(case.units.exact_newton)
             return force_wrench((0.0, -1.0), points[load.at]), gain
-        case Spring() if may_vanish(load) and not any(
-            float(b - a) for a, b in zip(points[load.at], points[load.to], strict=True)
-        ):
+        case Spring() if may_vanish(load) and at_one_place(points[load.at], points[load.to], arithmetic):
             return (0.0, 0.0, 0.0), 0.0
         case Spring():
             toward, length = _between(points[load.at], points[load.to], arithmetic)
@@ -284,6 +282,11 @@ def direction(load: Force, points: Points, arithmetic: Arithmetic) -> Point:
         run, rise = arithmetic.given(heading.run), arithmetic.given(heading.rise)
         return _between((0.0, 0.0), (run, rise), arithmetic)[0]
     return arithmetic.turn(heading)
+
+
+def at_one_place(a: Point, b: Point, arithmetic: Arithmetic) -> bool:
+    """Whether two points [frame] are one."""
+    return all_vanish(arithmetic, ((q - p, 1.0 + magnitude(p)) for p, q in zip(a, b, strict=True)))
 
 
 def _between(a: Point, b: Point, arithmetic: Arithmetic) -> tuple[Point, Scalar]:
