@@ -50,8 +50,8 @@ def refuse_no_direction(
         if a in points and b in points and power.at_one_place(points[a], points[b], arithmetic):
             raise SceneError(
                 Status.INCONSISTENT,
-                f"there is no direction for {what}: {sentences.listed((a, b))} lie at one place. Give it by an "
-                "angle, or correct the points.",
+                f"there is no direction for {what}: {sentences.listed((a, b))} lie at one place. Give it "
+                "by an angle, or correct the points.",
             )
 
 
