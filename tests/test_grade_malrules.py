@@ -342,6 +342,16 @@ def test_errors_are_carried_forward_to_one_of_two_unknowns(a_class: Class) -> No
     assert "carried" not in found["b", "two:T2"][1]
 
 
+def test_errors_are_carried_forward_through_friction(a_class: Class) -> None:
+    """Of the shares that add up to T12 some are those of friction, which no load has."""
+    a_class.case("slider", (CASES / "ch13/13_16_slider_crank_with_friction.yaml").read_text())
+    store = CaseStore(a_class.path("cases"), Course())
+    ratio, torque = (store.key(f"slider{what}") for what in (":w3/w2", ""))
+    assert isinstance(ratio, NumberKey) and isinstance(torque, NumberKey)
+    given = f"1,slider:w3/w2,{1.7 * ratio.value:.6g}\n1,slider,{1.7 * torque.value:.6g}\n"
+    assert a_class.grade(f"student_id,case,answer\n{given}").row("1", "slider")["code"] == "carried"
+
+
 @pytest.mark.parametrize(
     ("name", "first", "second", "of_first"),
     [

@@ -12,7 +12,6 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import combinations
 
 from icsolve.answer import Answer
-from icsolve.case import Load
 from icsolve.case.expected import CentreIs, DistanceIs, RateIs, RatioIs, SpeedIs, Target
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.importing import StoredAnswer
@@ -49,8 +48,10 @@ def carried(wrongs: WrongAnswers, unknown: str, wrong: list[Intermediate]) -> li
     own = next((load for load in answer.case.loads if load.name == unknown), None)
     if not parts or own is None:
         return []
-    loads = {load.name: load for load in answer.case.loads if load.name in parts}
-    ways = [(i, list(_scales(answer, i, own, loads))) for i in wrong]
+    links = dict.fromkeys(parts, "") | {
+        load.name: load.link for load in answer.case.loads if load.name in parts
+    }
+    ways = [(i, list(_scales(answer, i, own.link, links))) for i in wrong]
     found = [Wrong("carried", _total(parts, scales), i.what) for i, choices in ways for scales in choices]
     together = [choices[0] for _, choices in ways if choices]
     if len(together) > 1:
@@ -97,25 +98,26 @@ def _total(parts: Mapping[str, float], scales: Scales) -> float:
     return sum(part * scales[name] for name, part in parts.items())
 
 
-def _scales(answer: Answer, i: Intermediate, own: Load, loads: Mapping[str, Load]) -> Iterator[Scales]:
-    """How the shares change, the likeliest way first."""
+def _scales(answer: Answer, i: Intermediate, own: str, links: Mapping[str, str]) -> Iterator[Scales]:
+    """How the shares change, the likeliest way first, by the link of the unknown and the links of the shares
+    ('' of one that is no load's, as of friction)."""
     if isinstance(i.target, CentreIs):
-        yield from _by_place(answer, i, own, loads)
+        yield from _by_place(answer, i, own, links)
         return
     if not i.right[0] or not i.given[0]:
         return
     rho = i.given[0] / i.right[0]
     over, under = _links(answer, i.target)
-    some = {name: rho if load.link in over else 1.0 for name, load in loads.items()}
-    if own.link in over or any(load.link in under for load in loads.values() if load.link not in over):
-        yield dict.fromkeys(loads, 1.0 / rho)
-        yield dict.fromkeys(loads, rho)
+    some = {name: rho if link in over else 1.0 for name, link in links.items()}
+    if own in over or any(link in under for link in links.values() if link not in over):
+        yield dict.fromkeys(links, 1.0 / rho)
+        yield dict.fromkeys(links, rho)
     else:
         if any(scale != 1.0 for scale in some.values()):
             yield some
-        yield dict.fromkeys(loads, rho)
-        if not any(load.link in over for load in loads.values()):
-            yield dict.fromkeys(loads, 1.0 / rho)
+        yield dict.fromkeys(links, rho)
+        if not any(link in over for link in links.values()):
+            yield dict.fromkeys(links, 1.0 / rho)
 
 
 def _links(answer: Answer, target: Target) -> tuple[set[str], set[str]]:
@@ -142,7 +144,7 @@ def _of_distance(
     return ({link}, set()) if to_point else (set(), {link})
 
 
-def _by_place(answer: Answer, i: Intermediate, own: Load, loads: Mapping[str, Load]) -> Iterator[Scales]:
+def _by_place(answer: Answer, i: Intermediate, own: str, links: Mapping[str, str]) -> Iterator[Scales]:
     """A common centre in the wrong place gives the two links' ratio of rates by its distances from theirs;
     of a link that only slides, the distance from the other's is the ratio."""
     assert isinstance(i.target, CentreIs)
@@ -157,12 +159,12 @@ def _by_place(answer: Answer, i: Intermediate, own: Load, loads: Mapping[str, Lo
     if not right or not wrong:
         return
     rho = wrong / right
-    forward = {name: rho if load.link == second else 1.0 for name, load in loads.items()}
-    if own.link == second:
-        yield dict.fromkeys(loads, 1.0 / rho)
+    forward = {name: rho if link == second else 1.0 for name, link in links.items()}
+    if own == second:
+        yield dict.fromkeys(links, 1.0 / rho)
     elif any(scale != 1.0 for scale in forward.values()):
         yield forward
-    yield dict.fromkeys(loads, rho)
+    yield dict.fromkeys(links, rho)
 
 
 def _rates(place: Place, mine: Place | None, its: Place | None) -> float:
