@@ -19,6 +19,7 @@ from growth import random_mechanism
 from icsolve.answer import Answer
 from icsolve.case import Case, Contact, Inertia, KnownCentre, Motion, Number, Pin, Roll
 from icsolve.errors import CaseError, SceneError
+from icsolve.sweep.numbers import find_number, with_numbers
 from reference import MANY, many, motions, points_of
 from sizes import MORE
 
@@ -279,6 +280,32 @@ loads: {T: {torque: unknown, link: 2}}
     answer = solved(text, reactions=True)
     assert answer.answers["T"].value * 10.0 == pytest.approx(power, rel=1e-7)
     assert answer.terms[0].power == pytest.approx(power, rel=1e-7)
+
+
+def test_slopes_with_inertia_forces_are_the_differences_of_the_answer() -> None:
+    """By masses, speed, acceleration and figure; of a link too whose inertia force is zero as it stands."""
+    paths = (
+        "motion.speed",
+        "motion.acceleration",
+        "links.3.mass",
+        "links.4.inertia",
+        "angles.AB",
+        "lengths.BC",
+    )
+    case = icsolve.load("icsolve: 1\n" + FOUR_BAR.replace("speed: 10", "speed: 10, acceleration: 3"))
+    rotor = icsolve.load(
+        "icsolve: 1\n" + PENDULUM + "links: {2: {mass: 2 kg, centre: A, inertia: 5 kg*m^2}}\n"
+        "loads: {T: {torque: unknown, link: 2}}\nmotion: {link: 2, speed: 3, acceleration: 0}\n"
+    )
+    assert icsolve.solve(rotor, dynamic=True).sensitivities["T"]["motion.acceleration"] == pytest.approx(5.0)
+    found = icsolve.solve(case, dynamic=True).sensitivities["T"]
+    for path in paths:
+        value = find_number(case, path).value
+        sides = [
+            icsolve.solve(with_numbers(case, {path: value + h}), dynamic=True).answers["T"].value
+            for h in (-1e-4, 1e-4)
+        ]
+        assert found[path] == pytest.approx((sides[1] - sides[0]) / 2e-4, rel=1e-5), path
 
 
 @pytest.mark.parametrize("gravity", [False, True], ids=["without gravity", "with gravity"])

@@ -551,6 +551,21 @@ def test_a_sweep_finds_the_friction_that_holds(tmp_path: Path, capsys: pytest.Ca
     assert one["at"]["joints.A.mu"] == pytest.approx(mu, rel=1e-12)
 
 
+def test_a_sweep_finds_the_loads_that_a_rough_slope_holds(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """From W (sin t - mu cos t) to W (sin t + mu cos t), through the one that needs no friction."""
+    text = """icsolve: 1
+points: {C: [0, 0]}
+joints: [{slide: [2, 1], at: C, along: 30, mu: 0.1}]
+loads: {Q: {weight: 100, link: 2, at: C}, W: {force: 60, link: 2, at: C, angle: 30}}
+"""
+    words = ("sweep", "CASE", "--vary", "loads.W=20:80:1", "--find", "hold", "--json")
+    found = json.loads(run(tmp_path, capsys, text, *words))["found"]
+    rough = 5.0 * math.sqrt(3.0)
+    assert [one["at"]["loads.W"] for one in found] == pytest.approx([50 - rough, 50 + rough], rel=1e-12)
+
+
 def test_positions_against_a_load_are_a_row_each(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     text = pendulum("T: {torque: 8, link: 2}")
     out = run(tmp_path, capsys, text, "sweep", "CASE", "--vary", "loads.T=10:30:10")

@@ -227,6 +227,30 @@ def test_without_a_motion_the_pull_on_a_capstan_holds_over_a_range() -> None:
     assert answer.answers["F"].holds == (exactly(100 / HAULED), exactly(100 * HAULED))
 
 
+@pytest.mark.parametrize("wrap", ["cw", "ccw"])
+@pytest.mark.parametrize("turns", [0, 1, 4])
+def test_a_straight_rope_lies_on_a_post_over_whole_turns_alone(wrap: str, turns: int) -> None:
+    """It passes the post, whatever the rounding of its direction; each turn more is one of exp(2 pi mu)."""
+    for seed in range(6):
+        rng = Random(seed)
+        lean, radius = rng.uniform(0, 360), rng.uniform(0.1, 0.9)
+        c, s, off = math.cos(math.radians(lean)), math.sin(math.radians(lean)), radius
+        off = off if wrap == "cw" else -off
+        a, b = ((x * c - off * s, x * s + off * c) for x in (-2.0, 3.0))
+        answer = solved(f"""
+points: {{A: [{a[0]!r}, {a[1]!r}], O: [0, 0], B: [{b[0]!r}, {b[1]!r}]}}
+joints:
+  - {{slide: [2, 1], at: A, along: {lean!r}}}
+  - {{rope: [A, O, B], on: [2, 1], radii: {{O: {radius!r}}}, wraps: {{O: {wrap}}}, mu: {{O: 0.2}},
+     turns: {{O: {turns}}}}}
+loads:
+  W: {{force: 100, link: 2, at: A, angle: {lean + 180!r}}}
+  F: {{force: unknown, at: B}}
+motion: {{point: A, link: 2, speed: 1, angle: {lean!r}}}
+""")
+        assert answer.answers["F"].value == pytest.approx(100 * math.exp(0.4 * math.pi * turns), rel=1e-9)
+
+
 BAND = """
 points: {O: [0, 0], A: [-0.2, -0.3], C: [0.2, -0.3], L: [0.6, -0.3]}
 joints:
@@ -557,6 +581,7 @@ PULL = "{force: unknown, at: B}"
         ("{rope: [C, P, B], on: [2, 1], radii: {Q: 0.1}, wraps: {Q: cw}}", PULL, "does not run through 'Q'"),
         ("{rope: [C, P, B], on: [2, 1], radii: {P: -0.1}, wraps: {P: cw}}", PULL, "greater than zero"),
         ("{rope: [C, P, B], on: [2, 1], wraps: {P: left}, radii: {P: 1}}", PULL, "ccw or cw"),
+        ("{rope: [C, P, B], on: [2, 1], turns: {P: 2}}", PULL, "belong to a pulley with 'radii' and 'wraps'"),
         ("{rope: [C], on: [2]}", "{force: unknown, link: 2, at: C, angle: 3}", "two points or more"),
         ("{rope: [C, P, B], on: [2, 1]}", "{torque: unknown, link: 2}", "no load pulls it"),
         ("{rope: [C, P, B], on: [2, 1]}", "{force: unknown, at: B, angle: 30}", "take out 'angle'"),
@@ -574,6 +599,25 @@ def test_a_weight_at_a_free_end_has_to_hang() -> None:
     error = refused(ROPED % ("{rope: [C, P, B], on: [2, 1]}", "{weight: unknown, at: B}"))
     assert error.status == "inconsistent"
     assert "hang" in error.message
+
+
+def test_a_rope_on_the_pin_of_a_wheel_and_a_link_on_ropes_alone_are_told() -> None:
+    """A drum without its wrap would be turned by nothing; a link that is misspelt hangs on the rope alone."""
+    drum = ROPED.replace("A: [0, 0],", "A: [0, 0], O: [3, 3],")
+    found = solved(drum % ("{pin: [1, 3], at: O}, {rope: [C, O], on: [2, 3]}", "{torque: unknown, link: 3}"))
+    assert "ends at O, the pin of link 3, and so does not turn it" in " ".join(found.notes)
+    assert "link 7 has no joint" in refused(ROPED % ("{rope: [C, P, B], on: [2, 7]}", PULL)).message
+
+
+def test_slopes_by_the_radii_of_a_rope_are_those_of_the_closed_form() -> None:
+    """F = W (R - r) / (2 x) of the differential hoist, pulled at the arm x."""
+    answer = icsolve.solve(icsolve.load(str(CASES / "ropes" / "differential_hoist.yaml")))
+    by = answer.sensitivities["F"]
+    radii = {path: slope for path, slope in by.items() if ".radii." in path}
+    outer = next(slope for path, slope in radii.items() if path.endswith(".O"))
+    inner = next(slope for path, slope in radii.items() if path.endswith(".N"))
+    assert outer == exactly(-inner)
+    assert outer == exactly(500 / abs(answer.points["K"][0]))
 
 
 def test_parts_without_a_length_are_refused() -> None:

@@ -146,3 +146,4 @@ def test_an_unknown_force_along_a_locked_screw_is_carried() -> None:
     with pytest.raises(SceneError) as caught:
         solved(text)
     assert caught.value.status == "structure"
+    assert "the screw of 1 and 2 is locked, as no load turns it" in caught.value.message

@@ -49,7 +49,8 @@ class Rope(NamedTuple):
     The first and the last are its ends, the others pulleys; where ``links`` has one less than ``points``,
     the last end is free and loads pull it. For each place ``radii`` has a pulley's (or drum's) radius,
     ``wraps`` the sense (``cw``, ``ccw``) in which one goes round it from the first end to the last, and
-    ``mu`` the friction of a rope that slips there; None where there is none.
+    ``mu`` the friction of a rope that slips there; None where there is none. ``turns`` has the whole turns
+    about a place beside what the figure shows.
     """
 
     name: str
@@ -59,11 +60,17 @@ class Rope(NamedTuple):
     wraps: tuple[str | None, ...]
     mu: tuple[Number | None, ...]
     length: Number | None = None
+    turns: tuple[Number | None, ...] = ()
 
     @property
     def slips(self) -> bool:
         """Whether it rubs on anything that it goes round."""
         return any(mu is not None and mu.value > 0.0 for mu in self.mu)
+
+    def whole_turns(self, place: int) -> float:
+        """How often it goes all round the pulley at a place, beside the angle that the figure shows."""
+        turns = self.turns[place] if self.turns else None
+        return 0.0 if turns is None else turns.value
 
     @property
     def end(self) -> str:

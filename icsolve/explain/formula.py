@@ -115,6 +115,22 @@ def is_negative(expression: Expr) -> bool:
     return isinstance(expression, Sum) and expression.terms[0][0] < 0
 
 
+def summed(terms: Sequence[tuple[int, Expr]]) -> Expr:
+    """A sum; what is negative in it has its sign in front, and one positive term is itself."""
+    signed = tuple(
+        (-s, _unsigned(e)) if isinstance(e, Num | Product) and is_negative(e) else (s, e) for s, e in terms
+    )
+    return signed[0][1] if len(signed) == 1 and signed[0][0] > 0 else Sum(signed)
+
+
+def _unsigned(expression: Num | Product) -> Expr:
+    """What is written with a minus in front, without it."""
+    if isinstance(expression, Num):
+        return Num(expression.digits.removeprefix("-"))
+    first, *others = expression.factors
+    return product(_unsigned(first), *others) if isinstance(first, Num | Product) else expression
+
+
 def _symbols(angle: Expr) -> bool:
     """Whether an angle is of symbols, not of degrees."""
     parts = [term for _, term in angle.terms] if isinstance(angle, Sum) else [angle]

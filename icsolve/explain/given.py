@@ -132,7 +132,7 @@ def given_section(known: Known, figures: Figures) -> Section:
     blocks: list[Block] = [
         words(f"The frame is link {case.ground}; link{_s(others)} {listed(others)} move{_verb(others)}.")
     ]
-    said = [joint_words(joint) + _rubbing(figures, joint) for joint in case.joints]
+    said = [joint_words(joint, case.units.length) + _rubbing(figures, joint) for joint in case.joints]
     said += [_rope_words(figures, rope) for rope in case.ropes]
     said += [_mass_words(figures, link, inertia) for link, inertia in case.inertia.items()]
     blocks.append(Items(tuple((one,) for one in said)))
@@ -184,6 +184,10 @@ def _rope_words(figures: Figures, rope: Rope) -> str:
         radius, mu, unit = rope.radii[k], rope.mu[k], figures.units.length
         more = [] if radius is None else [f"radius {figures.number(radius.value).digits} {unit}"]
         more += [] if mu is None else [f"mu = {figures.number(mu.value).digits}"]
+        turns = rope.whole_turns(k)
+        more += (
+            [f"{turns:g} whole turn{'s' if turns != 1.0 else ''} more than the figure shows"] if turns else []
+        )
         held = f" of link {link}" if link else ""
         inner = 0 < k < last
         what = "the pulley " if inner and mu is None else "the drum " if radius is not None else ""

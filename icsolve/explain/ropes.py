@@ -10,7 +10,19 @@ from itertools import pairwise
 from icsolve.answer.bodies import Reaction
 from icsolve.case import Rope, Screw, Torque, Weight
 from icsolve.explain.document import Block, Formula, Section, formula, words
-from icsolve.explain.formula import Exp, Expr, Name, Num, Quantity, Quotient, Sum, Trig, minus, product
+from icsolve.explain.formula import (
+    Exp,
+    Expr,
+    Name,
+    Num,
+    Quantity,
+    Quotient,
+    Sum,
+    Trig,
+    minus,
+    product,
+    summed,
+)
 from icsolve.explain.given import Figures, load_name
 from icsolve.explain.levers import Lever, lever, motion_name, pivot
 from icsolve.numbers.arithmetic import FLOATS
@@ -68,8 +80,7 @@ def rope_ratio(known: Known, figures: Figures, ratios: Ratios, ratio: Ratio) -> 
 
 def _sum(parts: Sequence[RopeLine], sign: int = 1, *, numbers: bool = False) -> Expr:
     """The sum of parts, each with its sign times another."""
-    terms = tuple((sign * p.sign, p.number if numbers else p.symbol) for p in parts)
-    return terms[0][1] if len(terms) == 1 and terms[0][0] > 0 else Sum(terms)
+    return summed([(sign * p.sign, p.number if numbers else p.symbol) for p in parts])
 
 
 def _pulled(known: Known, figures: Figures, headings: Headings, pull: Pull) -> tuple[Lever, list[Block]]:
@@ -273,12 +284,12 @@ def _by_itself(
     yield words(f"Link {link} by itself: the forces of the frame {arms}.")
     yield from blocks
     yield formula(Sum(tuple((w.sign, product(*w.beside[1:], w.name, w.beside[0])) for w in terms)), Num("0"))
-    rest = tuple((-w.sign, product(w.number.number, *w.factors)) for w in terms if not w.asked)
+    rest = [(-w.sign, product(w.number.number, *w.factors)) for w in terms if not w.asked]
     asked = [w for w in terms if w.asked]
     first = float(asked[0].number.number.digits) or 1.0
     shares = [figures.number(float(w.number.number.digits) / first) for w in asked]
     parts = [RopeLine(w.sign, w.name, product(s, *w.factors)) for w, s in zip(asked, shares, strict=True)]
-    over: Expr = Sum(rest) if rest else Num("0")
+    over = summed(rest) if rest else Num("0")
     yield formula(asked[0].name, Quotient(over, _sum(parts, numbers=True)), asked[0].number)
     found |= names
 

@@ -152,7 +152,7 @@ def _parts(reading: Reading, root: Mapping) -> _Parts:
     if ropes:
         from icsolve.read.ropes import check_ends
 
-        check_ends(reading, ropes, loads)
+        check_ends(reading, ropes, joints, loads)
     links, inertia = read_links(reading, section_of(reading, root, "links"))
     near = read_near(reading, section_of(reading, root, "near"))
     motion = read_motion(reading, root.items["motion"]) if stands(root, "motion") else ()

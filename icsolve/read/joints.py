@@ -353,6 +353,13 @@ JOINTS = {
             "radii": Key("radii of pulleys and drums, as in {P: 0.1}", "sizes", False, "length", "positive"),
             "wraps": Key("the sense in which one goes round each, as in {P: ccw}", "senses"),
             "mu": Key("friction where it slips, as in {P: 0.3}", "numbers", False, "number", "not negative"),
+            "turns": Key(
+                "whole turns beside the angle that the figure shows, as in {P: 2}",
+                "numbers",
+                False,
+                "number",
+                "not negative",
+            ),
             "length": quantity_key("its own length, where the figure leaves it open", "length", "positive"),
         },
         "loads for its pull on each link",
@@ -433,6 +440,8 @@ def _contact(entry: Entry, links: Pair, v: Values) -> Joint | None:
 def _screw(entry: Entry, links: Pair, v: Values) -> Joint:
     """The slide of a screw that a torque turns; the weld of one that is locked."""
     if frozenset(links) not in entry.reading.driven:
+        load = f"{{torque: unknown, screw: {'-'.join(links)}}}"
+        entry.reading.noticed.append(f"{entry.what} is locked, as no load turns it: {load} would.")
         return Weld(links, v["at"])
     thread = Thread(v["lead"], v["radius"], v["mu"])
     slide = Slide((links[1], links[0]), v["at"], _guide(v), thread=thread)

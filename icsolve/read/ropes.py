@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from icsolve.case import AlongRope, Force, Load, Number, Rope, Weight
+from icsolve.case import AlongRope, Force, Joint, Load, Number, Pin, Rope, Weight
 from icsolve.read.document import Mapping, Node, Scalar, Sequence
 from icsolve.read.entry import Entry
 from icsolve.read.joints import JOINTS
@@ -49,9 +49,9 @@ def _rope(reading: Reading, node: Mapping) -> Rope | None:
     if names is None or v["on"] is None:
         return None
     none = (None,) * len(points)
-    radii, wraps, mu = (v[key] or none for key in ("radii", "wraps", "mu"))
+    radii, wraps, mu, turns = (v[key] or none for key in ("radii", "wraps", "mu", "turns"))
     _check_wraps(entry, points, len(v["on"]))
-    return Rope(name, points, v["on"], radii, wraps, mu, v["length"])
+    return Rope(name, points, v["on"], radii, wraps, mu, v["length"], turns)
 
 
 def _unlike(path: str, reading: Reading) -> str:
@@ -110,7 +110,7 @@ FORMS = {"links of a rope": _links, "sizes": _by_place, "senses": _by_place, "nu
 def _check_wraps(entry: Entry, points: tuple[str, ...], links: int) -> None:
     """A pulley with a size has its sense, and one that rubs has both."""
     given = {key: {*node.items} for key, node in entry.node.items.items() if type(node) is Mapping}
-    sized, wound, rubbing = (given.get(key, set()) for key in ("radii", "wraps", "mu"))
+    sized, wound, rubbing, more = (given.get(key, set()) for key in ("radii", "wraps", "mu", "turns"))
     for k, point in enumerate(points):
         inside = 0 < k < len(points) - 1
         if point in sized and point not in wound:
@@ -124,6 +124,9 @@ def _check_wraps(entry: Entry, points: tuple[str, ...], links: int) -> None:
             where = "with its 'radii' and 'wraps'" if inside else "between its ends"
             said = f"{entry.what} slips only on what it goes round {where}, and has 'mu' at {point}"
             entry.refuse(entry.mark("mu"), said)
+        if point in more and (point not in sized or not inside):
+            said = f"{entry.what} has 'turns' at {point}, which belong to a pulley with 'radii' and 'wraps'"
+            entry.refuse(entry.mark("turns"), said)
     if links < len(points) and points[-1] in sized:
         said = f"the last end {points[-1]} of {entry.what} is free and has no radius"
         entry.refuse(entry.mark("radii"), said)
@@ -145,10 +148,21 @@ def read_pull(entry: Entry, name: str, kind: str) -> Load | None:
     return Force(name, rope.end, rope.points[-1], value, AlongRope(rope))
 
 
-def check_ends(reading: Reading, ropes: tuple[Rope, ...], loads: tuple[Load, ...]) -> None:
-    """A free end without a load pulls nothing."""
+def check_ends(
+    reading: Reading, ropes: tuple[Rope, ...], joints: tuple[Joint, ...], loads: tuple[Load, ...]
+) -> None:
+    """A free end without a load pulls nothing; one on the pin of a wheel does not turn it, which is said."""
     pulled = {load.link for load in loads}
+    of_link = {
+        link: [joint for joint in joints if link in joint.links] for rope in ropes for link in rope.links
+    }
     for rope in ropes:
+        for k in {0, len(rope.points) - 1} & {*range(len(rope.links))}:
+            (link, at), only = (rope.links[k], rope.points[k]), of_link[rope.links[k]]
+            if rope.radii[k] is None and [type(joint) for joint in only] == [Pin] and only[0].at == at:
+                said = f"the rope {rope.name} ends at {at}, the pin of link {link}, and so does not turn it"
+                drum = f"'radii' and 'wraps', as in {{{at}: 0.1}} and {{{at}: ccw}}"
+                reading.noticed.append(f"{said}; if it is wound on it as on a drum, give {drum}.")
         if rope.is_free and rope.end not in pulled:
             mark = reading.marks[f"joints.{rope.name}"]
             end = rope.points[-1]

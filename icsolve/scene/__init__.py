@@ -51,7 +51,20 @@ def solve_scene(
         from icsolve.scene.dynamics import solve_dynamic
 
         return solve_dynamic(case, solve_scene, **{**asked, "rates": True}, reactions=reactions)
-    return _solved(case, wanted(case, Want(all_centres, rates, examine, reactions)), bound, reactions)
+    try:
+        return _solved(case, wanted(case, Want(all_centres, rates, examine, reactions)), bound, reactions)
+    except SceneError as refusal:
+        if not case.noticed or refusal.status not in MISTAKEN:
+            raise
+        said = f"{refusal.message} Noticed: {' '.join(case.noticed)}"
+        raise SceneError(refusal.status, said, refusal.more) from None
+
+
+MISTAKEN = (
+    *(Status.STRUCTURE, Status.MOBILITY, Status.NO_VALUE, Status.ANY_VALUE, Status.DEAD_CENTRE),
+    *(Status.INCONSISTENT, Status.CANNOT_ASSEMBLE),
+)
+"""Refusals of which the cause may be what was noticed in the file."""
 
 
 def without_inertia(case: Case, dynamic: bool) -> bool:

@@ -57,7 +57,7 @@ def solve_dynamic(case: Case, solve: Callable[..., Answer], **options: bool) -> 
         accelerations=found.points,
         angular_accelerations=found.links,
         notes=(*answer.notes, *notes),
-        sensitivities=Deferred(_no_sensitivities),
+        sensitivities=Deferred(lambda: _slopes(loaded, solve)),
     )
 
 
@@ -106,9 +106,21 @@ def _found(case: Case, program: Program, arithmetic: Balls) -> tuple[Case, Accel
     return loaded, shown, _notes(case, moves, arithmetic)
 
 
-def _no_sensitivities() -> Mapping[str, Mapping[str, float]]:
-    message = "sensitivities and tolerance bands are not worked out where inertia forces are among the loads."
-    raise SceneError(Status.UNSUPPORTED, message)
+def _slopes(loaded: Case, solve: Callable[..., Answer]) -> Mapping[str, Mapping[str, float]]:
+    """Slopes of the unknown loads, inertia forces included.
+
+    On a tape these stand in the wrenches, a number times as large (`icsolve.statics.inertia.exactly`). With a
+    number of one what is zero has its slopes too.
+    """
+    one = Number(1.0, 0.0, "", "1")
+
+    def of_one(load: Load) -> Load:
+        if load.name == FORCE.format(load.link) and isinstance(load, ForceVector):
+            return load._replace(x=one, y=one._replace(value=0.0, digits="0"))
+        return load._replace(value=one) if load.name == COUPLE.format(load.link) else load
+
+    found = solve(replace(loaded, loads=tuple(map(of_one, loaded.loads)))).sensitivities
+    return {load: {path: slope for path, slope in by.items() if path} for load, by in found.items()}
 
 
 def _refuse_open(case: Case, moves: Moving) -> None:

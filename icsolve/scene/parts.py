@@ -163,7 +163,8 @@ class AnswerBuilder:
         position that a tape says nothing, by differences of many digits."""
         with suppress(SceneError, ZeroDivisionError):
             found = slopes(self.traced or evaluate_bounded(self.program))
-            if not self.scene.certain or (found and self._tape_tells()):
+            told = found and all(any(by.values()) for by in found.values())  # nothing of an answer that is 0
+            if not self.scene.certain or (told and self._tape_tells()):
                 return found
         by_load: dict[str, dict[str, float]] = {load: {} for load in self.unknowns}
         for number in numbers_of(self.case).values():
@@ -324,7 +325,7 @@ def _notes(program: Program, outcome: Outcome) -> list[str]:
         notes.append(_redundancy(program, motions))
     if solution.idle and solution.values:
         count = sentences.plural(len(solution.idle), "passive freedom")
-        ends = sentences.free_ends(program.top)
+        ends = sentences.free_ends(program.top, program.case)
         notes.append(f"{count} in which no load does work{': ' if ends else ''}{ends}.")
     return notes
 

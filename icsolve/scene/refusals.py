@@ -109,13 +109,14 @@ def refuse_unbalanced(
         if motions.redundant and top.freedoms_by_count == unknowns:
             message = sentences.change_point(motions.mobility, top.freedoms_by_count)
             raise SceneError(Status.CHANGE_POINT, message)
-        ends = sentences.free_ends(top)
+        ends = sentences.free_ends(top, case)
         message = sentences.wrong_count(motions.mobility, unknowns, len(solution.idle), ends)
         raise SceneError(Status.MOBILITY, message)
-    raise _no_work(top, motions, balance, solution, arithmetic)
+    raise _no_work(case, top, motions, balance, solution, arithmetic)
 
 
 def _no_work(
+    case: Case,
     top: Topology,
     motions: Motions,
     balance: power.Balance,
@@ -135,7 +136,7 @@ def _no_work(
     clause = _why_at_rest(top, motions, culprit.load.link, arithmetic) if at_rest else ""
     slack = culprit.gain == 0.0 or arithmetic.vanishes(culprit.gain, culprit.reach)
     message = sentences.workless(culprit.load.name, culprit.load.link, at_rest, others, clause, slack)
-    if len(top.members) > 2 and (ends := sentences.free_ends(top)):
+    if len(top.members) > 2 and (ends := sentences.free_ends(top, case)):
         message += f" Is a joint missing? {ends[0].upper()}{ends[1:]}."
     status = Status.DEAD_CENTRE if at_rest and others else Status.NO_VALUE if others else Status.ANY_VALUE
     return SceneError(status, message)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from functools import lru_cache
 from typing import Any
 
 from icsolve.answer import Answer, Found
@@ -133,10 +134,25 @@ def _has_decimals(number: Number) -> bool:
     return "." in number.digits and (number.exact is None or number.factor != 1.0)
 
 
-def numbers_of(case: Case) -> dict[str, Number]:
-    """The numbers of a case's figure, joints and loads by their path."""
-    parts = (case.points, case.lengths, case.angles, case.joints, case.loads, case.gravity)
-    return {number.path: number for number in numbers_in(*parts)}
+NUMBERED = (
+    "points",
+    "lengths",
+    "angles",
+    "joints",
+    "ropes",
+    "profiles",
+    "loads",
+    "motion",
+    "gravity",
+    "inertia",
+)
+"""What of a case holds numbers that have a path."""
+
+
+@lru_cache(maxsize=64)
+def numbers_of(case: Case) -> Mapping[str, Number]:
+    """Every number of a case by its path."""
+    return {number.path: number for number in numbers_in(*(getattr(case, name) for name in NUMBERED))}
 
 
 def _lengths(case: Case) -> set[str]:

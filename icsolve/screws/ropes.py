@@ -20,6 +20,8 @@ from icsolve.numbers.arithmetic import RADIAN, Arithmetic, Scalar
 from icsolve.screws.plane import Point, Triple, force_wrench, pairing, velocity
 from icsolve.tuples import NamedTuple
 
+TOUCHING = 1e-9
+"""A rope that turns by less (rad) on a pulley, in either sense, passes it: it does not go all round."""
 MOST_GROWN = 300.0
 """Exponents of a pull beyond this leave no room for the loads beside it."""
 
@@ -104,7 +106,7 @@ def _no_part(rope: Rope, k: int, apart: float, scale: float) -> str:
     if apart == 0.0:
         return (
             f"the rope {rope.name} has no direction from {a} to {b}: they lie at one place. Correct the "
-            "order of its points, or take one of them out."
+            "order of its points, or take one of them out; whole turns round one are given by `turns`."
         )
     return (
         f"the rope {rope.name} has no straight part from {a} to {b}: they are {apart / scale:.6g} apart, "
@@ -133,8 +135,8 @@ def rope_length(
             (ax, ay), (bx, by) = before.along, part.along
             turned = arithmetic.angle(ax * bx + ay * by, ax * by - ay * bx)
             signed = turned if rope.wraps[k] == "ccw" else 0.0 - turned
-            round_it = signed + 360.0 if float(signed) < 0.0 else signed
-            total = total + abs(radius) * round_it * RADIAN
+            round_it = signed + 360.0 if float(signed) * RADIAN < -TOUCHING else signed
+            total = total + abs(radius) * (round_it + 360.0 * rope.whole_turns(k)) * RADIAN
         before = part
     return total
 
@@ -168,11 +170,12 @@ def part_changes(part: RopePart, centre: Point, twists: Mapping[str, Triple], ot
 
 
 def wrap_angle(rope: Rope, k: int, parts: tuple[RopePart, ...]) -> float:
-    """The angle (rad) over which a rope lies on a pulley, in [0, 2 pi)."""
+    """The angle (rad) over which a rope lies on a pulley: in [0, 2 pi) without whole turns."""
     (ax, ay), (bx, by) = parts[k - 1].along, parts[k].along
     turned = math.atan2(float(ax * by - ay * bx), float(ax * bx + ay * by))
     sense = 1.0 if rope.wraps[k] == "ccw" else -1.0
-    return (sense * turned) % (2.0 * math.pi)
+    shown = (sense * turned + TOUCHING) % (2.0 * math.pi) - TOUCHING
+    return max(shown, 0.0) + 2.0 * math.pi * rope.whole_turns(k)
 
 
 def slip_rates(parts: tuple[RopePart, ...], twists: Mapping[str, Triple]) -> tuple[Scalar, ...]:

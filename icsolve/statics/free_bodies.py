@@ -111,7 +111,9 @@ def told(
         refuse_apart(both, position.slack)
     reactions = reactions_of(position, frame, statics, parameters, a)
     notes = notes_of(statics, reactions, names_by_tie(position.case, statics.ties))
-    return FreeBodies(reactions, both, notes, tensions=tensions_of(statics, parameters, a))
+    return FreeBodies(
+        reactions, both, notes, tensions=tensions_of(statics, parameters, a, position.case.units.force)
+    )
 
 
 class Solved(NamedTuple):

@@ -69,8 +69,10 @@ DEGREES = ("pressure angle",)
 """Parts of a reaction that are no forces."""
 
 
-def tensions_of(statics: Statics, parameters: Mapping[int, Scalar], a: Showing) -> tuple[Tension, ...]:
-    """The pull of every rope [case units]; None, with the reason, where equilibrium does not determine it.
+def tensions_of(
+    statics: Statics, parameters: Mapping[int, Scalar], a: Showing, unit: str
+) -> tuple[Tension, ...]:
+    """The pull of every rope [``unit``]; None, with the reason, where equilibrium does not determine it.
 
     Raises
     ------
@@ -89,7 +91,7 @@ def tensions_of(statics: Statics, parameters: Mapping[int, Scalar], a: Showing) 
         value = zero_of(value) if a.vanishes(value, largest) else value
         pull, error = a.rounded(value / statics.scale)
         if pull < 0.0:
-            raise SceneError(Status.SLACK, _slack(tie.rope, pull))
+            raise SceneError(Status.SLACK, _slack(tie.rope, pull, unit))
         slips = any(mu is not None for mu in tie.rope.mu)
         parts = tuple(pull * r for r in tie.ratios) if slips else ()
         found.append(Tension(tie.rope.name, pull, parts, error=error if math.isfinite(error) else None))
@@ -99,11 +101,11 @@ def tensions_of(statics: Statics, parameters: Mapping[int, Scalar], a: Showing) 
 SHARED = "the joints share the load in a way that equilibrium alone does not determine"
 
 
-def _slack(rope: Rope, value: float) -> str:
+def _slack(rope: Rope, value: float, unit: str) -> str:
     return (
-        f"the rope {rope.name} would have to push ({value:.6g}): it goes slack, and the links do not hold "
-        "so. Turn the load round that pulls it, see that the rope names its points and links in the order in "
-        "which it runs past them, or put a link in its place."
+        f"the rope {rope.name} would have to push ({-value:.6g} {unit}): it goes slack, and the links do "
+        "not hold so. Turn the load round that pulls it, see that the rope names its points and links in the "
+        "order in which it runs past them, or put a link in its place."
     )
 
 

@@ -3,24 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import lru_cache
 from typing import Any
 
 from icsolve.case import Case, ForceVector, Number
 from icsolve.errors import CaseError, Problem
-from icsolve.numbers.given import numbers_in
 from icsolve.read.names import parts, shown, suggestion
+from icsolve.scene.sensitivity import NUMBERED, numbers_of
 from icsolve.tuples import replace
 
 _FORM = "a path is like angles.AB, lengths.AB, points.D.x, loads.P, loads.P.angle or joints.B.mu"
 _SECTIONS = ("points", "lengths", "angles", "joints", "profile", "loads", "motion", "gravity", "links")
-_PARTS = (*_SECTIONS[:4], "ropes", "profiles", "loads", "motion", "gravity", "inertia")
-
-
-@lru_cache(maxsize=64)
-def numbers_of(case: Case) -> Mapping[str, Number]:
-    """Every number that may be varied, by its path."""
-    return {number.path: number for number in numbers_in(*(getattr(case, name) for name in _PARTS))}
 
 
 def with_numbers(case: Case, values: Mapping[str, float | Number]) -> Case:
@@ -45,7 +37,7 @@ def with_numbers(case: Case, values: Mapping[str, float | Number]) -> Case:
             return type(value)(*items) if hasattr(value, "_fields") else tuple(items)
         return value
 
-    return replace(case, **{name: changed(getattr(case, name)) for name in _PARTS})
+    return replace(case, **{name: changed(getattr(case, name)) for name in NUMBERED})
 
 
 def find_number(case: Case, path: str) -> Number:
@@ -78,7 +70,7 @@ def _means(own: str, section: str, rest: str) -> bool:
     if section in ("lengths", "angles"):
         asked, given = parts(rest), parts(tail)
         return asked == given or (section == "lengths" and asked == given[::-1])
-    if section == "joints" and own.split(".")[-2] in ("mu", "radii"):  # of a rope, by a point of it
+    if section == "joints" and own.split(".")[-2] in ("mu", "radii", "turns"):  # of a rope, by a point of it
         *_, key, point = own.split(".")
         return rest in (f"{point}.{key}", f"{point}.{key.replace('radii', 'radius')}")
     if section == "joints":

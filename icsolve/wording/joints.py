@@ -9,8 +9,8 @@ from icsolve.case.joints import Guided, Sliding, Thread
 from icsolve.wording.sentences import listed
 
 
-def joint_words(joint: Joint) -> str:
-    """A joint in words."""
+def joint_words(joint: Joint, length: str) -> str:
+    """A joint in words; ``length`` is the unit of lengths."""
     links = listed(joint.links)
     where = f" at {joint.at}" if joint.at and not joint.at.startswith("@") else ""
     match joint:
@@ -18,10 +18,8 @@ def joint_words(joint: Joint) -> str:
             return f"a pin joins links {links}{where}"
         case Slide(thread=Thread() as thread):
             on, by = joint.links
-            sizes = [f"lead {thread.lead.digits}"]
-            sizes += [] if thread.radius is None else [f"mean radius {thread.radius.digits}"]
-            sizes += [] if thread.mu is None else [f"mu = {thread.mu.digits}"]
-            return f"a screw moves link {on} on link {by}{where}{_along(joint)} ({', '.join(sizes)})"
+            sizes = thread_words(thread, length)
+            return f"a screw moves link {on} on link {by}{where}{_along(joint)} ({sizes})"
         case Slide():
             return f"link {joint.links[0]} slides on link {joint.links[1]}{where}{_along(joint)}"
         case Slot():
@@ -39,7 +37,7 @@ def joint_words(joint: Joint) -> str:
             if joint.at.startswith("@"):
                 normal = f"{joint.normal.value:.6g}"
                 return f"the profiles of links {links} touch, with the common normal at {normal} deg"
-            return f"links {links} touch{where}, with the common normal at {joint.normal.digits} deg"
+            return f"links {links} touch{where}, with the common normal at {joint.normal.value:.6g} deg"
         case KnownCentre():
             return f"the centre of links {links} is known"
         case Weld():
@@ -48,10 +46,17 @@ def joint_words(joint: Joint) -> str:
             assert_never(joint)
 
 
+def thread_words(thread: Thread, length: str) -> str:
+    """``lead 5 mm, mean radius 10 mm, mu = 0.1``."""
+    parts = [f"lead {thread.lead.value:.6g} {length}"]
+    parts += [f"mean radius {thread.radius.value:.6g} {length}"] if thread.radius else []
+    return ", ".join([*parts, *([f"mu = {thread.mu.value:.6g}"] if thread.mu else [])])
+
+
 def _along(joint: Guided) -> str:
     guide = joint.guide
     if guide.angle is not None:
-        return f", along {guide.angle.digits} deg"
+        return f", along {guide.angle.value:.6g} deg"
     assert guide.ends is not None
     a, b = guide.ends
     return f", along {a}{b}" if len(a) == len(b) == 1 else f", along {a}-{b}"

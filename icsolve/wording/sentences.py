@@ -106,9 +106,14 @@ def workless(load: str, link: str, at_rest: bool, others_work: bool, why: str, s
     )
 
 
-def free_ends(top: Topology) -> str:
+def free_ends(top: Topology, case: Case) -> str:
     """Which links beside the frame have a free end: ``link 4 has a free end (its only joint is at C)``."""
-    ends = {b: top.at[b][0] for b in range(len(top.members)) if b != top.ground and len(top.at[b]) == 1}
+    roped = {top.body_of[link] for rope in case.ropes for link in rope.links} - {top.ground}
+    afloat = [top.members[body][0] for body in sorted(roped) if not top.at[body]]
+    if afloat:
+        return f"link {listed(afloat)} has no joint, and hangs on ropes alone"
+    moving = {*range(len(top.members))} - {top.ground} - roped
+    ends = {body: top.at[body][0] for body in sorted(moving) if len(top.at[body]) == 1}
     names = [top.members[body][0] for body in ends]
     if len(names) > 1:
         return f"links {listed(names)} have a free end (only one joint each)"

@@ -22,7 +22,6 @@ from icsolve.case import (
     Slope,
     Spring,
     Stretch,
-    Thread,
     Torque,
     TorsionSpring,
     Toward,
@@ -31,6 +30,7 @@ from icsolve.case import (
 from icsolve.case.bodies import Inertia, Rope
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Knife, Polygon, Radii, Roller, Shape
+from icsolve.wording.joints import thread_words
 
 _TURNS = {"cw": "clockwise", "ccw": "counterclockwise"}
 
@@ -216,7 +216,8 @@ def _joint(joint: Joint, case: Case) -> Iterator[tuple[str, str]]:
     if isinstance(joint, Guided):
         kind, moves = "block" if joint.keeps_direction else "pin", f"slides in link {second}"
         if joint.thread is not None:
-            kind, moves = "thread", f"turns on link {second}, {_thread(joint.thread, case)},"
+            kind, sizes = "thread", thread_words(joint.thread, case.units.length)
+            moves = f"turns on link {second}, {sizes},"
         yield f"{kind} of link {first}{where}", f"{moves} {_along(joint.guide)}"
     elif isinstance(joint, Mesh) and joint.pulls:
         radii = " and ".join(_shown(radius) for radius in joint.sizes)
@@ -234,13 +235,6 @@ def _joint(joint: Joint, case: Case) -> Iterator[tuple[str, str]]:
         toward = f"at infinity at {_shown(joint.direction)} deg" if joint.direction is not None else ""
         yield f"centre {first}-{second}", toward or f"{_place(at or '', case)}"
     yield from _friction(joint, case, f"{first}-{second}{where}")
-
-
-def _thread(thread: Thread, case: Case) -> str:
-    """``lead 5 mm, mean radius 10 mm, mu = 0.1``."""
-    parts = [f"lead {_shown(thread.lead)} {case.units.length}"]
-    parts += [f"mean radius {_shown(thread.radius)} {case.units.length}"] if thread.radius else []
-    return ", ".join([*parts, *([f"mu = {_shown(thread.mu)}"] if thread.mu else [])])
 
 
 def _along(guide: Guide) -> str:
@@ -279,9 +273,12 @@ def _rope(rope: Rope, case: Case) -> Iterator[tuple[str, str]]:
     """Where a rope goes, and what it goes round."""
     length = f", length {_shown(rope.length)} {case.units.length}" if rope.length is not None else ""
     yield f"rope {rope.name}", f"on links {', '.join(rope.links)}{length}"
-    for point, radius, wraps, mu in zip(rope.points, rope.radii, rope.wraps, rope.mu, strict=False):
+    places = zip(rope.points, rope.radii, rope.wraps, rope.mu, strict=False)
+    for k, (point, radius, wraps, mu) in enumerate(places):
         parts = [f"radius {_shown(radius)} {case.units.length}"] if radius is not None else []
         parts += [f"wrapped {wraps}"] if wraps is not None else []
+        turns = rope.whole_turns(k)
+        parts += [f"{turns:g} whole turns beside those of the figure"] if turns else []
         parts += [f"mu = {_shown(mu)}"] if mu is not None else []
         if parts:
             yield f"rope {rope.name} at {point}", ", ".join(parts)
