@@ -108,3 +108,6 @@ def _missing(case: Case, known: Mapping[str, Number], path: str, section: str, r
 def _refusal(case: Case, section: str, path: str, why: str) -> CaseError:
     line, column = case.marks.get(section, (1, 1))
     return CaseError([Problem(case.path, line, column, f"cannot vary {shown(path)}: {why}")])
+
+
+__all__ = ["find_number", "numbers_of", "points_of", "with_numbers"]
