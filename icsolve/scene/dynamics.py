@@ -115,9 +115,11 @@ def _slopes(loaded: Case, solve: Callable[..., Answer]) -> Mapping[str, Mapping[
     one = Number(1.0, 0.0, "", "1")
 
     def of_one(load: Load) -> Load:
-        if load.name == FORCE.format(load.link) and isinstance(load, ForceVector):
+        if isinstance(load, ForceVector) and load.name == FORCE.format(load.link):
             return load._replace(x=one, y=one._replace(value=0.0, digits="0"))
-        return load._replace(value=one) if load.name == COUPLE.format(load.link) else load
+        if isinstance(load, Torque) and load.name == COUPLE.format(load.link):
+            return load._replace(value=one)
+        return load
 
     found = solve(replace(loaded, loads=tuple(map(of_one, loaded.loads)))).sensitivities
     return {load: {path: slope for path, slope in by.items() if path} for load, by in found.items()}
