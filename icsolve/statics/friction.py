@@ -142,9 +142,10 @@ def at_rest(scene: FrictionScene) -> tuple[StaticRange, float | None, str]:
     SceneError
         ``mobility`` above 1, where the range of one load depends on the others.
     """
-    if scene.position.mobility - len(scene.solution.idle) != 1:
+    mobility = scene.position.mobility
+    if mobility > 1 and mobility - len(scene.solution.idle) != 1:
         message = (
-            f"friction at {plural(scene.position.mobility, 'degree')} of freedom needs `motion`, one for "
+            f"friction at {plural(mobility, 'degree')} of freedom needs `motion`, one for "
             "each: without it each unknown load has a range that depends on the others."
         )
         raise SceneError(Status.MOBILITY, message)
