@@ -51,9 +51,30 @@ def as_if_written(text: str, settings: dict[str, float]) -> icsolve.Answer:
     return icsolve.solve(icsolve.load(text, settings={path: repr(v) for path, v in settings.items()}))
 
 
+DISCS = """icsolve: 1
+points: {A: [0, 0], C: [unknown, 20], F: [3, 5]}
+lengths: {AB: 50, BC: 160, BG: 20, CG: 150, AE: 20, BE: 35}
+angles: {AB: 40}
+near: {C: [195, 20], G: [60, 40], E: [10, 18]}
+joints:
+  - {pin: [1, 2], at: A}
+  - {pin: [2, 3], at: B}
+  - {pin: [3, 4], at: C}
+  - {slide: [4, 1], at: C, along: 0}
+  - {pin: [3, 5], at: G}
+  - {pin: [2, 6], at: E}
+  - {pin: [1, 7], at: F}
+loads:
+  P: {force: 2000, link: 4, at: C, angle: 180}
+  T: {torque: unknown, link: 2}
+"""
+"""The crank with three discs on pins that nothing turns, one of them on the frame."""
+
+
 @pytest.mark.parametrize(
     ("text", "path", "values"),
     [
+        (DISCS, "angles.AB", [40.0, 133.0]),
         (CRANK, "angles.AB", [0.0, 40.0, 133.0, 290.0]),
         (CRANK, "lengths.AB", [30.0, 50.0, 70.0]),
         (CRANK, "lengths.CB", [150.0, 160.0, 300.0]),

@@ -7,15 +7,12 @@ pose it, as many are held as the mechanism has freedoms left.
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
-
-import numpy as np
+from collections.abc import Callable, Collection, Mapping, Sequence
 
 from icsolve.assembly import case_point, solve_figure
 from icsolve.assembly.data import CORNER, LENGTH, RAY, Datum, X, Y, data_of, number_of
 from icsolve.assembly.driven.constraints import (
     BodyLine,
-    ConditionRows,
     Constraint,
     Drawn,
     Immovable,
@@ -24,14 +21,15 @@ from icsolve.assembly.driven.constraints import (
     SpotDistance,
     Turning,
 )
-from icsolve.assembly.driven.groups import Matrix, bases_of, jacobian, matrix, rank
+from icsolve.assembly.driven.groups import DEPENDENT, as_written, derivatives, jacobian
 from icsolve.assembly.driven.mechanism import Mechanism
 from icsolve.assembly.driven.poses import Rotation, Spot, Still, minus
-from icsolve.assembly.workspace import Workspace, normalised
+from icsolve.assembly.workspace import normalised
 from icsolve.case import Case, Coordinates, Number, Pin
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import FLOATS, Scalar
+from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.sparse import Row, eliminate
 from icsolve.screws.plane import Point
 from icsolve.sweep.numbers import with_numbers
 from icsolve.tuples import NamedTuple, replace
@@ -284,8 +282,60 @@ def value_of(case: Case, datum: Datum) -> float:
 # --- what varied numbers do: they move the mechanism, reshape it, or change a load ---
 
 
+class Freedoms(NamedTuple):
+    """The motions that conditions leave to a mechanism in one position.
+
+    Attributes
+    ----------
+    motions : independent ones, each the steps of the bodies by column (three a body: x, y of its base
+        [frame], angle [rad]), the largest of them 1
+    """
+
+    motions: tuple[Row, ...]
+
+    def without(self, condition: Row) -> Freedoms | None:
+        """Those that keep one more condition; None where all of them keep it."""
+        rates = [sum(a * motion.get(c, 0.0) for c, a in condition.items()) for motion in self.motions]
+        most = max(range(len(rates)), key=lambda k: abs(rates[k]), default=None)
+        if most is None or abs(rates[most]) <= DEPENDENT * max(map(abs, condition.values()), default=0.0):
+            return None
+        return Freedoms(
+            tuple(
+                _unit(_sum(motion, self.motions[most], -rates[k] / rates[most]))
+                for k, motion in enumerate(self.motions)
+                if k != most
+            )
+        )
+
+    def alone(self, body: int) -> bool:
+        """Whether one body (by its place in the columns) can move while all others stand."""
+        others = [
+            {c: a for c, a in motion.items() if c // 3 != body and abs(a) > NOISE} for motion in self.motions
+        ]
+        columns = max((c for motion in others for c in motion), default=-1) + 1
+        return len(eliminate(others, columns, NOISE).pivots) < len(others)
+
+
 NOISE = 1e-9
 """A part of a unit motion that is none (rounding)."""
+
+
+def _freedoms(rows: Sequence[Row], bodies: int) -> Freedoms:
+    """Of so many bodies under conditions."""
+    found = eliminate(rows, 3 * bodies, DEPENDENT)
+    motions = (
+        {free: 1.0} | {c: row[free] for c, row in found.solved.items() if free in row} for free in found.free
+    )
+    return Freedoms(tuple(map(_unit, motions)))
+
+
+def _unit(motion: Row) -> Row:
+    most = max(map(abs, motion.values()))
+    return {c: a / most for c, a in motion.items()}
+
+
+def _sum(one: Row, other: Row, factor: float) -> Row:
+    return {c: one.get(c, 0.0) + factor * other.get(c, 0.0) for c in one | other}
 
 
 class Drive(NamedTuple):
@@ -321,85 +371,65 @@ def drive_of(mechanism: Mechanism, paths: Sequence[str], links: Sequence[str]) -
     """
     case = mechanism.case
     bodies = [body for body in mechanism.spots if body != mechanism.top.ground]
-    rows = jacobian(mechanism, bodies, mechanism.constraints)
-    left = 3 * len(bodies) - rank(rows)
+    written = as_written(mechanism, bodies)
+
+    def row(constraint: Constraint) -> Row:
+        return derivatives(bodies, written.of(constraint))
+
+    left = _freedoms(jacobian(mechanism, bodies, mechanism.constraints), len(bodies))
     for link in links:
         body = mechanism.top.body_of[link]
-        rows, taken = _added(mechanism, bodies, rows, Turning(((body, 1.0),)))
-        if not taken:
+        taken = left.without(row(Turning(((body, 1.0),))))
+        if taken is None:
             still = next((c for c in mechanism.constraints if isinstance(c, Immovable)), None)
-            if still is not None and not left:
+            if still is not None and not left.motions:
                 raise still.refusal
-            raise _cannot_turn(case, link, left, body == mechanism.top.ground)
-        left -= 1
+            raise _cannot_turn(case, link, len(left.motions), body == mechanism.top.ground)
+        left = taken
     moving: list[str] = []
-    before, freedoms = rows, left
+    before = left
     for path in paths:
         pose = pose_of(mechanism, path)
         if pose is None:
             continue
-        rows, taken = _added(mechanism, bodies, rows, condition(mechanism, pose, value_of(case, pose.datum)))
-        if taken:
+        taken = left.without(row(condition(mechanism, pose, value_of(case, pose.datum))))
+        if taken is not None:
             moving.append(path)
-            left -= 1
+            left = taken
         elif links:
-            raise _too_many(path, freedoms + len(links), links)
-        elif moving or freedoms == 0:
-            moving, rows, left = [], before, freedoms
+            raise _too_many(path, len(before.motions) + len(links), links)
+        elif moving or not before.motions:
+            moving, left = [], before
             break
     if not moving and not links:
         return Drive((), (), ())
-    held, rows, left = _held(mechanism, bodies, rows, left, moving)
-    return Drive(tuple(moving), held, _spinning(mechanism, bodies, rows, left))
-
-
-def _added(
-    mechanism: Mechanism, bodies: Sequence[int], rows: Matrix, constraint: Constraint
-) -> tuple[Matrix, bool]:
-    """The equations with one more, if it takes a freedom."""
-    still = ConditionRows(
-        mechanism.shape,
-        Still(mechanism.shape),
-        bases_of(mechanism, bodies),
-        Workspace(mechanism.case, mechanism.frame, FLOATS),
-    )
-    more = np.vstack([rows, matrix(bodies, [still.of(constraint)])])
-    return (more, True) if rank(more) > rank(rows) else (rows, False)
+    held, left = _held(mechanism, row, left, moving)
+    return Drive(tuple(moving), held, _spinning(bodies, left))
 
 
 def _held(
-    mechanism: Mechanism, bodies: Sequence[int], rows: Matrix, left: int, moving: Sequence[str]
-) -> tuple[tuple[Pose, ...], Matrix, int]:
-    """The other data that pose the figure, as many as there are freedoms."""
+    mechanism: Mechanism, row: Callable[[Constraint], Row], left: Freedoms, moving: Sequence[str]
+) -> tuple[tuple[Pose, ...], Freedoms]:
+    """The other data that pose the figure, as many as there are freedoms, and the freedoms they leave."""
     held = []
     for datum in data_of(mechanism.case):
-        if not left:
+        if not left.motions:
             break
         if datum.kind not in KINDS or number_of(mechanism.case, datum).path in moving:
             continue
         pose = posing(mechanism, datum)
         if pose is None:
             continue
-        held_at = condition(mechanism, pose, value_of(mechanism.case, datum))
-        rows, taken = _added(mechanism, bodies, rows, held_at)
-        if taken:
+        taken = left.without(row(condition(mechanism, pose, value_of(mechanism.case, datum))))
+        if taken is not None:
             held.append(pose)
-            left -= 1
-    return tuple(held), rows, left
+            left = taken
+    return tuple(held), left
 
 
-def _spinning(mechanism: Mechanism, bodies: Sequence[int], rows: Matrix, left: int) -> tuple[int, ...]:
+def _spinning(bodies: Sequence[int], left: Freedoms) -> tuple[int, ...]:
     """Bodies that are free to spin while all others stand."""
-    if not left:
-        return ()
-    free = np.linalg.svd(rows)[2][rows.shape[1] - left :]
-    locked: list[int] = []
-    for n, body in enumerate(bodies):
-        others = np.delete(free, [3 * n, 3 * n + 1, 3 * n + 2], axis=1)
-        others[np.abs(others) < NOISE] = 0.0
-        if rank(others) < left - len(locked):
-            locked.append(body)
-    return tuple(locked)
+    return tuple(body for n, body in enumerate(bodies) if left.alone(n))
 
 
 def _too_many(path: str, freedoms: int, links: Sequence[str]) -> SceneError:

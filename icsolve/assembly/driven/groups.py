@@ -22,16 +22,14 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, RADIAN, Scalar
 from icsolve.numbers.record import Op, Record, Traced
 from icsolve.numbers.replay import BLOCK, Array, Code
-from icsolve.numbers.sparse import eliminate
+from icsolve.numbers.sparse import Row, eliminate
 from icsolve.screws.plane import Point
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
 DEPENDENT = 1e-10
-"""A singular value below this fraction of the largest is zero (normalised frame)."""
+"""What is left of an equation below this fraction of its terms is zero (normalised frame)."""
 MOST_TRIED = 4000
-
-Matrix = npt.NDArray[np.float64]
 
 
 def bases_of(mechanism: Mechanism, bodies: Iterable[int]) -> dict[int, Spot]:
@@ -74,46 +72,28 @@ def _fixed(one: Spot, spots: list[Spot], rows: ConditionRows, known: Moved | Non
     return rows.places.place(others[0]) if others else None
 
 
-def jacobian(mechanism: Mechanism, bodies: Sequence[int], constraints: Iterable[Constraint]) -> Matrix:
+def jacobian(mechanism: Mechanism, bodies: Sequence[int], constraints: Iterable[Constraint]) -> list[Row]:
     """Derivatives of all equations of some bodies in the position as written, the others held.
 
     Returns
     -------
-    Matrix
-        (equations, 3 * bodies): a body has the columns x, y of its base [frame] and its angle [rad].
+    list of Row
+        One an equation, by column: a body has the three x, y of its base [frame] and its angle [rad].
     """
-    bases = bases_of(mechanism, bodies)
-    rows = ConditionRows(mechanism.shape, Still(mechanism.shape), bases, _board(mechanism))
-    return matrix(bodies, equations(mechanism, rows, constraints))
+    rows = as_written(mechanism, bodies)
+    return [derivatives(bodies, row) for row in equations(mechanism, rows, constraints)]
 
 
-def matrix(bodies: Sequence[int], rows: Iterable[ConditionRow]) -> Matrix:
-    """The derivatives by the three parts (x, y, angle) of each body, (rows, 3 * bodies)."""
-    column = {body: 3 * n for n, body in enumerate(bodies)}
-    found = []
-    for row in rows:
-        line = np.zeros(3 * len(bodies))
-        for (body, part), value in row.by.items():
-            if body in column:
-                line[column[body] + part] += float(value)
-        found.append(line)
-    return np.array(found).reshape(len(found), 3 * len(bodies))
+def as_written(mechanism: Mechanism, bodies: Sequence[int]) -> ConditionRows:
+    """The conditions of some bodies where they are written, in doubles."""
+    workspace = Workspace(mechanism.case, mechanism.frame, FLOATS)
+    return ConditionRows(mechanism.shape, Still(mechanism.shape), bases_of(mechanism, bodies), workspace)
 
 
-def _board(mechanism: Mechanism) -> Workspace:
-    return Workspace(mechanism.case, mechanism.frame, FLOATS)
-
-
-def rank(m: Matrix) -> int:
-    """Rank of a matrix (m, n) by singular values, each row scaled to a largest entry of 1."""
-    if not m.size:
-        return 0
-    sizes = np.abs(m).max(axis=1)
-    scaled = m[sizes > 0.0] / sizes[sizes > 0.0][:, None]
-    if not scaled.size:
-        return 0
-    values = np.linalg.svd(scaled, compute_uv=False)
-    return int(np.sum(values > DEPENDENT * values[0]))
+def derivatives(bodies: Sequence[int], row: ConditionRow) -> Row:
+    """The derivatives of an equation by the three parts (x, y, angle) of each body, by column."""
+    first = {body: 3 * n for n, body in enumerate(bodies)}
+    return {first[body] + part: float(value) for (body, part), value in row.by.items() if body in first}
 
 
 def smallest(mechanism: Mechanism, order: AssemblyOrder, left: Sequence[int]) -> AssurGroup:
@@ -136,12 +116,9 @@ def smallest(mechanism: Mechanism, order: AssemblyOrder, left: Sequence[int]) ->
 def _group(mechanism: Mechanism, order: AssemblyOrder, bodies: Sequence[int]) -> AssurGroup | None:
     reach = {*bodies, *order.full}
     constraints = tuple(c for c in order.constraints if c.bodies <= reach and c.bodies & set(bodies))
-    shape = _held(mechanism, order, bodies)
-    rows = ConditionRows(
-        mechanism.shape, Still(mechanism.shape), bases_of(mechanism, bodies), _board(mechanism)
-    )
-    found = matrix(bodies, equations(mechanism, rows, constraints, shape))
-    return AssurGroup(tuple(bodies), constraints) if rank(found) == 3 * len(bodies) else None
+    rows = equations(mechanism, as_written(mechanism, bodies), constraints, _held(mechanism, order, bodies))
+    found = eliminate([derivatives(bodies, row) for row in rows], 3 * len(bodies), DEPENDENT)
+    return AssurGroup(tuple(bodies), constraints) if not found.free else None
 
 
 def _held(mechanism: Mechanism, order: AssemblyOrder, bodies: Collection[int]) -> Moved:
