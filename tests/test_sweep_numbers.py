@@ -53,9 +53,9 @@ def as_if_written(text: str, settings: dict[str, float]) -> icsolve.Answer:
 
 DISCS = """icsolve: 1
 points: {A: [0, 0], C: [unknown, 20], F: [3, 5]}
-lengths: {AB: 50, BC: 160, BG: 20, CG: 150, AE: 20, BE: 35}
-angles: {AB: 40}
-near: {C: [195, 20], G: [60, 40], E: [10, 18]}
+lengths: {AB: 50, BC: 160, BG: 20, CG: 150, AE: 20}
+angles: {AB: 40, BAE: 25}
+near: {C: [195, 20], G: [60, 40]}
 joints:
   - {pin: [1, 2], at: A}
   - {pin: [2, 3], at: B}
