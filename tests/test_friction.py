@@ -18,6 +18,8 @@ import rubbing
 import transcribe
 from growth import random_mechanism
 from icsolve.answer import Answer, Found
+from icsolve.statics import homotopy
+from icsolve.statics.friction_equations import Lengths, fixed_point
 from reference import frame_of, motions, points_of
 from sizes import MORE
 
@@ -603,3 +605,48 @@ motion: {{link: 2, speed: 10}}
 """)
     assert answer.answers["U"].value == 0.0
     json.dumps(answer.to_dict(), allow_nan=False)
+
+
+# --- all solutions, with bounded work ---------------------------------------------------------------
+
+
+def rubs_in_parts(rng: Random) -> Lengths:
+    """Two pins of one force told in two frames, a guide that two others press, a pin that all do."""
+
+    def form(*needed: int) -> tuple[float, ...]:
+        return (rng.uniform(-1, 1), *(rng.uniform(-3, 3) if j in needed else 0.0 for j in range(4)))
+
+    x, y = form(0, 1, 2), form(0, 1, 2)
+    turned = complex(math.cos(one := rng.uniform(0, 6)), math.sin(one))
+    both = [complex(a, b) * turned for a, b in zip(x, y, strict=True)]
+    again = (tuple(z.real for z in both), tuple(z.imag for z in both))
+    return fixed_point(((x, y), again, (form(0, 1),), (form(0, 1, 2, 3), form(0, 3))), (False,) * 4)
+
+
+def test_solutions_found_in_parts_are_those_of_the_whole() -> None:
+    rng = Random(2)
+    several = 0
+    for _ in range(12 * MORE):
+        equations = rubs_in_parts(rng)
+        parts, whole = homotopy.all_roots(equations), homotopy.together(equations)
+        assert parts is not None and whole is not None and len(parts) == len(whole)
+        assert all(any(homotopy.near(y, other) for other in whole) for y in parts)
+        several += len(parts) > 0
+    assert several
+
+
+def test_pins_of_an_unloaded_rod_are_one_unknown_and_need_no_path(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(homotopy, "MOST_ON_PATH", 0)
+    rough = slider_crank("motion: {link: 2, turns: cw}", 40.0, ", mu: 0.2").replace(
+        "radius: 0.3", "radius: 9"
+    )
+    assert "could be counted" not in str(refused(rough))
+
+
+def test_paths_of_too_many_steps_leave_open_whether_there_are_other_solutions(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    hard = fixed_point((((1.0, 2.0, 0.0), (0.0, 0.0, 1.0)), ((2.0, 1.0, 0.0), (1.0, 0.0, 3.0))), (False,) * 2)
+    assert homotopy.solutions(hard).unique == homotopy.COUNTED
+    monkeypatch.setattr(homotopy, "MOST_ON_PATH", 3)
+    assert homotopy.solutions(hard).unique == ""

@@ -43,7 +43,7 @@ class Lengths(NamedTuple):
     def is_fixed_point(self) -> bool:
         """Whether y are the lengths themselves."""
         n = len(self.lengths)
-        return all(form == _unit(k, n) for k, form in enumerate(self.lengths))
+        return all(form == own_length(k, n) for k, form in enumerate(self.lengths))
 
     def scaled(self, share: float) -> Lengths:
         """The equations with friction reduced to a share of it (where y are the lengths)."""
@@ -53,14 +53,15 @@ class Lengths(NamedTuple):
         return self._replace(vectors=vectors)
 
 
-def _unit(k: int, n: int) -> Form:
+def own_length(k: int, n: int) -> Form:
+    """The form that is y_k itself, (1 + n,)."""
     return tuple(float(j == k + 1) for j in range(n + 1))
 
 
 def fixed_point(vectors: Sequence[tuple[Form, ...]], touching: Sequence[bool]) -> Lengths:
     """The equations y = |v(y)|."""
     n = len(vectors)
-    return Lengths(tuple(_unit(k, n) for k in range(n)), tuple(vectors), tuple(touching))
+    return Lengths(tuple(own_length(k, n) for k in range(n)), tuple(vectors), tuple(touching))
 
 
 def at(form: Form, y: Sequence[float]) -> float:

@@ -37,7 +37,6 @@ from icsolve.statics.homotopy import (
     COUNTED,
     Solutions,
     all_roots,
-    can_count,
     followed,
     solutions,
     without_friction,
@@ -137,9 +136,9 @@ def _workless(statics: Statics, senses: Sequence[float]) -> Slid:
     equations = reduced_workless(statics, senses)
     if equations is None:
         raise SceneError(Status.NO_VALUE, _nothing_rubs(statics))
-    if not can_count(equations.equations):
+    found = all_roots(equations.equations)
+    if found is None:
         raise SceneError(Status.UNSUPPORTED, _too_many(statics))
-    found = [y for y in all_roots(equations.equations) if is_sound(equations.equations, y)]
     if not found:
         raise SceneError(Status.NO_VALUE, _nothing_balances(statics))
     if len(found) > 1:
@@ -257,8 +256,9 @@ def _again(statics: Statics, senses: Sequence[float], least: float, most: float)
     found = set()
     for direction in (1.0, -1.0):
         equations = reduced(statics, [direction * s for s in senses])
-        if equations is not None and can_count(equations.equations):
-            found |= {equations.load(y)[0] / statics.scale for y in all_roots(equations.equations)}
+        if equations is not None:
+            roots = all_roots(equations.equations) or []
+            found |= {equations.load(y)[0] / statics.scale for y in roots}
     room = 1e-9 * max((abs(end) for end in (least, most) if math.isfinite(end)), default=0.0)
     return tuple(sorted(value for value in found if value < least - room or value > most + room))
 
@@ -372,9 +372,12 @@ def pressed(statics: Statics, senses: Sequence[float]) -> StaticRange:
         )
     against = [-math.copysign(1.0, drive * p) if p else 0.0 for p in powers]
     equations = reduced_workless(statics, [-a for a in against])
-    if equations is None or not can_count(equations.equations):
+    if equations is None:
         raise SceneError(Status.NO_VALUE, f"no value of {name} holds: it does no work, and no friction does.")
-    ends = sorted({equations.load(y)[0] for y in all_roots(equations.equations)})
+    roots = all_roots(equations.equations)
+    if roots is None:
+        raise SceneError(Status.UNSUPPORTED, _too_many(statics))
+    ends = sorted({equations.load(y)[0] for y in roots})
     marks = [-math.inf, *ends, math.inf]
     holding = [
         (a, b)

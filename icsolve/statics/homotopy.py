@@ -18,7 +18,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from itertools import product
 from operator import mul
 
@@ -31,10 +31,12 @@ from icsolve.statics.friction_equations import (
     contraction,
     is_sound,
     newton,
+    own_length,
     scale_at,
     slopes,
     vector,
 )
+from icsolve.structure.groups import strongly_connected
 from icsolve.tuples import NamedTuple
 
 Y = tuple[float, ...]
@@ -78,9 +80,9 @@ def solutions(equations: Lengths) -> Solutions:
     if contraction(equations) is not None:
         return Solutions(contracted(equations), (), CONTRACTS)
     main, share, grows = followed(equations)
-    if not can_count(equations):
-        return Solutions(main, (), "", share, grows)
     found = all_roots(equations)
+    if found is None:
+        return Solutions(main, (), "", share, grows)
     others = tuple(y for y in found if main is None or not near(y, main))
     return Solutions(main, others, COUNTED, share, grows)
 
@@ -122,6 +124,12 @@ def followed(equations: Lengths) -> tuple[Y | None, float, bool]:
         Its end, (rubs,) [scaled force], or None; how far it came, as a share of full friction; whether its
         forces grew without bound there (the mechanism jams).
     """
+    distinct, places = of_distinct(equations)
+    end, share, grows = _followed(distinct)
+    return None if end is None else tuple(end[place] for place in places), share, grows
+
+
+def _followed(equations: Lengths) -> tuple[Y | None, float, bool]:
     first = max(without_friction(equations), default=0.0)
     if not first:
         return without_friction(equations), 1.0, False
@@ -180,30 +188,120 @@ def _tangent(equations: Lengths, first: float, z: Y, share: float) -> list[float
 
 MOST_RUBS = 6
 MOST_PINS = 4
-"""More than these have too many combinations to try."""
+"""More than these, found together, have too many combinations to try."""
+MOST_PARTS = 12
+"""More than these have too many, one after another."""
+EQUAL = 1e-12
+"""What differs by less, of the largest, is equal but for rounding."""
 
 
-def can_count(equations: Lengths) -> bool:
-    """Whether all solutions can be found in reasonable time."""
-    pins = sum(len(forms) == 2 for forms in equations.vectors)
-    return len(equations.vectors) <= MOST_RUBS and pins <= MOST_PINS
+def of_distinct(equations: Lengths) -> tuple[Lengths, tuple[int, ...]]:
+    """The equations with one unknown for pins whose forces are of one size whatever friction does, and of
+    each rub the number of its unknown: a link that bears no load passes the force of one pin on to another.
+    """
+    kept: list[int] = []
+    places = []
+    for k in range(len(equations.lengths)):
+        place = next((i for i, j in enumerate(kept) if _of_one_size(equations, j, k)), len(kept))
+        places.append(place)
+        if place == len(kept):
+            kept.append(k)
+
+    def gathered(form: Form) -> Form:
+        sums = [form[0], *[0.0] * len(kept)]
+        for place, a in zip(places, form[1:], strict=True):
+            sums[1 + place] += a
+        return tuple(sums)
+
+    lengths = tuple(gathered(equations.lengths[k]) for k in kept)
+    vectors = tuple(tuple(map(gathered, equations.vectors[k])) for k in kept)
+    return Lengths(lengths, vectors, tuple(equations.touching[k] for k in kept)), tuple(places)
 
 
-def all_roots(equations: Lengths) -> list[tuple[float, ...]]:
+def _of_one_size(equations: Lengths, j: int, k: int) -> bool:
+    """Whether the forces of two pins are of one size: as quadrics, in whatever directions they are told."""
+    n = len(equations.lengths)
+    if any(len(equations.vectors[i]) != 2 or equations.lengths[i] != own_length(i, n) for i in (j, k)):
+        return False
+    one, other = (
+        [a for row in _matrix(((0.0,) * (n + 1), equations.vectors[i])) for a in row] for i in (j, k)
+    )
+    apart = max(abs(a - b) for a, b in zip(one, other, strict=True))
+    return apart <= EQUAL * max(map(abs, one))
+
+
+def in_order(equations: Lengths) -> list[list[int]]:
+    """The unknowns in parts that are found together, each after those that it needs."""
+    rows = [[*form[1:]] for form in equations.lengths]
+    for row, forms in zip(rows, equations.vectors, strict=True):
+        row[:] = (max(abs(a), *(abs(form[1 + j]) for form in forms)) for j, a in enumerate(row))
+    least = EQUAL * max(map(max, rows), default=0.0)
+    return strongly_connected({k: [j for j, a in enumerate(row) if a > least] for k, row in enumerate(rows)})
+
+
+def all_roots(equations: Lengths) -> list[Y] | None:
     """Every solution with lengths that are not negative and contacts that push, (rubs,) each [scaled force].
 
-    Raises nothing where there are too many to try: ask `can_count` first (the signs are 2 to the number of
-    rubs).
+    Equal forces are one unknown, and what friction elsewhere does not change is found first.
+
+    Returns
+    -------
+    list[Y] | None
+        None where they are too many to try, or their paths too long to follow.
     """
-    scalars = [k for k, forms in enumerate(equations.vectors) if len(forms) == 1]
-    choices = [(1.0,) if equations.touching[k] else (1.0, -1.0) for k in scalars]
-    found: list[tuple[float, ...]] = []
-    for signs in product(*choices):
-        for rough in _with_signs(equations, dict(zip(scalars, signs, strict=True))):
-            y = newton(equations, rough)
-            if y is not None and is_sound(equations, y) and not any(near(y, other) for other in found):
-                found.append(y)
+    distinct, places = of_distinct(equations)
+    parts = in_order(distinct)
+    if len(distinct.vectors) > MOST_PARTS or max(map(len, parts), default=0) > MOST_RUBS:
+        return None
+    partial: list[dict[int, float]] = [{}]
+    for part in parts:
+        further = [(known, together(_part(distinct, part, known))) for known in partial]
+        partial = []
+        for known, found in further:
+            if found is None:
+                return None
+            partial += [{**known, **dict(zip(part, y, strict=True))} for y in found]
+    return _sound(equations, ([rough[place] for place in places] for rough in partial))
+
+
+def _sound(equations: Lengths, rough: Iterable[Sequence[float]]) -> list[Y]:
+    """The solutions that Newton's method finds from rough ones, each once."""
+    found: list[Y] = []
+    for start in rough:
+        y = newton(equations, start)
+        if y is not None and is_sound(equations, y) and not any(near(y, other) for other in found):
+            found.append(y)
     return found
+
+
+def _part(equations: Lengths, part: Sequence[int], known: Mapping[int, float]) -> Lengths:
+    """The equations of some of the unknowns, others known."""
+
+    def left(form: Form) -> Form:
+        constant = form[0] + sum(form[1 + j] * value for j, value in known.items())
+        return (constant, *(form[1 + j] for j in part))
+
+    lengths = tuple(left(equations.lengths[k]) for k in part)
+    vectors = tuple(tuple(map(left, equations.vectors[k])) for k in part)
+    return Lengths(lengths, vectors, tuple(equations.touching[k] for k in part))
+
+
+def together(equations: Lengths) -> list[Y] | None:
+    """As `all_roots`, of equations taken as a whole: the signs are 2 to the number of scalar forces."""
+    pins = [k for k, forms in enumerate(equations.vectors) if len(forms) > 1]
+    scalars = [k for k in range(len(equations.vectors)) if k not in pins]
+    choices = [(1.0,) if equations.touching[k] else (1.0, -1.0) for k in scalars]
+    if len(pins) > MOST_PINS:
+        return None
+    try:
+        rough = [
+            y
+            for signs in product(*choices)
+            for y in _with_signs(equations, dict(zip(scalars, signs, strict=True)))
+        ]
+    except PathTooLong:
+        return None
+    return _sound(equations, rough)
 
 
 def _with_signs(equations: Lengths, signs: dict[int, float]) -> Iterable[Sequence[float]]:
@@ -240,6 +338,11 @@ def _on(form: Form, space: Sequence[Sequence[float]]) -> Form:
     )
 
 
+class PathTooLong(ArithmeticError):
+    """A path of a homotopy takes more than `MOST_ON_PATH` steps: its end is not known."""
+
+
+MOST_ON_PATH = 400
 LONGEST_STEP = 0.1
 """The longest step along a path; longer ones can cross to a neighbour."""
 NEAR_PATH = 1e-3
@@ -260,8 +363,12 @@ def quadric_roots(quadrics: Sequence[Quadric], scale: float) -> list[list[float]
     Returns
     -------
     list[list[float]]
-        (solutions, n); a solution at which two paths end may stand there twice, a path that can't be followed
-        is left out.
+        (solutions, n); a solution at which two paths end may stand there twice.
+
+    Raises
+    ------
+    PathTooLong
+        Where the end of one is not known.
     """
     if not quadrics:
         return [[]]
@@ -294,9 +401,9 @@ def _scaled(form: Form, scale: float) -> Form:
     return (form[0] / scale, *form[1:])
 
 
-def _real(end: Projective | None) -> list[float] | None:
+def _real(end: Projective) -> list[float] | None:
     """A path's end as a real point; None at infinity and off the real space."""
-    if end is None or abs(end[0]) < 1e-7 * max(map(abs, end)):
+    if abs(end[0]) < 1e-7 * max(map(abs, end)):
         return None
     z = [part / end[0] for part in end[1:]]
     size = max(1.0, *map(abs, z))
@@ -314,22 +421,22 @@ class _Paths:
         self.gamma = cmath.exp(0.9137j)
         self.patch = [cmath.exp(1j * (0.7 + 1.9 * k)) for k in range(self.n + 1)]
 
-    def follow(self, signs: Sequence[float]) -> Projective | None:
-        """From a start (z_k = +-1) to t = 1; None where the path can't be followed to its end."""
+    def follow(self, signs: Sequence[float]) -> Projective:
+        """From a start (z_k = +-1) to t = 1, or to a singular point just before it."""
         z: Projective = [1.0 + 0.0j, *(complex(s) for s in signs)]
         size = sum(a * b for a, b in zip(self.patch, z, strict=True))
         z = [part / size for part in z]
         t, step = 0.0, LONGEST_STEP
-        while t < 1.0:
+        for _ in range(MOST_ON_PATH):
             ahead = min(1.0, t + step)
             moved = self.corrected(self.predicted(z, t, ahead - t), ahead)
-            if moved is None:
+            if moved is not None:
+                z, t, step = moved, ahead, min(LONGEST_STEP, 1.5 * step)
+            else:
                 step /= 2.0
-                if step < 1e-9:
-                    return z if 1.0 - t < 1e-5 else None
-                continue
-            z, t, step = moved, ahead, min(LONGEST_STEP, 1.5 * step)
-        return z
+            if t == 1.0 or (step < 1e-9 and 1.0 - t < 1e-5):
+                return z
+        raise PathTooLong
 
     def predicted(self, z: Projective, t: float, dt: float) -> Projective:
         """A step along the tangent, of second order (midpoint)."""
