@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
+from functools import partial
+from typing import Any
 
 from icsolve.grade.course import Policy
 from icsolve.grade.keys import (
@@ -55,8 +58,11 @@ class Judgement(NamedTuple):
     """whether the two mistakes were made together, and are not two readings of one answer"""
 
 
-_made = Judgement._make
+_made: Callable[[tuple[Any, ...]], Judgement] = partial(tuple.__new__, Judgement)
 """Half the time of the class itself, where there are millions."""
+_SLACK = 1.0 + SLACK
+_CLOSE = 3.1
+"""Half-widths beyond which no answer is close."""
 _NO_PARTS = (False, False, False)
 _ALL_PARTS = (True, True, True)
 
@@ -170,12 +176,12 @@ def _wrong_size(
     """A wrong number, with the causes that were foreseen; without words it may be meant as a size only."""
     wrongs, digits, policy = key.wrongs, written.digits, key.policy
     mistakes = wrongs.near(value, digits)
-    size = abs(key.value)
     may_be_size = value > 0.0 > key.value or policy.direction == "ignored"
-    if not mistakes and may_be_size and written.direction is None:
+    if may_be_size and not mistakes and written.direction is None:
         mistakes = wrongs.near(-value, digits)
+    size = abs(key.value)
     off = abs(abs(value) - size)
-    if direction and off <= near_miss(key.half, key.period) * (1.0 + SLACK) and size:
+    if off <= _CLOSE * key.half and direction and size and off <= near_miss(key.half, key.period) * _SLACK:
         mistakes = (*mistakes, Wrong("near-miss", value))
     parts = (False, unit, direction)
     earned = policy.credit is not None or policy.mistakes

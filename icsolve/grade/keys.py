@@ -355,7 +355,7 @@ def _key(
     """A key with what follows from its value, unit, and half and own width."""
     half, width = widths
     accepted, rule = range_in_words(value, half, unit[0]), in_words(policy.tolerance)
-    plain = _is_plain(policy) and value != 0.0 and expected.any and not expected.asked
+    plain = _is_plain(policy) and value != 0.0 and not expected.asked
     foreseen = Wrongs(wrongs, value, half)
     return NumberKey(
         question, value, *unit, half, expected, foreseen, policy, accepted, rule, {}, {}, width, kind, plain
