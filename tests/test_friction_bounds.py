@@ -307,3 +307,40 @@ loads: {{W: {{weight: 100, link: 2, at: A}}, P: {{force: unknown, link: 2, at: A
     for shown, true in zip(found.holds, ends, strict=True):
         assert abs(mpf(shown) - true) <= min(found.error, math.ulp(shown))
     assert found.error <= 2.0 * max(map(math.ulp, found.holds))
+
+
+STROKE = """
+icsolve: 1
+units: {{length: mm, force: N, torque: N*mm}}
+points: {{A: [0, 0], C: [unknown, 12.5]}}
+lengths: {{AB: 50, BC: 160}}
+angles: {{AB: {angle}}}
+near: {{C: [{near}, 12.5]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{slide: [4, 1], at: C, along: 0, mu: 0.3}}
+loads: {{P: {{force: 200, link: 4, at: C, angle: 180}}, T: {{torque: unknown, link: 2}}}}
+motion: {{link: 2, turns: ccw}}
+"""
+
+
+@pytest.mark.parametrize("inner", [True, False])
+@pytest.mark.parametrize("gap", ["1e-3", "1e-7", "-1e-12", "1e-13", "-1e-14", "3e-18", "-2e-25"])
+def test_friction_turns_round_where_the_slider_does_and_not_a_hair_before(gap: str, inner: bool) -> None:
+    """Beside the end of a stroke, as near as the decimals say, friction is against the motion; by hand."""
+    with mp.workdps(110):
+        reach = 110 if inner else 210
+        angle = mp.degrees(mp.asin(mpf("12.5") / reach)) * (-1 if inner else 1) + 180 * inner + mpf(gap)
+        turn = mp.expjpi(angle / 180)
+        bx, by = 50 * turn.real, 50 * turn.imag
+        run = mp.sqrt(160**2 - (mpf("12.5") - by) ** 2)
+        ux, uy = -run / 160, (by - mpf("12.5")) / 160
+        speed = -by + uy / ux * bx  # of C, from equal speeds along the rod
+        pull = 200 / (ux + mp.sign(speed) * mpf("0.3") * abs(uy))
+        true = -(bx * uy - by * ux) * -pull
+        text = STROKE.format(angle=mp.nstr(angle, 100), near=110 if inner else 210)
+        found = icsolve.solve(icsolve.load(text)).answers["T"]
+        assert abs(true - found.value) <= math.ulp(found.value)
+        assert found.error is not None and abs(true - found.value) <= found.error <= 2 * math.ulp(found.value)

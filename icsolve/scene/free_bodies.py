@@ -53,8 +53,7 @@ def _enclose(parts: AnswerBuilder) -> Enclose:
     """Asks the scene on balls."""
 
     def placed(found: Evaluation) -> SceneOnBalls:
-        speed = speed_of(found)
-        return SceneOnBalls(_position(found), found.outcome.balance, speed.particular, found.arithmetic)
+        return SceneOnBalls(_position(found), found.outcome.balance, speed_of(found), found.arithmetic)
 
     def ask(question: Callable[[SceneOnBalls], T]) -> T:
         return parts.scene.ask(lambda found: question(placed(found)))

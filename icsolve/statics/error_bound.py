@@ -342,11 +342,11 @@ ROUNDS = 60
 
 
 class SceneOnBalls(NamedTuple):
-    """A scene on balls, and the share of each of its motions in the one that is meant."""
+    """A scene on balls, and which of its motions is meant."""
 
     position: Position
     balance: Balance
-    particular: Sequence[Scalar]
+    speed: Speed
     arithmetic: Showing
 
 
@@ -361,9 +361,10 @@ def enclosed(scene: SceneOnBalls, solved: Solved, senses: Sequence[float]) -> So
     ties = with_flanks(position, ties_of(position), carrying_flanks(position, solved.statics.ties, solved))
     rubs = rubs_of(position, ties)
     rates = [rates_of(position, ties, rubs, m) for m in range(position.mobility)]
+    particular = scene.speed.particular
     for k, sense in enumerate(senses):
-        rate = sum((part * row[k] for part, row in zip(scene.particular, rates, strict=True)), 0.0)
-        if a.vanishes(rate, max(map(abs, scene.particular))) == bool(sense):
+        rate = sum((part * row[k] for part, row in zip(particular, rates, strict=True)), 0.0)
+        if a.vanishes(rate, max(map(abs, particular))) == bool(sense):
             return None
     statics = equilibrium(position, ties, scene.balance, rubs)
     slides = [k for k, sense in enumerate(senses) if sense]

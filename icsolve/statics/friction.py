@@ -17,10 +17,10 @@ from icsolve.case import Rope
 from icsolve.case.joints import Mesh
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import STILL, Speed
-from icsolve.numbers.arithmetic import FLOATS
+from icsolve.numbers.arithmetic import FLOATS, Scalar
 from icsolve.screws.ropes import slip_rates, tension_ratios
 from icsolve.statics import reaction_basis
-from icsolve.statics.equilibrium import Statics, equilibrium
+from icsolve.statics.equilibrium import Rub, Statics, equilibrium
 from icsolve.statics.error_bound import (
     TOO_CLOSE,
     UNSURE,
@@ -446,16 +446,40 @@ def senses_of(scene: FrictionScene, statics: Statics) -> Sense:
 
     Raises SceneError where a freedom that no motion fixes moves one.
     """
-    motions = range(scene.position.mobility)
-    by_motion = [rates_of(scene.position, statics.ties, statics.rubs, m) for m in motions]
-    fastest = max((abs(x) for ts in scene.position.twists.values() for t in ts for x in t), default=0.0)
-    found = []
-    for k, rub in enumerate(statics.rubs):
-        rate = scene.speed.of([row[k] for row in by_motion], fastest)
+    found, near = [], False
+    fastest = _fastest(scene.position)
+    for k, rate in enumerate(_rates(scene.position, scene.speed, statics.ties, statics.rubs)):
         if rate is None:
-            raise SceneError(Status.MOBILITY, _open(statics.ties[rub.tie]))
-        found.append(rate if abs(rate * scene.speed.divisor) > STILL * fastest else 0.0)
+            raise SceneError(Status.MOBILITY, _open(statics.ties[statics.rubs[k].tie]))
+        size = abs(rate * scene.speed.divisor)
+        near = near or size <= SLOW * fastest
+        found.append(rate if size > STILL * fastest else 0.0)
+    if near and scene.enclose is not None:
+        with suppress(SceneError):  # where balls leave it open, rounding alone would say more
+            return scene.enclose(_sense_on_balls)
     return Sense(tuple(found))
+
+
+SLOW = 1e-7
+"""Rates below this fraction of the fastest are looked at on balls."""
+
+
+def _rates(position: Position, speed: Speed, ties: Sequence[Tie], rubs: Sequence[Rub]) -> list[Scalar | None]:
+    """Rates of rubs in the motion that is meant; None where another freedom moves one."""
+    by_motion = [rates_of(position, ties, rubs, m) for m in range(position.mobility)]
+    fastest = _fastest(position)
+    return [speed.of([row[k] for row in by_motion], fastest) for k in range(len(rubs))]
+
+
+def _fastest(position: Position) -> float:
+    return max((abs(x) for ts in position.twists.values() for t in ts for x in t), default=0.0)
+
+
+def _sense_on_balls(placed: SceneOnBalls) -> Sense:
+    """The rates, each zero only where it is one."""
+    ties = ties_of(placed.position)
+    rates = _rates(placed.position, placed.speed, ties, rubs_of(placed.position, ties))
+    return Sense(tuple([0.0 if rate is None else float(rate) for rate in rates]))
 
 
 def _open(tie: Tie) -> str:
