@@ -497,7 +497,8 @@ FORCE = re.compile(r"(\S+) = (\S+) \S+ at (\S+)°")
 
 
 @pytest.mark.parametrize(
-    "name", ["linkages/jansen_leg", "sliders/inverted_slider_crank", "tools/bolt_cutter"]
+    "name",
+    ["linkages/jansen_leg", "sliders/inverted_slider_crank", "tools/bolt_cutter", "tools/scissor_jack"],
 )
 def test_the_forces_on_a_link_are_the_reactions(name: str, shown: Any) -> None:
     """To the four digits that are shown, with other numbers than those written too."""

@@ -297,9 +297,7 @@ def _see(parts: PageParts) -> str:
         f'<span class="what">rotation about its centre of link</span> {boxes("rotation", links)}',
         f'<span class="what">path of point</span> {boxes("curve", moving)}' if moving else "",
         f'<span class="what">centrodes of link</span> {boxes("centrode", links)}' if moving else "",
-        "Forces on links are not shown for a mechanism with screws."
-        if case.screws
-        else '<label for="see-body" class="what">forces on link</label> <select id="see-body">'
+        '<label for="see-body" class="what">forces on link</label> <select id="see-body">'
         f'<option value="">none</option>{"".join(f"<option>{_text(n)}</option>" for n in links)}</select>',
     ]
     items = "".join(f"<li>{row}</li>" for row in rows if row)

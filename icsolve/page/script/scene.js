@@ -590,13 +590,20 @@ function refuseMisfit(told, x, points) {
 }
 /* The basis twist that tells a joint's own centre, or the direction of its guide. */
 const ownOf = (told, bases) => bases.map((basis, k) => (told.bonds[k][2] ? basis[0] : basis[basis.length - 1]));
+/* What each screw does on its nut: the wrench of the force along its axis whose work is that of the torques on it. */
+const thrustsOf = (told, loads, values, threads, points) =>
+  told.screws.map(([, , at, rotor], k) => {
+    const turning = told.loads.reduce((sum, { on, measure }, n) => sum + (on === rotor ? loads[n][2] * loads[n][3] * measure * values[n] : 0), 0);
+    const [fx, fy] = threads[k].map((part) => part * turning), [x, y] = points[at];
+    return [-fy, fx, x * fy - y * fx];
+  });
 const LEAST_TRUST = 1e-11;
 /* All of a scene whose points are placed: loads, and the twist of every body in the motion that is meant (null
    where that is left open). */
 function solvedScene(told, x, figure) {
   refuseMisfit(told, x, figure.points);
   const parts = figure.scene();
-  const [, , loads, bases, courses] = parts;
+  const [, , loads, bases, courses, threads] = parts;
   if (courses.flat().some((part) => !(part[0] > 0)))
     throw new Refusal("inconsistent", "a rope has no straight part between two of its points");
   told.loads.forEach(({ kind, on }) => {
@@ -616,7 +623,8 @@ function solvedScene(told, x, figure) {
     speed.open.some((by) => largest(mix(by, ts)) > 1e-9 * fast) ? null : mix(speed.meant, ts));
   const root = new Map(found.unknown.map((n, k) => [told.loads[n].root, found.values ? found.values[k] : 0]));
   const values = told.loads.map((load, n) => loads[n][4] * (root.has(load.root) ? root.get(load.root) : loads[n][5]));
-  const solved = { motions, twists, values, loads, bases, courses, own: ownOf(told, bases), power: found.power };
+  const thrusts = thrustsOf(told, loads, values, threads, figure.points);
+  const solved = { motions, twists, values, loads, bases, courses, thrusts, own: ownOf(told, bases), power: found.power };
   if (told.ropes.length && found.unknown.length) {
     const { ropes, most } = reactionsOf({ solved });
     if (ropes.some((pull) => pull !== null && pull < -1e-11 * most)) throw new Refusal("slack");

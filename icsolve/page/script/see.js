@@ -189,7 +189,8 @@ function reactionsOf({ solved }) {
     for (let m = 0; m < 3; m++) {
       const row = columns.map(([k, w]) => w[m] * ((live.body[live.bonds[k][1]] === body) - (live.body[live.bonds[k][0]] === body)));
       const sum = loadsNow.reduce((all, w, n) => all + w[m] * ((live.body[live.loads[n].on] === body) - (live.body[live.loads[n].against] === body)), 0);
-      rows.push([...row, ...live.ropes.map((_, k) => pulled(k, body, m)), sum / most]);
+      const driven = live.screws.reduce((all, [by, on], k) => all + solved.thrusts[k][m] * ((live.body[on] === body) - (live.body[by] === body)), 0);
+      rows.push([...row, ...live.ropes.map((_, k) => pulled(k, body, m)), (sum + driven) / most]);
     }
   }
   live.ropes.forEach((rope, k) => {
@@ -209,7 +210,9 @@ function reactionsOf({ solved }) {
   const joints = live.bonds.map((_, k) => {
     const own = columns.map((c, n) => n).filter((n) => columns[n][0] === k);
     if (own.some(isOpen)) return null;
-    return [0, 1, 2].map((m) => own.reduce((sum, n) => sum + unit[n] * most * columns[n][1][m], 0));
+    const screw = live.screws.findIndex(([by, on]) => on === live.bonds[k][0] && by === live.bonds[k][1]);
+    const thrust = screw < 0 ? [0, 0, 0] : solved.thrusts[screw];
+    return [0, 1, 2].map((m) => own.reduce((sum, n) => sum + unit[n] * most * columns[n][1][m], -thrust[m]));
   });
   return { loads: loadsNow, most, joints, ropes };
 }
