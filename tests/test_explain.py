@@ -23,6 +23,8 @@ import transcribe
 from growth import random_mechanism
 from icsolve.case import Case
 from icsolve.explain import explain
+from icsolve.explain.document import ShownTable
+from icsolve.explain.sheet import exercise
 from icsolve.report.derivation import known_of
 from library import FILES, sample
 from test_draw import DEAD_CENTRE, FOUR_BAR, HOSTILE
@@ -509,3 +511,17 @@ def test_speeds_without_a_given_one_say_what_they_are_for() -> None:
     text = explain(icsolve.load(ROOT / "cases/equilibrium/piston_under_pressure.yaml"))
     assert "No speed is given; these are the speeds while w2 = 1." in text
     assert not re.search(r"^ +(w1|\w on 1) ", text, re.MULTILINE)
+
+
+@pytest.mark.parametrize("name", [name for name in FILES if name.startswith("equilibrium/")])
+def test_an_exercise_does_not_stand_in_the_position_that_it_asks_for(name: str) -> None:
+    """Neither its figure nor its table tells a point that moves; the key has every position."""
+    known = known_of(icsolve.load(FILES[name]))
+    asked, positions = known.as_asked, known.answer.positions if known.answer is not None else ()
+    assert asked.answer is None and positions
+    moving = [p for p in known.points if math.dist(known.points[p], asked.points[p]) > 1e-6 * known.size]
+    assert moving
+    told = exercise(known)
+    table = next(block for block in told.blocks if isinstance(block, ShownTable))
+    assert {row[0][0] for row in table.rows}.isdisjoint(moving)
+    assert len(positions) == str(told.key[0]).count("; ") + 1

@@ -22,6 +22,7 @@ from icsolve.draw.marks import (
     TextMark,
     TextRun,
     leaves,
+    text_box,
 )
 from icsolve.tuples import NamedTuple
 
@@ -211,8 +212,9 @@ def element(mark: Mark, *, halo: bool = False) -> str:
         case ArcMark():
             return _arc(mark)
         case TextMark():
-            under = _text(mark, " halo") + "\n" if halo and mark.kind in _HALOED else ""
-            return under + _text(mark)
+            set_out = _from_its_start(mark) if halo and len(mark.runs) > 1 else mark
+            under = _text(set_out, " halo") + "\n" if halo and mark.kind in _HALOED else ""
+            return under + _text(set_out)
         case MarkGroup():
             return _group(mark, halo)
 
@@ -226,6 +228,11 @@ def _arc(arc: ArcMark) -> str:
     large, turn = int(abs(arc.sweep) > 180.0), int(arc.sweep < 0.0)
     ends = (_chain((arc.at(0.0),)), _chain((arc.at(arc.sweep),)))
     return f'<path class="{arc.kind}" d="M{ends[0]} A{r},{r} 0 {large} {turn} {ends[1]}"/>'
+
+
+def _from_its_start(text: TextMark) -> TextMark:
+    """The text, set from where its room begins: cairosvg centres each run of a text for itself."""
+    return text._replace(at=(text_box(text)[0], text.at[1]), anchor="start")
 
 
 def _text(text: TextMark, more: str = "") -> str:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Container
 
 from icsolve.answer import Centre
 from icsolve.case import (
     AlongRope,
     Area,
     Case,
+    Centroid,
     Coordinates,
     Force,
     ForceVector,
@@ -28,6 +30,7 @@ from icsolve.case import (
     Units,
     Weight,
 )
+from icsolve.case.figure import Corner
 from icsolve.case.names import pair_name
 from icsolve.case.profiles import Arc, Arcs, Circle, Flat, Follower, Knife, Polygon, Radii, Roller, Shape
 from icsolve.draw.words import name_runs
@@ -155,17 +158,32 @@ def asked_section(known: Known, figures: Figures) -> Section:
     """What is to be found."""
     case = known.case
     unknown = [load for load in case.loads if is_unknown(load)]
+    if known.posed:
+        return Section("Asked", (words(position_asked(known)),))
     if not unknown:
         what = "instant centres, and how fast the links move"
         what = "forces and couples in the joints" if known.structure else what
-        if known.answer is not None and known.answer.positions:
-            what = "positions in which the loads balance"
         return Section("Asked", (words(f"The {what}."),))
     entries = tuple(_load(known, figures, load) for load in unknown)
     count = "is the load that holds" if len(unknown) == 1 else "are the loads that hold"
     return Section(
         "Asked", (words(f"What {count} the mechanism in equilibrium in this position?"), Items(entries))
     )
+
+
+def position_asked(known: Known) -> str:
+    """The question of a case that asks for a position."""
+    said = []
+    for one in known.posed:
+        kind, _, name = one.path.partition(".")
+        point, _, axis = name.partition(".")
+        plain = {"angles": f"angle {name}", "lengths": f"length {name}"}
+        what = plain.get(kind, f"{axis} of {point}")
+        if one.low is not None and one.high is not None:
+            unit = "deg" if kind == "angles" else known.case.units.length
+            what += f" from {one.low.digits} to {one.high.digits} {unit}"
+        said.append(what)
+    return f"For which {listed(said)} do the loads balance?"
 
 
 def _s(items: list[str]) -> str:
@@ -257,17 +275,48 @@ def _arc_words(figures: Figures, arc: Arc) -> str:
 def _points(known: Known, figures: Figures) -> list[Block]:
     """A table of the points: those that the case gives by coordinates, and those that follow."""
     rows = []
+    asked = {one.path for one in known.posed}
     order = dict.fromkeys((*known.case.points, *known.points))
     for name in order:
         if name.startswith("@") or name not in known.points:
             continue
         place = known.points[name]
         data = known.case.points.get(name)
-        given = isinstance(data, Coordinates) and None not in data
+        given = isinstance(data, Coordinates) and not _open(data, asked)
+        if known.posed and known.answer is None and not given:
+            continue
         x, y = (figures.length(c).digits for c in place)
         rows.append(((name,), (x,), (y,), ("given" if given else "from the figure's data",)))
     unit = known.case.units.length
-    return [ShownTable(("point", f"x, {unit}", f"y, {unit}", "how"), tuple(rows))] if rows else []
+    table = [ShownTable(("point", f"x, {unit}", f"y, {unit}", "how"), tuple(rows))] if rows else []
+    said = tuple((one,) for one in _data(known, figures, asked)) if known.posed else ()
+    return [*table, words("Data of the figure:"), Items(said)] if said else [*table]
+
+
+def _open(at: Coordinates, asked: Container[str]) -> list[str]:
+    """The axes along which a point is open or asked for."""
+    return [axis for axis, n in zip("xy", at, strict=True) if n is None or n.path in asked]
+
+
+def _data(known: Known, figures: Figures, asked: Container[str]) -> list[str]:
+    """What else places the figure: its lengths and angles, but those that are asked for."""
+    said = [
+        f"{one.a}{one.b} = {one.value.digits} {figures.units.length}"
+        for one in known.case.lengths
+        if one.value.path not in asked
+    ]
+    for one in known.case.angles:
+        if one.value.path not in asked:
+            what = f"the direction from {one.a} to {one.b}"
+            what = f"the angle {one.a}{one.at}{one.b}" if isinstance(one, Corner) else what
+            said.append(f"{what} is {one.value.digits} deg")
+    for name, at in known.case.points.items():
+        if isinstance(at, Centroid):
+            said.append(f"{name} is the middle of {listed(at.of)}")
+        elif open_axes := _open(at, asked):
+            held = ((axis, n) for axis, n in zip("xy", at, strict=True) if axis not in open_axes)
+            said += [f"{axis} of {name} is {n.digits} {figures.units.length}" for axis, n in held if n]
+    return said
 
 
 def _load(known: Known, figures: Figures, load: Load) -> tuple[Inline, ...]:
@@ -281,7 +330,7 @@ def _load(known: Known, figures: Figures, load: Load) -> tuple[Inline, ...]:
         where = f" at {point_words(figures, known.points[at])}" if at in known.points else ""
     return (
         load_name(load.name),
-        f": {_kind(case, load)} on {link_words(load.link)}{where}{_heading(load)}{between}",
+        f": {_kind(case, load)} on {link_words(load.link)}{where}{_heading(case, load)}{between}",
     )
 
 
@@ -315,14 +364,14 @@ _KINDS: dict[type[Load], str] = {
 }
 
 
-def _heading(load: Load) -> str:
+def _heading(case: Case, load: Load) -> str:
     if isinstance(load, Torque) and load.link.startswith("@"):
         return ", positive clockwise as one looks along its axis"
     if isinstance(load, Torque):
         return ", counterclockwise" if load.turns == "ccw" else ", clockwise"
     if isinstance(load, Spring):
         end = "a fixed point" if load.to.startswith("@") else load.to
-        return f" to {end}, free length {load.free.value:.6g}"
+        return f" to {end}, free length {load.free.value:.6g} {case.units.length}"
     if isinstance(load, TorsionSpring):
         return f" by the angle {''.join(load.corner)}, free at {load.free.digits} deg"
     if not isinstance(load, Force):

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from icsolve.draw import tikz
 from icsolve.draw.figure import Drawing, drawn
 from icsolve.draw.marks import Mark
-from icsolve.draw.words import answer_sentences
+from icsolve.draw.words import answer_sentences, position_sentences
 from icsolve.explain.document import Block, Inline
 from icsolve.explain.given import asked_section, figures_of, given_section, load_name
 from icsolve.explain.typeset import AsTex, picture_tex
@@ -36,11 +36,13 @@ def exercise(known: Known) -> Exercise:
 
         sections = (given_in_space(asked, figures), asked_in_space(asked, figures))
     else:
-        sections = (given_section(asked, figures), asked_section(known, figures))
+        sections = (given_section(asked, figures), asked_section(asked, figures))
     answers = () if known.answer is None else zip(known.answer.answers, answer_sentences(known), strict=True)
     key: tuple[Inline, ...] = tuple(
         part for name, told in answers for part in (load_name(name), f"{told.removeprefix(name)}. ")
     )
+    if known.posed:
+        key = (f"{'; '.join(position_sentences(known))}.",)
     if known.refusal is not None:
         key = (f"No answer ({known.refusal.status}): {known.refusal.message}",)
     blocks = tuple(block for section in sections for block in section.blocks)

@@ -13,6 +13,7 @@ from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.draw import Drawing, draw
 from icsolve.draw.svg import escaped
 from icsolve.draw.words import answer_sentences, description
+from icsolve.explain.given import position_asked
 from icsolve.page import page_html
 from icsolve.report.derivation import Known, known_of
 from icsolve.statics.power import is_unknown
@@ -125,6 +126,8 @@ def kind_of(known: Known) -> str:
 def asked(known: Known) -> tuple[str, ...]:
     """What an exercise asks for."""
     names = [load.name for load in known.case.loads if is_unknown(load)]
+    if known.posed:
+        return (position_asked(known),)
     return (f"Find {listed(names)}.",) if names else _answers(known.as_asked)
 
 

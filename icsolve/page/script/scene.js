@@ -581,7 +581,7 @@ function normal(told, twists, still) {
 /* What two points or teeth must not be. */
 function refuseMisfit(told, x, points) {
   for (const [a, b] of told.aims)
-    if (apart(points[a], points[b]) < 1e-13) throw new Refusal("inconsistent", "two points that give a direction lie at one place");
+    if (points[a].every((p, n) => Math.abs(points[b][n] - p) <= NOISE * (1 + Math.abs(p)))) throw new Refusal("inconsistent", "two points that give a direction lie at one place");
   for (const [a, b, one, two, size, module] of told.meshes) {
     const fit = (Math.abs(x[one] + x[two]) * (module ? x[size] : 1 / x[size])) / 2;
     if (Math.abs(apart(points[a], points[b]) / told.frame[2] - fit) > 2e-3 * fit)

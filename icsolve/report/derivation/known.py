@@ -3,7 +3,7 @@ links move, and what every load exerts."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from icsolve.answer import Answer, Centre, by_load
 from icsolve.assembly import Frame, case_point, solve_figure
@@ -37,6 +37,8 @@ class Known(NamedTuple):
     points: Mapping[str, Point]
     twists: Mapping[str, Triple]
     size: float
+    posed: tuple[Unknown, ...] = ()
+    """the data of the figure that are asked for"""
 
     @property
     def scene(self) -> AnswerBuilder | None:
@@ -56,8 +58,10 @@ class Known(NamedTuple):
 
     @property
     def as_asked(self) -> Known:
-        """The case as an exercise has it: without its answer, and without inertia forces, which are found."""
-        return self._replace(answer=None, refusal=None, case=as_given(self.case))
+        """The case as an exercise has it: without its answer, and without inertia forces, which are found;
+        where a position is asked for, in another one."""
+        here = _elsewhere(self) if self.posed else self
+        return here._replace(answer=None, refusal=None, case=as_given(here.case), posed=self.posed)
 
     def centre(self, a: str, b: str) -> Centre | None:
         """The centre of two links, where one is known."""
@@ -147,9 +151,48 @@ def _at_rest(case: Case, answer: Answer | None, refusal: SceneError | None) -> K
         here = positions[0].answer.shown_points
         own = replace(own, near={name: at for name, at in here.items() if name not in placed})
     known = known_of(own)
+    posed = case.unknowns or tuple(map(Unknown, at))
     if answer is None or known.answer is None:
-        return known._replace(answer=None, refusal=refusal or known.refusal)
-    return known._replace(answer=replace(known.answer, positions=answer.positions, notes=answer.notes))
+        return known._replace(answer=None, refusal=refusal or known.refusal, posed=posed)
+    shown = replace(known.answer, positions=answer.positions, notes=answer.notes)
+    return known._replace(answer=shown, posed=posed)
+
+
+APART = 0.05
+"""A figure that does not tell a position asked for is so far from it at least, of what is searched."""
+
+
+def _elsewhere(known: Known) -> Known:
+    """The figure of a case that asks for a position, in one that is none: as it is written, or somewhere in
+    what is searched where it assembles."""
+    from icsolve.solve.load_function import given_at
+
+    positions = () if known.answer is None else known.answer.positions or ()
+    for share in (0.5, 0.35, 0.65, 0.2, 0.8, 0.42, 0.58, 0.9, 0.1):
+        own, clear = known.case, True
+        for unknown in known.posed:
+            rests = [v if isinstance(v, float) else v[0] for one in positions for v in [one.at[unknown.path]]]
+            low, high = _searched(unknown, rests)
+            start = None if unknown.start is None else unknown.start.value
+            value = low + share * (high - low) if start is None else start
+            clear = clear and (
+                start is not None or all(abs(value - at) > APART * (high - low) for at in rests)
+            )
+            own = given_at(own, unknown.path, value)
+        moved = known_of(own) if clear else known
+        if clear and moved.points.keys() >= known.points.keys():
+            return moved
+    return known
+
+
+def _searched(unknown: Unknown, rests: Sequence[float]) -> Point:
+    """The range that is given; of an angle a quarter to each side of a position, of another datum so much as
+    keeps its sign."""
+    if unknown.low is not None and unknown.high is not None:
+        return unknown.low.value, unknown.high.value
+    middle = rests[0] if rests else 0.0
+    half = 90.0 if unknown.path.startswith("angles") else 0.5 * abs(middle) or 0.5
+    return middle - half, middle + half
 
 
 def known_at(known: Known, answer: Answer) -> Known:
