@@ -106,6 +106,39 @@ def minus(expression: Expr) -> Expr:
     return Sum(((-1, expression),))
 
 
+Terms = Sequence[tuple[int, "Expr"]]
+"""Terms of a sum, each with its sign."""
+
+
+def total(terms: Terms) -> Expr:
+    """Terms added up; one that is positive is itself, none are 0."""
+    if not terms:
+        return Num("0")
+    return terms[0][1] if len(terms) == 1 and terms[0][0] > 0 else Sum(tuple(terms))
+
+
+def solved_for(rest: Terms, factors: Terms) -> Expr:
+    """Numbers over numbers, what a factor of the sum of ``factors`` is: no sign stands behind another, none
+    in front of all below, and nothing is divided by 1."""
+    above, below = _signed(rest), _signed(factors)
+    signs = {sign for sign, _ in below}
+    if signs == {-1} or (signs == {1, -1} and {sign for sign, _ in above} == {-1}):
+        above, below = ([(-sign, term) for sign, term in terms] for terms in (above, below))
+    under = total(sorted(below, key=lambda term: -term[0]))
+    return total(above) if under == Num("1") else Quotient(total(above), under)
+
+
+def _signed(terms: Terms) -> list[tuple[int, Expr]]:
+    """Terms, the signs of their numbers in front."""
+    found = []
+    for sign, term in terms:
+        factors = term.factors if isinstance(term, Product) else (term,)
+        minuses = sum(isinstance(f, Num) and is_negative(f) for f in factors)
+        bare = (Num(f.digits.lstrip("-")) if isinstance(f, Num) else f for f in factors)
+        found.append((sign * (-1) ** minuses, product(*bare)))
+    return found
+
+
 def is_negative(expression: Expr) -> bool:
     """Whether it is written with a sign in front."""
     if isinstance(expression, Num):
@@ -113,22 +146,6 @@ def is_negative(expression: Expr) -> bool:
     if isinstance(expression, Product):
         return is_negative(expression.factors[0])
     return isinstance(expression, Sum) and expression.terms[0][0] < 0
-
-
-def summed(terms: Sequence[tuple[int, Expr]]) -> Expr:
-    """A sum; what is negative in it has its sign in front, and one positive term is itself."""
-    signed = tuple(
-        (-s, _unsigned(e)) if isinstance(e, Num | Product) and is_negative(e) else (s, e) for s, e in terms
-    )
-    return signed[0][1] if len(signed) == 1 and signed[0][0] > 0 else Sum(signed)
-
-
-def _unsigned(expression: Num | Product) -> Expr:
-    """What is written with a minus in front, without it."""
-    if isinstance(expression, Num):
-        return Num(expression.digits.removeprefix("-"))
-    first, *others = expression.factors
-    return product(_unsigned(first), *others) if isinstance(first, Num | Product) else expression
 
 
 def _symbols(angle: Expr) -> bool:

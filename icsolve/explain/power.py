@@ -10,7 +10,7 @@ from icsolve.answer.bodies import Rubbing
 from icsolve.case import Area, Force, ForceVector, Joint, Pin, Spring, Torque, TorsionSpring, Units, Weight
 from icsolve.case.joints import Friction
 from icsolve.explain.document import Block, Items, Section, formula, words
-from icsolve.explain.formula import Expr, Name, Num, Quotient, Sum, Trig, product
+from icsolve.explain.formula import Expr, Name, Num, Quotient, Sum, Trig, product, solved_for
 from icsolve.explain.given import Figures, load_name
 from icsolve.explain.levers import lever, motion_name
 from icsolve.report.derivation import Acting, Known, Ratios
@@ -344,23 +344,14 @@ def _solved(
     found = known.answer.answers[root.load.name]
     powers = [(t.sign, (t.acting.value or 0.0) * t.factor) for t in terms if not t.acting.unknown]
     powers += [(1, r.power) for r in friction]
-    moved = tuple((sign if power < 0.0 else -sign, figures.number(abs(power))) for sign, power in powers)
-    over: Expr = Sum(moved) if powers else Num("0")
-    if len(moved) == 1 and moved[0][0] > 0:
-        over = moved[0][1]
-    parts = tuple(
+    rest = [(-sign, figures.number(power)) for sign, power in powers]
+    factors = [
         (t.sign, product(figures.number(_times(t.acting, root)), figures.number(t.factor))) for t in unknown
-    )
-    under: Expr = parts[0][1] if len(parts) == 1 and parts[0][0] > 0 else Sum(parts)
+    ]
     value = figures.quantity(found.value, found.unit)
     yield words("So")
-    name = load_name(root.load.name)
-    if under != Num("1"):
-        yield formula(name, Quotient(over, under), value)
-    elif len(powers) == 1:
-        yield formula(name, value)
-    else:
-        yield formula(name, over, value)
+    numbers = () if factors == [(1, Num("1"))] and len(rest) == 1 else (solved_for(rest, factors),)
+    yield formula(load_name(root.load.name), *numbers, value)
 
 
 def torque_words(units: Units) -> Iterable[Block]:
@@ -438,7 +429,9 @@ def _motion(
 ) -> tuple[Factors, list[Block]]:
     """The factor of every load that does work in a motion, and their equation."""
     others = "" if n == 0 else ", the drivers of the other motions held"
-    blocks: list[Block] = [words(f"Motion {n}: " if n else "", f"{speed_words(motion)}{others}.")]
+    told = speed_words(motion)
+    told = f"Motion {n}: {told}" if n else told[:1].upper() + told[1:]
+    blocks: list[Block] = [words(f"{told}{others}.")]
     factors: Factors = []
     for acting in loads:
         factor, said = factor_of(known, figures, acting, motion, n)

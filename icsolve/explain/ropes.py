@@ -21,7 +21,8 @@ from icsolve.explain.formula import (
     Trig,
     minus,
     product,
-    summed,
+    solved_for,
+    total,
 )
 from icsolve.explain.given import Figures, load_name
 from icsolve.explain.levers import Lever, lever, motion_name, pivot
@@ -73,14 +74,11 @@ def rope_ratio(known: Known, figures: Figures, ratios: Ratios, ratio: Ratio) -> 
     yield formula(Sum(tuple(sorted(work, key=lambda term: -term[0]))), Num("0"))
     over, under = parts[ratio.of], parts[ratio.link]
     flip = -1 if all(part.sign < 0 for part in under) else 1
-    symbols = Quotient(_sum(over, -flip), _sum(under, flip))
-    numbers = Quotient(_sum(over, -flip, numbers=True), _sum(under, flip, numbers=True))
+    symbols = Quotient(
+        total([(-flip * p.sign, p.symbol) for p in over]), total([(flip * p.sign, p.symbol) for p in under])
+    )
+    numbers = solved_for([(-p.sign, p.number) for p in over], [(p.sign, p.number) for p in under])
     yield formula(Quotient(moves[ratio.link], moves[ratio.of]), symbols, numbers, figures.number(ratio.value))
-
-
-def _sum(parts: Sequence[RopeLine], sign: int = 1, *, numbers: bool = False) -> Expr:
-    """The sum of parts, each with its sign times another."""
-    return summed([(sign * p.sign, p.number if numbers else p.symbol) for p in parts])
 
 
 def _pulled(known: Known, figures: Figures, headings: Headings, pull: Pull) -> tuple[Lever, list[Block]]:
@@ -207,18 +205,12 @@ def _drawn(known: Known, figures: Figures, rope: Rope, found: set[str]) -> Itera
         return
     found |= {rope.name, f"end of {rope.name}"}
     last = len(rope.points) - 1
-    parts = [
-        RopeLine(
-            1,
-            product(load_name(a.load.name), *_gain(a)),
-            product(figures.number(a.value or 0.0), *_gain_number(figures, a)),
-        )
-        for a in loads
-    ]
+    symbols = total([(1, product(load_name(a.load.name), *_gain(a))) for a in loads])
+    numbers = total([(1, product(figures.number(a.value or 0.0), *_gain_number(figures, a))) for a in loads])
     tension = figures.quantity(_tensions(known, rope)[-1], known.case.units.force)
     one = " in all of it" if not rope.slips else f" in its part at {rope.points[-1]}"
     yield words(f"What draws its end is the tension{one}:")
-    yield formula(_symbol(known, rope, last), _sum(parts), _sum(parts, numbers=True), tension)
+    yield formula(_symbol(known, rope, last), symbols, numbers, tension)
 
 
 def _gain(acting: Acting) -> tuple[Expr, ...]:
@@ -288,9 +280,8 @@ def _by_itself(
     asked = [w for w in terms if w.asked]
     first = float(asked[0].number.number.digits) or 1.0
     shares = [figures.number(float(w.number.number.digits) / first) for w in asked]
-    parts = [RopeLine(w.sign, w.name, product(s, *w.factors)) for w, s in zip(asked, shares, strict=True)]
-    over = summed(rest) if rest else Num("0")
-    yield formula(asked[0].name, Quotient(over, _sum(parts, numbers=True)), asked[0].number)
+    factors = [(w.sign, product(s, *w.factors)) for w, s in zip(asked, shares, strict=True)]
+    yield formula(asked[0].name, solved_for(rest, factors), asked[0].number)
     found |= names
 
 
