@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from icsolve.assembly.clusters import ALL_CLUSTERS, LOOSE_CLUSTERS, NOBODY, Cluster, LooseFigure
-from icsolve.assembly.data import LENGTH, Datum, Facts, facts_of, given_points
-from icsolve.assembly.steps import Base, Step, leading_to, points_of
+from icsolve.assembly.data import CORNER, LENGTH, RAY, Datum, Facts, facts_of, given_points
+from icsolve.assembly.steps import Base, Step, leading_to, points_of, sensed
 from icsolve.case import Case
 from icsolve.tuples import NamedTuple
 
@@ -26,6 +26,17 @@ class Order(NamedTuple):
     def used(self) -> frozenset[Datum]:
         """The data of which the construction is made."""
         return frozenset(datum for step in self.steps for datum in step.data())
+
+    def either_sense(self) -> tuple[Datum, ...]:
+        """The angles whose sense no step takes: their points may come to lie the opposite way."""
+        held = {pair for step in self.steps for pair in sensed(step)}
+        return tuple(
+            datum
+            for datum in self.facts.data
+            if datum.kind in (RAY, CORNER)
+            and set(datum.points) <= set(self.points)
+            and not any(datum == one and ends <= set(datum.points) for one, ends in held)
+        )
 
 
 def order_of(

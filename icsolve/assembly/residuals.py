@@ -15,7 +15,7 @@ from icsolve.assembly.workspace import Workspace
 from icsolve.case import Case, Coordinates, Number
 from icsolve.case.joints import Mesh
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Floats, turn_of
+from icsolve.numbers.arithmetic import Floats, Scalar, turn_of
 from icsolve.screws.joints import Points
 from icsolve.structure.topology import Bond, Topology
 from icsolve.wording.sentences import listed
@@ -75,22 +75,30 @@ def _length(workspace: Workspace, datum: Datum) -> Scale:
     return (math.dist(*(workspace.points[p] for p in datum.points)) + workspace.length(datum)) / 2.0, True
 
 
-def _ray(workspace: Workspace, datum: Datum) -> Scale:
-    (ax, ay), (bx, by) = (workspace.points[p] for p in datum.points)
+def ahead(workspace: Workspace, datum: Datum) -> Scalar:
+    """How far a ray, or the far arm of a corner, goes the way of its angle: negative where it points against
+    it [frame, of a corner frame squared]."""
+    (ax, ay), *vertex, (bx, by) = (workspace.points[p] for p in datum.points)
     c, s = workspace.turn(datum)
-    dx, dy = bx - ax, by - ay
-    return 1.0, c * dx + s * dy > TOO_CLOSE or math.hypot(dx, dy) <= TOO_CLOSE
+    if not vertex:
+        return c * (bx - ax) + s * (by - ay)
+    ((vx, vy),) = vertex
+    px, py, qx, qy = ax - vx, ay - vy, bx - vx, by - vy
+    return (c * px - s * py) * qx + (s * px + c * py) * qy
+
+
+def _ray(workspace: Workspace, datum: Datum) -> Scale:
+    apart = math.dist(*(workspace.points[p] for p in datum.points))
+    return 1.0, bool(ahead(workspace, datum) > TOO_CLOSE or apart <= TOO_CLOSE)
 
 
 def _corner(workspace: Workspace, datum: Datum) -> Scale:
     """The angle's error, on the longer arm."""
-    (ax, ay), (vx, vy), (bx, by) = (workspace.points[p] for p in datum.points)
-    c, s = workspace.turn(datum)
-    px, py, qx, qy = ax - vx, ay - vy, bx - vx, by - vy
-    p, q = math.hypot(px, py), math.hypot(qx, qy)
+    a, vertex, b = (workspace.points[p] for p in datum.points)
+    p, q = math.dist(a, vertex), math.dist(b, vertex)
     if min(p, q) <= TOO_CLOSE:
         return max(p, q), None
-    return min(p, q), (c * px - s * py) * qx + (s * px + c * py) * qy > 0.0
+    return min(p, q), bool(ahead(workspace, datum) > 0.0)
 
 
 def _line(workspace: Workspace, datum: Datum) -> Scale:

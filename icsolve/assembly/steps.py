@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Union
 
 from icsolve.assembly.data import Datum
 from icsolve.assembly.intersections import PlacedLine, PlacedLocus, gaps_of, intersection
-from icsolve.assembly.loci import Locus, directions_of, is_ray
+from icsolve.assembly.loci import LineLocus, Locus, directions_of, is_ray
 from icsolve.assembly.workspace import (
     Apart,
     Frame,
@@ -296,6 +296,20 @@ def aims(step: Step) -> list[tuple[Key, Key]]:
     for locus in (step.first, step.second) if isinstance(step, Meet) else ():
         directions += directions_of(locus)
     return pairs + [(h.root.a, h.root.b) for h in directions if isinstance(h.root, Apart)]
+
+
+def sensed(step: Step) -> set[tuple[Datum, frozenset[str]]]:
+    """The data by which a step turns from one point to another and not the opposite way, with both points."""
+    if isinstance(step, Polar):
+        pairs = [(step.direction, (step.base, step.target))]
+    elif isinstance(step, Turned):
+        pairs = [(step.direction, step.shape[:2])]
+    else:
+        loci = (step.first, step.second) if isinstance(step, Meet) else ()
+        rays = [locus for locus in loci if isinstance(locus, LineLocus) and locus.ray]
+        pairs = [(ray.direction, (ray.through, step.targets[0])) for ray in rays]
+    names = [(way, frozenset(key if isinstance(key, str) else key[1] for key in ends)) for way, ends in pairs]
+    return {(datum, ends) for way, ends in names for datum in way.data()}
 
 
 # --- which steps lead to which points ---

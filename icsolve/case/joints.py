@@ -510,3 +510,10 @@ def without_friction(joint: Joint) -> Joint:
     if isinstance(joint, Slide) and joint.thread is not None:
         joint = joint._replace(thread=joint.thread._replace(mu=None))
     return joint._replace(friction=None) if isinstance(joint, Pin | Slide | Slot | Contact) else joint
+
+
+def with_friction(joint: Joint, own: Joint) -> Joint:
+    """The joint with the friction of another of its kind."""
+    if isinstance(joint, Slide) and isinstance(own, Slide):
+        joint = joint._replace(thread=own.thread)
+    return joint._replace(friction=own.friction) if isinstance(joint, Pin | Slide | Slot | Contact) else joint

@@ -10,7 +10,7 @@ that stay open to the last, which are handed on.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -134,17 +134,23 @@ class Branches:
                 at = 2 * self.names.index(name)
                 off += (self.places[:, :, at] - x) ** 2 + (self.places[:, :, at + 1] - y) ** 2
         off[~self.whole] = np.inf
-        best: Mapping[int, float] = {
-            int(i): float(np.sqrt(off[self.ids == i].min())) for i in np.unique(self.ids) if i >= 0
-        }
-        order = sorted(best, key=lambda i: best[i])
-        if len(order) > 1 and best[order[0]] >= EVEN * best[order[1]]:
-            raise SceneError(
-                Status.AMBIGUOUS,
-                f"two branches of the figure pass about equally near to near ({best[order[0]]:.4g} and "
-                f"{best[order[1]]:.4g} {case.units.length} from it): move near toward the one that is meant.",
-            )
-        return frozenset(order[:1])
+        ids = [int(i) for i in np.unique(self.ids) if i >= 0]
+        return frozenset({ids[nearest(case, [float(np.sqrt(off[self.ids == i].min())) for i in ids])]})
+
+
+def nearest(case: Case, off: Sequence[float]) -> int:
+    """Which of some branches, so far from `near` each, is meant.
+
+    Raises SceneError where two are about equally near.
+    """
+    order = sorted(range(len(off)), key=lambda n: off[n])
+    if len(order) > 1 and off[order[0]] >= EVEN * off[order[1]]:
+        raise SceneError(
+            Status.AMBIGUOUS,
+            f"two branches of the figure pass about equally near to near ({off[order[0]]:.4g} and "
+            f"{off[order[1]]:.4g} {case.units.length} from it): move near toward the one that is meant.",
+        )
+    return order[0]
 
 
 CELLS = 256

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 from icsolve.answer import Answer
 from icsolve.answer.equilibrium import EquilibriumPosition
@@ -14,49 +15,52 @@ from icsolve.scene.refusals import is_rough
 from icsolve.solve.load_function import given_at
 from icsolve.solve.positions import Search, find_positions
 from icsolve.solve.rest import with_scene
-from icsolve.solve.resting import Range, find_ranges
+from icsolve.solve.resting import find_ranges
 from icsolve.solve.two_data import find_pairs
 from icsolve.statics.power import is_unknown
 from icsolve.sweep.program import wanted_points
 from icsolve.tuples import replace
 
 
-def solve_positions(
-    case: Case, *, all_centres: bool = False, rates: bool = False, reactions: bool = False
-) -> Answer:
-    """The positions of equilibrium of a case whose figure has an unknown datum.
+def solve_positions(case: Case, **asked: bool) -> Answer:
+    """The positions of equilibrium of a case whose figure has an unknown datum; ``asked`` as of
+    `icsolve.solve`: all_centres, rates, reactions.
 
     Raises SceneError (``any-value``, ``no-value``) where the loads balance everywhere or nowhere, with what
     the JSON object shows besides.
     """
     case = case if case.unknowns else replace(case, unknowns=(free_coordinate(case) or Unknown(""),))
     if len(case.unknowns) == 2:
-        return _two(case, all_centres, rates, reactions)
+        return _two(case, asked)
     unknown = _unknown(case)
+    start = start_of(unknown)
     if is_rough(case):
-        return _resting(case, unknown, all_centres, rates, reactions)
-    start = None if unknown.start is None else unknown.start.value
+        return _resting(case, unknown, start, asked)
     search = find_positions(_written(case), unknown.path, span_of(unknown), start)
     _refuse_none(search, case.noticed)
     found = []
     for one in search.positions:
-        scene = with_scene(one, all_centres=all_centres, rates=rates, reactions=reactions)
+        scene = with_scene(one.answer, one.links, **asked)
         at, error = {search.path: one.value}, {search.path: one.error}
         found.append(EquilibriumPosition(at, error, one.stability, one.stiffness, one.why, scene))
     return Answer(case, positions=tuple(found), mobility=1, notes=(*case.noticed, *search.notes))
 
 
-def _two(case: Case, all_centres: bool, rates: bool, reactions: bool) -> Answer:
+def _two(case: Case, asked: Mapping[str, bool]) -> Answer:
     """Two unknown data, of a mechanism with two freedoms."""
     _unknown(replace(case, unknowns=case.unknowns[:1]))
-    for one in case.unknowns:
-        if one.start is not None or is_rough(case):
-            words = "with friction" if is_rough(case) else "moved from a position as written"
-            raise SceneError(Status.UNSUPPORTED, f"two unknown data {words} are not searched.")
-    spans = [span_of(one) for one in case.unknowns]
-    search = find_pairs(_written(case), [one.path for one in case.unknowns], spans)
+    if is_rough(case):
+        said = "two unknown data are not searched with friction: give one of them a number, or leave it out."
+        raise SceneError(Status.UNSUPPORTED, said)
+    paths, starts = [one.path for one in case.unknowns], [start_of(one) for one in case.unknowns]
+    if None in starts and any(start is not None for start in starts):
+        open_one, written = paths[starts.index(None)], paths[1 - starts.index(None)]
+        said = f"{written} says where the figure is written: give {open_one} its `from` too."
+        raise SceneError(Status.UNDERDETERMINED, said)
+    written_at = [start for start in starts if start is not None]
+    search = find_pairs(_written(case), paths, [span_of(one) for one in case.unknowns], written_at, asked)
     if not search.positions:
-        raise no_value(" and ".join(one.path for one in case.unknowns), None, (*case.noticed, *search.notes))
+        raise no_value(" and ".join(paths), None, (*case.noticed, *search.notes))
     notes = (*case.noticed, *search.notes)
     return Answer(case, positions=search.positions, mobility=2, notes=notes)
 
@@ -84,6 +88,11 @@ def _is_placed(case: Case) -> bool:
     except SceneError as error:
         return error.status != Status.UNDERDETERMINED
     return True
+
+
+def start_of(unknown: Unknown) -> float | None:
+    """Where the figure is written, if that is told."""
+    return None if unknown.start is None else unknown.start.value
 
 
 def span_of(unknown: Unknown) -> tuple[float, float] | None:
@@ -138,31 +147,23 @@ def no_value(path: str, nearest: float | None, notes: tuple[str, ...]) -> SceneE
     )
 
 
-def _resting(case: Case, unknown: Unknown, all_centres: bool, rates: bool, reactions: bool) -> Answer:
+def _resting(case: Case, unknown: Unknown, start: float | None, asked: Mapping[str, bool]) -> Answer:
     """With friction: the ranges in which the mechanism holds still."""
-    if unknown.start is not None:
-        said = "with friction nothing is moved from a position as written: ranges are not searched so."
-        raise SceneError(Status.UNSUPPORTED, said)
-    search = find_ranges(_written(case), unknown.path, span_of(unknown))
+    search = find_ranges(_written(case), unknown.path, span_of(unknown), start)
     if not search.ranges:
-        raise no_value(unknown.path, search.nearest, (*case.noticed, *search.notes))
-
-    def scene_of(one: Range) -> Answer:
-        scene = solve_scene(one.case, all_centres=all_centres, rates=rates)
-        return replace(
-            scene,
-            centres=scene.centres if all_centres else {},
-            rates=scene.rates if rates else None,
-            velocities=scene.velocities if rates else None,
-        )
-
+        raise no_value(unknown.path, None, (*case.noticed, *search.notes))
     found = [
         EquilibriumPosition(
-            {unknown.path: one.held}, {unknown.path: one.error}, None, None, "", scene_of(one)
+            {unknown.path: one.held},
+            {unknown.path: one.error},
+            None,
+            None,
+            "",
+            with_scene(solve_scene(one.case), (), **{**asked, "reactions": False}),
         )
         for one in search.ranges
     ]
-    if reactions:
+    if asked["reactions"]:
         said = "how much of the friction acts nothing says while it holds still, so no reactions are told."
         search = search._replace(notes=(*search.notes, said))
     return Answer(case, positions=tuple(found), mobility=1, notes=(*case.noticed, *search.notes))

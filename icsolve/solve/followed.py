@@ -38,6 +38,7 @@ STARTS = (0.5, 0.1, 0.9, 0.3, 0.7, 0.02, 0.98)
 SAMPLES = 181
 ROUNDS = 4
 SAME = 1e-6
+NOT_ALL = "the ways in which the figure assembles are not shown to be all."
 UNPROVEN = "beside what was balanced no bound of its error is proven."
 
 
@@ -270,18 +271,6 @@ def led_mechanisms(
     if not found:
         raise refusal or SceneError(Status.CANNOT_ASSEMBLE, f"the figure assembles for no {path} searched.")
     return found, complete
-
-
-def nearest_led(case: Case, led: Sequence[LedMechanism], even: float) -> list[LedMechanism]:
-    """The one that comes nearest to `near`. Raises SceneError where two do about equally."""
-    order = sorted(((one.off(case.near), n) for n, one in enumerate(led)))
-    if len(order) > 1 and order[0][0] >= even * order[1][0]:
-        raise SceneError(
-            Status.AMBIGUOUS,
-            f"two branches of the figure pass about equally near to near ({order[0][0]:.4g} and "
-            f"{order[1][0]:.4g} {case.units.length} from it): move near toward the one that is meant.",
-        )
-    return [led[order[0][1]]]
 
 
 def nearest_of(led: Sequence[LedMechanism]) -> float | None:

@@ -14,17 +14,18 @@ from contextlib import suppress
 
 import numpy as np
 
-from icsolve.assembly import Figure, place, solve_figure
+from icsolve.assembly import Figure, Placement, place, solve_figure
 from icsolve.assembly.construct import order_that_assembles
 from icsolve.assembly.groups import Group
 from icsolve.assembly.loci import is_round
 from icsolve.assembly.order import Order, order_of
+from icsolve.assembly.residuals import ahead, compare, size_of
 from icsolve.assembly.steps import Meet, Step
-from icsolve.assembly.workspace import frame_of
+from icsolve.assembly.workspace import Workspace, frame_of
 from icsolve.case import Case, Coordinates, Number, TorsionSpring
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.adjoint import gradient
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
 from icsolve.numbers.intervals import Interval
 from icsolve.numbers.record import Record, varies
 from icsolve.numbers.replay import Array, Code
@@ -46,7 +47,7 @@ SAMPLES = 181
 COUNTED = 1441
 PARTS = (0.498, 0.13, 0.87, 0.31, 0.69, 0.05, 0.95, 0.22, 0.78, 0.41, 0.59, 0.01, 0.99)
 """Where in the range an order of construction is looked for."""
-TOGETHER = "points of this figure can only all together be placed, which is not searched with friction."
+TOGETHER = "points of this figure can only all together be placed: one unknown datum alone is searched there."
 APART = 1e-6
 """A point's path by the free number and by the motion agree to this fraction of its speed."""
 
@@ -115,8 +116,7 @@ def load_functions(case: Case, path: str, low: float, high: float) -> tuple[list
     refusal: SceneError | None = None
     found: list[LoadFunction] = []
     order = order_of_all(given_at(case, path, low + part * (high - low)) for part in PARTS)
-    if any(isinstance(step, Group) for step in order.steps):
-        raise TogetherError(Status.UNSUPPORTED, TOGETHER)
+    refuse_together(order)
     count = 0
     counts = any(isinstance(load, TorsionSpring) for load in case.loads)
     span = (low, high)
@@ -125,16 +125,16 @@ def load_functions(case: Case, path: str, low: float, high: float) -> tuple[list
         count += 1
         if count > MOST_MODES:
             return found, False
-        samples = _assembling(case, path, steps, values)
+        samples = _assembling(case, path, order, steps, values)
         if counts:  # a torsion spring's angle is counted from the middle of the range
             samples.sort(key=lambda value: abs(value - middle))
         for value in samples[:3]:
             written = given_at(case, path, value)
-            frame = frame_of(written)
-            placed = place(Figure(frame, {}, steps), written).points
-            figure = Figure(frame, {p: placed[p] for p in order.points}, steps)
+            figure = Figure(frame_of(written), {}, steps)
+            placed, _ = placed_with_margins(figure, order, written)
+            figure = figure._replace(points={p: placed.points[p] for p in order.points})
             try:
-                found.append(_function(written, path, top, figure, span))
+                found.append(_function(written, path, top, figure, order, span))
             except (SceneError, ZeroDivisionError) as error:
                 refusal = error if isinstance(error, SceneError) else refusal
                 continue
@@ -180,6 +180,12 @@ def given_at(case: Case, path: str, value: float) -> Case:
     return replace(case, points={**case.points, name: placed})
 
 
+def refuse_together(order: Order) -> None:
+    """Refuse points that have places only all together."""
+    if any(isinstance(step, Group) for step in order.steps):
+        raise TogetherError(Status.UNSUPPORTED, TOGETHER)
+
+
 def modes_of(steps: Steps) -> Iterator[Steps]:
     """The steps with every choice of the places where two loci meet."""
     forks = [k for k, step in enumerate(steps) if isinstance(step, Meet) and is_round(step.second)]
@@ -192,19 +198,41 @@ def modes_of(steps: Steps) -> Iterator[Steps]:
         yield tuple(mode)
 
 
-def _assembling(case: Case, path: str, steps: Steps, values: list[float]) -> list[float]:
+def _assembling(case: Case, path: str, order: Order, steps: Steps, values: list[float]) -> list[float]:
     """The sampled values at which a mode assembles, those farthest from its limits first."""
-    found = []
-    for value in values:
-        written = given_at(case, path, value)
-        try:
-            margins = place(Figure(frame_of(written), {}, steps), written).margins
-        except (ZeroDivisionError, ValueError, SceneError):
-            continue
-        least = min((float(m) for step in margins.values() for m in step), default=1.0)
-        if least > 0.0:
-            found.append((-least, value))
-    return [value for _, value in sorted(found)]
+    clear = [(clearance(given_at(case, path, value), order, steps), value) for value in values]
+    return [value for least, value in sorted(clear, reverse=True) if least > 0.0]
+
+
+def clearance(case: Case, order: Order, steps: Steps) -> float:
+    """How far a mode is from its limits [frame]; zero or less where it does not assemble, or not so that the
+    points meet the data that no step needed."""
+    figure = Figure(frame_of(case), {}, steps)
+    try:
+        placed, margins = placed_with_margins(figure, order, case)
+    except (ZeroDivisionError, ValueError, SceneError):
+        return 0.0
+    least = min((float(margin) for margin in margins), default=1.0)
+    used = order.used()
+    spare = [d for d in order.facts.data if d not in used and all(p in placed.points for p in d.points)]
+    if least > 0.0 and spare:
+        workspace = Workspace(case, figure.frame, FLOATS)
+        workspace.points.update(placed.points)
+        miss, _ = compare(workspace, steps, spare, size_of(workspace, order.points))
+        return 0.0 if miss else least
+    return least
+
+
+def placed_with_margins(
+    figure: Figure, order: Order, case: Case, arithmetic: Arithmetic = FLOATS
+) -> tuple[Placement, list[Scalar]]:
+    """The points of a mode, and what must not be negative: the gaps of its loci, and how far the arms of
+    angles of which no step takes the sense point the right way [frame]."""
+    placed = place(figure, case, arithmetic)
+    workspace = Workspace(case, figure.frame, arithmetic)
+    workspace.points.update(placed.points)
+    senses = [ahead(workspace, datum) for datum in order.either_sense()]
+    return placed, [*(margin for step in placed.margins.values() for margin in step), *senses]
 
 
 def moving_function(
@@ -229,17 +257,19 @@ def moving_function(
 def written_function(case: Case, path: str, span: tuple[float, float] | None = None) -> LoadFunction:
     """The function of a case as it is written, each value read anew, in the mode in which it is."""
     figure = solve_figure(case, wanted_points(case)[1])
-    return _function(case, path, topology(case), figure, span)
+    order = order_of(case, figure.points)._replace(steps=figure.steps)
+    return _function(case, path, topology(case), figure, order, span)
 
 
 def _function(
-    case: Case, path: str, top: Topology, figure: Figure, span: tuple[float, float] | None
+    case: Case, path: str, top: Topology, figure: Figure, order: Order, span: tuple[float, float] | None
 ) -> LoadFunction:
     compiled = compile_sweep(
         Setting(case, top, figure, (path,), (), Drive((), (), ())), RowRequest(answers=False)
     )
-    margins = [m for step in place(figure, case, compiled.record).margins.values() for m in step if varies(m)]
-    return _on_sheet(compiled, path, figure, [compiled.record.lifted(m).index for m in margins], span)
+    margins = placed_with_margins(figure, order, case, compiled.record)[1]
+    nodes = [compiled.record.lifted(margin).index for margin in margins if varies(margin)]
+    return _on_sheet(compiled, path, figure, nodes, span)
 
 
 def _on_sheet(

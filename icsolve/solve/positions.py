@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from decimal import Decimal
+from itertools import product
 
 import numpy as np
 
@@ -21,8 +22,8 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.replay import Code
 from icsolve.scene import solve_scene
-from icsolve.solve.branches import EVEN, Branches, isolate
-from icsolve.solve.followed import LedMechanism, converted, exchanged, led_mechanisms, nearest_led, nearest_of
+from icsolve.solve.branches import Branches, isolate, nearest
+from icsolve.solve.followed import NOT_ALL, LedMechanism, converted, exchanged, led_mechanisms, nearest_of
 from icsolve.solve.load_function import (
     LoadFunction,
     TogetherError,
@@ -38,6 +39,8 @@ from icsolve.sweep.numbers import find_number
 from icsolve.tuples import NamedTuple, replace
 
 STEPS = 64
+STRETCHES = 4
+"""So many times the range of a length or a coordinate is made ten times longer."""
 JUMP = 1e-5
 """Beside a zero, even one at which the load rises as steeply as a root, it is smaller than this fraction."""
 DEGREES = 180.0 / math.pi
@@ -78,7 +81,7 @@ def _find_in_modes(
 ) -> Search:
     """The positions in all modes of a figure whose points have places one by one."""
     low, high = span or whole_range(case, path)
-    functions, complete = _functions(case, path, (low, high), start, span is not None)
+    functions, complete = functions_of(case, path, (low, high), start, span is not None)
     branches = Branches(functions, low, high)
     kept = branches.nearest(case) if case.near else None
     notes: list[str] = []
@@ -97,27 +100,64 @@ def _find_in_modes(
         return Search(path, (), (), True, None)
     if balanced:
         notes.append(_balanced(balanced, len(meant)))
-    searched = search_modes(functions, branches, kept, low, high, span is None, open_modes, notes)
-    found = [rest for _, rest in searched]
+    stretches = [(branches, kept)]
+    if span is None and not path.startswith("angles."):
+        stretches += _beyond(branches, kept)
+        notes += _unbounded(path, stretches)
+    found = [
+        rest
+        for part, meant_there in stretches
+        for _, rest in search_modes(functions, part, meant_there, span is None, open_modes, notes)
+    ]
     if not complete:
         notes.append(f"the figure has more than {len(functions)} ways of assembling: not all were searched.")
     found.sort(key=lambda p: p.value)
-    nearest = None if found else _nearest(functions, branches, kept)
-    return Search(path, tuple(_distinct(found)), tuple(dict.fromkeys(notes)), False, nearest)
+    least = None if found else _nearest(functions, stretches)
+    return Search(path, tuple(_distinct(found)), tuple(dict.fromkeys(notes)), False, least)
 
 
-def _functions(
+Stretch = tuple[Branches, frozenset[int] | None]
+"""A part of what is searched, and which of its branches are meant (None: all)."""
+
+
+def _beyond(branches: Branches, kept: frozenset[int] | None) -> list[Stretch]:
+    """Ever longer stretches of a length or a coordinate beyond the sizes of the figure, as long as it still
+    assembles at their ends: on a long guide loads may carry a block far away."""
+    functions, found = branches.functions, list[Stretch]()
+    for end, start in ((-1, 0), (0, -1)):
+        here, meant = branches, kept
+        for _ in range(STRETCHES):
+            low, high = here.low, here.high
+            if not here.whole[:, end].any() or (start and functions[0].path.startswith("lengths.")):
+                break
+            far = Branches(functions, low - 9.0 * (high - low), low) if start else None
+            far = far or Branches(functions, high, high + 9.0 * (high - low))
+            if meant is not None:
+                pairs = zip(here.ids[:, end].tolist(), far.ids[:, start].tolist(), strict=True)
+                meant = frozenset(there for own, there in pairs if own in meant and there >= 0)
+            found.append((far, meant))
+            here = far
+    return found
+
+
+def _unbounded(path: str, stretches: Sequence[Stretch]) -> list[str]:
+    """What was searched, where the figure assembles beyond it."""
+    parts = sorted((part for part, _ in stretches), key=lambda part: part.low)
+    if parts[0].whole[:, 0].any() or parts[-1].whole[:, -1].any():
+        return [f"{path} was searched from {parts[0].low:g} to {parts[-1].high:g}."]
+    return []
+
+
+def functions_of(
     case: Case, path: str, span: tuple[float, float], start: float | None, bounded: bool
 ) -> tuple[list[LoadFunction], bool]:
     """The modes of the figure, and whether these are all."""
     if start is not None:
         return _moving_from(case, path, start, span)
-    _refuse_ropes(case, path)
+    refuse_ropes(case, path)
     functions, complete = load_functions(case, path, *span)
-    refuse_history(case, path, functions[0].links)
+    refuse_unwritten(case, path, functions[0].links, bounded)
     refuse_unposed(functions[0])
-    if not bounded:
-        _refuse_uncounted(case, path, functions[0].links)
     return functions, complete
 
 
@@ -133,10 +173,8 @@ def _find_followed(
         return found._replace(path=path, positions=tuple(_settled_turns(found.positions, path, whole)))
     led, complete = led_mechanisms(case, path, span, start, found.positions if found is not None else ())
     if start is None:
-        refuse_history(case, path, led[0].links)
-        if whole:
-            _refuse_uncounted(case, path, led[0].links)
-    meant = nearest_led(case, led, EVEN) if case.near else led
+        refuse_unwritten(case, path, led[0].links, not whole)
+    meant = [led[nearest(case, [one.off(case.near) for one in led])]] if case.near else led
     left = [one for one in meant if not one.balances_everywhere()]
     if not left:
         return Search(path, (), (), True, None)
@@ -144,10 +182,10 @@ def _find_followed(
     rests = [rest for one in left for rest in one.rests()]
     notes += [note for one in left for note in one.search.notes]
     if not complete:
-        notes.append("the ways in which the figure assembles are not shown to be all.")
-    nearest = None if rests else nearest_of(left)
+        notes.append(NOT_ALL)
+    least = None if rests else nearest_of(left)
     rests = _settled_turns(rests, path, whole)
-    return Search(path, tuple(rests), tuple(dict.fromkeys(notes)), False, nearest)
+    return Search(path, tuple(rests), tuple(dict.fromkeys(notes)), False, least)
 
 
 def _exchanged(case: Case, path: str, span: tuple[float, float]) -> Search | None:
@@ -183,8 +221,7 @@ def find_along(case: Case, along: str, low: float, high: float) -> list[Rest]:
         function = moved_by(bare, along, (low, high))
     except TogetherError:
         return LedMechanism(bare, _own(bare, along), (low, high)).rests()
-    branches = Branches([function], low, high)
-    return [rest for _, rest in search_modes([function], branches, None, low, high, False)]
+    return [rest for _, rest in search_modes([function], Branches([function], low, high), None, False)]
 
 
 def _own(case: Case, along: str) -> str:
@@ -241,8 +278,9 @@ def _moving_from(
     return functions, found.complete
 
 
-def refuse_history(case: Case, path: str, links: Sequence[str]) -> None:
-    """Refuse what counts from a position as written, on links that turn, where none is written."""
+def refuse_unwritten(case: Case, path: str, links: Sequence[str], bounded: bool) -> None:
+    """Refuse what counts from a position as written, on links that turn, where none is written; and a torsion
+    spring whose turns nothing counts from, not even the middle of a range."""
     turning = set(links)
     for what, link in _history(case):
         if link in turning:
@@ -251,9 +289,16 @@ def refuse_history(case: Case, path: str, links: Sequence[str]) -> None:
                 f"{what} counts from the position as written, and link {link} turns: say at which "
                 f"{path} the figure is written, as in {{unknown: [0, 360], from: 30}}.",
             )
+    for load in case.loads if not bounded else ():
+        if isinstance(load, TorsionSpring) and {load.link, load.against} & turning:
+            raise SceneError(
+                Status.UNDERDETERMINED,
+                f"the torsion spring {load.name} turns with {path}, and nothing says from where its "
+                f"angle counts: give a range or a start, as in {{unknown: [0, 180], from: 30}}.",
+            )
 
 
-def _refuse_ropes(case: Case, path: str) -> None:
+def refuse_ropes(case: Case, path: str) -> None:
     """Refuse ropes that are fixed at both ends, and of which nothing says how long they are."""
     for rope in case.ropes:
         if not rope.is_free and rope.length is None:
@@ -268,17 +313,6 @@ def _refuse_ropes(case: Case, path: str) -> None:
 def _counts(case: Case) -> bool:
     """Whether something counts turns, or a length, from where the figure is written."""
     return bool(case.ropes) or any(isinstance(load, TorsionSpring) for load in case.loads)
-
-
-def _refuse_uncounted(case: Case, path: str, links: Sequence[str]) -> None:
-    """Refuse a torsion spring whose turns nothing counts from."""
-    for load in case.loads:
-        if isinstance(load, TorsionSpring) and {load.link, load.against} & set(links):
-            raise SceneError(
-                Status.UNDERDETERMINED,
-                f"the torsion spring {load.name} turns with {path}, and nothing says from where its "
-                f"angle counts: give a range or a start, as in {{unknown: [0, 180], from: 30}}.",
-            )
 
 
 def _history(case: Case) -> Iterator[tuple[str, str]]:
@@ -307,8 +341,6 @@ def search_modes(
     functions: Sequence[LoadFunction],
     branches: Branches,
     kept: frozenset[int] | None,
-    low: float,
-    high: float,
     whole: bool,
     modes: Sequence[int] | None = None,
     notes: list[str] | None = None,
@@ -316,6 +348,7 @@ def search_modes(
     """The positions of some modes (None: of all), each with its mode; ``kept`` has the branches that are
     meant, and ``notes`` takes sentences on what stays open."""
     found: list[tuple[int, Rest]] = []
+    low, high = branches.low, branches.high
     slack = 1e-9 * (high - low)
     path = functions[0].path
     for n in range(len(functions)) if modes is None else modes:
@@ -692,12 +725,10 @@ def _same(one: Rest, other: Rest) -> bool:
     return all(math.dist(at, theirs[name]) <= 1e-6 * size for name, at in one.answer.points.items())
 
 
-def _nearest(
-    functions: Sequence[LoadFunction], branches: Branches, kept: frozenset[int] | None
-) -> float | None:
+def _nearest(functions: Sequence[LoadFunction], stretches: Sequence[Stretch]) -> float | None:
     """Where the generalised load is smallest: sampled, then closed in on."""
     best: tuple[float, float] | None = None
-    for n, function in enumerate(functions):
+    for (n, function), (branches, kept) in product(enumerate(functions), stretches):
         code = Code(function.record, [function.power, function.rate])
         values = np.array([v for v in branches.assembling(n) if kept is None or branches.on(n, v) in kept])
         if not values.size:

@@ -4,6 +4,7 @@ from it another is."""
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import combinations
 
 from icsolve.answer import Answer
 from icsolve.answer.equilibrium import Stiffness
@@ -37,14 +38,23 @@ class Rest(NamedTuple):
     size: float
 
 
-def with_scene(rest: Rest, *, all_centres: bool, rates: bool, reactions: bool) -> Answer:
+def with_scene(
+    answer: Answer,
+    links: Sequence[str],
+    freedoms: int = 1,
+    *,
+    all_centres: bool = False,
+    rates: bool = False,
+    reactions: bool = False,
+) -> Answer:
     """The scene in a position with what is asked of it; reactions are those of loads that balance."""
     if not (all_centres or rates or reactions):
-        return replace(rest.answer, rates=None, velocities=None, centres={})
+        return replace(answer, rates=None, velocities=None, centres={})
     asked = {"all_centres": all_centres, "rates": rates}
-    found = held(rest.case, rest.links, **asked, reactions=True) if reactions else None
-    found = found or solve_scene(rest.case, **asked)
-    return replace(found, case=rest.answer.case, answers={}, centres=found.centres if all_centres else {})
+    found = held(answer.case, links, freedoms, **asked, reactions=True) if reactions else None
+    found = found or solve_scene(answer.case, **asked)
+    found = found if rates else replace(found, rates=None, velocities=None)
+    return replace(found, case=answer.case, answers={}, centres=found.centres if all_centres else {})
 
 
 def balances(rest: Rest) -> bool:
@@ -53,15 +63,17 @@ def balances(rest: Rest) -> bool:
     return answer is None or abs(answer.answers[PROBE].value) <= NEAR * rest.size
 
 
-def held(case: Case, links: Sequence[str], **asked: bool) -> Answer | None:
-    """The scene with the first unknown load that does work in its motion; None where it has none to try.
+def held(case: Case, links: Sequence[str], freedoms: int = 1, **asked: bool) -> Answer | None:
+    """The scene with the first unknown loads, one a freedom, that do work in its motions; None where it has
+    none to try.
 
-    Raises SceneError where none does.
+    Raises SceneError where none do.
     """
     refusal: SceneError | None = None
-    for probe in probes(case, links):
+    for some in combinations(probes(case, links, freedoms), freedoms):
+        named = (load._replace(name=f"{PROBE}{k or ''}") for k, load in enumerate(some))
         try:
-            return solve_scene(replace(case, loads=(*case.loads, probe)), **asked)
+            return solve_scene(replace(case, loads=(*case.loads, *named)), **asked)
         except SceneError as error:
             refusal = error
     if refusal is not None:
@@ -69,12 +81,12 @@ def held(case: Case, links: Sequence[str], **asked: bool) -> Answer | None:
     return None
 
 
-def probes(case: Case, links: Sequence[str]) -> Iterator[Load]:
+def probes(case: Case, links: Sequence[str], freedoms: int) -> Iterator[Load]:
     """Unknown loads, one after the other, each of which might hold the mechanism: torques on ``links``; where
-    there are none, forces on points."""
+    these are too few, forces on points."""
     for link in links:
         yield Torque(PROBE, link, None)
-    if links:
+    if links and freedoms == 1:
         return
     for link, names in case.carries.items():
         for name in names if link != case.ground else ():

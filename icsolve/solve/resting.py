@@ -4,18 +4,20 @@ wherever else friction is enough."""
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
+from itertools import groupby
 
 import numpy as np
 
-from icsolve.case import Case, Torque
-from icsolve.case.joints import without_friction
+from icsolve.case import Case
+from icsolve.case.joints import with_friction, without_friction
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
-from icsolve.scene import solve_scene
-from icsolve.solve.branches import Branches
-from icsolve.solve.load_function import LoadFunction, load_functions, refuse_unposed
-from icsolve.solve.positions import refuse_history, scene_at, search_modes, whole_range
-from icsolve.solve.rest import PROBE
+from icsolve.solve.branches import Branches, nearest
+from icsolve.solve.followed import NOT_ALL, led_mechanisms
+from icsolve.solve.load_function import TogetherError
+from icsolve.solve.positions import functions_of, refuse_unwritten, scene_at, search_modes, whole_range
+from icsolve.solve.rest import PROBE, held
 from icsolve.tuples import NamedTuple, replace
 
 SAMPLES = 120
@@ -30,97 +32,130 @@ class Range(NamedTuple):
 
 
 class Ranges(NamedTuple):
-    """The ranges by rising value, sentences, and where the loads come nearest to holding."""
+    """The ranges by rising value, and sentences."""
 
     ranges: tuple[Range, ...]
     notes: tuple[str, ...]
-    nearest: float | None
 
 
-def find_ranges(case: Case, path: str, span: tuple[float, float] | None) -> Ranges:
+class RoughMode(NamedTuple):
+    """The scene at a value, without friction; the sampled values, and at which of them it assembles."""
+
+    scene: Callable[[float], Case]
+    values: list[float]
+    usable: list[bool]
+
+
+def find_ranges(case: Case, path: str, span: tuple[float, float] | None, start: float | None) -> Ranges:
     """All ranges in which a mechanism with friction holds still.
 
     Every position of equilibrium without friction lies in one; between them the range is sampled, and the
-    ends are closed in on to the last digit.
+    ends are closed in on to the last digit. Parameters as of `icsolve.solve.positions.find_positions`.
     """
     low, high = span or whole_range(case, path)
     ropes = tuple(rope._replace(mu=(None,) * len(rope.mu)) for rope in case.ropes)
     smooth = replace(case, joints=tuple(map(without_friction, case.joints)), ropes=ropes)
-    functions, _ = load_functions(smooth, path, low, high)
-    refuse_history(smooth, path, functions[0].links)
-    refuse_unposed(functions[0])
-    branches = Branches(functions, low, high)
-    kept = branches.nearest(case) if case.near else None
-    search = search_modes(functions, branches, kept, low, high, span is None)
-    turns = span is None and path.startswith("angles.")
-    found: list[Range] = []
-    for n, function in enumerate(functions):
-        rough = function._replace(case=replace(function.case, joints=case.joints, ropes=case.ropes))
-        seeds = [p.value for m, p in search if m == n]
-        values = sorted({*np.linspace(low, high, SAMPLES + 1).tolist(), *seeds})
-        usable = [v for v in values if branches.on(n, v) >= 0 and (kept is None or branches.on(n, v) in kept)]
-        found += _runs(rough, usable, values, turns)
-    found.sort(key=lambda one: one.held)
-    note = (
+    even = np.linspace(low, high, SAMPLES + 1).tolist()
+    notes = [
         f"between positions of equilibrium without friction, {path} was sampled at {SAMPLES} values for "
         "ranges in which friction alone is enough."
-    )
-    return Ranges(tuple(_joined(found)), (note,), None)
+    ]
+    try:
+        modes = _in_modes(smooth, path, (low, high), start, even, span is None)
+    except TogetherError:
+        modes, complete = _led(smooth, path, (low, high), start, even, span is None)
+        notes += [] if complete else [NOT_ALL]
+    turns = span is None and path.startswith("angles.")
+    found = [one for mode in modes for one in _runs(case, mode, turns)]
+    return Ranges(tuple(_joined(sorted(found, key=lambda one: one.held))), tuple(notes))
 
 
-def _holds(function: LoadFunction, value: float) -> bool:
-    """Whether the mechanism holds still: zero lies among the values of a torque at which it does."""
-    return holds_as_written(scene_at(function, value))
+def _in_modes(
+    smooth: Case, path: str, span: tuple[float, float], start: float | None, even: list[float], whole: bool
+) -> list[RoughMode]:
+    """The modes of a figure whose points have places one by one."""
+    functions, _ = functions_of(smooth, path, span, start, not whole)
+    branches = Branches(functions, *span)
+    kept = branches.nearest(smooth) if smooth.near else None
+    search = search_modes(functions, branches, kept, whole)
+    modes = []
+    for n, function in enumerate(functions):
+        values = sorted({*even, *(p.value for m, p in search if m == n)})
+        on = [branches.on(n, v) for v in values]
+        usable = [k >= 0 and (kept is None or k in kept) for k in on]
+        modes.append(RoughMode(partial(scene_at, function), values, usable))
+    return modes
+
+
+def _led(
+    smooth: Case, path: str, span: tuple[float, float], start: float | None, even: list[float], whole: bool
+) -> tuple[list[RoughMode], bool]:
+    """The ways of a figure whose points only together have places, along its motion; whether these are all
+    of them."""
+    led, complete = led_mechanisms(smooth, path, span, start, ())
+    if start is None:
+        refuse_unwritten(smooth, path, led[0].links, not whole)
+    meant = [led[nearest(smooth, [one.off(smooth.near) for one in led])]] if smooth.near else led
+    modes = []
+    for one in meant:
+        rests = [] if one.balances_everywhere() else one.rests()
+        values = sorted({*even, *(rest.value for rest in rests)})
+        places = one.places(np.array(values))[1]
+        modes.append(RoughMode(one.scene, values, [not np.isnan(at).any() for at in places]))
+    return modes, complete
+
+
+def _rough(case: Case, row: Case) -> Case:
+    """A scene with the friction of the case."""
+    joints = map(with_friction, row.joints, case.joints)
+    ropes = (rope._replace(mu=own.mu) for rope, own in zip(row.ropes, case.ropes, strict=True))
+    return replace(row, joints=tuple(joints), ropes=tuple(ropes))
 
 
 def holds_as_written(case: Case) -> bool:
     """Whether a mechanism under known loads holds still as it is written."""
     links = [link for link in joint_order(case) if link != case.ground]
-    bare = replace(case, motion=(), expect=())
-    for link in links:
+    for some in (links, []):  # where nothing turns a force on a point holds it
         try:
-            found = solve_scene(replace(bare, loads=(*bare.loads, Torque(PROBE, link, None)))).answers[PROBE]
+            answer = held(replace(case, motion=(), expect=()), some)
         except SceneError as error:
             if error.status == Status.ANY_VALUE:  # the loads balance without friction
                 return True
             continue
-        low, high = found.holds or (found.value, found.value)
-        return low <= 0.0 <= high
+        if answer is not None:
+            found = answer.answers[PROBE]
+            low, high = found.holds or (found.value, found.value)
+            return low <= 0.0 <= high
     return False
 
 
-def _runs(
-    function: LoadFunction, usable: Sequence[float], values: Sequence[float], turns: bool
-) -> list[Range]:
+def _runs(case: Case, mode: RoughMode, turns: bool) -> list[Range]:
     """Ranges of one mode: runs of values at which it holds, with their ends."""
-    holding = {v: _holds(function, v) for v in usable}
-    order = [v for v in values if v in holding]
-    runs: list[list[float]] = []
-    for before, v in zip([None, *order[:-1]], order, strict=True):
-        if holding[v]:
-            if runs and before is not None and holding[before]:
-                runs[-1].append(v)
-            else:
-                runs.append([v])
-    result = []
-    for run in runs:
-        first, last = order.index(run[0]), order.index(run[-1])
-        start, off_start = _end(function, run[0], order[first - 1] if first else None)
-        stop, off_stop = _end(function, run[-1], order[last + 1] if last + 1 < len(order) else None)
-        middle = run[len(run) // 2]
-        result.append(Range((start, stop), (off_start, off_stop), scene_at(function, middle)))
-    if turns and len(result) > 1 and result[0].held[0] <= values[0] and result[-1].held[1] >= values[-1]:
-        first_, last_ = result[0], result.pop()
-        whole = (last_.held[0], first_.held[1] + 360.0)
-        result[0] = Range(whole, (last_.error[0], first_.error[1]), last_.case)
-    return result
+    values = mode.values
 
+    def holds(value: float) -> bool:
+        try:
+            return holds_as_written(_rough(case, mode.scene(value)))
+        except SceneError:  # it does not assemble
+            return False
 
-def _end(function: LoadFunction, inside: float, outside: float | None) -> tuple[float, float]:
-    """The last value at which it holds, toward one at which it does not; the range's own end without one."""
-    if outside is None:
-        return inside, 0.0
-    return _closed_in(lambda value: _holds(function, value), inside, outside)
+    def end(inside: int, outside: int) -> tuple[float, float]:
+        if not 0 <= outside < len(values):
+            return values[inside], 0.0
+        return _closed_in(holds, values[inside], values[outside])
+
+    holding = [usable and holds(value) for value, usable in zip(values, mode.usable, strict=True)]
+    found = []
+    for holds_there, group in groupby(range(len(values)), key=holding.__getitem__):
+        if holds_there:
+            run = list(group)
+            (start, off_start), (stop, off_stop) = end(run[0], run[0] - 1), end(run[-1], run[-1] + 1)
+            middle = _rough(case, mode.scene(values[run[len(run) // 2]]))
+            found.append(Range((start, stop), (off_start, off_stop), middle))
+    if turns and len(found) > 1 and holding[0] and holding[-1]:
+        head, tail = found[0], found.pop()
+        found[0] = Range((tail.held[0], head.held[1] + 360.0), (tail.error[0], head.error[1]), tail.case)
+    return found
 
 
 def _closed_in(holds: Callable[[float], bool], inside: float, outside: float) -> tuple[float, float]:

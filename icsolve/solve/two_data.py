@@ -7,34 +7,53 @@ all starts at once; what was searched is said, since no enclosure shows that not
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from decimal import Decimal
 from typing import Any
 
 import numpy as np
 
 from icsolve.answer.equilibrium import EquilibriumPosition, Stiffness
-from icsolve.assembly import Figure, place
+from icsolve.assembly import Figure
+from icsolve.assembly.construct import ways_of
+from icsolve.assembly.order import Order
 from icsolve.assembly.workspace import frame_of
-from icsolve.case import Case, TorsionSpring
+from icsolve.case import Case, Load, TorsionSpring
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.adjoint import gradient
-from icsolve.numbers.intervals import Interval, enclose
+from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import varies
 from icsolve.numbers.replay import Array, Code
 from icsolve.scene import solve_scene
 from icsolve.screws.plane import velocity
-from icsolve.solve.load_function import PARTS, given_at, modes_of, order_of_all
-from icsolve.solve.positions import DEGREES, whole_range
+from icsolve.solve.branches import nearest
+from icsolve.solve.load_function import (
+    PARTS,
+    TOGETHER,
+    clearance,
+    given_at,
+    modes_of,
+    order_of_all,
+    placed_with_margins,
+    refuse_together,
+)
+from icsolve.solve.positions import DEGREES, refuse_ropes, refuse_unwritten, whole_range
+from icsolve.solve.rest import held, with_scene
 from icsolve.statics import power
 from icsolve.structure.topology import topology
 from icsolve.sweep.drivers import Drive
-from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep
+from icsolve.sweep.exact import RowScenes
+from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep, setting_of
 from icsolve.sweep.recorded_scene import motions_of
 from icsolve.tuples import NamedTuple, replace
 
 GRID = 48
 STEPS = 40
 SAME = 1e-7
+NUDGE = 1e-6
+"""Derivatives are differences over this fraction of a range."""
+NUDGE = 1e-6
+"""Derivatives are differences over this fraction of a range."""
 
 Span = tuple[float, float]
 
@@ -52,6 +71,8 @@ class Surface(NamedTuple):
     margins: list[int]
     places: dict[str, tuple[int, int]]
     force_scale: float
+    links: list[str]
+    """those that turn"""
 
 
 class FoundPairs(NamedTuple):
@@ -61,10 +82,24 @@ class FoundPairs(NamedTuple):
     notes: tuple[str, ...]
 
 
-def find_pairs(case: Case, paths: Sequence[str], spans: Sequence[Span | None]) -> FoundPairs:
+def find_pairs(
+    case: Case,
+    paths: Sequence[str],
+    spans: Sequence[Span | None],
+    starts: Sequence[float],
+    asked: Mapping[str, bool],
+) -> FoundPairs:
     """Every combination of two data at which the loads balance, as far as Newton's method finds them.
 
-    Raises SceneError where the mechanism has not two freedoms, or the figure assembles for no start.
+    Parameters
+    ----------
+    case : all of its loads known, of two freedoms
+    paths, spans : the data, and the values of each that are searched; None: all that there are
+    starts : where the figure is written, from which it then moves; none: each position is read anew
+    asked : what each position shows of its scene, as of `icsolve.solve`
+
+    Raises SceneError where the mechanism has not two freedoms, the figure assembles for no start, or `near`
+    does not tell its ways apart.
     """
     limits = [span or whole_range(case, path) for path, span in zip(paths, spans, strict=True)]
     turned = any(
@@ -73,14 +108,17 @@ def find_pairs(case: Case, paths: Sequence[str], spans: Sequence[Span | None]) -
     if turned and any(isinstance(load, TorsionSpring) for load in case.loads):
         said = "two unknown angles with torsion springs are searched over one turn: shorten the ranges."
         raise SceneError(Status.UNSUPPORTED, said)
-    found: list[EquilibriumPosition] = []
-    surfaces = _surfaces(case, paths, limits)
+    surfaces = _surfaces(case, paths, limits, starts)
+    if not starts:
+        for path, span in zip(paths, spans, strict=True):
+            refuse_unwritten(case, path, surfaces[0].links, span is not None)
     if case.near:
-        surfaces = [min(surfaces, key=lambda surface: _distance(surface, case, limits))]
+        surfaces = [surfaces[nearest(case, [_distance(surface, case, limits) for surface in surfaces])]]
+    found: list[EquilibriumPosition] = []
     for surface in surfaces:
         for values in _zeros(surface, limits, [span is None for span in spans], paths):
-            position = _described(surface, paths, values)
-            if not any(_same(position, other) for other in found):
+            position = _described(surface, paths, values, limits, asked)
+            if position is not None and not any(_same(position, other) for other in found):
                 found.append(position)
     found.sort(key=lambda one: [float(one.at[path]) for path in paths])  # type: ignore[arg-type]
     where = " and ".join(f"{p} from {a:g} to {b:g}" for p, (a, b) in zip(paths, limits, strict=True))
@@ -88,24 +126,32 @@ def find_pairs(case: Case, paths: Sequence[str], spans: Sequence[Span | None]) -
     return FoundPairs(tuple(found), (note,))
 
 
-def _surfaces(case: Case, paths: Sequence[str], limits: Sequence[Span]) -> list[Surface]:
+def _surfaces(
+    case: Case, paths: Sequence[str], limits: Sequence[Span], starts: Sequence[float]
+) -> list[Surface]:
+    """The modes of the figure: each read anew at all values, or moved from where the figure is written."""
+    if starts:
+        written = _at(case, paths, starts)
+        ways = [replace(written, near=way.near) for way in ways_of(written).ways]
+        return [_moving(way, paths) for way in ways]
+    refuse_ropes(case, " and ".join(paths))
     order = order_of_all(_at(case, paths, [a + part * (b - a) for a, b in limits]) for part in (0.37, *PARTS))
+    refuse_together(order)
     surfaces: list[Surface] = []
     refusal: SceneError | None = None
     draw = np.random.default_rng(11)
-    starts = [[0.5 * (a + b) for a, b in limits]]  # where the turns of torsion springs count from
-    starts += [[float(draw.uniform(a, b)) for a, b in limits] for _ in range(200)]
+    tried = [[0.5 * (a + b) for a, b in limits]]  # where the turns of torsion springs count from
+    tried += [[float(draw.uniform(a, b)) for a, b in limits] for _ in range(200)]
     for steps in modes_of(order.steps):
-        for start in starts:
-            written = _at(case, paths, start)
-            frame = frame_of(written)
+        for values in tried:
+            written = _at(case, paths, values)
+            if not clearance(written, order, steps) > 0.0:
+                continue
+            figure = Figure(frame_of(written), {}, steps)
+            placed, _ = placed_with_margins(figure, order, written)
+            figure = figure._replace(points={p: placed.points[p] for p in order.points})
             try:
-                placed = place(Figure(frame, {}, steps), written)
-                least = min((float(m) for step in placed.margins.values() for m in step), default=1.0)
-                if not least > 0.0:
-                    continue
-                figure = Figure(frame, {p: placed.points[p] for p in order.points}, steps)
-                surfaces.append(_surface(written, paths, figure))
+                surfaces.append(_anew(written, paths, figure, order))
             except (SceneError, ZeroDivisionError, ValueError) as error:
                 refusal = error if isinstance(error, SceneError) else refusal
                 if refusal is not None and refusal.status == Status.MOBILITY:
@@ -124,10 +170,26 @@ def _at(case: Case, paths: Sequence[str], values: Sequence[float]) -> Case:
     return case
 
 
-def _surface(case: Case, paths: Sequence[str], figure: Figure) -> Surface:
+def _anew(case: Case, paths: Sequence[str], figure: Figure, order: Order) -> Surface:
     setting = Setting(case, topology(case), figure, tuple(paths), (), Drive((), (), ()))
     compiled = compile_sweep(setting, RowRequest(answers=False))
-    record, scene = compiled.record, compiled.scene
+    margins = [m for m in placed_with_margins(figure, order, case, compiled.record)[1] if varies(m)]
+    return _surface(compiled, paths, margins)
+
+
+def _moving(case: Case, paths: Sequence[str]) -> Surface:
+    compiled = compile_sweep(setting_of(case, paths, ()), RowRequest(answers=False))
+    if compiled.motion is not None and compiled.motion.groups:
+        raise SceneError(Status.UNSUPPORTED, TOGETHER)
+    record = compiled.record
+    return _surface(
+        compiled, paths, [record.at(n) for root in record.roots.values() for n, _ in root.margins]
+    )
+
+
+def _surface(compiled: CompiledSweep, paths: Sequence[str], margins: Sequence[Scalar]) -> Surface:
+    case, record, scene = compiled.scene.case, compiled.record, compiled.scene
+    figure = compiled.setting.figure
     motions = motions_of(scene)
     if motions.mobility != 2:
         raise SceneError(
@@ -150,13 +212,12 @@ def _surface(case: Case, paths: Sequence[str], figure: Figure) -> Surface:
                     velocities += [
                         velocity(motions.twists[link][m], scene.points[name])[axis] for m in (0, 1)
                     ]
-    margins = [m for step in place(figure, case, record).margins.values() for m in step if varies(m)]
     named = {p: scene.points[p] for p in figure.points if not p.startswith("@")}
     nodes = [[record.lifted(v).index for v in some] for some in (totals, slopes, velocities, margins)]
     places = {p: (record.lifted(x).index, record.lifted(y).index) for p, (x, y) in named.items()}
-    return Surface(
-        compiled, inputs, nodes[0], nodes[1], nodes[2], nodes[3], places, power.force_scale(balance)
-    )
+    links = [link for link, ts in motions.twists.items() if any(float(t[2]) for t in ts)]
+    scale = power.force_scale(balance)
+    return Surface(compiled, inputs, nodes[0], nodes[1], nodes[2], nodes[3], places, scale, links)
 
 
 def _distance(surface: Surface, case: Case, limits: Sequence[Span]) -> float:
@@ -222,9 +283,20 @@ def _zeros(
     return found
 
 
-def _described(surface: Surface, paths: Sequence[str], values: tuple[float, float]) -> EquilibriumPosition:
-    """A position to the last digits, with its stiffness matrix and stability."""
-    values, off = _polished(surface, values)
+def _described(
+    surface: Surface,
+    paths: Sequence[str],
+    values: tuple[float, float],
+    limits: Sequence[Span],
+    asked: Mapping[str, bool],
+) -> EquilibriumPosition | None:
+    """A position to the last digits, with its stiffness matrix and stability; None where it turns out to lie
+    beyond the limits."""
+    (x, y), off = _to_the_last_digits(surface, paths, values, limits)
+    if any(not a - e <= v <= b + e for v, e, (a, b) in zip((x, y), off, limits, strict=True)):
+        return None
+    x, y = (min(max(v, a), b) for v, (a, b) in zip((x, y), limits, strict=True))
+    values = (x, y)
     slopes, rates = _derivatives(surface, values)
     case, frame = surface.compiled.setting.case, surface.compiled.scene.frame
     loads = np.linalg.solve(rates, slopes) / (surface.force_scale * frame.scale)
@@ -248,8 +320,8 @@ def _described(surface: Surface, paths: Sequence[str], values: tuple[float, floa
     error = 1e-11 * float(np.abs(np.array(matrix)).max())
     kind = "unstable" if eigenvalues[0] < -error else "stable" if eigenvalues[0] > error else "neutral"
     stiffness = Stiffness(matrix, names, error)
-    scene = solve_scene(_scene(surface, paths, values), rates=False)
-    shown = replace(scene, centres={}, rates=None, velocities=None)
+    scene = solve_scene(_scene(surface, paths, values))
+    shown = with_scene(scene, surface.links, 2, **asked)
     at, errors = dict(zip(paths, values, strict=True)), dict(zip(paths, off, strict=True))
     return EquilibriumPosition(at, errors, kind, stiffness, "", shown)
 
@@ -265,35 +337,50 @@ def _derivatives(surface: Surface, values: Sequence[float]) -> tuple[Any, Any]:
 
 
 def _scene(surface: Surface, paths: Sequence[str], values: Sequence[float]) -> Case:
-    case = surface.compiled.setting.case
-    ox, oy, scale = surface.compiled.scene.frame
-    given = {k: np.array(v) for k, v in zip(surface.inputs, values, strict=True)}
+    compiled = surface.compiled
+    case = compiled.setting.case
+    if compiled.setting.moves:
+        given = {k: Decimal(v) for k, v in zip(surface.inputs, values, strict=True)}
+        own = dict(zip(paths, given.values(), strict=True))
+        return replace(RowScenes(compiled).case(given, own), near={}, motion=(), expect=())
+    ox, oy, scale = compiled.scene.frame
+    at = {k: np.array(v) for k, v in zip(surface.inputs, values, strict=True)}
     nodes = [k for pair in surface.places.values() for k in pair]
-    flat = [float(np.ravel(v)[0]) for v in Code(surface.compiled.record, nodes).run(given, 1)]
+    flat = [float(np.ravel(v)[0]) for v in Code(compiled.record, nodes).run(at, 1)]
     places = zip(surface.places, zip(flat[::2], flat[1::2], strict=True), strict=True)
     near = {name: (x / scale + ox, y / scale + oy) for name, (x, y) in places if name not in case.points}
     return replace(_at(case, paths, values), near=near, motion=(), expect=())
 
 
-def _polished(
-    surface: Surface, values: tuple[float, float]
+def _to_the_last_digits(
+    surface: Surface, paths: Sequence[str], values: tuple[float, float], limits: Sequence[Span]
 ) -> tuple[tuple[float, float], tuple[float, float]]:
-    """A last step of Newton's method, and how far off the enclosures of the powers leave the place."""
+    """The place at which two loads that would hold the mechanism vanish, and bounds of its errors: last steps
+    of Newton's method on their values, as `icsolve.solve` finds these to the last digit."""
+    probes: list[Load] = []
+
+    def holding(x: float, y: float) -> tuple[Any, Any]:
+        case = _scene(surface, paths, (x, y))
+        if not probes:
+            answer = held(case, surface.links, 2)
+            assert answer is not None
+            probes.extend(answer.case.loads[len(case.loads) :])
+        found = solve_scene(replace(case, loads=(*case.loads, *probes))).answers.values()
+        return np.array([a.value for a in found]), np.array([a.error or 0.0 for a in found])
+
     x, y = values
-    off = np.zeros(2)
-    for _ in range(2):
-        here = {
-            k: Interval(np.array([v]), np.array([v])) for k, v in zip(surface.inputs, (x, y), strict=True)
-        }
-        ends = enclose(surface.compiled.record, surface.powers, here)
-        slopes, _ = _derivatives(surface, (x, y))
-        inverse = np.linalg.inv(slopes)
-        middle = np.array([0.5 * float(e.low.flat[0] + e.high.flat[0]) for e in ends])
-        widest = np.array([max(abs(float(e.low.flat[0])), abs(float(e.high.flat[0]))) for e in ends])
-        off = np.abs(inverse) @ widest
-        dx, dy = (inverse @ middle).tolist()
+    here, _ = holding(x, y)
+    h, k = (NUDGE * (high - low) for low, high in limits)
+    columns = [(holding(x + h, y)[0] - here) / h, (holding(x, y + k)[0] - here) / k]
+    inverse = np.linalg.inv(np.stack(columns, axis=1))
+    for _ in range(4):
+        dx, dy = (inverse @ here).tolist()
         x, y = x - dx, y - dy
-    return (x, y), (float(off[0]) + 2.0 * math.ulp(x), float(off[1]) + 2.0 * math.ulp(y))
+        here, off = holding(x, y)
+        if not here.any():
+            break
+    reach = 2.0 * np.abs(inverse) @ (np.abs(here) + off)
+    return (x, y), (float(reach[0]) + math.ulp(x), float(reach[1]) + math.ulp(y))
 
 
 def _same(one: EquilibriumPosition, other: EquilibriumPosition) -> bool:
