@@ -293,3 +293,17 @@ def test_too_many_open_branches() -> None:
         f"links: {{2: [{', '.join(names)}]}}\njoints:\n  - {{pin: [1, 2], at: P0}}\n"
     )
     assert_refused(text, Status.AMBIGUOUS, "too many open branches", "near:", "P39")
+
+
+@pytest.mark.parametrize(
+    ("angles", "lengths"),
+    [
+        ("{AB: 20, BAG: 0}", "{AG: 4}"),  # G by the direction of AB, which the corner then tells again
+        ("{AB: 20, CAB: 15, BAC: -15}", "{AC: 2}"),
+    ],
+)
+def test_a_direction_told_twice_does_not_place_a_point(angles: str, lengths: str) -> None:
+    text = f"points: {{A: [0, 0]}}\nlengths: {lengths}\nangles: {angles}\njoints: [{{pin: [1, 2], at: A}}]\n"
+    for near in ("", "near: {B: [3, 1]}\n"):
+        lacks = "B: one more length, angle or coordinate"
+        assert_refused(near + text, Status.UNDERDETERMINED, lacks, wanted=["A", "B"])

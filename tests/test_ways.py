@@ -12,7 +12,7 @@ import pytest
 from click.testing import CliRunner
 
 from figure_drafts import Draft, Place, framework, sequence
-from icsolve.assembly import case_point, solve_figure
+from icsolve.assembly import case_point, exclusion, solve_figure
 from icsolve.assembly.construct import Ways, ways_of
 from icsolve.case import Case
 from icsolve.cli.commands import icsolve
@@ -214,3 +214,13 @@ def test_a_plate_on_three_guides_has_all_its_ways() -> None:
     assert min(max(math.dist(way.points[p], plate[p]) for p in plate) for way in found.ways) < 1e-9
     assert len(found.ways) % 2 == 0
     assert_picked(case, found)
+
+
+def test_a_point_whose_data_tell_the_same_is_anywhere_along_a_curve(monkeypatch: pytest.MonkeyPatch) -> None:
+    """B is on the ray of AB, and where ABG is a straight angle: on the same line, all of it double."""
+    monkeypatch.setattr(exclusion, "MOST_BOXES", 50_000)
+    pivot = "joints: [{pin: [1, 2], at: A}]\nlinks: {2: [B, G]}\n"
+    text = "points: {A: [0, 0]}\nlengths: {AG: 4}\nangles: {AB: 20, ABG: 180, AG: 20}\n" + pivot
+    with pytest.raises(SceneError, match="B may lie anywhere along a curve") as refusal:
+        ways_of(figure_case(text))
+    assert refusal.value.status == Status.UNDERDETERMINED

@@ -33,6 +33,8 @@ SLACK = 1e-12
 """Outward rounding of every bound: far more than some hundred operations on numbers of size 1 to 10 lose."""
 MOST_BOXES = 600_000
 BATCH = 2048
+MOST_DOUBLE = 64
+"""More double solutions than these are a curve of them: the points can move."""
 FINEST = 1e-8
 """Radius, over the group's size, at which a box that is neither empty nor sure holds a double solution."""
 FINE_ENOUGH = 0.3
@@ -51,11 +53,13 @@ class FigureSolutions(NamedTuple):
     places : of each solution the points by name, (x, y) [frame]
     complete : whether these are shown to be all
     boxes : how many boxes were searched
+    movable : whether they lie along a curve, of which the places are some
     """
 
     places: list[dict[str, Point]]
     complete: bool
     boxes: int
+    movable: bool
 
 
 class _Quadratics(NamedTuple):
@@ -107,7 +111,7 @@ def every_solution(group: Group, workspace: Workspace) -> FigureSolutions:
     places = [
         {t: (float(z[2 * k]), float(z[2 * k + 1])) for k, t in enumerate(group.targets)} for z in search.found
     ]
-    return FigureSolutions(places, bounded and search.complete, search.boxes)
+    return FigureSolutions(places, bounded and search.complete, search.boxes, search.movable)
 
 
 def _quadratics(group: Group, workspace: Workspace, unknowns: list[Unknown]) -> _Quadratics:
@@ -217,6 +221,7 @@ class _Exclusion:
         self.double: list[Array] = []
         self.boxes = 0
         self.complete = True
+        self.movable = False
 
     def run(self) -> None:
         """Search until no box is left, or there were too many."""
@@ -229,8 +234,12 @@ class _Exclusion:
                 self.low, self.high = self.low[:-BATCH], self.high[:-BATCH]
                 self.boxes += len(low)
                 self._batch(low, high)
-        for z in self.double:
-            self._keep(z, 1e3 * FINEST * self.size)
+        if self.double:
+            near = 1e3 * FINEST * self.size
+            cells = np.unique(np.round(np.array(self.double) / near), axis=0)
+            self.movable = len(cells) > MOST_DOUBLE
+            for z in cells[:MOST_DOUBLE] * near:
+                self._keep(z, near)
 
     def _batch(self, low: Array, high: Array) -> None:
         before = (high - low).max(axis=1)

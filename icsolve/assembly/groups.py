@@ -3,7 +3,8 @@ and the smallest group that only all its data together place."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from itertools import pairwise
 
 from icsolve.assembly.clusters import LooseFigure
 from icsolve.assembly.conditions import FigureEquation, Unknown
@@ -348,16 +349,43 @@ def _moved(move: dict[Unknown, Scalar], target: str, part: int) -> Scalar:
 
 
 def _counting(drawing: LooseFigure) -> list[Datum]:
-    """The data without those that only repeat the shape of a loose cluster: they hold nothing more."""
+    """The data without those that only repeat the shape of a loose cluster or the direction of a line: they
+    hold nothing more.
+    """
     used = {datum for step in drawing.steps for datum in step.data()}
     shapes = [cluster.placed.keys() for cluster in drawing.clusters[1:]]
-    return [
+    counting = (
         datum
         for datum in drawing.facts.data
         if datum in used
         or datum.kind not in (LENGTH, CORNER, LINE, MEAN)
         or not any(shape >= set(datum.points) for shape in shapes)
-    ]
+    )
+    return list(_directing_once(counting, drawing.ground.placed.keys()))
+
+
+def _directing_once(data: Iterable[Datum], placed: Collection[str]) -> Iterator[Datum]:
+    """The data without directions and corners that follow from other ones: a corner between two lines whose
+    directions are known, or tied by other corners.
+    """
+    known: frozenset[str] = frozenset()
+    tied: dict[frozenset[str], frozenset[str]] = {}
+
+    def leader(line: frozenset[str]) -> frozenset[str]:
+        if line.issubset(placed):
+            return known
+        while line in tied:
+            line = tied[line]
+        return line
+
+    for datum in data:
+        if datum.kind in (RAY, CORNER):
+            arms = [frozenset(pair) for pair in pairwise(datum.points)]
+            one, other = sorted(map(leader, arms if datum.kind == CORNER else [known, *arms]), key=bool)
+            if one == other:
+                continue
+            tied[other] = one
+        yield datum
 
 
 def next_group(drawing: LooseFigure, case: Case, wanted: Iterable[str]) -> tuple[Group, tuple[str, ...]]:

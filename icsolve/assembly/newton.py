@@ -52,12 +52,22 @@ def every(group: Group, workspace: Workspace) -> Converged:
     from icsolve.assembly.exclusion import every_solution
 
     found = every_solution(group, workspace)
+    if found.movable:
+        return Converged([], Miss(Status.UNDERDETERMINED, _movable(group)), {}, False)
     groups = []
     for place in found.places:
         start = tuple(place[t] for t in group.targets)
         groups.append(_polished(group, workspace, place) or group._replace(start=start))
     miss = None if groups else _unreached(group, workspace, {})
     return Converged(groups, miss, {}, found.complete)
+
+
+def _movable(group: Group) -> str:
+    names = listed([plain(t) for t in group.targets])
+    return (
+        f"{names} may lie anywhere along a curve: some of the data tell the same; give one more length, "
+        f"angle or coordinate for {names}"
+    )
 
 
 ROPED = (

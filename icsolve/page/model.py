@@ -62,8 +62,10 @@ def heading_rows(known: Known, motion: PageMotion, acting: Acting) -> Array:
 
 
 def inertia_rows(known: Known, motion: PageMotion, load: Load) -> Array | None:
-    """The force (n, 2) or couple (n,) of a link's inertia in every row, case units; None of another load."""
-    if not load.name.startswith("inertia "):
+    """The force (n, 2) or couple (n,) of a link's inertia in every row, case units; None of another load, and
+    where no row has any.
+    """
+    if not load.name.startswith("inertia ") or not motion.found.angular_accelerations:
         return None
     units, inertia = known.case.units, known.case.inertia[load.link]
     if isinstance(load, ForceVector):

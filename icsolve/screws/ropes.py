@@ -81,7 +81,8 @@ def part_between(
     between = next_offset - offset
     square = d[0] * d[0] + d[1] * d[1]
     apart = math.hypot(float(d[0]), float(d[1]))
-    if apart <= abs(float(between)) or apart == 0.0:
+    apart = apart if apart * apart else 0.0
+    if apart <= abs(float(between)) or not apart:
         raise SceneError(Status.INCONSISTENT, _no_part(rope, k, apart, scale))
     length = arithmetic.sqrt(square - between * between)
     u = (

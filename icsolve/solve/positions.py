@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from bisect import bisect_left
 from collections.abc import Iterator, Sequence
 from decimal import Decimal
 from itertools import product
@@ -709,10 +710,12 @@ def _swing(one: LoadFunction, two: LoadFunction, link: str, value: float) -> flo
 
 
 def _distinct(found: Sequence[Rest]) -> list[Rest]:
-    """Rests that two modes share, once."""
+    """Rests by rising value, those that two modes share once."""
     kept: list[Rest] = []
+    widest = 8.0 * max((rest.error for rest in found), default=0.0)
     for one in found:
-        if not any(_same(one, other) for other in kept):
+        first = bisect_left(kept, one.value - widest, key=lambda rest: rest.value)
+        if not any(_same(one, other) for other in kept[first:]):
             kept.append(one)
     return kept
 
