@@ -81,8 +81,7 @@ def part_between(
     between = next_offset - offset
     square = d[0] * d[0] + d[1] * d[1]
     apart = math.hypot(float(d[0]), float(d[1]))
-    apart = apart if apart * apart else 0.0
-    if apart <= abs(float(between)) or not apart:
+    if apart <= abs(float(between)) or not 0.0 < apart * apart < math.inf:
         raise SceneError(Status.INCONSISTENT, _no_part(rope, k, apart, scale))
     length = arithmetic.sqrt(square - between * between)
     u = (
@@ -104,7 +103,7 @@ def offsets_of(rope: Rope, scale: float, arithmetic: Arithmetic) -> tuple[Scalar
 
 def _no_part(rope: Rope, k: int, apart: float, scale: float) -> str:
     a, b = rope.points[k : k + 2]
-    if apart == 0.0:
+    if not apart * apart:
         return (
             f"the rope {rope.name} has no direction from {a} to {b}: they lie at one place. Correct the "
             "order of its points, or take one of them out; whole turns round one are given by `turns`."
