@@ -108,15 +108,16 @@ def _velocity(twists: dict[str, Any], p: Any, now: dict[str, Any], on: str, time
 
 
 def random_cases(first: int, number: int) -> Iterable[Case]:
+    """Those of which every joint says how it goes on."""
     for seed in range(first, first + number * MORE):
-        yield icsolve.load(transcribe.text(random_mechanism(Random(seed))))
+        case = icsolve.load(transcribe.text(random_mechanism(Random(seed))))
+        if not any(isinstance(joint, Roll | Contact | KnownCentre) for joint in case.joints):
+            yield case
 
 
 def test_accelerations_are_the_differences_of_rates_in_sixty_digits_for_all_joints() -> None:
     compared, kinds = 0, set()
     for case in random_cases(0, 30 if MORE == 1 else 250):
-        if any(isinstance(joint, Roll | Contact | KnownCentre) for joint in case.joints):
-            continue  # nothing says how these go on
         tries = ((q, differenced(case, q)) for q in case.links[1:])
         link, expected = next((one for one in tries if one[1] is not None), ("", None))
         if expected is None:
@@ -224,7 +225,7 @@ def heavy(case: Case, rng: Random) -> Case:
 def test_power_and_free_bodies_agree_with_inertia_forces_in_random_mechanisms() -> None:
     """The unknown load by both routes; and its power is the rate of the kinetic energy less the others'."""
     compared, refused = 0, set()
-    for seed, case in enumerate(random_cases(500, 40 if MORE == 1 else 120)):
+    for seed, case in enumerate(random_cases(500, 40 if MORE == 1 else 600)):
         rates = icsolve.solve(replace(case, loads=(), expect=())).rates or {}
         link = next((q for q, rate in rates.items() if rate), case.ground)
         one = Number(1.0, 0.0, "motion.speed", "1")
@@ -241,7 +242,7 @@ def test_power_and_free_bodies_agree_with_inertia_forces_in_random_mechanisms() 
         assert sum(t.power for t in answer.terms) == pytest.approx(
             0.0, abs=1e-9 * max(abs(t.power) for t in answer.terms)
         )
-    assert compared >= 6 * MORE
+    assert compared >= (6 if MORE == 1 else 2000)
     assert refused <= REFUSED
 
 
