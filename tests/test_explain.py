@@ -244,7 +244,19 @@ loads:
 """
 
 
-@pytest.mark.parametrize("text", [TWO_BARS, ON_A_STROKE])
+ON_A_GUIDE = """
+icsolve: 1
+units: {length: ft, force: lbf, torque: lbf*in}
+points: {A: [0, 0], C: [unknown, 0]}
+lengths: {AB: 1, BC: 1.5}
+angles: {AB: {unknown: [0, 180]}}
+near: {C: [2.3, 0]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}, {slide: [4, 1], at: C, along: 0}]
+loads: {T: {torque: 100, link: 2}, P: {force: 10, link: 4, at: C, angle: 0}}
+"""
+
+
+@pytest.mark.parametrize("text", [TWO_BARS, ON_A_STROKE, ON_A_GUIDE])
 def test_virtual_work_of_two_unknowns_and_of_a_stroke(text: str) -> None:
     """One sum and one row of derivatives for each unknown, in every way in which the figure assembles."""
     case = icsolve.load(text)
@@ -253,6 +265,8 @@ def test_virtual_work_of_two_unknowns_and_of_a_stroke(text: str) -> None:
     said = explain(case, digits=DIGITS, known=known)
     check(text_equations(said), known.size or 1.0)
     count = len(known.answer.positions[0].at)
+    if "lengths.AC" in known.answer.positions[0].at:  # in the unit of the stiffness: forces, not torques
+        assert re.search(r"k_P = cos\(180 deg\)", said)
     assert len(re.findall(r"^    Q\d? = .*0$", said, re.M)) == count * len(known.answer.positions)
     assert len(re.findall(r"^    dQ\d? / dq\d? = ", said, re.M)) == count**2 * len(known.answer.positions)
 

@@ -70,13 +70,14 @@ def _position(known: Known, figures: Figures, position: EquilibriumPosition) -> 
         exerted, said = _force(here, figures, acting)
         loads.append(exerted)
         blocks += said
-    for n, (told, motion) in enumerate(motions, 1):
+    for n, ((told, motion), path) in enumerate(zip(motions, position.at, strict=True), 1):
+        per = here.case.units.torque_per_force_length if path.startswith("angles.") else 1.0
         low = str(n) if len(motions) > 1 else ""
         blocks.append(words(f"While {told}:"))
         terms: list[tuple[int, Expr]] = []
         works = []
         for acting in loads:
-            k, said = factor_of(here, figures, acting, motion, int(low or 0))
+            k, said = factor_of(here, figures, acting, motion, int(low or 0), per)
             blocks += said
             works.append((acting.value or 0.0) * k)
             if k:

@@ -434,7 +434,7 @@ def _motion(
     blocks: list[Block] = [words(f"{told}{others}.")]
     factors: Factors = []
     for acting in loads:
-        factor, said = factor_of(known, figures, acting, motion, n)
+        factor, said = factor_of(known, figures, acting, motion, n, known.case.units.torque_per_force_length)
         blocks += said
         factors += [(acting, factor)] if factor else []
     if not factors:
@@ -455,16 +455,16 @@ def _summed(figures: Figures, factors: Factors, *, found: bool) -> Block:
 
 
 def factor_of(
-    known: Known, figures: Figures, acting: Acting, motion: OneMotion, n: int
+    known: Known, figures: Figures, acting: Acting, motion: OneMotion, n: int, units: float
 ) -> tuple[float, list[Block]]:
-    """Power per unit of a load: the rate of its link, or the part of its point's velocity along it."""
+    """Power per unit of a load: the rate of its link, or the part of its point's velocity along it; ``units``
+    of power a second for a force times a length."""
     name = Name("k", "".join(load_name(acting.load.name)) + (f",{n}" if n else ""))
     if acting.at is None:
-        return _turned(known, figures, acting, motion, name)
+        return _turned(figures, acting, motion, name, units)
     (ax, ay), (bx, by) = (velocity(motion.twists[link], acting.at) for link in (acting.link, acting.against))
     v = (ax - bx, ay - by)
     dx, dy = acting.direction
-    units = known.case.units.torque_per_force_length
     value = acting.gain * (v[0] * dx + v[1] * dy) * units
     fastest = max(abs(c) for twist in motion.twists.values() for c in twist)
     size = abs(acting.gain) * max(math.hypot(*v), NOTHING * fastest) * units
@@ -480,10 +480,10 @@ def factor_of(
 
 
 def _turned(
-    known: Known, figures: Figures, acting: Acting, motion: OneMotion, name: Name
+    figures: Figures, acting: Acting, motion: OneMotion, name: Name, units: float
 ) -> tuple[float, list[Block]]:
     on, off = motion.twists[acting.link][2], motion.twists[acting.against][2]
-    per = acting.gain * known.case.units.torque_per_force_length  # of a torsion spring its turn
+    per = acting.gain * units  # of a torsion spring its turn
     turn = -1 if per < 0.0 else 1
     value = per * (on - off)
     if not per or abs(on - off) <= NOTHING * (abs(on) + abs(off)):

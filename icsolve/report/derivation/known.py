@@ -147,7 +147,9 @@ def _at_rest(case: Case, answer: Answer | None, refusal: SceneError | None) -> K
     if positions and not any(
         one.start for one in case.unknowns
     ):  # other ways in which the figure assembles at this value are not meant
-        placed = {name for name, place in own.points.items() if isinstance(place, Coordinates)}
+        placed = {
+            name for name, place in own.points.items() if isinstance(place, Coordinates) and None not in place
+        }
         here = positions[0].answer.shown_points
         own = replace(own, near={name: at for name, at in here.items() if name not in placed})
     known = known_of(own)
