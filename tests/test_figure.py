@@ -7,7 +7,7 @@ import math
 import pytest
 
 from icsolve.assembly import Figure, case_point, solve_figure
-from icsolve.assembly.words import step_words
+from icsolve.assembly.refusals import step_words
 from icsolve.case import Case
 from icsolve.read import load
 

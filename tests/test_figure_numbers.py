@@ -13,7 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from icsolve.assembly import Figure, case_point, place, solve_figure
-from icsolve.assembly.words import step_words
+from icsolve.assembly.refusals import step_words
 from icsolve.case import Case, Coordinates, Number
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar, turn_of

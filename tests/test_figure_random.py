@@ -8,7 +8,7 @@ import pytest
 
 from figure_drafts import Draft, framework, sequence
 from icsolve.assembly import Figure, case_point, solve_figure
-from icsolve.assembly.words import step_words
+from icsolve.assembly.refusals import step_words
 from icsolve.errors import SceneError, Status
 from sizes import MORE
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import icsolve
-from icsolve.kinematics.kennedy import Kennedy
+from icsolve.kinematics.centres import Kennedy
 
 
 def four_bars(count: int) -> str:

@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 import icsolve
-from icsolve.assembly.figure import solve_figure
+from icsolve.assembly import solve_figure
 from icsolve.case import Case
 from icsolve.draw import Drawing, draw
 from icsolve.explain import explain

@@ -10,8 +10,7 @@ import pytest
 import mechanisms
 import transcribe
 from chains import BUTTERFLY, FLIER
-from icsolve.structure.groups import Matching
-from icsolve.structure.plan import Plan, make_plan
+from icsolve.structure.plan import Matching, Plan, make_plan
 from icsolve.structure.topology import Topology, topology
 
 

@@ -13,7 +13,7 @@ from click.testing import CliRunner
 
 from figure_drafts import Draft, Place, framework, sequence
 from icsolve.assembly import case_point, exclusion, solve_figure
-from icsolve.assembly.construct import Ways, ways_of
+from icsolve.assembly.modes import Ways, ways_of
 from icsolve.case import Case
 from icsolve.cli.commands import icsolve
 from icsolve.errors import SceneError, Status

@@ -6,9 +6,26 @@ construction again with another arithmetic (arrays, numbers on a tape, more digi
 
 from __future__ import annotations
 
-from icsolve.assembly.figure import placed_figure, solve_figure
-from icsolve.assembly.steps import Figure, Placement, place
-from icsolve.assembly.workspace import Frame, Key, Point, case_point
+from collections.abc import Collection
+
+from icsolve.assembly.conditions import agrees, compare, notes_of, size_of
+from icsolve.assembly.steps import Figure, Given, Placement, Step, place
+from icsolve.assembly.workspace import (
+    GUIDE,
+    LINE,
+    Datum,
+    Frame,
+    Key,
+    Point,
+    Workspace,
+    case_point,
+    data_of,
+    frame_of,
+    names_of,
+)
+from icsolve.case import Case, Coordinates
+from icsolve.errors import SceneError
+from icsolve.numbers.arithmetic import FLOATS
 
 __all__ = [
     "Figure",
@@ -21,3 +38,85 @@ __all__ = [
     "placed_figure",
     "solve_figure",
 ]
+
+
+def solve_figure(case: Case, wanted: Collection[str] | None = None) -> Figure:
+    """The figure of a case.
+
+    Parameters
+    ----------
+    case : the case
+    wanted : names of points; None: every point. Those that they need are placed too
+
+    Returns
+    -------
+    Figure
+        Places in a frame of size 1 about the figure (``icsolve.assembly.case_point`` brings one back to case
+        lengths), with how each was found.
+
+    Raises
+    ------
+    SceneError
+        ``underdetermined``, ``inconsistent``, ``cannot-assemble``, ``ambiguous``,
+        ``near-singular``; the message says where, by how much, and what would mend it.
+    """
+    frame = frame_of(case)
+    names = names_of(case)
+    goal = list(names if wanted is None else dict.fromkeys(wanted))
+    if all(_is_given(case, p) for p in goal):
+        return _drawn(case, frame, goal, names)
+    from icsolve.assembly.modes import construct
+
+    return construct(case, frame, goal, names)
+
+
+def placed_figure(case: Case, wanted: Collection[str], needed: Collection[str]) -> Figure:
+    """The figure with the wanted points that the data place; those that are ``needed`` have to be.
+
+    A note says of each of the others why it is left out. Raises SceneError as `solve_figure`, for needed
+    points alone.
+    """
+    try:
+        return solve_figure(case, wanted)
+    except SceneError:
+        solve_figure(case, needed)
+    placed = dict.fromkeys(needed)
+    notes = []
+    for point in wanted:
+        try:
+            solve_figure(case, [*placed, point])
+        except SceneError as refusal:
+            notes.append(f"left out, as nothing needs it: {refusal.message}")
+        else:
+            placed[point] = None
+    figure = solve_figure(case, placed)
+    return figure._replace(notes=(*figure.notes, *dict.fromkeys(notes)))
+
+
+def _is_given(case: Case, point: str) -> bool:
+    place = case.points.get(point)
+    return type(place) is Coordinates and place.x is not None and place.y is not None
+
+
+def _drawn(case: Case, frame: Frame, goal: list[str], names: list[str]) -> Figure:
+    """The figure where every point is given: nothing to construct, the other data are compared."""
+    workspace = Workspace(case, frame, FLOATS)
+    steps: tuple[Step, ...] = (Given(tuple(goal)),)
+    steps[0].place(workspace)
+    data = [d for d in data_of(case) if all(p in workspace.points for p in d.points)]
+    notes = _compared(workspace, steps, data, goal) if data else ()
+    points = {p: workspace.points[p] for p in goal}
+    return Figure(frame, points, steps, notes, tuple(p.lstrip("@") for p in names if p not in points))
+
+
+def _compared(
+    workspace: Workspace, steps: tuple[Step, ...], data: list[Datum], goal: list[str]
+) -> tuple[str, ...]:
+    """Notes on the data that the coordinates make spare; guides that are met need none."""
+    size = size_of(workspace, goal)
+    if agrees(workspace, data, size) and all(d.kind in (GUIDE, LINE) for d in data):
+        return ()
+    miss, offs = compare(workspace, steps, data, size)
+    if miss is not None:
+        raise SceneError(miss.status, miss.message)
+    return notes_of(workspace, offs, frozenset(), True, size)

@@ -6,13 +6,25 @@ from collections.abc import Callable, Iterator
 from itertools import combinations, pairwise
 from typing import TYPE_CHECKING
 
-from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, ROPE, Datum, X, Y
 from icsolve.assembly.loci import ArcLocus, Axis, CircleLocus, LineLocus, Locus, Shifted, Tether, is_round
 from icsolve.assembly.steps import Mean, Meet, Polar, Step, Transfer, Turned
-from icsolve.assembly.workspace import Apart, LineDirection
+from icsolve.assembly.workspace import (
+    CORNER,
+    GUIDE,
+    LENGTH,
+    LINE,
+    MEAN,
+    RAY,
+    ROPE,
+    Apart,
+    Datum,
+    LineDirection,
+    X,
+    Y,
+)
 
 if TYPE_CHECKING:
-    from icsolve.assembly.clusters import Cluster
+    from icsolve.assembly.order import Cluster
 
 
 Cost = tuple[int, int, int]

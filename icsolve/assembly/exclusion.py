@@ -19,11 +19,9 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.assembly.conditions import Unknown
-from icsolve.assembly.data import GUIDE, LENGTH, RAY, X, Y
 from icsolve.assembly.groups import Group
-from icsolve.assembly.intersections import PlacedLine, intersection, sine_between
-from icsolve.assembly.loci import Axis
-from icsolve.assembly.workspace import Point, Workspace
+from icsolve.assembly.loci import Axis, PlacedLine, intersection, sine_between
+from icsolve.assembly.workspace import GUIDE, LENGTH, RAY, Point, Workspace, X, Y
 from icsolve.tuples import NamedTuple
 
 Array = npt.NDArray[np.float64]

@@ -5,17 +5,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
-from icsolve.assembly.clusters import LooseFigure
 from icsolve.assembly.conditions import FigureEquation, Unknown
-from icsolve.assembly.data import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, X, Y
-from icsolve.assembly.words import plain
-from icsolve.assembly.workspace import Key, Workspace
+from icsolve.assembly.refusals import plain
+from icsolve.assembly.workspace import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, Key, Workspace, X, Y
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
+
+if TYPE_CHECKING:
+    from icsolve.assembly.order import LooseFigure
 
 
 class Pivot(NamedTuple):

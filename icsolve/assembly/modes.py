@@ -1,379 +1,35 @@
-"""The assembly modes of a construction: every way in which it assembles, and the one that `near` means.
+"""Assembly modes: the one that `near` means, and every one there is.
 
-A depth-first walk over the steps, nearest places first. Of the modes that assemble the one with the least
-sum of squared distances from `near` is taken (branch and bound: a partial sum only grows). A partial way that
-lies clearly nearer to `near` than that mode, and does not go on, is a refusal: `near` is a promise.
+A construction from end to end: order the steps, walk them, compare the spare data, choose; or list
+every way in which the figure assembles, whatever its `near` says.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from functools import partial
+from collections.abc import Callable, Mapping
+from typing import TypeVar
 
-from icsolve.assembly.data import Datum
-from icsolve.assembly.decided import (
-    Decimals,
-    Gap,
-    gaps_ahead,
-    gaps_ahead_of,
-    gaps_between,
-    merged_pairs,
-    places_of,
-)
-from icsolve.assembly.intersections import PlacedCircle, gaps_of, side
-from icsolve.assembly.loci import is_ray, is_round
-from icsolve.assembly.order import Order
-from icsolve.assembly.refusals import (
-    Miss,
-    behind,
-    clash,
-    concentric,
-    degenerate,
-    measure,
-    merged,
-    parallel,
-    too_far,
-)
-from icsolve.assembly.residuals import TOO_CLOSE, agrees, compare, residual, size_of
-from icsolve.assembly.steps import CLOSED_FORMS, Meet, Step, aims
-from icsolve.assembly.words import plain
-from icsolve.assembly.workspace import Key, Point, Workspace, case_point, normalised
+from icsolve.assembly.conditions import notes_of, size_of
+from icsolve.assembly.order import Order, order_of
+from icsolve.assembly.refusals import Miss, measure, mirrored, plain
+from icsolve.assembly.steps import CLOSED_FORMS, Figure, Given, Meet, Step, leading_to, points_of
+from icsolve.assembly.walk import EVEN, DeadEnd, Mode, Path, Walk, squared_distance
+from icsolve.assembly.workspace import Frame, Point, Workspace, case_point, frame_of, names_of
+from icsolve.case import Case
 from icsolve.errors import SceneError, Status
-from icsolve.tuples import NamedTuple
+from icsolve.numbers.arithmetic import FLOATS
+from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed
 
-U = 2.0**-53
-TOUCHING = 8.0 * U
-"""Where the decimals leave it open: gaps of this many roundings are zero, the circles touch."""
-PARALLEL = 1e-14
-"""Where the decimals leave it open: sine of the smallest angle at which two lines still meet."""
-DOUBT = 1e-6
-"""Gaps below this, over the lengths that made them, are put to the decimals as written."""
-COARSE = 0.02
-"""Residual at which a way is given up before its end; the finer test comes with the whole figure."""
-EVEN = 0.99
 SIDEWAYS = 0.05
 """Two ways are equally near where their distances from `near` have at least the ratio EVEN, and `near`
 is seen from between them within this sine of square to the line that joins them, over the root of the
 number of points: of a guess that is off in every coordinate so much lies along one line. (Near a dead
 centre the two are close together, and the ratio alone would call any digits of `near` in between.)"""
-MOST_MODES = 256
-MOST_WAYS = 4096
-"""Ways at most where all are asked for."""
 SAME = 1e-11
 """Points nearer than this (normalised, over 1 + their distance from the origin) are one point."""
 MOST_LISTED = 4
-
-
-class Path(NamedTuple):
-    """The last step of a way so far, as it was settled; ``before`` leads to the others.
-
-    ``off`` is the sum of the squared distances from `near` up to here; ``places`` has the step's points.
-    """
-
-    before: Path | None
-    step: Step | None
-    off: float
-    places: Mapping[Key, Point]
-
-    def steps(self) -> tuple[Step, ...]:
-        """All steps, the first one first."""
-        out: list[Step] = []
-        at: Path | None = self
-        while at is not None and at.step is not None:
-            out.append(at.step)
-            at = at.before
-        return tuple(reversed(out))
-
-
-START = Path(None, None, 0.0, {})
-
-
-class Mode(NamedTuple):
-    """One way of assembling: the steps as they were settled, the points, and the end of its path.
-
-    ``offs`` is how far the data that made no points are from them [frame].
-    """
-
-    steps: tuple[Step, ...]
-    points: dict[Key, Point]
-    path: Path
-    offs: Mapping[Datum, float] = {}
-
-
-class DeadEnd(NamedTuple):
-    """A way that does not go on: after how many steps, why, and the path so far.
-
-    The path may end with a place where its point comes closest to its data.
-    """
-
-    depth: int
-    miss: Miss
-    path: Path
-
-
-class Fork(NamedTuple):
-    """Where the walk can go on otherwise."""
-
-    depth: int
-    options: list[Path]
-
-
-class Walk:
-    """The walk over the steps of an order on one workspace.
-
-    ``modes`` has what it found, ``dead_ends`` what failed; ``gave_up`` tells that there were too many
-    branches to try. With ``every`` the walk leaves out none, however far from `near`.
-    """
-
-    def __init__(self, order: Order, workspace: Workspace, every: bool = False) -> None:
-        self.order, self.workspace, self.used = order, workspace, order.used()
-        self.near = {p: normalised(workspace.frame, xy) for p, xy in workspace.case.near.items()}
-        self.checks = _due(order)
-        self.budget = (10 if every else 1) * (20_000 + 20 * len(order.steps))
-        self.most = MOST_WAYS if every else MOST_MODES
-        self.placed: dict[Key, Path] = {}
-        self.decimals = Decimals(workspace, self.placed)
-        self.modes: list[Mode] = []
-        self.dead_ends: list[DeadEnd] = []
-        self.gave_up = False
-        self.best = math.inf
-        self.every = every
-        self.complete = True
-        """Whether groups that only all their data together place were searched to the end."""
-
-    def run(self) -> Walk:
-        """Try every way that is not clearly farther from `near` than another."""
-        forks: list[Fork] = []
-        path: Path | None = START
-        depth = 0
-        while path is not None:
-            while path is not None and depth < len(self.order.steps):
-                path = self._advance(depth, path, forks)
-                depth += 1
-            if path is not None:
-                self._arrived(path)
-            if self.budget <= 0 or len(self.modes) > self.most:
-                self.gave_up = bool(forks)
-                break
-            path, depth = self._back(forks)
-        self.modes = [mode for mode in self.modes if not self._beyond(mode.path)]
-        return self
-
-    def _arrived(self, path: Path) -> None:
-        """Keep a mode that no datum contradicts."""
-        mode = Mode(path.steps(), dict(self.workspace.points), path)
-        miss, offs = self._compared(mode)
-        if miss is None:
-            self.modes.append(mode._replace(offs=offs))
-            self.best = min(self.best, path.off)
-        else:
-            self.dead_ends.append(DeadEnd(len(self.order.steps), miss, path))
-
-    def _compared(self, mode: Mode) -> tuple[Miss | None, Mapping[Datum, float]]:
-        """What data that made no points have against a mode, and how far off they are."""
-        size = size_of(self.workspace, self.order.points)
-        data = [d for d in self.order.facts.data if all(p in mode.points for p in d.points)]
-        if self.used.issuperset(data) and agrees(self.workspace, data, size):
-            return None, {}
-        return compare(self.workspace, mode.steps, data, size)
-
-    def _beyond(self, path: Path) -> bool:
-        """Whether a way is clearly farther from `near` already than the best mode so far."""
-        return not self.every and self.best < EVEN * EVEN * path.off
-
-    def _advance(self, depth: int, path: Path, forks: list[Fork]) -> Path | None:
-        """Run one step; None where nothing fits."""
-        self.budget -= 1
-        settled = self._options(depth, path, self.order.steps[depth])
-        options = [option for option in settled if not self._beyond(option)]
-        if not options:
-            return None
-        options.sort(key=lambda option: option.off)
-        if len(options) > 1:
-            forks.append(Fork(depth, options[1:]))
-        self._take(options[0])
-        return options[0]
-
-    def _back(self, forks: list[Fork]) -> tuple[Path | None, int]:
-        """Take the last fork that is still of use; None where there is none."""
-        while forks:
-            fork = forks.pop()
-            option = fork.options[0]
-            if self._beyond(option):
-                continue
-            if len(fork.options) > 1:
-                forks.append(Fork(fork.depth, fork.options[1:]))
-            self._take(option)
-            return option, fork.depth + 1
-        return None, 0
-
-    def _take(self, path: Path) -> None:
-        """Put a path's last step on the workspace."""
-        self.workspace.points.update(path.places)
-        self.placed.update(dict.fromkeys(path.places, path))
-
-    def _options(self, depth: int, path: Path, step: Step) -> Iterator[Path]:
-        """The step as it can be settled here."""
-        try:
-            for option in self._settled(depth, path, step):
-                miss = self._ahead(path, option) or self._clash(depth)
-                longer = self._longer(path, option)
-                if miss is None:
-                    yield longer
-                else:
-                    self.dead_ends.append(DeadEnd(depth, miss, longer))
-        except ZeroDivisionError:
-            self.dead_ends.append(DeadEnd(depth, degenerate(step, self.workspace), path))
-
-    def _longer(self, path: Path, step: Step) -> Path:
-        """The path with one more step, whose points are on the workspace."""
-        places = {t: self.workspace.points[t] for t in step.targets}
-        off = sum(_square(at, self.near[t]) for t, at in places.items() if t in self.near)
-        return Path(path, step, path.off + off, places)
-
-    def _settled(self, depth: int, path: Path, step: Step) -> Iterator[Step]:
-        """The step with each of the branches that it has here, one after another put on the workspace."""
-        close = self._close(path, step)
-        if close is None:
-            yield from self._put(self._branches(depth, path, step), in_doubt=False)
-        elif not close:
-            yield from self._put(self._branches(depth, path, step), in_doubt=True)
-        else:
-            miss = merged(plain(step.targets[0]), *map(plain, close[0]))
-            self.dead_ends.append(DeadEnd(depth, miss, path))
-
-    def _put(self, branches: Sequence[Step], in_doubt: bool) -> Iterator[Step]:
-        """Put each branch on the workspace: by the decimals as written where floats lose too much."""
-        first = branches[0] if branches else None  # the loci of all branches are the same
-        doubtful = in_doubt or (isinstance(first, Meet) and _doubtful(gaps_between(first, self.workspace)))
-        for branch in branches:
-            question = partial(places_of, branch)
-            places = self.decimals.decided(branch, question) if doubtful else None
-            if places is None:
-                branch.place(self.workspace)
-            else:
-                self.workspace.points.update(places)
-            yield branch
-
-    def _close(self, path: Path, step: Step) -> list[tuple[Key, Key]] | None:
-        """The pairs of points that a step aims by and that are one place; None where none is in doubt."""
-        points = self.workspace.points
-        apart = {(a, b): math.dist(points[a], points[b]) for a, b in aims(step)}
-        if min(apart.values(), default=1.0) > DOUBT:
-            return None
-        found = self.decimals.decided(step, partial(merged_pairs, step))
-        return [pair for pair, d in apart.items() if d <= TOO_CLOSE] if found is None else found
-
-    def _branches(self, depth: int, path: Path, step: Step) -> Sequence[Step]:
-        if isinstance(step, Meet):
-            return self._crossings(depth, path, step)
-        if isinstance(step, CLOSED_FORMS):
-            return [step]
-        from icsolve.assembly import newton
-        from icsolve.assembly.groups import Group
-
-        assert isinstance(step, Group)
-        search = newton.every if self.every else partial(newton.solutions, near=self.near)
-        found = search(step, self.workspace)
-        if found.miss is not None:
-            self.workspace.points.update(found.closest)
-            longer = self._longer(path, step) if found.closest else path
-            self.dead_ends.append(DeadEnd(depth, found.miss, longer))
-        self.complete &= found.complete
-        return found.groups
-
-    def _crossings(self, depth: int, path: Path, step: Meet) -> list[Step]:
-        """The places where two loci meet, the one nearer to `near` first."""
-        gaps = gaps_between(step, self.workspace)
-        if _doubtful(gaps):
-            gaps = self.decimals.decided(step, partial(gaps_between, step)) or _rounded(step, gaps)
-        signs = [gap.sign for gap in gaps]
-        if not is_round(step.second):
-            if signs[0] != 0:
-                return [step]
-            miss = parallel(step, self.workspace)
-        elif is_round(step.first) and signs[3] == 0:
-            miss = concentric(step, self.workspace)
-        elif min(signs) < 0:
-            miss = too_far(step, self.workspace, [gap.value for gap in gaps])
-            self.workspace.points[step.target] = _between(step, self.workspace)
-            path = self._longer(path, step)
-        elif min(signs) == 0:
-            return [step._replace(sign=0)]
-        else:
-            return self._by_near(step)
-        self.dead_ends.append(DeadEnd(depth, miss, path))
-        return []
-
-    def _by_near(self, step: Meet) -> list[Step]:
-        near = self.near.get(step.target) if isinstance(step.target, str) else None
-        sign = 1 if near is None else int(side(*step.loci(self.workspace), near))
-        return [step._replace(sign=sign), step._replace(sign=-sign)]
-
-    def _ahead(self, path: Path, step: Step) -> Miss | None:
-        if not isinstance(step, Meet) or not (is_ray(step.first) or is_ray(step.second)):
-            return None
-        gaps = gaps_ahead(step, self.workspace)
-        if min(abs(gap.value) for gap in gaps) <= DOUBT:
-            exact = self.decimals.decided(step, partial(gaps_ahead_of, step))
-            gaps = exact or [gap._replace(sign=int(gap.value > TOO_CLOSE)) for gap in gaps]
-        worst = min(gaps, key=lambda gap: (gap.sign, gap.value))
-        return None if worst.sign > 0 else behind(step, self.workspace, worst.value)
-
-    def _clash(self, depth: int) -> Miss | None:
-        for datum in self.checks.get(depth, ()):
-            off, ahead = residual(self.workspace, datum)
-            reach = 1.0 + max(abs(c) for p in datum.points for c in self.workspace.points[p])
-            if not ahead or abs(off) > COARSE * reach:
-                return clash(self.workspace, datum, off, ahead)
-        return None
-
-
-def _doubtful(gaps: list[Gap]) -> bool:
-    """Whether floats may be wrong on whether and where two loci meet."""
-    sizes = [abs(gap.value) for gap in gaps]
-    return min(sizes) <= DOUBT * max(1.0, *sizes)
-
-
-def _rounded(step: Meet, gaps: list[Gap]) -> list[Gap]:
-    """Gaps that stay in doubt: zero where rounding explains them."""
-    most = PARALLEL if not is_round(step.second) else TOUCHING * max(1.0, *(abs(gap.value) for gap in gaps))
-    return [gap._replace(sign=0) if abs(gap.value) <= most else gap for gap in gaps]
-
-
-def _between(step: Meet, workspace: Workspace) -> Point:
-    """Where two loci that do not meet come closest: the middle between them."""
-    one, two = step.loci(workspace)
-    assert isinstance(two, PlacedCircle)
-    (qx, qy), b = two
-    if not isinstance(one, PlacedCircle):
-        (px, py), (vx, vy) = one
-        along = (qx - px) * vx + (qy - py) * vy
-        x, y = px + along * vx, py + along * vy
-        share = (1.0 + b / (math.hypot(x - qx, y - qy) or 1.0)) / 2.0
-        return qx + (x - qx) * share, qy + (y - qy) * share
-    (px, py), a = one
-    far, over, _, d = gaps_of(one, two, workspace.arithmetic)
-    # on the line of centres: between the circles, or where the one inside comes closest to the other
-    along = (a + d - b) / 2.0 if far < 0.0 else (a + d + b) / 2.0 if over < 0.0 else -(a + b - d) / 2.0
-    return px + along * (qx - px) / (d or 1.0), py + along * (qy - py) / (d or 1.0)
-
-
-def _square(one: Point, two: Point) -> float:
-    dx, dy = one[0] - two[0], one[1] - two[1]
-    return float(dx * dx + dy * dy)
-
-
-def _due(order: Order) -> dict[int, list[Datum]]:
-    """The data to compare after each step: those whose last point it places."""
-    depth = {key: i for i, step in enumerate(order.steps) for key in step.targets}
-    due: dict[int, list[Datum]] = {}
-    for datum in order.facts.data:
-        if all(p in depth for p in datum.points):
-            due.setdefault(max(depth[p] for p in datum.points), []).append(datum)
-    return due
 
 
 def refusal(walk: Walk) -> Miss:
@@ -470,7 +126,10 @@ def overridden(walk: Walk, chosen: Mode) -> Miss | None:
         if not _clearly(walk, end, chosen.path):
             continue
         ours, theirs = parted(walk, end.path, chosen.path)
-        gain = sum(_square(theirs[p], walk.near[p]) - _square(at, walk.near[p]) for p, at in ours.items())
+        gain = sum(
+            squared_distance(theirs[p], walk.near[p]) - squared_distance(at, walk.near[p])
+            for p, at in ours.items()
+        )
         if worst is None or gain > worst[0]:
             worst = (gain, end)
     return None if worst is None else _promise(walk, chosen, worst[1])
@@ -480,7 +139,9 @@ def _promise(walk: Walk, chosen: Mode, end: DeadEnd) -> Miss:
     """What lies at `near`, why it does not assemble, and where another way lies."""
     workspace = walk.workspace
     ours, theirs = parted(walk, end.path, chosen.path)
-    held = [p for p in ours if _square(ours[p], walk.near[p]) < _square(theirs[p], walk.near[p])]
+    held = [
+        p for p in ours if squared_distance(ours[p], walk.near[p]) < squared_distance(theirs[p], walk.near[p])
+    ]
     there = {p: _pair(case_point(workspace.frame, theirs[p])) for p in held[:MOST_LISTED]}
     places = listed([f"{plain(p)} at ({at})" for p, at in there.items()])
     away = measure(workspace, max(math.dist(theirs[p], walk.near[p]) for p in held))
@@ -568,3 +229,254 @@ def _hint(workspace: Workspace, rivals: list[Mode], point: str) -> str:
 
 def _pair(at: tuple[float, float]) -> str:
     return f"{at[0]:.6g}, {at[1]:.6g}"
+
+
+MOST_RETRIES = 20
+Outcome = TypeVar("Outcome")
+
+
+def construct(case: Case, frame: Frame, goal: list[str], names: list[str]) -> Figure:
+    """The wanted points of a figure that needs construction (see ``solve_figure``)."""
+    figure = None
+    spare = [p for p in case.near if p not in goal and p in names]
+    if spare:
+        figure = _by_the_rest(case, frame, goal, [*goal, *spare])
+    try:
+        figure = figure or _constructed(case, frame, goal, best_effort=False)
+    except SceneError as error:
+        if error.status != Status.AMBIGUOUS or set(names) <= set(goal):
+            raise
+        figure = _by_the_rest(case, frame, goal, names)
+        if figure is None:
+            raise
+    return figure._replace(skipped=tuple(p.lstrip("@") for p in names if p not in figure.points))
+
+
+def _by_the_rest(case: Case, frame: Frame, goal: list[str], names: list[str]) -> Figure | None:
+    """Let the data of points that nothing asked for decide between the modes."""
+    try:
+        whole = _constructed(case, frame, names, best_effort=True)
+    except SceneError:
+        return None
+    if not set(goal) <= whole.points.keys():
+        return None
+    steps = leading_to(goal, whole.steps)
+    return whole._replace(steps=steps, points={p: whole.points[p] for p in points_of(steps)})
+
+
+def _constructed(case: Case, frame: Frame, goal: list[str], best_effort: bool) -> Figure:
+    return by_other_data(case, goal, lambda order: _assembled(case, frame, order), best_effort)
+
+
+def by_other_data(
+    case: Case, goal: list[str], attempt: Callable[[Order], Outcome | Miss], best_effort: bool = False
+) -> Outcome:
+    """What an attempt makes of an order of construction; of another where two loci turned out to be one.
+
+    Raises SceneError where the attempt misses for another reason, or no order is left.
+    """
+    first: Miss | None = None
+    banned: frozenset[frozenset[object]] = frozenset()
+    for _ in range(MOST_RETRIES):
+        try:
+            order = order_of(case, goal, banned, best_effort)
+        except SceneError as error:
+            if first is not None:
+                raise SceneError(first.status, first.message) from error
+            raise
+        outcome = attempt(order)
+        if not isinstance(outcome, Miss):
+            return outcome
+        first = first or outcome
+        if outcome.loci is None:
+            told = first if outcome.vague else outcome
+            raise SceneError(told.status, told.message)
+        banned |= {outcome.loci}
+    raise SceneError(
+        Status.NEAR_SINGULAR, "too many lines and circles of the figure coincide to construct it"
+    )
+
+
+def _assembled(case: Case, frame: Frame, order: Order) -> Figure | Miss:
+    """The one mode in which an order of construction is meant to assemble, or why it does not."""
+    walk = Walk(order, Workspace(case, frame, FLOATS)).run()
+    if not walk.modes or walk.gave_up:
+        return refusal(walk)
+    miss = overridden(walk, nearest(walk))
+    if miss is not None:
+        return miss
+    return _figure(walk, walk.modes[0] if len(walk.modes) == 1 else choose(walk, order.points))
+
+
+def _figure(walk: Walk, mode: Mode) -> Figure | Miss:
+    """The figure of the mode that is meant; a miss where what lies at `near` is another."""
+    order, workspace = walk.order, walk.workspace
+    workspace.points = mode.points
+    miss = mirrored(workspace, mode.steps, walk.near, size_of(workspace, order.points))
+    if miss is not None:
+        return miss
+    notes: tuple[str, ...] = ()
+    if mode.offs:
+        given = any(isinstance(step, Given) for step in order.steps)
+        notes = notes_of(workspace, mode.offs, walk.used, given, size_of(workspace, order.points))
+    notes += far_from_near(walk, mode, order.points)
+    return Figure(workspace.frame, {p: mode.points[p] for p in order.points}, mode.steps, notes, ())
+
+
+# --- every way in which the figure of a case assembles ---
+
+
+Place = tuple[float, float]
+
+DIGITS = 6
+"""Significant digits of `near`, where these tell the ways apart."""
+
+
+class AssemblyWay(NamedTuple):
+    """One way: the points in case units, and the `near` that picks it."""
+
+    points: dict[str, Place]
+    near: dict[str, Place]
+
+
+class Ways(NamedTuple):
+    """All ways that were found, whether these are shown to be all, and what else is to be said."""
+
+    ways: tuple[AssemblyWay, ...]
+    complete: bool
+    notes: tuple[str, ...]
+
+
+def ways_of(case: Case) -> Ways:
+    """Every way in which all points of a case find their places, each once.
+
+    Raises
+    ------
+    SceneError
+        ``cannot-assemble``, ``inconsistent``: there is none; ``underdetermined``: a joint can be anywhere.
+    """
+    if case.space is not None:
+        raise SceneError(Status.UNSUPPORTED, "the ways of assembling are found for planar figures")
+    if case.unknowns:
+        path = case.unknowns[0].path
+        said = f"{path} is unknown: the ways of assembling are those at a value of it, --set {path}=..."
+        raise SceneError(Status.UNSUPPORTED, said)
+    case = replace(case, near={})
+    goal, loose = _placed(case)
+    frame = frame_of(case)
+
+    def attempt(order: Order) -> Ways | Miss:
+        walk = every_mode(case, order, frame)
+        return _ways(case, walk, order, loose) if walk.modes else refusal(walk)
+
+    return by_other_data(case, goal, attempt)
+
+
+def order_that_assembles(case: Case, goal: list[str]) -> Order:
+    """An order of construction in which no two loci of a point are one; one with points that only together
+    have places as it stands.
+
+    Raises SceneError where the case assembles in none.
+    """
+    frame = frame_of(case)
+
+    def attempt(order: Order) -> Order | Miss:
+        if _groups(order):
+            return order
+        walk = every_mode(case, order, frame)
+        return order if walk.modes else refusal(walk)
+
+    return by_other_data(case, goal, attempt)
+
+
+def every_mode(case: Case, order: Order, frame: Frame) -> Walk:
+    """All modes of an order of construction."""
+    return Walk(order, Workspace(case, frame, FLOATS), every=True).run()
+
+
+def _placed(case: Case) -> tuple[list[str], list[str]]:
+    """The points that the data place, and those that nothing needs and that may be anywhere."""
+    names = names_of(case)
+    try:
+        order_of(case, names)
+    except SceneError as error:
+        if error.status != Status.UNDERDETERMINED:
+            raise
+        needed = {getattr(joint, "at", None) for joint in case.joints}
+        loose = [name for name in names if not _can_be_placed(case, name)]
+        if needed & set(loose):
+            if case.profiles is not None:
+                said = "the ways of a figure that rests on profiles are not listed: "
+                raise SceneError(Status.UNSUPPORTED, f"{said}{error.message}") from None
+            raise
+        return [name for name in names if name not in loose], loose
+    return names, []
+
+
+def _can_be_placed(case: Case, name: str) -> bool:
+    try:
+        order_of(case, [name])
+    except SceneError:
+        return False
+    return True
+
+
+def _ways(case: Case, walk: Walk, order: Order, loose: list[str]) -> Ways:
+    modes = distinct(walk.modes, order.points)
+    notes = []
+    if walk.gave_up:
+        notes.append(f"there are more ways: the search ended after {len(modes)}")
+    elif not walk.complete:
+        names = "; ".join(listed([plain(t) for t in group.targets]) for group in _groups(order))
+        notes.append(
+            f"not shown to be all: points {names} can only be found together, and the search of their places "
+            "by exclusion came to an end before every part was empty or held one way"
+        )
+    if loose:
+        notes.append(f"nothing says where {listed([plain(p) for p in loose])} may be")
+    frame = walk.workspace.frame
+    picked = _choices(modes, order)
+    digits = _digits(modes, picked, frame)
+    ways = []
+    for mode in modes:
+        places = {p: case_point(frame, mode.points[p]) for p in order.points}
+        near = {p: (round(places[p][0], digits), round(places[p][1], digits)) for p in picked}
+        ways.append(AssemblyWay({p: at for p, at in places.items() if not p.startswith("@")}, near))
+    return Ways(tuple(ways), walk.complete and not walk.gave_up, tuple(notes))
+
+
+def _groups(order: Order) -> list[Step]:
+    """The steps that place points only all together."""
+    return [step for step in order.steps if not isinstance(step, (Meet, *CLOSED_FORMS))]
+
+
+def _choices(modes: list[Mode], order: Order) -> list[str]:
+    """The points whose places tell the ways apart, and those that can only be found from `near`."""
+    apart = {p for mode in modes[1:] for p in differing(modes[0], mode, order.points)}
+    grouped = [t for group in _groups(order) for t in group.targets]
+    forks = [
+        step.target
+        for mode in modes
+        for step in mode.steps
+        if isinstance(step, Meet) and step.sign and step.target in apart
+    ]
+    chosen = dict.fromkeys([str(p) for p in (*forks, *grouped) if isinstance(p, str)])
+    alike = [
+        mode for mode in modes[1:] if not any(p in chosen for p in differing(modes[0], mode, order.points))
+    ]
+    return [p for p in order.points if p in chosen or (alike and p in apart)]
+
+
+def _digits(modes: list[Mode], picked: list[str], frame: Frame) -> int:
+    """Decimals of `near` that tell each way from every other."""
+    least = min(
+        (
+            math.hypot(*(math.dist(one.points[p], two.points[p]) for p in picked))
+            for k, one in enumerate(modes)
+            for two in modes[:k]
+        ),
+        default=1.0,
+    )
+    size = max((abs(c) for mode in modes for p in picked for c in mode.points[p]), default=1.0) or 1.0
+    figures = DIGITS - 1 - math.floor(math.log10(size / frame.scale))
+    return max(figures, 3 - math.floor(math.log10(max(least, 1e-12) / frame.scale)))

@@ -11,15 +11,12 @@ import math
 from collections.abc import Iterator, Mapping
 from itertools import islice, product
 
-from icsolve.assembly.clusters import LooseFigure
 from icsolve.assembly.conditions import Unknown
-from icsolve.assembly.data import CORNER, LENGTH, LINE, ROPE, facts_of
 from icsolve.assembly.groups import Group, pivots, solved
-from icsolve.assembly.order import grow
-from icsolve.assembly.refusals import Miss, measure
+from icsolve.assembly.order import LooseFigure, grow
+from icsolve.assembly.refusals import Miss, datum_words, measure, plain
 from icsolve.assembly.steps import Given, Meet, Step
-from icsolve.assembly.words import datum_words, plain
-from icsolve.assembly.workspace import Workspace
+from icsolve.assembly.workspace import CORNER, LENGTH, LINE, ROPE, Workspace, facts_of
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.linear import inverse, solve_square
 from icsolve.tuples import NamedTuple
@@ -386,7 +383,7 @@ def _spread(group: Group, about: Spot, reach: float) -> Iterator[Start]:
 
 def _unreached(group: Group, workspace: Workspace, closest: Start) -> Miss:
     """No solution: the datum that is farthest off where the rest comes closest."""
-    from icsolve.assembly.residuals import residual
+    from icsolve.assembly.conditions import residual
 
     names = listed([plain(t) for t in group.targets])
     if not closest:

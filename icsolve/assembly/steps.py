@@ -8,11 +8,19 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 from typing import TYPE_CHECKING, Union
 
-from icsolve.assembly.data import Datum
-from icsolve.assembly.intersections import PlacedLine, PlacedLocus, gaps_of, intersection
-from icsolve.assembly.loci import LineLocus, Locus, directions_of, is_ray
+from icsolve.assembly.loci import (
+    LineLocus,
+    Locus,
+    PlacedLine,
+    PlacedLocus,
+    directions_of,
+    gaps_of,
+    intersection,
+    is_ray,
+)
 from icsolve.assembly.workspace import (
     Apart,
+    Datum,
     Frame,
     Key,
     LineDirection,

@@ -16,8 +16,7 @@ from icsolve.errors import SceneError
 from icsolve.numbers.units import ExactRatio
 from icsolve.read import load
 from icsolve.scene import refusals
-from icsolve.scene.bounds import evaluate_bounded
-from icsolve.scene.program import Program, Want, evaluate, prepare
+from icsolve.scene.program import Program, Want, evaluate, evaluate_bounded, prepare
 from icsolve.solve import solve
 from icsolve.tuples import NamedTuple
 

@@ -13,7 +13,7 @@ from importlib.resources import files
 import numpy as np
 import numpy.typing as npt
 
-from icsolve.assembly.intersections import PlacedCircle, intersection
+from icsolve.assembly.loci import PlacedCircle, intersection
 from icsolve.numbers.arithmetic import FLOATS, turn_of
 from icsolve.screws.plane import Triple, cross, dyad_twists, pairing, pin_twist
 from icsolve.tuples import NamedTuple

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from icsolve.assembly import Frame
 from icsolve.case import Case, Coordinates
-from icsolve.kinematics.loops import Bases
+from icsolve.kinematics.twists import Bases
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.scene.program import Program, Want, prepare
 from icsolve.screws.joints import freedoms, transmitted

@@ -11,7 +11,7 @@ from icsolve.cli.run import DONE, for_each, on_stderr
 from icsolve.cli.solving import print_json
 
 if TYPE_CHECKING:
-    from icsolve.assembly.construct import Place, Ways
+    from icsolve.assembly.modes import Place, Ways
     from icsolve.case import Case
     from icsolve.errors import SceneError
 
@@ -32,7 +32,7 @@ def ways_command(cases: tuple[str, ...], as_json: bool, settings: dict[str, str]
     """
 
     def work(case: Case, path: str) -> int:
-        from icsolve.assembly.construct import ways_of
+        from icsolve.assembly.modes import ways_of
 
         found = ways_of(case)
         if as_json:

@@ -12,7 +12,7 @@ from icsolve.report.derivation import Known
 from icsolve.report.derivation.spatial import InSpace, Push, in_space
 from icsolve.screws.space import Vec, size, sub
 from icsolve.statics.space.reaction_basis import SpatialTie
-from icsolve.statics.space.report import direction_words
+from icsolve.statics.space.reactions import direction_words
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 

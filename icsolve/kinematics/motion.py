@@ -8,8 +8,7 @@ import math
 from icsolve.assembly.workspace import Frame
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
-from icsolve.kinematics.loops import ORIGIN, Bases, LoopMotions, all_motions
-from icsolve.kinematics.twists import Closure, is_singular, run
+from icsolve.kinematics.twists import ORIGIN, Bases, Closure, LoopMotions, all_motions, is_singular, run
 from icsolve.numbers.arithmetic import Arithmetic, decider
 from icsolve.numbers.given import Number
 from icsolve.screws.joints import Points, freedoms, guide_direction, points_of

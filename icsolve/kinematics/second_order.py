@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from icsolve.kinematics.loops import ORIGIN, Bases, Branch, loop_rows, span
+from icsolve.kinematics.twists import ORIGIN, Bases, Branch, loop_rows, span
 from icsolve.numbers.null_space import null_space
 from icsolve.screws.joints import transmitted
 from icsolve.screws.plane import Triple, add, pairing, subtract, times

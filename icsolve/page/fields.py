@@ -9,9 +9,9 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from icsolve.assembly.data import LENGTH, RAY, Datum, X, number_of
 from icsolve.assembly.loci import Axis, CircleLocus, Locus
 from icsolve.assembly.steps import Given, Meet, Polar, Step
+from icsolve.assembly.workspace import LENGTH, RAY, Datum, X, number_of
 from icsolve.case import Case, Load, Number, Pin, TorsionSpring
 from icsolve.case.names import pair_name
 from icsolve.draw.words import unit_word

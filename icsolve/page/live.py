@@ -11,18 +11,27 @@ from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
-from icsolve.assembly.data import CORNER, LENGTH, LINE, MEAN, RAY, data_of, number_of
 from icsolve.assembly.groups import Group
-from icsolve.assembly.intersections import gaps_of, intersection
-from icsolve.assembly.loci import is_round
+from icsolve.assembly.loci import gaps_of, intersection, is_round
 from icsolve.assembly.steps import Given, Mean, Meet, Step, aims, leading_to
-from icsolve.assembly.workspace import Key, Workspace, normalised
+from icsolve.assembly.workspace import (
+    CORNER,
+    LENGTH,
+    LINE,
+    MEAN,
+    RAY,
+    Key,
+    Workspace,
+    data_of,
+    normalised,
+    number_of,
+)
 from icsolve.case import Coordinates, Motion, Number, Pin, Rope, Screw
 from icsolve.case.joints import Guided, Mesh
 from icsolve.draw.words import unit_word
-from icsolve.kinematics.loops import ORIGIN, Bases, Tree, loop_rows, rope_row, span
 from icsolve.kinematics.motion import TURN
 from icsolve.kinematics.speeds import joint_order
+from icsolve.kinematics.twists import ORIGIN, Bases, Tree, loop_rows, rope_row, span
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record
 from icsolve.numbers.source import JAVASCRIPT, JAVASCRIPT_FUNCTIONS, straight_line

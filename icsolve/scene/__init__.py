@@ -17,9 +17,8 @@ from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.balls import is_long
 from icsolve.scene import refusals
-from icsolve.scene.bounds import EvaluatedScene, Evaluation
 from icsolve.scene.parts import AnswerBuilder
-from icsolve.scene.program import Want, prepare
+from icsolve.scene.program import EvaluatedScene, Evaluation, Want, prepare
 from icsolve.statics.power import is_unknown
 
 

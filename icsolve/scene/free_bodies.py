@@ -8,9 +8,8 @@ from typing import TypeVar
 from icsolve.answer import Answer
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS
-from icsolve.scene.bounds import EvaluatedScene, Evaluation, plain, points_shown
 from icsolve.scene.parts import AnswerBuilder, speed_of
-from icsolve.scene.program import Program, evaluate_still
+from icsolve.scene.program import EvaluatedScene, Evaluation, Program, evaluate_still, plain, points_shown
 from icsolve.statics.error_bound import SceneOnBalls
 from icsolve.statics.free_bodies import FreeBodies, free_bodies
 from icsolve.statics.friction import Enclose, solved

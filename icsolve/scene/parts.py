@@ -1,25 +1,29 @@
-"""The parts of an answer, each made when somebody looks into it."""
+"""The parts of an answer, each made when somebody looks into it; the sum of power as it is printed."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from decimal import Decimal
 from functools import cached_property
 
 from icsolve.answer import Answer, Centre, Deferred, Found, Later, Term
-from icsolve.case import Case, Number, Pair
+from icsolve.case import Case, ForceVector, Number, Pair
 from icsolve.case.names import link_order
 from icsolve.errors import SceneError
 from icsolve.kinematics import speeds
 from icsolve.kinematics.centres import CentreFinder
 from icsolve.kinematics.motion import Motions
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.kinematics.speeds import Speed
+from icsolve.numbers.arithmetic import Arithmetic, Scalar
 from icsolve.numbers.balls import PRECISIONS, BelowZero, MoreDigits, MovedBalls
-from icsolve.scene.bounds import (
+from icsolve.scene.program import (
     EvaluatedScene,
     Evaluation,
+    Program,
+    Want,
+    evaluate,
     evaluate_bounded,
     floats,
     plain,
@@ -27,15 +31,58 @@ from icsolve.scene.bounds import (
     slopes,
     unknown_values,
 )
-from icsolve.scene.program import Program, Want, evaluate
 from icsolve.scene.sensitivity import numbers_of, unsettled
-from icsolve.scene.terms import advantage, power_terms
 from icsolve.screws.plane import Triple
 from icsolve.statics import power
-from icsolve.statics.power import Bounded, Outcome, Value
+from icsolve.statics.power import Bounded, Outcome, Value, Wrench, known_value, vector_size
 from icsolve.tuples import replace
 from icsolve.wording import sentences
 from icsolve.wording.senses import sense_of, unit_of
+from icsolve.wording.sentences import link_words
+
+
+def load_value(w: Wrench, values: Mapping[str, Scalar], a: Arithmetic) -> Scalar:
+    """The number of a load, known or found (``values``, by the load that has it), in its own unit."""
+    if w.root in values:
+        return w.ratio * values[w.root]
+    if isinstance(w.source, ForceVector):
+        return w.ratio * vector_size(w.source)
+    return w.ratio * (a.given(w.source.value) if isinstance(w.source.value, Number) else 0.0)
+
+
+def power_terms(found: Evaluation, values: Mapping[str, Scalar], speed: Speed) -> Iterable[Term]:
+    """One term a load, for the motion that is printed."""
+    case, frame, balance = found.program.case, found.program.figure.frame, found.outcome.balance
+    a, motions = found.arithmetic, range(len(balance.factors))
+    for n, w in enumerate(balance.wrenches):
+        row = [balance.factors[m][n] for m in motions]
+        per = w.measure / frame.scale
+        size = max(balance.sizes[m][n] for m in motions)
+        factor = speed.particular_of(row, size) * per
+        value = load_value(w, values, a)
+        unknown = known_value(w) is None
+        power, _ = a.rounded(value * factor, abs(value) * size * per / abs(speed.divisor))
+        numbers = a.rounded(value)[0], unit_of(w.load, case), a.rounded(factor)[0], power
+        yield Term(w.load.name, w.load.link, *numbers, unknown, _where(case, w))
+
+
+def _where(case: Case, w: Wrench) -> str:
+    at = getattr(w.load, "at", "@")
+    where = f"{w.load.name} on {link_words(w.load.link)}" + ("" if at.startswith("@") else f" at {at}")
+    return where if w.against == case.ground else f"{where} against link {w.against}"
+
+
+def advantage(found: Evaluation, values: Mapping[str, Scalar]) -> float | None:
+    """unknown / known where there is one of each and the known one is not zero."""
+    wrenches = found.outcome.balance.wrenches
+    ours = [w for w in wrenches if w.root in values]
+    known = [w for w in wrenches if w.root not in values]
+    if len(ours) != 1 or len(known) != 1:
+        return None
+    a = found.arithmetic
+    above, below = (load_value(w, values, a) for w in (*ours, *known))
+    return None if below == 0.0 else a.rounded(above / below)[0]
+
 
 Velocities = dict[tuple[str, str], tuple[float, float] | str]
 
@@ -348,7 +395,7 @@ def _skipped(program: Program, outcome: Outcome) -> tuple[str, ...]:
 
 def _steps(program: Program) -> tuple[str, ...]:
     """The steps of the plan that ran."""
-    from icsolve.assembly.words import step_words
+    from icsolve.assembly.refusals import step_words
 
     figure = tuple(map(step_words, program.figure.steps))
     if program.plan is None:

@@ -146,7 +146,7 @@ def _why_at_rest(top: Topology, motions: Motions, link: str, arithmetic: Arithme
     """Which centres on one line hold a link at rest."""
     body = top.body_of.get(link, -1)  # none of a screw, or of a rope's end
     own_first = sorted(motions.closures, key=lambda closure: body not in closure.group.bodies)
-    from icsolve.kinematics.collinear import aligned, lined_up
+    from icsolve.kinematics.centres import aligned, lined_up
 
     clauses = (aligned(top, lined_up(closure, top, body, arithmetic)) for closure in own_first)
     return next(filter(None, clauses), "")
@@ -165,7 +165,7 @@ def overflow(load: str) -> SceneError:
 
 def too_close(top: Topology, motions: Motions, load: str, open_by: float | None) -> SceneError:
     """The refusal of a scene whose data do not decide it."""
-    from icsolve.kinematics.collinear import aligned, tightest
+    from icsolve.kinematics.centres import aligned, tightest
 
     group = tightest(motions.closures)
     why = aligned(top, sorted(group.group.bonds), "lie nearly on") if group else ""

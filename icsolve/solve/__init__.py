@@ -12,9 +12,8 @@ from icsolve.answer import Answer
 from icsolve.case import Case, Coordinates, Number
 from icsolve.errors import SceneError, Status
 from icsolve.scene import judged, solve_scene, wanted, without_inertia
-from icsolve.scene.bounds import EvaluatedScene
 from icsolve.scene.parts import AnswerBuilder
-from icsolve.scene.program import Want, prepare
+from icsolve.scene.program import EvaluatedScene, Want, prepare
 from icsolve.statics.power import is_unknown
 from icsolve.tuples import NamedTuple
 

@@ -15,11 +15,11 @@ from contextlib import suppress
 import numpy as np
 
 from icsolve.assembly import Figure, Placement, place, solve_figure
-from icsolve.assembly.construct import order_that_assembles
+from icsolve.assembly.conditions import ahead, compare, size_of
 from icsolve.assembly.groups import Group
 from icsolve.assembly.loci import is_round
+from icsolve.assembly.modes import order_that_assembles
 from icsolve.assembly.order import Order, order_of
-from icsolve.assembly.residuals import ahead, compare, size_of
 from icsolve.assembly.steps import Meet, Step
 from icsolve.assembly.workspace import Workspace, frame_of
 from icsolve.case import Case, Coordinates, Number, TorsionSpring

@@ -12,7 +12,7 @@ import numpy as np
 
 from icsolve.answer import Answer
 from icsolve.answer.equilibrium import Stiffness
-from icsolve.assembly.construct import ways_of
+from icsolve.assembly.modes import ways_of
 from icsolve.case import (
     Case,
     Coordinates,

@@ -15,7 +15,7 @@ import numpy as np
 
 from icsolve.answer.equilibrium import EquilibriumPosition, Stiffness
 from icsolve.assembly import Figure
-from icsolve.assembly.construct import ways_of
+from icsolve.assembly.modes import ways_of
 from icsolve.assembly.order import Order
 from icsolve.assembly.workspace import frame_of
 from icsolve.case import Case, Load, TorsionSpring

@@ -30,14 +30,7 @@ from icsolve.statics.error_bound import (
     error_bounds,
     is_smooth,
 )
-from icsolve.statics.free_bodies import (
-    FreeBodies,
-    Solved,
-    carrying_flanks,
-    frictionless,
-    on_flanks,
-    told,
-)
+from icsolve.statics.free_bodies import FreeBodies, Solved, carrying_flanks, frictionless, on_flanks, told
 from icsolve.statics.friction_equations import forces_of
 from icsolve.statics.friction_interface import rates_of, rubs_of, unknowns_by_power
 from icsolve.statics.friction_limits import (
@@ -53,11 +46,7 @@ from icsolve.statics.friction_limits import (
 from icsolve.statics.power import Balance, Bounded, Solution, Value, is_unknown
 from icsolve.statics.reaction_basis import Position, Tie, ties_of
 from icsolve.statics.reactions import names_by_tie, reactions_of
-from icsolve.statics.witness import (
-    refuse_doubt,
-    residual,
-    terms_of,
-)
+from icsolve.statics.witness import refuse_doubt, residual, terms_of
 from icsolve.tuples import NamedTuple, replace
 from icsolve.wording.sentences import listed, plural
 

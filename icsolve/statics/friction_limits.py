@@ -33,14 +33,7 @@ from icsolve.statics.friction_equations import (
     reduced,
     reduced_workless,
 )
-from icsolve.statics.homotopy import (
-    COUNTED,
-    Solutions,
-    all_roots,
-    followed,
-    solutions,
-    without_friction,
-)
+from icsolve.statics.homotopy import COUNTED, Solutions, all_roots, followed, solutions, without_friction
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 

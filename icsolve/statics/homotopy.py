@@ -36,7 +36,7 @@ from icsolve.statics.friction_equations import (
     slopes,
     vector,
 )
-from icsolve.structure.groups import strongly_connected
+from icsolve.structure.plan import strongly_connected
 from icsolve.tuples import NamedTuple
 
 Y = tuple[float, ...]

@@ -13,17 +13,8 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 
-from icsolve.assembly.residuals import MISFIT
-from icsolve.case import (
-    Case,
-    Guide,
-    Joint,
-    Pin,
-    Rope,
-    Screw,
-    Slide,
-    Thread,
-)
+from icsolve.assembly.conditions import MISFIT
+from icsolve.case import Case, Guide, Joint, Pin, Rope, Screw, Slide, Thread
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import TURN

@@ -18,12 +18,7 @@ from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar, Showing, all_vanish, size_of, zero_of
 from icsolve.screws.plane import velocity
 from icsolve.statics.equilibrium import Statics, Transmits, value_of
-from icsolve.statics.reaction_basis import (
-    Position,
-    Tie,
-    axial_shares,
-    tangent_and_separating,
-)
+from icsolve.statics.reaction_basis import Position, Tie, axial_shares, tangent_and_separating
 from icsolve.wording.sentences import listed, plural
 
 

@@ -10,7 +10,6 @@ import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 
 from icsolve.assembly import case_point, solve_figure
-from icsolve.assembly.data import CORNER, LENGTH, RAY, Datum, X, Y, data_of, number_of
 from icsolve.assembly.driven.constraints import (
     BodyLine,
     Constraint,
@@ -24,7 +23,7 @@ from icsolve.assembly.driven.constraints import (
 from icsolve.assembly.driven.groups import DEPENDENT, as_written, derivatives, jacobian
 from icsolve.assembly.driven.mechanism import Mechanism
 from icsolve.assembly.driven.poses import Rotation, Spot, Still, minus
-from icsolve.assembly.workspace import normalised
+from icsolve.assembly.workspace import CORNER, LENGTH, RAY, Datum, X, Y, data_of, normalised, number_of
 from icsolve.case import Case, Coordinates, Number, Pin
 from icsolve.case.joints import Guided, Mesh, Rolling
 from icsolve.errors import SceneError, Status

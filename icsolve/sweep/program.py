@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from icsolve.assembly import Figure, place, placed_figure
-from icsolve.assembly.data import names_of, number_of
+from icsolve.assembly.conditions import refuse_misfit
 from icsolve.assembly.driven.constraints import Constraint, Turning
 from icsolve.assembly.driven.mechanism import Mechanism, mechanism
 from icsolve.assembly.driven.motion import DrivenMotion, order_of, set_moving
-from icsolve.assembly.residuals import refuse_misfit
+from icsolve.assembly.workspace import names_of, number_of
 from icsolve.case import Case, Pair
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar

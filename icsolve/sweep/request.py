@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 import numpy.typing as npt
 
-from icsolve.assembly.data import names_of
+from icsolve.assembly.workspace import names_of
 from icsolve.case import Case, Pair
 from icsolve.numbers.replay import Array
 from icsolve.read.names import pairs, shown, suggestion

@@ -10,9 +10,8 @@ from collections.abc import Callable
 from itertools import pairwise
 
 from icsolve.assembly.conditions import FigureEquation, at_distance, on_line
-from icsolve.assembly.data import Datum
 from icsolve.assembly.driven.poses import Places, Rotation, Shape, Spot, dot, minus, scaled, square
-from icsolve.assembly.workspace import Workspace
+from icsolve.assembly.workspace import Datum, Workspace
 from icsolve.case import Rope
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import RADIAN, Scalar

@@ -15,7 +15,6 @@ from icsolve.assembly.driven.constraints import (
     Turning,
 )
 from icsolve.assembly.driven.groups import NewtonGroup, settled, smallest
-from icsolve.assembly.driven.loci import locus, reference, rotation_to_line
 from icsolve.assembly.driven.mechanism import Mechanism
 from icsolve.assembly.driven.order import (
     TOUCHING,
@@ -27,9 +26,12 @@ from icsolve.assembly.driven.order import (
     PlaceByTwoPoints,
     RotateToLine,
     RotateWith,
+    locus,
+    reference,
+    rotation_to_line,
 )
 from icsolve.assembly.driven.poses import Moved, Rotation, Spot, dot, minus, rotated, scaled, square
-from icsolve.assembly.intersections import PlacedLocus, crossing_sine, intersection, side
+from icsolve.assembly.loci import PlacedLocus, crossing_sine, intersection, side
 from icsolve.assembly.workspace import Workspace
 from icsolve.numbers.arithmetic import RADIAN, Scalar
 from icsolve.numbers.record import Traced, varies

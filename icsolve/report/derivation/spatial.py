@@ -9,10 +9,9 @@ from icsolve.case.space import SpatialTorque, TorqueVector
 from icsolve.errors import SceneError
 from icsolve.report.derivation.known import Known
 from icsolve.screws.space import Vec, times
-from icsolve.statics.space.figure import SpatialFigure, figure_of, in_case
 from icsolve.statics.space.power import wrenched
-from icsolve.statics.space.reaction_basis import SpatialTie, ties_of
-from icsolve.statics.space.report import unit_of
+from icsolve.statics.space.reaction_basis import SpatialFigure, SpatialTie, figure_of, in_case, ties_of
+from icsolve.statics.space.reactions import unit_of
 from icsolve.tuples import NamedTuple
 
 

@@ -19,8 +19,9 @@ from icsolve.numbers.sparse import Row, eliminate
 from icsolve.screws.space import ZERO, Components, Vec, dot, moved, size, times, unit, velocity_of
 from icsolve.statics.equilibrium import NOTHING_SOLVED, Action, Equilibrium, columns_of, solve_statics
 from icsolve.statics.power import is_unknown, source_of
-from icsolve.statics.space.figure import (
+from icsolve.statics.space.reaction_basis import (
     SpatialFigure,
+    SpatialTie,
     between,
     direction,
     heading,
@@ -28,7 +29,6 @@ from icsolve.statics.space.figure import (
     spring_length,
     vector_of,
 )
-from icsolve.statics.space.reaction_basis import SpatialTie
 from icsolve.tuples import NamedTuple
 
 SpatialStatics = Equilibrium[SpatialTie]

@@ -20,7 +20,6 @@ from icsolve.numbers.arithmetic import FLOATS, Scalar, Showing
 from icsolve.numbers.balls import PRECISIONS, Balls, HalfUnits, MoreDigits, is_long
 from icsolve.numbers.given import numbers_in
 from icsolve.statics.free_bodies import carrying, on_flanks
-from icsolve.statics.space.figure import SpatialFigure, figure_of, in_case
 from icsolve.statics.space.power import (
     SpatialBalance,
     SpatialStatics,
@@ -34,15 +33,25 @@ from icsolve.statics.space.power import (
     unit_powers,
     wrenched,
 )
-from icsolve.statics.space.reaction_basis import SpatialTie, flanked, ties_of
+from icsolve.statics.space.reaction_basis import (
+    SpatialFigure,
+    SpatialTie,
+    figure_of,
+    flanked,
+    in_case,
+    ties_of,
+)
 from icsolve.statics.space.reactions import (
+    advantage_of,
     notes_of,
     reactions_of,
     refuse_huge,
     refuse_loose,
     refuse_unbalanced,
+    sense_of,
+    terms_of_power,
+    unit_of,
 )
-from icsolve.statics.space.report import advantage_of, sense_of, terms_of_power, unit_of
 from icsolve.statics.witness import (
     bounds_of,
     refuse_apart,
