@@ -6,9 +6,11 @@ import pytest
 from mpmath import mpf
 
 import icsolve
-from icsolve.case import Number
+from icsolve.case import Number, Rope
 from icsolve.scene.program import Want, evaluate, prepare
 from icsolve.scene.sensitivity import band, entries, influences, text
+from icsolve.statics.friction_interface import has_friction
+from library import FILES, sample
 from more_digits import SixtyDigits
 
 PRESS = """
@@ -48,6 +50,30 @@ def test_every_sensitivity_is_a_derivative() -> None:
         up, down = (evaluate(program, Moved(influence.path, h))[1].solution for h in (1e-12, -1e-12))
         difference = float((up.values["T12"] - down.values["T12"]) / mpf(2e-12))
         assert influence.per_unit == pytest.approx(difference, rel=1e-9, abs=1e-12), influence.path
+
+
+SEVERAL_FREEDOMS = {"linkages/five_bar.yaml", "linkages/pantograph.yaml"}
+"""Where the null space of loops is found by elimination, among whose numbers some are zero as they stand."""
+
+
+@pytest.mark.parametrize("name", sorted(SEVERAL_FREEDOMS | {*sample(FILES, 15, "slopes")}))
+def test_sensitivities_of_the_library_are_derivatives(name: str) -> None:
+    """By every number, also where an answer or a coefficient is zero in the position as written."""
+    case = icsolve.load(FILES[name])
+    try:
+        slopes = icsolve.solve(case).sensitivities
+        program = prepare(case, Want())
+    except icsolve.SceneError:
+        pytest.skip("no answer, or one of another kind")
+    if case.dynamic or has_friction(case) or any(isinstance(joint, Rope) for joint in case.joints):
+        pytest.skip("inertia forces, friction and ropes have slopes of their own")
+    for path in sorted({path for by_path in slopes.values() for path in by_path}):
+        up, down = (evaluate(program, Moved(path, h))[1].solution.values for h in (1e-12, -1e-12))
+        for load, by_path in slopes.items():
+            if load in up:
+                size = max(map(abs, by_path.values()))
+                true = float((up[load] - down[load]) / mpf(2e-12))
+                assert by_path.get(path, 0.0) == pytest.approx(true, rel=1e-9, abs=1e-12 * size + 1e-15), path
 
 
 def test_one_percent_more_of_the_only_load_is_one_percent_more_torque() -> None:

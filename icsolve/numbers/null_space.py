@@ -106,7 +106,7 @@ def _pivot(work: list[list[Scalar]], order: list[int], rank: int, r: int, c: int
         row[rank], row[c] = row[c], row[rank]
     top = work[rank]
     for row in work[rank + 1 :]:
-        if row[rank] == 0.0:
+        if not row[rank]:  # a zero that varies is none: of a number on a tape it has derivatives
             continue
         ratio = row[rank] / top[rank]
         for k in range(rank + 1, len(row)):

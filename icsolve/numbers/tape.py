@@ -131,6 +131,10 @@ class Taped:
     def __float__(self) -> float:
         return self.value
 
+    def as_zero(self) -> Taped:
+        """The zero that this was found to be, with its derivatives."""
+        return self - self.value
+
     def __eq__(self, other: object) -> bool:
         return self.value == float(other)  # type: ignore[arg-type]
 

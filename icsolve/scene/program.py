@@ -276,7 +276,6 @@ def unknown_values(found: Evaluation) -> dict[str, Value]:
             value, error = found.arithmetic.rounded(exact)
             if not abs(value) < math.inf:
                 raise refusals.overflow(w.load.name)
-            error += abs(w.ratio) * solution.off.get(w.root, 0.0)
             known = error < math.inf
             values[w.load.name] = Value(value, error if known else None, "" if known else UNASKED)
     return values

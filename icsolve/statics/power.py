@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from types import MappingProxyType
 from typing import TYPE_CHECKING, TypeVar
 
 from icsolve.assembly.workspace import Frame
@@ -32,7 +31,7 @@ from icsolve.case import (
 )
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.motion import Motions
-from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, all_vanish, decider, magnitude
+from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar, all_vanish, decider, magnitude, zero_of
 from icsolve.numbers.null_space import null_space
 from icsolve.numbers.tape import Tape
 from icsolve.screws.plane import Point, Triple, force_wrench, pairing
@@ -342,17 +341,20 @@ class Solution(NamedTuple):
     ----------
     verdict : ``balanced``; ``no value`` / ``any value`` (an unknown does no work; the known loads do, do
         not), ``too few unknowns`` or ``too many unknowns``
-    values : by name [case units], 0.0 where it vanishes
+    values : by name [case units]; what vanishes is the zero of its arithmetic (`zero_of`)
     idle : the motions in which no load does work
     culprit : of ``no value`` and the like, the load that it is about
-    off : by name, of a value that vanishes how far it may lie from zero [case units]
     """
 
     verdict: str
     values: dict[str, Scalar]
     idle: tuple[int, ...] = ()
     culprit: str = ""
-    off: Mapping[str, float] = MappingProxyType({})
+
+
+PowerRow = tuple[list[Scalar], set[int]]
+"""The equation of power of a motion: the factor of each unknown, then the power of the known loads; and which
+of these are zero."""
 
 
 def solve_balance(b: Balance, arithmetic: Arithmetic) -> Solution:
@@ -377,20 +379,13 @@ def solve_balance(b: Balance, arithmetic: Arithmetic) -> Solution:
     scale = force_scale(b)
     shares = [_share(w, unknown, place, scale, arithmetic) for w in b.wrenches]
     columns = len(unknown) + 1
-    offs: list[list[float]] = []
-    rows = []
-    for factors, sizes in zip(b.factors, b.sizes, strict=True):
-        row, off = _row(shares, factors, sizes, columns, arithmetic)
-        rows.append(row)
-        offs.append(off)
-    still = [0.0] * columns
-    idle = tuple([m for m, row in enumerate(rows) if row == still])
-    solution = _solved(rows, list(place), idle, [(scale, w.measure) for w in unknown], arithmetic)
-    if len(rows) - len(idle) == len(unknown) == 1 and solution.values:
-        m = next(m for m in range(len(rows)) if m not in idle)
-        off = offs[m][1] / abs(rows[m][0]) / scale / unknown[0].measure
-        return solution._replace(off={unknown[0].root: off})
-    return solution
+    rows = [
+        _row(shares, factors, sizes, columns, arithmetic)
+        for factors, sizes in zip(b.factors, b.sizes, strict=True)
+    ]
+    idle = tuple([m for m, (_, zero) in enumerate(rows) if len(zero) == columns])
+    working = [row for m, row in enumerate(rows) if m not in idle]
+    return _solved(working, list(place), idle, [(scale, w.measure) for w in unknown], arithmetic)
 
 
 def is_unknown(load: Load | SpatialLoad) -> bool:
@@ -452,35 +447,30 @@ def _row(
     sizes: Sequence[float],
     columns: int,
     arithmetic: Arithmetic,
-) -> tuple[list[Scalar], list[float]]:
-    """Factor of each unknown in one motion, then the (scaled) power of the known loads; of what vanishes
-    among them, how far it may lie from zero."""
+) -> PowerRow:
+    """The equation of power of one motion, the known loads scaled."""
     sums: list[Scalar] = [0.0] * columns
     terms = [0.0] * columns
     for (k, amount), factor, size in zip(shares, factors, sizes, strict=True):
         sums[k] = sums[k] + amount * factor
         terms[k] += abs(amount) * size
-    off = [0.0] * columns
-    for k, (value, size) in enumerate(zip(sums, terms, strict=True)):
-        if arithmetic.vanishes(value, size):
-            sums[k], off[k] = 0.0, abs(value) + getattr(value, "radius", 0.0)
-    return sums, off
+    zero = {k for k, size in enumerate(terms) if arithmetic.vanishes(sums[k], size)}
+    return [zero_of(value) if k in zero else value for k, value in enumerate(sums)], zero
 
 
 def _solved(
-    rows: list[list[Scalar]],
+    rows: list[PowerRow],
     roots: list[str],
     idle: tuple[int, ...],
     scales: list[tuple[float, float]],
     arithmetic: Arithmetic,
 ) -> Solution:
-    working = [row for m, row in enumerate(rows) if m not in idle]
-    if len(working) == 1 and len(roots) == 1:
-        factor, known = working[0]
-        if factor == 0.0:
+    if len(rows) == 1 and len(roots) == 1:
+        ((factor, known), zero) = rows[0]
+        if 0 in zero:
             return Solution("no value", {}, idle, roots[0])
         return Solution("balanced", {roots[0]: -known / factor / scales[0][0] / scales[0][1]}, idle)
-    return _solved_many(_equilibrated(working), roots, idle, scales, arithmetic)
+    return _solved_many(rows, roots, idle, scales, arithmetic)
 
 
 def _equilibrated(rows: list[list[Scalar]]) -> list[list[Scalar]]:
@@ -490,21 +480,21 @@ def _equilibrated(rows: list[list[Scalar]]) -> list[list[Scalar]]:
 
 
 def _solved_many(
-    rows: list[list[Scalar]],
+    powers: list[PowerRow],
     roots: list[str],
     idle: tuple[int, ...],
     scales: list[tuple[float, float]],
     arithmetic: Arithmetic,
 ) -> Solution:
-    count = len(roots)
+    count, rows = len(roots), _equilibrated([row for row, _ in powers])
     free = null_space([row[:count] for row in rows], count, 1e-13, vanishes=decider(arithmetic))
     whole = null_space(rows, count + 1, 1e-13, vanishes=decider(arithmetic))
     if whole.rank > free.rank:
         verdict = "no value" if free.rank < count and len(rows) <= count else "too few unknowns"
-        return Solution(verdict, {}, idle, _workless(rows, roots))
+        return Solution(verdict, {}, idle, _workless(powers, roots))
     if free.rank < count:
         verdict = "too many unknowns" if count > len(rows) + len(idle) else "any value"
-        return Solution(verdict, {}, idle, _workless(rows, roots))
+        return Solution(verdict, {}, idle, _workless(powers, roots))
     if not whole.basis or not roots:
         return Solution("balanced", dict.fromkeys(roots, 0.0), idle)
     vector = whole.basis[0]
@@ -514,21 +504,17 @@ def _solved_many(
         )
     largest = max(abs(value) for value in vector)
     values: dict[str, Scalar] = {}
-    off = {}
     for k, root in enumerate(roots):
-        per = vector[-1] * scales[k][0] * scales[k][1]
-        if arithmetic.vanishes(vector[k], largest):
-            values[root] = 0.0
-            off[root] = (abs(vector[k]) + getattr(vector[k], "radius", 0.0)) / abs(per)
-        else:
-            values[root] = vector[k] / per
-    return Solution("balanced", values, idle, off=off)
+        zero = arithmetic.vanishes(vector[k], largest)
+        value = vector[k] / (vector[-1] * scales[k][0] * scales[k][1])
+        values[root] = zero_of(value) if zero else value
+    return Solution("balanced", values, idle)
 
 
-def _workless(rows: list[list[Scalar]], roots: list[str]) -> str:
+def _workless(rows: list[PowerRow], roots: list[str]) -> str:
     """The first unknown that does no work in any motion."""
     for k, root in enumerate(roots):
-        if all(row[k] == 0.0 for row in rows):
+        if all(k in zero for _, zero in rows):
             return root
     return roots[0] if roots else ""
 
