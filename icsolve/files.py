@@ -210,7 +210,9 @@ def _status(path: str) -> os.stat_result | None:
 
 
 def _descriptor(path: str) -> int | None:
-    """The number of one's own open file that a name such as ``/dev/stdout`` leads to."""
+    """The number of one's own open file that a name such as ``/dev/stdout``, or ``-``, leads to."""
+    if path == "-":
+        return 1
     own = f"/proc/{os.getpid()}/fd"
     for _ in range(_LINKS):
         folder, name = os.path.split(path)

@@ -100,7 +100,7 @@ else:
             kind._plain = {name: default for name, default in defaults.items() if name not in kind._made}
             kind.__init__, kind.__replace__ = _keep, replace
             kind.__setattr__ = kind.__delattr__ = _refuse
-            kind.__dataclass_fields__ = _LibraryFields()
+            kind.__dataclass_fields__, kind.__signature__ = _LibraryFields(), _CallSignature()
             return kind
 
         return finished
@@ -135,3 +135,16 @@ else:
             from dataclasses import make_dataclass
 
             return make_dataclass(kind.__name__, kind._fields).__dataclass_fields__
+
+    class _CallSignature:
+        """How a class is called, for `help` and `inspect.signature`."""
+
+        def __get__(self, instance: object, kind: type) -> Any:
+            from inspect import Parameter, Signature
+
+            defaults = kind._plain | {name: make() for name, make in kind._made.items()}
+            how = Parameter.POSITIONAL_OR_KEYWORD
+            return Signature(
+                Parameter(name, how, default=defaults.get(name, Parameter.empty), annotation=told)
+                for name, told in kind.__annotations__.items()
+            )

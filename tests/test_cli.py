@@ -90,7 +90,24 @@ def test_of_several_files_each_answer_stands_under_its_name(icsolve: Shell) -> N
 def test_a_word_that_is_neither_command_nor_file_suggests_the_command(icsolve: Shell) -> None:
     ran = icsolve("slove", "press.yaml")
     assert (ran.code, ran.out) == (2, "")
-    assert "No such command 'slove'" in ran.err
+    assert "there is no command or file 'slove'; did you mean solve?" in ran.err
+
+
+@pytest.mark.parametrize(
+    ("word", "first"),
+    [
+        ("statuses", "# Statuses"),
+        ("friction", "### Friction"),
+        ("variants", "# Grading"),
+        ("rpm", "# format"),
+    ],
+)
+def test_the_manual_finds_a_page_a_section_or_the_paragraphs_of_a_word(
+    icsolve: Shell, word: str, first: str
+) -> None:
+    ran = icsolve("manual", word)
+    assert ran.code == 0 and ran.out.startswith(first) and word in ran.out.lower()
+    assert icsolve("manual", "xylophone").code == 2
 
 
 def test_rates_and_all_centres_come_on_request(icsolve: Shell) -> None:

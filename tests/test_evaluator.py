@@ -6,6 +6,7 @@ case with the row's numbers, which is another program from the figure on.
 
 from __future__ import annotations
 
+import pickle
 import random
 import shutil
 import subprocess
@@ -211,3 +212,10 @@ def test_a_record_has_no_nodes_for_what_is_exact() -> None:
     assert type(three + record.about(-3.0, 0.0)) is float
     assert isinstance(moved - three, Traced) and isinstance(record.about(3.0, 1e-16) - three, Traced)
     assert len(Op.__members__) == len({*Op})
+
+
+def test_an_evaluator_goes_to_other_processes() -> None:
+    own = icsolve.evaluator(icsolve.load(FOUR_BAR), ("angles.AB",), gradient=True)
+    other = pickle.loads(pickle.dumps(own))
+    for one, two in zip((own(70.0), own(50.0)), (other(70.0), other(50.0)), strict=True):
+        assert (one.answers["T12"], one.gradients["T12"]) == (two.answers["T12"], two.gradients["T12"])

@@ -143,6 +143,13 @@ def test_ones_own_output_by_name_goes_on_where_it_is() -> None:
     assert Path("log").read_text().startswith("before\n$CATEGORY: ")
 
 
+def test_a_hyphen_is_ones_own_output_for_exports_too(capfd: pytest.CaptureFixture[str]) -> None:
+    line = "export gift cases --count 1 --force -o"
+    assert exit_status(*line.split(), "out/gift") == exit_status(*line.split(), "-") == 0
+    assert capfd.readouterr().out == Path("out/gift").read_text(encoding="utf-8")
+    assert not Path("-").exists()
+
+
 @pytest.mark.parametrize("writer", [w for w in WRITERS if w != "new"])
 @pytest.mark.parametrize("by", ["its name", "a link", "a hard link"])
 def test_what_is_read_is_never_written_over(writer: str, by: str, here: Path) -> None:

@@ -134,6 +134,8 @@ def test_a_frozen_class_that_is_made_swiftly_is_one_of_the_library_too() -> None
         with pytest.raises(TypeError):
             change(first, five=1)
     assert [each.name for each in dataclasses.fields(first)] == ["one", "two", "three"]
+    told = inspect.signature(Frozen).parameters
+    assert [each.default for each in told.values()] == [inspect.Parameter.empty, {}, 3.0]
     assert pickle.loads(pickle.dumps(second)).four == copy.copy(second).four == 6.0
     for bad in (Frozen, lambda: Frozen(1, 2, 3, 4), lambda: Frozen(1, one=1), lambda: Frozen(1, x=1)):
         with pytest.raises(TypeError):

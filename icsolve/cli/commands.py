@@ -50,10 +50,16 @@ class Verbs(click.Group):
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
-        """As click does; of a file without its ending it is said how it is called."""
-        files = [f"{args[0]}{ending}" for ending in (".yaml", ".yml") if os.path.exists(f"{args[0]}{ending}")]
-        if args[0] not in VERBS and files:
-            ctx.fail(f"there is no command '{args[0]}'; to solve the file write `icsolve {files[0]}`")
+        """As click does; of a word that is no command it is said what is meant."""
+        word = args[0]
+        if word not in VERBS and not ctx.resilient_parsing:
+            files = [f"{word}{ending}" for ending in (".yaml", ".yml") if os.path.exists(f"{word}{ending}")]
+            if files:
+                ctx.fail(f"there is no command '{word}'; to solve the file write `icsolve {files[0]}`")
+            from icsolve.manual import nearest
+
+            hint = nearest(word, list(VERBS))
+            ctx.fail(f"there is no command or file '{word}'; {hint}`icsolve -h` lists the commands")
         return super().resolve_command(ctx, args)
 
     def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:

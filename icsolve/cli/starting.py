@@ -6,7 +6,7 @@ import click
 
 from icsolve.cli.run import DONE, UNREADABLE, complain
 from icsolve.files import KeptError, whole_file
-from icsolve.manual import TOPICS, kinds, nearest, page, section, template
+from icsolve.manual import TOPICS, kinds, nearest, template, told_of
 
 
 @click.command("new")
@@ -36,7 +36,7 @@ def schema_command() -> int:
 @click.command("manual")
 @click.argument("topic", required=False)
 def manual_command(topic: str | None) -> int:
-    """Print a page of the manual, or the sections of a name; without TOPIC, list the pages.
+    """Print a page of the manual, or what it tells of a word; without TOPIC, list the pages.
 
     \b
     icsolve manual format
@@ -47,10 +47,10 @@ def manual_command(topic: str | None) -> int:
         for name, says in TOPICS.items():
             click.echo(f"{name:<{width}}  {says}")
         return DONE
-    text = page(topic) if topic in TOPICS else section(topic)
+    text = told_of(topic)
     if text is None:
         hint = nearest(topic, list(TOPICS))
-        complain(f"icsolve manual: there is no page {topic!r}; {hint}`icsolve manual` lists the pages")
+        complain(f"icsolve manual: nothing is told of {topic!r}; {hint}`icsolve manual` lists the pages")
         return UNREADABLE
     click.echo(text, nl=False)
     return DONE

@@ -24,6 +24,8 @@ TOPICS = {
     "inside": "for those who work on icsolve",
 }
 """The pages in their order, and what each tells."""
+SHORTEST = 3
+"""Letters of a word that paragraphs are searched for."""
 
 
 def page(topic: str) -> str:
@@ -31,12 +33,22 @@ def page(topic: str) -> str:
     return (_HERE / f"{topic}.md").read_text(encoding="utf-8")
 
 
-def section(word: str) -> str | None:
-    """The sections, of all pages, whose heading starts with a word; None where there are none."""
-    found = []
-    for topic in TOPICS:
-        parts = re.split(r"^(?=#+ )", re.sub(r"(?ms)^```.*?^```$", _hidden, page(topic)), flags=re.MULTILINE)
-        found += [part for part in parts if part.lstrip("# ").lower().startswith(word.lower())]
+def told_of(word: str) -> str | None:
+    """What the manual tells of a word: its page; else the sections, of all pages, whose heading starts with
+    it; else the page whose contents name it; else the paragraphs that hold it. None where there are none.
+    """
+    if word in TOPICS:
+        return page(word)
+    held = re.compile(rf"\b{re.escape(word)}", re.IGNORECASE)
+    parts = {topic: re.sub(r"(?ms)^```.*?^```$", _hidden, page(topic)) for topic in TOPICS}
+    sections = [part for text in parts.values() for part in re.split(r"^(?=#+ )", text, flags=re.MULTILINE)]
+    found = [part for part in sections if held.match(part.lstrip("# "))]
+    if not found and len(word) >= SHORTEST:
+        found = [page(topic) for topic, says in TOPICS.items() if held.search(says)][:1]
+    if not found and len(word) >= SHORTEST:
+        for topic, text in parts.items():
+            told = [block for block in re.split(r"\n{2,}|\n(?=\|)", text) if held.search(block)]
+            found += [f"# {topic}", *told] if told else []
     return "\n".join(part.replace("\0", "#").strip() + "\n" for part in found) or None
 
 

@@ -128,13 +128,18 @@ class Evaluator:
 
     def __init__(self, case: Case, names: dict[str, str], wanted: SweepRequest, gradients: bool) -> None:
         self.case, self.inputs, self.wanted = case, tuple(names), wanted
-        self.own = tuple(names.values())
+        self.own, self.gradients = tuple(names.values()), gradients
         self.compiled = None if _one_by_one(case) else _compiled(case, names, wanted.asked, gradients)
         if self.compiled is None and gradients:
             raise RequestError(
                 "there are no gradients where each row is solved as a scene of its own: with friction, "
                 "profiles, or points that only together can be placed"
             )
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Copies, and those of other processes, compile the case anew."""
+        names = dict(zip(self.inputs, self.own, strict=True))
+        return Evaluator, (self.case, names, self.wanted, self.gradients)
 
     def __call__(self, *columns: npt.ArrayLike) -> Evaluated:
         """Every row.
