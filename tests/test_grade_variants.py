@@ -13,7 +13,7 @@ from grade_shell import CASES, PRESS, Class
 from icsolve.case.expected import Variable
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course
-from icsolve.grade.keys import NumberKey
+from icsolve.grade.keys import NumberKey, numbers_of
 from icsolve.grade.roster import Person
 from icsolve.grade.variants.sheets import VariantTask, key_csv
 from icsolve.grade.variants.varied import Varied, drawn, label
@@ -75,6 +75,36 @@ def test_loads_that_do_not_grow_alike_are_solved_each(a_class: Class) -> None:
     text = PRESS.replace("  T12:", "  W: {weight: 50, link: 3, at: C}\n  T12:")
     a_class.case("press", text)
     test_a_key_is_what_the_case_gives_with_those_values(a_class)
+
+
+@pytest.mark.parametrize(
+    ("name", "changes", "variables"),
+    [
+        ("ch13/13_08_four_bar", {"AB: 110": "AB: $phi"}, "phi: {range: [0, 359], step: 1}"),
+        ("sliders/slider_crank_offset", {"AB: 120": "AB: $t"}, "t: {range: [10, 170], step: 1}"),
+        ("linkages/watt_six_bar", {"C: [5, 3]": "C: [$x, 3]"}, "x: {range: [4, 6], step: 0.01}"),
+        ("ropes/crank_and_rope", {"B: [0.3,": "B: [$x,"}, "x: {range: [0.1, 0.6], step: 0.01}"),
+        ("ropes/capstan", {"mu: {O: 0.25}": "mu: {O: $m}"}, "m: {range: [0.1, 0.4], step: 0.01}"),
+        ("equilibrium/toggle_with_spring", {"weight: 30": "weight: $W"}, "W: {range: [20, 40], step: 1}"),
+    ],
+)
+def test_a_class_gets_what_each_student_would_get_alone(
+    a_class: Class, name: str, changes: dict[str, str], variables: str
+) -> None:
+    """Many variants are rows of one record, and of what it doubts scenes: the same are drawn, of the same
+    answers, the other way of assembling and dead centres among them."""
+    text = (CASES / f"{name}.yaml").read_text()
+    for old, new in changes.items():
+        assert old in text
+        text = text.replace(old, new)
+    a_class.case("press", f"{text}variables: {{{variables}}}\n")
+    together, alone = varied(a_class), varied(a_class)
+    students = [str(n) for n in range(9)]
+    together.ready(students)
+    for student in students:
+        assert together.draw(student) == alone.draw(student)
+        one, other = (numbers_of(v.key("press", student))[0].value for v in (together, alone))
+        assert one == pytest.approx(other, rel=1e-11)
 
 
 def test_only_variants_that_assemble_and_are_far_from_a_dead_centre(a_class: Class) -> None:

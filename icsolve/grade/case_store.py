@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 from icsolve.case import Case
@@ -173,6 +173,13 @@ class CaseStore:
             return varied.draw(student).label
         except NoKeyError:
             return ""
+
+    def ready(self, students: Iterable[str]) -> None:
+        """Solve the tasks of many students together, of the cases with variables that were met."""
+        every = list(students)
+        for found in self._solved.values():
+            if isinstance(found, Varied):
+                found.ready(every)
 
     def text(self, name: str) -> str:
         """The file of a case. Raises OSError."""

@@ -156,6 +156,7 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
             raise ValueError(f"there is no table of answers in {', '.join(job.submissions)}")
         if sinks.csv is not None:
             sinks.csv.write(HEADER + "\n")
+        case_store.ready(students)
         neighbours = _neighbours(case_store, students)
         work = MarkingWork(job.course, case_store, _shown(paths), neighbours, overrides)
         marker = Marker(work, issues, questions)

@@ -94,14 +94,14 @@ def _points(case: Case) -> set[str]:
 class SolvedCase:
     """One case with its answer, and the keys that were asked of it."""
 
-    def __init__(self, case: Case, course: Course, full: bool = False) -> None:
-        """Solved plainly, or at once in ``full``. Raises SceneError."""
+    def __init__(self, case: Case, course: Course, full: bool = False, plain: Answer | None = None) -> None:
+        """Solved plainly (``plain`` has that where it is known), or in ``full``. Raises SceneError."""
         self.case = case
         self.course = course
         self.scale = 1.0
         """by what the loads, and so the answers, are larger than in ``answer``"""
         self._answer = solved_for(case) if full else None
-        self.plain = self._answer or solved_plainly(case)
+        self.plain = self._answer or plain or solved_plainly(case)
         """the answers alone: enough for the key of a load"""
         self._base: SolvedCase | None = None
         self._keys: dict[str, AnyKey] = {}

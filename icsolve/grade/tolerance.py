@@ -270,7 +270,8 @@ def _exact(target: Target, answer: Answer) -> dict[str, float]:
     if not isinstance(target, LoadIs):
         return {}
     try:
-        return dict(solve(answer.case).sensitivities.get(target.load, {}))
+        own = answer.sensitivities.get(target.load)
+        return dict(own or solve(answer.case).sensitivities.get(target.load, {}))
     except SceneError:
         return {}
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping as Named
 from fractions import Fraction
+from functools import lru_cache
 
 from icsolve.case.expected import Variable
 from icsolve.read.document import Mapping, Node, Scalar, Sequence, is_null
@@ -31,6 +32,7 @@ class FormulaError(ValueError):
     """Arithmetic that can't be read; the message says what to write."""
 
 
+@lru_cache(maxsize=4096)
 def exact(text: str) -> Fraction:
     """The number, or the fraction of two, that a text says; exact, and of a size that a case may have.
 

@@ -30,7 +30,7 @@ from icsolve.sweep.drivers import Drive
 from icsolve.sweep.numbers import find_number, with_numbers
 from icsolve.sweep.program import CompiledSweep, RowRequest, Setting, compile_sweep, setting_of
 from icsolve.sweep.request import RequestError, SweepRequest, request_of
-from icsolve.tuples import dataclass, field, replace
+from icsolve.tuples import NamedTuple, dataclass, field, replace
 
 FEW = 24
 """So many rows at most run as Python: numpy's own cost a step is that of some twenty floats."""
@@ -70,6 +70,15 @@ class Evaluated:
 
     def __repr__(self) -> str:
         return f"<Evaluated: {len(self)} rows of {', '.join(self.answers)}>"
+
+
+class RecordedRows(NamedTuple):
+    """Rows of a record: arrays by kind and name (`CompiledSweep.outputs`), gradients by answer and input, and
+    the rows that a scene of their own has to tell, (n,)."""
+
+    arrays: dict[Key, Array]
+    gradients: dict[str, dict[str, Array]]
+    doubted: npt.NDArray[np.bool_]
 
 
 def evaluator(
@@ -176,6 +185,16 @@ class Evaluator:
         for row in again.tolist():
             self._as_scene(given, row, out)
         return out.result()
+
+    def recorded(self, *columns: Array) -> RecordedRows | None:
+        """What the record says of every row, (n,) each column; None where there is no record. No scene is
+        solved: the rows that it doubts are to be solved by who asks."""
+        if self.compiled is None:
+            return None
+        out = _Rows(self.compiled.parts, len(columns[0]))
+        doubted = np.zeros(len(columns[0]), dtype=bool)
+        doubted[self.compiled.run(list(columns), len(columns[0]), out)] = True
+        return RecordedRows(out.arrays, out.gradients, doubted)
 
     def case_of(self, *numbers: float) -> Case:
         """The case with these numbers, in the order of ``inputs`` [case units, degrees], as if written so."""

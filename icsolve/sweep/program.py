@@ -54,6 +54,8 @@ class RowRequest(NamedTuple):
     accelerations: bool = False
     dynamic: bool = False
     contacts: tuple[RestingContact, ...] = ()
+    terms: bool = False
+    """the power of a unit of every load, where the mechanism has one freedom"""
 
     @property
     def in_motion(self) -> bool:
@@ -278,6 +280,10 @@ def _outputs(
     for name, value in found.answers.items():
         if asked.answers and not rubs:
             out["answers", name] = (value,)
+    if asked.terms and len(found.balance.factors) == 1:
+        (row,) = found.balance.factors
+        pairs = zip(found.balance.wrenches, row, strict=True)
+        out |= {("terms", w.load.name): (factor * w.measure,) for w, factor in pairs}
     if asked.rates:
         out |= {("rates", link): (rate,) for link, rate in rates(scene, found.motions).items()}
     for pair in asked.centres:

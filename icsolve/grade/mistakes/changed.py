@@ -158,6 +158,16 @@ def _written(number: Number, value: float) -> Number:
     return Number(value, 0.0, number.path, repr(value))
 
 
+def turned_loads(answer: Answer) -> dict[str, Case]:
+    """The case with each known load a quarter turn ccw, by its name, and with an unknown that is alone; those
+    that have no direction of their own are left out."""
+    case = answer.case
+    single = len(answer.answers) == 1
+    loads = [*known_loads(case), *(load for load in case.loads if single and load.name in answer.answers)]
+    found = {load.name: turned(load, answer) for load in loads}
+    return {name: with_load(case, load) for name, load in found.items() if load is not None}
+
+
 def turned(load: Load, answer: Answer) -> Load | None:
     """The force a quarter turn ccw; None for a load without a direction of its own."""
     if isinstance(load, ForceVector):

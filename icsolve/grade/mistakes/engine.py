@@ -5,7 +5,7 @@ steps of a scene with one unknown follow from its centres and rates.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
 
 from icsolve.answer import Answer
@@ -33,8 +33,7 @@ from icsolve.grade.mistakes.changed import (
     moves_otherwise,
     place_of,
     same_kind,
-    turned,
-    with_load,
+    turned_loads,
 )
 from icsolve.grade.mistakes.lookup import FACTORS, Wrong, plain_wrongs
 from icsolve.report.check import value_of
@@ -46,6 +45,8 @@ _NOTHING = 1e-9
 PlaceWrong = tuple[float, float, Wrong]
 """A wrong place and its cause."""
 Solution = tuple[Changed, Answer]
+Known = Mapping[str, Sequence[Answer | None]]
+"""Changed cases solved before, by their kind and in their order."""
 
 
 def solved_for(case: Case, target: Target | None = None) -> Answer:
@@ -73,25 +74,36 @@ class WrongAnswers:
     wrong reading of a centre or a ratio.
     """
 
-    def __init__(self, answer: Answer, target: Target | None = None) -> None:
+    def __init__(self, answer: Answer, target: Target | None = None, known: Known | None = None) -> None:
+        """``known``: the changed cases that were solved before."""
         self.answer = answer
         self._target = target
+        self._known = known or {}
 
     @cached_property
     def _figures(self) -> list[Solution]:
-        return self._solved(changed_figures(self.answer.case, self._pose))
+        return self._solved("figures", changed_figures(self.answer.case, self._pose))
 
     @cached_property
     def _loads(self) -> list[Solution]:
-        return self._solved(changed_loads(self.answer.case, self._pose.points))
+        return self._solved("loads", changed_loads(self.answer.case, self._pose.points))
+
+    @cached_property
+    def _quarters(self) -> dict[str, Answer]:
+        """The answers with a load a quarter turn on, by the load."""
+        turned = turned_loads(self.answer)
+        found = self._solved("quarters", (Changed("", case, name) for name, case in turned.items()))
+        return {changed.where: answer for changed, answer in found}
 
     @property
     def _pose(self) -> Answer:
         """The answer itself, or of several positions the first."""
         return self.answer.positions[0].answer if self.answer.positions else self.answer
 
-    def _solved(self, some: Iterator[Changed]) -> list[Solution]:
-        found = ((changed, _tried(changed.case, self._target)) for changed in some)
+    def _solved(self, kind: str, some: Iterable[Changed]) -> list[Solution]:
+        changes = list(some)
+        answers = self._known.get(kind) or [_tried(changed.case, self._target) for changed in changes]
+        found = zip(changes, answers, strict=True)
         return [(changed, answer) for changed, answer in found if answer is not None]
 
     def of(self, target: Target, value: float | None = None) -> list[Wrong]:
@@ -144,18 +156,13 @@ class WrongAnswers:
             if other != unknown and found.unit == answer.answers[unknown].unit:
                 yield Wrong("other-unknown", found.value, other)
 
-    def _quarter(self, load: Load, unknown: str) -> float | None:
-        """The unknown with a load a quarter turn on."""
-        other = turned(load, self.answer)
-        return _load_of(_tried(with_load(self.answer.case, other)), unknown) if other is not None else None
-
     def _components(self, load: Load, unknown: str, right: float, base: float) -> Iterator[Wrong]:
         """The load's share with its whole velocity, and with the component square to it.
 
         The answer is ``base + share * cos``: with the load a quarter turn on it is ``base - share * sin``, so
         that the share of the whole velocity is the hypotenuse of the two.
         """
-        quarter = self._quarter(load, unknown)
+        quarter = _load_of(self._quarters.get(load.name), unknown)
         if quarter is None:
             return
         along, across = right - base, quarter - base
@@ -168,8 +175,7 @@ class WrongAnswers:
 
     def _own_direction(self, unknown: str, value: float) -> Iterator[Wrong]:
         """The same for an unknown force: its velocity stands below the line."""
-        own = next((load for load in self.answer.case.loads if load.name == unknown), None)
-        across = self._quarter(own, unknown) if own is not None else None
+        across = _load_of(self._quarters.get(unknown), unknown)
         if across and value:
             whole = 1.0 / math.hypot(1.0 / value, 1.0 / across)
             yield Wrong("no-cos", math.copysign(whole, value), unknown)

@@ -27,6 +27,7 @@ class VariantTask(NamedTuple):
 def tasks(varied: Varied, people: Iterable[Person]) -> Iterator[VariantTask | NoKeyError]:
     """Every student's variant; the error of one for whom none suits."""
     found = list(people)
+    varied.ready(person.student_id for person in found)
     for person in found:
         try:
             yield VariantTask(person, varied.draw(person.student_id))

@@ -6,7 +6,8 @@ import hashlib
 import math
 import re
 from collections import OrderedDict
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
@@ -15,18 +16,19 @@ from icsolve.case import Case, Load, Mark, Number
 from icsolve.case.expected import LoadIs, Variable
 from icsolve.errors import CaseError, IcsolveError, SceneError
 from icsolve.grade.course import Course
-from icsolve.grade.keys import (
-    AnyKey,
-)
+from icsolve.grade.keys import AnyKey
 from icsolve.grade.mistakes import WrongAnswers
+from icsolve.grade.mistakes.engine import Known
 from icsolve.grade.solved import SolvedCase
 from icsolve.grade.tolerance import NoKeyError, drawn_band, size_of
+from icsolve.grade.variants.at_once import solved_at_once, together
 from icsolve.numbers.units import converted, parse_unit, split_quantity
 from icsolve.read.document import Mapping as Tree
 from icsolve.read.document import Node, Scalar, parse
 from icsolve.read.document import Sequence as Items
 from icsolve.read.names import Problems
 from icsolve.read.variables import count, first_values, names_in, replaced, value_at
+from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.tuples import NamedTuple
 from icsolve.wording.senses import unit_of
 
@@ -54,45 +56,57 @@ def label(case: str, values: Mapping[str, str]) -> str:
 
 
 _KINDS = ("force", "torque", "weight", "mass", "spring")
+_FREE = ("title", "source", "reconstructed", "variables")
+"""Sections in which a variable changes no number."""
 
 
-class Magnitudes:
-    """The numbers of loads in which variables stand; ``names`` are the variables that stand nowhere else."""
+class VariedNumbers:
+    """The numbers of a case in which variables stand.
+
+    ``of_loads`` are the variables that stand in the sizes of loads alone; ``whole`` tells whether none stands
+    anywhere but in a coordinate, a length, an angle or the size of a load.
+    """
 
     def __init__(self, text: str, case: Case) -> None:
         root = parse(text, Problems(case.path))
         assert type(root) is Tree
-        numbers = _load_numbers(root)
-        self._texts = {name: node.text for name, node in numbers.items()}
-        inside = {name for written in self._texts.values() for name in names_in(written)}
-        self.names = frozenset(inside - _elsewhere(root, {node.mark for node in numbers.values()}))
-        self._units = {load.name: unit_of(load, case) for load in case.loads if load.name in self._texts}
-        self._dynamic = case.dynamic
-        self._written = [(load.name, number_of(load)) for load in case.loads]
+        nodes = {path: node for path in numbers_of(case) if (node := _node_at(root, path)) is not None}
+        nodes = {path: node for path, node in nodes.items() if names_in(node.text)}
+        self.case = case
+        self._texts = {path: (node.text, parse_unit(_unit_at(path, case))) for path, node in nodes.items()}
+        loads = {path: node for path, node in nodes.items() if path.startswith("loads.")}
+        inside = {name for node in loads.values() for name in names_in(node.text)}
+        self.of_loads = frozenset(inside - _elsewhere(root, {node.mark for node in loads.values()}))
+        self.whole = not _elsewhere(root, {node.mark for node in nodes.values()})
+        self._written = [(f"loads.{load.name}", number_of(load)) for load in case.loads]
 
-    def loads(self, values: Mapping[str, str]) -> dict[str, float]:
-        """The numbers of the loads that depend on variables, in case units."""
+    def at(self, values: Mapping[str, str], section: str = "") -> dict[str, float]:
+        """The numbers of a section (of all) that depend on variables, by path, in case units."""
         found = {}
-        for name, written in self._texts.items():
-            parts = split_quantity(replaced(written, values)[0])
-            assert parts is not None
-            numeral, unit = parts
-            own = parse_unit(self._units[name])
-            found[name] = converted(numeral, parse_unit(unit), own) if unit else float(numeral.digits)
+        for path, (written, own) in self._texts.items():
+            if path.startswith(section):
+                parts = split_quantity(replaced(written, values)[0])
+                assert parts is not None
+                numeral, unit = parts
+                found[path] = converted(numeral, parse_unit(unit), own) if unit else float(numeral.digits)
         return found
+
+    def case_of(self, values: Mapping[str, str]) -> Case:
+        """The case with these values, of a ``whole`` one."""
+        return with_numbers(self.case, self.at(values))
 
     def factor(self, base: Mapping[str, str], values: Mapping[str, str]) -> float | None:
         """By what all loads are larger than with other values; None where they do not grow alike, as those of
         inertia do not."""
-        if self._dynamic:
+        if self.case.dynamic:
             return None
-        old, new = self.loads(base), self.loads(values)
+        old, new = self.at(base, "loads."), self.at(values, "loads.")
         ratios = set()
-        for name, written in self._written:
-            before = old.get(name, written)
+        for path, written in self._written:
+            before = old.get(path, written)
             if before is None:
                 continue
-            after = new.get(name, before)
+            after = new.get(path, before)
             if before == 0.0 or after == 0.0:
                 return None
             ratios.add(after / before)
@@ -107,23 +121,43 @@ def number_of(load: Load) -> float | None:
     return 1.0 if hasattr(load, "x") else None
 
 
-def _load_numbers(root: Tree) -> dict[str, Scalar]:
-    """The numbers of loads in which variables stand, as written."""
-    section = root.items.get("loads")
-    found = {}
-    for name, node in section.items.items() if type(section) is Tree else ():
-        for kind in _KINDS:
-            value = node.items.get(kind) if type(node) is Tree else None
-            if type(value) is Scalar and names_in(value.text):
-                found[name] = value
-    return found
+def _node_at(root: Tree, path: str) -> Scalar | None:
+    """Where a coordinate, a length, an angle or the size of a load is written; None for other numbers."""
+    section, _, rest = path.partition(".")
+    node: Node | None = root.items.get(section)
+    keys: tuple[str | int, ...] = ()
+    if section in ("lengths", "angles"):
+        keys = (rest,)
+    elif section == "points":
+        name, _, axis = rest.rpartition(".")
+        keys = (name, "xy".index(axis)) if axis in ("x", "y") else ()
+    elif section == "loads" and type(node) is Tree and type(node.items.get(rest)) is Tree:
+        load = node.items[rest]
+        keys = (rest, *(kind for kind in _KINDS if type(load) is Tree and kind in load.items))
+    for key in keys:
+        if type(node) is Tree and isinstance(key, str):
+            node = node.items.get(key)
+        else:
+            node = node.items[key] if type(node) is Items and isinstance(key, int) else None
+    return node if keys and type(node) is Scalar else None
+
+
+def _unit_at(path: str, case: Case) -> str:
+    """The unit in which a case keeps a number."""
+    section, _, name = path.partition(".")
+    if section == "angles":
+        return "deg"
+    return (
+        unit_of(next(x for x in case.loads if x.name == name), case)
+        if section == "loads"
+        else case.units.length
+    )
 
 
 def _elsewhere(root: Tree, within: set[Mark]) -> set[str]:
     """Variables that stand outside these places; titles and the like do not count."""
-    free = ("title", "source", "reconstructed", "variables")
     found: set[str] = set()
-    stack: list[Node] = [node for key, node in root.items.items() if key not in free]
+    stack: list[Node] = [node for key, node in root.items.items() if key not in _FREE]
     while stack:
         node = stack.pop()
         if type(node) is Scalar:
@@ -168,10 +202,10 @@ def swing(answer: Answer) -> float:
     return largest
 
 
-def swallowed(answer: Answer) -> frozenset[Mistake]:
+def swallowed(answer: Answer, known: Known | None = None) -> frozenset[Mistake]:
     """The mistakes that this variant would not show: their answers are as good as the right one."""
     found = set()
-    wrongs = WrongAnswers(answer)
+    wrongs = WrongAnswers(answer, known=known)
     for name, one in answer.answers.items():
         if one.holds is not None:
             continue
@@ -192,6 +226,12 @@ _REFERENCES = 8
 """Draws by which it is told how near to a dead centre the task is, and which mistakes no variant shows."""
 _KEPT = 1000
 """Figures that are kept solved."""
+_KNOWN_ROWS = 5000
+"""Rows that are kept."""
+_TOGETHER = 1000
+"""Students for whom it is drawn together."""
+_WORTH = 8
+"""Variants from which a record pays."""
 _KNOWN = 100_000
 """Students whose draw is kept, and variants of which it is known whether they suit."""
 _UNFIT = Seen(False, frozenset())
@@ -213,13 +253,14 @@ class Varied:
         self.path = path
         self.course = course
         self.case = self.read({})
-        self.magnitudes = Magnitudes(text, self.case)
+        self.numbers = VariedNumbers(text, self.case)
         self.record: VariantRecord | None = None
         self._first = first_values(self.case.variables)
         self._solved: OrderedDict[tuple[str, ...], SolvedCase | None] = OrderedDict()
         self._tasks: OrderedDict[tuple[str, ...], SolvedCase] = OrderedDict()
         self._draws: OrderedDict[str, Draw] = OrderedDict()
         self._seen: OrderedDict[tuple[str, ...], Seen | None] = OrderedDict()
+        self._rows: OrderedDict[tuple[str, ...], Answer] = OrderedDict()
         self._inherent: frozenset[tuple[str, str, str]] | None = None
 
     def draw(self, student: str) -> Draw:
@@ -227,11 +268,31 @@ class Varied:
 
         Raises NoKeyError where none of many does.
         """
-        found = self._draws.get(student)
-        if found is None:
-            found = self._drawn(student) if self.record is None else self._handed(student, self.record)
-            _keep(self._draws, student, found, _KNOWN)
-        return found
+        if self.record is not None:
+            return self._handed(student, self.record)
+        if student not in self._draws:
+            self._draw((student,))
+        if student not in self._draws:
+            raise NoKeyError(
+                f"none of {TRIALS} variants of {self.name} suits (assembles, no dead centre near, mistakes "
+                "apart): narrow the ranges of its variables"
+            )
+        return self._draws[student]
+
+    def ready(self, students: Iterable[str]) -> None:
+        """Draw for many students, and solve their tasks, together."""
+        every = list(students)
+        for start in range(0, len(every), _TOGETHER):
+            some = every[start : start + _TOGETHER]
+            if self.record is None:
+                self._draw(some)
+                drawn = [self._draws[student].values for student in some if student in self._draws]
+            else:
+                drawn = [self.record.handed[s].values for s in some if s in self.record.handed]
+            cases = self._new_cases(map(self._base, drawn))
+            for key, answer in zip(cases, together(list(cases.values())), strict=True):
+                if answer is not None:
+                    _keep(self._rows, key, answer, _KNOWN_ROWS)
 
     def _handed(self, student: str, record: VariantRecord) -> Draw:
         """What was handed out to a student."""
@@ -312,17 +373,20 @@ class Varied:
 
         Where they only make all loads larger alike, the solution of another task is scaled.
         """
-        base = self._figure(values)
-        factor = self.magnitudes.factor(base, values)
-        grows = factor is not None and factor > 0.0
-        found = self._exactly(base if grows else values)
+        base = self._base(values)
+        found = self._exactly(base)
         if found is None:
             raise NoKeyError(f"{self.name} can't be solved with {values}")
-        return found.scaled(factor) if grows and factor is not None else found
+        return found if base is values else found.scaled(self.numbers.factor(base, values) or 1.0)
+
+    def _base(self, values: Texts) -> Texts:
+        """The values of the task whose answers are scaled for these: themselves, where loads grow unalike."""
+        base = self._figure(values)
+        return base if self._scales(base, values) else values
 
     def _figure(self, values: Texts) -> Texts:
         """These values, and the first ones of variables that only scale loads."""
-        return {n: self._first[n] if n in self.magnitudes.names else v for n, v in values.items()}
+        return {n: self._first[n] if n in self.numbers.of_loads else v for n, v in values.items()}
 
     def _exactly(self, values: Texts, full: bool = False) -> SolvedCase | None:
         """The case with these values; None where it has no answer."""
@@ -332,6 +396,9 @@ class Varied:
         return self._solved[key]
 
     def _made(self, values: Texts, full: bool) -> SolvedCase | None:
+        row = self._rows.get(tuple(values.values())) if not full else None
+        if row is not None:
+            return SolvedCase(row.case, self.course, plain=row)
         try:
             return SolvedCase(self.read(values), self.course, full=full)
         except (CaseError, SceneError, IcsolveError, ArithmeticError):
@@ -339,15 +406,52 @@ class Varied:
 
     # --- drawing ----------------------------------------------------------------------------------
 
-    def _drawn(self, student: str) -> Draw:
+    def _draw(self, students: Iterable[str]) -> None:
+        """Keep the first draw that suits, of each student for whom one of many does."""
+        left = [student for student in students if student not in self._draws]
         for trial in range(TRIALS):
-            values = self._values(student, trial)
-            if self._suits(values):
-                return Draw(label(self.name, values), values)
-        asked = "assembles, no dead centre near, mistakes apart"
-        raise NoKeyError(
-            f"none of {TRIALS} variants of {self.name} suits ({asked}): narrow the ranges of its variables"
-        )
+            draws = {student: self._values(student, trial) for student in left}
+            self._look_at(draws.values())
+            for student, values in draws.items():
+                if self._suits(values):
+                    _keep(self._draws, student, Draw(label(self.name, values), values), _KNOWN)
+            left = [student for student in left if student not in self._draws]
+            if not left:
+                return
+
+    def _look_at(self, draws: Iterable[Texts]) -> None:
+        """Look at many variants together; those in doubt are left for scenes of their own."""
+        cases = self._new_cases(v for values in draws for v in (self._figure(values), self._base(values)))
+        for key, solved in zip(cases, solved_at_once(list(cases.values())), strict=True):
+            if solved is not None:
+                far = swing(solved.answer) <= self._limit
+                seen = Seen(True, swallowed(solved.answer, solved.known)) if far else _UNFIT
+                _keep(self._seen, key, seen, _KNOWN)
+                _keep(self._rows, key, solved.answer, _KNOWN_ROWS)
+
+    def _new_cases(self, some: Iterable[Texts]) -> dict[tuple[str, ...], Case]:
+        """The cases that are not known, by their values, where they are enough for a record."""
+        new = {key: v for v in some if (key := tuple(v.values())) not in self._seen and key not in self._rows}
+        if len(new) < _WORTH or not self._is_quick:
+            return {}
+        cases = {}
+        for key, values in new.items():
+            with suppress(ValueError, ArithmeticError, CaseError):
+                cases[key] = self.numbers.case_of(values)
+        return cases
+
+    @cached_property
+    def _is_quick(self) -> bool:
+        """Whether the numbers of a variant are told without reading its case: tried on one."""
+        values = drawn(self.name, self.case.variables, "", "", 1)
+        if not self.numbers.whole:
+            return False
+        try:
+            cases = (self.numbers.case_of(values), self.read(values))
+        except CaseError:
+            return False
+        one, other = ({path: n.value for path, n in numbers_of(case).items()} for case in cases)
+        return one == other
 
     def _values(self, student: str, trial: int) -> Texts:
         return drawn(self.name, self.case.variables, student, self.course.seed, trial)
@@ -361,7 +465,7 @@ class Varied:
         return self._scales(base, values) or self._looked_at(values).far
 
     def _scales(self, base: Texts, values: Texts) -> bool:
-        factor = self.magnitudes.factor(base, values)
+        factor = self.numbers.factor(base, values)
         return factor is not None and factor > 0.0
 
     def _looked_at(self, values: Texts) -> Seen:

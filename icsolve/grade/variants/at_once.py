@@ -1,0 +1,241 @@
+"""Cases that differ in their numbers alone, solved together: each a row of one record, as if by itself.
+
+What the record doubts, and what it can't tell (friction, ropes, screws, inertia, profiles), is left to a
+scene of its own. Of the ways in which a figure assembles each row has the one that `near` means.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import zip_longest
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from icsolve.answer import Answer, Centre
+from icsolve.assembly.construct import ways_of
+from icsolve.case import Case, ForceVector, Load, Number, Pair
+from icsolve.errors import IcsolveError
+from icsolve.grade.mistakes.changed import changed_loads, turned_loads
+from icsolve.grade.mistakes.engine import Known, solved_for
+from icsolve.numbers.given import numbers_in
+from icsolve.numbers.replay import Array
+from icsolve.solve import solve
+from icsolve.sweep.drivers import Drive
+from icsolve.sweep.evaluator import Evaluator, RecordedRows
+from icsolve.sweep.numbers import numbers_of
+from icsolve.sweep.program import RowRequest, compile_sweep, setting_of
+from icsolve.sweep.recorded_scene import pairs
+from icsolve.sweep.request import SweepRequest
+from icsolve.tuples import NamedTuple, replace
+
+_NEARER = 0.81
+"""Of two ways one is the nearer to `near` without doubt, where its squared distance is this part of the
+other's."""
+_ROUNDING = 1e-9
+"""What is smaller beside its like may be a zero."""
+Answers = list[Answer | None]
+Columns = dict[str, Array]
+Rows = npt.NDArray[np.int64]
+
+
+class Solved(NamedTuple):
+    """A case solved in a row, and the cases with another load by which its wrong answers are known."""
+
+    answer: Answer
+    known: Known
+
+
+def solved_at_once(cases: Sequence[Case]) -> Iterator[Solved | None]:
+    """Cases of one shape, each with those of its wrong loads; None of one that is to be solved by itself."""
+    answers = together(cases)
+    found = [(case, answer) for case, answer in zip(cases, answers, strict=True) if answer is not None]
+    kinds: dict[str, list[Answers]] = {}
+    doubted = [False] * len(found)
+    for kind, changes in (
+        ("loads", [[c.case for c in changed_loads(case, a.points)] for case, a in found]),
+        ("quarters", [list(turned_loads(a).values()) for _, a in found]),
+    ):
+        columns = [together(some, bare=True) for some in zip_longest(*changes)]
+        for some, column in zip(zip_longest(*changes), columns, strict=True):
+            if None in column and not _never_solved(some):
+                doubted = [doubt or answer is None for doubt, answer in zip(doubted, column, strict=True)]
+        kinds[kind] = [list(row) for row in zip(*columns, strict=True)] or [[] for _ in found]
+    rows = zip(kinds["loads"], kinds["quarters"], doubted, strict=True)
+    for answer in answers:
+        if answer is None:
+            yield None
+            continue
+        loads, quarters, doubt = next(rows)
+        yield None if doubt else Solved(answer, {"loads": loads, "quarters": quarters})
+
+
+def _never_solved(cases: Sequence[Case]) -> bool:
+    """Whether no case of a shape has an answer, whatever its numbers."""
+    try:
+        columns = tuple(_columns(cases, figure=False))
+        setting = setting_of(cases[0], (), ())._replace(paths=columns, drive=Drive((), (), ()))
+        return compile_sweep(setting, RowRequest()).refusal is not None
+    except (IcsolveError, ArithmeticError):
+        return False
+
+
+def together(cases: Sequence[Case], bare: bool = False) -> Answers:
+    """The answers of cases of one shape, unless ``bare`` with points, centres, rates, and derivatives by the
+    figure; None of one that is to be solved by itself."""
+    if not cases:
+        return []
+    found: Answers = [None] * len(cases)
+    try:
+        first = cases[0]
+        modes = _modes(first)
+        template = solve(first, bound=False) if bare else solved_for(first)
+        if template.mobility != 1 or any(one.holds or one.components for one in template.answers.values()):
+            return found
+        columns = _columns(cases, figure=not bare)
+        if not columns:
+            return [replace(template, case=case) for case in cases]
+        for case, rows in _by_mode(modes, columns):
+            made = _rows(case, template, {path: column[rows] for path, column in columns.items()}, bare)
+            for row, answer in zip(rows.tolist(), made, strict=True):
+                found[row] = answer and replace(answer, case=cases[row])
+    except (IcsolveError, ArithmeticError, ValueError):
+        return found
+    return found
+
+
+def _columns(cases: Sequence[Case], figure: bool) -> Columns:
+    """The numbers that are not the same in all cases, by path; with ``figure`` those of the figure too."""
+    values = np.array([[number.value for number in numbers_of(case).values()] for case in cases]).T.copy()
+    drawn = {number.path for number in numbers_in(cases[0].points, cases[0].lengths, cases[0].angles)}
+    return {
+        path: column
+        for path, column in zip(numbers_of(cases[0]), values, strict=True)
+        if (figure and path in drawn) or np.ptp(column) > 0.0
+    }
+
+
+def _modes(case: Case) -> list[Case]:
+    """The case in each of its ways to assemble, the one that it means first.
+
+    Raises ValueError where there may be more: each point that `near` places has to have two places.
+    """
+    if not case.near:
+        return [case]
+    found = ways_of(case)
+    if not found.complete or len(found.ways) != 2 ** len(case.near):
+        raise ValueError("the ways of assembling are not as many as the points that are placed by near")
+    ways = [{name: way.points[name] for name in case.near} for way in found.ways]
+    return [replace(case, near=way) for way in sorted(ways, key=lambda way: _off(way, case))]
+
+
+def _off(way: Mapping[str, tuple[float, float]], case: Case) -> float:
+    return sum(math.dist(way[name], place) ** 2 for name, place in case.near.items())
+
+
+def _by_mode(modes: Sequence[Case], columns: Columns) -> Iterator[tuple[Case, Rows]]:
+    """Each way to assemble with the rows that mean it; the others are in doubt."""
+    if len(modes) == 1:
+        yield modes[0], np.arange(_count(columns))
+        return
+    near = modes[0].near
+    off = np.full((len(modes), _count(columns)), np.nan)
+    for n, case in enumerate(modes):
+        found = _recorded(case, columns, RowRequest(answers=False, points=tuple(near)), False)
+        if found is not None:
+            places = [found.arrays["points", name] for name in near]
+            own = (((place - near[name]) ** 2).sum(axis=1) for name, place in zip(near, places, strict=True))
+            off[n] = np.where(found.doubted, np.nan, sum(own))
+    nearest = np.argsort(off, axis=0)
+    first, second = (np.take_along_axis(off, nearest[k : k + 1], axis=0)[0] for k in (0, 1))
+    clear = np.isfinite(off).all(axis=0) & (first < _NEARER * second)
+    for n, case in enumerate(modes):
+        rows = np.flatnonzero(clear & (nearest[0] == n))
+        if len(rows):
+            yield case, rows
+
+
+def _recorded(case: Case, columns: Columns, asked: RowRequest, slopes: bool) -> RecordedRows | None:
+    names = dict(zip(columns, columns, strict=True))
+    return Evaluator(case, names, SweepRequest(asked, False), slopes).recorded(*columns.values())
+
+
+def _count(columns: Columns) -> int:
+    return len(next(iter(columns.values())))
+
+
+def _rows(case: Case, template: Answer, columns: Columns, bare: bool) -> Answers:
+    """The answers of rows of one way to assemble."""
+    asked = RowRequest()
+    if not bare:
+        asked = RowRequest(True, tuple(template.points), tuple(pairs(case)), rates=True, terms=True)
+    found = _recorded(case, columns, asked, not bare)
+    if found is None:
+        return [None] * _count(columns)
+    values: dict[str, dict[str, list[Any]]] = {kind: {} for kind in ("answers", "points", "rates", "terms")}
+    for (kind, name), array in found.arrays.items():
+        values.setdefault(kind, {})[name] = array.tolist()
+    pairs_of = {f"{a}-{b}": (a, b) for a, b in pairs(case)}
+    slopes = {name: {path: a.tolist() for path, a in by.items()} for name, by in found.gradients.items()}
+    doubted = (found.doubted | _small(found.arrays)).tolist()
+    sizes = {load.name: _size_of(load, columns) for load in case.loads}
+
+    def answer(row: int) -> Answer:
+        own = {name: one._replace(value=values["answers"][name][row], sense="", error=None)
+               for name, one in template.answers.items()}  # fmt: skip
+        terms = []
+        for term in template.terms if values["terms"] else ():
+            size, per = sizes[term.load]
+            power = values["terms"][term.load][row] * (per or size[row])
+            factor = power / size[row] if per and size[row] else values["terms"][term.load][row]
+            terms.append(term._replace(value=size[row], factor=factor, power=power))
+        return Answer(
+            case,
+            own,
+            {
+                pairs_of[name]: _centre(pairs_of[name], at[row])
+                for name, at in values.get("centres", {}).items()
+            },
+            {link: rate[row] for link, rate in values["rates"].items()},
+            points={name: tuple(place[row]) for name, place in values["points"].items()},
+            terms=terms,
+            mobility=template.mobility,
+            sensitivities={name: {path: a[row] for path, a in by.items()} for name, by in slopes.items()},
+        )
+
+    return [None if doubt else answer(row) for row, doubt in enumerate(doubted)]
+
+
+def _small(arrays: Mapping[tuple[str, str], Array]) -> npt.NDArray[np.bool_]:
+    """The rows in which a rate, a factor of a load or the weight of a centre may be a zero."""
+    doubt = np.zeros(len(next(iter(arrays.values()))), dtype=bool)
+    for kind in ("rates", "terms"):
+        some = np.abs([array for (k, _), array in arrays.items() if k == kind])
+        if len(some):
+            doubt |= ((some > 0.0) & (some < _ROUNDING * some.max(axis=0))).any(axis=0)
+    for (kind, _), array in arrays.items():
+        if kind == "centres":
+            x, y, w = np.abs(array).T
+            doubt |= (w > 0.0) & (w < _ROUNDING * (x + y))
+    return doubt
+
+
+def _size_of(load: Load, columns: Columns) -> tuple[list[float], float]:
+    """A load's own number in every row; of a vector its size, and that for which the record has its power."""
+    rows = _count(columns)
+
+    def own(number: Number) -> Array:
+        return columns.get(number.path, np.full(rows, number.value))
+
+    if isinstance(load, ForceVector):
+        return np.hypot(own(load.x), own(load.y)).tolist(), math.hypot(load.x.value, load.y.value)
+    return own(load.value).tolist() if isinstance(load.value, Number) else [0.0] * rows, 0.0
+
+
+def _centre(pair: Pair, triple: Sequence[float]) -> Centre:
+    x, y, w = triple
+    if w:
+        return Centre(pair, "at", (x / w, y / w))
+    return Centre(pair, "toward", (math.degrees(math.atan2(y, x)) % 180.0,) if x or y else ())
