@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from icsolve.answer import Answer, Centre
-from icsolve.assembly.construct import ways_of
+from icsolve.assembly.modes import ways_of
 from icsolve.case import Case, ForceVector, Load, Number, Pair
 from icsolve.errors import IcsolveError
 from icsolve.grade.mistakes.changed import changed_loads, turned_loads
@@ -41,14 +41,14 @@ Columns = dict[str, Array]
 Rows = npt.NDArray[np.int64]
 
 
-class Solved(NamedTuple):
+class SolvedRow(NamedTuple):
     """A case solved in a row, and the cases with another load by which its wrong answers are known."""
 
     answer: Answer
     known: Known
 
 
-def solved_at_once(cases: Sequence[Case]) -> Iterator[Solved | None]:
+def solved_at_once(cases: Sequence[Case]) -> Iterator[SolvedRow | None]:
     """Cases of one shape, each with those of its wrong loads; None of one that is to be solved by itself."""
     answers = together(cases)
     found = [(case, answer) for case, answer in zip(cases, answers, strict=True) if answer is not None]
@@ -69,7 +69,7 @@ def solved_at_once(cases: Sequence[Case]) -> Iterator[Solved | None]:
             yield None
             continue
         loads, quarters, doubt = next(rows)
-        yield None if doubt else Solved(answer, {"loads": loads, "quarters": quarters})
+        yield None if doubt else SolvedRow(answer, {"loads": loads, "quarters": quarters})
 
 
 def _never_solved(cases: Sequence[Case]) -> bool:
@@ -92,7 +92,7 @@ def together(cases: Sequence[Case], bare: bool = False) -> Answers:
         first = cases[0]
         modes = _modes(first)
         template = solve(first, bound=False) if bare else solved_for(first)
-        if template.mobility != 1 or any(one.holds or one.components for one in template.answers.values()):
+        if any(one.holds or one.components for one in template.answers.values()):
             return found
         columns = _columns(cases, figure=not bare)
         if not columns:
