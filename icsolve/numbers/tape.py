@@ -24,6 +24,9 @@ TURN_NOISE = 3.0 * UNIT
 CANCELLED = 1e-6
 """A divisor or radicand this much smaller than its terms is looked at before it is trusted."""
 
+SPENT = 16.0 * UNIT
+"""A derivative below this fraction of its terms is their rounding."""
+
 SMALL = 1e-3
 """A first-order bound is trusted below this fraction of its value."""
 
@@ -244,14 +247,16 @@ class Tape:
 
     def back(self, result: Operand) -> BackwardPass:
         """The backward pass from a result: the bound of its error, and its derivative by every number of the
-        case, by path [units of the result over those of the number].
+        case, by path [units of the result over those of the number]; 0.0 where that is rounding.
         """
         if type(result) is not Taped:
             return BackwardPass(0.0, {})
-        bound, weights = self._swept(result.index)
         last = result.index
+        bound, weights = self._swept(last)
+        sizes = self._sizes(last)
+        leaves = {p: leaf.index for p, leaf in self.inputs.items() if leaf.index <= last}
         return BackwardPass(
-            bound, {p: weights[leaf.index] for p, leaf in self.inputs.items() if leaf.index <= last}
+            bound, {p: weights[k] if abs(weights[k]) > SPENT * sizes[k] else 0.0 for p, k in leaves.items()}
         )
 
     def _swept(self, last: int) -> tuple[float, list[float]]:
@@ -269,6 +274,18 @@ class Tape:
                 if b:
                     weights[b] += w * db
         return bound, weights
+
+    def _sizes(self, last: int) -> list[float]:
+        """Of the derivatives of the value at ``last``, the sum of the absolute values of their terms."""
+        sizes = [0.0] * (last + 1)
+        sizes[last] = 1.0
+        for k in range(last, 0, -1):
+            if size := sizes[k]:
+                a, da, b, db, _ = self.nodes[k]
+                sizes[a] += size * abs(da)
+                if b:
+                    sizes[b] += size * abs(db)
+        return sizes
 
     def doubts(self, fraction: float) -> Iterable[float]:
         """Bound over value of the divisors and radicands that nearly vanish, where above a fraction."""

@@ -209,7 +209,9 @@ class AnswerBuilder:
         """Derivative of every unknown load by every number of the case: by the tape, and so near a singular
         position that a tape says nothing, by differences of many digits."""
         with suppress(SceneError, ZeroDivisionError):
-            found = slopes(self.traced or evaluate_bounded(self.program))
+            numbers = numbers_of(self.case)
+            by_all = slopes(self.traced or evaluate_bounded(self.program))
+            found = {load: {p: s for p, s in by.items() if p in numbers} for load, by in by_all.items()}
             told = found and all(any(by.values()) for by in found.values())  # nothing of an answer that is 0
             if not self.scene.certain or (told and self._tape_tells()):
                 return found
