@@ -412,10 +412,11 @@ def _ropes(rope: Rope, answer: Answer) -> Iterator[tuple[str, Rope]]:
         if mu is None or not all(p in answer.points for p in rope.points):
             continue
         beta = wrap_angle(rope, k, rope_parts(rope, answer.points, 1.0, FLOATS))
-        others = (TURN - beta, math.pi - beta, 1.0, math.degrees(beta))  # the other side, its supplement
-        codes = ("wrap", "wrap", "wrap", "deg-rad")
-        for code, angle in zip(codes, others, strict=True):
-            if angle > 0.0 and mu.value * angle < 700.0:
+        whole = TURN * rope.whole_turns(k)
+        angles = [TURN - beta + 2.0 * whole, math.pi - beta, 1.0]  # the other side, its supplement
+        angles += [beta - whole, beta - TURN, beta + TURN] if whole else []
+        for code, angle in [*(("wrap", a) for a in angles), ("deg-rad", math.degrees(beta))]:
+            if angle > 0.0 and beta and mu.value * angle < 700.0:
                 yield code, _with_mu(rope, k, _written(mu, mu.value * angle / beta))
 
 
@@ -428,6 +429,7 @@ def _without(rope: Rope, places: tuple[int, ...]) -> Rope:
         radii=tuple(rope.radii[k] for k in kept),
         wraps=tuple(rope.wraps[k] for k in kept),
         mu=tuple(rope.mu[k] for k in kept),
+        turns=tuple(rope.turns[k] for k in kept if rope.turns),
     )
 
 
