@@ -207,6 +207,7 @@ MACHINES = {
     "two parts not counted": ("ropes/tackle_four_parts", "rope-parts", 500.0),
     "exp(mu) alone": ("ropes/capstan", "wrap", 100 * math.exp(0.25)),
     "round the other side": ("ropes/capstan", "wrap", 100 * math.exp(0.25 * 1.5 * math.pi)),
+    "whole turns left out": ("ropes/bollard", "wrap", 5000 * math.exp(-0.25 * math.pi)),
     "smooth post": ("ropes/capstan", "no-friction", 100.0),
     "slipping the other way": ("ropes/capstan", "friction-sense", 100 * math.exp(-0.125 * math.pi)),
     "smooth thread": ("tools/screw_jack", "no-friction", 10 * 5 / (2 * math.pi)),
