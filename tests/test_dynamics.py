@@ -19,6 +19,7 @@ from growth import random_mechanism
 from icsolve.answer import Answer
 from icsolve.case import Case, Contact, Inertia, KnownCentre, Motion, Number, Pin, Roll
 from icsolve.errors import CaseError, SceneError
+from icsolve.sweep.find_on_record import Query, find
 from icsolve.sweep.numbers import find_number, with_numbers
 from reference import MANY, many, motions, points_of
 from sizes import MORE
@@ -422,6 +423,20 @@ def test_rows_of_a_dynamic_sweep_are_the_scenes() -> None:
     assert again.answers["T"] == pytest.approx(rows.answers["T"])
     with pytest.raises(ValueError, match="dynamic"):
         icsolve.sweep(case, {"angles.AB": degrees}, ("accelerations",))
+
+
+def test_a_mass_is_set_by_its_path_and_a_zero_where_the_range_is_cut_is_one(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The piston's inertia does no work at its dead centres, 0, 180 and 360 degrees, and twice between."""
+    path = CASES / "dynamics" / "slider_crank_piston.yaml"
+    heavy = icsolve.solve(icsolve.load(path)).answers["T"].value
+    light = icsolve.solve(icsolve.load(path, {"links.4.mass": "500 g"})).answers["T"].value
+    assert light == pytest.approx(heavy / 6.0)
+    monkeypatch.setattr("icsolve.sweep.find_by_scenes.PLACES", 8)
+    found = find(icsolve.load(path), {"angles.AB": np.array([0.0, 360.0])}, Query("value", "T", 0.0))
+    assert [spot.at for spot in found if spot.answer == 0.0] == [0.0, 180.0, 360.0]
+    assert len(found) == 5
 
 
 # --- cams ------------------------------------------------------------------------------------------

@@ -13,6 +13,7 @@ from icsolve.read.keys import LOADS
 from icsolve.read.names import Problems, parts, shown, suggestion
 
 _FORM = "a path is like angles.AB, lengths.AB, points.D.x, loads.P, loads.P.angle or joints.B.mu"
+_SECTIONS = ("points", "lengths", "angles", "near", "loads", "joints", "profile", "motion", "links")
 
 
 def apply(root: Mapping, settings: Named[str, str | float], problems: Problems) -> None:
@@ -30,7 +31,7 @@ def _set(root: Mapping, path: str, text: str) -> str:
     section, *steps = path.split(".")
     if section == "gravity" and not steps:
         return _put(root, "gravity", text)
-    if section not in ("points", "lengths", "angles", "near", "loads", "joints", "profile", "motion"):
+    if section not in _SECTIONS:
         return _FORM
     node = root.items.get(section)
     if node is None:
@@ -68,6 +69,9 @@ def _of_named(section: Mapping, name: str, steps: list[str], text: str) -> str:
         return _axis(node, steps[1:], text, f"{name}.{key}")
     if name == "loads":
         return _of_load(node, steps[1:], text, f"{name}.{key}")
+    if name == "links":
+        whole = type(node) is Mapping and steps[1:] in (["mass"], ["inertia"])
+        return _put(node, steps[1], text) if whole else f"a mass is set as links.{key}.mass or .inertia"
     return _put(section, key, text) if len(steps) == 1 else _FORM
 
 

@@ -130,9 +130,11 @@ class Scenes:
     # --- kinds ------------------------------------------------------------------------------------
 
     def _values(self, found: Array, codes: Codes) -> Iterator[FoundPosition]:
-        """Changes of sign of the answer less the value, but for those through infinity."""
+        """Where the answer has the value, and its changes of sign less the value but through infinity."""
         miss = found - self.query.value
-        for k in np.flatnonzero(miss[:-1] * miss[1:] <= 0.0).tolist():
+        for k in np.flatnonzero(miss == 0.0).tolist():
+            yield FoundPosition(float(self.places[k]), "value", float(found[k]), self.width)
+        for k in np.flatnonzero(miss[:-1] * miss[1:] < 0.0).tolist():
             at, wide = self._closed(lambda s: self._answer(s) - self.query.value, k)
             answer = self._answer(at)
             if abs(answer - self.query.value) <= min(abs(miss[k]), abs(miss[k + 1])) + abs(self.width):
