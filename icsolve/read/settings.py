@@ -70,8 +70,9 @@ def _of_named(section: Mapping, name: str, steps: list[str], text: str) -> str:
     if name == "loads":
         return _of_load(node, steps[1:], text, f"{name}.{key}")
     if name == "links":
-        whole = type(node) is Mapping and steps[1:] in (["mass"], ["inertia"])
-        return _put(node, steps[1], text) if whole else f"a mass is set as links.{key}.mass or .inertia"
+        if type(node) is Mapping and steps[1:] in (["mass"], ["inertia"]):
+            return _put(node, steps[1], text)
+        return f"a mass is set as links.{key}.mass, a moment of inertia as links.{key}.inertia"
     return _put(section, key, text) if len(steps) == 1 else _FORM
 
 
