@@ -429,7 +429,7 @@ def test_rows_of_a_dynamic_sweep_are_the_scenes() -> None:
 def test_a_mass_is_set_by_its_path_and_a_zero_where_the_range_is_cut_is_one(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """The piston's inertia does no work at its dead centres, 0 and 180 degrees, where alone it is looked at."""
+    """The piston's inertia does no work at 0 and 180 degrees, its dead centres."""
     path = CASES / "dynamics" / "slider_crank_piston.yaml"
     heavy = icsolve.solve(icsolve.load(path)).answers["T"].value
     light = icsolve.solve(icsolve.load(path, {"links.4.mass": "500 g"})).answers["T"].value
