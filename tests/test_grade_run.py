@@ -15,7 +15,7 @@ from grade_bench import CASES, write_class
 from grade_shell import PRESS, Class
 from icsolve.grade.importing import Store
 from icsolve.grade.run import Job, Sinks, grade
-from icsolve.grade.timestamps import timestamp
+from icsolve.grade.tables.columns import timestamp
 
 
 @pytest.fixture

@@ -12,10 +12,9 @@ import icsolve
 from grade_shell import CASES, PRESS, Class
 from icsolve.case.expected import Variable
 from icsolve.grade.case_store import CaseStore
-from icsolve.grade.course import Course
+from icsolve.grade.course import Course, Person
 from icsolve.grade.keys import NumberKey, numbers_of
-from icsolve.grade.roster import Person
-from icsolve.grade.variants.sheets import VariantTask, key_csv
+from icsolve.grade.variants.record import VariantTask, key_csv
 from icsolve.grade.variants.varied import Varied, drawn, label
 
 VARIABLES = (Variable("P", start="100", stop="500", step="10"), Variable("a", choices=("1.5", "2", "2.5")))

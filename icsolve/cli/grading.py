@@ -112,7 +112,7 @@ def _job(options: dict[str, Any]) -> Job:
         course = course._replace(seed=options["seed"])
     student = options["student"] or ""
     if options["metadata"]:
-        from icsolve.grade.tables.hand_ins import student_of
+        from icsolve.grade.tables.platforms import student_of
 
         student = student or student_of(options["metadata"])
     submissions = tuple(options["submissions"])
@@ -267,8 +267,8 @@ def _further(graded: Graded, job: Job, results: str, options: dict[str, Any]) ->
     """The files for platforms, made from the results."""
     if not options["writes"]:
         return
+    from icsolve.grade.course import read_roster
     from icsolve.grade.platforms.write import PlatformFile, write
-    from icsolve.grade.roster import read_roster
 
     wanted = _pairs(options["writes"])
     people = read_roster(job.roster, lambda line, why: None).people if job.roster and wanted else {}
@@ -283,7 +283,7 @@ def _further(graded: Graded, job: Job, results: str, options: dict[str, Any]) ->
 def _regraded(results: str, options: dict[str, Any]) -> str:
     """The queue for a person, and the changes against earlier results: in a file, and as text."""
     from icsolve.files import write_whole
-    from icsolve.grade.regrade import changes_csv, changes_text, compared, review_queue
+    from icsolve.grade.results import changes_csv, changes_text, compared, review_queue
 
     if options["review"]:
         write_whole(options["review"], review_queue(results), options["force"])
@@ -298,11 +298,11 @@ def _regraded(results: str, options: dict[str, Any]) -> str:
 def _pages(graded: Graded, job: Job, results: str, options: dict[str, Any]) -> None:
     """The page for the teacher, and one for each student."""
     from icsolve.files import write_whole
+    from icsolve.grade.course import read_roster
     from icsolve.grade.results import by_student
-    from icsolve.grade.roster import read_roster
     from icsolve.grade.statistics import statistics
     from icsolve.grade.summary import page, student_page
-    from icsolve.grade.variants.sheets import file_name
+    from icsolve.grade.variants.record import file_name
 
     if options["html"]:
         people = read_roster(job.roster, lambda line, why: None).people if job.roster else {}

@@ -15,8 +15,8 @@ from icsolve.files import reading_text
 
 if TYPE_CHECKING:
     from icsolve.grade.case_store import CaseStore
-    from icsolve.grade.roster import Person
-    from icsolve.grade.variants.sheets import VariantTask
+    from icsolve.grade.course import Person
+    from icsolve.grade.variants.record import VariantTask
     from icsolve.grade.variants.varied import Varied
 
 T = TypeVar("T")
@@ -53,7 +53,7 @@ def variants_command(
     from icsolve.cli.grading import course_of
     from icsolve.files import KeptError
     from icsolve.grade.case_store import CaseStore
-    from icsolve.grade.roster import read_roster
+    from icsolve.grade.course import read_roster
     from icsolve.grade.tables.columns import HeaderError
 
     try:
@@ -118,7 +118,7 @@ def _one(varied: Varied, people: list[Person], folder: str, figures: bool, force
     """One case: values and key of all students, then figures and sheets."""
     from icsolve.files import check_free, write_whole
     from icsolve.grade.tolerance import NoKeyError
-    from icsolve.grade.variants.sheets import key_csv, tasks, values_csv
+    from icsolve.grade.variants.record import key_csv, tasks, values_csv
 
     paths = [os.path.join(folder, name) for name in ("values.csv", "key.csv")]
     for path in paths:
@@ -172,7 +172,7 @@ _WORTH_TWO = 50
 def _draw(varied: Varied, groups: list[list[VariantTask]], folder: str, force: bool, quiet: bool) -> None:
     """The figure of each group of students with the same variant, and their sheets."""
     from icsolve.files import write_whole
-    from icsolve.grade.variants.sheets import figure, sheet
+    from icsolve.grade.variants.record import figure, sheet
 
     with watched(groups, len(groups), "figures", quiet) as bar:
         for tasks in bar:
@@ -187,6 +187,6 @@ def _figure_path(folder: str, label: str) -> str:
 
 
 def _sheet_path(folder: str, task: VariantTask) -> str:
-    from icsolve.grade.variants.sheets import file_name
+    from icsolve.grade.variants.record import file_name
 
     return os.path.join(folder, "sheets", f"{file_name(task.person.student_id)}.html")

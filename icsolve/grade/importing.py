@@ -15,13 +15,19 @@ from typing import IO
 
 from icsolve.files import is_plain, reading, scratch
 from icsolve.grade.case_store import CaseStore
+from icsolve.grade.course import Roster
 from icsolve.grade.results import HEADER
-from icsolve.grade.roster import Roster
-from icsolve.grade.tables.columns import HeaderError, Submission, TableColumns, TableLayout, is_spoilt
-from icsolve.grade.tables.hand_ins import METADATA, exported, submissions
-from icsolve.grade.tables.platforms import recognise
+from icsolve.grade.tables.columns import (
+    HeaderError,
+    Submission,
+    TableColumns,
+    TableLayout,
+    is_spoilt,
+    order_of,
+    year_first,
+)
+from icsolve.grade.tables.platforms import METADATA, exported, recognise, submissions
 from icsolve.grade.tables.text import AnswerTable
-from icsolve.grade.timestamps import order_of, year_first
 from icsolve.tuples import NamedTuple
 
 _LONGEST = 500

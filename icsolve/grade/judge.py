@@ -23,11 +23,10 @@ from icsolve.grade.mistakes import Wrong, message, together
 from icsolve.grade.mistakes.lookup import near_miss
 from icsolve.grade.tolerance import SLACK
 from icsolve.grade.written.answer import MISSING, NO_NUMBER, Combined, WrittenAnswer, flagged
-from icsolve.grade.written.directions import WrittenDirection
-from icsolve.grade.written.directions import direction as direction_of
 from icsolve.grade.written.numerals import AMBIGUOUS, UNREAD, figures, plain
 from icsolve.grade.written.two_numbers import WrittenPlace, WrittenRange, read_place, read_range
-from icsolve.grade.written.units import CASE, ENERGY, unit_word
+from icsolve.grade.written.words import CASE, ENERGY, WrittenDirection, unit_word
+from icsolve.grade.written.words import direction as direction_of
 from icsolve.tuples import NamedTuple
 
 RIGHT, WRONG, INVALID, IN_REVIEW = "right", "wrong", "invalid", "review"

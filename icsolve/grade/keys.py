@@ -36,8 +36,7 @@ from icsolve.grade.tolerance import (
     width_of,
     zero_width,
 )
-from icsolve.grade.written.directions import WrittenDirection
-from icsolve.grade.written.units import UnitWord, factors_between
+from icsolve.grade.written.words import UnitWord, WrittenDirection, factors_between
 from icsolve.numbers.units import Unit, UnitError
 from icsolve.report.check import value_of
 from icsolve.tuples import NamedTuple

@@ -14,7 +14,7 @@ from icsolve.grade.keys import AnyKey, NumberKey, PlaceKey, unit_factor
 from icsolve.grade.mistakes import Wrong
 from icsolve.grade.results import OVERRIDE, Marked, Result
 from icsolve.grade.statistics import Counts, Tally
-from icsolve.grade.timestamps import NEVER, attempt_number, readings
+from icsolve.grade.tables.columns import NEVER, attempt_number, readings
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.written.answer import MISSING, Combined, Reader, WrittenAnswer
 from icsolve.grade.written.two_numbers import WrittenPlace

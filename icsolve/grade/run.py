@@ -6,12 +6,11 @@ from collections.abc import Callable, Iterable, Iterator
 from typing import IO, TYPE_CHECKING
 
 from icsolve.grade.case_store import CaseStore
-from icsolve.grade.course import Course
+from icsolve.grade.course import Course, Roster, read_roster
 from icsolve.grade.importing import Import, Issue, Issues, Store, StoredAnswer, expand
 from icsolve.grade.keys import NumberKey
 from icsolve.grade.marking import GivenValue, Marker
 from icsolve.grade.results import HEADER, json_line, line
-from icsolve.grade.roster import Roster, read_roster
 from icsolve.grade.solved import unknowns
 from icsolve.grade.statistics import Counts
 from icsolve.grade.tables.columns import HeaderError
@@ -19,7 +18,7 @@ from icsolve.grade.tolerance import NoKeyError
 from icsolve.tuples import NamedTuple
 
 if TYPE_CHECKING:
-    from icsolve.grade.regrade import Override, Overrides
+    from icsolve.grade.results import Override, Overrides
     from icsolve.grade.variants.record import Neighbours
 
 _STEP = 5000
@@ -171,7 +170,7 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
 
 def _overrides(job: Job, case_store: CaseStore, roster: Roster | None) -> dict[tuple[str, str], Override]:
     """The marks given by hand; a later file goes over an earlier one."""
-    from icsolve.grade.regrade import read_overrides
+    from icsolve.grade.results import read_overrides
 
     found: dict[tuple[str, str], Override] = {}
     for path in job.overrides:

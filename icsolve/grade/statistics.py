@@ -8,8 +8,8 @@ import math
 from collections import Counter
 from collections.abc import Callable, Container, Iterable, Mapping, Sequence
 
+from icsolve.grade.course import Person
 from icsolve.grade.results import Marked, ResultRow, by_student
-from icsolve.grade.roster import Person
 from icsolve.tuples import NamedTuple
 
 _LEAST = 10

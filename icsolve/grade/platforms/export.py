@@ -14,11 +14,10 @@ from html import escape
 from icsolve.case import Case
 from icsolve.files import reading_text, write_whole
 from icsolve.grade.case_store import CaseStore
-from icsolve.grade.course import Course
+from icsolve.grade.course import Course, read_roster
 from icsolve.grade.keys import ChoiceKey, RangeKey, numbers_of
 from icsolve.grade.platforms.given import given
 from icsolve.grade.platforms.questions import SMALLEST, Question, asked, figure, gift, moodle_xml, qti_zip
-from icsolve.grade.roster import read_roster
 from icsolve.grade.solved import SolvedCase, unknowns
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.variants.record import KEYS, VALUES, read_records

@@ -11,8 +11,8 @@ import io
 import re
 from collections.abc import Iterable, Sequence
 
+from icsolve.grade.course import Person
 from icsolve.grade.results import ResultRow, csv_text, safe, shown
-from icsolve.grade.roster import Person
 from icsolve.grade.tables.columns import FIELDS, plain_name
 from icsolve.tuples import NamedTuple
 

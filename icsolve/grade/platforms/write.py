@@ -14,6 +14,7 @@ from html import escape
 from typing import Any
 
 from icsolve.files import check_free, write_whole
+from icsolve.grade.course import Person
 from icsolve.grade.platforms.gradebooks import (
     Filled,
     canvas_gradebook,
@@ -22,9 +23,8 @@ from icsolve.grade.platforms.gradebooks import (
     moodle_worksheet,
 )
 from icsolve.grade.results import ResultRow, by_student, csv_text, read_results
-from icsolve.grade.roster import Person
 from icsolve.grade.tables.text import encoding_of
-from icsolve.grade.variants.sheets import file_name
+from icsolve.grade.variants.record import file_name
 from icsolve.tuples import NamedTuple
 
 

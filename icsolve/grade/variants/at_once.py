@@ -1,4 +1,5 @@
-"""Cases that differ in their numbers alone, solved together: each a row of one record, as if by itself.
+"""Cases that differ in their numbers alone, solved together: each a row of one record, as if by itself; and
+the numbers by which the variants of a case differ.
 
 What the record doubts, and what it can't tell (friction, ropes, screws, inertia, profiles), is left to a
 scene of its own. Of the ways in which a figure assembles each row has the one that `near` means.
@@ -16,20 +17,27 @@ import numpy.typing as npt
 
 from icsolve.answer import Answer, Centre
 from icsolve.assembly.modes import ways_of
-from icsolve.case import Case, ForceVector, Load, Number, Pair
+from icsolve.case import Case, ForceVector, Load, Mark, Number, Pair
 from icsolve.errors import IcsolveError
 from icsolve.grade.mistakes.changed import changed_loads, turned_loads
 from icsolve.grade.mistakes.engine import Known, solved_for
 from icsolve.numbers.given import numbers_in
 from icsolve.numbers.replay import Array
+from icsolve.numbers.units import converted, parse_unit, split_quantity
+from icsolve.read.document import Mapping as Tree
+from icsolve.read.document import Node, Scalar, parse
+from icsolve.read.document import Sequence as Items
+from icsolve.read.names import Problems
+from icsolve.read.variables import names_in, replaced
 from icsolve.solve import solve
 from icsolve.sweep.drivers import Drive
 from icsolve.sweep.evaluator import Evaluator, RecordedRows
-from icsolve.sweep.numbers import numbers_of
+from icsolve.sweep.numbers import numbers_of, with_numbers
 from icsolve.sweep.program import RowRequest, compile_sweep, setting_of
 from icsolve.sweep.recorded_scene import pairs
 from icsolve.sweep.request import SweepRequest
 from icsolve.tuples import NamedTuple, replace
+from icsolve.wording.senses import unit_of
 
 _NEARER = 0.81
 """Of two ways one is the nearer to `near` without doubt, where its squared distance is this part of the
@@ -239,3 +247,119 @@ def _centre(pair: Pair, triple: Sequence[float]) -> Centre:
     if w:
         return Centre(pair, "at", (x / w, y / w))
     return Centre(pair, "toward", (math.degrees(math.atan2(y, x)) % 180.0,) if x or y else ())
+
+
+# --- the numbers of a variant --------------------------------------------------------------------------
+
+_KINDS = ("force", "torque", "weight", "mass", "spring")
+_FREE = ("title", "source", "reconstructed", "variables")
+"""Sections in which a variable changes no number."""
+
+
+class VariedNumbers:
+    """The numbers of a case in which variables stand.
+
+    ``of_loads`` are the variables that stand in the sizes of loads alone; ``whole`` tells whether none stands
+    anywhere but in a coordinate, a length, an angle or the size of a load.
+    """
+
+    def __init__(self, text: str, case: Case) -> None:
+        root = parse(text, Problems(case.path))
+        assert type(root) is Tree
+        nodes = {path: node for path in numbers_of(case) if (node := _node_at(root, path)) is not None}
+        nodes = {path: node for path, node in nodes.items() if names_in(node.text)}
+        self.case = case
+        self._texts = {path: (node.text, parse_unit(_unit_at(path, case))) for path, node in nodes.items()}
+        loads = {path: node for path, node in nodes.items() if path.startswith("loads.")}
+        inside = {name for node in loads.values() for name in names_in(node.text)}
+        self.of_loads = frozenset(inside - _elsewhere(root, {node.mark for node in loads.values()}))
+        self.whole = not _elsewhere(root, {node.mark for node in nodes.values()})
+        self._written = [(f"loads.{load.name}", number_of(load)) for load in case.loads]
+
+    def at(self, values: Mapping[str, str], section: str = "") -> dict[str, float]:
+        """The numbers of a section (of all) that depend on variables, by path, in case units."""
+        found = {}
+        for path, (written, own) in self._texts.items():
+            if path.startswith(section):
+                parts = split_quantity(replaced(written, values)[0])
+                assert parts is not None
+                numeral, unit = parts
+                found[path] = converted(numeral, parse_unit(unit), own) if unit else float(numeral.digits)
+        return found
+
+    def case_of(self, values: Mapping[str, str]) -> Case:
+        """The case with these values, of a ``whole`` one."""
+        return with_numbers(self.case, self.at(values))
+
+    def factor(self, base: Mapping[str, str], values: Mapping[str, str]) -> float | None:
+        """By what all loads are larger than with other values; None where they do not grow alike, as those of
+        inertia do not."""
+        if self.case.dynamic:
+            return None
+        old, new = self.at(base, "loads."), self.at(values, "loads.")
+        ratios = set()
+        for path, written in self._written:
+            before = old.get(path, written)
+            if before is None:
+                continue
+            after = new.get(path, before)
+            if before == 0.0 or after == 0.0:
+                return None
+            ratios.add(after / before)
+        return ratios.pop() if len(ratios) == 1 else None
+
+
+def number_of(load: Load) -> float | None:
+    """A load's own known number; 1 of a vector, which no variable scales."""
+    value = getattr(load, "value", None)
+    if isinstance(value, Number):
+        return value.value
+    return 1.0 if hasattr(load, "x") else None
+
+
+def _node_at(root: Tree, path: str) -> Scalar | None:
+    """Where a coordinate, a length, an angle or the size of a load is written; None for other numbers."""
+    section, _, rest = path.partition(".")
+    node: Node | None = root.items.get(section)
+    keys: tuple[str | int, ...] = ()
+    if section in ("lengths", "angles"):
+        keys = (rest,)
+    elif section == "points":
+        name, _, axis = rest.rpartition(".")
+        keys = (name, "xy".index(axis)) if axis in ("x", "y") else ()
+    elif section == "loads" and type(node) is Tree and type(node.items.get(rest)) is Tree:
+        load = node.items[rest]
+        keys = (rest, *(kind for kind in _KINDS if type(load) is Tree and kind in load.items))
+    for key in keys:
+        if type(node) is Tree and isinstance(key, str):
+            node = node.items.get(key)
+        else:
+            node = node.items[key] if type(node) is Items and isinstance(key, int) else None
+    return node if keys and type(node) is Scalar else None
+
+
+def _unit_at(path: str, case: Case) -> str:
+    """The unit in which a case keeps a number."""
+    section, _, name = path.partition(".")
+    if section == "angles":
+        return "deg"
+    return (
+        unit_of(next(x for x in case.loads if x.name == name), case)
+        if section == "loads"
+        else case.units.length
+    )
+
+
+def _elsewhere(root: Tree, within: set[Mark]) -> set[str]:
+    """Variables that stand outside these places; titles and the like do not count."""
+    found: set[str] = set()
+    stack: list[Node] = [node for key, node in root.items.items() if key not in _FREE]
+    while stack:
+        node = stack.pop()
+        if type(node) is Scalar:
+            found |= set() if node.mark in within else set(names_in(node.text))
+        elif type(node) is Tree:
+            stack.extend(node.items.values())
+        elif type(node) is Items:
+            stack.extend(node.items)
+    return found

@@ -12,7 +12,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, TypeVar
 
 from icsolve.answer import Answer
-from icsolve.case import Case, Load, Mark, Number
+from icsolve.case import Case
 from icsolve.case.expected import LoadIs, Variable
 from icsolve.errors import CaseError, IcsolveError, SceneError
 from icsolve.grade.course import Course
@@ -21,16 +21,13 @@ from icsolve.grade.mistakes import WrongAnswers
 from icsolve.grade.mistakes.engine import Known
 from icsolve.grade.solved import SolvedCase
 from icsolve.grade.tolerance import NoKeyError, drawn_band, size_of
-from icsolve.grade.variants.at_once import solved_at_once, together
-from icsolve.numbers.units import converted, parse_unit, split_quantity
+from icsolve.grade.variants.at_once import VariedNumbers, solved_at_once, together
 from icsolve.read.document import Mapping as Tree
-from icsolve.read.document import Node, Scalar, parse
-from icsolve.read.document import Sequence as Items
+from icsolve.read.document import Scalar, parse
 from icsolve.read.names import Problems
-from icsolve.read.variables import count, first_values, names_in, replaced, value_at
-from icsolve.sweep.numbers import numbers_of, with_numbers
+from icsolve.read.variables import count, first_values, value_at
+from icsolve.sweep.numbers import numbers_of
 from icsolve.tuples import NamedTuple
-from icsolve.wording.senses import unit_of
 
 if TYPE_CHECKING:
     from icsolve.grade.variants.record import Handed, VariantRecord
@@ -53,120 +50,6 @@ def label(case: str, values: Mapping[str, str]) -> str:
     """A short name of a variant: eight hexadecimal digits that follow from its values."""
     text = "\x1f".join((case, *(f"{name}={value}" for name, value in values.items())))
     return hashlib.sha256(text.encode("utf-8")).hexdigest()[:8]
-
-
-_KINDS = ("force", "torque", "weight", "mass", "spring")
-_FREE = ("title", "source", "reconstructed", "variables")
-"""Sections in which a variable changes no number."""
-
-
-class VariedNumbers:
-    """The numbers of a case in which variables stand.
-
-    ``of_loads`` are the variables that stand in the sizes of loads alone; ``whole`` tells whether none stands
-    anywhere but in a coordinate, a length, an angle or the size of a load.
-    """
-
-    def __init__(self, text: str, case: Case) -> None:
-        root = parse(text, Problems(case.path))
-        assert type(root) is Tree
-        nodes = {path: node for path in numbers_of(case) if (node := _node_at(root, path)) is not None}
-        nodes = {path: node for path, node in nodes.items() if names_in(node.text)}
-        self.case = case
-        self._texts = {path: (node.text, parse_unit(_unit_at(path, case))) for path, node in nodes.items()}
-        loads = {path: node for path, node in nodes.items() if path.startswith("loads.")}
-        inside = {name for node in loads.values() for name in names_in(node.text)}
-        self.of_loads = frozenset(inside - _elsewhere(root, {node.mark for node in loads.values()}))
-        self.whole = not _elsewhere(root, {node.mark for node in nodes.values()})
-        self._written = [(f"loads.{load.name}", number_of(load)) for load in case.loads]
-
-    def at(self, values: Mapping[str, str], section: str = "") -> dict[str, float]:
-        """The numbers of a section (of all) that depend on variables, by path, in case units."""
-        found = {}
-        for path, (written, own) in self._texts.items():
-            if path.startswith(section):
-                parts = split_quantity(replaced(written, values)[0])
-                assert parts is not None
-                numeral, unit = parts
-                found[path] = converted(numeral, parse_unit(unit), own) if unit else float(numeral.digits)
-        return found
-
-    def case_of(self, values: Mapping[str, str]) -> Case:
-        """The case with these values, of a ``whole`` one."""
-        return with_numbers(self.case, self.at(values))
-
-    def factor(self, base: Mapping[str, str], values: Mapping[str, str]) -> float | None:
-        """By what all loads are larger than with other values; None where they do not grow alike, as those of
-        inertia do not."""
-        if self.case.dynamic:
-            return None
-        old, new = self.at(base, "loads."), self.at(values, "loads.")
-        ratios = set()
-        for path, written in self._written:
-            before = old.get(path, written)
-            if before is None:
-                continue
-            after = new.get(path, before)
-            if before == 0.0 or after == 0.0:
-                return None
-            ratios.add(after / before)
-        return ratios.pop() if len(ratios) == 1 else None
-
-
-def number_of(load: Load) -> float | None:
-    """A load's own known number; 1 of a vector, which no variable scales."""
-    value = getattr(load, "value", None)
-    if isinstance(value, Number):
-        return value.value
-    return 1.0 if hasattr(load, "x") else None
-
-
-def _node_at(root: Tree, path: str) -> Scalar | None:
-    """Where a coordinate, a length, an angle or the size of a load is written; None for other numbers."""
-    section, _, rest = path.partition(".")
-    node: Node | None = root.items.get(section)
-    keys: tuple[str | int, ...] = ()
-    if section in ("lengths", "angles"):
-        keys = (rest,)
-    elif section == "points":
-        name, _, axis = rest.rpartition(".")
-        keys = (name, "xy".index(axis)) if axis in ("x", "y") else ()
-    elif section == "loads" and type(node) is Tree and type(node.items.get(rest)) is Tree:
-        load = node.items[rest]
-        keys = (rest, *(kind for kind in _KINDS if type(load) is Tree and kind in load.items))
-    for key in keys:
-        if type(node) is Tree and isinstance(key, str):
-            node = node.items.get(key)
-        else:
-            node = node.items[key] if type(node) is Items and isinstance(key, int) else None
-    return node if keys and type(node) is Scalar else None
-
-
-def _unit_at(path: str, case: Case) -> str:
-    """The unit in which a case keeps a number."""
-    section, _, name = path.partition(".")
-    if section == "angles":
-        return "deg"
-    return (
-        unit_of(next(x for x in case.loads if x.name == name), case)
-        if section == "loads"
-        else case.units.length
-    )
-
-
-def _elsewhere(root: Tree, within: set[Mark]) -> set[str]:
-    """Variables that stand outside these places; titles and the like do not count."""
-    found: set[str] = set()
-    stack: list[Node] = [node for key, node in root.items.items() if key not in _FREE]
-    while stack:
-        node = stack.pop()
-        if type(node) is Scalar:
-            found |= set() if node.mark in within else set(names_in(node.text))
-        elif type(node) is Tree:
-            stack.extend(node.items.values())
-        elif type(node) is Items:
-            stack.extend(node.items)
-    return found
 
 
 DRAWING = 1e-3

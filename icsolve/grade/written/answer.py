@@ -10,12 +10,16 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from icsolve.grade.written.directions import AMBIGUOUS as AMBIGUOUS_DIRECTION
-from icsolve.grade.written.directions import WrittenDirection, direction
 from icsolve.grade.written.numerals import AMBIGUOUS as AMBIGUOUS_NUMBER
 from icsolve.grade.written.numerals import UNREAD, WrittenNumber, numeral, plain
-from icsolve.grade.written.units import AMBIGUOUS as AMBIGUOUS_UNIT
-from icsolve.grade.written.units import UnitWord, unit_word
+from icsolve.grade.written.words import (
+    AMBIGUOUS_DIRECTION,
+    AMBIGUOUS_UNIT,
+    UnitWord,
+    WrittenDirection,
+    direction,
+    unit_word,
+)
 from icsolve.numbers.units import DIMENSIONS
 from icsolve.tuples import NamedTuple
 

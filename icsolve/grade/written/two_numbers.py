@@ -12,9 +12,8 @@ from icsolve.grade.written.answer import (
     tail,
     words_of,
 )
-from icsolve.grade.written.directions import WrittenDirection
 from icsolve.grade.written.numerals import AMBIGUOUS, UNREAD, WrittenNumber, numeral
-from icsolve.grade.written.units import UnitWord, unit_word
+from icsolve.grade.written.words import UnitWord, WrittenDirection, unit_word
 from icsolve.tuples import NamedTuple
 
 _SIGNED = r"(?<![\w{before}])[-+]? ?(?:\d+(?:{mark}\d*)?|{mark}\d+)(?:[eE][-+]?\d+)?(?: ?/ ?\d+)?(?![\d/])"
