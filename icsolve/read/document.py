@@ -172,7 +172,13 @@ def _of_lines(
 ) -> tuple[Mark, str] | None:
     """Colons, brackets, quotation marks and the beginnings of lines."""
     problem = error.problem or ""
+    if line[place[1] - 1 : place[1]] == "," and not line[place[1] :].strip():
+        return place, "take this comma away: entries that stand in lines of their own have none between"
     if any(sign in problem for sign in _OF_A_COLON):
+        for at in range(place[0], max(place[0] - 2, 0), -1):
+            told = _of_another_language(lines[at - 1] if at <= len(lines) else "")
+            if told:
+                return (at, told[0]), told[1]
         cause = _unspaced_line(place[0], lines)
         if cause:
             return cause, "write a space after the colon"
@@ -194,6 +200,15 @@ def _of_lines(
     if any(sign in problem for sign in _OF_A_START):
         return place, "this line is indented otherwise than the lines that it should stand beside"
     return None
+
+
+def _of_another_language(line: str) -> tuple[int, str] | None:
+    """Column and wording of what is a comment, or gives a value, elsewhere."""
+    first = len(line) - len(line.lstrip()) + 1
+    if line.lstrip().startswith(("//", "/*", "--", "%")):
+        return first, f"a comment starts with '#', not with '{line.split(maxsplit=1)[0][:2]}'"
+    given = re.match(r"\s*(\w+)\s*=\s*(.*)", line)
+    return (first, f"write a colon in place of '=', {given[1]}: {given[2][:60]}") if given else None
 
 
 def _opened(error: yaml.MarkedYAMLError) -> str:
@@ -384,7 +399,9 @@ class _Tree:
             before.mark[0],
             before.mark[1] + len(before.text),
         ):
-            said = f"'{before.text},{name}' is cut at its comma; write a decimal point, {before.text}.{name}"
+            said = f"'{before.text},{name}' is cut at its comma; {_uncut(before.text, name)}"
+        elif re.fullmatch(r"-?[\d.]+", name) and re.fullmatch(r"-?[\d.]+", before.text):
+            said = f"two numbers stand in square brackets, [{before.text}, {name}]"
         else:
             return False
         self.problems.refuse(before.mark, said)
@@ -407,6 +424,17 @@ class _Tree:
                 return
         mapping.keys[name] = mark
         mapping.items[name] = node
+
+
+def _uncut(before: str, after: str) -> str:
+    """How a number that a comma cuts is to be written; three digits after it may be thousands."""
+    if "." in before:
+        return f"write a decimal point and no other, {before.replace('.', '')}.{after}"
+    thousands = re.match(r"\d{3}(?!\d)", after)
+    if thousands and "." in after:
+        return f"write no comma, {before}{after}"
+    meant = f"write a decimal point, {before}.{after}"
+    return f"{meant}, or for thousands no comma, {before}{after}" if thousands else meant
 
 
 def _mark(event: Any) -> Mark:

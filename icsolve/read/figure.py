@@ -8,6 +8,7 @@ slip is refused with both ways to say what is meant; without evidence nothing is
 from __future__ import annotations
 
 import math
+import re
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING, Any
@@ -66,7 +67,7 @@ def _coordinates(reading: Reading, name: str, node: Node) -> Coordinates | Spati
     """A point by its coordinates, in the plane one of them unknown or none."""
     axes = reading.axes
     if type(node) is not Sequence or len(node.items) != len(axes):
-        if type(node) is Scalar and node.text[:1] == "(" and node.text[-1] != ")":
+        if any((problem.line, problem.column) == node.mark for problem in reading.problems.found):
             return None  # refused where the comma cut it
         form = decimals(node) or "as in [3, 0.5] or [unknown, 0.5]"
         said = f"point {name} should have two coordinates, {form}"
@@ -89,9 +90,12 @@ def _coordinates(reading: Reading, name: str, node: Node) -> Coordinates | Spati
 
 
 def decimals(node: Node) -> str:
-    """How four numbers in place of two, or numbers in round brackets, are to be written."""
+    """How four numbers in place of two, two in one text, or numbers in round brackets, are to be written."""
     if type(node) is Scalar and node.text[:1] == "(":
         return "in square brackets, as in [3, 0.5]"
+    if type(node) is Sequence and len(node.items) == 1 and type(node.items[0]) is Scalar:
+        two = re.split(r"[;\s]+", node.items[0].text)
+        return f"with a comma between, [{two[0]}, {two[1]}]" if len(two) == 2 else ""
     if type(node) is not Sequence or len(node.items) != 4:
         return ""
     a, b, c, d = (item.text if type(item) is Scalar else "" for item in node.items)
@@ -100,6 +104,10 @@ def decimals(node: Node) -> str:
 
 def _centroid(reading: Reading, name: str, node: Mapping) -> Centroid | None:
     """A point as the mean of others."""
+    if node.items and node.items.keys() <= {"x", "y"}:
+        x, y = (at.text if type(at := node.items.get(axis)) is Scalar else "unknown" for axis in "xy")
+        reading.refuse(node.mark, f"point {name} is written by its two numbers alone, {name}: [{x}, {y}]")
+        return None
     reading.check_keys(node, CENTROID, f"point {name}")
     value = node.items.get("centroid")
     if value is None:
@@ -127,6 +135,8 @@ def read_lengths(reading: Reading, section: Mapping, known: set[str]) -> tuple[L
         if value is not None and value.value < 0.0:
             reading.refuse(node.mark, f"the length {key} should not be negative")
         elif value is not None:
+            if value.value == 0.0:
+                reading.noticed.append(f"the length {key} is 0: {names[0]} and {names[1]} are one place.")
             found.append(Length(names[0], names[1], value))
     return tuple(found)
 

@@ -44,6 +44,7 @@ from icsolve.read.keys import (
 )
 from icsolve.read.names import is_name, meant_by, shown, suggestion
 from icsolve.read.reading import Reading
+from icsolve.wording.sentences import listed
 
 T = TypeVar("T")
 Builders = Table[str, Callable[[Entry, Any, Values], T | None]]
@@ -388,7 +389,12 @@ NAMES = frozenset((*JOINTS, *SPACE_JOINTS))
 
 def read_joints(reading: Reading, section: Sequence) -> tuple[Joint, ...]:
     """The joints of a planar case that could be read."""
-    return read_list(reading, section, JOINTS, BUILDERS, "{pin: [1, 2], at: B}")
+    joints: tuple[Joint, ...] = read_list(reading, section, JOINTS, BUILDERS, "{pin: [1, 2], at: B}")
+    pins = Counter((frozenset(joint.links), joint.at) for joint in joints if isinstance(joint, Pin))
+    for (links, at), times in pins.items():
+        if times > 1:
+            reading.noticed.append(f"the pin of {listed(sorted(links))} at {at} is given more than once.")
+    return joints
 
 
 def _friction(values: Values) -> Friction | None:

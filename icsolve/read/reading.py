@@ -101,7 +101,8 @@ class Reading:
             said = f"{what} is read as one text, {shown(node.text)}"
             self.refuse(node.mark, f"{said}; write a space after each colon")
         else:
-            self.refuse(node.mark, f"{what} should be a mapping, {form}")
+            told = "; take the dashes or brackets of a list away" if type(node) is Sequence else ""
+            self.refuse(node.mark, f"{what} should be a mapping, {form}{told}")
         return None
 
     def name(self, node: Node, what: str) -> str | None:
@@ -202,7 +203,7 @@ def quantity(reading: Reading, node: Scalar, text: str, dimension: str, path: st
     try:
         parts = split_quantity(text)
         if parts is None:
-            reading.refuse(node.mark, _no_number(node, text, dimension))
+            reading.refuse(node.mark, _no_number(node, text, dimension, path))
             return None
         return _checked(reading, node, _valued(reading, parts, node.exact, dimension, path))
     except UnitError as error:
@@ -259,6 +260,12 @@ def _fitting(reading: Reading, text: str, dimension: str) -> Unit:
         raise UnitError("write a decimal point, not a comma")
     if text[0] in "_'’" and text[1:2].isdigit():
         raise UnitError("write the digits of a number without separators")
+    if text == "%":
+        raise UnitError("write the number itself, 0.2 for 20 %")
+    sense = re.search(r"\b(c?cw|(?:counter)?clockwise)$", text)
+    if sense:
+        turns = "ccw" if sense[1][:2] == "cc" or sense[1][:2] == "co" else "cw"
+        raise UnitError(f"the sense stands beside the number, 'turns: {turns}'")
     unit = parse_unit(text)
     if unit.dims != reading.targets[dimension].dims and not is_through_speed(unit, text, dimension):
         raise UnitError(_wrong(reading, text, unit, dimension))
@@ -324,7 +331,7 @@ COMPASS = {
 """Directions in words, and the angle of each."""
 
 
-def _no_number(node: Scalar, text: str, dimension: str) -> str:
+def _no_number(node: Scalar, text: str, dimension: str, path: str) -> str:
     wanted = _a(dimension)
     if is_null(node):
         return f"{wanted} should stand here, but there is no value"
@@ -334,8 +341,22 @@ def _no_number(node: Scalar, text: str, dimension: str) -> str:
         return f"an angle is in degrees counterclockwise from +x: write {COMPASS[text.lower()]} for '{text}'"
     if text == "unknown":
         return f"'unknown' cannot stand here; {wanted} is wanted"
-    likely = suggestion(text, ("unknown",))
+    likely = suggestion(text, ("unknown",)) or _meant(text, dimension, path)
     return f"{wanted} should stand here, but {shown(text)} does not start with a number{likely}"
+
+
+def _meant(text: str, dimension: str, path: str) -> str:
+    """What a text that is no number may mean, and how it is written."""
+    digits = text.translate(str.maketrans("OoIl", "0011"))
+    if re.fullmatch(r"-?[\d.]+", digits):
+        return f"; write digits, {digits}"
+    share = re.fullmatch(r"(-?)(\d*)\s*\*?\s*(?:pi|π)\s*(?:/\s*(\d+))?", text)
+    if dimension == "angle" and share:
+        degrees = 180.0 * int(share[2] or 1) / max(int(share[3] or 1), 1)
+        return f"; an angle is in degrees, {share[1]}{degrees:g}"
+    if path.startswith("loads.") and path.endswith(".angle") and is_name(text):
+        return f"; in the direction of a point is 'toward: {text}' in place of 'angle'"
+    return ""
 
 
 Measures = tuple[Units, dict[str, Unit], dict[str, str]]
@@ -369,7 +390,8 @@ def measures(node: Node | None, problems: Problems) -> Measures:
 
 def _unit_of_case(names: dict[str, str], key: str, node: Node, section: Mapping, problems: Problems) -> None:
     if key not in UNIT_KEYS:
-        problems.refuse(section.keys[key], f"units has no key {shown(key)}{suggestion(key, UNIT_KEYS)}")
+        told = suggestion(key, UNIT_KEYS) or "; other quantities carry their unit, as in 1.2 rad or 3 kg"
+        problems.refuse(section.keys[key], f"units has no key {shown(key)}{told}")
         return
     text = node.text.strip() if type(node) is Scalar else ""
     try:
