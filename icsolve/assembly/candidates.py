@@ -120,7 +120,8 @@ def _tethered(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]
     others = {p for k in own for p in datum.points[k : k + 2]} - {point}
     sized = any(rope.radii[n] is not None for k in own for n in (k, k + 1))
     if len(others) == 1 and not sized:
-        yield BY_LENGTH, Tether(cluster.key(*others), datum, point, len(own))
+        rest = tuple(p for p in datum.points if p != point)
+        yield BY_LENGTH, Tether(cluster.key(*others), datum, rest, len(own))
 
 
 def _axis(cluster: Cluster, datum: Datum, point: str) -> Iterator[Candidate]:

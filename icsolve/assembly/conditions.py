@@ -28,6 +28,7 @@ from icsolve.assembly.workspace import (
     Workspace,
     X,
     Y,
+    data_in,
     number_of,
 )
 from icsolve.case import Case, Coordinates, Number
@@ -325,7 +326,7 @@ def _numbers(workspace: Workspace, cone: tuple[Step, ...], datum: Datum) -> list
     """The distinct numbers that a datum and its points come from."""
     case = workspace.case
     numbers: dict[str, Number] = {}
-    for each in (datum, *(d for step in cone for d in step.data())):
+    for each in (datum, *(d for step in cone for d in data_in(step))):
         if each.kind not in (MEAN, LINE):
             number = number_of(case, each)
             numbers[number.path] = number

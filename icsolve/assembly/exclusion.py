@@ -21,7 +21,7 @@ import numpy.typing as npt
 from icsolve.assembly.conditions import Unknown
 from icsolve.assembly.groups import Group
 from icsolve.assembly.loci import Axis, PlacedLine, intersection, sine_between
-from icsolve.assembly.workspace import GUIDE, LENGTH, RAY, Point, Workspace, X, Y
+from icsolve.assembly.workspace import GUIDE, LENGTH, RAY, Point, Workspace, X, Y, data_in
 from icsolve.tuples import NamedTuple
 
 Array = npt.NDArray[np.float64]
@@ -133,7 +133,7 @@ def _quadratics(group: Group, workspace: Workspace, unknowns: list[Unknown]) -> 
 def _links(group: Group, workspace: Workspace) -> list[_Link]:
     column = {t: 2 * k for k, t in enumerate(group.targets)}
     out = []
-    for datum in group.data():
+    for datum in data_in(group):
         if datum.kind == LENGTH:
             a, b = datum.points
             fixed = [(0.0, 0.0) if p in column else workspace.points[p] for p in (a, b)]
@@ -144,7 +144,7 @@ def _links(group: Group, workspace: Workspace) -> list[_Link]:
 
 def _bounds(group: Group, workspace: Workspace) -> tuple[Array, Array, bool]:
     """A box that holds every solution, by the lengths that lead from points in place; whether they do."""
-    reach = {d.points: float(workspace.length(d)) for d in group.data() if d.kind == LENGTH}
+    reach = {d.points: float(workspace.length(d)) for d in data_in(group) if d.kind == LENGTH}
     size = max(reach.values(), default=1.0)
     own = set(group.targets)
     low = {t: [-UNBOUNDED * size] * 2 for t in own}
@@ -183,7 +183,7 @@ def _anchors(
 def _lines(group: Group, workspace: Workspace) -> Iterator[tuple[str, PlacedLine]]:
     """The points of a group on lines of known place and direction: a point of the line and its direction."""
     own = set(group.targets)
-    for datum in group.data():
+    for datum in data_in(group):
         if datum.kind in (GUIDE, RAY) and len(own & {*datum.points}) == 1:
             a, b = datum.points if datum.points[0] in own else datum.points[::-1]
             yield a, PlacedLine(workspace.points[b], workspace.turn(datum))

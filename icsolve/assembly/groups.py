@@ -9,89 +9,28 @@ from typing import TYPE_CHECKING
 
 from icsolve.assembly.conditions import FigureEquation, Unknown
 from icsolve.assembly.refusals import plain
-from icsolve.assembly.workspace import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, Key, Workspace, X, Y
+from icsolve.assembly.workspace import (
+    CORNER,
+    GUIDE,
+    LENGTH,
+    LINE,
+    MEAN,
+    RAY,
+    Datum,
+    Workspace,
+    X,
+    Y,
+    data_in,
+)
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.sparse import Row, eliminate
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
 if TYPE_CHECKING:
     from icsolve.assembly.order import LooseFigure
-
-
-class Pivot(NamedTuple):
-    """An equation, and the unknown that it is solved for."""
-
-    row: int
-    unknown: Unknown
-
-
-def pivots(rows: list[dict[Unknown, float]]) -> tuple[list[Pivot], float]:
-    """The order of elimination by complete pivoting, and the smallest pivot over the largest.
-
-    Parameters
-    ----------
-    rows : n equations, each {unknown: derivative}; not changed
-
-    Returns
-    -------
-    tuple[list[Pivot], float]
-        0.0 where the rows are dependent; the order then ends there.
-    """
-    work = {i: dict(row) for i, row in enumerate(rows)}
-    order: list[Pivot] = []
-    sizes: list[float] = []
-    while work:
-        size, i, unknown = max(
-            ((abs(v), i, u) for i, row in work.items() for u, v in row.items()), default=(0.0, -1, ("", 0))
-        )
-        if size == 0.0:
-            return order, 0.0
-        order.append(Pivot(i, unknown))
-        sizes.append(size)
-        top = work.pop(i)
-        for row in work.values():
-            _clear(row, top, unknown)
-    return order, min(sizes) / max(sizes)
-
-
-def _clear(row: dict[Unknown, Scalar], top: dict[Unknown, Scalar], unknown: Unknown) -> Scalar:
-    """Take the multiple of a pivot row that clears one unknown; the multiple."""
-    if unknown not in row:
-        return None
-    ratio = row.pop(unknown) / top[unknown]
-    for u, v in top.items():
-        if u != unknown:
-            row[u] = row[u] - ratio * v if u in row else -(ratio * v)
-    return ratio
-
-
-def solved(
-    rows: list[dict[Unknown, Scalar]], values: list[Scalar], order: list[Pivot]
-) -> dict[Unknown, Scalar]:
-    """x with ``rows . x = values``, eliminated in a given order; unknowns without a pivot stay out (at zero).
-
-    Parameters
-    ----------
-    rows : n equations, each {unknown: derivative}, of any arithmetic
-    values : (n,)
-    order : as of `pivots`; a pivot that is zero here divides by zero
-    """
-    work, right = [dict(row) for row in rows], list(values)
-    for k, (i, unknown) in enumerate(order):
-        for j, _ in order[k + 1 :]:
-            ratio = _clear(work[j], work[i], unknown)
-            if ratio is not None:
-                right[j] = right[j] - ratio * right[i]
-    out: dict[Unknown, Scalar] = {}
-    for i, unknown in reversed(order):
-        total = right[i]
-        for u, v in work[i].items():
-            if u in out:
-                total = total - v * out[u]
-        out[unknown] = total / work[i][unknown]
-    return out
 
 
 # --- which conditions determine which coordinates: a matching, and what it leaves free ---
@@ -277,18 +216,38 @@ def _said(system: System, part: list[str], known: set[str]) -> str:
 # --- points that have no order of construction: the smallest group that its data determine together ---
 
 
+class NewtonStep(NamedTuple):
+    """A step of Newton's method.
+
+    Attributes
+    ----------
+    move : (n,), what is to be subtracted from the coordinates; 0 of those that the equations leave open
+    flatness : the smallest pivot over the largest; 0.0 where the equations are dependent
+    """
+
+    move: list[Scalar]
+    flatness: float
+
+
+def newton_step(values: Sequence[Scalar], rows: Sequence[Row]) -> NewtonStep:
+    """The step of Newton's method for n equations with these values, and derivatives by column."""
+    n = len(rows)
+    found = eliminate([{**row, n: 0.0 - f} for row, f in zip(rows, values, strict=True)], n)
+    sizes = [abs(pivot) for pivot in found.pivots]
+    flatness = 0.0 if found.free else min(sizes) / max(sizes)
+    return NewtonStep([found.of(k).get(n, 0.0) for k in range(n)], flatness)
+
+
 class Group(NamedTuple):
     """Points placed by Newton's method, as many equations as coordinates.
 
     ``start`` has the places (x, y) of the targets [frame] in the solution that was settled on. ``place``
-    takes ``workspace.rounds`` steps from there with the elimination's order held: at the solution, one step
-    carries the derivatives by all data.
+    takes ``workspace.rounds`` steps from there: at the solution, one carries the derivatives by all data.
     """
 
     targets: tuple[str, ...]
     equations: tuple[FigureEquation, ...]
     start: tuple[tuple[float, float], ...] = ()
-    order: tuple[Pivot, ...] = ()
 
     def place(self, workspace: Workspace) -> None:
         """Put the points, and improve them; in balls the one solution there is enclosed."""
@@ -297,9 +256,10 @@ class Group(NamedTuple):
             return
         for target, at in zip(self.targets, self.start, strict=True):
             workspace.points[target] = workspace.starts.get(target, at)
-        unknown = set(self.unknowns())
         for _ in range(workspace.rounds):
-            self.improve(workspace, unknown)
+            move = newton_step(*self.system(workspace)).move
+            x = (part for target in self.targets for part in workspace.points[target])
+            self.put(workspace, [a - b for a, b in zip(x, move, strict=True)])
 
     def _enclose(self, workspace: Workspace) -> None:
         """Balls that hold the one solution near the start."""
@@ -307,54 +267,37 @@ class Group(NamedTuple):
         from icsolve.numbers.krawczyk import enclosed_root
 
         assert isinstance(workspace.arithmetic, Balls)
-        unknowns = self.unknowns()
-        place = {unknown: k for k, unknown in enumerate(unknowns)}
 
-        def put(x: Sequence[Scalar]) -> None:
-            for k, target in enumerate(self.targets):
-                workspace.points[target] = (x[2 * k], x[2 * k + 1])
-
-        def system(x: Sequence[Scalar]) -> tuple[list[Scalar], list[dict[int, Scalar]]]:
-            put(x)
-            rows = [equation.row(workspace) for equation in self.equations]
-            by = [{place[u]: v for u, v in row.by.items() if u in place} for row in rows]
-            return [row.value for row in rows], by
+        def system(x: Sequence[Scalar]) -> tuple[list[Scalar], list[Row]]:
+            self.put(workspace, x)
+            return self.system(workspace)
 
         start = [float(part) for at in self.start for part in at]
-        put(enclosed_root(system, start, workspace.arithmetic))
+        self.put(workspace, enclosed_root(system, start, workspace.arithmetic))
 
-    def improve(self, workspace: Workspace, unknown: set[Unknown]) -> None:
-        """One Newton step."""
+    def put(self, workspace: Workspace, x: Sequence[Scalar]) -> None:
+        """Put the points at coordinates, (n,), those of a point together."""
+        for k, target in enumerate(self.targets):
+            workspace.points[target] = (x[2 * k], x[2 * k + 1])
+
+    def system(self, workspace: Workspace) -> tuple[list[Scalar], list[Row]]:
+        """Values of the equations where the points are, and derivatives by the place of a coordinate."""
+        place = {unknown: k for k, unknown in enumerate(self.unknowns())}
         rows = [equation.row(workspace) for equation in self.equations]
-        inner = [{u: v for u, v in row.by.items() if u in unknown} for row in rows]
-        move = solved(inner, [row.value for row in rows], list(self.order))
-        for target in self.targets:
-            x, y = workspace.points[target]
-            workspace.points[target] = (x - _moved(move, target, 0), y - _moved(move, target, 1))
+        return [row.value for row in rows], [
+            {place[u]: v for u, v in row.by.items() if u in place} for row in rows
+        ]
 
     def unknowns(self) -> list[Unknown]:
         """The coordinates that it solves for."""
         return [(target, part) for target in self.targets for part in (0, 1)]
-
-    def data(self) -> tuple[Datum, ...]:
-        """The data of its equations."""
-        return tuple(dict.fromkeys(equation.datum for equation in self.equations))
-
-    def needs(self) -> tuple[Key, ...]:
-        """The points that its equations bind to it."""
-        own = set(self.targets)
-        return tuple(dict.fromkeys(p for e in self.equations for p in e.datum.points if p not in own))
-
-
-def _moved(move: dict[Unknown, Scalar], target: str, part: int) -> Scalar:
-    return move.get((target, part), 0.0)
 
 
 def _counting(drawing: LooseFigure) -> list[Datum]:
     """The data without those that only repeat the shape of a loose cluster or the direction of a line: they
     hold nothing more.
     """
-    used = {datum for step in drawing.steps for datum in step.data()}
+    used = {datum for step in drawing.steps for datum in data_in(step)}
     shapes = [cluster.placed.keys() for cluster in drawing.clusters[1:]]
     counting = (
         datum

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 
-from icsolve.assembly.workspace import Datum, Key, LineDirection, Span, Workspace, X, data_in, ends_of
+from icsolve.assembly.workspace import Datum, Key, LineDirection, Span, Workspace, X
 from icsolve.numbers.arithmetic import Arithmetic, Scalar
 from icsolve.screws.plane import Point
 from icsolve.screws.ropes import rope_length
@@ -169,14 +169,6 @@ class CircleLocus(NamedTuple):
         """The circle where its points are."""
         return PlacedCircle(workspace.points[self.centre], workspace.length(self.radius))
 
-    def data(self) -> tuple[Datum, ...]:
-        """The data that it comes from."""
-        return data_in(self.radius)
-
-    def needs(self) -> tuple[Key, ...]:
-        """The points that it comes from."""
-        return (self.centre, *ends_of(self.radius))
-
 
 class ArcLocus(NamedTuple):
     """The circle from which two points are seen under a corner's angle (Euclid III 21)."""
@@ -195,14 +187,6 @@ class ArcLocus(NamedTuple):
         radius = workspace.arithmetic.sqrt((ax - cx) * (ax - cx) + (ay - cy) * (ay - cy))
         return PlacedCircle((cx, cy), radius)
 
-    def data(self) -> tuple[Datum, ...]:
-        """The corner."""
-        return (self.corner,)
-
-    def needs(self) -> tuple[Key, ...]:
-        """The chord's ends."""
-        return (self.a, self.b)
-
 
 class LineLocus(NamedTuple):
     """A line through a point; with ``ray`` only the half of it that lies ahead."""
@@ -214,14 +198,6 @@ class LineLocus(NamedTuple):
     def placed(self, workspace: Workspace) -> PlacedLine:
         """The line where its points are."""
         return PlacedLine(workspace.points[self.through], workspace.unit(self.direction))
-
-    def data(self) -> tuple[Datum, ...]:
-        """The data that it comes from."""
-        return self.direction.data()
-
-    def needs(self) -> tuple[Key, ...]:
-        """The points that it comes from."""
-        return (self.through, *self.direction.needs())
 
 
 class Axis(NamedTuple):
@@ -236,38 +212,24 @@ class Axis(NamedTuple):
             return PlacedLine((value, 0.0), (0.0, 1.0))
         return PlacedLine((0.0, value), (1.0, 0.0))
 
-    def data(self) -> tuple[Datum, ...]:
-        """The coordinate."""
-        return (self.datum,)
-
-    def needs(self) -> tuple[Key, ...]:
-        """Nothing."""
-        return ()
-
 
 class Tether(NamedTuple):
     """The circle about a point on which what a rope of given length leaves keeps another.
 
-    All ``parts`` of the rope that end at that other point come from the centre.
+    All ``parts`` of the rope that end at that other point come from the centre; ``others`` are its points but
+    that one.
     """
 
     centre: Key
     rope: Datum
-    point: str
+    others: tuple[str, ...]
     parts: int
 
     def placed(self, workspace: Workspace) -> PlacedCircle:
         """The circle where its points are."""
-        left = workspace.length(self.rope) - length_of(workspace, self.rope, self.point)
+        own = next(p for p in self.rope.points if p not in self.others)
+        left = workspace.length(self.rope) - length_of(workspace, self.rope, own)
         return PlacedCircle(workspace.points[self.centre], left / float(self.parts))
-
-    def data(self) -> tuple[Datum, ...]:
-        """The rope."""
-        return (self.rope,)
-
-    def needs(self) -> tuple[Key, ...]:
-        """Its other points."""
-        return tuple(dict.fromkeys(p for p in self.rope.points if p != self.point))
 
 
 def length_of(workspace: Workspace, datum: Datum, without: str = "") -> Scalar:
@@ -291,14 +253,6 @@ class Shifted(NamedTuple):
         x, y = base[0]
         at = (x - length * c, y - length * s)
         return PlacedCircle(at, base.radius) if isinstance(base, PlacedCircle) else PlacedLine(at, base.along)
-
-    def data(self) -> tuple[Datum, ...]:
-        """The data of the base and of the vector."""
-        return (*self.base.data(), *data_in(self.span), *self.direction.data())
-
-    def needs(self) -> tuple[Key, ...]:
-        """The points that it comes from."""
-        return (*self.base.needs(), *ends_of(self.span), *self.direction.needs())
 
 
 Locus = CircleLocus | ArcLocus | Tether | LineLocus | Axis | Shifted

@@ -8,17 +8,17 @@ is polished to full precision.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice, product
 
-from icsolve.assembly.conditions import Unknown
-from icsolve.assembly.groups import Group, pivots, solved
+from icsolve.assembly.groups import Group, newton_step
 from icsolve.assembly.order import LooseFigure, grow
 from icsolve.assembly.refusals import Miss, datum_words, measure, plain
-from icsolve.assembly.steps import Given, Meet, Step
-from icsolve.assembly.workspace import CORNER, LENGTH, LINE, ROPE, Workspace, facts_of
+from icsolve.assembly.steps import Given, Meet, Step, needs
+from icsolve.assembly.workspace import CORNER, LENGTH, LINE, ROPE, Workspace, data_in, facts_of
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.linear import inverse, solve_square
+from icsolve.numbers.sparse import Row
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
@@ -212,8 +212,8 @@ def _alone(group: Group, workspace: Workspace, near: Start, end: Start) -> bool:
     if len(group.equations) > MOST_SHOWN:
         return False
     workspace.points.update(near)
-    rows, _ = _rows(group, workspace)
-    inverted = inverse([[row.get(u, 0.0) for u in group.unknowns()] for row in rows])
+    _, rows = group.system(workspace)
+    inverted = inverse([[row.get(k, 0.0) for k in range(len(rows))] for row in rows])
     if inverted is None:
         return False
     radius = math.hypot(*(math.dist(near[t], end[t]) for t in near)) * (1.0 + 1e-9)
@@ -228,17 +228,15 @@ def _alone(group: Group, workspace: Workspace, near: Start, end: Start) -> bool:
 
 def _least_residual(group: Group, workspace: Workspace, start: Start, reach: float) -> Start:
     """Where the data of a group are violated least, downhill from a start (Levenberg and Marquardt)."""
-    unknowns = group.unknowns()
-    if len(unknowns) > MOST_SHOWN:
+    if len(group.unknowns()) > MOST_SHOWN:
         return {}
     at, damping = start, 1e-3 * reach * reach
     workspace.points.update(at)
-    rows, values = _rows(group, workspace)
+    values, rows = group.system(workspace)
     for _ in range(MOST_NEAR_STEPS):
-        move = _damped(rows, values, unknowns, damping)
-        after = _moved(at, move, 1.0)
+        after = _moved(at, _damped(rows, values, damping), 1.0)
         workspace.points.update(after)
-        rows_after, values_after = _rows(group, workspace)
+        values_after, rows_after = group.system(workspace)
         gain = math.hypot(*values) - math.hypot(*values_after)
         if gain > 0.0:
             done = gain < 1e-9 * math.hypot(*values)
@@ -252,34 +250,26 @@ def _least_residual(group: Group, workspace: Workspace, start: Start, reach: flo
     return at
 
 
-def _damped(
-    rows: list[dict[Unknown, float]], values: list[float], unknowns: list[Unknown], damping: float
-) -> dict[Unknown, float]:
+def _damped(rows: list[Row], values: list[float], damping: float) -> list[float]:
     """The step of least squares, held back by a damping."""
-    place = {u: k for k, u in enumerate(unknowns)}
-    normal = [[damping * (i == j) for j in range(len(unknowns))] for i in range(len(unknowns))]
-    slope = [0.0] * len(unknowns)
+    n = len(rows)
+    normal = [[damping * (i == j) for j in range(n)] for i in range(n)]
+    slope = [0.0] * n
     for row, value in zip(rows, values, strict=True):
-        for u, a in row.items():
-            slope[place[u]] += a * value
-            for v, b in row.items():
-                normal[place[u]][place[v]] += a * b
-    return dict(zip(unknowns, solve_square(normal, slope) or slope, strict=True))
+        for i, a in row.items():
+            slope[i] += a * value
+            for j, b in row.items():
+                normal[i][j] += a * b
+    return solve_square(normal, slope) or slope
 
 
 def _reach(group: Group, workspace: Workspace) -> float:
     """The size of a group: its longest length, else 1."""
-    return max((workspace.length(d) for d in group.data() if d.kind == LENGTH), default=0.0) or 1.0
+    return max((workspace.length(d) for d in data_in(group) if d.kind == LENGTH), default=0.0) or 1.0
 
 
 def _same(one: Start, two: Start, reach: float) -> bool:
     return all(math.dist(one[t], two[t]) <= 1e-6 * (reach + math.hypot(*one[t])) for t in one)
-
-
-def _rows(group: Group, workspace: Workspace) -> tuple[list[dict[Unknown, float]], list[float]]:
-    unknown = set(group.unknowns())
-    rows = [equation.row(workspace) for equation in group.equations]
-    return [{u: v for u, v in row.by.items() if u in unknown} for row in rows], [row.value for row in rows]
 
 
 def _descend(group: Group, workspace: Workspace, start: Start, reach: float, most: int) -> Descent:
@@ -292,22 +282,26 @@ def _descend(group: Group, workspace: Workspace, start: Start, reach: float, mos
     off, taken = math.inf, 0
     while taken < most:
         taken += 1
-        rows, values = _rows(group, workspace)
+        values, rows = group.system(workspace)
         off = math.hypot(*values)
         if off <= CLOSED * reach * reach:
             break
-        order, _ = pivots(rows)
-        move = solved(rows, values, order)
-        longest = max(map(abs, move.values()), default=0.0)
+        move = newton_step(values, rows).move
+        longest = max(map(abs, move))
         fraction = min(1.0, LONGEST_STEP * reach / longest) if longest > 0.0 else 0.0
-        workspace.points.update(_moved({t: workspace.points[t] for t in group.targets}, move, fraction))
-    return Descent(off, {t: workspace.points[t] for t in group.targets}, taken)
+        workspace.points.update(_moved(_places(group, workspace), move, fraction))
+    return Descent(off, _places(group, workspace), taken)
 
 
-def _moved(at: Start, move: dict[Unknown, float], fraction: float) -> Start:
+def _places(group: Group, workspace: Workspace) -> Start:
+    return {t: workspace.points[t] for t in group.targets}
+
+
+def _moved(at: Start, move: Sequence[float], fraction: float) -> Start:
+    """Places, in the order of the group's targets, less a fraction of a step."""
     return {
-        t: (x - fraction * move.get((t, 0), 0.0), y - fraction * move.get((t, 1), 0.0))
-        for t, (x, y) in at.items()
+        t: (x - fraction * move[2 * k], y - fraction * move[2 * k + 1])
+        for k, (t, (x, y)) in enumerate(at.items())
     }
 
 
@@ -317,17 +311,16 @@ def _polished(group: Group, workspace: Workspace, end: Start) -> Group | None:
     best = math.inf
     option = group
     for _ in range(12):
-        rows, values = _rows(group, workspace)
-        order, flatness = pivots(rows)
+        move, flatness = newton_step(*group.system(workspace))
         if flatness < FLAT:
             return None
-        option = group._replace(start=tuple(workspace.points[t] for t in group.targets), order=tuple(order))
-        move = solved(rows, values, order)
-        longest = max(map(abs, move.values()))
+        places = _places(group, workspace)
+        option = group._replace(start=tuple(places.values()))
+        longest = max(map(abs, move))
         if longest >= best / 2.0 and best < 1e-7:
             break
         best = longest
-        workspace.points.update(_moved({t: workspace.points[t] for t in group.targets}, move, 1.0))
+        workspace.points.update(_moved(places, move, 1.0))
     return option
 
 
@@ -335,9 +328,9 @@ def _constructed(
     group: Group, workspace: Workspace, near: Mapping[str, Spot], held: list[str], reach: float
 ) -> Iterator[Start]:
     """Starts by closed forms, with points held where `near` puts them, one of them also about there."""
-    drawing = LooseFigure(facts_of(workspace.case, group.data()), frozenset())
+    drawing = LooseFigure(facts_of(workspace.case, data_in(group)), frozenset())
     ground, goal = drawing.ground, set(group.targets)
-    ground.begin([p for p in group.needs() if isinstance(p, str)] + held)
+    ground.begin([p for p in needs(group) if isinstance(p, str)] + held)
     ground.run(goal)
     while not goal <= ground.placed.keys() and grow(drawing):
         ground.run(goal)
@@ -389,7 +382,7 @@ def _unreached(group: Group, workspace: Workspace, closest: Start) -> Miss:
     if not closest:
         return Miss(Status.CANNOT_ASSEMBLE, f"no position found in which points {names} fit their data")
     workspace.points.update(closest)
-    off, datum = max(((abs(residual(workspace, d)[0]), d) for d in group.data()), key=lambda pair: pair[0])
+    off, datum = max(((abs(residual(workspace, d)[0]), d) for d in data_in(group)), key=lambda pair: pair[0])
     return Miss(
         Status.CANNOT_ASSEMBLE,
         f"the figure cannot be assembled: no position found in which points {names} fit their data "

@@ -41,6 +41,7 @@ from icsolve.assembly.workspace import (
     Facts,
     Key,
     LineDirection,
+    data_in,
     facts_of,
     given_points,
 )
@@ -267,7 +268,7 @@ class Order(NamedTuple):
 
     def used(self) -> frozenset[Datum]:
         """The data of which the construction is made."""
-        return frozenset(datum for step in self.steps for datum in step.data())
+        return frozenset(datum for step in self.steps for datum in data_in(step))
 
     def either_sense(self) -> tuple[Datum, ...]:
         """The angles whose sense no step takes: their points may come to lie the opposite way."""

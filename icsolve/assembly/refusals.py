@@ -23,6 +23,7 @@ from icsolve.assembly.workspace import (
     X,
     Y,
     case_point,
+    data_in,
     number_of,
 )
 from icsolve.case import Coordinates, Number
@@ -278,7 +279,7 @@ def mirrored(
     for step in steps:
         if not isinstance(step, Polar | Meet | Turned) or step.target not in near:
             continue
-        angles = [d for d in step.data() if d.kind in (RAY, CORNER)]
+        angles = [d for d in data_in(step) if d.kind in (RAY, CORNER)]
         if not angles:
             continue
         p = str(step.target)

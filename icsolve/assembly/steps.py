@@ -1,6 +1,6 @@
 """The steps of a construction: given points, a centroid, a length along a direction, two loci, rigid shapes.
 
-Each puts points on a workspace (``place``), and tells its ``targets``, what it ``needs`` and its ``data``.
+Each puts points on a workspace (``place``), its ``targets``, and is made of others and of data: its fields.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from icsolve.assembly.workspace import (
     Span,
     Workspace,
     data_in,
-    ends_of,
+    keys_in,
 )
 from icsolve.case import Case
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
@@ -47,14 +47,6 @@ class Given(NamedTuple):
         """Put the points."""
         for key in self.targets:
             workspace.points[key] = workspace.coordinates(key if isinstance(key, str) else key[1])
-
-    def data(self) -> tuple[Datum, ...]:
-        """None but the coordinates."""
-        return ()
-
-    def needs(self) -> tuple[Key, ...]:
-        """Nothing."""
-        return ()
 
 
 # --- the steps that place one point from others: a centroid, a length along a direction, two loci ---
@@ -93,14 +85,6 @@ class Mean(NamedTuple):
             gx, gy = points[self.centroid]
             workspace.points[self.target] = ((n * gx - x) / k, (n * gy - y) / k)
 
-    def data(self) -> tuple[Datum, ...]:
-        """The centroid."""
-        return (self.datum,)
-
-    def needs(self) -> tuple[Key, ...]:
-        """The other points."""
-        return self.others if self.centroid is None else (*self.others, self.centroid)
-
 
 class Polar(NamedTuple):
     """A point at a known distance in a known direction."""
@@ -121,14 +105,6 @@ class Polar(NamedTuple):
         length = workspace.length(self.span)
         c, s = workspace.unit(self.direction)
         workspace.points[self.target] = (x + length * c, y + length * s)
-
-    def data(self) -> tuple[Datum, ...]:
-        """Length and directions."""
-        return (*data_in(self.span), *self.direction.data())
-
-    def needs(self) -> tuple[Key, ...]:
-        """What it starts from."""
-        return (self.base, *ends_of(self.span), *self.direction.needs())
 
 
 class Meet(NamedTuple):
@@ -178,14 +154,6 @@ class Meet(NamedTuple):
             gaps = gaps_of(*loci, a)[:3]
         workspace.margins[self.target] = (*gaps, *self.ahead(workspace))
 
-    def data(self) -> tuple[Datum, ...]:
-        """The data of both loci."""
-        return (*self.first.data(), *self.second.data())
-
-    def needs(self) -> tuple[Key, ...]:
-        """The points of both loci."""
-        return (*self.first.needs(), *self.second.needs())
-
 
 # --- shapes that move as a whole: how one begins on a cluster of its own, and how it carries its points ---
 
@@ -206,14 +174,6 @@ class Base(NamedTuple):
         """Put both points."""
         workspace.points[self.a] = (0.0, 0.0)
         workspace.points[self.b] = (workspace.length(self.span), 0.0)
-
-    def data(self) -> tuple[Datum, ...]:
-        """The length."""
-        return data_in(self.span)
-
-    def needs(self) -> tuple[Key, ...]:
-        """What the length comes from."""
-        return ends_of(self.span)
 
 
 class Transfer(NamedTuple):
@@ -243,14 +203,6 @@ class Transfer(NamedTuple):
         tx, ty = tx - ax, ty - ay
         points[self.target] = (px + c * tx - s * ty, py + s * tx + c * ty)
 
-    def data(self) -> tuple[Datum, ...]:
-        """None of its own."""
-        return ()
-
-    def needs(self) -> tuple[Key, ...]:
-        """The pose and the shape."""
-        return (*self.pose, *self.shape)
-
 
 class Turned(NamedTuple):
     """A point of a shape that one point in place and a known direction in it hold.
@@ -278,14 +230,6 @@ class Turned(NamedTuple):
         c, s = (ux * ex + uy * ey) / norm, (uy * ex - ux * ey) / norm
         workspace.points[self.target] = (px + c * dx - s * dy, py + s * dx + c * dy)
 
-    def data(self) -> tuple[Datum, ...]:
-        """The direction."""
-        return self.direction.data()
-
-    def needs(self) -> tuple[Key, ...]:
-        """What it starts from, and the shape."""
-        return (self.base, *self.direction.needs(), *self.shape)
-
 
 # --- every kind of step of a construction ---
 
@@ -293,6 +237,13 @@ class Turned(NamedTuple):
 Step = Union[Given, Mean, Polar, Meet, Base, Transfer, Turned, "Group"]
 CLOSED_FORMS = (Given, Mean, Polar, Base, Transfer, Turned)
 """Steps that have one way only."""
+
+
+def needs(step: Step) -> tuple[Key, ...]:
+    """The points that a step comes from; of a group those that its data bind to it."""
+    alone = isinstance(step, (Meet, *CLOSED_FORMS))
+    keys = keys_in(step) if alone else dict.fromkeys(p for datum in data_in(step) for p in datum.points)
+    return tuple(key for key in keys if key not in step.targets)
 
 
 def aims(step: Step) -> list[tuple[Key, Key]]:
@@ -317,7 +268,7 @@ def sensed(step: Step) -> set[tuple[Datum, frozenset[str]]]:
         rays = [locus for locus in loci if isinstance(locus, LineLocus) and locus.ray]
         pairs = [(ray.direction, (ray.through, step.targets[0])) for ray in rays]
     names = [(way, frozenset(key if isinstance(key, str) else key[1] for key in ends)) for way, ends in pairs]
-    return {(datum, ends) for way, ends in names for datum in way.data()}
+    return {(datum, ends) for way, ends in names for datum in data_in(way)}
 
 
 # --- which steps lead to which points ---
@@ -330,7 +281,7 @@ def leading_to(goal: Collection[Key], steps: Sequence[Step]) -> tuple[Step, ...]
     for step in reversed(steps):
         targets = tuple(key for key in step.targets if key in needed)
         if targets:
-            needed.update(step.needs())
+            needed.update(needs(step))
             kept.append(Given(targets) if isinstance(step, Given) else step)
     return tuple(reversed(kept))
 

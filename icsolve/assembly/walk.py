@@ -29,7 +29,7 @@ from icsolve.assembly.refusals import (
     plain,
     too_far,
 )
-from icsolve.assembly.steps import CLOSED_FORMS, Meet, Step, aims
+from icsolve.assembly.steps import CLOSED_FORMS, Meet, Step, aims, needs
 from icsolve.assembly.workspace import Datum, Key, Point, Workspace, normalised
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.tuples import NamedTuple
@@ -71,7 +71,7 @@ class Decimals:
                 self.runs[digits] = _Decision(exact, {}, {})
             run = self.runs[digits]
             try:
-                if not self._place(step.needs(), run):
+                if not self._place(needs(step), run):
                     return None
                 for target in step.targets:
                     run.made.pop(target, None)
@@ -90,7 +90,7 @@ class Decimals:
             step = settled.step
             if step is None:
                 return False
-            ahead = [key for key in step.needs() if run.made.get(key) is not self.placed[key]]
+            ahead = [key for key in needs(step) if run.made.get(key) is not self.placed[key]]
             try:
                 if any(run.lost.get(key) is self.placed[key] for key in (stack[-1], *ahead)):
                     raise MoreDigits
@@ -109,7 +109,7 @@ class Decimals:
     def _leads(self, key: Key, lost: Key) -> bool:
         """Whether a point is the one that was lost, or needs it directly."""
         step = self.placed[key].step
-        return key == lost or (step is not None and lost in step.needs())
+        return key == lost or (step is not None and lost in needs(step))
 
 
 class Gap(NamedTuple):

@@ -320,28 +320,29 @@ class LineDirection(NamedTuple):
         """Turned by a corner, ccw with sense +1."""
         return LineDirection(self.root, self.flip, (*self.turns, (corner, sense)))
 
-    def data(self) -> tuple[Datum, ...]:
-        """The data that it comes from."""
-        root = data_in(self.root)
-        return (*root, *(datum for datum, _ in self.turns))
-
-    def needs(self) -> tuple[Key, ...]:
-        """The points that it comes from."""
-        return () if isinstance(self.root, Datum) else (self.root.a, self.root.b)
-
 
 Span = Datum | Apart
 """Where a length comes from: a length of the case, or two points that are in place."""
 
 
-def data_in(span: Span) -> tuple[Datum, ...]:
-    """The data that a length is."""
-    return (span,) if isinstance(span, Datum) else ()
+def data_in(made: object) -> tuple[Datum, ...]:
+    """The data that a direction, a locus or a step is made of, each once: those among its fields."""
+    return tuple(dict.fromkeys(part for part in _parts(made) if isinstance(part, Datum)))
 
 
-def ends_of(span: Span) -> tuple[Key, ...]:
-    """The points that a length is taken from."""
-    return () if isinstance(span, Datum) else (span.a, span.b)
+def keys_in(made: object) -> tuple[Key, ...]:
+    """The points that a direction or a locus is made of, and those that a step puts: each once."""
+    return tuple(dict.fromkeys(part for part in _parts(made) if not isinstance(part, Datum)))
+
+
+def _parts(made: object) -> Iterator[Datum | Key]:
+    """The data and the points among the fields of a value, and among theirs."""
+    match made:
+        case Datum() | str() | (int(), str()):
+            yield made  # type: ignore[misc]
+        case tuple():
+            for part in made:
+                yield from _parts(part)
 
 
 # --- the drawing workspace on which a construction runs: its case, its arithmetic, and the points so far ---
