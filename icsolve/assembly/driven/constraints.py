@@ -62,15 +62,28 @@ class SpotDistance(NamedTuple):
         return frozenset((self.one[0], self.two[0]))
 
 
-class Turning(NamedTuple):
-    """The angles by which bodies have turned since the position as written, each times its factor, add up to
-    ``degrees``.
+Terms = tuple[tuple[int, Scalar], ...]
+"""Pairs of a body and the factor of the angle by which it has turned since the position as written."""
+Turn = Callable[[Scalar, Scalar], Scalar]
+"""By how much a vector (x, y) has turned from +x, degrees."""
 
-    ``terms`` are pairs of a body and its factor: of gears the teeth, as the arm sees them (R. Willis,
-    Principles of Mechanism, 1841).
+
+def spun(terms: Terms, places: Places, but: int | None = None) -> Scalar:
+    """The angles by which bodies have turned [degrees], each times its factor, without those of one body."""
+    total: Scalar = 0.0
+    for body, factor in terms:
+        if body != but:
+            total = total + factor * places.degrees(body)
+    return total
+
+
+class Turning(NamedTuple):
+    """The angles of the ``terms``, each times its factor, add up to ``degrees``.
+
+    Of gears the factors are the teeth, as the arm sees them (R. Willis, Principles of Mechanism, 1841).
     """
 
-    terms: tuple[tuple[int, Scalar], ...]
+    terms: Terms
     degrees: Scalar = 0.0
 
     @property
@@ -83,6 +96,10 @@ class Turning(NamedTuple):
         """Whether it says that two bodies turn alike."""
         factors = [factor for _, factor in self.terms]
         return factors == [1.0, -1.0] and type(self.degrees) is float and self.degrees == 0.0
+
+    def rest(self, shape: Shape, places: Places, turned: Turn) -> Scalar:
+        """What the sum of the terms lacks to zero [degrees times a factor]."""
+        return -self.degrees
 
 
 class Pointed(NamedTuple):
@@ -112,6 +129,17 @@ class RolledStraight(NamedTuple):
         """The bodies that it ties."""
         return frozenset((self.centre[0], self.line.body))
 
+    @property
+    def terms(self) -> Terms:
+        """How far the turning of either body rolls the centre."""
+        return (self.centre[0], self.radius), (self.line.body, -self.radius)
+
+    def rest(self, shape: Shape, places: Places, turned: Turn) -> Scalar:
+        """How far the centre has gone along the flank [degrees times a radius]."""
+        through = places.point(self.line.body, self.line.through)
+        along = places.vector(self.line.body, self.line.along)
+        return dot(along, minus(places.place(self.centre), through)) / RADIAN
+
 
 class RolledRound(NamedTuple):
     """Two round bodies have rolled on one another: equal arcs. ``radii`` [frame] of their centres; a negative
@@ -126,6 +154,17 @@ class RolledRound(NamedTuple):
     def bodies(self) -> frozenset[int]:
         """The bodies that it ties."""
         return frozenset((self.one[0], self.two[0]))
+
+    @property
+    def terms(self) -> Terms:
+        """The arc that the turning of either body rolls."""
+        return (self.one[0], self.radii[0]), (self.two[0], self.radii[1])
+
+    def rest(self, shape: Shape, places: Places, turned: Turn) -> Scalar:
+        """What the turning of the line of the centres makes of the arcs [degrees times a radius]."""
+        e, written = minus(places.place(self.two), places.place(self.one)), shape.between(self.one, self.two)
+        whole = self.radii[0] + self.radii[1]
+        return -(whole * turned(dot(written, e), dot(square(written), e)))
 
 
 class Drawn(NamedTuple):
@@ -179,22 +218,20 @@ class Roped(NamedTuple):
             return None
         return next(iter(others)), len(own)
 
-    def drums(self) -> list[tuple[int, Scalar]]:
+    @property
+    def terms(self) -> Terms:
         """The bodies on which its ends are wound, and by how much a rad of each makes it longer [frame]."""
         ends = [(0, -1.0), (len(self.written), 1.0)]
-        return [(self.spots[k][0], sign * self.offsets[k]) for k, sign in ends if self.is_round(k)]
+        return tuple((self.spots[k][0], sign * self.offsets[k]) for k, sign in ends if self.is_round(k))
 
-    def longer(
-        self,
-        places: Places,
-        record: Record,
-        turned: Turn,
-        without: Spot | None = None,
-        still: int | None = None,
-    ) -> Scalar:
-        """By how much the rope is longer than as written [frame]; zero is its condition.
+    def rest(self, shape: Shape, places: Places, turned: Turn) -> Scalar:
+        """By how much it has become longer but for what its drums take up [degrees times a radius]."""
+        return self.longer(places, shape.record, turned) / RADIAN
 
-        On a drum it is wound by as much as that turns, and by as much as its part does.
+    def longer(self, places: Places, record: Record, turned: Turn, without: Spot | None = None) -> Scalar:
+        """By how much the rope is longer than as written [frame], but for the turning of its drums.
+
+        On a drum it is wound by as much as its part turns.
 
         Parameters
         ----------
@@ -202,7 +239,6 @@ class Roped(NamedTuple):
         record : arithmetic of the places
         turned : by how much a vector (x, y) has turned from +x [degrees], whole turns counted
         without : a spot whose parts do not count
-        still : a body whose turning does not count
         """
         more: Scalar = 0.0
         for k, then in enumerate(self.written):
@@ -214,14 +250,11 @@ class Roped(NamedTuple):
             if self.is_round(k) or self.is_round(k + 1):
                 angle = turned(dot(then.along, now.along), dot(square(then.along), now.along))
                 more = more + (self.offsets[k] - self.offsets[k + 1]) * angle * RADIAN
-        for body, gain in self.drums():
-            if body != still:
-                more = more + gain * places.degrees(body) * RADIAN
         return more
 
 
-Turn = Callable[[Scalar, Scalar], Scalar]
-"""By how much a vector has turned from +x, degrees."""
+Spinning = Turning | RolledStraight | RolledRound | Roped
+"""The angles of their ``terms``, each times its factor, and their ``rest`` add up to zero."""
 
 
 class Immovable(NamedTuple):
@@ -318,10 +351,11 @@ class ConditionRows:
         if c.alike:
             a, b = (self.places.vector(body, (1.0, 0.0)) for body, _ in c.terms)
             return ConditionRow(dot(square(b), a), by)
-        total: Scalar = -c.degrees
-        for body, factor in c.terms:
-            total = total + factor * self.places.degrees(body)
-        return ConditionRow(total * RADIAN, by)
+        return ConditionRow(self._left(c) * RADIAN, by)
+
+    def _left(self, c: Spinning) -> Scalar:
+        """The sum of the terms and the rest [degrees times a factor]."""
+        return c.rest(self.shape, self.places, self.shape.record.angle) + spun(c.terms, self.places)
 
     def _pointed(self, c: Pointed) -> ConditionRow:
         z = self.places.vector(c.body, c.rotation.ref)
@@ -331,20 +365,15 @@ class ConditionRows:
         o, b = self.places.place(c.centre), c.line.body
         along = self.places.vector(b, c.line.along)
         contact = minus(o, scaled(c.radius, square(along)))
-        turned = (self.places.degrees(c.centre[0]) - self.places.degrees(b)) * RADIAN
-        value = dot(along, minus(o, self.places.point(c.line.body, c.line.through))) + c.radius * turned
-        return ConditionRow(value, self._pushed((c.centre[0], along, contact), (b, _less(along), contact)))
+        pushes = self._pushed((c.centre[0], along, contact), (b, _less(along), contact))
+        return ConditionRow(self._left(c) * RADIAN, pushes)
 
     def _round(self, c: RolledRound) -> ConditionRow:
         """Slip of the arcs; the line of the centres may have turned any number of times."""
         (one, two), (r, q) = (c.one, c.two), c.radii
-        p, o = self.places.place(one), self.places.place(two)
-        e, written = minus(o, p), self.shape.between(one, two)
-        x, y = dot(written, e), dot(square(written), e)
-        turned = self.shape.record.angle(x, y)
-        whole = r + q
-        value = r * self.places.degrees(one[0]) + q * self.places.degrees(two[0]) - whole * turned
-        around = whole * 360.0
+        p = self.places.place(one)
+        e, whole = minus(self.places.place(two), p), r + q
+        value, around = self._left(c), whole * 360.0
         value = value - around * self.shape.record.nearest(value / around)
         normal = (e[0] / whole, e[1] / whole)
         along = square(normal)
@@ -360,7 +389,7 @@ class ConditionRows:
         for k, (one, two) in enumerate(pairwise(c.spots)):
             part = c.part(k, self.places, record)
             pulls += [(one[0], _less(part.along), part.at), (two[0], part.along, part.at)]
-        return ConditionRow(c.longer(self.places, record, record.angle), self._pushed(*pulls))
+        return ConditionRow(self._left(c) * RADIAN, self._pushed(*pulls))
 
     def _immovable(self, c: Immovable) -> ConditionRow:
         """Power of the wrench on the relative step of the two bodies."""

@@ -9,10 +9,9 @@ from icsolve.assembly.driven.constraints import (
     Constraint,
     Immovable,
     Pointed,
-    RolledRound,
-    RolledStraight,
-    Roped,
+    Spinning,
     Turning,
+    spun,
 )
 from icsolve.assembly.driven.groups import NewtonGroup, settled, smallest
 from icsolve.assembly.driven.mechanism import Mechanism
@@ -33,7 +32,7 @@ from icsolve.assembly.driven.order import (
 from icsolve.assembly.driven.poses import Moved, Rotation, Spot, dot, minus, rotated, scaled, square
 from icsolve.assembly.loci import PlacedLocus, crossing_sine, intersection, side
 from icsolve.assembly.workspace import Workspace
-from icsolve.numbers.arithmetic import RADIAN, Scalar
+from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Traced, varies
 from icsolve.screws.plane import Point
 from icsolve.tuples import NamedTuple
@@ -157,57 +156,16 @@ class _Placing:
 
     # --- rotations --------------------------------------------------------------------------------
 
-    def _rotation(self, body: int, by: Turning | Pointed | RolledStraight | RolledRound | Roped) -> Rotation:
-        match by:
-            case Pointed():
-                return by.rotation
-            case Turning():
-                return self._from_others(body, by)
-            case RolledStraight():
-                return rotated(self.shape, self._on_flank(body, by))
-            case Roped():
-                return rotated(self.shape, self._wound(body, by))
-        return rotated(self.shape, self._on_round(body, by))
-
-    def _wound(self, body: int, by: Roped) -> Scalar:
-        """A drum takes up what the rope has become longer elsewhere."""
-        gain: Scalar = 0.0
-        for drum, each in by.drums():
-            gain = gain + each if drum == body else gain
-        more = by.longer(self.moved, self.record, self.record.turns, still=body)
-        return -more / gain / RADIAN
-
-    def _from_others(self, body: int, by: Turning) -> Rotation:
-        if by.alike:
+    def _rotation(self, body: int, by: Spinning | Pointed) -> Rotation:
+        """That of a driver, of a body that turns alike, or what a sum of angles leaves to a body."""
+        if isinstance(by, Pointed):
+            return by.rotation
+        if isinstance(by, Turning) and by.alike:
             (other,) = by.bodies - {body}
             return self.moved.rotations[other]._replace(arm=None)
-        total, own = by.degrees, 1.0
-        for other, factor in by.terms:
-            if other == body:
-                own = factor
-            else:
-                total = total - factor * self.moved.degrees(other)
-        return rotated(self.shape, total / own)
-
-    def _on_flank(self, body: int, by: RolledStraight) -> Scalar:
-        """The centre's way along the flank is the turning times the radius, backwards."""
-        line, moved = by.line, self.moved
-        along = moved.vector(line.body, line.along)
-        through = moved.point(line.body, line.through)
-        way = dot(along, minus(moved.place(by.centre), through))
-        turned = -way / by.radius / RADIAN
-        if body == line.body:
-            return moved.degrees(by.centre[0]) - turned
-        return moved.degrees(line.body) + turned
-
-    def _on_round(self, body: int, by: RolledRound) -> Scalar:
-        """r a + q b = (r + q) c with c the turning of the line of centres."""
-        (one, two), (r, q) = (by.one, by.two), by.radii
-        e, written = minus(self.moved.place(two), self.moved.place(one)), self.shape.between(one, two)
-        centres = (r + q) * self.record.turns(dot(written, e), dot(square(written), e))
-        if body == one[0]:
-            return (centres - q * self.moved.degrees(two[0])) / r
-        return (centres - r * self.moved.degrees(one[0])) / q
+        first, *more = (factor for other, factor in by.terms if other == body)
+        rest = by.rest(self.shape, self.moved, self.record.turns) + spun(by.terms, self.moved, but=body)
+        return rotated(self.shape, -rest / sum(more, first))
 
     # --- closed forms -----------------------------------------------------------------------------
 

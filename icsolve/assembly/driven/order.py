@@ -16,8 +16,10 @@ from icsolve.assembly.driven.constraints import (
     RolledRound,
     RolledStraight,
     Roped,
+    Spinning,
     SpotDistance,
     Turning,
+    spun,
 )
 from icsolve.assembly.driven.poses import (
     Places,
@@ -101,7 +103,8 @@ def locus(shape: Shape, places: Places, by: By) -> PlacedLocus:
         assert by.own is not None
         tied = c.tied_to(by.own)
         assert tied is not None
-        left = -c.longer(places, shape.record, shape.record.turns, by.own) / float(tied[1])
+        more = c.longer(places, shape.record, shape.record.turns, by.own) + spun(c.terms, places) * RADIAN
+        left = -more / float(tied[1])
         return PlacedCircle(plus(places.place(tied[0]), _off(shape, places, by.own, by.spot)), left)
     if by.own is None:
         return _of_line(shape, places, c, by.spot)
@@ -127,8 +130,7 @@ def _of_line(shape: Shape, places: Places, c: OnLine | RolledStraight, spot: Spo
 
 def _way(places: Places, c: RolledStraight) -> Scalar:
     """How far the centre has gone along the flank."""
-    turned = places.degrees(c.centre[0]) - places.degrees(c.line.body)
-    return -(c.radius * (turned * RADIAN))
+    return -(spun(c.terms, places) * RADIAN)
 
 
 def _off(shape: Shape, places: Places, own: Spot, spot: Spot) -> Point:
@@ -228,7 +230,7 @@ class RotateWith(NamedTuple):
     condition where several were taken together."""
 
     body: int
-    by: Turning | Pointed | RolledStraight | RolledRound | Roped
+    by: Spinning | Pointed
     instead: Turning | None = None
 
 
@@ -349,13 +351,11 @@ class AssemblyOrder:
 
     def _rotations(self) -> Iterator[RotateWith]:
         for c in self.constraints:
-            wheels = {body for body, _ in c.drums()} if isinstance(c, Roped) else c.bodies
+            if not isinstance(c, Spinning | Pointed) or id(c) in self.used:
+                continue
+            wheels = {body for body, _ in c.terms} if isinstance(c, Roped) else c.bodies
             left = [body for body in wheels if body not in self.turned]
-            if len(left) != 1 or not isinstance(c, Turning | Pointed | RolledStraight | RolledRound | Roped):
-                continue
-            if id(c) in self.used:
-                continue
-            if self._tells(c):
+            if len(left) == 1 and self._tells(c):
                 yield RotateWith(left[0], c)
 
     def _by_gears(self) -> Iterator[RotateWith]:
@@ -365,7 +365,7 @@ class AssemblyOrder:
         if found is not None:
             yield RotateWith(*found)
 
-    def _tells(self, c: Turning | Pointed | RolledStraight | RolledRound | Roped) -> bool:
+    def _tells(self, c: Spinning | Pointed) -> bool:
         """Whether a condition tells the one rotation in it that is not known."""
         if isinstance(c, Roped):
             return all(map(self.known, c.spots))
