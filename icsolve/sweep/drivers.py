@@ -124,7 +124,7 @@ def _unmoved(mechanism: Mechanism, places: Places) -> bool:
 def _slides_on(mechanism: Mechanism, body: int, ground: int) -> bool:
     """Whether a body keeps its direction."""
     return any(
-        isinstance(c, Turning) and c.alike and c.bodies == frozenset((body, ground))
+        isinstance(c, Turning) and c.alike and {one for one, _ in c.terms} == {body, ground}
         for c in mechanism.constraints
     )
 

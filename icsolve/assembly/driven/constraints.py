@@ -43,11 +43,6 @@ class OnLine(NamedTuple):
     line: BodyLine
     offset: Scalar = 0.0
 
-    @property
-    def bodies(self) -> frozenset[int]:
-        """The bodies that it ties."""
-        return frozenset((self.spot[0], self.line.body))
-
 
 class SpotDistance(NamedTuple):
     """Two spots are ``distance`` [frame] apart."""
@@ -55,11 +50,6 @@ class SpotDistance(NamedTuple):
     one: Spot
     two: Spot
     distance: Scalar
-
-    @property
-    def bodies(self) -> frozenset[int]:
-        """The bodies that it ties."""
-        return frozenset((self.one[0], self.two[0]))
 
 
 Terms = tuple[tuple[int, Scalar], ...]
@@ -87,11 +77,6 @@ class Turning(NamedTuple):
     degrees: Scalar = 0.0
 
     @property
-    def bodies(self) -> frozenset[int]:
-        """The bodies that it ties."""
-        return frozenset(body for body, _ in self.terms)
-
-    @property
     def alike(self) -> bool:
         """Whether it says that two bodies turn alike."""
         factors = [factor for _, factor in self.terms]
@@ -108,11 +93,6 @@ class Pointed(NamedTuple):
     body: int
     rotation: Rotation
 
-    @property
-    def bodies(self) -> frozenset[int]:
-        """The bodies that it ties."""
-        return frozenset((self.body,))
-
 
 class RolledStraight(NamedTuple):
     """A round body has rolled along a straight flank: its centre's way is its turning times the radius.
@@ -123,11 +103,6 @@ class RolledStraight(NamedTuple):
     centre: Spot
     line: BodyLine
     radius: Scalar
-
-    @property
-    def bodies(self) -> frozenset[int]:
-        """The bodies that it ties."""
-        return frozenset((self.centre[0], self.line.body))
 
     @property
     def terms(self) -> Terms:
@@ -151,11 +126,6 @@ class RolledRound(NamedTuple):
     radii: tuple[Scalar, Scalar]
 
     @property
-    def bodies(self) -> frozenset[int]:
-        """The bodies that it ties."""
-        return frozenset((self.one[0], self.two[0]))
-
-    @property
     def terms(self) -> Terms:
         """The arc that the turning of either body rolls."""
         return (self.one[0], self.radii[0]), (self.two[0], self.radii[1])
@@ -172,11 +142,6 @@ class Drawn(NamedTuple):
 
     datum: Datum
     owners: tuple[Spot, ...]
-
-    @property
-    def bodies(self) -> frozenset[int]:
-        """The bodies that it ties."""
-        return frozenset(body for body, _ in self.owners)
 
 
 class Roped(NamedTuple):
@@ -195,11 +160,6 @@ class Roped(NamedTuple):
     offsets: tuple[Scalar, ...]
     written: tuple[RopePart, ...]
     scale: float
-
-    @property
-    def bodies(self) -> frozenset[int]:
-        """The bodies that it ties."""
-        return frozenset(body for body, _ in self.spots)
 
     def is_round(self, k: int) -> bool:
         """Whether it goes round its circle ``k``, which has a size."""
@@ -264,15 +224,28 @@ class Immovable(NamedTuple):
     wrench: Triple
     refusal: SceneError
 
-    @property
-    def bodies(self) -> frozenset[int]:
-        """The bodies that it ties."""
-        return frozenset(self.ends)
-
 
 Constraint = (
     OnLine | SpotDistance | Turning | Pointed | RolledStraight | RolledRound | Roped | Drawn | Immovable
 )
+
+
+def bodies_of(constraint: Constraint) -> frozenset[int]:
+    """The bodies that a constraint ties."""
+    match constraint:
+        case OnLine(spot, line):
+            return frozenset((spot[0], line.body))
+        case SpotDistance(one, two):
+            return frozenset((one[0], two[0]))
+        case Pointed(body):
+            return frozenset((body,))
+        case Roped():
+            return frozenset(body for body, _ in constraint.spots)
+        case Drawn():
+            return frozenset(body for body, _ in constraint.owners)
+        case Immovable(ends):
+            return frozenset(ends)
+    return frozenset(body for body, _ in constraint.terms)
 
 
 class ConditionRow(NamedTuple):

@@ -115,7 +115,9 @@ def smallest(mechanism: Mechanism, order: AssemblyOrder, left: Sequence[int]) ->
 
 def _group(mechanism: Mechanism, order: AssemblyOrder, bodies: Sequence[int]) -> AssurGroup | None:
     reach = {*bodies, *order.full}
-    constraints = tuple(c for c in order.constraints if c.bodies <= reach and c.bodies & set(bodies))
+    constraints = tuple(
+        c for c in order.constraints if order.ties[id(c)] <= reach and order.ties[id(c)] & set(bodies)
+    )
     rows = equations(mechanism, as_written(mechanism, bodies), constraints, _held(mechanism, order, bodies))
     found = eliminate([derivatives(bodies, row) for row in rows], 3 * len(bodies), DEPENDENT)
     return AssurGroup(tuple(bodies), constraints) if not found.free else None

@@ -161,7 +161,7 @@ class _Placing:
         if isinstance(by, Pointed):
             return by.rotation
         if isinstance(by, Turning) and by.alike:
-            (other,) = by.bodies - {body}
+            (other,) = (other for other, _ in by.terms if other != body)
             return self.moved.rotations[other]._replace(arm=None)
         first, *more = (factor for other, factor in by.terms if other == body)
         rest = by.rest(self.shape, self.moved, self.record.turns) + spun(by.terms, self.moved, but=body)

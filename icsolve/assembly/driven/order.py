@@ -19,6 +19,7 @@ from icsolve.assembly.driven.constraints import (
     Spinning,
     SpotDistance,
     Turning,
+    bodies_of,
     spun,
 )
 from icsolve.assembly.driven.poses import (
@@ -294,6 +295,8 @@ class AssemblyOrder:
         self.used: set[int] = set()
         self.nearest: str | None = None
         """a spot whose loci only touch as written"""
+        self.ties = {id(c): bodies_of(c) for c in constraints}
+        """by constraint the bodies that it ties"""
         self.members: dict[Spot, list[Spot]] = {}
         for carried in spots.values():
             for spot in carried:
@@ -353,7 +356,7 @@ class AssemblyOrder:
         for c in self.constraints:
             if not isinstance(c, Spinning | Pointed) or id(c) in self.used:
                 continue
-            wheels = {body for body, _ in c.terms} if isinstance(c, Roped) else c.bodies
+            wheels = {c.body} if isinstance(c, Pointed) else {body for body, _ in c.terms}
             left = [body for body in wheels if body not in self.turned]
             if len(left) == 1 and self._tells(c):
                 yield RotateWith(left[0], c)
@@ -398,7 +401,7 @@ class AssemblyOrder:
                 yield RotateToLine((c.line.body,), pivot, c.spot, c)
                 continue
             aim = self._pivot(c.spot[0])
-            if aim is not None and c.spot[0] not in self.turned and self._alike(*c.bodies):
+            if aim is not None and c.spot[0] not in self.turned and self._alike(c.line.body, c.spot[0]):
                 yield RotateToLine((c.line.body, c.spot[0]), pivot, aim, c)
 
     def _pivot(self, body: int) -> Spot | None:
@@ -407,7 +410,7 @@ class AssemblyOrder:
     def _alike(self, a: int, b: int) -> bool:
         """Whether two bodies turn alike: the block of a slide and its guide."""
         return any(
-            isinstance(c, Turning) and c.alike and c.bodies == frozenset((a, b)) for c in self.constraints
+            isinstance(c, Turning) and c.alike and self.ties[id(c)] == {a, b} for c in self.constraints
         )
 
     def _at_intersection(self) -> Iterator[PlaceAtIntersection]:
@@ -443,7 +446,7 @@ class AssemblyOrder:
             if pivot is not None and self.shape.apart(pivot, spot) > TOUCHING:
                 yield Through(spot, pivot)
             for c in self.constraints:
-                if body in c.bodies and id(c) not in self.used:
+                if body in self.ties[id(c)] and id(c) not in self.used:
                     yield from self._through(spot, c)
 
     def _through(self, spot: Spot, c: Constraint) -> Iterator[ThroughTurned]:
@@ -461,7 +464,7 @@ class AssemblyOrder:
         elif isinstance(c, Roped):
             ends = [s for s in dict.fromkeys(c.spots) if s[0] == body and (turned or self._same(s, spot))]
             yield from (ThroughTurned(spot, c, mine) for mine in ends if self._ropes(c, mine))
-        elif isinstance(c, RolledStraight) and c.bodies <= self.turned:
+        elif isinstance(c, RolledStraight) and self.ties[id(c)] <= self.turned:
             if c.line.body in self.full and c.centre[0] == body:
                 yield ThroughTurned(spot, c, c.centre)
             elif c.line.body == body and self.known(c.centre):
