@@ -16,11 +16,11 @@ from icsolve.assembly.workspace import Frame
 from icsolve.case import Case, Joint, Motion, Number, Pin, Rope
 from icsolve.case.joints import CentreAt, CentreSquareTo, JointCentre, Mesh, Rolling
 from icsolve.errors import SceneError, Status
-from icsolve.kinematics.speeds import NO_SPEED
-from icsolve.numbers.arithmetic import Arithmetic, Scalar, decider
-from icsolve.numbers.sparse import General, Row, eliminate
+from icsolve.kinematics.speeds import LOOSE, NO_SPEED, fastest, meant, path_of, speed_of
+from icsolve.numbers.arithmetic import Arithmetic, Scalar, all_vanish, decider
+from icsolve.numbers.sparse import Row, eliminate
 from icsolve.screws.joints import Points, freedoms, guide_direction, mesh_weights, transmitted
-from icsolve.screws.plane import Point, Triple, add, blend, cross, pairing, subtract, velocity
+from icsolve.screws.plane import Point, Triple, add, cross, pairing, subtract, velocity
 from icsolve.screws.ropes import part_changes, rope_parts
 from icsolve.structure.topology import Bond, Topology
 from icsolve.tuples import NamedTuple
@@ -84,78 +84,41 @@ def moving(
         Where no speed is given, where given motions contradict each other, where a joint does not tell how it
         moves on, and where the links move only for an instant.
     """
-    conditions = [_condition(given, motions, frame, points, arithmetic) for given in case.motion]
-    if not conditions:
+    if not case.motion or any(given.speed is None for given in case.motion):
         raise SceneError(Status.MOBILITY, NO_SPEED)
-    count = len(next(iter(motions.values())))
-    shares = eliminate(
-        [_row(values, target) for values, target, *_ in conditions], count, vanishes=decider(arithmetic)
-    )
-    speeds = sum(abs(target) for _, target, *_ in conditions)
-    if any(not arithmetic.vanishes(left.get(count, 0.0), speeds) for left in shares.left):
-        message = "the motions given contradict each other: no motion has all of them."
-        raise SceneError(Status.INCONSISTENT, message)
-    factors = [shares.of(m).get(count, 0.0) for m in range(count)]
-    of_links = {link: ts for link, ts in motions.items() if link in top.body_of}
-    twists = {link: _combined(factors, ts) for link, ts in of_links.items()}
-    idle = {link for link, ts in of_links.items() if _is_open(shares, ts, arithmetic)}
-    rates, loose = _rates(case, top, points, twists, conditions, arithmetic, frame)
-    return Moving(twists, {link: rates[top.body_of[link]] for link in of_links}, frozenset(idle | loose))
+    speed = speed_of(case, motions, frame, points, arithmetic)
+    twists: dict[str, Triple] = {}
+    idle = set()
+    for link in (link for link in motions if link in top.body_of):
+        (x, y, w), *open_ = meant(motions, speed, link)
+        twists[link] = (x / speed.divisor, y / speed.divisor, w / speed.divisor)
+        size = LOOSE * max((abs(part) for t in motions[link] for part in t), default=0.0)
+        if not all_vanish(arithmetic, ((part, size) for t in open_ for part in t)):
+            idle.add(link)
+    drives = [_drive(given, motions, frame, points, arithmetic) for given in case.motion]
+    rates, loose = _rates(case, top, points, twists, drives, arithmetic, frame)
+    return Moving(twists, {link: rates[top.body_of[link]] for link in twists}, frozenset(idle | loose))
 
 
-Condition = tuple[Sequence[Scalar], Scalar, Motion, Point | None, Scalar]
-"""What a given motion takes from each motion, their sum, a point's direction, the acceleration."""
+Drive = tuple[Motion, Point | None, Scalar]
+"""A given motion, the direction of its point, the acceleration."""
 
 
-def _row(values: Sequence[Scalar], target: Scalar) -> Row:
-    return {**dict(enumerate(values)), len(values): -target}
-
-
-def _combined(factors: Sequence[Scalar], twists: Sequence[Triple]) -> Triple:
-    total = STILL
-    for factor, twist in zip(factors, twists, strict=True):
-        total = blend(1.0, total, factor, twist)
-    return total
-
-
-def _is_open(shares: General, twists: Sequence[Triple], arithmetic: Arithmetic) -> bool:
-    """Whether a freedom that no given motion fixes moves a link."""
-    size = max((abs(x) for t in twists for x in t), default=0.0)
-    for free in shares.free:
-        weights = [shares.of(m).get(free, 0.0) for m in range(len(twists))]
-        if not all(arithmetic.vanishes(x, size) for x in _combined(weights, twists)):
-            return True
-    return False
-
-
-def _condition(
+def _drive(
     given: Motion,
     motions: Mapping[str, Sequence[Triple]],
     frame: Frame,
     points: Points,
     arithmetic: Arithmetic,
-) -> Condition:
-    """The condition of a given motion."""
-    if given.speed is None:
-        raise SceneError(Status.MOBILITY, NO_SPEED)
-    link, speed = motions[given.link], arithmetic.given(given.speed)
+) -> Drive:
+    """What a given motion accelerates: as its speed goes, faster where that is positive."""
+    assert given.speed is not None
     more: Scalar = arithmetic.given(given.acceleration) if given.acceleration is not None else 0.0
-    forth = -1.0 if given.speed.value < 0.0 else 1.0
+    more = -more if given.speed.value < 0.0 else more
     if given.point is None:
-        sign = -1.0 if given.turns == "cw" else 1.0
-        return [t[2] for t in link], sign * speed, given, None, sign * forth * more
-    velocities = [velocity(t, points[given.point]) for t in link]
-    along: Point = (1.0, 1e-9) if given.angle is None else arithmetic.turn(given.angle)
-    if len(link) == 1:  # in a sweep, whose rows leave the direction out: along the path, toward positive x
-        x, y = velocities[0]
-        if all(arithmetic.vanishes(v, max(abs(a) for a in link[0])) for v in (x, y)):
-            said = f"point {given.point} of link {given.link} is at rest in this position when the mechanism"
-            raise SceneError(Status.DEAD_CENTRE, f"{said} moves: give the motion of another point or link.")
-        size = arithmetic.sqrt(x * x + y * y)
-        size = size if float(x * along[0] + y * along[1]) > 0.0 else -size
-        along = (x / size, y / size)
-    values = [v[0] * along[0] + v[1] * along[1] for v in velocities]
-    return values, speed * frame.scale, given, along, forth * more * frame.scale
+        return given, None, -more if given.turns == "cw" else more
+    along = path_of(given, motions[given.link], fastest(motions), points[given.point], arithmetic)
+    return given, along, more * frame.scale
 
 
 def _rates(
@@ -163,7 +126,7 @@ def _rates(
     top: Topology,
     points: Points,
     twists: Mapping[str, Triple],
-    conditions: Sequence[Condition],
+    drives: Sequence[Drive],
     arithmetic: Arithmetic,
     frame: Frame,
 ) -> tuple[list[Triple], set[str]]:
@@ -182,7 +145,7 @@ def _rates(
         row, change = _roped(top, rope, points, twists, arithmetic, frame)
         rows.append({**row, known: change})
         sizes.append(abs(change))
-    for _, _, given, along, more in conditions:
+    for given, along, more in drives:
         rows.append(_driven(top, given, along, more, twists, points, known))
         sizes.append(abs(more))
     general = eliminate(rows, known, vanishes=decider(arithmetic))

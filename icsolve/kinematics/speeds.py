@@ -175,9 +175,22 @@ def _cannot_turn(name: str, link: Sequence[Triple], largest: float, a: Arithmeti
 def _point_row(
     given: Given, link: Sequence[Triple], largest: float, frame: Frame, p: Point, a: Arithmetic
 ) -> Row:
-    velocities = [velocity(t, p) for t in link]
     assert given.speed is not None
-    target = a.given(given.speed) * frame.scale
+    target, (c, s) = a.given(given.speed) * frame.scale, path_of(given, link, largest, p, a)
+    return tuple(vx * c + vy * s for vx, vy in (velocity(t, p) for t in link)), target
+
+
+def path_of(given: Given, link: Sequence[Triple], largest: float, p: Point, a: Arithmetic) -> Point:
+    """Unit vector along which the given speed of a point counts.
+
+    Where the point has one path, along that: in the sense of the given angle, else toward +x.
+
+    Raises
+    ------
+    SceneError
+        Where the point is at rest in all motions, and where it can't move at the given angle.
+    """
+    velocities = [velocity(t, p) for t in link]
     if all_vanish(a, ((x, largest) for v in velocities for x in v)):
         raise SceneError(
             Status.DEAD_CENTRE,
@@ -185,15 +198,14 @@ def _point_row(
             "it cannot be given a speed. Give the motion of another point or link.",
         )
     if given.angle is None:
-        along = _rightward(max(velocities, key=_speed), largest, a)
-    else:
-        along = a.turn(given.angle)
-        if len(link) == 1:
-            (x, y), (c, s) = velocities[0], along
-            _check_direction(given, (float(x), float(y)), (float(c), float(s)))
-            size = a.sqrt(x * x + y * y)
-            return (size if x * c + y * s > 0.0 else -size,), target
-    return tuple(v[0] * along[0] + v[1] * along[1] for v in velocities), target
+        return _rightward(max(velocities, key=_speed), largest, a)
+    along = a.turn(given.angle)
+    if len(link) > 1:
+        return along
+    (x, y), (c, s) = velocities[0], along
+    _check_direction(given, (float(x), float(y)), (float(c), float(s)))
+    size = a.sqrt(x * x + y * y)
+    return (x / size, y / size) if x * c + y * s > 0.0 else (-x / size, -y / size)
 
 
 def _speed(v: Point) -> float:
