@@ -3,7 +3,7 @@ and the smallest group that only all its data together place."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence, Set
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
@@ -26,6 +26,8 @@ from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.sparse import Row, eliminate
+from icsolve.structure.plan import matched, strongly_connected
+from icsolve.structure.topology import reached
 from icsolve.tuples import NamedTuple
 from icsolve.wording.sentences import listed
 
@@ -47,7 +49,7 @@ class System(NamedTuple):
     reach: list[list[Unknown]]
     of: dict[Unknown, list[int]]
     matched: dict[Unknown, int]
-    free: set[Unknown]
+    free: Set[Unknown]
 
 
 def system_of(data: Iterable[Datum], placed: Iterable[str], wanted: Iterable[str]) -> System:
@@ -69,51 +71,17 @@ def system_of(data: Iterable[Datum], placed: Iterable[str], wanted: Iterable[str
     for i, unknowns in enumerate(reach):
         for u in unknowns:
             of[u].append(i)
-    matched: dict[Unknown, int] = {}
+    held: dict[Unknown, list[int]] = {u: [] for u in of}
     for i in range(len(equations)):
-        _augment(i, reach, matched)
-    return System(equations, reach, of, matched, _free(of, matched))
+        matched(i, reach.__getitem__, held, 1)
+    solves = {i: u for u, rows in held.items() for i in rows}
 
+    def instead(unknown: Unknown) -> list[Unknown]:
+        """What the equations of a free coordinate are matched to: they may solve for it in place of that."""
+        return [solves[i] for i in of[unknown] if i in solves]
 
-def _augment(root: int, reach: list[list[Unknown]], matched: dict[Unknown, int]) -> None:
-    """Give an equation a coordinate, moving others along an alternating path (breadth first)."""
-    came: dict[Unknown, int] = {}
-    before: dict[int, Unknown | None] = {root: None}
-    queue = [root]
-    for i in queue:
-        for u in reach[i]:
-            if u in came:
-                continue
-            came[u] = i
-            if u not in matched:
-                _flip(u, came, before, matched)
-                return
-            before.setdefault(matched[u], u)
-            queue.append(matched[u])
-
-
-def _flip(
-    end: Unknown, came: dict[Unknown, int], before: dict[int, Unknown | None], matched: dict[Unknown, int]
-) -> None:
-    u: Unknown | None = end
-    while u is not None:
-        i = came[u]
-        matched[u] = i
-        u = before[i]
-
-
-def _free(of: dict[Unknown, list[int]], matched: dict[Unknown, int]) -> set[Unknown]:
-    """The coordinates that an unmatched one reaches: its equations may solve for it instead of theirs."""
-    solves = {i: u for u, i in matched.items()}
-    stack = [u for u in of if u not in matched]
-    free = set(stack)
-    while stack:
-        for i in of[stack.pop()]:
-            u = solves.get(i)
-            if u is not None and u not in free:
-                free.add(u)
-                stack.append(u)
-    return free
+    free = reached((u for u, rows in held.items() if not rows), instead)
+    return System(equations, reach, of, {u: i for i, u in solves.items()}, free.keys())
 
 
 def leans(system: System, point: str) -> list[str]:
@@ -122,34 +90,13 @@ def leans(system: System, point: str) -> list[str]:
     return list(dict.fromkeys(p for i in rows for p, _ in system.reach[i] if p != point))
 
 
-def leading(system: System, wanted: list[str]) -> list[str]:
-    """The wanted points and all that they lean on."""
-    found = dict.fromkeys(wanted)
-    stack = list(found)
-    while stack:
-        for p in leans(system, stack.pop()):
-            if p not in found:
-                found[p] = None
-                stack.append(p)
-    return list(found)
-
-
 def groups_of(system: System, goal: list[str]) -> list[tuple[str, ...]]:
     """The strongly connected parts that lean on no other part."""
-    ahead = {p: _reached(p, lambda q: leans(system, q)) for p in goal}
-    parts = {p: tuple(q for q in goal if q in ahead[p] and p in ahead[q]) for p in goal}
-    return [part for p, part in parts.items() if part[0] == p and set(part) == ahead[p]]
-
-
-def _reached(point: str, following: Callable[[str], list[str]]) -> set[str]:
-    """A point and all that can be reached from it."""
-    found, stack = {point}, [point]
-    while stack:
-        for p in following(stack.pop()):
-            if p not in found:
-                found.add(p)
-                stack.append(p)
-    return found
+    needs = {p: leans(system, p) for p in goal}
+    place = {p: n for n, p in enumerate(goal)}
+    parts = [sorted(part, key=place.__getitem__) for part in strongly_connected(needs)]
+    closed = [tuple(part) for part in parts if all({*needs[p]} <= {*part} for p in part)]
+    return sorted(closed, key=lambda part: place[part[0]])
 
 
 # --- what is free in a figure with too few data, and what would fix it, in words ---
@@ -169,20 +116,14 @@ def _parts(system: System) -> list[list[str]]:
     """The free points, together where an equation binds them."""
     free = list(dict.fromkeys(p for p, part in system.of if (p, part) in system.free))
     parts: list[list[str]] = []
-    seen: set[str] = set()
+
+    def bound(point: str) -> Iterator[str]:
+        rows = (i for u in ((point, 0), (point, 1)) for i in system.of[u])
+        return (u[0] for i in rows for u in system.reach[i] if u in system.free)
+
     for root in free:
-        if root in seen:
-            continue
-        part = [root]
-        seen.add(root)
-        for point in part:
-            for u in ((point, 0), (point, 1)):
-                for i in system.of[u]:
-                    for p, axis in system.reach[i]:
-                        if p not in seen and (p, axis) in system.free:
-                            seen.add(p)
-                            part.append(p)
-        parts.append(sorted(part, key=free.index))
+        if not any(root in part for part in parts):
+            parts.append(sorted(reached((root,), bound), key=free.index))
     return parts
 
 
@@ -344,7 +285,7 @@ def next_group(drawing: LooseFigure, case: Case, wanted: Iterable[str]) -> tuple
     placed = drawing.ground.placed.keys()
     goal = [p for p in wanted if p not in placed]
     system = system_of(_counting(drawing), placed, goal)
-    goal = leading(system, goal)
+    goal = list(reached(goal, lambda p: leans(system, p)))
     if any((p, part) in system.free for p in goal for part in (0, 1)):
         raise underdetermined(case, system, placed, goal)
     points = min(groups_of(system, goal), key=len)

@@ -12,20 +12,18 @@ from icsolve.numbers.arithmetic import FLOATS, Arithmetic, all_vanish
 from icsolve.screws.joints import Points
 from icsolve.screws.ropes import rope_parts
 from icsolve.statics import power
-from icsolve.structure.topology import Topology
+from icsolve.structure.topology import Topology, reached
 from icsolve.wording import sentences
 
 
 def refuse_loose(case: Case, top: Topology) -> None:
     """Refuse links that no chain of joints ties to the frame."""
-    seen, stack = {top.ground}, [top.ground]
     held = [{top.body_of[link] for link in rope.links} for rope in case.ropes]
-    while stack:
-        body = stack.pop()
-        near = {end for k in top.at[body] for end in (top.bonds[k].a, top.bonds[k].b)}
-        near |= {other for bodies in held if body in bodies for other in bodies}
-        stack += near - seen
-        seen |= near
+
+    def beside(body: int) -> list[int]:
+        return [*top.beside(body), *(other for bodies in held if body in bodies for other in bodies)]
+
+    seen = reached((top.ground,), beside)
     names = [link for body, links in enumerate(top.members) if body not in seen for link in links]
     if names:
         raise SceneError(Status.LOOSE, sentences.loose(case, names))

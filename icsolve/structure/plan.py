@@ -13,13 +13,15 @@ Assur groups of the theory of machines).
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Collection, Hashable, Iterable, Mapping
+from collections.abc import Callable, Collection, Hashable, Iterable, Mapping
 from typing import TypeVar
 
-from icsolve.structure.topology import Topology
+from icsolve.structure.topology import Topology, reached
 from icsolve.tuples import NamedTuple
 
 T = TypeVar("T", bound=Hashable)
+Row = TypeVar("Row", bound=Hashable)
+Column = TypeVar("Column", bound=Hashable)
 
 Constraint = tuple[int, int]
 """A bond and one of its constraints."""
@@ -70,8 +72,11 @@ class Matching:
     def _determined(self) -> list[GroupPart]:
         """The parts that no body with too few constraints bears on."""
         needs = {body: self._needs(body, rows) for body, rows in self.load.items()}
-        loose = [body for body, rows in self.load.items() if len(rows) < 3]
-        reaching = _reach_back(needs, loose)
+        users: dict[int, list[int]] = {body: [] for body in needs}
+        for body, others in needs.items():
+            for other in others:
+                users[other].append(body)
+        reaching = reached((body for body, rows in self.load.items() if len(rows) < 3), users.__getitem__)
         held = {body: others for body, others in needs.items() if body not in reaching}
         return [
             GroupPart(set(members), {other for body in members for other in held[body]} - set(members))
@@ -79,35 +84,12 @@ class Matching:
         ]
 
     def _place(self, root: Constraint) -> bool:
-        """Match a constraint, moving others along an alternating path (breadth first); whether it can be."""
-        came: dict[int, Constraint] = {}
-        before: dict[Constraint, int | None] = {root: None}
-        queue = [root]
-        for row in queue:
-            bond = self.top.bonds[row[0]]
-            for body in (bond.a, bond.b):
-                if body in came or body not in self.load or body in self.known:
-                    continue
-                came[body] = row
-                if len(self.load[body]) < 3:
-                    self._flip(body, came, before)
-                    return True
-                for other in self.load[body]:
-                    if other not in before:
-                        before[other] = body
-                        queue.append(other)
-        return False
+        """Match a constraint to one of its unknown bodies; whether it can be."""
+        return matched(root, self._bodies, self.load, 3)
 
-    def _flip(
-        self, end: int, came: Mapping[int, Constraint], before: Mapping[Constraint, int | None]
-    ) -> None:
-        body: int | None = end
-        while body is not None:
-            row = came[body]
-            self.load[body].append(row)
-            body = before[row]
-            if body is not None:
-                self.load[body].remove(row)
+    def _bodies(self, row: Constraint) -> list[int]:
+        bond = self.top.bonds[row[0]]
+        return [body for body in (bond.a, bond.b) if body in self.load and body not in self.known]
 
     def _needs(self, body: int, rows: Iterable[Constraint]) -> list[int]:
         """The other unknown bodies that a body's own constraints touch."""
@@ -115,19 +97,50 @@ class Matching:
         return [other for other in found if other not in self.known]
 
 
-def _reach_back(needs: Mapping[int, Collection[int]], ends: list[int]) -> set[int]:
-    """The bodies from which one of ``ends`` can be reached."""
-    users: dict[int, set[int]] = {body: set() for body in needs}
-    for body, others in needs.items():
-        for other in others:
-            users[other].add(body)
-    seen = set(ends)
-    stack = list(ends)
-    while stack:
-        for body in users[stack.pop()] - seen:
-            seen.add(body)
-            stack.append(body)
-    return seen
+def matched(
+    root: Row, reach: Callable[[Row], Iterable[Column]], held: dict[Column, list[Row]], most: int
+) -> bool:
+    """Give a row one of the columns that it reaches, moving others along an alternating path; whether it can
+    be.
+
+    Parameters
+    ----------
+    root : the row; the path to it is the shortest (breadth first)
+    reach : the columns of a row, all of them among ``held``
+    held : by column, the rows that have it; changed
+    most : how many rows may have a column
+    """
+    came: dict[Column, Row] = {}
+    before: dict[Row, Column | None] = {root: None}
+    queue = [root]
+    for row in queue:
+        for column in reach(row):
+            if column in came:
+                continue
+            came[column] = row
+            if len(held[column]) < most:
+                _flip(column, came, before, held)
+                return True
+            for other in held[column]:
+                if other not in before:
+                    before[other] = column
+                    queue.append(other)
+    return False
+
+
+def _flip(
+    end: Column,
+    came: Mapping[Column, Row],
+    before: Mapping[Row, Column | None],
+    held: Mapping[Column, list[Row]],
+) -> None:
+    column: Column | None = end
+    while column is not None:
+        row = came[column]
+        held[column].append(row)
+        column = before[row]
+        if column is not None:
+            held[column].remove(row)
 
 
 def strongly_connected(needs: Mapping[T, Collection[T]]) -> list[list[T]]:

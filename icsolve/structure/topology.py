@@ -5,13 +5,16 @@ A bond is one joint between two bodies, with the relative freedoms (1 or 2) that
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from functools import lru_cache
+from typing import TypeVar
 
 from icsolve.case import Case, Joint, Pin, Rope
 from icsolve.case.joints import Mesh
 from icsolve.errors import SceneError, Status
 from icsolve.tuples import NamedTuple
+
+T = TypeVar("T")
 
 
 class Bond(NamedTuple):
@@ -72,25 +75,29 @@ class Topology(NamedTuple):
     @property
     def afloat(self) -> tuple[tuple[int, ...], ...]:
         """The groups of bodies that no chain of joints ties to the frame."""
-        seen, groups = {self.ground}, []
-        self._reach(seen, self.ground)
+        held, groups = reached((self.ground,), self.beside), []
         for body in range(len(self.members)):
-            if body not in seen:
-                before = set(seen)
-                seen.add(body)
-                self._reach(seen, body)
-                groups.append(tuple(sorted(seen - before)))
+            if body not in held:
+                group = reached((body,), self.beside)
+                groups.append(tuple(sorted(group)))
+                held |= group
         return tuple(groups)
 
-    def _reach(self, seen: set[int], body: int) -> None:
-        """Add the bodies that joints tie to this one."""
-        stack = [body]
-        while stack:
-            for k in self.at[stack.pop()]:
-                for other in (self.bonds[k].a, self.bonds[k].b):
-                    if other not in seen:
-                        seen.add(other)
-                        stack.append(other)
+    def beside(self, body: int) -> list[int]:
+        """The bodies that joints tie to this one."""
+        return [self.bonds[k].other(body) for k in self.at[body]]
+
+
+def reached(first: Iterable[T], following: Callable[[T], Iterable[T]]) -> dict[T, None]:
+    """All that can be reached from some, and these, in the order in which it is found."""
+    found = dict.fromkeys(first)
+    stack = list(found)
+    while stack:
+        for other in following(stack.pop()):
+            if other not in found:
+                found[other] = None
+                stack.append(other)
+    return found
 
 
 @lru_cache(maxsize=32)

@@ -33,6 +33,7 @@ from icsolve.statics.power import is_unknown
 from icsolve.statics.reactions import SHARED, names_by_tie
 from icsolve.statics.space.power import NEARLY, SpatialBalance, SpatialStatics, Twists, Wrenched, count_of
 from icsolve.statics.space.reaction_basis import SpatialFigure, SpatialFrame, SpatialTie
+from icsolve.structure.topology import reached
 from icsolve.wording.sentences import listed, plural, wrong_count
 
 
@@ -326,17 +327,13 @@ class _Reader:
         return abs(places[0] - places[1]) if len(places) == 2 else None
 
 
-def refuse_loose(case: Case, ties: Iterable[SpatialTie]) -> None:
+def refuse_loose(case: Case, ties: Sequence[SpatialTie]) -> None:
     """Refuse links that no chain of joints ties to the frame."""
-    beside: dict[str, set[str]] = {}
-    for tie in ties:
-        beside.setdefault(tie.by, set()).add(tie.on)
-        beside.setdefault(tie.on, set()).add(tie.by)
-    seen, stack = {case.ground}, [case.ground]
-    while stack:
-        new = beside.get(stack.pop(), set()) - seen
-        seen |= new
-        stack.extend(new)
+
+    def beside(link: str) -> list[str]:
+        return [other for tie in ties if link in (tie.by, tie.on) for other in (tie.by, tie.on)]
+
+    seen = reached((case.ground,), beside)
     loose = [link for link in case.links if link not in seen]
     if loose:
         which = f"link {loose[0]}" if len(loose) == 1 else f"links {listed(loose)}"
