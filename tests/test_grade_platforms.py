@@ -271,3 +271,14 @@ def test_one_bad_hand_in_is_one_students(a_class: Class) -> None:
     assert found == {"1": "right", "2": "missing", "3": "missing", "4": "right"}
     assert ran.row("1", "pusher")["verdict"] == "missing"
     assert "what 2 handed in can't be used: there is nothing in it" in ran.err
+
+
+def test_a_title_beside_the_name_of_a_case_names_the_case(a_class: Class) -> None:
+    """In Blackboard's cells, in Canvas' headers; a quantity that the case does not have is no title."""
+    table = "Username,Question 1,Answer 1\njdoe,lever: find the torque,200\n"
+    assert marks(a_class.grade(table)) == {("jdoe", "lever"): "right"}
+    head = "name,id,sis_id,submitted,991: lever - what is T?,2,n correct,n incorrect,score\n"
+    row = "Jo,11,007,2026-11-20 10:00:00 UTC,200,2,1,0,2\n"
+    assert marks(a_class.grade(head + row)) == {("007", "lever"): "right"}
+    ran = a_class.grade("student_id,case,answer\n1,lever: w9/w2,200\n2,lever: v C on 9,200\n")
+    assert {row["verdict"] for row in ran.rows()} == {"review"}

@@ -6,8 +6,7 @@ from typing import Any
 
 import click
 
-from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain
-from icsolve.errors import CaseError
+from icsolve.cli.run import DONE, NO_ANSWER, complain, refusing
 
 
 @click.command("export")
@@ -33,34 +32,26 @@ def export_command(kind: str, cases: str, output: str, **options: Any) -> int:
     icsolve export qti cases/ -o quiz.zip
     icsolve export gradescope-zip cases/ -o autograder.zip
     """
+    return refusing("export", lambda: _exported(kind, cases, output, options))
+
+
+def _exported(kind: str, cases: str, output: str, options: dict[str, Any]) -> int:
     from icsolve.cli.grading import course_file, course_of
     from icsolve.cli.varying import existing
-    from icsolve.files import KeptError, check_free
+    from icsolve.files import check_free
     from icsolve.grade.case_store import CaseStore
     from icsolve.grade.platforms.export import ExportOrder, export
 
     problems: list[str] = []
-    try:
-        course = course_of(options["course"], cases, False, {"seed": options["seed"]})
-        case_store = CaseStore(existing(cases), course)
-        case_store.check_course()
-        if kind != "prairielearn":
-            check_free(output, options["force"])
-        own = options["course"] or course_file(cases)
-        drawn = (options["force"], options["figures"], options["count"])
-        order = ExportOrder(case_store, output, *drawn, own, options["roster"] or "")
-        made = export(kind, order._replace(records=tuple(options["variants"])), problems.append)
-    except CaseError as error:
-        complain(str(error))
-        return UNREADABLE
-    except (KeptError, ValueError) as error:
-        complain(f"icsolve export: {error}")
-        return UNREADABLE
-    except BrokenPipeError:
-        raise
-    except OSError as error:
-        complain(f"icsolve export: {error.filename or ''}: {error.strerror or error}")
-        return UNREADABLE
+    course = course_of(options["course"], cases, False, {"seed": options["seed"]})
+    case_store = CaseStore(existing(cases), course)
+    case_store.check_course()
+    if kind != "prairielearn":
+        check_free(output, options["force"])
+    own = options["course"] or course_file(cases)
+    drawn = (options["force"], options["figures"], options["count"])
+    order = ExportOrder(case_store, output, *drawn, own, options["roster"] or "")
+    made = export(kind, order._replace(records=tuple(options["variants"])), problems.append)
     for problem in problems:
         complain(problem)
     what = "case" if kind == "gradescope-zip" else "question"

@@ -11,8 +11,7 @@ from typing import IO, TYPE_CHECKING, Any
 
 import click
 
-from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain
-from icsolve.errors import CaseError
+from icsolve.cli.run import DONE, NO_ANSWER, complain, refusing
 
 if TYPE_CHECKING:
     from icsolve.grade.course import Course
@@ -71,25 +70,10 @@ def grade_command(**options: Any) -> int:
 
     Exit status: 0 all answers judged, 1 some could not be and are listed, 2 a file can't be used.
     """
-    from icsolve.files import KeptError
-    from icsolve.grade.tables.columns import HeaderError
+    from icsolve.grade.run import spare_collector
 
-    try:
-        from icsolve.grade.run import spare_collector
-
-        spare_collector()
-        return _graded(_job(options), options)
-    except CaseError as error:
-        complain(str(error))
-    except KeptError as error:
-        complain(f"icsolve grade: {error}")
-    except (HeaderError, ValueError) as error:
-        complain(f"icsolve grade: {error}")
-    except BrokenPipeError:
-        raise
-    except OSError as error:
-        complain(f"icsolve grade: {error.filename or ''}: {error.strerror or error}".replace(" : ", " "))
-    return UNREADABLE
+    spare_collector()
+    return refusing("grade", lambda: _graded(_job(options), options))
 
 
 def _job(options: dict[str, Any]) -> Job:

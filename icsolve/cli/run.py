@@ -13,6 +13,7 @@ from icsolve.cli import BUG
 from icsolve.cli.faults import bug_report
 from icsolve.cli.inputs import InputSource, sources
 from icsolve.errors import CaseError, NotACase, SceneError
+from icsolve.files import KeptError
 
 if TYPE_CHECKING:
     from icsolve.case import Case
@@ -32,6 +33,21 @@ Refuse = Callable[["Case", str, SceneError], None]
 def complain(message: str) -> None:
     """A line that is no result."""
     click.echo(message, err=True)
+
+
+def refusing(verb: str, work: Callable[[], int]) -> int:
+    """The exit status of work on files of a class; what can't be used is told, not raised."""
+    try:
+        return work()
+    except CaseError as error:
+        complain(str(error))
+    except BrokenPipeError:
+        raise
+    except (KeptError, ValueError) as error:
+        complain(f"icsolve {verb}: {error}")
+    except OSError as error:
+        complain(f"icsolve {verb}: {error.filename or ''}: {error.strerror or error}".replace(" : ", " "))
+    return UNREADABLE
 
 
 def on_stderr(case: Case, path: str, error: SceneError) -> None:

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, TypeVar
 import click
 
 from icsolve.cli.progress import watched
-from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain
-from icsolve.errors import CaseError
+from icsolve.cli.run import DONE, NO_ANSWER, UNREADABLE, complain, refusing
 from icsolve.files import reading_text
 
 if TYPE_CHECKING:
@@ -51,25 +50,16 @@ def variants_command(
     computes each student's key again. Exit status: 1 where a student has no variant that suits.
     """
     from icsolve.cli.grading import course_of
-    from icsolve.files import KeptError
     from icsolve.grade.case_store import CaseStore
     from icsolve.grade.course import read_roster
-    from icsolve.grade.tables.columns import HeaderError
 
-    try:
+    def work() -> int:
         case_store = CaseStore(existing(cases), course_of(course, cases, quiet, {"seed": seed}))
         case_store.check_course()
         people = read_roster(roster, lambda line, why: complain(f"{roster}:{line}: {why}"))
         return _all(case_store, list(people.people.values()), output, figures, force, quiet)
-    except CaseError as error:
-        complain(str(error))
-    except (KeptError, HeaderError, ValueError) as error:
-        complain(f"icsolve variants: {error}")
-    except BrokenPipeError:
-        raise
-    except OSError as error:
-        complain(f"icsolve variants: {error.filename or ''}: {error.strerror or error}")
-    return UNREADABLE
+
+    return refusing("variants", work)
 
 
 def existing(cases: str) -> str:

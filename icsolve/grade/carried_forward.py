@@ -14,7 +14,6 @@ from itertools import combinations
 from icsolve.answer import Answer
 from icsolve.case.expected import CentreIs, DistanceIs, RateIs, RatioIs, SpeedIs, Target
 from icsolve.grade.case_store import CaseStore
-from icsolve.grade.importing import StoredAnswer
 from icsolve.grade.judge import WRONG, feedback, share_of
 from icsolve.grade.keys import NumberKey, PlaceKey
 from icsolve.grade.mistakes import Wrong, WrongAnswers
@@ -22,6 +21,7 @@ from icsolve.grade.mistakes.changed import Place
 from icsolve.grade.mistakes.engine import centres_of
 from icsolve.grade.results import Marked
 from icsolve.grade.solved import SolvedCase, unknowns
+from icsolve.grade.tables.columns import StoredAnswer
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.screws.plane import Triple
 from icsolve.tuples import NamedTuple

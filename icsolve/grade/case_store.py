@@ -48,9 +48,15 @@ class CaseStore:
         case, colon, what = text.strip().partition(":")
         case = case.removesuffix(".yaml").removesuffix(".yml")
         name = case.strip() if case.strip() in self.paths else self._lower.get(case.strip().lower())
-        if name is None:
-            return None
-        return f"{name}:{what.strip()}" if colon and what.strip() else name
+        what = what.strip()
+        if name is None or not (colon and what) or self._are_words(name, what):
+            return name
+        return f"{name}:{what}"
+
+    def _are_words(self, name: str, what: str) -> bool:
+        """Whether what follows a case's name is a title (``press: find T``), and nothing that is asked."""
+        first, _, rest = what.partition(" ")
+        return bool(rest) and first not in ("v", "h", "rf", "T") and bool(self._why_not_asked(name, what))
 
     def check_course(self) -> None:
         """Take the questions of the course by their one names.

@@ -19,6 +19,7 @@ from icsolve.grade.course import Roster
 from icsolve.grade.results import HEADER
 from icsolve.grade.tables.columns import (
     HeaderError,
+    StoredAnswer,
     Submission,
     TableColumns,
     TableLayout,
@@ -151,16 +152,17 @@ class Import:
             for submission in layout.read(row):
                 yield self._entry(submission)
 
-    def _entry(self, s: Submission) -> StoredAnswer:
+    def _entry(self, submission: Submission) -> StoredAnswer:
         """Of a student or question that is met for the first time, or of a row that is in trouble."""
-        student = self._people.get(s.student) or self._matched(s.student)
-        item, why = self._items.get(s.question) or self._item(s.question)
-        unknown = self._troubles.get(s.student, "this row has no student's id")
+        ids, s = submission
+        student = self._people.get(ids) or self._matched(ids)
+        item, why = self._items.get(s.item) or self._item(s.item)
+        unknown = self._troubles.get(ids, "this row has no student's id")
         trouble = s.trouble or why or ("" if student else unknown)
         if trouble:
             self.issues.note(self._path, s.line, trouble, serious=True)
         elif self.roster is not None and student not in self.roster.people:
-            self.issues.note(self._path, s.line, self._stranger(student, s.student))
+            self.issues.note(self._path, s.line, self._stranger(student, ids))
         answer = s.answer if len(s.answer) <= _LONGEST else s.answer[:_LONGEST] + "..."
         time = year_first(s.time, self._order) if self._order else s.time
         texts = [text[:_LONGEST] for text in (s.unit, s.direction, s.attempt, s.variant, time)]
@@ -334,21 +336,6 @@ _SELECT = "select * from s order by student, item, line"
 _BATCH = 5000
 IN_MEMORY = 110_000
 """Submissions that are sorted in memory; more go to disk."""
-
-
-class StoredAnswer(NamedTuple):
-    """A submission as stored; ``item`` is the question. Order by the first three is the order of results."""
-
-    student: str
-    item: str
-    line: int
-    answer: str = ""
-    unit: str = ""
-    direction: str = ""
-    attempt: str = ""
-    variant: str = ""
-    time: str = ""
-    trouble: str = ""
 
 
 class Store:

@@ -8,13 +8,13 @@ from operator import itemgetter
 from typing import TYPE_CHECKING
 
 from icsolve.grade.carried_forward import CarriedForward
-from icsolve.grade.importing import Issues, StoredAnswer
+from icsolve.grade.importing import Issues
 from icsolve.grade.judge import IN_REVIEW, RIGHT, WRONG, Judgement, feedback, judge_answer
 from icsolve.grade.keys import AnyKey, NumberKey, PlaceKey, unit_factor
 from icsolve.grade.mistakes import Wrong
 from icsolve.grade.results import OVERRIDE, Marked, Result
 from icsolve.grade.statistics import Counts, Tally
-from icsolve.grade.tables.columns import NEVER, attempt_number, readings
+from icsolve.grade.tables.columns import NEVER, StoredAnswer, attempt_number, readings
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.grade.written.answer import MISSING, Combined, Reader, WrittenAnswer
 from icsolve.grade.written.two_numbers import WrittenPlace

@@ -7,13 +7,13 @@ from typing import IO, TYPE_CHECKING
 
 from icsolve.grade.case_store import CaseStore
 from icsolve.grade.course import Course, Roster, read_roster
-from icsolve.grade.importing import Import, Issue, Issues, Store, StoredAnswer, expand
+from icsolve.grade.importing import Import, Issue, Issues, Store, expand
 from icsolve.grade.keys import NumberKey
 from icsolve.grade.marking import GivenValue, Marker
 from icsolve.grade.results import HEADER, json_line, line
 from icsolve.grade.solved import unknowns
 from icsolve.grade.statistics import Counts
-from icsolve.grade.tables.columns import HeaderError
+from icsolve.grade.tables.columns import HeaderError, StoredAnswer
 from icsolve.grade.tolerance import NoKeyError
 from icsolve.tuples import NamedTuple
 

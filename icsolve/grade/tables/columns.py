@@ -13,23 +13,26 @@ from icsolve.grade.tables.text import TableRow
 from icsolve.tuples import NamedTuple
 
 
-class Submission(NamedTuple):
-    """One answer of one student to one question, as text.
+class StoredAnswer(NamedTuple):
+    """An answer of one student to the question ``item``, as text; in order as the results are.
 
-    ``student`` has the ids by which the student may be known, best first. ``trouble`` says why a row
-    can't be graded; '' where it can.
+    ``trouble`` says why it can't be graded; '' where it can.
     """
 
+    student: str
+    item: str
     line: int
-    student: tuple[str, ...]
-    question: str
-    answer: str
+    answer: str = ""
     unit: str = ""
     direction: str = ""
     attempt: str = ""
     variant: str = ""
     time: str = ""
     trouble: str = ""
+
+
+Submission = tuple[tuple[str, ...], StoredAnswer]
+"""The ids by which a student may be known, best first, and what was answered to a question as written."""
 
 
 class TableLayout(NamedTuple):
@@ -232,9 +235,9 @@ def candidates(header: str) -> Iterable[str]:
         yield inside.strip()
     points = re.sub(r"\s*\(\d+(?:\.\d+)? ?(?:pts?|points?)?\)$", "", text)
     yield points
-    parts = re.split(r":\s+|\s+-\s+|\s", points)
     yield from (part.strip() for part in points.split(": "))
-    yield parts[0].rstrip(":.)")
+    yield from (part.strip() for part in re.split(r":\s+|\s+-\s+", points))
+    yield re.split(r"\s", points)[0].rstrip(":.)")
 
 
 _ZONE = re.compile(r" ?(?:UTC|GMT|Z)?(?:(?<=[TC ])([-+])(\d{1,2}):?(\d\d)?|(?<=[TCZ]))$")

@@ -15,6 +15,7 @@ from icsolve.grade.tables.columns import (
     ABOUT_STUDENTS,
     FIELDS,
     HeaderError,
+    StoredAnswer,
     Submission,
     TableColumns,
     TableLayout,
@@ -85,9 +86,15 @@ def _long(columns: TableColumns, kind: str) -> TableLayout:
         line, cells, unclosed = row
         trouble = unclosed or _wrong_width(cells, width)
         student, *texts = cells_of(padded(cells, width))
-        return (Submission._make((line, (identifier(student),), *texts, trouble)),)
+        return (_submission(line, (identifier(student),), texts, trouble),)
 
     return TableLayout(kind, read, cells_of=cells_of)
+
+
+def _submission(line: int, who: tuple[str, ...], texts: Sequence[str], trouble: str = "") -> Submission:
+    """Of case, answer, unit, direction, attempt, variant and time."""
+    case, *rest = texts
+    return who, StoredAnswer._make(("", case, line, *rest, trouble))
 
 
 def padded(cells: list[str], width: int) -> list[str]:
@@ -146,7 +153,7 @@ def _rows(
         student = tuple(dict.fromkeys(found)) or ("",)
         attempt, time = cells[tried], cells[when]
         return [
-            Submission(row.line, student, question, answer, "", "", attempt, "", time, trouble or why)
+            _submission(row.line, student, (question, answer, "", "", attempt, "", time), trouble or why)
             for question, answer, why in answers(cells)
         ]
 
@@ -273,7 +280,7 @@ def _long_by_text(columns: TableColumns, kind: str) -> TableLayout:
     plain = _long(columns, kind)
 
     def read(row: TableRow) -> Sequence[Submission]:
-        return [s._replace(question=_by_text(columns, s.question)) for s in plain.read(row)]
+        return [(who, s._replace(item=_by_text(columns, s.item))) for who, s in plain.read(row)]
 
     return TableLayout(kind, read)
 
@@ -346,7 +353,7 @@ def submissions(table: AnswerTable, columns: TableColumns, student: str) -> Iter
         cells_of = fields_of(columns)
         for row in table.rows():
             _, *texts = cells_of(padded(row.cells, len(columns.header)))
-            yield Submission._make((row.line, who, *texts, row.trouble))
+            yield _submission(row.line, who, texts, row.trouble)
         return
     first = table.delimiter.join(columns.header)
     if not first.startswith("#"):
@@ -354,16 +361,17 @@ def submissions(table: AnswerTable, columns: TableColumns, student: str) -> Iter
     for row in table.rows():
         text = table.delimiter.join(row.cells)
         if text.strip(" ,;\t|") and not text.lstrip().startswith("#"):
-            found = _of_line(row.line, text, who)
-            yield found._replace(trouble=row.trouble) if row.trouble else found
+            _, found = _of_line(row.line, text, who)
+            yield who, found._replace(trouble=row.trouble) if row.trouble else found
 
 
 def _of_line(line: int, text: str, who: tuple[str, ...]) -> Submission:
     """``press: 29.67 lbf*in ccw``."""
     found = _LINE.match(text)
     if found is None:
-        return Submission(line, who, "", text[:200], trouble="a line is like 'press: 29.67 lbf*in ccw'")
-    return Submission(line, who, found.group(1).strip(), found.group(2) or "")
+        why = "a line is like 'press: 29.67 lbf*in ccw'"
+        return who, StoredAnswer("", "", line, text[:200], trouble=why)
+    return who, StoredAnswer("", found.group(1).strip(), line, found.group(2) or "")
 
 
 def student_of(metadata: str) -> str:
