@@ -26,6 +26,8 @@ import icsolve
 from icsolve.case import Pin
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.page import page_html
+from icsolve.page.figure import figure_of
+from icsolve.page.forces import forces_data
 from icsolve.page.motion import motion_of
 from icsolve.report.derivation import known_of
 from icsolve.scene.refusals import rubs
@@ -507,3 +509,32 @@ def test_friction_circles_have_their_radius_and_go_with_their_pins(name: str) ->
         assert pin.friction is not None and pin.friction.radius is not None
         wanted = pin.friction.radius.value * math.sin(math.atan(pin.friction.mu.value)) * scale
         assert float(circles[str(pin.at)]) == pytest.approx(wanted, abs=0.006)
+
+
+@pytest.mark.parametrize(
+    "name", ["ch13/13_18_slider_crank_friction_everywhere", "dynamics/slider_crank_piston"]
+)
+def test_free_bodies_of_pages_solved_beforehand_are_in_equilibrium(name: str) -> None:
+    """Forces and moments of what acts on every link add up to nothing in each position, to the six digits
+    that are written: with friction, and with the inertia forces of the motion."""
+    case = known_of(icsolve.load(FILES[f"{name}.yaml"]), reactions=True)
+    moving = motion_of(case, [])
+    assert moving is not None
+    scene = figure_of(case, (), moving).scene
+    units, solved = case.case.units, 0
+    for body in forces_data(scene, moving)["links"].values():
+        columns = [
+            [np.array(p[part]["v"], dtype=float) for part in ("x", "y", "u", "v", "couple")]
+            for p in body["pushes"]
+        ]
+        for row in range(moving.last + 1 - moving.first):
+            force, moment, most = np.zeros(2), 0.0, 0.0
+            for x, y, u, v, couple in ([column[row] for column in one] for one in columns):
+                if math.isfinite(u):
+                    force += u, v
+                    moment += (x * v + y * u) / scene.view.scale + couple / units.torque_per_force_length
+                    most = max(most, math.hypot(u, v))
+                    solved += 1
+            assert np.abs(force).max(initial=0.0) <= 1e-5 * most
+            assert abs(moment) <= 1e-5 * most * case.size
+    assert solved > 100

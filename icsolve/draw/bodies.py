@@ -66,7 +66,7 @@ def body_panels(scene: Scene, left: float, top: float, width: float) -> list[Mar
     if not reactions:
         return []
     scene = _smaller(scene)
-    pushes = {link: list(_pushes(scene, link)) for link in scene.case.links if link != scene.case.ground}
+    pushes = {link: list(pushes_on(scene, link)) for link in scene.case.links if link != scene.case.ground}
     largest = max((math.hypot(*push.force) for some in pushes.values() for push in some), default=0.0)
     panels = [_panel(scene, link, some, largest) for link, some in pushes.items()]
     return [
@@ -105,7 +105,7 @@ def rows_of(panels: Iterable[list[Mark]], left: float, top: float, width: float)
         x, lowest = x + (c - a) + GAP, max(lowest, y + (d - b))
 
 
-def _pushes(scene: Scene, link: str) -> Iterable[DrawnPush]:
+def pushes_on(scene: Scene, link: str) -> Iterable[DrawnPush]:
     """All that acts on a link."""
     answer = scene.known.answer
     assert answer is not None

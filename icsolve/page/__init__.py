@@ -38,6 +38,7 @@ def _in_space(known: Known) -> PageParts:
 def _in_plane(known: Known) -> PageParts:
     from icsolve.page.document import equation_of
     from icsolve.page.figure import figure_of
+    from icsolve.page.forces import forces_data
     from icsolve.page.live import live_of
     from icsolve.page.model import model_of
     from icsolve.page.motion import motion_of, why_still
@@ -50,6 +51,7 @@ def _in_plane(known: Known) -> PageParts:
     equation = equation_of(known, motion)
     live = live_of(known)
     model = model_of(known, steps, figure, motion, live)
+    model["forces"] = {} if live is not None else forces_data(figure.scene, motion)
     model["terms"] = None if equation is None else equation.data
     model["root"] = None if equation is None else {"sign": equation.sign, "gain": equation.gain}
     model["plots"] = [plot_data(plot) for plot in plots]

@@ -279,27 +279,29 @@ def _stage(parts: PageParts) -> str:
 
 def _see(parts: PageParts) -> str:
     """What can be shown in the figure besides, each by a box to tick."""
-    if parts.live is None:
-        return ""
-    case = parts.known.case
+    case, live = parts.known.case, parts.live is not None
     links = [link for link in case.links if link != case.ground and not link.startswith("@")]
     moving = [
         name for name in parts.model.get("motion", {"points": ()})["points"] if not name.startswith("@")
     ]
+    bodies = links if live else parts.model.get("forces", {}).get("links", ())
 
-    def boxes(kind: str, names: Iterable[str]) -> str:
-        return " ".join(
-            f'<label><input type="checkbox" data-{kind}="{_text(n)}">{_text(n)}</label>' for n in names
-        )
+    def boxes(what: str, kind: str, names: Iterable[str]) -> str:
+        some = (f'<label><input type="checkbox" data-{kind}="{_text(n)}">{_text(n)}</label>' for n in names)
+        return f'<span class="what">{what}</span> {" ".join(some)}'
 
     rows = [
-        '<label><input type="checkbox" id="see-velocities">velocities of the points</label>',
-        f'<span class="what">rotation about its centre of link</span> {boxes("rotation", links)}',
-        f'<span class="what">path of point</span> {boxes("curve", moving)}' if moving else "",
-        f'<span class="what">centrodes of link</span> {boxes("centrode", links)}' if moving else "",
-        '<label for="see-body" class="what">forces on link</label> <select id="see-body">'
-        f'<option value="">none</option>{"".join(f"<option>{_text(n)}</option>" for n in links)}</select>',
+        '<label><input type="checkbox" id="see-velocities">velocities of the points</label>' if live else "",
+        boxes("rotation about its centre of link", "rotation", links) if live else "",
+        boxes("path of point", "curve", moving) if live and moving else "",
+        boxes("centrodes of link", "centrode", links) if live and moving else "",
+        '<label for="see-body" class="what">forces on link</label> <select id="see-body"><option value="">'
+        f"none</option>{''.join(f'<option>{_text(n)}</option>' for n in bodies)}</select>"
+        if bodies
+        else "",
     ]
+    if not any(rows):
+        return ""
     items = "".join(f"<li>{row}</li>" for row in rows if row)
     return (
         f'<section aria-label="Show" id="see"><h2>Show</h2><ul class="lines boxes">{items}</ul>\n'

@@ -72,7 +72,9 @@ class WrittenProgram(NamedTuple):
 def why_presolved(known: Known) -> str:
     """Why the numbers of a case can't be changed in its page, as a sentence; '' where they can."""
     case = known.case
-    if known.answer is None or known.structure:
+    if known.structure:
+        return "A structure is solved beforehand, as it is written."
+    if known.answer is None:
         return "Nothing is solved for here that could follow other numbers."
     if case.space is not None:
         return "A case in space is solved beforehand, as it is written."

@@ -597,9 +597,9 @@ def compact(values: Array, fine: int) -> dict[str, Any]:
     return {"v": [_rounded(v, 5) for v in values.tolist()]}
 
 
-def exact(values: Iterable[float]) -> dict[str, Any]:
+def exact(values: Iterable[float], digits: int = DIGITS) -> dict[str, Any]:
     """A column of numbers that are read: all digits that are shown."""
-    return {"v": [_rounded(v, DIGITS) for v in values]}
+    return {"v": [_rounded(v, digits) for v in values]}
 
 
 def _rounded(value: float, digits: int) -> float | int | None:

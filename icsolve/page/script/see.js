@@ -1,6 +1,8 @@
 /* What can be seen beside: velocities, rotations about centres, curves of points, centrodes, free bodies. */
 const overlay = byId("see") && make("g", { id: "overlay", "clip-path": "url(#window)" }, figure);
 if (overlay) figure.insertBefore(overlay, byId("labels"));
+for (const { pushes } of Object.values((data.forces && data.forces.links) || {}))
+  for (const one of pushes) for (const part of ["x", "y", "u", "v", "couple"]) one[part] = column(one[part]);
 const ticked = (selector) => all(selector).filter((e) => e.checked);
 
 /* A scene of its own for the positions of the turn, followed from one to the next. */
@@ -74,7 +76,12 @@ function arrow(parent, kind, [x, y], [u, v], words) {
   const side = [-b * head * 0.38, a * head * 0.38];
   const base = [x + u - a * head, y + v - b * head];
   make("path", { class: "tip", d: `M${f(x + u)},${f(y + v)} L${f(base[0] + side[0])},${f(base[1] + side[1])} L${f(base[0] - side[0])},${f(base[1] - side[1])}Z` }, g);
-  if (words) make("text", { x: f(x + u + a * 12), y: f(y + v + b * 12 + 4), "text-anchor": a > 0.3 ? "start" : a < -0.3 ? "end" : "middle", "font-size": 12 }, g).textContent = words;
+  if (words) nameAt(g, kind, [x + u, y + v], [a, b], words);
+}
+/* A name beyond the end of a line that goes that way. */
+function nameAt(parent, kind, [x, y], [u, v], words) {
+  const [a, b] = [u / (Math.hypot(u, v) || 1), v / (Math.hypot(u, v) || 1)];
+  make("text", { class: kind, x: f(x + a * 12), y: f(y + b * 12 + 4), "text-anchor": a > 0.3 ? "start" : a < -0.3 ? "end" : "middle", "font-size": 12 }, parent).textContent = words;
 }
 const FASTEST = 80;
 function drawVelocities(state) {
@@ -247,19 +254,24 @@ function actingOn(state, link) {
   });
   return found;
 }
-function drawBody(state, link) {
+/* The same of a page that is solved beforehand; null where it is not known. */
+function solvedBefore(link) {
+  const some = data.forces.links[link].pushes.filter((one) => one.u[row] !== null);
+  return some.length ? some.map((one) => ({ ...one, at: [one.x[row], one.y[row]], force: [one.u[row], one.v[row]], couple: one.couple[row] })) : null;
+}
+/* What acts on a link, where, and its units; ``least`` is the couple that a unit of force has as rounding. */
+function drawBody(acting, spots, [force, torque], least) {
   const svg = byId("body-figure");
   svg.textContent = "";
   const said = byId("body-said");
-  if (!state) {
+  if (!acting) {
     said.textContent = "No position here in which forces are known.";
     return;
   }
-  const found = actingOn(state, link).filter((one) => one.open || Math.hypot(...one.force) > 1e-9 || Math.abs(one.couple) > 1e-12 * live.torque);
+  const found = acting.filter((one) => one.open || Math.hypot(...one.force) > 1e-9 || Math.abs(one.couple) > 1e-3 * least);
   const forces = found.filter((one) => !one.open && Math.hypot(...one.force) > 0);
   const most = Math.max(...forces.map((one) => Math.hypot(...one.force)), 1e-300);
   const real = forces.filter((one) => Math.hypot(...one.force) > 1e-9 * most);
-  const spots = spotsOf(state, link);
   if (!spots.length) {
     said.textContent = "No point of this link has a place of its own.";
     return;
@@ -272,7 +284,10 @@ function drawBody(state, link) {
   for (const one of real) {
     const [x, y] = here(one.at || spots[0]);
     const [u, v] = [(one.force[0] / most) * 62, (-one.force[1] / most) * 62];
-    arrow(svg, one.known ? "f-load" : "f-joint", [x, y], [u, v], one.name);
+    const pushes = (150 - x) * u + (150 - y) * v > 0; // drawn from outside, as on a body that is pressed
+    const kind = one.known ? "f-load" : "f-joint";
+    arrow(svg, kind, pushes ? [x - u, y - v] : [x, y], [u, v], pushes ? "" : one.name);
+    if (pushes) nameAt(svg, kind, [x - u, y - v], [-u, -v], one.name);
   }
   const ends = [[0, 0]];
   for (const { force } of real) ends.push([ends[ends.length - 1][0] + force[0], ends[ends.length - 1][1] - force[1]]);
@@ -287,10 +302,9 @@ function drawBody(state, link) {
     const off = [((b[1] - a[1]) / size) * 14, ((a[0] - b[0]) / size) * 14];
     make("text", { x: f((a[0] + b[0]) / 2 + off[0]), y: f((a[1] + b[1]) / 2 + off[1] + 4), "text-anchor": "middle", "font-size": 12, class: one.known ? "f-load" : "f-joint" }, svg).textContent = one.name;
   });
-  const [force, torque] = live.units;
   const toward = (one) => degreesWords((Math.atan2(one.force[1], one.force[0]) * 180) / Math.PI);
   const words = real.map((one) => `${one.name} = ${number(Math.hypot(...one.force), 4)} ${force} at ${toward(one)}`);
-  const couples = found.filter((one) => !one.open && Math.abs(one.couple) > ((1e-9 * most) / live.frame[2]) * live.torque);
+  const couples = found.filter((one) => !one.open && Math.abs(one.couple) > most * least);
   words.push(...couples.map((one) => `${one.at ? "couple of " : ""}${one.name} = ${number(one.couple, 4)} ${torque}`));
   words.push(...found.filter((one) => one.open).map((one) => `${one.name} is not determined by statics`));
   said.textContent = `${words.join("; ")}.`;
@@ -320,14 +334,18 @@ function equationOf({ motions, loads, power, values }, n, count) {
 }
 function see() {
   if (!overlay) return;
+  const chosen = byId("see-body") ? byId("see-body").value : "";
+  byId("body-panel").hidden = !chosen;
+  if (!live) {
+    if (chosen) drawBody(solvedBefore(chosen), data.forces.links[chosen].spots.map(([x, y]) => carried([chosen, x, y], row)), data.forces.units, 0);
+    return;
+  }
   tellMotions();
   overlay.textContent = "";
   const rotations = ticked("[data-rotation]");
   const curves = ticked("[data-curve]");
   const rolls = ticked("[data-centrode]");
-  const body = byId("see-body") && byId("see-body").value;
-  byId("body-panel").hidden = !body;
-  const wanted = byId("see-velocities").checked || rotations.length || rolls.length || body;
+  const wanted = byId("see-velocities").checked || rotations.length || rolls.length || chosen;
   const state = wanted ? stateAt(row) : null;
   let said = wanted && !state ? "Nothing of this is known in this position." : "";
   for (const e of curves) drawCurve(e.dataset.curve);
@@ -335,7 +353,7 @@ function see() {
   if (state) for (const e of rotations) drawRotation(state, e.dataset.rotation);
   if (state && byId("see-velocities").checked) said = drawVelocities(state);
   if (byId("see-hint").textContent !== said) byId("see-hint").textContent = said;
-  if (body) drawBody(state, body);
+  if (chosen) drawBody(state && actingOn(state, chosen), state && spotsOf(state, chosen), live.units, (1e-9 / live.frame[2]) * live.torque);
 }
 if (overlay) {
   byId("see").addEventListener("change", see);

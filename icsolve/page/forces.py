@@ -1,0 +1,85 @@
+"""Free bodies through the positions of a page that is solved beforehand: what acts on every link in each of
+them, as a figure of free bodies draws it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from typing import Any
+
+from icsolve.draw.bodies import DrawnPush, pushes_on
+from icsolve.draw.marks import plain_text
+from icsolve.draw.scene import Scene
+from icsolve.draw.words import unit_word
+from icsolve.errors import SceneError
+from icsolve.page.motion import PageMotion, exact
+from icsolve.report.derivation import Known, known_at
+from icsolve.scene import solve_scene
+
+MOST = 200
+"""In more positions than these forces are not solved for: each is a scene of its own."""
+SIZES = 6
+"""Significant digits of a force."""
+
+
+def forces_data(scene: Scene, motion: PageMotion | None) -> dict[str, Any]:
+    """For every link its places as written, and the forces and couples on it in every position; empty where
+    they are known in none.
+
+    A force has its place in picture units and its components in case units, y up.
+    """
+    known = scene.known
+    if known.answer is None or not known.answer.reactions or known.case.space is not None:
+        return {}
+    rows = 1 if motion is None else motion.last + 1 - motion.first
+    if rows > MOST:
+        return {}
+    poses = [known] if motion is None else [_in_row(known, motion, motion.first + n) for n in range(rows)]
+    data: dict[str, Any] = {}
+    for link in known.case.links:
+        spots = [scene.at[p] for p in known.case.carries.get(link, ()) if p in scene.at]
+        if link == known.case.ground or not spots:
+            continue
+        some = [dict(_named(scene, pose, link)) for pose in poses]
+        data[link] = {
+            "spots": [[round(x, 1), round(y, 1)] for x, y in spots],
+            "pushes": [_through(name, [one.get(name) for one in some]) for name in _every(some)],
+        }
+    units = known.case.units
+    return {"links": data, "units": [unit_word(units.force), unit_word(units.torque)]}
+
+
+def _in_row(known: Known, motion: PageMotion, row: int) -> Known | None:
+    """The scene of a row with its reactions; None where it has none."""
+    if row == motion.zero:
+        return known
+    try:
+        case = motion.found.case_of(row)
+        answer = solve_scene(case, reactions=True, dynamic=case.dynamic)
+    except (SceneError, ValueError, ArithmeticError):
+        return None
+    return known_at(known, answer) if answer.reactions else None
+
+
+def _named(scene: Scene, here: Known | None, link: str) -> Iterable[tuple[str, DrawnPush]]:
+    """What acts on a link in a position, by name."""
+    if here is not None:
+        places = {name: scene.view.at(p) for name, p in here.points.items()}
+        for push in pushes_on(scene._replace(known=here, at=places), link):
+            yield push.name, push
+
+
+def _every(some: Iterable[dict[str, DrawnPush]]) -> Iterable[str]:
+    return dict.fromkeys(name for one in some for name in one)
+
+
+def _through(name: str, pushes: list[DrawnPush | None]) -> dict[str, Any]:
+    """One force or couple in all positions."""
+    one = next(push for push in pushes if push is not None)
+    label = plain_text(one.words)
+    nothing = (math.nan,) * 5
+    rows = [nothing if p is None else (*p.at, p.force[0], -p.force[1], p.couple) for p in pushes]
+    columns = (exact(column, SIZES) for column in zip(*rows, strict=True))
+    told = dict(zip(("x", "y", "u", "v", "couple"), columns, strict=True))
+    open_ = {"open": True} if label.endswith("= ?") else {}
+    return {"name": label.partition(" = ")[0], "known": one.kind != "reaction", **open_, **told}
