@@ -69,10 +69,7 @@ def body_panels(scene: Scene, left: float, top: float, width: float) -> list[Mar
     pushes = {link: list(pushes_on(scene, link)) for link in scene.case.links if link != scene.case.ground}
     largest = max((math.hypot(*push.force) for some in pushes.values() for push in some), default=0.0)
     panels = [_panel(scene, link, some, largest) for link, some in pushes.items()]
-    return [
-        TextMark((left, top + 4.0), (TextRun("Free bodies, forces to one scale"),), "t-note", 12.5, "start"),
-        *rows_of(panels, left, top + 24.0, width),
-    ]
+    return titled(panels, left, top, width)
 
 
 def support_parts(scene: Scene, solid: shapely.Geometry) -> list[Part]:
@@ -94,8 +91,16 @@ def _smaller(scene: Scene) -> Scene:
     return scene._replace(view=view, at={name: view.at(p) for name, p in scene.known.points.items()})
 
 
-def rows_of(panels: Iterable[list[Mark]], left: float, top: float, width: float) -> Iterable[Mark]:
-    """Panels beside and below each other."""
+def titled(panels: Iterable[list[Mark]], left: float, top: float, width: float) -> list[Mark]:
+    """Panels beside and below each other, under a title."""
+    title = (TextRun("Free bodies, forces to one scale"),)
+    return [
+        TextMark((left, top + 4.0), title, "t-note", 12.5, "start"),
+        *_rows(panels, left, top + 24.0, width),
+    ]
+
+
+def _rows(panels: Iterable[list[Mark]], left: float, top: float, width: float) -> Iterable[Mark]:
     x, y, lowest = left, top, top
     for panel in panels:
         a, b, c, d = bounds(panel)
@@ -195,11 +200,11 @@ def _panel(scene: Scene, link: str, pushes: Sequence[DrawnPush], largest: float)
     parts += [part._replace(marks=()) for part in point_parts(alone)]
     left, top, right, bottom = bounds(together(parts).marks)
     window: Box = (left - ROUND, top - ROUND, right + ROUND, bottom + ROUND)
-    marks = [_renamed(link, mark) for mark in with_labels(together(parts), window)]
+    marks = [renamed(link, mark) for mark in with_labels(together(parts), window)]
     return [MarkGroup(f"body-{link}", "", tuple(marks), f"link {link} by itself")]
 
 
-def _renamed(link: str, mark: Mark) -> Mark:
+def renamed(link: str, mark: Mark) -> Mark:
     """Ids stand once: those that the figure has too get a prefix."""
     own = ("reaction-", "body-", "label-reaction", "label-body")
     if isinstance(mark, MarkGroup) and mark.name and not mark.name.startswith(own):

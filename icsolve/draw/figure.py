@@ -4,7 +4,7 @@ asked for: which steps and panels, what stands above and below them."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from itertools import combinations
 
 import shapely
@@ -14,10 +14,10 @@ from icsolve.draw.centres import centre_parts, circle_marks
 from icsolve.draw.frame import frame_parts, joint_parts, point_parts, rims, threads
 from icsolve.draw.links import DrawnBody, bars, body_of, inside_plate, link_part, outline, wheel_parts
 from icsolve.draw.loads import legend, load_parts, velocity_parts
-from icsolve.draw.marks import HEIGHT, WIDTH, Box, Mark, MarkGroup, bounds, view_of
+from icsolve.draw.marks import HEIGHT, WIDTH, Box, Mark, MarkGroup, Point, bounds, view_of
 from icsolve.draw.place import joined
-from icsolve.draw.ropes import belts, courses, filled, free_ends, pulley_marks, rope_boxes, rope_marks
-from icsolve.draw.scene import Part, Round, Scene, outline_boxes, round_things, together, with_labels
+from icsolve.draw.ropes import belts, courses, filled, free_ends, pulley_marks, rope_marks
+from icsolve.draw.scene import Part, Scene, around, geneva_of, outlines, round_things, together, with_labels
 from icsolve.draw.svg import document
 from icsolve.draw.tikz import standalone
 from icsolve.draw.words import captioned, description
@@ -34,22 +34,49 @@ TOGETHER = 0.02
 
 def scene_of(known: Known, steps: Sequence[Step] = ()) -> Scene:
     """A known scene in the view that suits it and the centres of these steps."""
-    shapes = round_things(known.case, known.points)
-    used = {name for names in known.case.carries.values() for name in names}
-    used |= {at for joint in known.case.joints if (at := getattr(joint, "at", None))}
-    boxes = [(*known.points[p], *known.points[p]) for p in known.points if p in used]
+    wheels = [geneva_of(known.case, known.points, link) for link in known.case.links]
+    ways = [around(wheel.centre, wheel.radius) for wheel in wheels if wheel is not None]
+    scene = scene_over(known, steps, ways=ways)
+    larger = min(SHORT / max(_shortest(known) * scene.view.scale, 1e-9), LARGER)
+    room = (larger * WIDTH, larger * HEIGHT)
+    return scene_over(known, steps, ways=ways, room=room) if larger > 1.0 else scene
+
+
+def used_points(case: Case) -> set[str]:
+    """The points that a link, a joint or a rope has."""
+    used = {name for names in case.carries.values() for name in names}
+    used |= {at for joint in case.joints if (at := getattr(joint, "at", None))}
+    return used | {p for rope in case.ropes for p in rope.points}
+
+
+Swept = Callable[[str, Point, float], Box]
+"""The room that a circle of a link takes: the link, its centre as written, its radius; case units."""
+
+
+def scene_over(
+    known: Known,
+    steps: Sequence[Step],
+    swept: Swept = lambda _, p, reach: around(p, reach),
+    ways: Sequence[Box] = (),
+    room: Point = (WIDTH, HEIGHT),
+) -> Scene:
+    """A known scene in a room, with all that its links sweep and the ``ways`` of points, and the centres of
+    these steps that are not far."""
+    case, points = known.case, known.points
+    shapes = round_things(case, points)
+    boxes = [around(points[p], 0.0) for p in used_points(case) & points.keys()]
+    boxes += [swept(wheel.link, wheel.centre, wheel.radius) for wheel in shapes.wheels]
+    boxes += [swept(link, corner, 0.0) for link, corners in outlines(case, points) for corner in corners[::6]]
     boxes += [
-        *_wheel_boxes(shapes),
-        *outline_boxes(known.case, known.points),
-        *rope_boxes(known.case, known.points),
+        swept(link, points[p], radius.value)
+        for rope in case.ropes
+        for p, link, radius in zip(rope.points, (*rope.links, case.ground), rope.radii, strict=False)
+        if radius is not None and p in points
     ]
     centres = [step.centre.place for step in steps if step.centre.kind == "at"]
     finite = [(x, y) for x, y in centres if math.isfinite(x) and math.isfinite(y)]
-    view = view_of(boxes, finite, known.size)
-    larger = min(SHORT / max(_shortest(known) * view.scale, 1e-9), LARGER)
-    if larger > 1.0:
-        view = view_of(boxes, finite, known.size, (larger * WIDTH, larger * HEIGHT))
-    scene = Scene(known, view, {name: view.at(p) for name, p in known.points.items()}, shapes)
+    view = view_of([*boxes, *ways], finite, known.size, room)
+    scene = Scene(known, view, {name: view.at(p) for name, p in points.items()}, shapes)
     return scene._replace(at={**scene.at, **free_ends(scene)})
 
 
@@ -63,13 +90,6 @@ def _shortest(known: Known) -> float:
     places = ([known.points[p] for p in sorted(some)] for some in ends.values() if len(some) > 1)
     spans = (max(math.dist(p, q) for p, q in combinations(some, 2)) for some in places)
     return min((span for span in spans if span > TOGETHER * known.size), default=math.inf)
-
-
-def _wheel_boxes(shapes: Round) -> list[Box]:
-    return [
-        (w.centre[0] - w.radius, w.centre[1] - w.radius, w.centre[0] + w.radius, w.centre[1] + w.radius)
-        for w in shapes.wheels
-    ]
 
 
 def figure_marks(scene: Scene, steps: Sequence[Step] = (), *, velocities: bool = False) -> list[Mark]:

@@ -7,11 +7,11 @@ from collections.abc import Iterable
 
 import shapely
 
-from icsolve.case import Pin
+from icsolve.case import Pin, Weight
 from icsolve.case.joints import Guided
 from icsolve.draw.marks import Disc, Mark, MarkGroup, Point, TextRun, along, unit
 from icsolve.draw.place import Label, Soft, area, bar, joined, nearest, plate, tilted
-from icsolve.draw.scene import BLOCK, HALF, PIN, RAIL, SLOT, Part, Scene, normal_of, outlines
+from icsolve.draw.scene import BLOCK, HALF, PIN, RAIL, SLOT, Part, Scene, geneva_of, normal_of, outlines
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.screws.joints import guide_direction
 from icsolve.tuples import NamedTuple
@@ -48,9 +48,14 @@ def body_of(scene: Scene, link: str) -> DrawnBody:
     if wedge is not None:
         inside = wedge.representative_point()
         return DrawnBody(link, wedge, (), (), (), ((inside.x, inside.y),))
-    blocks = tuple(_blocks(scene, link))
+    geneva = _geneva(scene, link)
+    if geneva is not None:
+        return DrawnBody(link, geneva, (), (), (), tuple(points))
     levers = list(_slots(scene, link))
     rods = list(_rods(scene, link))
+    crates = dict(_crates(scene, link, [*levers, *rods]))
+    points = [p for p in points if p not in crates]
+    blocks = (*_blocks(scene, link), *crates.values())
     wheels = tuple(
         Disc(scene.view.at(w.centre), w.radius * scene.view.scale, "wheel" if w.kind == "gear" else "body")
         for w in scene.round.wheels
@@ -74,8 +79,13 @@ def _only_slides(scene: Scene, link: str) -> bool:
     own = [joint for joint in scene.case.joints if link in joint.links]
     guided = [joint for joint in own if isinstance(joint, Guided) and joint.thread is None]
     sliding = guided == own and all(joint.keeps_direction or joint.links[0] == link for joint in guided)
-    still = link in scene.known.twists and not scene.known.turns(link) and link != scene.case.ground
-    return sliding and still and len(own) > 1
+    return sliding and _never_turns(scene, link) and len(own) > 1
+
+
+def _never_turns(scene: Scene, link: str) -> bool:
+    """Whether a link is known to move without turning."""
+    x, y, w = scene.known.twists.get(link, (0.0, 0.0, 1.0))
+    return link != scene.case.ground and abs(w) * scene.known.size <= 1e-12 * math.hypot(x, y)
 
 
 def _wedge(scene: Scene, link: str) -> shapely.Geometry | None:
@@ -106,6 +116,48 @@ def _wedge(scene: Scene, link: str) -> shapely.Geometry | None:
         band = shapely.Polygon([along(along(p, u, a), way, b) for a, b in corners])
         shape = shapely.intersection(shape, band)
     return shape if shape.geom_type == "Polygon" and not shape.is_empty else None
+
+
+ROUNDED = 0.78
+"""The radius of a Geneva wheel's arcs between two slots, as part of the crank's."""
+
+
+def _geneva(scene: Scene, link: str) -> shapely.Geometry | None:
+    """A Geneva wheel; in a page, where the pin leaves it, it is the slotted lever that the case says."""
+    wheel = None if scene.travel else geneva_of(scene.case, scene.known.points, link)
+    if wheel is None:
+        return None
+    centre, pin = scene.view.at(wheel.centre), scene.view.at(wheel.pin)
+    reach, arm = wheel.reach * scene.view.scale, wheel.arm * scene.view.scale
+    first = math.atan2(pin[1] - centre[1], pin[0] - centre[0])
+    shape: shapely.Geometry = shapely.Point(centre).buffer(wheel.radius * scene.view.scale)
+    for n in range(wheel.slots):
+        ways = [first + 2.0 * math.pi * (n + half) / wheel.slots for half in (0.0, 0.5)]
+        slotted, between = ((math.cos(a), math.sin(a)) for a in ways)
+        slot = bar([along(centre, slotted, length) for length in (reach - arm, 1.2 * reach)], PIN + 0.8)
+        cut = shapely.Point(along(centre, between, reach)).buffer(ROUNDED * arm)
+        shape = shape.difference(slot).difference(cut)
+    return shape if shape.geom_type == "Polygon" else None
+
+
+def _crates(
+    scene: Scene, link: str, lines: Iterable[tuple[Point, Point]]
+) -> Iterable[tuple[Point, shapely.Geometry]]:
+    """What stands on a level table that never turns: a weight above it is in the middle of a crate."""
+    joints = {joint.at for joint in scene.joints() if link in joint.links}
+    for load in scene.case.loads:
+        if not isinstance(load, Weight) or load.link != link or load.at in joints or load.at not in scene.at:
+            continue
+        x, y = scene.at[load.at]
+        for (_, top), (_, other) in lines:
+            half = top - HALF - y
+            if abs(top - other) < 0.5 and CRATE[0] < half < CRATE[1] and _never_turns(scene, link):
+                wide = min(1.2 * half, 0.8 * CRATE[1])
+                yield (x, y), shapely.box(x - wide, y - half, x + wide, y + half)
+
+
+CRATE = (10.0, 120.0)
+"""A crate is so high from its middle."""
 
 
 def _side(p: Point, v: Point, places: Iterable[Point]) -> float:

@@ -113,6 +113,11 @@ def leaves(marks: Iterable[Mark]) -> Iterator[AreaMark | Stroke | Disc | ArcMark
             yield mark
 
 
+def kinds_of(marks: Iterable[Mark]) -> frozenset[str]:
+    """The classes of marks, for each of which a style is needed."""
+    return frozenset(name for mark in leaves(marks) for name in mark.kind.split())
+
+
 def box_of(mark: AreaMark | Stroke | Disc | ArcMark | TextMark) -> Box:
     """The upright rectangle around a mark (that of an arc is its whole circle's)."""
     match mark:

@@ -8,12 +8,12 @@ of a tackle lie apart as they do on its sheaves.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 
 import shapely
 
-from icsolve.case import Case, Rope
-from icsolve.draw.marks import Box, Disc, Mark, MarkGroup, Point, Stroke, TextRun
+from icsolve.case import Rope
+from icsolve.draw.marks import Disc, Mark, MarkGroup, Point, Stroke, TextRun
 from icsolve.draw.place import Label, Soft
 from icsolve.draw.scene import BeltLoop, Part, Scene, around
 from icsolve.draw.words import quantity
@@ -126,16 +126,6 @@ def _arc(centre: Point, start: Point, end: Point, ccw: bool) -> Iterable[Point]:
     for n in range(1, count + 1):
         angle = first + (1.0 if ccw else -1.0) * turned * n / (count + 1)
         yield (centre[0] + radius * math.cos(angle), centre[1] + radius * math.sin(angle))
-
-
-def rope_boxes(case: Case, points: Mapping[str, Point]) -> list[Box]:
-    """The room that pulleys of a given radius take, case units."""
-    return [
-        around(points[p], radius.value)
-        for rope in case.ropes
-        for p, radius in zip(rope.points, rope.radii, strict=True)
-        if radius is not None and p in points
-    ]
 
 
 def filled(ropes: Sequence[RopeCourse]) -> list[shapely.Geometry]:

@@ -15,14 +15,14 @@ from icsolve.case import (
     Pin,
     Spring,
 )
-from icsolve.case.joints import Mesh, Rolling, Sliding
+from icsolve.case.joints import Guided, Mesh, Rolling, Sliding
 from icsolve.case.profiles import Circle, Flat, Knife, Roller, points_of
 from icsolve.draw.marks import Box, Mark, Point, View, along
 from icsolve.draw.place import Label, Placer, Soft
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS, turn_of
 from icsolve.report.derivation import Known
-from icsolve.screws.joints import mesh_weights
+from icsolve.screws.joints import guide_direction, mesh_weights
 from icsolve.structure.topology import Bond, topology
 from icsolve.tuples import NamedTuple
 
@@ -214,6 +214,45 @@ def _disc(
     return None
 
 
+class Geneva(NamedTuple):
+    """A Geneva wheel with its crank's pin in one of its slots, case units: the distance of the pivots, and
+    the crank's arm, which is square to a slot as its pin enters it."""
+
+    centre: Point
+    pin: Point
+    slots: int
+    reach: float
+    arm: float
+
+    @property
+    def radius(self) -> float:
+        """To where its slots end."""
+        return math.sqrt(self.reach * self.reach - self.arm * self.arm)
+
+
+def geneva_of(case: Case, points: Mapping[str, Point], link: str) -> Geneva | None:
+    """A link as a Geneva wheel: it is pinned to the frame and has one slot, toward its pivot, in which a
+    crank has its pin whose arm is to the distance of the pivots as sin(180 deg / n) to 1, engaged."""
+    own = [joint for joint in case.joints if link in joint.links]
+    slots = [joint for joint in own if isinstance(joint, Guided) and not joint.keeps_direction]
+    if len(own) != 2 or len(slots) != 1 or slots[0].links[1] != link or slots[0].at not in points:
+        return None
+    pins = [j for j in case.joints if isinstance(j, Pin) and case.ground in j.links and j.at in points]
+    pivots = [points[j.at] for one in slots[0].links[::-1] for j in pins if one in j.links]
+    if len(pivots) != 2:
+        return None
+    centre, pin = pivots[0], points[slots[0].at]
+    reach, arm = math.dist(*pivots), math.dist(pivots[1], pin)
+    count = round(math.pi / math.asin(arm / reach)) if 0.0 < arm < reach else 0
+    x, y = guide_direction(slots[0].guide, points, FLOATS)
+    aside = (pin[0] - centre[0]) * y - (pin[1] - centre[1]) * x
+    exact = (
+        abs(aside) <= 1e-6 * reach and abs(arm - reach * math.sin(math.pi / max(count, 1))) <= 1e-6 * reach
+    )
+    wheel = Geneva(centre, pin, count, reach, arm)
+    return wheel if count > 2 and exact and math.dist(centre, pin) <= wheel.radius else None
+
+
 # --- surfaces of cams and followers whose profiles a case gives ------------------------------------------
 
 
@@ -253,15 +292,6 @@ def outlines(case: Case, points: Mapping[str, Point]) -> list[tuple[str, list[Po
             continue
         found.append((link, [place for place, _, _ in curve.chords]))
     return found
-
-
-def outline_boxes(case: Case, points: Mapping[str, Point]) -> list[Box]:
-    """The room that outlines take."""
-    boxes = []
-    for _, corners in outlines(case, points):
-        xs, ys = [x for x, _ in corners], [y for _, y in corners]
-        boxes.append((min(xs), min(ys), max(xs), max(ys)))
-    return boxes
 
 
 # --- a known scene in a view, and the parts of a drawing -------------------------------------------------

@@ -11,7 +11,7 @@ from itertools import pairwise
 
 import shapely
 
-from icsolve.draw.bodies import GAP, rows_of
+from icsolve.draw.bodies import renamed, titled
 from icsolve.draw.marks import (
     AreaMark,
     Box,
@@ -282,10 +282,7 @@ def space_panels(known: Known, sketch: Sketch, left: float, top: float, width: f
     pushes = {link: list(_pushes(sketch, known, link)) for link in moving_links(sketch.scene)}
     largest = max((size(f) for some in pushes.values() for _, _, f, _, _ in some), default=0.0) or 1.0
     panels = [_panel(sketch, link, some, largest) for link, some in pushes.items()]
-    title = TextMark(
-        (left, top + 4.0), (TextRun("Free bodies, forces to one scale"),), "t-note", 12.5, "start"
-    )
-    return [title, *rows_of(panels, left, top + GAP, width)]
+    return titled(panels, left, top, width)
 
 
 On = tuple[str, tuple[TextRun, ...], Vec, Vec, tuple[str, Vec]]
@@ -346,12 +343,5 @@ def _panel(sketch: Sketch, link: str, pushes: Sequence[On], largest: float) -> l
         group = (MarkGroup(name, "", marks, plain_text(words)),) if marks else ()
         parts.append(Part(group, tuple(soft), (around(at, 2.8),), (label,)))
     window = bounds(together(parts).marks)
-    found = [_renamed(link, mark) for mark in with_labels(together(parts), window)]
+    found = [renamed(link, mark) for mark in with_labels(together(parts), window)]
     return [MarkGroup(f"body-{link}", "", tuple(found), f"link {link} by itself")]
-
-
-def _renamed(link: str, mark: Mark) -> Mark:
-    own = ("reaction-", "body-", "label-reaction", "label-body")
-    if isinstance(mark, MarkGroup) and mark.name and not mark.name.startswith(own):
-        return mark._replace(name=f"free-{link}-{mark.name}")
-    return mark

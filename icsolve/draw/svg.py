@@ -21,7 +21,7 @@ from icsolve.draw.marks import (
     Stroke,
     TextMark,
     TextRun,
-    leaves,
+    kinds_of,
     text_box,
 )
 from icsolve.tuples import NamedTuple
@@ -175,7 +175,7 @@ def document(marks: Iterable[Mark], view: Box, title: str, description: str) -> 
     left, top, right, bottom = view
     size = (number(right - left), number(bottom - top))
     box = " ".join((number(left), number(top), *size))
-    used = frozenset(_kinds(marks)) | {"paper"}
+    used = kinds_of(marks) | {"paper"}
     return "\n".join(
         (
             f'<svg xmlns="http://www.w3.org/2000/svg" class="ic" viewBox="{box}" width="{size[0]}"'
@@ -192,10 +192,6 @@ def document(marks: Iterable[Mark], view: Box, title: str, description: str) -> 
 
 def _paper(x: str, y: str, width: str, height: str) -> str:
     return f'<rect class="paper" x="{x}" y="{y}" width="{width}" height="{height}"/>'
-
-
-def _kinds(marks: Iterable[Mark]) -> Iterable[str]:
-    return (name for mark in leaves(marks) for name in mark.kind.split())
 
 
 def element(mark: Mark, *, halo: bool = False) -> str:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping
 
-from icsolve.draw.marks import ArcMark, AreaMark, Disc, Mark, MarkGroup, Stroke, TextMark, TextRun, leaves
+from icsolve.draw.marks import ArcMark, AreaMark, Disc, Mark, MarkGroup, Stroke, TextMark, TextRun, kinds_of
 from icsolve.draw.svg import RULES, TEXTS, Ink
 
 UNIT = 0.75
@@ -45,11 +45,6 @@ def standalone(marks: Iterable[Mark], title: str) -> str:
 
 
 PREAMBLE = "\\usepackage[utf8]{inputenc}\n\\usepackage[T1]{fontenc}\n\\usepackage{textcomp}\n"
-
-
-def kinds_of(marks: Iterable[Mark]) -> frozenset[str]:
-    """The classes that marks need styles for."""
-    return frozenset(name for mark in leaves(marks) for name in mark.kind.split())
 
 
 def styles(used: frozenset[str]) -> str:

@@ -6,10 +6,8 @@ One walk decides what is set in brackets and which sign stands where; a `Notatio
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from html import escape
-from typing import ClassVar
 
 from icsolve.tuples import NamedTuple
 
@@ -164,12 +162,36 @@ def needs_brackets(child: Expr, *, factor: bool) -> bool:
 # --- how a formula is written -----------------------------------------------------------------------
 
 
-class Notation(ABC):
-    """A way of writing formulas: `expression` goes through the parts, the methods write one piece each."""
+class Notation(NamedTuple):
+    """A way of writing formulas: `expression` goes through the parts, each piece is set in its text."""
 
-    flat = False
-    """a quotient stands on the line, so that its parts need brackets"""
-    equals = " = "
+    number: Callable[[str], str]
+    """digits; ``1.2e-05`` is a power of ten"""
+    name: Callable[[str, str], str]
+    """a symbol and what stands low"""
+    unit: Callable[[str], str]
+    quantity: str
+    span: str
+    signs: tuple[str, str, str]
+    """a minus in front of all, plus and minus between"""
+    times: str
+    beside: str
+    """between symbols that are multiplied"""
+    quotient: str
+    brackets: str
+    trig: str
+    """function, angle, sign of degrees"""
+    degrees: str
+    root: str
+    exp: str
+    square: str
+    apart: str = ""
+    """between a function and an angle without brackets"""
+    equals: str = " = "
+    whole: str = "{}"
+    """a side of an equation"""
+    flat: bool = False
+    """a quotient stands on the line, so that its parts need brackets, and a function has them"""
 
     def equation(self, equation: ShownEquation) -> str:
         """All sides with the sign of equality between."""
@@ -177,150 +199,92 @@ class Notation(ABC):
 
     def side(self, expression: Expr) -> str:
         """One side of an equation."""
-        return self.expression(expression)
+        return self.whole.format(self.expression(expression))
 
     def expression(self, expression: Expr) -> str:
         """An expression with all its parts."""
         match expression:
             case Num():
                 return self.number(expression.digits)
-            case Quantity():
-                return self.quantity(self.number(expression.number.digits), expression.unit)
+            case Quantity(number, unit):
+                said = self.number(number.digits)
+                return self.quantity.format(said, self.unit(unit)) if unit else said
             case Name():
-                return self.name(expression)
-            case Spanned():
-                return self.span(self.name(expression.a), self.name(expression.b))
-            case Product():
-                symbols = all(isinstance(f, Name | Spanned) for f in expression.factors)
-                return self.product([self._factor(f, n) for n, f in enumerate(expression.factors)], symbols)
+                return self.name(*expression)
+            case Spanned(a, b):
+                return self.span.format(self.name(*a), self.name(*b))
+            case Product(factors):
+                symbols = all(isinstance(f, Name | Spanned) for f in factors)
+                written = [self._factor(f, n) for n, f in enumerate(factors)]
+                return (self.beside if symbols else self.times).join(written)
             case Quotient():
-                return self.quotient(*self._over_and_under(expression))
-            case Sum():
-                return "".join(self._term(n, *term) for n, term in enumerate(expression.terms))
-            case Trig():
-                wide = isinstance(expression.angle, Sum) or is_negative(expression.angle)
-                degrees = not _symbols(expression.angle)
-                return self.trig(expression.function, self.expression(expression.angle), wide, degrees)
-            case RootOf():
-                return self.root(self.expression(expression.of))
-            case Exp():
-                return self.exp(self.expression(expression.of))
-            case Square():
-                inner = self.expression(expression.of)
-                wide = isinstance(expression.of, Sum) or is_negative(expression.of)
-                return self.square(self.brackets(inner) if wide else inner, wide)
+                return self.quotient.format(*self._over_and_under(expression))
+            case Sum(terms):
+                return "".join(self._term(n, *term) for n, term in enumerate(terms))
+            case Trig(function, angle):
+                mark = "" if _symbols(angle) else self.degrees
+                text, inner = self._grouped(angle, needed=not self.flat), self.expression(angle)
+                return self.trig.format(function, self.apart + text if text == inner else text, mark)
+            case RootOf(of):
+                return self.root.format(self.expression(of))
+            case Exp(of):
+                return self.exp.format(self.expression(of))
+            case Square(of):
+                return self.square.format(self._grouped(of))
+
+    def _grouped(self, inner: Expr, *, needed: bool = True) -> str:
+        """A part, in brackets where it is a sum or has a sign in front."""
+        return self._within(inner, needed and (isinstance(inner, Sum) or is_negative(inner)))
+
+    def _within(self, inner: Expr, brackets: bool) -> str:
+        text = self.expression(inner)
+        return self.brackets.format(text) if brackets else text
 
     def _factor(self, child: Expr, place: int) -> str:
         bare = isinstance(child, Num) and place == 0
         brackets = needs_brackets(child, factor=True) and not bare
-        brackets = brackets or (self.flat and isinstance(child, Quotient) and place > 0)
-        return self.brackets(self.expression(child)) if brackets else self.expression(child)
+        return self._within(child, brackets or (self.flat and isinstance(child, Quotient) and place > 0))
 
     def _over_and_under(self, quotient: Quotient) -> tuple[str, str]:
-        over, under = self.expression(quotient.over), self.expression(quotient.under)
+        over, under = quotient
         if self.flat:
-            compound = isinstance(quotient.under, Product | Quotient | Sum) or is_negative(quotient.under)
-            return self._factor(quotient.over, 0), self.brackets(under) if compound else under
-        return over, under
+            compound = isinstance(under, Product | Quotient | Sum) or is_negative(under)
+            return self._factor(over, 0), self._within(under, compound)
+        return self.expression(over), self.expression(under)
 
     def _term(self, place: int, sign: int, term: Expr) -> str:
         first = place == 0 and sign > 0
         brackets = not first and (isinstance(term, Sum) or needs_brackets(term, factor=False))
-        text = self.expression(term)
-        return ("" if first else self.sign(sign, place)) + (self.brackets(text) if brackets else text)
-
-    @abstractmethod
-    def number(self, digits: str) -> str:
-        """A number; ``1.2e-05`` is a power of ten."""
-
-    @abstractmethod
-    def quantity(self, number: str, unit: str) -> str:
-        """A number with its unit."""
-
-    @abstractmethod
-    def name(self, name: Name) -> str:
-        """A symbol with what stands low."""
-
-    @abstractmethod
-    def span(self, a: str, b: str) -> str:
-        """A distance."""
-
-    @abstractmethod
-    def product(self, factors: Sequence[str], symbols: bool) -> str:
-        """Factors; of ``symbols`` alone without a sign between."""
-
-    @abstractmethod
-    def quotient(self, over: str, under: str) -> str:
-        """One over another."""
-
-    @abstractmethod
-    def sign(self, sign: int, place: int) -> str:
-        """The sign in front of a term."""
-
-    @abstractmethod
-    def brackets(self, inner: str) -> str:
-        """What is taken together."""
-
-    @abstractmethod
-    def trig(self, function: str, angle: str, wide: bool, degrees: bool) -> str:
-        """A sine or cosine; ``wide``: of more than one number, ``degrees``: of a number."""
-
-    @abstractmethod
-    def root(self, inner: str) -> str:
-        """A square root."""
-
-    @abstractmethod
-    def exp(self, inner: str) -> str:
-        """A power of e."""
-
-    @abstractmethod
-    def square(self, inner: str, wide: bool) -> str:
-        """A square, of something that has its brackets where it is ``wide``."""
+        mark = "" if first else self.signs[1 if sign > 0 else 0 if place == 0 else 2]
+        return mark + self._within(term, brackets)
 
 
-class Plain(Notation):
-    """``w4 = 1.5 x 2 / 3``: ASCII, in the order in which a calculator takes it."""
-
-    flat = True
-
-    def number(self, digits: str) -> str:
-        return digits
-
-    def quantity(self, number: str, unit: str) -> str:
-        return f"{number} {unit}".rstrip()
-
-    def name(self, name: Name) -> str:
-        short = name.low[:1].isdigit() or not name.low
-        return f"{name.base}{name.low}" if short else f"{name.base}_{name.low}"
-
-    def span(self, a: str, b: str) -> str:
-        return f"|{a} {b}|"
-
-    def product(self, factors: Sequence[str], symbols: bool) -> str:
-        return " x ".join(factors)
-
-    def quotient(self, over: str, under: str) -> str:
-        return f"{over} / {under}"
-
-    def sign(self, sign: int, place: int) -> str:
-        return "-" if place == 0 else " + " if sign > 0 else " - "
-
-    def brackets(self, inner: str) -> str:
-        return f"({inner})"
-
-    def trig(self, function: str, angle: str, wide: bool, degrees: bool) -> str:
-        return f"{function}({angle}{' deg' if degrees else ''})"
-
-    def root(self, inner: str) -> str:
-        return f"sqrt({inner})"
-
-    def exp(self, inner: str) -> str:
-        return f"exp({inner})"
-
-    def square(self, inner: str, wide: bool) -> str:
-        return f"{inner}^2"
+# --- plain text, LaTeX, MathML ----------------------------------------------------------------------
 
 
+def _plain_name(base: str, low: str) -> str:
+    return f"{base}{low}" if low[:1].isdigit() or not low else f"{base}_{low}"
+
+
+PLAIN = Notation(
+    number=str,
+    name=_plain_name,
+    unit=str,
+    quantity="{} {}",
+    span="|{} {}|",
+    signs=("-", " + ", " - "),
+    times=" x ",
+    beside=" x ",
+    quotient="{} / {}",
+    brackets="({})",
+    trig="{}({}{})",
+    degrees=" deg",
+    root="sqrt({})",
+    exp="exp({})",
+    square="{}^2",
+    flat=True,
+)
+"""``w4 = 1.5 x 2 / 3``: ASCII, in the order in which a calculator takes it."""
 GREEK = {
     "w": "\N{GREEK SMALL LETTER OMEGA}",
     "phi": "\N{GREEK SMALL LETTER PHI}",
@@ -331,122 +295,78 @@ GREEK = {
     "pi": "\N{GREEK SMALL LETTER PI}",
 }
 """Symbols by their names in plain text."""
+_LATEX = {name: rf"\{name}" for name in GREEK} | {"w": r"\omega", "phi": r"\varphi"}
 
 
-class Latex(Notation):
-    """LaTeX, as Markdown has it between dollars."""
-
-    greek: ClassVar = {name: rf"\{name}" for name in GREEK} | {"w": r"\omega", "phi": r"\varphi"}
-
-    def number(self, digits: str) -> str:
-        mantissa, _, exponent = digits.partition("e")
-        return rf"{mantissa} \cdot 10^{{{int(exponent)}}}" if exponent else mantissa
-
-    def quantity(self, number: str, unit: str) -> str:
-        words = unit.replace("*", r"\!\cdot\!").replace(" ", r"\ ")
-        return rf"{number}\ \mathrm{{{words}}}" if unit else number
-
-    def name(self, name: Name) -> str:
-        """Names of more than one letter stand upright."""
-        letter = _safe(name.base) if len(name.base) == 1 else _roman(name.base)
-        base = self.greek.get(name.base) or letter
-        if not name.low:
-            return base
-        low = name.low if name.low.isdigit() or len(name.low) == 1 else _roman(name.low)
-        return f"{base}_{{{low}}}"
-
-    def span(self, a: str, b: str) -> str:
-        return rf"\overline{{{a}\,{b}}}"
-
-    def product(self, factors: Sequence[str], symbols: bool) -> str:
-        return (r"\," if symbols else r" \cdot ").join(factors)
-
-    def quotient(self, over: str, under: str) -> str:
-        return rf"\frac{{{over}}}{{{under}}}"
-
-    def sign(self, sign: int, place: int) -> str:
-        return "-" if place == 0 else " + " if sign > 0 else " - "
-
-    def brackets(self, inner: str) -> str:
-        return rf"\left({inner}\right)"
-
-    def trig(self, function: str, angle: str, wide: bool, degrees: bool) -> str:
-        if wide:
-            return rf"\{function}{self.brackets(angle)}^\circ"
-        return rf"\{function} {angle}{'^' + chr(92) + 'circ' if degrees else ''}"
-
-    def root(self, inner: str) -> str:
-        return rf"\sqrt{{{inner}}}"
-
-    def exp(self, inner: str) -> str:
-        return rf"e^{{{inner}}}"
-
-    def square(self, inner: str, wide: bool) -> str:
-        return f"{inner}^{{2}}"
+def _latex_number(digits: str) -> str:
+    mantissa, _, exponent = digits.partition("e")
+    return rf"{mantissa} \cdot 10^{{{int(exponent)}}}" if exponent else mantissa
 
 
-def _roman(text: str) -> str:
-    return rf"\mathrm{{{_safe(text)}}}"
+def _latex_name(base: str, low: str) -> str:
+    """Names of more than one letter stand upright."""
+    symbol = _LATEX.get(base) or _letters(base, len(base) == 1)
+    return f"{symbol}_{{{_letters(low, low.isdigit() or len(low) == 1)}}}" if low else symbol
 
 
-def _safe(text: str) -> str:
+def _letters(text: str, plain: bool) -> str:
     """A name of a case: letters, digits, ``_`` and primes."""
-    return text.replace("_", r"\_").replace("'", r"{}^{\prime}")
+    safe = text.replace("_", r"\_").replace("'", r"{}^{\prime}")
+    return safe if plain else rf"\mathrm{{{safe}}}"
 
 
-class MathML(Notation):
-    """MathML, which browsers set without a library or a network."""
-
-    equals = "<mo>=</mo>"
-    greek: ClassVar = GREEK
-    times, minus = "\N{DOT OPERATOR}", "\N{MINUS SIGN}"
-
-    def side(self, expression: Expr) -> str:
-        return f"<mrow>{self.expression(expression)}</mrow>"
-
-    def number(self, digits: str) -> str:
-        mantissa, _, exponent = digits.partition("e")
-        text = f"<mn>{mantissa.lstrip('-')}</mn>"
-        if exponent:
-            text += f"<mo>{self.times}</mo><msup><mn>10</mn><mn>{int(exponent)}</mn></msup>"
-        return f"<mrow><mo>{self.minus}</mo>{text}</mrow>" if mantissa.startswith("-") else text
-
-    def quantity(self, number: str, unit: str) -> str:
-        words = escape(unit.replace("*", "\N{MIDDLE DOT}"))
-        return f'{number}<mspace width="0.3em"/><mtext>{words}</mtext>'
-
-    def name(self, name: Name) -> str:
-        base = f"<mi>{escape(self.greek.get(name.base, name.base))}</mi>"
-        return f"<msub>{base}<mtext>{escape(name.low)}</mtext></msub>" if name.low else base
-
-    def span(self, a: str, b: str) -> str:
-        return f"<mrow><mo>|</mo>{a}{b}<mo>|</mo></mrow>"
-
-    def product(self, factors: Sequence[str], symbols: bool) -> str:
-        return ('<mspace width="0.17em"/>' if symbols else f"<mo>{self.times}</mo>").join(factors)
-
-    def quotient(self, over: str, under: str) -> str:
-        return f"<mfrac><mrow>{over}</mrow><mrow>{under}</mrow></mfrac>"
-
-    def sign(self, sign: int, place: int) -> str:
-        return f"<mo>{'+' if sign > 0 else self.minus}</mo>"
-
-    def brackets(self, inner: str) -> str:
-        return f"<mrow><mo>(</mo>{inner}<mo>)</mo></mrow>"
-
-    def trig(self, function: str, angle: str, wide: bool, degrees: bool) -> str:
-        mark = "<mi>\N{DEGREE SIGN}</mi>" if degrees else ""
-        whole = (self.brackets(angle) if wide else angle) + mark
-        return f'<mrow><mi>{function}</mi><mspace width="0.17em"/>{whole}</mrow>'
-
-    def root(self, inner: str) -> str:
-        return f"<msqrt>{inner}</msqrt>"
-
-    def exp(self, inner: str) -> str:
-        return f"<msup><mi>e</mi><mrow>{inner}</mrow></msup>"
-
-    def square(self, inner: str, wide: bool) -> str:
-        return f"<msup>{inner if wide else f'<mrow>{inner}</mrow>'}<mn>2</mn></msup>"
+LATEX = Notation(
+    number=_latex_number,
+    name=_latex_name,
+    unit=lambda unit: unit.replace("*", r"\!\cdot\!").replace(" ", r"\ "),
+    quantity=r"{}\ \mathrm{{{}}}",
+    span=r"\overline{{{}\,{}}}",
+    signs=("-", " + ", " - "),
+    times=r" \cdot ",
+    beside=r"\,",
+    quotient=r"\frac{{{}}}{{{}}}",
+    brackets=r"\left({}\right)",
+    trig=r"\{}{}{}",
+    apart=" ",
+    degrees=r"^\circ",
+    root=r"\sqrt{{{}}}",
+    exp="e^{{{}}}",
+    square="{}^{{2}}",
+)
+"""LaTeX, as Markdown has it between dollars."""
+_DOT, _MINUS = "<mo>\N{DOT OPERATOR}</mo>", "<mo>\N{MINUS SIGN}</mo>"
 
 
-PLAIN, LATEX, MATHML = Plain(), Latex(), MathML()
+def _mathml_number(digits: str) -> str:
+    mantissa, _, exponent = digits.partition("e")
+    text = f"<mn>{mantissa.lstrip('-')}</mn>"
+    if exponent:
+        text += f"{_DOT}<msup><mn>10</mn><mn>{int(exponent)}</mn></msup>"
+    return f"<mrow>{_MINUS}{text}</mrow>" if mantissa.startswith("-") else text
+
+
+def _mathml_name(base: str, low: str) -> str:
+    symbol = f"<mi>{escape(GREEK.get(base, base))}</mi>"
+    return f"<msub>{symbol}<mtext>{escape(low)}</mtext></msub>" if low else symbol
+
+
+MATHML = Notation(
+    number=_mathml_number,
+    name=_mathml_name,
+    unit=lambda unit: escape(unit.replace("*", "\N{MIDDLE DOT}")),
+    quantity='{}<mspace width="0.3em"/><mtext>{}</mtext>',
+    span="<mrow><mo>|</mo>{}{}<mo>|</mo></mrow>",
+    signs=(_MINUS, "<mo>+</mo>", _MINUS),
+    times=_DOT,
+    beside='<mspace width="0.17em"/>',
+    quotient="<mfrac><mrow>{}</mrow><mrow>{}</mrow></mfrac>",
+    brackets="<mrow><mo>(</mo>{}<mo>)</mo></mrow>",
+    trig='<mrow><mi>{}</mi><mspace width="0.17em"/>{}{}</mrow>',
+    degrees="<mi>\N{DEGREE SIGN}</mi>",
+    root="<msqrt>{}</msqrt>",
+    exp="<msup><mi>e</mi><mrow>{}</mrow></msup>",
+    square="<msup><mrow>{}</mrow><mn>2</mn></msup>",
+    equals="<mo>=</mo>",
+    whole="<mrow>{}</mrow>",
+)
+"""MathML, which browsers set without a library or a network."""

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from icsolve.draw import tikz
 from icsolve.draw.figure import Drawing, drawn
-from icsolve.draw.marks import Mark
+from icsolve.draw.marks import Mark, kinds_of
 from icsolve.draw.words import answer_sentences, position_sentences
 from icsolve.explain.document import Block, Inline
 from icsolve.explain.given import asked_section, figures_of, given_section, load_name
@@ -52,7 +52,7 @@ def exercise(known: Known) -> Exercise:
 def sheet_tex(title: str, sheets: Sequence[tuple[str, Sequence[Exercise]]]) -> str:
     """A document with the exercises of every student, each on pages of their own, and all keys behind."""
     layout = AsTex()
-    used = tikz.kinds_of(mark for _, some in sheets for one in some for mark in one.figure)
+    used = kinds_of(mark for _, some in sheets for one in some for mark in one.figure)
     questions, keys = [], []
     for who, some in sheets:
         heading = layout.text(title) + (f" \\hfill {layout.text(who)}" if who else "")
@@ -69,5 +69,7 @@ def sheet_tex(title: str, sheets: Sequence[tuple[str, Sequence[Exercise]]]) -> s
 
 
 def _question(layout: AsTex, n: int, one: Exercise) -> str:
+    """An exercise, on one page where it has room there."""
     body = "".join(map(layout.block, one.blocks))
-    return f"\\subsection*{{{n}. {layout.text(one.title)}}}\n{picture_tex(one.figure)}{body}"
+    figure = picture_tex(one.figure, 0.34)
+    return f"\\filbreak\n\\subsection*{{{n}. {layout.text(one.title)}}}\n{figure}{body}"

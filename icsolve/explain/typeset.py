@@ -7,7 +7,7 @@ import re
 from collections.abc import Sequence
 
 from icsolve.draw import tikz
-from icsolve.draw.marks import Mark
+from icsolve.draw.marks import Mark, kinds_of
 from icsolve.draw.svg import escaped
 from icsolve.explain.document import Block, Document, Formula, Items, Layout, ShownTable, Words, dotted
 from icsolve.explain.formula import LATEX, MATHML, Expr
@@ -77,6 +77,10 @@ class AsHtml(Layout):
                 return f"<table><thead><tr>{head}</tr></thead><tbody>{body}</tbody></table>\n"
 
 
+LONG = 24
+"""A table of more rows goes on over pages in LaTeX."""
+
+
 class AsTex(Layout):
     """A whole LaTeX document; ``figure`` are the marks of a drawing, which stand in it as TikZ."""
 
@@ -97,7 +101,7 @@ class AsTex(Layout):
         lead = "".join(f"\\emph{{{self.text(text)}}}\\par\n" for text in document.lead)
         return (
             f"\\documentclass[11pt]{{article}}\n{tikz.PREAMBLE}{self.packages}{self.page}"
-            f"{tikz.styles(tikz.kinds_of(self.figure))}\\begin{{document}}\n"
+            f"{tikz.styles(kinds_of(self.figure))}\\begin{{document}}\n"
             f"\\section*{{{self.text(document.title)}}}\n{lead}{picture_tex(self.figure)}"
             f"{self.sections(document)}\\end{{document}}\n"
         )
@@ -127,14 +131,18 @@ class AsTex(Layout):
                 heading, *rows = (" & ".join(row) + " \\\\\n" for row in self.cells(block))
                 columns = "l" * len(block.heading)
                 body = f"{heading}\\hline\n{''.join(rows)}"
-                return f"\\begin{{longtable}}[l]{{{columns}}}\n{body}\\end{{longtable}}\n"
+                if len(rows) > LONG:
+                    return f"\\begin{{longtable}}[l]{{{columns}}}\n{body}\\end{{longtable}}\n"
+                table = f"\\begin{{tabular}}{{{columns}}}\n{body}\\end{{tabular}}"
+                return f"\\par\\medskip\\noindent {table}\\par\\medskip\n"
 
 
-def picture_tex(marks: Sequence[Mark]) -> str:
-    """A drawing as TikZ, no wider than the text; '' where there are no marks."""
+def picture_tex(marks: Sequence[Mark], height: float = 0.5) -> str:
+    """A drawing as TikZ, no wider than the text and no higher than a part of a page; '' of no marks."""
     if not marks:
         return ""
     return (
-        "\\begin{center}\n\\begin{adjustbox}{max width=\\linewidth}\n"
+        "\\begin{center}\n"
+        f"\\begin{{adjustbox}}{{max width=\\linewidth,max totalheight={height}\\textheight}}\n"
         f"{tikz.picture(marks)}\\end{{adjustbox}}\n\\end{{center}}\n"
     )

@@ -4,6 +4,7 @@ step at a time, the equation of power with live numbers, and the answer as a cur
 from __future__ import annotations
 
 from icsolve.case import Case
+from icsolve.draw.marks import kinds_of
 from icsolve.draw.svg import sheet
 from icsolve.explain.solution import solution
 from icsolve.page.document import PageParts, html_of
@@ -25,7 +26,7 @@ def page_html(case: Case | Known) -> str:
 
 def _in_space(known: Known) -> PageParts:
     from icsolve.page.motion import why_still
-    from icsolve.page.pictures import kinds_of, still_svg
+    from icsolve.page.pictures import still_svg
 
     picture, marks = still_svg(known)
     model = {"window": [0, 0, 1, 1], "steps": 0, "centres": [], "loads": {}, "anchors": {}, "answers": []}
@@ -42,7 +43,7 @@ def _in_plane(known: Known) -> PageParts:
     from icsolve.page.live import live_of
     from icsolve.page.model import model_of
     from icsolve.page.motion import motion_of, why_still
-    from icsolve.page.pictures import ALWAYS, circle_svg, figure_svg, kinds_of, plot_data, plot_svg, plots_of
+    from icsolve.page.pictures import ALWAYS, circle_svg, figure_svg, plot_data, plot_svg, plots_of
 
     steps = needed_steps(known) if known.whole is not None else ()
     motion = motion_of(known, [step.centre.pair for step in steps])

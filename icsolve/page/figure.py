@@ -6,7 +6,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 
 import numpy as np
@@ -14,13 +13,14 @@ import shapely
 
 from icsolve.case import Force, Pin, Spring
 from icsolve.case.joints import Guided
+from icsolve.draw.figure import scene_over, used_points
 from icsolve.draw.frame import frame_parts, joint_name, joint_parts, point_parts, rims
 from icsolve.draw.links import DrawnBody, bars, body_of, guide_in_picture, link_part, outline
 from icsolve.draw.loads import load_parts
-from icsolve.draw.marks import Box, Mark, MarkGroup, Point, Stroke, TextMark, bounds, view_of
+from icsolve.draw.marks import Box, Mark, MarkGroup, Point, Stroke, TextMark, bounds
 from icsolve.draw.place import Label, Placer, joined
-from icsolve.draw.ropes import RopeCourse, belts, courses, filled, free_ends, pulley_marks, rope_marks
-from icsolve.draw.scene import ORDER, Part, Scene, Wheel, outlines, round_things, together
+from icsolve.draw.ropes import RopeCourse, belts, courses, filled, pulley_marks, rope_marks
+from icsolve.draw.scene import ORDER, Part, Scene, Wheel, around, together
 from icsolve.page.motion import Array, PageMotion, moved
 from icsolve.report.derivation import Acting, Known, Step, acting_loads
 from icsolve.tuples import NamedTuple
@@ -41,7 +41,7 @@ class PageFigure(NamedTuple):
 
 def figure_of(known: Known, steps: Sequence[Step], motion: PageMotion | None) -> PageFigure:
     """The figure in its position as written, without its centres, which the script of the page draws."""
-    scene = scene_over(known, steps, motion)
+    scene = _scene(known, steps, motion)
     bodies = [body_of(scene, link) for link in scene.case.links if link != scene.case.ground]
     bodies.sort(key=lambda body: (len(body.blocks), -float(shapely.area(outline(body)))))
     ropes = tuple(courses(scene))
@@ -72,33 +72,23 @@ def figure_of(known: Known, steps: Sequence[Step], motion: PageMotion | None) ->
     return PageFigure(scene, layers, (min(a, left), min(b, top), max(c, right), max(d, bottom)), ropes)
 
 
-def scene_over(known: Known, steps: Sequence[Step], motion: PageMotion | None) -> Scene:
-    """The scene in a view that holds all positions, and the centres as written that are not far."""
-    shapes = round_things(known.case, known.points)
-    used = {name for names in known.case.carries.values() for name in names}
-    used |= {at for joint in known.case.joints if (at := getattr(joint, "at", None))}
-    used |= {p for rope in known.case.ropes for p in rope.points}
-    boxes = [(*known.points[p], *known.points[p]) for p in known.points if p in used]
-    boxes += [_swept(known, motion, w.link, w.centre, w.radius) for w in shapes.wheels]
-    boxes += [
-        _swept(known, motion, link, known.points[p], radius.value)
-        for rope in known.case.ropes
-        for p, link, radius in zip(rope.points, rope.links, rope.radii, strict=False)
-        if radius is not None and p in known.points
-    ]
-    boxes += [
-        _swept(known, motion, link, corner, 0.0)
-        for link, corners in outlines(known.case, known.points)
-        for corner in corners[::6]
-    ]
-    if motion is not None:
-        boxes += [_box(*places) for p in motion.found.points if p in used for places in [_way(motion, p)]]
-    centres = [(c[0], c[1]) for c in (s.centre.place for s in steps if s.centre.kind == "at")]
-    finite = [c for c in centres if math.isfinite(c[0]) and math.isfinite(c[1])]
-    view = view_of(boxes, finite, known.size, ROOM)
-    scene = Scene(known, view, {name: view.at(p) for name, p in known.points.items()}, shapes)
-    scene = scene._replace(at={**scene.at, **free_ends(scene)})
-    return scene if motion is None else scene._replace(travel=travel_of(scene, motion))
+def _scene(known: Known, steps: Sequence[Step], motion: PageMotion | None) -> Scene:
+    """The scene in a view that holds all positions."""
+    if motion is None:
+        return scene_over(known, steps, room=ROOM)
+    ways = [_box(*_way(motion, p)) for p in used_points(known.case) & motion.found.points.keys()]
+
+    def swept(link: str, p: Point, reach: float) -> Box:
+        pose = motion.poses.get(link)
+        if pose is None:
+            return around(p, reach)
+        rows = slice(motion.first, motion.last + 1)
+        xs, ys = moved(pose, known.points[pose.point], p)
+        left, low, right, high = _box(xs[rows], ys[rows])
+        return left - reach, low - reach, right + reach, high + reach
+
+    scene = scene_over(known, steps, swept, ways, ROOM)
+    return scene._replace(travel=travel_of(scene, motion))
 
 
 def _way(motion: PageMotion, point: str) -> tuple[Array, Array]:
@@ -108,17 +98,6 @@ def _way(motion: PageMotion, point: str) -> tuple[Array, Array]:
 
 def _box(x: Array, y: Array) -> Box:
     return (float(x.min()), float(y.min()), float(x.max()), float(y.max()))
-
-
-def _swept(known: Known, motion: PageMotion | None, link: str, p: Point, reach: float) -> Box:
-    """The rectangle around a place of a link in all its positions, and so much more."""
-    box = (*p, *p)
-    pose = None if motion is None else motion.poses.get(link)
-    if motion is not None and pose is not None:
-        rows = slice(motion.first, motion.last + 1)
-        xs, ys = moved(pose, known.points[pose.point], p)
-        box = _box(xs[rows], ys[rows])
-    return (box[0] - reach, box[1] - reach, box[2] + reach, box[3] + reach)
 
 
 def travel_of(scene: Scene, motion: PageMotion) -> dict[tuple[str, Point], tuple[float, float]]:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from icsolve.draw.centres import circle_marks
-from icsolve.draw.marks import Box, Mark, bounds, leaves
+from icsolve.draw.marks import Box, Mark, bounds
 from icsolve.draw.plot import PlotFrame, PlottedCurve, plot_marks
 from icsolve.draw.svg import element, escaped, number
 from icsolve.draw.words import description, figure_number
@@ -224,7 +224,7 @@ def track_svg(motion: dict[str, Any]) -> str:
         for at in motion["dead"]
     ]
     ticks = []
-    for degrees in _ticks(low, high) if motion["verb"] == "turned" else _quarters(low, high):
+    for degrees in _ticks(low, high) if motion["verb"] == "turned" else (low, 0.5 * (low + high), high):
         x = share(degrees)
         anchor = "start" if degrees == low else "end" if degrees == high else "middle"
         ticks.append(f'<line class="tick" x1="{x}" x2="{x}" y1="12" y2="17"/>')
@@ -246,13 +246,3 @@ def _ticks(low: float, high: float) -> list[float]:
         if (high - low) / s >= 3.99 or s == 0.5
     )
     return [k * step for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)]
-
-
-def _quarters(low: float, high: float) -> list[float]:
-    """A way in four equal parts."""
-    return [low, low + 0.25 * (high - low), 0.5 * (low + high), high - 0.25 * (high - low), high]
-
-
-def kinds_of(marks: Iterable[Mark]) -> frozenset[str]:
-    """The classes that marks need rules for."""
-    return frozenset(name for mark in leaves(marks) for name in mark.kind.split())
