@@ -140,6 +140,41 @@ def test_accelerations_are_the_differences_of_rates_in_sixty_digits_for_all_join
     assert {"Pin", "Slide", "Slot"} <= kinds
 
 
+@pytest.mark.parametrize("digits", [17, 7], ids=["double precision", "printed"])
+@pytest.mark.parametrize("inner", [False, True], ids=["outside", "inside"])
+def test_wheels_that_roll_on_a_coupler_go_on_as_gears_do(inner: bool, digits: int) -> None:
+    """The crank, as a wheel about B, and a wheel about C: the contact lies on BC to the digits written."""
+    for seed in range(3 * MORE):
+        rng = Random(seed)
+        one, two = rng.randint(5, 20), rng.randint(1, 4)
+        crank, lean, along = rng.uniform(0.3, 0.8), rng.uniform(0, 7), rng.uniform(0, 7)
+        b = (crank * math.cos(lean), crank * math.sin(lean))
+        c, p = (
+            (b[0] + far / 10 * math.cos(along), b[1] + far / 10 * math.sin(along))
+            for far in (one - two if inner else one + two, one)
+        )
+        d = (b[0] + 2.0, b[1] - 1.5)
+        placed = ", ".join(
+            f"{n}: [{x:.{digits}g}, {y:.{digits}g}]"
+            for n, (x, y) in zip("ABCDP", ((0, 0), b, c, d, p), strict=True)
+        )
+        text = (
+            f"icsolve: 1\npoints: {{{placed}}}\njoints: [{{pin: [1, 2], at: A}}, {{pin: [2, 4], at: B}}, "
+            "{pin: [4, 3, 5], at: C}, {pin: [5, 1], at: D}, %s]\n"
+            "motion: {link: 2, speed: 3, acceleration: 2}\n"
+        )
+        sign = -1 if inner else 1
+        wheels = (
+            f"{{roll: [2, 3], at: P, radii: [{sign * one / 10}, {two / 10}]}}",
+            f"{{gears: [2, 3], teeth: [{sign * one}, {two}]}}",
+        )
+        rolling, geared = (icsolve.solve(icsolve.load(text % way), dynamic=True) for way in wheels)
+        assert rolling.angular_accelerations is not None and geared.angular_accelerations is not None
+        assert rolling.angular_accelerations == pytest.approx(
+            geared.angular_accelerations, rel=1e-9 if digits == 17 else 1e-3
+        )
+
+
 def test_slider_crank_by_its_closed_form() -> None:
     """x = r cos t + sqrt(l^2 - r^2 sin^2 t) differentiated twice, with an angular acceleration."""
     r, rod, w, more, t = 0.1, 0.25, 20.0, 50.0, math.radians(35)

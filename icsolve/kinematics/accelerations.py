@@ -18,7 +18,7 @@ from icsolve.case.joints import CentreAt, CentreSquareTo, JointCentre, Mesh, Rol
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import LOOSE, NO_SPEED, fastest, meant, path_of, speed_of
 from icsolve.numbers.arithmetic import Arithmetic, Scalar, all_vanish, decider
-from icsolve.numbers.sparse import Row, eliminate
+from icsolve.numbers.sparse import SPENT, Row, eliminate
 from icsolve.screws.joints import Points, freedoms, guide_direction, mesh_weights, transmitted
 from icsolve.screws.plane import Point, Triple, add, cross, pairing, subtract, velocity
 from icsolve.screws.ropes import part_changes, rope_parts
@@ -29,7 +29,10 @@ from icsolve.wording.sentences import listed
 
 STILL: Triple = (0.0, 0.0, 0.0)
 NEAR = 2e-3
-"""A wheel's centre may miss its radius by this fraction of it."""
+"""A wheel's centre may miss its radius by this fraction of it, and contacts as written a motion by so much of
+the figure's size."""
+GROWN = 1e4
+"""By so much what contacts miss may grow in the elimination."""
 
 
 class Moving(NamedTuple):
@@ -68,6 +71,7 @@ def moving(
     points: Points,
     motions: Mapping[str, Sequence[Triple]],
     arithmetic: Arithmetic,
+    slack: float = 0.0,
 ) -> Moving:
     """The motion that the case gives, with its accelerations.
 
@@ -77,6 +81,7 @@ def moving(
     frame, points : the scale of the frame, and the places in it
     motions : by link, one twist a freedom
     arithmetic : of the twists
+    slack : by how much rolling contacts as written miss the motion [fraction of the figure's size]
 
     Raises
     ------
@@ -96,7 +101,7 @@ def moving(
         if not all_vanish(arithmetic, ((part, size) for t in open_ for part in t)):
             idle.add(link)
     drives = [_drive(given, motions, frame, points, arithmetic) for given in case.motion]
-    rates, loose = _rates(case, top, points, twists, drives, arithmetic, frame)
+    rates, loose = _rates(case, top, points, twists, drives, arithmetic, frame, slack)
     return Moving(twists, {link: rates[top.body_of[link]] for link in twists}, frozenset(idle | loose))
 
 
@@ -129,8 +134,12 @@ def _rates(
     drives: Sequence[Drive],
     arithmetic: Arithmetic,
     frame: Frame,
+    slack: float,
 ) -> tuple[list[Triple], set[str]]:
-    """The rate of each body's twist, and the links whose rate a freedom leaves open."""
+    """The rate of each body's twist, and the links whose rate a freedom leaves open.
+
+    Where written numbers all but fit the motion, so they do what follows from it.
+    """
     known = 3 * len(top.members)
     rows: list[Row] = []
     sizes: list[float] = []
@@ -148,12 +157,15 @@ def _rates(
     for given, along, more in drives:
         rows.append(_driven(top, given, along, more, twists, points, known))
         sizes.append(abs(more))
-    general = eliminate(rows, known, vanishes=decider(arithmetic))
-    if not all(arithmetic.vanishes(left.get(known, 0.0), max(sizes)) for left in general.left):
+    near = min(NEAR, GROWN * slack)
+    general = eliminate(rows, known, near or SPENT, None if slack else decider(arithmetic))
+    rest = [left.get(known, 0.0) for left in general.left]
+    if not all(abs(float(a)) <= near * max(sizes) or arithmetic.vanishes(a, max(sizes)) for a in rest):
         raise SceneError(
             Status.CHANGE_POINT,
             "the links move only for an instant in this position (its joints do not fit together a moment "
-            "later), so it has no accelerations. Take another position, or correct the figure.",
+            "later), so it has no accelerations. Take another position, or correct the figure"
+            + ("; give the points of its rolling contacts with more digits." if slack else "."),
         )
     ground = 3 * top.ground
     found, idle = [], set()

@@ -85,7 +85,9 @@ def _found(case: Case, program: Program, arithmetic: Balls) -> tuple[Case, Accel
     """The same with so many digits; raises MoreDigits where they leave something open."""
     program, outcome = evaluate(program, arithmetic)
     frame, points = program.figure.frame, outcome.points
-    moves = moving(case, program.top, frame, points, outcome.motions.twists, arithmetic)
+    moves = moving(
+        case, program.top, frame, points, outcome.motions.twists, arithmetic, outcome.motions.slack
+    )
     _refuse_open(case, moves)
     size = moves.size
 

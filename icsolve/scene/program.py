@@ -163,7 +163,7 @@ def evaluate(program: Program, arithmetic: Arithmetic = FLOATS, rounds: int = 1)
         from icsolve.statics.inertia import exactly, is_loaded
 
         if is_loaded(case):
-            wrenches = exactly(case, top, figure.frame, points, motions.twists, wrenches, arithmetic)
+            wrenches = exactly(case, top, figure.frame, points, motions, wrenches, arithmetic)
     balance = power.balance(wrenches, motions.twists, motions.mobility)
     return program, Outcome(points, motions, balance, power.solve_balance(balance, arithmetic))
 

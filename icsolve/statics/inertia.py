@@ -7,9 +7,10 @@ from collections.abc import Mapping, Sequence
 from icsolve.assembly.workspace import Frame
 from icsolve.case import Case, ForceVector, Torque
 from icsolve.kinematics.accelerations import Moving, moving
+from icsolve.kinematics.motion import Motions
 from icsolve.numbers.arithmetic import Arithmetic, Scalar
 from icsolve.numbers.units import exact_ratio, parse_unit
-from icsolve.screws.plane import Point, Triple, force_wrench
+from icsolve.screws.plane import Point, force_wrench
 from icsolve.statics.power import Wrench, known_value, vector_size
 from icsolve.structure.topology import Topology
 from icsolve.tuples import replace
@@ -41,7 +42,7 @@ def exactly(
     top: Topology,
     frame: Frame,
     points: Mapping[str, Point],
-    motions: Mapping[str, Sequence[Triple]],
+    motions: Motions,
     wrenches: Sequence[Wrench],
     arithmetic: Arithmetic,
 ) -> tuple[Wrench, ...]:
@@ -54,7 +55,7 @@ def exactly(
     SceneError
         As `icsolve.kinematics.accelerations.moving`.
     """
-    moves = moving(case, top, frame, points, motions, arithmetic)
+    moves = moving(case, top, frame, points, motions.twists, arithmetic, motions.slack)
     forces = _forces(case, frame, moves, points, arithmetic)
     found = []
     for w in wrenches:
