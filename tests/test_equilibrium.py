@@ -28,6 +28,7 @@ from icsolve.errors import SceneError
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import Record
 from icsolve.scene import solve_scene
+from icsolve.solve.rest import AT_LIMIT
 from icsolve.solve.stability import with_stability
 from shell import Shell, exit_status
 from sizes import FULL
@@ -204,6 +205,115 @@ loads: {W: {weight: 10, link: 2, at: B}, V: {weight: 30, link: 4, at: C}}
             for sign in (1, -1)
         ]
         assert min(map(abs, slopes)) < 1e-6
+
+
+PARALLELOGRAM = """icsolve: 1
+points: {{A: [0, 0], D: [3, 0], G: {{centroid: [B, C]}}}}
+lengths: {{AB: 1, BC: 3, CD: 1}}
+angles: {{AB: {angle}}}
+near: {{B: [0.5, 0.87], C: [3.5, 0.87]}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{pin: [4, 1], at: D}}
+loads: {{{load}}}
+"""
+BALANCED_ISOSCELES = """icsolve: 1
+points: {{A: [0, 0]}}
+lengths: {{AB: {crank}, BC: {rod}}}
+angles: {{AB: {angle}}}
+joints:
+  - {{pin: [1, 2], at: A}}
+  - {{pin: [2, 3], at: B}}
+  - {{pin: [3, 4], at: C}}
+  - {{slide: [4, 1], at: C, along: 0, through: A}}
+loads: {{{load}}}
+{near}
+"""
+
+
+@pytest.mark.parametrize("free", ["unknown", "{unknown: [-20, 380]}", "{unknown: [-20, 380], from: 60}"])
+def test_a_branch_goes_straight_on_through_change_points(free: str) -> None:
+    """A parallelogram passes flat: V = W sin u."""
+    found = positions(PARALLELOGRAM.format(angle=free, load="W: {weight: 10, link: 3, at: G}"))
+    assert [(one.at["angles.AB"], one.stability) for one in found] == [(90.0, "unstable"), (270.0, "stable")]
+
+
+def test_a_sweep_goes_straight_on_through_change_points(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = PARALLELOGRAM.format(angle="60", load="W: {weight: 10, link: 3, at: G}")
+    words = ("sweep", "CASE", "--vary", "angles.AB=-20:380:5", "--find", "rest", "--json")
+    found = json.loads(run(tmp_path, capsys, text, *words))["found"]
+    assert [(one["at"]["angles.AB"], one["stability"]) for one in found] == [
+        (90, "unstable"),
+        (270, "stable"),
+    ]
+
+
+@pytest.mark.parametrize("free", [0, 20, -13])
+def test_it_rests_at_a_change_point_too(free: int) -> None:
+    """A torsion spring alone holds a parallelogram where it is free: k = 5, flat as well."""
+    load = f"T: {{spring: 5, corner: AB, free: {free}, link: 2}}"
+    (one,) = positions(PARALLELOGRAM.format(angle="{unknown: [-60, 60]}", load=load))
+    assert (one.at["angles.AB"], one.stability) == (float(free), "stable")
+    assert one.stiffness is not None
+    assert one.stiffness.value == pytest.approx(5.0, rel=1e-9)
+
+
+def test_at_a_change_point_each_branch_has_its_own_stiffness() -> None:
+    """Bars of 0.5 with 30 down on their joint, a spring of 200 drawing the block to the pivot: in one branch
+    V = 15 sin u + 100 (cos u)^2, in the other, the block on the pivot, V = 15 sin u."""
+    load = "P: {force: 30, link: 2, at: B, angle: -90}, S: {spring: 200, free: 0, link: 4, at: C, to: A}"
+    found = positions(BALANCED_ISOSCELES.format(crank=0.5, rod=0.5, angle="unknown", load=load, near=""))
+    tip = math.degrees(math.asin(15.0 / 200.0))
+    expected = [(tip, -198.875), (90, 185.0), (90, -15.0), (180 - tip, -198.875), (270, 15.0), (270, 215.0)]
+    got = sorted((one.at["angles.AB"], one.stiffness.value) for one in found if one.stiffness is not None)
+    for one, other in zip(got, sorted(expected), strict=True):
+        assert one == pytest.approx(other, rel=1e-9)
+
+
+def test_a_branch_that_balances_everywhere_is_said_and_the_others_are_listed() -> None:
+    """A force on the block does no work while that is on the pivot; else V = -2 P cos u."""
+    load = "P: {force: 10, link: 4, at: C, angle: 0}"
+    answer = icsolve.solve(
+        icsolve.load(BALANCED_ISOSCELES.format(crank=1, rod=1, angle="unknown", load=load, near=""))
+    )
+    assert answer.positions is not None
+    assert [(one.at["angles.AB"], one.stability) for one in answer.positions] == [
+        (0.0, "stable"),
+        (180.0, "unstable"),
+    ]
+    assert answer.notes == (
+        "in 1 of the 2 ways in which the figure assembles the loads balance in every position; the positions "
+        "of the others are listed.",
+    )
+
+
+def test_at_a_limit_a_position_is_stable_by_the_motion_that_is_left(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A crank of twice its rod is turned to at most 30 deg, where its weight stands highest."""
+    told = {"crank": 2, "rod": 1, "load": "W: {weight: 10, link: 2, at: B}"}
+    found = positions(BALANCED_ISOSCELES.format(angle="unknown", near="", **told))
+    kinds = {30: "unstable", 150: "unstable", 210: "stable", 330: "stable"}
+    assert {one.at["angles.AB"]: one.stability for one in found} == kinds
+    assert [one.why for one in found if one.stiffness is None] == [AT_LIMIT] * 4
+    text = BALANCED_ISOSCELES.format(angle="10", near="near: {C: [3, 0]}", **told)
+    words = ("sweep", "CASE", "--vary", "angles.AB=-40:40:5", "--find", "rest", "--json")
+    swept = json.loads(run(tmp_path, capsys, text, *words))["found"]
+    assert [(one["at"]["angles.AB"], one["stability"]) for one in swept] == [
+        (-30, "stable"),
+        (30, "unstable"),
+    ]
+
+
+def test_loads_that_balance_at_a_turning_point_do_so_exactly() -> None:
+    """W L cos u = T just there where cos u = 1, an end of the range or not."""
+    for free in ("unknown", "{unknown: [-90, 90]}", "{unknown: [0, 90]}"):
+        (one,) = positions(pendulum("T: {torque: 20, link: 2}", free))
+        assert (one.at["angles.AB"], one.stability) == (0.0, "neutral")
 
 
 BAR_WITH_BLOCK = """icsolve: 1

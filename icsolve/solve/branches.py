@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
@@ -23,6 +24,8 @@ from icsolve.solve.load_function import LoadFunction
 from icsolve.tuples import NamedTuple
 
 SAMPLES = 720
+CLOSER = 3
+"""So many times the place where a branch comes nearest to `near` is looked for eight times more closely."""
 EVEN = 0.99
 """Two branches whose distances from `near` have at least this ratio are about equally near."""
 
@@ -34,14 +37,14 @@ class Branches:
         self.functions, self.low, self.high = functions, low, high
         self.values = np.linspace(low, high, SAMPLES + 1)
         self.names = [name for name in functions[0].places if all(name in f.places for f in functions)]
-        self.places = np.array([self._places(f) for f in functions])  # (modes, samples, 2 points)
+        self.places = np.array([self._places(f, self.values) for f in functions])  # (mode, sample, 2 points)
         self.whole = np.array([self._assembles(f) for f in functions])  # (modes, samples)
         self.ids = self._followed()
 
-    def _places(self, function: LoadFunction) -> Array:
+    def _places(self, function: LoadFunction, values: Array) -> Array:
         nodes = [k for name in self.names for k in function.places[name]]
-        found = Code(function.record, nodes).run(function.given(self.values), len(self.values))
-        columns = [np.array(np.broadcast_to(v, len(self.values))) for v in found]
+        found = Code(function.record, nodes).run(function.given(values), len(values))
+        columns = [np.array(np.broadcast_to(v, len(values))) for v in found]
         ox, oy, scale = function.compiled.scene.frame
         origin = np.tile([ox, oy], len(self.names))
         return np.array(np.stack(columns, axis=1) / scale + origin)
@@ -102,13 +105,46 @@ class Branches:
         return bool(gap <= 4.0 * step)
 
     def _closed(self, ids: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
-        """A whole turn ends where it begins: what is one there is one branch."""
+        """A whole turn ends where it begins: what goes straight on there is one branch."""
         if self.high - self.low != 360.0 or not self.functions[0].path.startswith("angles."):
             return ids
-        for m in range(len(ids)):
-            if ids[m, 0] >= 0 and ids[m, -1] >= 0 and ids[m, 0] != ids[m, -1]:
-                ids[ids == ids[m, -1]] = ids[m, 0]
+        for m in np.flatnonzero(ids[:, -1] >= 0).tolist():
+            ahead = self._ahead(ids, m, SAMPLES + 1)
+            off = np.where(self.whole[:, 1], np.abs(self.places[:, 1] - ahead).max(axis=1), np.inf)
+            n = int(np.argmin(off))
+            if self.whole[m, 0] and np.isfinite(off[n]):
+                ids[ids == ids[m, -1]] = ids[n, 1]
         return ids
+
+    def samples(self, branch: int) -> list[tuple[int, float]]:
+        """The sampled modes and values of a branch, by rising value."""
+        pairs = sorted((int(k), int(m)) for m, k in np.argwhere(self.ids == branch))
+        return [(m, float(self.values[k])) for k, m in pairs]
+
+    def parts(self, m: int, without: frozenset[int]) -> list[tuple[float, float]]:
+        """Where a mode is on none of some branches: between change points, and to the ends of the range."""
+        if not without & set(self.ids[m].tolist()):
+            slack = 1e-9 * (self.high - self.low)
+            return [(self.low - slack, self.high + slack)]
+        left = [int(i) in without for i in self.ids[m]]
+        cuts = [k for k in range(SAMPLES) if left[k] != left[k + 1]]
+        ends = [self.low, *(self._change_point(m, k, left[k]) for k in cuts), self.high]
+        return [(a, b) for n, (a, b) in enumerate(pairwise(ends)) if left[0] == bool(n % 2) and a < b]
+
+    def _change_point(self, m: int, k: int, first: bool) -> float:
+        """Between two samples, where a mode comes nearest to the one that takes on its branch."""
+        others = [n for n in range(len(self.ids)) if n != m and self.ids[n, k + 1] == self.ids[m, k]]
+        if not others:
+            return float(self.values[k if first else k + 1])
+        low, high = float(self.values[k]), float(self.values[k + 1])
+        while True:
+            values = np.linspace(low, high, 33)
+            one, two = (self._places(self.functions[n], values) for n in (m, others[0]))
+            least = int(np.argmin(np.abs(one - two).max(axis=1)))
+            closer = float(values[max(least - 1, 0)]), float(values[min(least + 1, 32)])
+            if closer[1] - closer[0] >= 0.5 * (high - low):
+                return 0.5 * (low + high)
+            low, high = closer
 
     def assembling(self, m: int) -> list[float]:
         """The sampled values at which a mode assembles."""
@@ -128,14 +164,27 @@ class Branches:
 
         Raises SceneError where two are about equally near.
         """
-        off = np.zeros(self.whole.shape)
-        for name, (x, y) in case.near.items():
-            if name in self.names:
-                at = 2 * self.names.index(name)
-                off += (self.places[:, :, at] - x) ** 2 + (self.places[:, :, at + 1] - y) ** 2
-        off[~self.whole] = np.inf
+        meant = {2 * self.names.index(name): at for name, at in case.near.items() if name in self.names}
+
+        def off(places: Array) -> Array:
+            columns = ((k + axis, at[axis]) for k, at in meant.items() for axis in (0, 1))
+            squares = [(places[..., k] - c) ** 2 for k, c in columns]
+            return np.asarray(np.sqrt(np.sum(squares, axis=0)))
+
+        sampled = np.where(self.whole, off(self.places), np.inf) if meant else np.zeros(self.whole.shape)
         ids = [int(i) for i in np.unique(self.ids) if i >= 0]
-        return frozenset({ids[nearest(case, [float(np.sqrt(off[self.ids == i].min())) for i in ids])]})
+        best = []
+        for i in ids:
+            best_one = int(np.argmin(np.where(self.ids == i, sampled, np.inf)))
+            m, k = divmod(best_one, SAMPLES + 1)
+            least, at, step = float(sampled[m, k]), float(self.values[k]), (self.high - self.low) / SAMPLES
+            for _ in range(CLOSER if meant else 0):
+                values = np.clip(np.linspace(at - step, at + step, 33), self.low, self.high)
+                there = np.nan_to_num(off(self._places(self.functions[m], values)), nan=np.inf)
+                least, at = min((least, at), (float(there.min()), float(values[np.argmin(there)])))
+                step /= 8.0
+            best.append(least)
+        return frozenset({ids[nearest(case, best)]})
 
 
 def nearest(case: Case, off: Sequence[float]) -> int:

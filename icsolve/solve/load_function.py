@@ -128,7 +128,7 @@ def load_functions(case: Case, path: str, low: float, high: float) -> tuple[list
         samples = _assembling(case, path, order, steps, values)
         if counts:  # a torsion spring's angle is counted from the middle of the range
             samples.sort(key=lambda value: abs(value - middle))
-        for value in samples[:3]:
+        for value in (*samples[:3], *samples[3::16]):  # somewhere else than where a load has no direction
             written = given_at(case, path, value)
             figure = Figure(frame_of(written), {}, steps)
             placed, _ = placed_with_margins(figure, order, written)
@@ -286,7 +286,7 @@ def _on_sheet(
             f"the mechanism has {motions.mobility} degrees of freedom: as many data of its figure have to be "
             "unknown as it has.",
         )
-    wrenches = power.wrenches(case, scene.frame, scene.points, record)
+    wrenches = power.wrenches(case, scene.frame, scene.points, record, vectors=True)
     balance = power.balance(wrenches, motions.twists, 1)
     total = power.known_power(balance, 0, record)
     rate, poses = _rate(scene, motions.twists, given)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_left
 from collections.abc import Iterator, Sequence
+from contextlib import suppress
 from decimal import Decimal
 from itertools import product
 
@@ -16,6 +17,7 @@ from icsolve.assembly.modes import ways_of
 from icsolve.case import (
     Case,
     Coordinates,
+    Torque,
     TorsionSpring,
 )
 from icsolve.case.joints import Mesh, Rolling
@@ -24,7 +26,15 @@ from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.replay import Code
 from icsolve.scene import solve_scene
 from icsolve.solve.branches import Branches, isolate, nearest
-from icsolve.solve.followed import NOT_ALL, LedMechanism, converted, exchanged, led_mechanisms, nearest_of
+from icsolve.solve.followed import (
+    NOT_ALL,
+    LedMechanism,
+    converted,
+    exchanged,
+    led_mechanisms,
+    nearest_of,
+    rate_of,
+)
 from icsolve.solve.load_function import (
     LoadFunction,
     TogetherError,
@@ -40,6 +50,10 @@ from icsolve.sweep.numbers import find_number
 from icsolve.tuples import NamedTuple, replace
 
 STEPS = 64
+BESIDE = 5e-4
+"""Beside a change point a branch is looked at in steps of this fraction of the range."""
+APART = 1e-6
+"""Points of two ways of assembling differ by more than this fraction of the figure's size."""
 STRETCHES = 4
 """So many times the range of a length or a coordinate is made ten times longer."""
 JUMP = 1e-5
@@ -86,29 +100,25 @@ def _find_in_modes(
     branches = Branches(functions, low, high)
     kept = branches.nearest(case) if case.near else None
     notes: list[str] = []
-    modes = [n for n in range(len(functions)) if kept is None or kept & set(branches.ids[n].tolist())]
-    meant, open_modes = [], []
-    for n in modes:
-        state = _balances_everywhere(functions[n], branches.assembling(n))
+    meant = frozenset(branches.ids[branches.ids >= 0].tolist()) if kept is None else kept
+    states = {branch: _balances_everywhere(functions, branches.samples(branch)) for branch in sorted(meant)}
+    for state in states.values():
         if isinstance(state, SceneError):
             notes.append(f"in one way in which the figure assembles it has no answer: {state.message}")
-            continue
-        meant.append(n)
-        if not state:
-            open_modes.append(n)
-    balanced = len(meant) - len(open_modes)
-    if balanced and not open_modes:
+    found_open = frozenset(branch for branch, state in states.items() if state is False)
+    balanced = sum(state is True for state in states.values())
+    if balanced and not found_open:
         return Search(path, (), (), True, None)
     if balanced:
-        notes.append(_balanced(balanced, len(meant)))
-    stretches = [(branches, kept)]
+        notes.append(_balanced(balanced, balanced + len(found_open)))
+    stretches = [(branches, kept if found_open == meant else found_open)]
     if span is None and not path.startswith("angles."):
-        stretches += _beyond(branches, kept)
+        stretches += _beyond(*stretches[0])
         notes += _unbounded(path, stretches)
     found = [
         rest
         for part, meant_there in stretches
-        for _, rest in search_modes(functions, part, meant_there, span is None, open_modes, notes)
+        for _, rest in search_modes(functions, part, meant_there, span is None, notes)
     ]
     if not complete:
         notes.append(f"the figure has more than {len(functions)} ways of assembling: not all were searched.")
@@ -218,11 +228,37 @@ def find_along(case: Case, along: str, low: float, high: float) -> list[Rest]:
     """The positions of equilibrium along a sweep of an ordinary case: by a datum that poses it, or by
     turning a link from the position as written (degrees)."""
     bare = replace(case, motion=(), expect=())
+    value = 0.0 if along in case.links else find_number(case, along).value
+    wide = (min(low, value), max(high, value))
     try:
-        function = moved_by(bare, along, (low, high))
+        function = moved_by(bare, along, wide)
     except TogetherError:
         return LedMechanism(bare, _own(bare, along), (low, high)).rests()
-    return [rest for _, rest in search_modes([function], Branches([function], low, high), None, False)]
+    functions, kept = [function], None
+    branches = Branches(functions, low, high)
+    if function.compiled.setting.moves and along not in case.links:
+        functions += _other_ways(bare, function, value, wide)
+        branches = Branches(functions, *wide)
+        kept = frozenset({branches.on(0, value)})
+    found = (rest for _, rest in search_modes(functions, branches, kept, False))
+    rests = [rest for rest in found if low <= rest.value <= high]
+    return _distinct(sorted(rests, key=lambda rest: rest.value))
+
+
+def _other_ways(
+    case: Case, function: LoadFunction, value: float, span: tuple[float, float]
+) -> list[LoadFunction]:
+    """The other ways in which the figure as written assembles: beyond a change point the mechanism goes on in
+    one of them."""
+    own = solve_scene(scene_at(function, value)).points
+    size = max(abs(c) for at in own.values() for c in at) or 1.0
+    found = []
+    with suppress(SceneError):
+        for way in ways_of(case).ways:
+            if any(math.dist(at, way.points[name]) > APART * size for name, at in own.items()):
+                with suppress(SceneError):  # a load may have no direction in it
+                    found.append(moving_function(replace(case, near=way.near), function.path, span=span))
+    return found
 
 
 def _own(case: Case, along: str) -> str:
@@ -343,18 +379,21 @@ def search_modes(
     branches: Branches,
     kept: frozenset[int] | None,
     whole: bool,
-    modes: Sequence[int] | None = None,
     notes: list[str] | None = None,
 ) -> list[tuple[int, Rest]]:
-    """The positions of some modes (None: of all), each with its mode; ``kept`` has the branches that are
-    meant, and ``notes`` takes sentences on what stays open."""
+    """The positions of all modes, each with its mode; ``kept`` has the branches that are meant (None: all),
+    and ``notes`` takes sentences on what stays open."""
     found: list[tuple[int, Rest]] = []
     low, high = branches.low, branches.high
     slack = 1e-9 * (high - low)
     path = functions[0].path
-    for n in range(len(functions)) if modes is None else modes:
+    limits = _limits(functions, branches)
+    every = frozenset(branches.ids[branches.ids >= 0].tolist())
+    left_out = frozenset[int]() if kept is None else every - kept
+    modes = [n for n in range(len(functions)) if kept is None or kept & set(branches.ids[n].tolist())]
+    for n, part in [(mode, part) for mode in modes for part in branches.parts(mode, left_out)]:
         function = functions[n]
-        search = isolate(function, low - slack, high + slack)
+        search = isolate(function, *part)
         if not search.complete and notes is not None:
             doubt = f"{path} was searched from {low:g} to {high:g}, but not proven to have no other position."
             notes.append(doubt)
@@ -363,12 +402,19 @@ def search_modes(
             if position is not None and (kept is None or branches.on(n, position.value) in kept):
                 found.append((n, position))
         for cluster in search.open_cells if search.complete else ():
-            value = _in_open_cells(function, cluster)
-            inside = value is not None and low - slack <= value[0] <= high + slack
-            if value is not None and inside and (kept is None or branches.on(n, value[0]) in kept):
-                at = _within_a_turn(*value) if whole and path.startswith("angles.") else value[0]
-                found.append((n, described(function, at, value[1])))
-    found += [(-1, position) for position in _at_limits(functions, branches, kept)]
+            ends = [limit.value for limit in limits if limit.mode == n]
+            if any(cluster[0] - slack <= value <= cluster[1] + slack for value in ends):
+                continue
+            if not _changes(function, cluster):
+                position = _in_range(function, _in_open_cells(function, cluster), (low, high), whole)
+                if position is not None and (kept is None or branches.on(n, position.value) in kept):
+                    found.append((n, position))
+                continue
+            for step in (-BESIDE * (high - low), BESIDE * (high - low)):
+                beside = branches.on(n, 0.5 * (cluster[0] + cluster[1]) + 8.0 * step)
+                if beside >= 0 and (kept is None or beside in kept):
+                    found += [(n, one) for one in _at_change_point(function, cluster, step, (low, high))]
+    found += [(-1, position) for position in _at_limits(functions, branches, kept, limits)]
     return found
 
 
@@ -387,15 +433,17 @@ def whole_range(case: Case, path: str) -> tuple[float, float]:
     return middle - reach - spread, middle + reach + spread
 
 
-def _balances_everywhere(function: LoadFunction, values: Sequence[float]) -> bool | SceneError:
-    """Whether the loads balance wherever the mode assembles: at places of no meaning, all of them; why
-    nothing can be said where none of these has an answer."""
-    some = [values[len(values) * k // 7] for k in (1, 3, 5)] if len(values) > 6 else list(values)
+def _balances_everywhere(
+    functions: Sequence[LoadFunction], samples: Sequence[tuple[int, float]]
+) -> bool | SceneError:
+    """Whether the loads balance in all of a branch: at places of no meaning, all of them; why nothing can be
+    said where none of these has an answer."""
+    some = [samples[len(samples) * k // 7] for k in (1, 3, 5)] if len(samples) > 6 else list(samples)
     refusal: SceneError | None = None
     loads = []
-    for value in some:
+    for mode, value in some:
         try:
-            loads.append(_probe(function, value))
+            loads.append(_probe(functions[mode], value))
         except SceneError as error:
             refusal = error
     if not loads and refusal is not None:
@@ -411,7 +459,13 @@ def _settled(
 ) -> Rest | None:
     """The position in a bracket, to the last digit: between two doubles the power changes its sign."""
     start = _closed_in(function, *bracket)
-    closest = _to_the_last_digit(function, start, bracket)
+    return _in_range(function, _to_the_last_digit(function, start, bracket), span, turns)
+
+
+def _in_range(
+    function: LoadFunction, closest: tuple[float, float] | None, span: tuple[float, float], turns: bool
+) -> Rest | None:
+    """A value and its error as a position; None where it is beyond the range."""
     if closest is None:
         return None
     value, error = closest
@@ -573,7 +627,7 @@ def _units(function: LoadFunction) -> tuple[float, str]:
 
 def _in_open_cells(function: LoadFunction, cluster: tuple[float, float]) -> tuple[float, float] | None:
     """The position in cells that stayed open, where there is one: a zero of higher order, at which the
-    stiffness vanishes too. At a limit and at a change point there is none here."""
+    stiffness vanishes too."""
     low, high = cluster
     width = max(high - low, 4.0 * math.ulp(abs(low) + abs(high)))
     low, high = low - width, high + width
@@ -586,11 +640,75 @@ def _in_open_cells(function: LoadFunction, cluster: tuple[float, float]) -> tupl
         if turning is None:
             return None
         value, error = turning
+        plain = next((v for d in range(13) if abs((v := round(value, d)) - value) <= error), value)
+        if _probe(function, plain) == 0.0:
+            return plain, math.ulp(plain)
         least = abs(_probe(function, value))
     except SceneError:
         return None
     # beside the place the load rises as the square of the distance: so much is left where that is zero
     return turning if least <= 8.0 * beside * (error / (high - low)) ** 2 else None
+
+
+def _changes(function: LoadFunction, cluster: tuple[float, float]) -> bool:
+    """Whether two modes meet in some cells."""
+    width = max(cluster[1] - cluster[0], 4.0 * math.ulp(abs(cluster[0]) + abs(cluster[1])))
+    here = Interval(np.array([cluster[0] - width]), np.array([cluster[1] + width]))
+    margins = enclose(function.record, function.margins, function.enclosed(here))
+    return any(not float(margin.low.flat[0]) > 0.0 for margin in margins)
+
+
+def _at_change_point(
+    function: LoadFunction, cluster: tuple[float, float], step: float, span: tuple[float, float]
+) -> list[Rest]:
+    """The position at a change point, if there is one: the generalised load of a branch goes smoothly on to
+    it (by a polynomial, over some steps from one side), though no scene can be solved there."""
+    middle = 0.5 * (cluster[0] + cluster[1])
+    steps = range(1, 9)
+    beside = [middle + k * step for k in steps]
+    if not all(span[0] <= value <= span[1] for value in beside):
+        return []
+    try:
+        loads = [_generalised(function, value) for value in beside]
+        if not any(loads):
+            return []
+        smooth = np.polynomial.Polynomial.fit(steps, loads, 7, domain=[0, 8], window=[0, 8])
+        roots = smooth.roots()
+        root = float(np.real(roots[np.argmin(np.abs(roots))])) * step
+        error = 1e-9 * abs(step)
+        if abs(root) > cluster[1] - cluster[0] + error:
+            return []
+        value = min(max(middle + root, span[0]), span[1])
+        value = next((v for d in range(13) if abs((v := round(value, d)) - value) <= error), value)
+        here = next(_scenes_near(function, value, step))
+    except (SceneError, StopIteration):
+        return []
+    turns = function.path.startswith("angles.") or function.path in function.case.links
+    stiffness = -float(smooth.deriv()(0.0)) / step * (DEGREES if turns else 1.0)
+    off = 1e-9 * max(map(abs, loads)) / abs(step) * (DEGREES if turns else 1.0)
+    kind = "stable" if stiffness > off else "unstable" if stiffness < -off else "neutral"
+    known = Stiffness(stiffness, _units(function)[1], off)
+    return [here._replace(value=value, error=error, stability=kind, stiffness=known)]
+
+
+def _generalised(function: LoadFunction, value: float) -> float:
+    """The generalised load of the free datum [case units], of the torque that would balance it."""
+    answer = held(scene_at(function, value), function.links, rates=True)
+    assert answer is not None
+    probe, units = answer.case.loads[-1], function.case.units
+    if not isinstance(probe, Torque):
+        return 0.0
+    turns = function.path.startswith("angles.") or function.path in function.case.links
+    ratio = float((answer.rates or {})[probe.link]) / rate_of(answer, function.path)
+    torque: float = answer.answers[PROBE].value
+    return -torque * ratio * (1.0 if turns else 1.0 / units.torque_per_force_length)
+
+
+def _scenes_near(function: LoadFunction, value: float, step: float) -> Iterator[Rest]:
+    """The scene at a change point, or as near to it as it has an answer."""
+    for part in (0.0, 1e-9, 1e-6, 1e-3):
+        with suppress(SceneError):
+            yield _rest(function, value, 0.0, "", None, "", value + part * step)
 
 
 def _turning_point(function: LoadFunction, low: float, high: float) -> tuple[float, float] | None:
@@ -646,11 +764,13 @@ def _last(function: LoadFunction, inside: float, outside: float) -> float:
 
 
 def _at_limits(
-    functions: Sequence[LoadFunction], branches: Branches, kept: frozenset[int] | None
+    functions: Sequence[LoadFunction],
+    branches: Branches,
+    kept: frozenset[int] | None,
+    limits: Sequence[_Limit],
 ) -> list[Rest]:
     """Rests at limits of the free datum: there two modes meet, and the load changes its sign from one
     to the other along the motion that the mechanism has."""
-    limits = _limits(functions, branches)
     found = []
     for k, one in enumerate(limits):
         for other in limits[k + 1 :]:
@@ -684,7 +804,10 @@ def _between(one: LoadFunction, two: LoadFunction, limit: _Limit) -> list[Rest]:
     rises = (away - far) * way
     stability = "stable" if rises > 0.0 else "unstable" if rises < 0.0 else "neutral"
     error = 4.0 * math.ulp(limit.value)
-    return [_rest(one, limit.value, error, stability, None, AT_LIMIT, last)]
+    try:
+        return [_rest(one, limit.value, error, stability, None, AT_LIMIT)]
+    except SceneError:
+        return [_rest(one, limit.value, error, stability, None, AT_LIMIT, last)]
 
 
 def _fastest(answer: Answer, links: Sequence[str]) -> str:
@@ -723,9 +846,13 @@ def _distinct(found: Sequence[Rest]) -> list[Rest]:
 def _same(one: Rest, other: Rest) -> bool:
     if abs(one.value - other.value) > 4.0 * (one.error + other.error):
         return False
+    if one.stiffness is not None and other.stiffness is not None:  # of two branches, at a change point
+        off = 4.0 * ((one.stiffness.error or 0.0) + (other.stiffness.error or 0.0))
+        if abs(one.stiffness.value - other.stiffness.value) > off + APART * abs(one.stiffness.value):
+            return False
     size = max((abs(c) for at in one.answer.points.values() for c in at), default=1.0)
     theirs = other.answer.points
-    return all(math.dist(at, theirs[name]) <= 1e-6 * size for name, at in one.answer.points.items())
+    return all(math.dist(at, theirs[name]) <= APART * size for name, at in one.answer.points.items())
 
 
 def _nearest(functions: Sequence[LoadFunction], stretches: Sequence[Stretch]) -> float | None:

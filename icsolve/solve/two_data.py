@@ -199,7 +199,7 @@ def _surface(compiled: CompiledSweep, paths: Sequence[str], margins: Sequence[Sc
         )
     inputs = (compiled.inputs[paths[0]], compiled.inputs[paths[1]])
     balance = power.balance(
-        power.wrenches(case, scene.frame, scene.points, record), motions.twists, motions.mobility
+        power.wrenches(case, scene.frame, scene.points, record, vectors=True), motions.twists, 2
     )
     totals = [power.known_power(balance, m, record) for m in (0, 1)]
     slopes = [v for total in totals for v in gradient(record, total, inputs).values()]

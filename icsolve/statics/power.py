@@ -72,7 +72,9 @@ class Wrench(NamedTuple):
     reach: float
 
 
-def wrenches(case: Case, frame: Frame, points: Points, arithmetic: Arithmetic) -> tuple[Wrench, ...]:
+def wrenches(
+    case: Case, frame: Frame, points: Points, arithmetic: Arithmetic, *, vectors: bool = False
+) -> tuple[Wrench, ...]:
     """The unit wrenches of all loads of a case, in its order.
 
     Parameters
@@ -81,6 +83,8 @@ def wrenches(case: Case, frame: Frame, points: Points, arithmetic: Arithmetic) -
     frame : the scale of the frame
     points : by name [frame]; those that `points_of` tells of each load
     arithmetic : of the points
+    vectors : whether the unit of a spring that is free at no length is its own vector [frame], and its gain
+        the case length of a unit of it: the same force, smooth where its points meet
 
     A direction between two points at one place divides by zero; of a spring that is free at no length the
     wrench is zero there.
@@ -89,7 +93,11 @@ def wrenches(case: Case, frame: Frame, points: Points, arithmetic: Arithmetic) -
     result = []
     for load in case.loads:
         source, ratio = source_of(load, by_name, arithmetic)
-        unit, gain = _unit_wrench(load, case, frame, points, arithmetic)
+        if vectors and may_vanish(load):
+            (ax, ay), (bx, by) = (points[name] for name in points_of(load))
+            unit, gain = force_wrench((bx - ax, by - ay), (ax, ay)), 1.0 / frame.scale
+        else:
+            unit, gain = _unit_wrench(load, case, frame, points, arithmetic)
         measure = frame.scale if isinstance(load, Torque | TorsionSpring) else 1.0
         reach = magnitude(gain) + _beside(load, case)
         on = reacting(case, load)
