@@ -10,15 +10,17 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import replace
+from random import Random
 
 import pytest
+import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from cams import HEAD, sliding, swinging, table
 from icsolve.answer import Answer
 from icsolve.cams.contact_search import places_of
-from icsolve.cams.curve import placed
+from icsolve.cams.curve import crosses_itself, placed
 from icsolve.cams.pieces import spline
 from icsolve.case import Motion
 from icsolve.case.profiles import points_of
@@ -28,6 +30,7 @@ from icsolve.read import load
 from icsolve.read.profiles import PROFILES as KEYS
 from icsolve.solve import solve
 from icsolve.sweep.numbers import with_numbers
+from sizes import MORE
 from texts import PAGES
 
 E, R, ROLLER = 20.0, 40.0, 10.0
@@ -505,3 +508,15 @@ def test_a_roller_whose_centre_lies_on_a_corner_is_refused() -> None:
     for radius in ("3", "1e-9"):
         with pytest.raises(SceneError):
             solve(load(text % radius))
+
+
+@pytest.mark.parametrize("side", [3, 4, 7])
+def test_a_line_that_meets_itself_is_told_exactly(side: int) -> None:
+    """On a coarse grid corners touch lines, lines lie on each other and three points on one line."""
+    rng = Random(side)
+    for _ in range(300 * MORE):
+        points = [(float(rng.randrange(side)), float(rng.randrange(side))) for _ in range(rng.randint(3, 7))]
+        if all(a != b for a, b in zip(points, [*points[1:], points[0]], strict=True)):
+            assert crosses_itself(points) != shapely.LinearRing(points).is_simple, points
+    nearly = [(0.0, 0.0), (1.0, 0.1), (2.0, 0.2), (1.0, 0.1 + 2.0**-54)]  # by the last bit of a corner
+    assert crosses_itself(nearly) != shapely.LinearRing(nearly).is_simple

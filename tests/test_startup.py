@@ -47,6 +47,18 @@ def test_one_scene_needs_neither_numpy_nor_shapely(
     assert not {name for name in modules if name.partition(".")[0] in {"numpy", "shapely"}}
 
 
+CAMS = ["tangent_cam", "square_cam", "oscillating_flat_follower", "offset_roller_follower"]
+
+
+@pytest.mark.parametrize("name", CAMS)
+def test_one_scene_of_a_cam_needs_neither(name: str) -> None:
+    """Arcs, corners, a disk, a table of radii: contacts are found by closed forms and plain loops."""
+    modules = imported("-m", "icsolve", "solve", f"cases/cams/{name}.yaml")
+    assert "icsolve.cams.solving" in modules
+    assert not {name for name in modules if name.partition(".")[0] in {"numpy", "shapely", "fractions"}}
+    assert "icsolve.statics.homotopy" not in modules
+
+
 def test_importing_the_library_imports_no_room() -> None:
     modules = imported("-c", "import icsolve; icsolve.__version__")
     assert {name for name in modules if name.partition(".")[0] in {"icsolve", "yaml", "click"}} == {"icsolve"}

@@ -6,7 +6,7 @@ Where a follower touches a profile: the gap between the two, the point, the norm
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
 from icsolve.cams.curve import Body, Curve, Foot
 from icsolve.cams.pieces import TURN, Point
@@ -32,6 +32,10 @@ class Shift(NamedTuple):
         """The way in which a point of the follower moves."""
         return self.along
 
+    def fastest(self, curve: Curve, body: Body) -> float:
+        """Most by which the gap changes, over the way that the follower is moved."""
+        return 1.0
+
     def reach(self, curve: Curve, body: Body) -> tuple[float, float]:
         """Lengths between which it can touch the profile."""
         along = [_dot(p, self.along) - _dot(body.at, self.along) for p, _, _ in curve.chords]
@@ -55,6 +59,13 @@ class Turn(NamedTuple):
     def velocity(self, at: Point) -> Point:
         """The way in which a point of the follower moves."""
         return (self.about[1] - at[1], at[0] - self.about[0])
+
+    def fastest(self, curve: Curve, body: Body) -> float:
+        """Most by which the gap changes, over the angle by which the follower is turned [case length]."""
+        own = math.dist(body.at, self.about)
+        if body.kind != "flat face":
+            return own
+        return own + max(math.dist(p, self.about) for p, _, _ in curve.chords) + 0.01 * curve.size
 
     def reach(self, curve: Curve, body: Body) -> tuple[float, float]:
         """A whole turn; it starts where samples do not fall on round angles."""
@@ -84,8 +95,8 @@ class Candidate(NamedTuple):
 def candidates(curve: Curve, body: Body, freedom: Freedom) -> list[Candidate]:
     """Every position in which the follower touches the profile, along its freedom.
 
-    Found where the gap changes its sign between 720 samples, then closed in by Brent's method: positions
-    nearer to each other than the samples may be missed.
+    Found where the gap changes its sign between 720 places, then closed in by Brent's method: positions
+    nearer to each other than these may be missed.
     """
     sides = (1.0, -1.0) if body.kind == "flat face" else (1.0,)
     return [way for side in sides for way in candidates_on(curve, body, freedom, side)]
@@ -126,24 +137,26 @@ def candidates_on(curve: Curve, body: Body, freedom: Freedom, side: float) -> li
 
 
 def _zeros(curve: Curve, body: Body, freedom: Freedom, side: float) -> Iterator[tuple[float, float]]:
-    """Where the gap changes its sign, and whether it grows there: a rough look at samples, then exactly."""
+    """Where the gap changes its sign between samples, and whether it grows there.
+
+    As far as the gap is wide it can't close on the way: samples are left out there.
+    """
 
     def gap(by: float) -> float:
         return gap_of(curve, freedom.moved(body, by), side)[0]
 
     low, high = freedom.reach(curve, body)
     step = (high - low) / SAMPLES
-    rough = gaps_of(curve, [freedom.moved(body, low + k * step) for k in range(SAMPLES + 1)], side)
-    for k in range(SAMPLES):
-        if rough[k] * rough[k + 1] <= 0.0 and rough[k] != rough[k + 1]:
-            a, b = low + k * step, low + (k + 1) * step
-            at_a, at_b = gap(a), gap(b)
-            for _ in range(2):
-                if at_a * at_b > 0.0:
-                    a, b = a - step, b + step
-                    at_a, at_b = gap(a), gap(b)
-            if at_a * at_b <= 0.0 and at_a != at_b:
-                yield zero_between(gap, a, b, at_a, at_b), math.copysign(1.0, at_b - at_a)
+    most = 1.01 * freedom.fastest(curve, body) * step
+    k, at_a = 0, gap(low)
+    while k < SAMPLES:
+        left = SAMPLES - k
+        k += left if abs(at_a) >= left * most else max(int(abs(at_a) / most), 1)
+        at_b = gap(low + k * step)
+        if at_a * at_b < 0.0 or at_b == 0.0 != at_a:
+            by = zero_between(gap, low + (k - 1) * step, low + k * step, at_a, at_b)
+            yield by, math.copysign(1.0, at_b - at_a)
+        at_a = at_b
 
 
 def _face_shifted(curve: Curve, body: Body, freedom: Shift, side: float) -> Iterator[Candidate]:
@@ -192,26 +205,6 @@ def gap_of(curve: Curve, body: Body, side: float) -> tuple[float, Foot]:
         return way[0] * x + way[1] * y, foot
     height, foot = curve.height(body.at)
     return height - body.radius, foot
-
-
-def gaps_of(curve: Curve, bodies: Sequence[Body], side: float) -> list[float]:
-    """The gaps of a follower in several positions [case length], roughly: between it and the chords of the
-    profile.
-    """
-    import numpy as np
-    import shapely
-
-    at = np.array([body.at for body in bodies])
-    if bodies[0].kind == "flat face":
-        way = side * np.array([(-body.face[1], body.face[0]) for body in bodies])
-        corners = np.array([p for p, _, _ in curve.chords])
-        rough = (way * at).sum(axis=1) - (way @ corners.T).max(axis=1)
-    else:
-        inside = shapely.contains_xy(curve.inside, at[:, 0], at[:, 1])
-        apart = shapely.distance(curve.inside.exterior, shapely.points(at))
-        rough = np.where(inside, -apart, apart) - bodies[0].radius
-    found: list[float] = rough.tolist()
-    return found
 
 
 def meeting_of(curve: Curve, body: Body, side: float, what: str) -> Meeting:

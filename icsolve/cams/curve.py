@@ -1,4 +1,4 @@
-"""A profile in one position: exact pieces run ccw, and the chords by which shapely finds a piece quickly.
+"""A profile in one position: exact pieces run ccw, and chords of them for a rough look.
 
 Profiles and followers where the figure puts them, in case units.
 """
@@ -7,7 +7,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
 
 from icsolve.cams.pieces import TURN, CircularArc, Piece, Point, PolarPiece, Spline, Straight, spline, unit
 from icsolve.case import Number
@@ -62,6 +61,17 @@ class Foot(NamedTuple):
         return ax * by - ay * bx >= 0.0
 
 
+Chord = tuple[Point, int, float]
+
+
+class Block(NamedTuple):
+    """Chords that begin within ``reach`` of a point [case length]."""
+
+    middle: Point
+    reach: float
+    chords: tuple[Chord, ...]
+
+
 class Curve(NamedTuple):
     """A closed profile, run ccw.
 
@@ -69,15 +79,14 @@ class Curve(NamedTuple):
     ----------
     pieces : in order
     size : diagonal of the box about it [case length]
-    chords : start, piece and u (of their middles) of the straight lines by which a piece is found
-    tree, inside : shapely's tree of the chords, and its polygon of them
+    chords : start, piece and u (of their middles) of straight lines along it
+    blocks : of a curve of one polar piece its chords by blocks, by which the nearest is found
     """
 
     pieces: tuple[Piece, ...]
     size: float
-    chords: tuple[tuple[Point, int, float], ...]
-    tree: Any
-    inside: Any
+    chords: tuple[Chord, ...]
+    blocks: tuple[Block, ...]
 
     def foot(self, piece: int, u: float) -> Foot:
         """A point of a piece with its normals; an end that is a corner has two."""
@@ -103,13 +112,20 @@ class Curve(NamedTuple):
         return 0.0 if foot.is_corner else self.pieces[foot.piece].radius_at(foot.u)
 
     def nearest(self, p: Point) -> list[Foot]:
-        """The feet of a point, nearest first: of the piece that shapely finds, and of those beside it."""
-        from shapely import Point as ShapelyPoint
-
-        _, piece, u = self.chords[int(self.tree.nearest(ShapelyPoint(p)))]
-        near = dict.fromkeys(n % len(self.pieces) for n in (piece - 1, piece, piece + 1))
-        feet = [self.foot(n, self.pieces[n].nearest(p, u if n == piece else 0.5)) for n in near]
+        """The feet of a point on all pieces, nearest first."""
+        near = self._chord_near(p) if self.blocks else 0.5
+        feet = [self.foot(n, piece.nearest(p, near)) for n, piece in enumerate(self.pieces)]
         return sorted(feet, key=lambda foot: math.dist(foot.point, p))
+
+    def _chord_near(self, p: Point) -> float:
+        """Where the chord lies whose start is nearest to a point; a block that is farther off than the best
+        so far and its own reach has none."""
+        best, u = math.inf, 0.5
+        for apart, block in sorted((math.dist(block.middle, p), block) for block in self.blocks):
+            if apart - block.reach < best:
+                near, _, at = min((math.dist(q, p), n, at) for q, n, at in block.chords)
+                best, u = (near, at) if near < best else (best, u)
+        return u
 
     def farthest(self, way: Point) -> list[Foot]:
         """Where the profile reaches farthest in a direction, and its corners that come next."""
@@ -135,22 +151,57 @@ def curve_of(pieces: Sequence[Piece]) -> Curve | None:
 
     Pieces in cw order are turned round. None where it crosses itself, or has fewer than three chords.
     """
-    from numpy import errstate
-    from shapely import LinearRing, Polygon, STRtree, linestrings, prepare
-
     size = _size(pieces)
     joined = _joined(pieces, size)
     chords = tuple(_chords(joined))
     points = [p for p, _, _ in chords]
-    with errstate(all="ignore"):  # a size that overflows is no simple line
-        if len(points) < 3 or not LinearRing(points).is_simple:
-            return None
+    if not size < math.inf or len(points) < 3 or (len(joined) > 1 and crosses_itself(points)):
+        return None
     if _area(points) < 0.0:
         return curve_of([piece.reversed() for piece in reversed(joined) if not isinstance(piece, PolarPiece)])
-    lines = linestrings([[p, points[(n + 1) % len(points)]] for n, p in enumerate(points)])
-    inside = Polygon(points)
-    prepare([inside, inside.exterior])
-    return Curve(joined, size, chords, STRtree(lines), inside)
+    return Curve(joined, size, chords, tuple(_blocks(chords)) if isinstance(joined[0], PolarPiece) else ())
+
+
+def crosses_itself(points: Sequence[Point]) -> bool:
+    """Whether a closed line through points meets itself away from its corners; decided exactly."""
+    n = len(points)
+    lines = sorted(
+        (min(a[0], b[0]), max(a[0], b[0]), k, a, b)
+        for k, (a, b) in enumerate(zip(points, [*points[1:], points[0]], strict=True))
+    )
+    for place, (_, last, k, a, b) in enumerate(lines):
+        for first, _, m, c, d in lines[place + 1 :]:
+            if first > last:
+                break
+            if max(min(a[1], b[1]), min(c[1], d[1])) > min(max(a[1], b[1]), max(c[1], d[1])):
+                continue
+            if (k - m) % n in (1, n - 1):
+                corner, (p, q) = (c, (a, d)) if b == c else (a, (b, c))
+                if not _turn(p, corner, q) and _dot(_from(corner, p), _from(corner, q)) > 0.0:
+                    return True
+            elif _turn(a, b, c) * _turn(a, b, d) <= 0 and _turn(c, d, a) * _turn(c, d, b) <= 0:
+                return True
+    return False
+
+
+def _turn(a: Point, b: Point, c: Point) -> int:
+    """1 where c lies left of the line from a to b, -1 right of it, 0 on it."""
+    left, right = (b[0] - a[0]) * (c[1] - a[1]), (b[1] - a[1]) * (c[0] - a[0])
+    if abs(left - right) > ROUNDING * (abs(left) + abs(right)):
+        return 1 if left > right else -1
+    from fractions import Fraction
+
+    (ax, ay), (bx, by), (cx, cy) = (map(Fraction, p) for p in (a, b, c))
+    exact = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
+    return (exact > 0) - (exact < 0)
+
+
+ROUNDING = 2.0**-50
+"""Of the difference of two products of differences, over their sizes: more than it can be."""
+
+
+def _from(a: Point, b: Point) -> Point:
+    return b[0] - a[0], b[1] - a[1]
 
 
 def _size(pieces: Sequence[Piece]) -> float:
@@ -170,11 +221,22 @@ def _joined(pieces: Sequence[Piece], size: float) -> tuple[Piece, ...]:
     return tuple(found)
 
 
-def _chords(pieces: Sequence[Piece]) -> Iterator[tuple[Point, int, float]]:
+def _chords(pieces: Sequence[Piece]) -> Iterator[Chord]:
     for n, piece in enumerate(pieces):
         count = piece.chords()
         for k in range(count):
             yield piece.at(k / count), n, (k + 0.5) / count
+
+
+BLOCK = 24
+"""Chords of a block: about the root of their number."""
+
+
+def _blocks(chords: Sequence[Chord]) -> Iterator[Block]:
+    for first in range(0, len(chords), BLOCK):
+        some = tuple(chords[first : first + BLOCK])
+        middle = some[len(some) // 2][0]
+        yield Block(middle, max(math.dist(middle, p) for p, _, _ in some), some)
 
 
 def _area(points: Sequence[Point]) -> float:

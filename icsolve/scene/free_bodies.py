@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from icsolve.answer import Answer
 from icsolve.errors import SceneError
 from icsolve.numbers.arithmetic import FLOATS
 from icsolve.scene.parts import AnswerBuilder, speed_of
 from icsolve.scene.program import EvaluatedScene, Evaluation, Program, evaluate_still, plain, points_shown
-from icsolve.statics.error_bound import SceneOnBalls
 from icsolve.statics.free_bodies import FreeBodies, free_bodies
-from icsolve.statics.friction import Enclose, solved
-from icsolve.statics.friction import FrictionScene as Rubbing
 from icsolve.statics.friction_interface import has_friction
 from icsolve.statics.power import Value, is_unknown
 from icsolve.statics.reaction_basis import Position, rope_ties
+
+if TYPE_CHECKING:
+    from icsolve.statics.error_bound import SceneOnBalls
+    from icsolve.statics.friction import Enclose
 
 T = TypeVar("T")
 
@@ -37,6 +38,7 @@ def _bodies(found: Evaluation, power: Mapping[str, tuple[float, float]]) -> Free
 
 def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
     """The answer with friction, from free bodies; its motion or the range in which it holds."""
+    from icsolve.statics.friction import FrictionScene, solved
 
     def answer_with(values: Mapping[str, Value]) -> Answer:
         parts.given = dict(values)
@@ -44,12 +46,13 @@ def with_friction(parts: AnswerBuilder, reactions: bool) -> Answer:
 
     outcome = parts.outcome
     position = _position(parts.first._replace(outcome=outcome, arithmetic=FLOATS))
-    scene = Rubbing(position, parts.figure.frame, outcome.balance, outcome.solution, parts.speed)
+    scene = FrictionScene(position, parts.figure.frame, outcome.balance, outcome.solution, parts.speed)
     return solved(scene._replace(traced=parts.traced, enclose=_enclose(parts)), answer_with, reactions)
 
 
 def _enclose(parts: AnswerBuilder) -> Enclose:
     """Asks the scene on balls."""
+    from icsolve.statics.error_bound import SceneOnBalls
 
     def placed(found: Evaluation) -> SceneOnBalls:
         return SceneOnBalls(_position(found), found.outcome.balance, speed_of(found), found.arithmetic)

@@ -266,10 +266,10 @@ class _Line:
         if radius:
             import shapely
 
-            apart = shapely.distance(curve.inside.exterior, shapely.points(self.x, self.y))
-            self.good = ~shapely.contains_xy(curve.inside, self.x, self.y) & (
-                apart > radius - CLOSE * self.size
-            )
+            inside = shapely.Polygon([p for p, _, _ in curve.chords])
+            shapely.prepare([inside, inside.exterior])
+            apart = shapely.distance(inside.exterior, shapely.points(self.x, self.y))
+            self.good = ~shapely.contains_xy(inside, self.x, self.y) & (apart > radius - CLOSE * self.size)
 
     def at(self, pieces: Which, u: Array) -> tuple[Array, Array, Array, Array]:
         """Places and normals on the pieces."""
