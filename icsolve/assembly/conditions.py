@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 from icsolve.assembly.loci import length_of
 from icsolve.assembly.refusals import Miss, clash, datum_words, joined, measure
-from icsolve.assembly.steps import Given, leading_to
+from icsolve.assembly.steps import leading_to
 from icsolve.assembly.workspace import (
     CORNER,
     GUIDE,
@@ -28,13 +28,13 @@ from icsolve.assembly.workspace import (
     Workspace,
     X,
     Y,
-    data_in,
     number_of,
 )
-from icsolve.case import Case, Coordinates, Number
+from icsolve.case import Case
 from icsolve.case.joints import Mesh
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Floats, Scalar, turn_of
+from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.given import numbers_in
 from icsolve.screws.joints import Points
 from icsolve.screws.plane import Point
 from icsolve.screws.ropes import rope_parts
@@ -263,26 +263,7 @@ DISTANCES: dict[str, Callable[[Workspace, Datum], Scale]] = {
 
 
 OF_SIZE = 0.002
-MOST_WORK = 50_000
-"""Steps that the propagation of half units may run again; beyond, only the size decides."""
-
-
-class Nudged(Floats):
-    """Floats with one number moved by half a unit of its last decimal."""
-
-    def __init__(self, path: str) -> None:
-        self.path = path
-
-    def _value(self, number: Number) -> float:
-        return number.value + number.half if number.path == self.path else number.value
-
-    def given(self, number: Number) -> float:
-        """The number, moved if it is the one."""
-        return self._value(number)
-
-    def turn(self, number: Number) -> tuple[float, float]:
-        """Cosine and sine, moved if it is the one."""
-        return turn_of(self._value(number))
+"""Data that are off by more of the figure's size contradict it, whatever their last decimals are."""
 
 
 def compare(
@@ -297,45 +278,29 @@ def compare(
         offs[datum] = abs(off)
         if abs(off) <= ROUNDING * size:
             continue
-        if abs(off) > OF_SIZE * size or abs(off) > _allowance(workspace, steps, datum, off, OF_SIZE * size):
+        if abs(off) > OF_SIZE * size or abs(off) > _allowance(workspace, steps, datum):
             return clash(workspace, datum, off, ahead), offs
     return None, offs
 
 
-def _allowance(
-    workspace: Workspace, steps: tuple[Step, ...], datum: Datum, off: float, limit: float
-) -> float:
-    """Sum over the numbers involved of what half a unit of each does to the residual."""
-    cone = leading_to(datum.points, steps)
-    numbers = _numbers(workspace, cone, datum)
-    if len(numbers) * len(cone) > MOST_WORK:
-        return limit
-    total = 0.0
-    for number in numbers:
-        moved = Workspace(workspace.case, workspace.frame, Nudged(number.path))
-        try:
-            for step in cone:
-                step.place(moved)
-            total += abs(residual(moved, datum)[0] - off)
-        except ZeroDivisionError:
-            return limit
-    return total
+def _allowance(workspace: Workspace, steps: tuple[Step, ...], datum: Datum) -> float:
+    """What half a unit of every number involved does to a residual, to first order: the sum of all."""
+    from icsolve.numbers.tape import Tape
 
-
-def _numbers(workspace: Workspace, cone: tuple[Step, ...], datum: Datum) -> list[Number]:
-    """The distinct numbers that a datum and its points come from."""
-    case = workspace.case
-    numbers: dict[str, Number] = {}
-    for each in (datum, *(d for step in cone for d in data_in(step))):
-        if each.kind not in (MEAN, LINE):
-            number = number_of(case, each)
-            numbers[number.path] = number
-    for step in cone:
-        for key in step.targets if isinstance(step, Given) else ():
-            place = case.points[str(key)]
-            if isinstance(place, Coordinates):
-                numbers.update((n.path, n) for n in (place.x, place.y) if n is not None)
-    return list(numbers.values())
+    case, tape = workspace.case, Tape()
+    exact = Workspace(case, workspace.frame, tape)
+    mean = datum.kind == MEAN
+    size = float(len(datum.points) - 1) if mean else DISTANCES.get(datum.kind, _as_it_is)(workspace, datum)[0]
+    try:
+        for step in leading_to(datum.points, steps):
+            step.place(exact)
+        values = [CONDITIONS[datum.kind](exact, datum, part).value for part in ((0, 1) if mean else (0,))]
+        slopes = [tape.back(value).by_path for value in values]
+    except ZeroDivisionError:
+        return math.inf
+    numbers = numbers_in(case.points, case.lengths, case.angles, case.joints, case.ropes)
+    halves = {number.path: number.half for number in numbers}
+    return max(sum(abs(slope) * halves[path] for path, slope in by.items()) for by in slopes) / (size or 1.0)
 
 
 def notes_of(

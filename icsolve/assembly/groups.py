@@ -24,7 +24,7 @@ from icsolve.assembly.workspace import (
 )
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.arithmetic import Scalar, magnitude
 from icsolve.numbers.sparse import Row, eliminate
 from icsolve.structure.plan import matched, strongly_connected
 from icsolve.structure.topology import reached
@@ -174,7 +174,7 @@ def newton_step(values: Sequence[Scalar], rows: Sequence[Row]) -> NewtonStep:
     """The step of Newton's method for n equations with these values, and derivatives by column."""
     n = len(rows)
     found = eliminate([{**row, n: 0.0 - f} for row, f in zip(rows, values, strict=True)], n)
-    sizes = [abs(pivot) for pivot in found.pivots]
+    sizes = [magnitude(pivot) for pivot in found.pivots]
     flatness = 0.0 if found.free else min(sizes) / max(sizes)
     return NewtonStep([found.of(k).get(n, 0.0) for k in range(n)], flatness)
 

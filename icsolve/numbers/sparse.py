@@ -11,7 +11,7 @@ from __future__ import annotations
 import heapq
 from collections.abc import Mapping, Sequence
 
-from icsolve.numbers.arithmetic import Scalar
+from icsolve.numbers.arithmetic import Scalar, magnitude
 from icsolve.numbers.null_space import Vanishes
 from icsolve.tuples import NamedTuple
 
@@ -90,12 +90,14 @@ class _Work:
     ) -> None:
         self.columns = columns
         self.spent, self.vanishes = spent, vanishes
-        self.rows: dict[int, Row] = {n: {c: a for c, a in row.items() if a} for n, row in enumerate(rows)}
+        self.rows: dict[int, Row] = {
+            n: {c: a for c, a in row.items() if _is_there(a)} for n, row in enumerate(rows)
+        }
         self.holders: list[set[int]] = [set() for _ in range(columns)]
         self.sizes: dict[int, float] = {}
         for n, row in self.rows.items():
             inner = self.inner(row)
-            self.sizes[n] = max((abs(row[c]) for c in inner), default=0.0)
+            self.sizes[n] = max((magnitude(row[c]) for c in inner), default=0.0)
             for c in inner:
                 self.holders[c].add(n)
         self.heap = [(len(self.inner(row)), n) for n, row in self.rows.items()]
@@ -131,11 +133,11 @@ class _Work:
                     self.vanishes(row[c], size)  # raises where that is open
                 return None
             inner = certain
-        largest = max((abs(row[c]) for c in inner), default=0.0)
+        largest = max((magnitude(row[c]) for c in inner), default=0.0)
         if self.vanishes is None and largest <= self.spent * size:
             return None
-        fit = [c for c in inner if abs(row[c]) >= THRESHOLD * largest]
-        return min(fit, key=lambda c: (len(self.holders[c]), -abs(row[c]), c))
+        fit = [c for c in inner if magnitude(row[c]) >= THRESHOLD * largest]
+        return min(fit, key=lambda c: (len(self.holders[c]), -magnitude(row[c]), c))
 
     def clear(self, column: int, pivot: Row) -> None:
         """Take the column out of every other row."""
@@ -152,13 +154,19 @@ class _Work:
         """Subtract from one entry, and keep the books."""
         old = row.get(c, 0.0)
         new = old - amount
-        if new:
+        there = _is_there(new)
+        if there:
             row[c] = new
-        elif old:
+        elif c in row:
             del row[c]
         if c < self.columns:
-            self.sizes[n] = max(self.sizes[n], abs(amount))
-            (self.holders[c].add if new else self.holders[c].discard)(n)
+            self.sizes[n] = max(self.sizes[n], magnitude(amount))
+            (self.holders[c].add if there else self.holders[c].discard)(n)
+
+
+def _is_there(value: Scalar) -> bool:
+    """Whether a coefficient is kept: all but zeros; arrays, whatever they hold."""
+    return value != 0.0 if type(value) is float else hasattr(value, "shape") or bool(value)
 
 
 def _back_substituted(pivots: list[tuple[int, Row]], columns: int) -> dict[int, Row]:
