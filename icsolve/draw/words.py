@@ -151,7 +151,8 @@ def answer_sentences(known: Known) -> list[str]:
 
 def position_sentences(known: Known) -> list[str]:
     """Where the mechanism rests, of a case that asks for it."""
-    return [] if known.answer is None else positions_text(known.answer, DIGITS)
+    said = [] if known.answer is None else positions_text(known.answer, DIGITS)
+    return [sentence.replace("*", "·") for sentence in said]
 
 
 def step_sentence(known: Known, steps: Sequence[Step], number: int) -> str:

@@ -228,10 +228,17 @@ function actingOn(state, link) {
   const body = live.body[link];
   const { loads: loadsNow, joints, ropes } = reactionsOf(state);
   const found = [];
-  const add = (name, w, at, sign, known) => {
+  const add = (name, w, at, sign, known, touches = false) => {
     const force = [sign * w[1], -sign * w[0]];
     const place = at && state.places[at] ? state.frame[live.points[at]] : null;
     const couple = sign * w[2] - (place ? place[0] * force[1] - place[1] * force[0] : 0);
+    const size = dot(force, force);
+    if (touches && place && size > 0) {
+      // a rope pulls along its own line, not through the middle of its pulley
+      const foot = [place[0] + (couple * force[1]) / size, place[1] - (couple * force[0]) / size];
+      found.push({ name, force, couple: 0, at: inPicture(fromFrame(foot)), known });
+      return;
+    }
     found.push({ name, force, couple: (couple / live.frame[2]) * live.torque, at: place && state.places[at], known });
   };
   live.bonds.forEach(([a, b], k) => {
@@ -246,7 +253,7 @@ function actingOn(state, link) {
       pair.forEach((one, end) => {
         if (live.body[one] !== body) return;
         if (ropes[k] === null) found.push({ name: `T ${name}`, open: true });
-        else add(`T ${name}`, state.solved.courses[k][n].slice(1, 4).map((v) => v * ropes[k]), points[n + end], end ? -1 : 1, false);
+        else add(`T ${name}`, state.solved.courses[k][n].slice(1, 4).map((v) => v * ropes[k]), points[n + end], end ? -1 : 1, false, true);
       })));
   live.loads.forEach((load, n) => {
     if (live.body[load.on] === body) add(load.name, loadsNow[n], load.at, 1, true);
@@ -260,7 +267,7 @@ function solvedBefore(link) {
   return some.length ? some.map((one) => ({ ...one, at: [one.x[row], one.y[row]], force: [one.u[row], one.v[row]], couple: one.couple[row] })) : null;
 }
 /* What acts on a link, where, and its units; ``least`` is the couple that a unit of force has as rounding. */
-function drawBody(acting, spots, [force, torque], least) {
+function drawBody(link, acting, spots, [force, torque], least) {
   const svg = byId("body-figure");
   svg.textContent = "";
   const said = byId("body-said");
@@ -276,11 +283,17 @@ function drawBody(acting, spots, [force, torque], least) {
     said.textContent = "No point of this link has a place of its own.";
     return;
   }
+  const wheel = figure.querySelector(`[id="wheel-${CSS.escape(link)}"] circle`);
+  const disc = wheel && [carried([link, ...["cx", "cy"].map((c) => Number(wheel.getAttribute(c)))], row), Number(wheel.getAttribute("r"))];
   const middle = (n) => (Math.min(...spots.map((p) => p[n])) + Math.max(...spots.map((p) => p[n]))) / 2;
-  const reach = Math.max(...spots.map((p) => Math.max(Math.abs(p[0] - middle(0)), Math.abs(p[1] - middle(1)))), 1);
+  const reach = Math.max(...spots.map((p) => Math.max(Math.abs(p[0] - middle(0)), Math.abs(p[1] - middle(1)))), disc ? disc[1] : 1);
   const zoom = Math.min(1, 80 / reach);
   const here = (p) => [150 + (p[0] - middle(0)) * zoom, 150 + (p[1] - middle(1)) * zoom];
-  make("path", { class: "body", d: spots.length > 1 ? outlineOf(spots.map(here)) : `M134,140 h32 v20 h-32Z` }, svg);
+  if (disc) {
+    const [x, y] = here(disc[0]);
+    make("circle", { class: "body", cx: f(x), cy: f(y), r: f(disc[1] * zoom) }, svg);
+  }
+  if (!disc || spots.length > 1) make("path", { class: "body", d: spots.length > 1 ? outlineOf(spots.map(here)) : `M134,140 h32 v20 h-32Z` }, svg);
   for (const one of real) {
     const [x, y] = here(one.at || spots[0]);
     const [u, v] = [(one.force[0] / most) * 62, (-one.force[1] / most) * 62];
@@ -337,7 +350,7 @@ function see() {
   const chosen = byId("see-body") ? byId("see-body").value : "";
   byId("body-panel").hidden = !chosen;
   if (!live) {
-    if (chosen) drawBody(solvedBefore(chosen), data.forces.links[chosen].spots.map(([x, y]) => carried([chosen, x, y], row)), data.forces.units, 0);
+    if (chosen) drawBody(chosen, solvedBefore(chosen), data.forces.links[chosen].spots.map(([x, y]) => carried([chosen, x, y], row)), data.forces.units, 0);
     return;
   }
   tellMotions();
@@ -353,7 +366,7 @@ function see() {
   if (state) for (const e of rotations) drawRotation(state, e.dataset.rotation);
   if (state && byId("see-velocities").checked) said = drawVelocities(state);
   if (byId("see-hint").textContent !== said) byId("see-hint").textContent = said;
-  if (chosen) drawBody(state && actingOn(state, chosen), state && spotsOf(state, chosen), live.units, (1e-9 / live.frame[2]) * live.torque);
+  if (chosen) drawBody(chosen, state && actingOn(state, chosen), state && spotsOf(state, chosen), live.units, (1e-9 / live.frame[2]) * live.torque);
 }
 if (overlay) {
   byId("see").addEventListener("change", see);
