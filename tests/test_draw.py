@@ -6,6 +6,7 @@ fonts need; `test_page.py` measures them again in a browser.
 
 from __future__ import annotations
 
+import math
 import os
 import re
 import subprocess
@@ -15,6 +16,8 @@ from random import Random
 from typing import Any
 
 import pytest
+import shapely
+import shapely.affinity
 
 import icsolve
 import loading
@@ -23,6 +26,9 @@ import transcribe
 from growth import random_mechanism
 from icsolve.case import Case
 from icsolve.draw import Drawing, draw
+from icsolve.draw.figure import scene_of
+from icsolve.draw.links import body_of
+from icsolve.draw.scene import geneva_of
 from icsolve.report.derivation import known_of, needed_steps
 from library import FILES, LIBRARY, sample
 from pictures import Picture, on_arrows, outside, overlaps, parsed, shapes
@@ -334,3 +340,24 @@ def test_a_drawing_imports_what_it_needs_and_no_more() -> None:
     )
     ran = subprocess.run([sys.executable, "-c", script], cwd=ROOT, capture_output=True, text=True, check=True)
     assert ran.stdout.strip() == "[]"
+
+
+@pytest.mark.parametrize("slots", range(3, 13))
+def test_a_geneva_wheel_is_told_by_its_crank(slots: int) -> None:
+    """So many slots where the crank enters one square to it, each 360 deg / n from the next; a slotted lever
+    where it does not, or where its pin has left the slot."""
+    arm, inside = 100.0 * math.sin(math.pi / slots), 80.0 - 180.0 / slots
+    for length, angle, wanted in ((arm, inside, slots), (0.99 * arm, inside, 0), (arm, 180.0 - inside, 0)):
+        case = icsolve.load(
+            LIBRARY / "sliders/geneva.yaml", {"lengths.AB": repr(length), "angles.AB": repr(angle)}
+        )
+        known = known_of(case)
+        found = geneva_of(known.case, known.points, "3")
+        assert (found.slots if found is not None else 0) == wanted
+        if found is not None:
+            outline = body_of(scene_of(known), "3").shape
+            assert outline is not None and len(outline.interiors) == 0
+            turned = shapely.affinity.rotate(
+                outline, 360.0 / slots, origin=scene_of(known).view.at(found.centre)
+            )
+            assert shapely.area(shapely.symmetric_difference(turned, outline)) < 0.02 * outline.area
