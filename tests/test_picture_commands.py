@@ -167,6 +167,25 @@ def test_latex_is_written_by_its_ending(verb: str, tmp_path: Path) -> None:
         subprocess.run(["pdflatex", "-interaction=batchmode", out.name], cwd=tmp_path, check=True)
 
 
+BRACKET = """icsolve: 1
+units: {length: m, force: kN}
+points: {A: [0, 0], B: [0, 1.5], C: [2, 0]}
+joints: [{pin: [1, 2], at: A}, {pin: [1, 3], at: B}, {pin: [2, 3], at: C}]
+loads: {W: {force: 6, link: 2, at: C, angle: -90}}
+"""
+
+
+def test_a_sheet_asks_for_the_forces_in_a_structure_and_has_them_in_its_key(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """By hand: the tie pulls with 6 / 0.6 = 10, the strut pushes with 10 x 0.8 = 8."""
+    (tmp_path / "bracket.yaml").write_text(BRACKET)
+    assert exit_status("sheet", str(tmp_path / "bracket.yaml")) == 0
+    question, _, key = capsys.readouterr().out.partition("\\section*{Key")
+    assert "The forces and couples in the joints." in question and "8 kN" not in question
+    assert "$F_{12}$ = 8 kN at 0 deg" in key and "$F_{13}$ = 10 kN at 143.1 deg" in key
+
+
 VARIED = FOUR_BAR.format(title="Press", crank=1).replace("force: 100", "force: $P")
 VARIED += "variables: {P: {choices: [40, 80]}}\n"
 NUMBERS = "student_id,email,variant,P\n7,a@b.c,v1,40\n8,d@e.f,v2,80\n"

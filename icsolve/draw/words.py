@@ -6,12 +6,14 @@ import math
 import re
 from collections.abc import Iterable, Sequence
 
+from icsolve.answer.bodies import Reaction
 from icsolve.case.names import pair_name
 from icsolve.draw.marks import Mark, MarkGroup, TextMark, TextRun, bounds, text_width
 from icsolve.draw.svg import runs_of
 from icsolve.report.derivation import Known, Step
 from icsolve.report.text import positions_text
 from icsolve.wording.senses import holding, spelt
+from icsolve.wording.sentences import plural
 
 DIGITS = 4
 
@@ -155,6 +157,19 @@ def position_sentences(known: Known) -> list[str]:
     return [sentence.replace("*", "·") for sentence in said]
 
 
+def reaction_sentences(known: Known) -> list[str]:
+    """The forces in the joints of a structure that statics gives, and their couples."""
+    torque, found = known.case.units.torque, []
+    for name, force in ((known.answer and known.answer.reactions) or {}).items():
+        if not isinstance(force, Reaction) or force.magnitude is None:
+            continue
+        at = "" if force.direction is None else f" at {figure_number(force.direction)} deg"
+        couple = f" and {quantity(abs(force.moment), torque)}" if force.moment else ""
+        sense = "" if not force.moment else f", {spelt('ccw' if force.moment > 0.0 else 'cw', figure_number)}"
+        found.append(f"{name} = {quantity(force.magnitude, known.case.units.force)}{at}{couple}{sense}")
+    return found
+
+
 def step_sentence(known: Known, steps: Sequence[Step], number: int) -> str:
     """How the last centre that is shown was found."""
     last = next((s for s in steps if s.number == number), None)
@@ -182,7 +197,9 @@ def description(known: Known) -> str:
     """The picture in a sentence, for those who can't see it."""
     case = known.case
     moving = [link for link in case.links if link != case.ground]
-    said = [f"Mechanism of {len(moving)} moving links and the frame, {len(case.joints)} joints."]
+    what, link = ("Structure", "link") if known.structure else ("Mechanism", "moving link")
+    joints = plural(len(case.joints), "joint")
+    said = [f"{what} of {plural(len(moving), link)} and the frame, {joints}."]
     said += [f"{sentence}." for sentence in answer_sentences(known)]
     if known.refusal is not None:
         said.append(f"No answer: {known.refusal.message}")

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from icsolve.draw import tikz
 from icsolve.draw.figure import Drawing, drawn
 from icsolve.draw.marks import Mark, kinds_of
-from icsolve.draw.words import answer_sentences, position_sentences
+from icsolve.draw.words import answer_sentences, position_sentences, reaction_sentences
 from icsolve.explain.document import Block, Inline
 from icsolve.explain.given import asked_section, figures_of, given_section, load_name
 from icsolve.explain.typeset import AsTex, picture_tex
@@ -31,13 +31,17 @@ def exercise(known: Known) -> Exercise:
     """A case as an exercise: its figure has neither answer nor centres."""
     asked = known.as_asked
     figures = figures_of(known, DIGITS)
+    found = answer_sentences(known)
     if known.case.space is not None:
         from icsolve.explain.space import asked_in_space, given_in_space
 
         sections = (given_in_space(asked, figures), asked_in_space(asked, figures))
+    elif known.structure:
+        sections = (given_section(asked, figures), asked_section(known, figures))
+        found = reaction_sentences(known)
     else:
         sections = (given_section(asked, figures), asked_section(asked, figures))
-    answers = () if known.answer is None else zip(known.answer.answers, answer_sentences(known), strict=True)
+    answers = ((sentence.split(" ", 1)[0], sentence) for sentence in found)
     key: tuple[Inline, ...] = tuple(
         part for name, told in answers for part in (load_name(name), f"{told.removeprefix(name)}. ")
     )
