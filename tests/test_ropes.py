@@ -418,8 +418,8 @@ def test_in_a_sweep_ropes_keep_their_length_and_the_loads_do_no_work() -> None:
             ]
             assert all(same(one, lengths[4], rope) for one in lengths), (seed, rope.name)
             kept += 1
-        if list(rows.status) != ["ok"] * 9:
-            continue
+        if list(rows.status) != ["ok"] * 9 or np.ptp(rows.answers["U"]) > 0.1 * abs(rows.answers["U"][4]):
+            continue  # so near to a dead centre differences tell little
         assert rows.answers["U"][4] == pytest.approx(icsolve.solve(case).answers["U"].value, rel=1e-9)
         weights = np.array([3, -32, 168, -672, 0, 672, -168, 32, -3]) / 840 / math.radians(0.02)
         work = 0.0
