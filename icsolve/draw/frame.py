@@ -10,7 +10,7 @@ import shapely
 
 from icsolve.case import Belt, Contact, Gears, Joint, KnownCentre, Pin, Roll, Slide, Slot, Weld
 from icsolve.case.joints import Guided
-from icsolve.draw.links import ROD, block_place, guide_in_picture
+from icsolve.draw.links import ROD, block_place, guide_in_picture, under_wedge
 from icsolve.draw.marks import Disc, Mark, MarkGroup, Point, Stroke, TextRun, along, unit
 from icsolve.draw.place import Label, Soft, area, bar, hatched, joined
 from icsolve.draw.scene import (
@@ -114,6 +114,11 @@ def _rail(scene: Scene, joint: Guided, links: shapely.Geometry) -> Part:
     """A hatched rail beside a block; two beside a pin that runs in a slot of the frame."""
     p, u = block_place(scene, joint), guide_in_picture(scene, joint)
     first, last = scene.ends(joint.links[1], scene.known.points[joint.at], p, u, 0.0)
+    low, high = under_wedge(scene, joint)
+    first, last = (
+        along(first, u, min(low + RAIL - FOOT[1], 0.0)),
+        along(last, u, max(high - RAIL + FOOT[1], 0.0)),
+    )
     if u[0] < 0.0 or (u[0] == 0.0 and u[1] > 0.0):
         u, first, last = (-u[0], -u[1]), last, first
     v = (-u[1], u[0])

@@ -160,6 +160,19 @@ CRATE = (10.0, 120.0)
 """A crate is so high from its middle."""
 
 
+def under_wedge(scene: Scene, joint: Guided) -> tuple[float, float]:
+    """From where to where a body stands on its guide, from the joint's place along the guide; nothing of a
+    strip that runs in it."""
+    body = _wedge(scene, joint.links[0])
+    p, u = scene.at[joint.at], guide_in_picture(scene, joint)
+    if body is None:
+        return 0.0, 0.0
+    gaps = [(x - p[0], y - p[1]) for x, y in body.exterior.coords]
+    wide = [dy * u[0] - dx * u[1] for dx, dy in gaps]
+    foot = [dx * u[0] + dy * u[1] for dx, dy in gaps]
+    return (min(foot), max(foot)) if max(wide) - min(wide) > 2.0 * STRIP + 1.0 else (0.0, 0.0)
+
+
 def _side(p: Point, v: Point, places: Iterable[Point]) -> float:
     """How far the farthest of some places lies from a line through p, positive toward v; 0 for on it."""
     gaps = [(x - p[0]) * v[0] + (y - p[1]) * v[1] for x, y in places]
