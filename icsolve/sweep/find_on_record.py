@@ -407,15 +407,15 @@ class RangeSearch:
         """Where groups are followed no further, halved in to the nearest double."""
         at = np.linspace(*self.ends, PLACES + 1)
         good = self.along.floats(self.name, at)[1]
-        for k in np.flatnonzero(good[:-1] != good[1:]):
-            low, high = float(at[k]), float(at[k + 1])
-            while high - low > 4.0 * UNIT * max(abs(low), abs(high), 1.0):
-                middle = np.array([(low + high) / 2.0])
-                if self.along.floats(self.name, middle)[1][0] == good[k]:
-                    low = float(middle[0])
-                else:
-                    high = float(middle[0])
-            yield as_written(low if good[k] else high), ROUGH * max(abs(low), abs(high), 1.0)
+        k = np.flatnonzero(good[:-1] != good[1:])
+        low, high, holds = at[k], at[k + 1], good[k]
+        size = np.maximum(np.maximum(abs(low), abs(high)), 1.0)
+        while (wide := np.flatnonzero(high - low > 4.0 * UNIT * size)).size:
+            middle = 0.5 * (low[wide] + high[wide])
+            same = self.along.floats(self.name, middle)[1] == holds[wide]
+            low[wide], high[wide] = np.where(same, middle, low[wide]), np.where(same, high[wide], middle)
+        for place, error in zip(np.where(holds, low, high).tolist(), (ROUGH * size).tolist(), strict=True):
+            yield as_written(place), error
 
 
 NEAR = Decimal("1e-20")
