@@ -464,6 +464,38 @@ def modelled() -> dict[str, tuple[str, str, float, str]]:
     return found
 
 
+ARM = """\
+icsolve: 1
+points: {A: [0, 0], B: [1, 1], C: [2.5, 1.2], D: [3, 0.4]}
+joints: [{pin: [1, 2], at: A}, {pin: [2, 3], at: B}, {pin: [3, 4], at: C}]
+loads:
+  P: {force: 100, link: 4, at: D, angle: -90}
+  T2: {torque: unknown, link: 2}
+  T3: {torque: unknown, link: 3}
+  T4: {torque: unknown, link: 4}
+"""
+"""T4 = 50, T3 + T4 = 200 with links 3 and 4 as one, T2 + T3 + T4 = 300 with all of them."""
+
+
+@pytest.mark.parametrize(
+    ("given", "carried"),
+    [
+        ({"T4": 83.0, "T3": 117.0, "T2": 100.0}, {"T4"}),  # from T3, and T2 is right
+        ({"T4": 83.0, "T3": 150.0, "T2": 67.0}, {"T4"}),  # from T2
+        ({"T4": 83.0, "T3": 131.0, "T2": 86.0}, {"T4"}),  # from both of them
+        ({"T4": 83.0, "T3": 131.0, "T2": 77.0}, set()),
+    ],
+)
+def test_of_three_unknowns_one_follows_from_the_others(
+    a_class: Class, given: dict[str, float], carried: set[str]
+) -> None:
+    """Which of those that agree was first can't be told: the first one of the case keeps its own cause."""
+    a_class.case("arm", ARM)
+    table = "student_id,case,answer\n" + "".join(f"1,arm:{name},{value}\n" for name, value in given.items())
+    rows = {row["case"].partition(":")[2]: row["code"].split() for row in a_class.grade(table).rows()}
+    assert {name for name, codes in rows.items() if "carried" in codes} == carried
+
+
 def test_32_of_33_kinds_of_mistakes_are_named(a_class: Class) -> None:
     """Each by one code at least that is its own; of two at once both."""
     texts = {"crank": CRANKS, "train": TRAIN, "annulus": ANNULUS, "block": BLOCK}

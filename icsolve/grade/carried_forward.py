@@ -1,8 +1,8 @@
 """Errors carried forward: a final answer that follows by the right method from a wrong intermediate one.
 
 An unknown is a sum of shares, one a load, each a product of velocity ratios and distances; a wrong
-ratio or distance scales the shares in which it stands, as a factor or as a divisor. Of two unknowns the
-second may follow from a wrong first by a sum of power that has both.
+ratio or distance scales the shares in which it stands, as a factor or as a divisor. Of several unknowns one
+may follow from other wrong ones by a sum of power that has them all.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import combinations
+from operator import mul
 
 from icsolve.answer import Answer
 from icsolve.case.expected import CentreIs, DistanceIs, RateIs, RatioIs, SpeedIs, Target
@@ -60,38 +61,52 @@ def carried(wrongs: WrongAnswers, unknown: str, wrong: list[Intermediate]) -> li
     return [w for w in found if math.isfinite(w.value)]
 
 
-def coupled(answer: Answer, first: str, second: str) -> Iterator[float]:
-    """By how much the second of two unknowns of a mechanism of two freedoms changes with the first, in each
-    sum of power that a student may write: for the motion that the case gives, and for those in which two
-    links move as one (one of them the frame, or a part that goes round as a whole)."""
-    if answer.scene is None or answer.friction is not None or answer.mobility != 2:
+def coupled(answer: Answer, off: Mapping[str, float], last: str) -> Iterator[float]:
+    """How far an unknown is off that follows from others which are ``off``, in each sum of power that a
+    student may write: for the motion that the case gives, and for those in which, of a mechanism of two or
+    three freedoms, links move as one (one of them the frame, or a part that goes round as a whole)."""
+    freedoms = answer.mobility
+    if answer.scene is None or answer.friction is not None or freedoms not in (2, 3):
         return
     outcome = answer.scene.outcome
 
     def powers(unknown: str) -> list[float]:
-        """The power of a unit of an unknown in each of the two motions."""
+        """The power of a unit of an unknown in each of the motions."""
         own = [(n, w) for n, w in enumerate(outcome.balance.wrenches) if w.root == unknown]
         return [float(sum(row[n] * w.measure * w.ratio for n, w in own)) for row in outcome.balance.factors]
 
-    (a, b), (c, d) = powers(first), powers(second)
-    sums = [(a * q - b * p, c * q - d * p) for p, q in _locked(outcome.motions.twists)]
+    names = (*off, last)
+    units = {name: powers(name) for name in names}
+    sums = [
+        {name: sum(map(mul, units[name], motion)) for name in names}
+        for motion in _locked(outcome.motions.twists, freedoms)
+    ]
     if answer.case.motion:
         factors = {term.load: term.factor for term in answer.terms}
-        sums.append((factors[first], factors[second]))
-    for over, under in sums:
-        if min(abs(over), abs(under)) > _NOTHING * max(map(abs, (a, b, c, d))):
-            yield -over / under
+        sums.append({name: factors[name] for name in names})
+    most = max(abs(power) for row in units.values() for power in row)
+    for power in sums:
+        if abs(power[last]) > _NOTHING * most and any(abs(power[name]) > _NOTHING * most for name in off):
+            yield -sum(power[name] * by for name, by in off.items()) / power[last]
 
 
-def _locked(twists: Mapping[str, Sequence[Triple]]) -> Iterator[tuple[float, float]]:
-    """Of every two links how fast one turns on the other (or moves on it, where it can't turn) in each of two
-    motions: with ``p`` and ``q`` they are as one in ``q`` times the first less ``p`` times the second."""
+def _locked(twists: Mapping[str, Sequence[Triple]], freedoms: int) -> Iterator[tuple[float, ...]]:
+    """The motions, as parts of those of the freedoms, in which two links (or two pairs) are as one: one does
+    not turn on the other, nor move on it where it can't turn."""
+    rates = []
     for one, other in combinations(twists.values(), 2):
         for k in (2, 0, 1):
-            p, q = (float(one[m][k] - other[m][k]) for m in range(2))
-            if max(abs(p), abs(q)) > _NOTHING:
-                yield p, q
+            rate = tuple(float(one[m][k] - other[m][k]) for m in range(freedoms))
+            if max(map(abs, rate)) > _NOTHING:
+                rates.append(rate)
                 break
+    if freedoms == 2:
+        yield from ((q, -p) for p, q in rates)
+        return
+    for (a, b, c), (d, e, f) in combinations(rates, 2):
+        across = (b * f - c * e, c * d - a * f, a * e - b * d)
+        if max(map(abs, across)) > _NOTHING:
+            yield across
 
 
 def _total(parts: Mapping[str, float], scales: Scales) -> float:
@@ -195,11 +210,10 @@ class CarriedForward:
             last = [item for item in finals if item in marked and _is_wrong_number(marked[item][1])]
             for item in last:
                 marked[item] = self._again(marked[item], self._from_steps(marked[item][0], own))
-            if len(last) == len(finals) == 2:
-                first, second = sorted(last, key=lambda item: not marked[item][1].judged.mistakes)
-                marked[second] = self._again(
-                    marked[second], self._from_other(marked[first], marked[second][0])
-                )
+            last.sort(key=lambda item: not marked[item][1].judged.mistakes)
+            for n, item in enumerate(last[1:], 1):
+                before = [marked[other] for other in last[:n]]
+                marked[item] = self._again(marked[item], self._from_others(before, marked[item][0]))
         return list(marked.values())
 
     def _finals(self, case: str) -> list[str]:
@@ -217,15 +231,18 @@ class CarriedForward:
         for unscaled in carried(solved.wrongs, name, list(_steps(solved, wrong))) if wrong else ():
             yield unscaled._replace(value=unscaled.value * solved.scale)
 
-    def _from_other(self, first: Found, entry: StoredAnswer) -> Iterator[Wrong]:
-        """What the second unknown is by a sum of power with the student's first in it."""
+    def _from_others(self, before: list[Found], entry: StoredAnswer) -> Iterator[Wrong]:
+        """What an unknown is by a sum of power with the student's wrong ones in it."""
         solved = self._solved(entry)
-        names = [getattr(solved.target(item), "load", "") for item in (first[0].item, entry.item)]
-        keys = [solved.key(item) for item in (first[0].item, entry.item)]
-        if isinstance(keys[0], NumberKey) and isinstance(keys[1], NumberKey) and len(first[1].given) == 1:
-            off = first[1].given[0] - keys[0].value
-            for per in coupled(solved.answer, *names):
-                yield Wrong("carried", keys[1].value + per * off, names[0])
+        off = {}
+        for other, marked in before:
+            key = solved.key(other.item)
+            if isinstance(key, NumberKey) and len(marked.given) == 1:
+                off[getattr(solved.target(other.item), "load", "")] = marked.given[0] - key.value
+        key = solved.key(entry.item)
+        if off and isinstance(key, NumberKey):
+            for by in coupled(solved.answer, off, getattr(solved.target(entry.item), "load", "")):
+                yield Wrong("carried", key.value + by, ", ".join(off))
 
     def _solved(self, entry: StoredAnswer) -> SolvedCase:
         return self._case_store.solved(entry.item.partition(":")[0], entry.student)
