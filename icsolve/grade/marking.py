@@ -5,23 +5,21 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from itertools import chain, groupby, islice, pairwise
 from operator import itemgetter
-from typing import TYPE_CHECKING
 
 from icsolve.grade.carried_forward import CarriedForward
+from icsolve.grade.case_store import CaseStore
 from icsolve.grade.importing import Issues
 from icsolve.grade.judge import IN_REVIEW, RIGHT, WRONG, Judgement, feedback, judge_answer
 from icsolve.grade.keys import AnyKey, NumberKey, PlaceKey, unit_factor
 from icsolve.grade.mistakes import Wrong
-from icsolve.grade.results import OVERRIDE, Marked, Result
+from icsolve.grade.results import OVERRIDE, Marked, Overrides, Result
 from icsolve.grade.statistics import Counts, Tally
 from icsolve.grade.tables.columns import NEVER, StoredAnswer, attempt_number, readings
 from icsolve.grade.tolerance import NoKeyError
+from icsolve.grade.variants.record import Neighbours
 from icsolve.grade.written.answer import MISSING, Combined, Reader, WrittenAnswer
 from icsolve.grade.written.two_numbers import WrittenPlace
 from icsolve.tuples import NamedTuple
-
-if TYPE_CHECKING:
-    from icsolve.grade.run import MarkingWork
 
 _MEMORY = 40_000
 """Different answers that are remembered with their verdicts; a class repeats itself."""
@@ -43,21 +41,29 @@ class GivenValue(NamedTuple):
 
 
 class Marker:
-    """Judges entries; ``case_store`` has the keys."""
+    """Judges entries; ``case_store`` has the keys, ``neighbours`` the right answers of the whole class, where
+    they differ, ``overrides`` the marks given by hand. ``path`` is the file of answers, for what is noted."""
 
-    def __init__(self, work: MarkingWork, issues: Issues, questions: Iterable[str]) -> None:
-        course, self.case_store = work.course, work.case_store
-        self.course = course
+    def __init__(
+        self,
+        case_store: CaseStore,
+        path: str,
+        issues: Issues,
+        questions: Iterable[str],
+        neighbours: Neighbours | None = None,
+        overrides: Overrides | None = None,
+    ) -> None:
+        self.case_store, self.course = case_store, case_store.course
         self.issues = issues
-        self.path = work.path
+        self.path = path
         self.given: list[GivenValue] = []
         """values given to questions with variables, of the first students"""
-        self._neighbours = work.neighbours
-        self._overrides = work.overrides
+        self._neighbours = neighbours
+        self._overrides = overrides or {}
         self.overruled: set[tuple[str, str]] = set()
         """students and questions whose marks were given by hand"""
         self.questions = frozenset(questions)
-        self.combined = Combined(Reader(course.decimal))
+        self.combined = Combined(Reader(self.course.decimal))
         self._memory: dict[tuple[str, str, str, str, str], Marked] = {}
         self._missing: dict[str, Marked] = {}
         self._keys: dict[str, AnyKey] = {}
@@ -65,7 +71,7 @@ class Marker:
         self.owing: dict[str, list[str]] = {}
         """of each question the first students who gave no answer"""
         self.tally = Tally(self._band)
-        self._carried_forward = CarriedForward(self.case_store, course.reveal, self._once)
+        self._carried_forward = CarriedForward(case_store, self.course.reveal, self._once)
 
     def results(self, entries: Iterable[StoredAnswer], students: Iterable[str] = ()) -> Iterator[Result]:
         """The results of sorted entries, and of sorted ``students`` who may have given none."""
@@ -136,7 +142,7 @@ class Marker:
 
     def _final(self, entry: StoredAnswer, marked: Marked) -> Marked:
         """An answer as it was judged, or with the mark that was given by hand."""
-        override = self._overrides.get((entry.student, entry.item)) if self._overrides else None
+        override = self._overrides.get((entry.student, entry.item))
         if override is None:
             return marked
         self.overruled.add((entry.student, entry.item))

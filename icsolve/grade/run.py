@@ -32,18 +32,6 @@ class Sinks(NamedTuple):
     jsonl: IO[str] | None = None
 
 
-class MarkingWork(NamedTuple):
-    """What answers are judged by; ``path`` is the file of answers, for what is noted."""
-
-    course: Course
-    case_store: CaseStore
-    path: str
-    neighbours: Neighbours | None = None
-    """the right answers of the whole class, where they differ"""
-    overrides: Overrides | None = None
-    """marks given by hand"""
-
-
 def _judged(
     entries: Iterator[StoredAnswer], students: Iterable[str], marker: Marker, sinks: Sinks, report: Report
 ) -> None:
@@ -157,8 +145,7 @@ def grade(job: Job, sinks: Sinks, progress: Progress = silent) -> Graded:
             sinks.csv.write(HEADER + "\n")
         case_store.ready(students)
         neighbours = _neighbours(case_store, students)
-        work = MarkingWork(job.course, case_store, _shown(paths), neighbours, overrides)
-        marker = Marker(work, issues, questions)
+        marker = Marker(case_store, _shown(paths), issues, questions, neighbours, overrides)
         _judged(store.sorted(), students, marker, sinks, lambda n: progress("judging", n / imported.count))
     finally:
         store.close()
