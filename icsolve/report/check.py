@@ -234,7 +234,7 @@ def _found(answer: Answer, expected: Expected) -> tuple[float, ...]:
 
 
 def _in_space(answer: Answer, expected: Expected) -> float:
-    from icsolve.statics.report import found_in_space
+    from icsolve.report.published import found_in_space
 
     try:
         return found_in_space(answer, expected.target, expected.sense)
@@ -243,7 +243,7 @@ def _in_space(answer: Answer, expected: Expected) -> float:
 
 
 def _of_bodies(answer: Answer, target: OfBodies) -> float:
-    from icsolve.statics.report import found_value
+    from icsolve.report.published import found_value
 
     if answer.reactions is None and not isinstance(target, FrictionRadiusIs):
         if any(found.holds is not None for found in answer.answers.values()):

@@ -316,7 +316,7 @@ def _points(answer: Answer, show: Format) -> list[str]:
 def _reactions(answer: Answer, show: Format) -> list[str]:
     if answer.reactions is None and answer.friction is None and answer.spatial is None:
         return []
-    from icsolve.statics.report import bodies_lines
+    from icsolve.report.bodies import bodies_lines
 
     return bodies_lines(answer, show, _table)
 
