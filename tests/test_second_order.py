@@ -7,8 +7,8 @@ from random import Random
 import pytest
 
 import icsolve
-from icsolve.kinematics.second_order import BINDS as WORK
-from icsolve.kinematics.second_order import _idle, bracket
+from icsolve.kinematics.motion import BINDS as WORK
+from icsolve.kinematics.motion import _idle, bracket
 from icsolve.screws.plane import Triple, add
 
 MOVES, BINDS = "goes on moving to second order", "only for an instant"

@@ -9,7 +9,7 @@ import icsolve
 from icsolve.case import Number, Rope
 from icsolve.scene.program import Want, evaluate, prepare
 from icsolve.scene.sensitivity import band, entries, influences, numbers_of, text
-from icsolve.statics.friction_interface import has_friction
+from icsolve.statics.power import has_friction
 from library import FILES, sample
 from more_digits import SixtyDigits
 

@@ -9,19 +9,7 @@ from typing import TYPE_CHECKING
 
 from icsolve.assembly.conditions import FigureEquation, Unknown
 from icsolve.assembly.refusals import plain
-from icsolve.assembly.workspace import (
-    CORNER,
-    GUIDE,
-    LENGTH,
-    LINE,
-    MEAN,
-    RAY,
-    Datum,
-    Workspace,
-    X,
-    Y,
-    data_in,
-)
+from icsolve.assembly.workspace import CORNER, GUIDE, LENGTH, LINE, MEAN, RAY, Datum, Workspace, X, Y, data_in
 from icsolve.case import Case
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import Scalar, magnitude

@@ -11,8 +11,7 @@ from icsolve.numbers.arithmetic import FLOATS
 from icsolve.scene.parts import AnswerBuilder, speed_of
 from icsolve.scene.program import EvaluatedScene, Evaluation, Program, evaluate_still, plain, points_shown
 from icsolve.statics.free_bodies import FreeBodies, free_bodies
-from icsolve.statics.friction_interface import has_friction
-from icsolve.statics.power import Value, is_unknown
+from icsolve.statics.power import Value, has_friction, is_unknown
 from icsolve.statics.reaction_basis import Position, rope_ties
 
 if TYPE_CHECKING:

@@ -381,7 +381,7 @@ def _notes(program: Program, outcome: Outcome) -> list[str]:
 
 def _redundancy(program: Program, motions: Motions) -> str:
     """What becomes of a motion that redundant constraints allow in this position."""
-    from icsolve.kinematics.second_order import goes_on
+    from icsolve.kinematics.motion import goes_on
 
     bases = {k: tuple(map(floats, basis)) for k, basis in motions.bases.items()}
     top, want = program.top, program.want

@@ -75,14 +75,7 @@ def refuse_no_hanging(case: Case, points: Points, scale: float) -> None:
 
 def rubs(case: Case) -> bool:
     """Whether friction has a part in the answer: a joint rubs, and a load is unknown."""
-    return any(power.is_unknown(load) for load in case.loads) and is_rough(case)
-
-
-def is_rough(case: Case) -> bool:
-    """Whether a joint, a rope or a screw has friction."""
-    frictions = (joint.friction for joint in case.joints)
-    ropes = any(rope.slips for rope in case.ropes) or any(screw.rubs for screw in case.screws)
-    return ropes or any(friction is not None and friction.mu.value > 0 for friction in frictions)
+    return any(power.is_unknown(load) for load in case.loads) and power.has_friction(case)
 
 
 def is_workless(motions: Motions, solution: power.Solution) -> bool:

@@ -11,13 +11,12 @@ from icsolve.assembly import solve_figure
 from icsolve.case import Case, Coordinates, Unknown
 from icsolve.errors import SceneError, Status
 from icsolve.scene import solve_scene
-from icsolve.scene.refusals import is_rough
 from icsolve.solve.load_function import given_at
 from icsolve.solve.positions import Search, find_positions
 from icsolve.solve.rest import with_scene
 from icsolve.solve.resting import find_ranges
 from icsolve.solve.two_data import find_pairs
-from icsolve.statics.power import is_unknown
+from icsolve.statics.power import has_friction, is_unknown
 from icsolve.sweep.program import wanted_points
 from icsolve.tuples import replace
 
@@ -34,7 +33,7 @@ def solve_positions(case: Case, **asked: bool) -> Answer:
         return _two(case, asked)
     unknown = _unknown(case)
     start = start_of(unknown)
-    if is_rough(case):
+    if has_friction(case):
         return _resting(case, unknown, start, asked)
     search = find_positions(_written(case), unknown.path, span_of(unknown), start)
     _refuse_none(search, case.noticed)
@@ -49,7 +48,7 @@ def solve_positions(case: Case, **asked: bool) -> Answer:
 def _two(case: Case, asked: Mapping[str, bool]) -> Answer:
     """Two unknown data, of a mechanism with two freedoms."""
     _unknown(replace(case, unknowns=case.unknowns[:1]))
-    if is_rough(case):
+    if has_friction(case):
         said = "two unknown data are not searched with friction: give one of them a number, or leave it out."
         raise SceneError(Status.UNSUPPORTED, said)
     paths, starts = [one.path for one in case.unknowns], [start_of(one) for one in case.unknowns]

@@ -11,10 +11,9 @@ from icsolve.answer.equilibrium import Stiffness
 from icsolve.case import Case, ForceVector, Number
 from icsolve.errors import SceneError, Status
 from icsolve.kinematics.speeds import joint_order
-from icsolve.scene.refusals import is_rough
 from icsolve.solve.positions import led_rest, moved_by, rest_of
 from icsolve.solve.rest import Rest, balances
-from icsolve.statics.power import is_unknown
+from icsolve.statics.power import has_friction, is_unknown
 from icsolve.sweep.numbers import find_number, with_numbers
 from icsolve.tuples import NamedTuple, replace
 
@@ -47,7 +46,7 @@ def holding(case: Case, answer: Answer) -> Case:
 
 def rest_as_written(case: Case, of: str) -> Rest:
     """The position as written of a case whose loads are all known and balance."""
-    if is_rough(case):
+    if has_friction(case):
         said = "with friction a position is one of a range, and has no stability: leave out the friction."
         raise SceneError(Status.UNSUPPORTED, said)
     try:

@@ -38,6 +38,7 @@ from icsolve.statics.friction_limits import (
     Slid,
     StaticRange,
     end_of,
+    nothing_rubs,
     pressed,
     range_of,
     slid,
@@ -214,7 +215,7 @@ def _range_with_ropes(scene: FrictionScene) -> StaticRange:
         statics = _statics(one, reaction_basis.with_flanks(one.position, ties, flanks))
         end = end_of(statics, [direction * s for s in senses_of(one, statics).signs])
         if end is None:
-            raise SceneError(Status.NO_VALUE, _nothing_slips(statics))
+            raise SceneError(Status.NO_VALUE, nothing_rubs(statics))
         ends.append(_pulling(statics, end))
     return range_of(ends)
 
@@ -231,13 +232,6 @@ def _pulling(statics: Statics, end: End) -> End:
             tighter = row.get(statics.root(0), 0.0) or 1.0
             return End(math.copysign(math.inf, tighter), end.senses)
     return end
-
-
-def _nothing_slips(statics: Statics) -> str:
-    return (
-        f"no value of {statics.roots[0]} balances: it does no work, and no friction does. Put the unknown on "
-        "a link that moves, or give `mu` where links rub."
-    )
 
 
 PRESSED = "no bound is proven of a range whose ends no motion sets"

@@ -12,28 +12,16 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from icsolve.answer import Term, bodies
-from icsolve.case import Case, Friction, Joint, Screw
+from icsolve.case import Case, Friction, Screw
 from icsolve.case.joints import Sliding
 from icsolve.numbers.arithmetic import FLOATS, Arithmetic, Scalar
 from icsolve.numbers.linear import solve_square
 from icsolve.screws.joints import guide_direction
 from icsolve.screws.plane import pairing, subtract, velocity
 from icsolve.statics.equilibrium import Rub, Statics
-from icsolve.statics.power import Balance, force_scale, known_power
+from icsolve.statics.power import Balance, force_scale, friction_of, known_power
 from icsolve.statics.reaction_basis import COUPLE, Force, Position, RopeTie, Tie, thread
 from icsolve.statics.witness import independent, powers_of
-
-
-def friction_of(joint: Joint) -> Friction | None:
-    """A joint's friction, where its coefficient is not zero."""
-    friction = joint.friction
-    return friction if friction is not None and friction.mu.value > 0.0 else None
-
-
-def has_friction(case: Case) -> bool:
-    """Whether any joint or rope rubs."""
-    ropes = any(rope.slips for rope in case.ropes) or any(screw.rubs for screw in case.screws)
-    return ropes or any(friction_of(joint) is not None for joint in case.joints)
 
 
 def rubs_of(position: Position, ties: Sequence[Tie]) -> tuple[Rub, ...]:

@@ -128,7 +128,7 @@ def _workless(statics: Statics, senses: Sequence[float]) -> Slid:
     """The unknown load does no work: it presses, and the frictions balance the known loads."""
     equations = reduced_workless(statics, senses)
     if equations is None:
-        raise SceneError(Status.NO_VALUE, _nothing_rubs(statics))
+        raise SceneError(Status.NO_VALUE, nothing_rubs(statics))
     found = all_roots(equations.equations)
     if found is None:
         raise SceneError(Status.UNSUPPORTED, _too_many(statics))
@@ -146,7 +146,8 @@ def _draws_nothing(statics: Statics) -> str:
     )
 
 
-def _nothing_rubs(statics: Statics) -> str:
+def nothing_rubs(statics: Statics) -> str:
+    """What is said where neither the unknown load nor any friction does work."""
     return (
         f"no value of {statics.roots[0]} balances: it does no work, and no friction does. Put the unknown on "
         "a link that moves, or give `mu` where links rub."

@@ -18,6 +18,8 @@ from icsolve.case import (
     Case,
     Force,
     ForceVector,
+    Friction,
+    Joint,
     Like,
     Load,
     Number,
@@ -406,6 +408,18 @@ def has_number(load: Load) -> bool:
     if isinstance(load, ForceVector):
         return vector_size(load) > 0.0
     return load.value is not None and not isinstance(load.value, Like) and load.value.value != 0.0
+
+
+def friction_of(joint: Joint) -> Friction | None:
+    """A joint's friction, where its coefficient is not zero."""
+    friction = joint.friction
+    return friction if friction is not None and friction.mu.value > 0.0 else None
+
+
+def has_friction(case: Case) -> bool:
+    """Whether a joint, a rope or a screw has friction."""
+    ropes = any(rope.slips for rope in case.ropes) or any(screw.rubs for screw in case.screws)
+    return ropes or any(friction_of(joint) is not None for joint in case.joints)
 
 
 def force_scale(b: Balance) -> float:

@@ -22,7 +22,8 @@ from icsolve.assembly.driven.constraints import (
 )
 from icsolve.assembly.driven.groups import DEPENDENT, as_written, derivatives, jacobian
 from icsolve.assembly.driven.mechanism import Mechanism
-from icsolve.assembly.driven.poses import Rotation, Spot, Still, minus
+from icsolve.assembly.driven.poses import Places as Still
+from icsolve.assembly.driven.poses import Rotation, Spot, minus
 from icsolve.assembly.workspace import CORNER, LENGTH, RAY, Datum, X, Y, data_of, normalised, number_of
 from icsolve.case import Case, Coordinates, Number, Pin
 from icsolve.case.joints import Guided, Mesh, Rolling

@@ -16,7 +16,7 @@ import numpy.typing as npt
 from icsolve.assembly.driven.constraints import ConditionRow, ConditionRows, Constraint
 from icsolve.assembly.driven.mechanism import Mechanism
 from icsolve.assembly.driven.order import AssemblyOrder, AssurGroup, touching
-from icsolve.assembly.driven.poses import Moved, Rotation, Spot, Still, plus, rotated
+from icsolve.assembly.driven.poses import Moved, Places, Rotation, Spot, plus, rotated
 from icsolve.assembly.workspace import Workspace
 from icsolve.errors import SceneError, Status
 from icsolve.numbers.arithmetic import FLOATS, RADIAN, Scalar
@@ -87,7 +87,7 @@ def jacobian(mechanism: Mechanism, bodies: Sequence[int], constraints: Iterable[
 def as_written(mechanism: Mechanism, bodies: Sequence[int]) -> ConditionRows:
     """The conditions of some bodies where they are written, in doubles."""
     workspace = Workspace(mechanism.case, mechanism.frame, FLOATS)
-    return ConditionRows(mechanism.shape, Still(mechanism.shape), bases_of(mechanism, bodies), workspace)
+    return ConditionRows(mechanism.shape, Places(mechanism.shape), bases_of(mechanism, bodies), workspace)
 
 
 def derivatives(bodies: Sequence[int], row: ConditionRow) -> Row:

@@ -26,7 +26,6 @@ from icsolve.assembly.driven.poses import (
     Places,
     Shape,
     Spot,
-    Still,
     dot,
     minus,
     plus,
@@ -143,7 +142,7 @@ def _off(shape: Shape, places: Places, own: Spot, spot: Spot) -> Point:
 
 def reference(shape: Shape, by: By, spot: Spot) -> PlacedLocus:
     """The locus in the position as written, in floats."""
-    found = locus(shape, Still(shape), by)
+    found = locus(shape, Places(shape), by)
     if isinstance(found, PlacedCircle):
         return PlacedCircle(_floats(found.centre), float(found.radius))
     return PlacedLine(_floats(found.through), _floats(found.along))

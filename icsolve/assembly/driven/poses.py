@@ -8,7 +8,6 @@ and z_ref the same vector in the position as written.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Protocol
 
 from icsolve.numbers.arithmetic import Scalar
 from icsolve.numbers.record import Record
@@ -86,24 +85,8 @@ def rotated(shape: Shape, degrees: Scalar) -> Rotation:
     return Rotation(shape.record.turned(degrees), (1.0, 0.0), degrees)
 
 
-class Places(Protocol):
-    """What a place, a vector, an angle can be asked of: the bodies moved, or still as written."""
-
-    def place(self, spot: Spot) -> Point:
-        """Where a body's point is."""
-
-    def point(self, body: int, at: Point) -> Point:
-        """Where a place of a body is that was at ``at`` as written."""
-
-    def vector(self, body: int, v: Point) -> Point:
-        """A vector that a body carries."""
-
-    def degrees(self, body: int) -> Scalar:
-        """By how much a body has turned."""
-
-
-class Still:
-    """The bodies in the position as written."""
+class Places:
+    """Where the bodies are: in the position as written; `Moved` has them in motion."""
 
     def __init__(self, shape: Shape) -> None:
         self.shape = shape
@@ -126,14 +109,14 @@ class Still:
         return 0.0
 
 
-class Moved:
+class Moved(Places):
     """The bodies in motion, as far as they are known; places [frame of size 1] are numbers of a record.
 
     A body that is not placed yet raises KeyError.
     """
 
     def __init__(self, shape: Shape) -> None:
-        self.shape = shape
+        super().__init__(shape)
         self.located: dict[Spot, Point] = {}
         self.rotations: dict[int, Rotation] = {shape.ground: Rotation((1.0, 0.0), (1.0, 0.0), 0.0)}
         self.bases: dict[int, Spot] = {}
