@@ -171,6 +171,7 @@ def _plain(cell: str) -> str:
 
 def changes(varied: Varied, record: VariantRecord) -> Iterator[str]:
     """What is otherwise than when the numbers were handed out: the seed, the filter, the keys."""
+    varied.ready(record.handed)
     seed = varied.course.seed
     asked = sorted(record.handed)[:_ASKED]
     drawn = [student for student in asked if varied.is_drawn(student, record.handed[student].values)]

@@ -202,6 +202,7 @@ class Varied:
     def drawn_otherwise(self, handed: Mapping[str, Handed]) -> list[str]:
         """Of some students those who would now be given other numbers than were handed out."""
         fresh = Varied(self.name, self.text, self.path, self.course)
+        fresh.ready(handed)
         found = []
         for student, given in handed.items():
             try:
