@@ -89,6 +89,20 @@ REFUSED = {
     ),
     "forces": ("loads:", "forces:", 13, 1, "did you mean 'loads'?"),
     "frame as a section": ("title:", "frame: 1\ntitle:", 2, 1, "did you mean 'ground'?"),
+    "acceleration cut short": (
+        "loads:",
+        "motion: {link: 2, speed: 1, accel: 2}\nloads:",
+        13,
+        29,
+        "did you mean 'acceleration'?",
+    ),
+    "a centre as Americans write it": (
+        "loads:",
+        "links: {2: {mass: 1 kg, center: B}}\nloads:",
+        13,
+        25,
+        "did you mean 'centre'?",
+    ),
     "clockwise": ("link: 2}", "link: 2, turns: clockwise}", 15, 42, "did you mean 'cw'?"),
     # directions
     "up": ("angle: 180", "angle: up", 14, 42, "write 90 for 'up'"),

@@ -92,6 +92,16 @@ _OTHER_WORDS = {
     "spring": "stiffness k",
     "centroid": "midpoint middle mean centre center",
     "length": "lengths distance",
+    "acceleration": "accel acc alpha",
+    "inertia": "moment_of_inertia moment j",
+    "centre": "center cg cog com centroid",
+    "dynamic": "dynamics inertia_forces",
+    "bore": "diameter dia piston",
+    "teeth": "tooth numbers_of_teeth z",
+    "wraps": "wrap sense",
+    "radii": "radius",
+    "lead": "pitch",
+    "normal": "direction angle",
 }
 """Words that people write for a key of the format, where they are no slip of the pen."""
 
