@@ -13,8 +13,15 @@ import pytest
 
 from icsolve.answer import Answer
 from icsolve.case import Guide, Pin, Slide, Weld
-from icsolve.report.mechanism import Report, report
-from icsolve.structure.grashof import Crank, Side, limits_in_slider_crank, limits_of, transmission_of
+from icsolve.report.mechanism import (
+    Crank,
+    Report,
+    Side,
+    limits_in_slider_crank,
+    limits_of,
+    report,
+    transmission_of,
+)
 from made import at, four_bar_answer, four_bar_case, number
 
 
