@@ -755,6 +755,23 @@ def test_a_sweep_finds_where_it_rests(tmp_path: Path, capsys: pytest.CaptureFixt
     assert two["stiffness"]["value"] == pytest.approx(one["stiffness"]["value"], rel=1e-11)
 
 
+def test_an_unknown_that_is_set_or_varied_is_a_number(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """The case is then an ordinary one, whatever is expected of its positions."""
+    text = (
+        SLIDER.format(angle="{unknown: [0, 90]}") + "expect:\n  angles.AB: {value: 69.1, stability: stable}\n"
+    )
+    solved = json.loads(run(tmp_path, capsys, text, "solve", "CASE", "--set", "angles.AB=40", "--json"))
+    assert "positions" not in solved
+    words = ("sweep", "CASE", "--vary", "angles.AB=20:80:1", "--find", "rest", "--json")
+    (one,) = json.loads(run(tmp_path, capsys, text, *words))["found"]
+    assert one["at"]["angles.AB"] == pytest.approx(69.09944948584229, abs=1e-12)
+    assert run(tmp_path, capsys, text, "sweep", "CASE", "--vary", "angles.AB=20:80:30").startswith(
+        "angles.AB"
+    )
+
+
 def test_a_sweep_finds_the_critical_load(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     words = ("sweep", "CASE", "--vary", "loads.W=5:40:1", "--find", "neutral", "--json")
     (one,) = json.loads(run(tmp_path, capsys, STRUT, *words))["found"]

@@ -4,14 +4,22 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from random import Random
+from typing import Any
 
 import numpy as np
 import pytest
 
 import icsolve
+import transcribe
+from growth import random_mechanism
 from icsolve.case import Case
 from icsolve.errors import CaseError, SceneError
+from loading import drawn
+from mechanisms import heading
 from shell import exit_status
+from sizes import FULL
+from transcribe import Scene
 
 PRESS = """\
 icsolve: 1
@@ -340,3 +348,65 @@ def test_a_line_load_off_its_link_is_treated_as_a_force_there_is() -> None:
         icsolve.load(LINE.replace("END", "C"))
     notes = icsolve.solve(icsolve.load(LINE.replace("END", "B"))).notes
     assert "load W acts on link 2 at B, a joint of link 3" in " ".join(notes)
+
+
+# --- random mechanisms of all joints --------------------------------------------------------------
+
+
+def dressed(rng: Random, scene: Scene) -> tuple[Scene, Scene]:
+    """A scene with a pressure, a line load and two torsion springs more, and with what these come to."""
+    links = [str(link) for link in transcribe.case(scene).links if str(link) != "1"]
+    at: dict[str, Any] = scene["points"]
+    a, b, c = rng.sample(list(at), 3)
+    link, other = rng.choice(links), rng.choice(links)
+    bore, rod, pressure, along = rng.uniform(1, 2), rng.uniform(0, 0.9), rng.uniform(-50, 50), heading(rng)
+    spans = ((-30, 30), (-30, 30), (1, 90), (-180, 180))
+    first, last, stiffness, free = (round(rng.uniform(*span), 2) for span in spans)
+    length = math.dist(at[a], at[b])
+    heads = [math.degrees(math.atan2(at[q][1] - at[p][1], at[q][0] - at[p][0])) for p, q in ((b, c), (b, a))]
+    on = {"link": link, "angle": along}
+
+    def torque(angle: float) -> float:
+        return stiffness * math.radians(180.0 - (180.0 - (free - angle)) % 360.0)
+
+    def third(near: str, far: str) -> list[float]:
+        return [(2.0 * p + q) / 3.0 for p, q in zip(at[near], at[far], strict=True)]
+
+    new = {
+        "Y": {"pressure": pressure, "bore": bore, "rod": rod, "at": a, **on},
+        "Z": {"distributed": [first, last], "from": a, "to": b, **on},
+        "R": {"spring": stiffness, "corner": f"{b}-{c}", "free": free, "link": link},
+    }
+    plain = {
+        "Y": {"force": pressure * math.pi / 4.0 * (bore**2 - rod**2), "at": a, **on},
+        "Z": {"force": first * length / 2.0, "at": third(a, b), **on},
+        "Z2": {"force": last * length / 2.0, "at": third(b, a), **on},
+        "R": {"torque": torque(heads[0]), "link": link},
+    }
+    if other != link:
+        new["R2"] = new["R"] | {"corner": f"{a}-{b}-{c}", "against": other}
+        plain["R2"] = {"torque": torque(heads[0] - heads[1]), "link": link, "against": other}
+    return scene | {"loads": {**scene["loads"], **new}}, scene | {"loads": {**scene["loads"], **plain}}
+
+
+@pytest.mark.parametrize("seed", range(2000 if FULL else 5))
+def test_they_do_what_the_forces_they_come_to_do(seed: int) -> None:
+    """Answers by power and by the free bodies, reactions, and rows: to 1e-9 of the largest force."""
+    rng = Random(f"more loads {seed}")
+    texts = [transcribe.text(scene) for scene in dressed(rng, drawn(seed, random_mechanism))]
+    new, plain = (icsolve.solve(icsolve.load(text), reactions=True).to_dict() for text in texts)
+    (own,), (other,) = ([one["value"] for one in answer["answers"].values()] for answer in (new, plain))
+    forces = [
+        abs(float(one.get(k) or 0.0)) for one in plain["reactions"].values() for k in ("x", "y", "moment")
+    ]
+    size = max([abs(other), *forces, 1.0])
+    assert own == pytest.approx(other, abs=1e-9 * size)
+    for witness in new["free_bodies"].values():
+        assert witness["power"] == pytest.approx(witness["bodies"], abs=1e-9 * size)
+    for name, reaction in new["reactions"].items():
+        for key in ("x", "y", "moment"):
+            if isinstance(reaction.get(key), float) and isinstance(plain["reactions"][name].get(key), float):
+                assert reaction[key] == pytest.approx(plain["reactions"][name][key], abs=1e-9 * size)
+    row = icsolve.sweep(icsolve.load(texts[0]), vary={"loads.R": [0.0, 7.0]}).answers["U"]
+    there = icsolve.solve(icsolve.load(texts[0], settings={"loads.R": 7.0})).answers["U"].value
+    assert row[1] == pytest.approx(there, abs=1e-9 * max(size, abs(there)))

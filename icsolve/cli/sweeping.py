@@ -132,12 +132,33 @@ def _readable(
     """The work; what is asked that makes no sense for this case is said."""
     from icsolve.sweep.request import RequestError
 
-    read = replace(read, dynamic=read.dynamic or asked.dynamic)
     try:
-        return work(read, path, asked)
+        dynamic = read.dynamic or asked.dynamic
+        return work(_with_varied(replace(read, dynamic=dynamic), asked), path, asked)
     except RequestError as error:
         complain(f"{path}: {error}")
         return UNREADABLE
+
+
+def _with_varied(case: Case, asked: SweepOptions) -> Case:
+    """The case with numbers for unknown data of its figure that are varied: as written, else the first."""
+    varied = {name if name.startswith("points.") else _path_of(case, name): at for name, at in asked.vary}
+    for unknown in case.unknowns:
+        if unknown.path in varied:
+            from icsolve.case.expected import PositionIs
+            from icsolve.solve.load_function import given_at
+
+            first = unknown.start.value if unknown.start is not None else float(varied[unknown.path][0])
+            expect = tuple(one for one in case.expect if not isinstance(one.target, PositionIs))
+            left = tuple(one for one in case.unknowns if one is not unknown)
+            case = replace(given_at(case, unknown.path, first), unknowns=left, expect=expect)
+    return case
+
+
+def _path_of(case: Case, name: str) -> str:
+    from icsolve.sweep.numbers import find_number
+
+    return find_number(case, name).path
 
 
 def _table(read: Case, path: str, asked: SweepOptions) -> int:

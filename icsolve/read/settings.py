@@ -20,10 +20,25 @@ def apply(root: Mapping, settings: Named[str, str | float], problems: Problems) 
     """Put each value at its path in the tree; a path that the case does not have is refused."""
     for path, value in settings.items():
         text = value if isinstance(value, str) else repr(float(value))
+        if text != "unknown":
+            _forget(root, path)
         wrong = _set(root, path, text)
         if wrong:
             section = root.keys.get(path.partition(".")[0])
             problems.refuse(section or (1, 1), f"cannot set {shown(path)}: {wrong}")
+
+
+def _forget(root: Mapping, path: str) -> None:
+    """Leave out what is expected of a datum that is no longer to find."""
+    section, _, name = path.partition(".")
+    expected, data = root.items.get("expect"), root.items.get(section)
+    if section not in ("angles", "lengths") or type(expected) is not Mapping or type(data) is not Mapping:
+        return
+    old = data.items.get(_key(data, section, name) or "")
+    if type(old) is Mapping or (type(old) is Scalar and old.text == "unknown"):
+        for key in [key for key in expected.items if key.startswith(f"{section}.")]:
+            if _key(data, section, key.partition(".")[2]) == _key(data, section, name):
+                del expected.items[key], expected.keys[key]
 
 
 def _set(root: Mapping, path: str, text: str) -> str:
