@@ -27,6 +27,7 @@ from icsolve.answer.equilibrium import EquilibriumPosition
 from icsolve.errors import SceneError
 from icsolve.numbers.intervals import Interval, enclose
 from icsolve.numbers.record import Record
+from icsolve.report.derivation.known import known_of
 from icsolve.scene import solve_scene
 from icsolve.solve.rest import AT_LIMIT
 from icsolve.solve.stability import with_stability
@@ -307,6 +308,24 @@ def test_at_a_limit_a_position_is_stable_by_the_motion_that_is_left(
         (-30, "stable"),
         (30, "unstable"),
     ]
+
+
+def test_a_figure_that_is_moved_from_where_it_is_written_is_shown_as_it_has_moved() -> None:
+    """A wheel of half the radius turns twice as far the other way, a load by coordinates with its link."""
+    text = """icsolve: 1
+points: {A: [0, 0], D: [3, 0]}
+links: {2: [B]}
+lengths: {AB: 2, DC: 1}
+angles: {AB: {unknown: [-100, 0], from: 0}, DC: 90}
+joints: [{pin: [1, 2], at: A}, {pin: [1, 3], at: D}, {gears: [2, 3], teeth: [20, 10]}]
+loads:
+  W: {weight: 10, link: 2, at: [2, 0]}
+  V: {weight: 4, link: 3, at: C}
+"""
+    known = known_of(icsolve.load(text))
+    (load,) = (load for load in known.case.loads if load.name == "W")
+    places = (known.points["C"], known.points[load.at])
+    assert known.posed and places == (pytest.approx((3.0, -1.0)), pytest.approx((0.0, -2.0), abs=1e-12))
 
 
 def test_loads_that_balance_at_a_turning_point_do_so_exactly() -> None:

@@ -144,9 +144,10 @@ def _at_rest(case: Case, answer: Answer | None, refusal: SceneError | None) -> K
     own = replace(case, unknowns=(), expect=())
     for path, value in at.items():
         own = given_at(own, path, value)
-    if positions and not any(
-        one.start for one in case.unknowns
-    ):  # other ways in which the figure assembles at this value are not meant
+    if positions and any(one.start for one in case.unknowns):  # all that is written has moved with its links
+        row, angles = positions[0].answer.case, tuple(one for one in own.angles if one.value.path in at)
+        own = replace(row, lengths=own.lengths, angles=angles, unknowns=(), expect=())
+    elif positions:  # other ways in which the figure assembles at this value are not meant
         placed = {
             name for name, place in own.points.items() if isinstance(place, Coordinates) and None not in place
         }
