@@ -7,7 +7,7 @@ from itertools import combinations, pairwise
 from typing import TYPE_CHECKING
 
 from icsolve.assembly.loci import ArcLocus, Axis, CircleLocus, LineLocus, Locus, Shifted, Tether, is_round
-from icsolve.assembly.steps import Mean, Meet, Polar, Step, Transfer, Turned
+from icsolve.assembly.steps import Mean, Meet, Polar, Step, Turned
 from icsolve.assembly.workspace import (
     CORNER,
     GUIDE,
@@ -218,8 +218,9 @@ def _transfers(cluster: Cluster, point: str) -> Iterator[tuple[Cost, Step]]:
             cost = (worst, total + 1, ways)
         if len(shared) > 1:
             p, q = shared[:2]
-            shape = (lender.key(p), lender.key(q), lender.key(point))
-            yield cost, Transfer(cluster.key(point), (cluster.key(p), cluster.key(q)), shape)
+            shape = (lender.key(p), lender.key(q), lender.key(p), lender.key(point))
+            toward = LineDirection(Apart(cluster.key(p), cluster.key(q)))
+            yield cost, Turned(cluster.key(point), cluster.key(p), toward, shape)
         elif shared:
             yield from _turned(cluster, lender, shared[0], point, cost)
 

@@ -23,7 +23,6 @@ from icsolve.assembly.steps import (
     Meet,
     Polar,
     Step,
-    Transfer,
     Turned,
     leading_to,
     points_of,
@@ -210,7 +209,7 @@ class Cluster:
 
     def _commit(self, step: Step) -> None:
         self.carried.update(carried_by(step))
-        if isinstance(step, Transfer | Turned):
+        if isinstance(step, Turned):
             self.committed.add(step.shape[0][0])  # type: ignore[arg-type]
         elif isinstance(step, Meet):
             for locus in (step.first, step.second):

@@ -18,6 +18,7 @@ from icsolve.assembly.workspace import (
     MEAN,
     RAY,
     ROPE,
+    Apart,
     Datum,
     Workspace,
     X,
@@ -34,7 +35,7 @@ from icsolve.tuples import NamedTuple
 if TYPE_CHECKING:
     from icsolve.assembly.groups import Group
     from icsolve.assembly.loci import Locus
-    from icsolve.assembly.steps import Base, Mean, Meet, Polar, Step, Transfer, Turned
+    from icsolve.assembly.steps import Base, Mean, Meet, Polar, Step, Turned
     from icsolve.assembly.workspace import Key, LineDirection, Span
 
 
@@ -130,13 +131,12 @@ def _base(step: Base) -> str:
     return f"{span_words(step.span)} apart, a shape still to be placed"
 
 
-def _transfer(step: Transfer) -> str:
-    p, q = map(plain, step.pose)
-    return f"carried by the shape that {p} and {q} hold"
-
-
 def _turned(step: Turned) -> str:
-    return f"carried by the shape that {plain(step.base)} and {direction_words(step.direction)} hold"
+    root, turns = step.direction.root, step.direction.turns
+    held = direction_words(step.direction)
+    if isinstance(root, Apart) and root.a == step.base and not turns:
+        held = plain(root.b)
+    return f"carried by the shape that {plain(step.base)} and {held} hold"
 
 
 def _group(step: Group) -> str:
@@ -145,7 +145,7 @@ def _group(step: Group) -> str:
 
 SENTENCES: dict[str, Callable[[Any], str]] = {
     "Given": _given, "Mean": _mean, "Polar": _polar, "Meet": _meet,
-    "Base": _base, "Transfer": _transfer, "Turned": _turned, "Group": _group,
+    "Base": _base, "Turned": _turned, "Group": _group,
 }  # fmt: skip
 
 

@@ -176,36 +176,8 @@ class Base(NamedTuple):
         workspace.points[self.b] = (workspace.length(self.span), 0.0)
 
 
-class Transfer(NamedTuple):
-    """A point of a shape that two other points hold: ``pose`` here, ``shape`` on its own cluster.
-
-    ``shape`` has the cluster's keys of the two points and of the one to place. As complex numbers:
-    target = p + (q - p) (s_target - s_p) / (s_q - s_p), of length one.
-    """
-
-    target: Key
-    pose: tuple[Key, Key]
-    shape: tuple[Key, Key, Key]
-
-    @property
-    def targets(self) -> tuple[Key, ...]:
-        """The point placed."""
-        return (self.target,)
-
-    def place(self, workspace: Workspace) -> None:
-        """Put the point: the shape turned as p to q is, and not stretched."""
-        points, sqrt = workspace.points, workspace.arithmetic.sqrt
-        (px, py), (qx, qy) = (points[key] for key in self.pose)
-        (ax, ay), (bx, by), (tx, ty) = (points[key] for key in self.shape)
-        dx, dy, ex, ey = qx - px, qy - py, bx - ax, by - ay
-        norm = sqrt(dx * dx + dy * dy) * sqrt(ex * ex + ey * ey)
-        c, s = (dx * ex + dy * ey) / norm, (dy * ex - dx * ey) / norm
-        tx, ty = tx - ax, ty - ay
-        points[self.target] = (px + c * tx - s * ty, py + s * tx + c * ty)
-
-
 class Turned(NamedTuple):
-    """A point of a shape that one point in place and a known direction in it hold.
+    """A point of a shape that one point in place and a known direction in it hold, perhaps toward another.
 
     ``direction`` is the direction of the shape's pair ``shape[:2]``; ``shape[2:]`` are the point in place
     and the one to place, on the shape's own cluster.
@@ -234,8 +206,8 @@ class Turned(NamedTuple):
 # --- every kind of step of a construction ---
 
 
-Step = Union[Given, Mean, Polar, Meet, Base, Transfer, Turned, "Group"]
-CLOSED_FORMS = (Given, Mean, Polar, Base, Transfer, Turned)
+Step = Union[Given, Mean, Polar, Meet, Base, Turned, "Group"]
+CLOSED_FORMS = (Given, Mean, Polar, Base, Turned)
 """Steps that have one way only."""
 
 
@@ -248,8 +220,6 @@ def needs(step: Step) -> tuple[Key, ...]:
 
 def aims(step: Step) -> list[tuple[Key, Key]]:
     """The pairs of points whose direction a step goes by."""
-    if isinstance(step, Transfer):
-        return [step.pose, step.shape[:2]]
     pairs = [step.shape[:2]] if isinstance(step, Turned) else []
     directions = [step.direction] if isinstance(step, Polar | Turned) else []
     for locus in (step.first, step.second) if isinstance(step, Meet) else ():
