@@ -39,6 +39,8 @@ class Known(NamedTuple):
     size: float
     posed: tuple[Unknown, ...] = ()
     """the data of the figure that are asked for"""
+    written: Case | None = None
+    """the case as it is written, where its figure is moved from there"""
 
     @property
     def scene(self) -> AnswerBuilder | None:
@@ -141,10 +143,11 @@ def _at_rest(case: Case, answer: Answer | None, refusal: SceneError | None) -> K
         at = {path: held if isinstance(held, float) else held[0] for path, held in positions[0].at.items()}
     else:
         at = {unknown.path: _somewhere(unknown) for unknown in case.unknowns}
-    own = replace(case, unknowns=(), expect=())
+    own, written = replace(case, unknowns=(), expect=()), None
     for path, value in at.items():
         own = given_at(own, path, value)
     if positions and any(one.start for one in case.unknowns):  # all that is written has moved with its links
+        written = own
         row, angles = positions[0].answer.case, tuple(one for one in own.angles if one.value.path in at)
         own = replace(row, lengths=own.lengths, angles=angles, unknowns=(), expect=())
     elif positions:  # other ways in which the figure assembles at this value are not meant
@@ -156,9 +159,9 @@ def _at_rest(case: Case, answer: Answer | None, refusal: SceneError | None) -> K
     known = known_of(own)
     posed = case.unknowns or tuple(map(Unknown, at))
     if answer is None or known.answer is None:
-        return known._replace(answer=None, refusal=refusal or known.refusal, posed=posed)
+        return known._replace(answer=None, refusal=refusal or known.refusal, posed=posed, written=written)
     shown = replace(known.answer, positions=answer.positions, notes=answer.notes)
-    return known._replace(answer=shown, posed=posed)
+    return known._replace(answer=shown, posed=posed, written=written)
 
 
 APART = 0.05
@@ -172,7 +175,7 @@ def _elsewhere(known: Known) -> Known:
 
     positions = () if known.answer is None else known.answer.positions or ()
     for share in (0.5, 0.35, 0.65, 0.2, 0.8, 0.42, 0.58, 0.9, 0.1):
-        own, clear = known.case, True
+        own, clear = known.written or known.case, True
         for unknown in known.posed:
             rests = [v if isinstance(v, float) else v[0] for one in positions for v in [one.at[unknown.path]]]
             low, high = _searched(unknown, rests)
