@@ -570,7 +570,8 @@ def stationary(potential: Potential, samples: int = 720) -> list[mpmath.mpf]:
             for _ in range(120):
                 middle = (low + high) / 2
                 low, high = (low, middle) if (slope(middle) > 0) == rises else (middle, high)
-            smooth = abs(slope(low)) < 1e-12  # at a change point a mode has a corner: no position
+            beside = (slope(low - 1e-9), slope(low), slope(low + 1e-9))
+            smooth = max(map(abs, beside)) < 1e-3  # at a change point a mode has a corner: no position
             if smooth and 0 <= low < 2 * mpmath.pi:
                 found.append(low)
     return found
