@@ -148,6 +148,19 @@ def test_with_a_rubbing_pin_a_crank_holds_over_a_range(mu: float) -> None:
     assert [one.stability for one in found] == [None, None]
 
 
+def test_a_motion_gives_no_sense_to_the_friction_of_positions() -> None:
+    """And a note says so: a range at rest has both ends."""
+    text = pendulum("T: {torque: 0, link: 2}", friction=", mu: 0.1, radius: 0.5")
+    rest, moving = (
+        icsolve.solve(icsolve.load(case)) for case in (text, text + "motion: {link: 2, turns: ccw}\n")
+    )
+    assert moving.positions
+    assert rest.positions
+    assert [one.at for one in moving.positions] == [one.at for one in rest.positions]
+    assert any("ranges are those of rest" in note for note in moving.notes)
+    assert not any("ranges are those of rest" in note for note in rest.notes)
+
+
 def test_a_double_pendulum_with_a_torque_rests_in_four_positions() -> None:
     """V = 30 sin a + 5 sin b - 2 b: cos a = 0 and cos b = 0.4; one of the four is stable."""
     text = """icsolve: 1
