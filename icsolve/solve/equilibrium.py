@@ -162,7 +162,11 @@ def _resting(case: Case, unknown: Unknown, start: float | None, asked: Mapping[s
         )
         for one in search.ranges
     ]
+    notes = [*case.noticed, *search.notes]
     if asked["reactions"]:
-        said = "how much of the friction acts nothing says while it holds still, so no reactions are told."
-        search = search._replace(notes=(*search.notes, said))
-    return Answer(case, positions=tuple(found), mobility=1, notes=(*case.noticed, *search.notes))
+        notes.append(
+            "how much of the friction acts nothing says while it holds still, so no reactions are told."
+        )
+    if case.motion:
+        notes.append("the ranges are those of rest: `motion` gives speeds alone, no sense to the friction.")
+    return Answer(case, positions=tuple(found), mobility=1, notes=tuple(notes))

@@ -60,8 +60,6 @@ def find_ranges(case: Case, path: str, span: tuple[float, float] | None, start: 
         f"between positions of equilibrium without friction, {path} was sampled at {SAMPLES} values for "
         "ranges in which friction alone is enough."
     ]
-    if case.motion:
-        notes.append("the ranges are those of rest: `motion` gives speeds alone, no sense to the friction.")
     try:
         modes = _in_modes(smooth, path, (low, high), start, even, span is None)
     except TogetherError:
